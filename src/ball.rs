@@ -3,16 +3,14 @@
 //! | | what it is | runs in |
 //! |---|---|---|
 //! | [`AnalyticLinearBall`] | ball of a linear bearing, the published closed form (Lin 2019, eqs. (3.43), (3.51)) | `LinearBearingTrain` |
-//! | [`elastic`] | ball of a ball screw in elastic grooves, renewed by Newton steps of place and motion (Lin 2019, eqs. (2.11)-(2.14), (3.65)-(3.69)) | `UncagedBallScrew` |
 //! | [`folded`] | law of one ball over its load, solved on a host: torque by one cubic | `CagedBallScrew` |
-//! | [`pressed`] | law of one ball that its neighbours press on, solved on a host: free speed, impedance and torque by polynomials | `PressedScrew` |
-//! | [`ScrewRow`], [`ScrewTick`] | balls of a ball screw under one load in closed form, for comparison | set-up of `UncagedBallScrew`: the range of speeds; direct |
+//! | [`pressed`] | law of one ball that its neighbours press on, solved on a host: free speed, impedance and torque by polynomials | `UncagedBallScrew` |
+//! | [`ScrewRow`], [`ScrewTick`] | balls of a ball screw under one load in closed form, for comparison | direct |
 //! | [`LoadShare`], [`LoadShares`] | a ball's share of the load; along the track, for both signs of it | `UncagedBallScrew`, `LinearBearingTrain` |
-//! | [`Clearance`] | how balls fit between the grooves | set-up of `ClosedFormScrew` and `UncagedBallScrew` |
+//! | [`Clearance`] | how balls fit between the grooves | set-up of `ClosedFormScrew` |
 //! | `preload` | two springs pressed against each other, and what a load leaves of it | `ClosedFormScrew`, [`ScrewRow`]; [`PreloadedElements`](crate::law::memory::PreloadedElements) |
 
 mod clearance;
-pub mod elastic;
 pub mod folded;
 mod linear;
 mod loads;

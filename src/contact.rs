@@ -1,8 +1,8 @@
 //! Friction of one Hertzian contact that slips and spins: force, moment and power loss under Coulomb
 //! friction, all three from one convex dissipation potential.
 //!
-//! A contact that slips in any direction runs in the steps of both ball screws (`slip_map::looped`). [`FrictionMap`]
-//! runs at the set-up of the linear scene. [`RollingContact`] adds what a contact loses that rolls without slip.
+//! [`FrictionMap`] runs at the set-up of the linear scene. [`RollingContact`] adds what a contact loses that rolls without slip. A contact that
+//! slips in any direction is solved on a host, and folded into the laws of both ball screws.
 //!
 //! A contact of ball and groove slips along the ball path with the velocity `V` of its centre and spins
 //! about its normal with `w`. With the friction coefficient `mu`, the contact force `F` and the ellipse
@@ -21,7 +21,6 @@ mod across;
 mod along;
 mod integrals;
 mod rolling;
-pub(crate) mod slip_map;
 
 pub(crate) use across::{Across, AcrossTable, slip_and_spin};
 pub use along::{FrictionMap, NormalizedFriction, SMALLEST_AXIS_RATIO};

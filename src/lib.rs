@@ -7,7 +7,7 @@
 //! |---|---|---|
 //! | [`CagedBallScrew`] | a ball screw whose balls do not touch, by a block of constants from a host | torque, efficiency |
 //! | [`ClosedFormScrew`] | the same by the closed forms of the papers | torque, efficiency |
-//! | [`UncagedBallScrew`] | a ball screw whose balls press on each other | torques of grooves and balls, forces between balls |
+//! | [`UncagedBallScrew`] | a ball screw whose balls press on each other, by a block of constants from a host | torques of grooves and balls, forces between balls |
 //! | [`LinearBearingTrain`] | a linear bearing whose balls press on each other | forces |
 //! | [`scene::WithMemory`] | any of them, with friction that remembers | the same, and between two steps |
 //!
@@ -34,9 +34,9 @@
 //! | [`geometry`] | validated designs, built-in sizes | set-up |
 //! | [`curvature`] | groove curvature: literature, circular groove, fitted, exact | set-up (the exact one); direct |
 //! | [`hertz`] | contact ellipse, deflection, pressure | set-up; direct |
-//! | [`contact`] | friction of one contact: along the track, across it, in any direction; rolling resistance | set-up; step of the ball screw without cage (any direction, rolling resistance); direct |
+//! | [`contact`] | friction of one contact: along the track, across it, in any direction; rolling resistance | set-up; direct |
 //! | [`train`] | a row of balls that push each other: free speeds and impedances in, forces and moves out | step of both trains |
-//! | [`ball`] | one ball between its grooves: by a folded law in a caged screw, elastic (by Newton steps) in one without cage, in closed form in a linear bearing | step of all scenes |
+//! | [`ball`] | one ball between its grooves: by a folded law in a ball screw, in closed form in a linear bearing | step of all scenes |
 //! | [`efficiency`] | closed-form efficiency, self-locking; optimum and design procedure | set-up of the scene by closed forms; direct |
 //! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power | direct |
 //! | [`law`] | friction that remembers; friction coefficient by speed and temperature | step of scenes with memory; direct |

@@ -5,11 +5,10 @@ mod stored;
 
 use core::borrow::Borrow;
 
-use crate::ball::Clearance;
 use crate::error::Error;
 use crate::scene::{
-    ChangingClearance, ChangingFriction, Faults, LinearBearingTrain, LinearConstants,
-    PressedConstants, PressedScrew, Scene, SceneOutputs, UncagedBallScrew, UncagedConstants,
+    ChangingFriction, Faults, LinearBearingTrain, LinearConstants, Scene, SceneOutputs,
+    UncagedBallScrew, UncagedConstants,
 };
 
 /// Friction of one scene: configured once, stepped in the interrupt.
@@ -123,10 +122,7 @@ impl<S: Scene> FrictionModel<S> {
 }
 
 impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
-    /// A model of constants that are folded already, or of a reference to them. Set-up only: it makes the first state.
-    ///
-    /// A ball screw without cage settles one ball, which takes 16 renewals of some 5,000 cycles
-    /// ([`SCREW_RENEWAL`](crate::promises::SCREW_RENEWAL)). Other scenes begin at once.
+    /// A model of constants that are folded already, or of a reference to them. Set-up only: it makes the first state, at once.
     pub fn of(constants: C) -> Self {
         let state = S::initial_state(constants.borrow());
         Self {
@@ -174,7 +170,6 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
 
     /// Puts other constants in the place of the present ones, as a controller does that switches its calibration page, and
     /// gives the present ones back. Balls and memory stay; the circuit of balls, where there is one, has to be the same.
-    /// What has to settle is flagged [`Faults::SETTLING`](crate::Faults::SETTLING).
     ///
     /// Not in the middle of a step: an interrupt that steps the model has to wait. With constants in flash (`C` a reference)
     /// it is a pointer that changes. A caged ball screw has the friction of its new block from the next step on: this is how its clearance
@@ -189,7 +184,7 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     }
 
     /// Consecutive calls of [`Self::step`] with a fault ([`Faults::faulty`](crate::Faults::faulty)), up to `u32::MAX`; 0 after
-    /// a sound one. A step that only has flags of [`Faults::ACCURACY`](crate::Faults::ACCURACY) is sound. What is put out
+    /// a sound one. A step whose only flag is [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) is sound. What is put out
     /// between two steps ([`FrictionModel::between`]) neither counts nor ends the count: its faults stand in its outputs.
     pub const fn faulted_ticks(&self) -> u32 {
         self.faulted_ticks
@@ -223,32 +218,8 @@ impl<S: ChangingFriction, C: Borrow<S::Constants>> FrictionModel<S, C> {
     }
 }
 
-impl<S: ChangingClearance, C: Borrow<S::Constants>> FrictionModel<S, C> {
-    /// Sets how balls fit between the grooves of a ball screw without cage, -0.02 to 0.05 ball radii, with the cost and the flag of
-    /// [`FrictionModel::set_friction`]; a memory stays. A caged screw's clearance changes with its block
-    /// ([`FrictionModel::swap_constants`]).
-    ///
-    /// # Errors
-    /// [`Error`] naming `clearance`; the model goes on as it was.
-    pub fn set_clearance(&mut self, clearance: Clearance) -> Result<(), Error> {
-        S::set_clearance(self.constants.borrow(), &mut self.state, clearance)
-    }
-}
-
-impl<const N: usize, C: Borrow<UncagedConstants<N>>> FrictionModel<UncagedBallScrew<N>, C> {
-    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
-    /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
-    /// the speed. Ticks without a valid speed are missing in that sum, one beyond its limit counts with the
-    /// limit. An angle that is NaN, or beyond 8e6 periods of the map, counts as 0.
-    pub fn set_nut_angle(&mut self, angle: f32) {
-        self.constants
-            .borrow()
-            .set_nut_angle(&mut self.state, angle);
-    }
-}
-
-impl<const N: usize, const NODES: usize, C: Borrow<PressedConstants<N, NODES>>>
-    FrictionModel<PressedScrew<N, NODES>, C>
+impl<const N: usize, const NODES: usize, C: Borrow<UncagedConstants<N, NODES>>>
+    FrictionModel<UncagedBallScrew<N, NODES>, C>
 {
     /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
     /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates

@@ -7,10 +7,9 @@
 //! those, the promise names it and has its cycles. Constants that nobody reads take no place in a firmware's image.
 //!
 //! The table has what can be called, from firmware or from a program of its own that counts it. A step is inlined, and what
-//! only a step calls is inlined into it: `LoadLaw::torque_over_load` (friction of a caged ball over its load), `Train::intake` and `Intake::press`
-//! (speeds of balls in, forces between them out), `LoadedZone::at` (deviations and load of a ball by its place),
-//! `AnalyticLinearBall::closed_form` and `GrooveFriction::at` (ball and groove of a linear bearing), `LoopSlipMap::at` (friction
-//! of a contact), [`both`](crate::law::coefficient::CoefficientAtTemperature::both) (friction coefficient of both directions).
+//! only a step calls is inlined into it: `LoadLaw::torque_over_load` (friction of a caged ball over its load), `Train::intake`, `Intake::press` and `Intake::press_rubbing`
+//! (speeds of balls in, forces between them out), `BallLaw::numbers` and `BallNumbers::at` (a ball under a load, with its deviations), `LoadedZone::at` (deviations and load of a ball by its place),
+//! `AnalyticLinearBall::closed_form` and `GrooveFriction::at` (ball and groove of a linear bearing), [`both`](crate::law::coefficient::CoefficientAtTemperature::both) (friction coefficient of both directions).
 //! They have no place of their own in the image, and the compiler shares their work with what stands around them; counted
 //! apart they would be other code. Their cycles and their errors are those of the step. Where a function with a name does the
 //! same by the same formulas, it stands under [`PARTS`].
@@ -45,6 +44,8 @@ pub const STEPS: [Promise; 27] = [
     STEP_CAGED_LAW,
     BETWEEN_CAGED,
     STEP_UNCAGED,
+    STEP_UNCAGED_RANGE,
+    STEP_UNCAGED_SHARES,
     STEP_UNCAGED_MEMORY,
     BETWEEN_UNCAGED,
     STEP_LINEAR,
@@ -53,8 +54,6 @@ pub const STEPS: [Promise; 27] = [
     SQRT,
     CBRT_SQUARED,
     CBRT_AND_SQUARED,
-    SCREW_RENEWAL,
-    SCREW_START,
     MEMORY,
     MEMORY_LOAD_EXACT,
     MEMORY_PRELOADED,
@@ -80,7 +79,7 @@ pub const PARTS: [Promise; 6] = [
 /// Promises of functions that no step calls, nor parts of them: firmware calls them by their names.
 pub const DIRECT: [Promise; 26] = [
     SET_FRICTION,
-    SET_CLEARANCE,
+    START_UNCAGED,
     SET_FRICTION_CAGED,
     SWAP_CAGED,
     START_CAGED,

@@ -8,8 +8,7 @@
 //! |---|---|---|
 //! | [`CagedBallScrew`] | balls that do not touch, by a law that was solved on a host | [`ball::folded`](crate::ball::folded) |
 //! | [`ClosedFormScrew`] | the same by a closed form, without a host | [`efficiency`](crate::efficiency) at set-up |
-//! | [`UncagedBallScrew`] | balls that press on each other | [`ball`](crate::ball), [`contact`](crate::contact), [`train`](crate::train); [`hertz`](crate::hertz) at set-up |
-//! | [`PressedScrew`] | balls that press on each other, by a law that was solved on a host | [`ball::pressed`](crate::ball::pressed), [`train`](crate::train) |
+//! | [`UncagedBallScrew`] | balls that press on each other, by a law that was solved on a host | [`ball::pressed`](crate::ball::pressed), [`train`](crate::train) |
 //! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train); [`contact`](crate::contact) and [`hertz`](crate::hertz) at set-up |
 //! | [`WithMemory`] | any of them, with friction that remembers | [`law`](crate::law) beside it |
 //!
@@ -28,7 +27,6 @@ pub(crate) mod linear;
 mod memory;
 mod outputs;
 mod passage;
-mod pressed;
 mod row;
 mod sliding;
 mod stored;
@@ -36,7 +34,7 @@ mod uncaged;
 mod words;
 
 pub use caged::{CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState};
-pub use changing::{ChangingClearance, ChangingFriction};
+pub use changing::ChangingFriction;
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use closed_form::{
     ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, ClosedFormScrewState,
@@ -55,12 +53,9 @@ pub use memory::{
 };
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};
 pub use passage::{Motion, Passage};
-pub use pressed::{
-    FoldedBall, PressedConstants, PressedScrew, PressedScrewConfiguration, PressedState,
-    UncagedFull,
-};
 pub use sliding::{Sliding, SlidingFriction};
 pub use stored::StoredScene;
 pub use uncaged::{
-    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedState,
+    CatalogueBall, FoldedBall, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    UncagedFull, UncagedState,
 };

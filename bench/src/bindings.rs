@@ -7,8 +7,8 @@ pub use crate::eval::fit_range;
 pub use crate::failure::Failure;
 pub use crate::simulate::bindings::{
     Balls, Built, Caged, CagedRow, Friction, Linear, LinearRow, LinearSample, Lines, MOST_BALLS,
-    Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewSample, Trace, TrainRow, Uncaged,
-    UncagedRow, Use, angle, regime_name, remembering, wrapped,
+    Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewConfiguration, ScrewSample,
+    Trace, TrainRow, Uncaged, UncagedRow, Use, angle, regime_name, remembering, wrapped,
 };
 
 /// The answer of `eval` to one line, as one line without its end.

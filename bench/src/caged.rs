@@ -61,17 +61,27 @@ pub fn block(fold: &CagedFold) -> Result<Block, Failure> {
 /// # Errors
 /// What cannot be folded, with the reason.
 pub fn certified(fold: &CagedFold) -> Result<Folded, Failure> {
+    let folded = shown(|progress| fold.folded_with(progress))?;
+    keep(folded.digest, folded.block);
+    Ok(folded)
+}
+
+/// A fold that takes some time, with its progress to be seen.
+///
+/// # Errors
+/// Those of the fold.
+pub(crate) fn shown<T>(
+    fold: impl FnOnce(&(dyn Fn(f64) + Sync)) -> Result<T, epas_design::Failure>,
+) -> Result<T, Failure> {
     let progress = Progress::new("folding", PARTS);
     let done = Mutex::new(0);
-    let folded = fold.folded_with(&|share| {
+    Ok(fold(&|share| {
         let part = (share * PARTS as f64) as u64;
         if let Ok(mut done) = done.lock() {
             progress.steps(part.saturating_sub(*done));
             *done = part.max(*done);
         }
-    })?;
-    keep(folded.digest, folded.block);
-    Ok(folded)
+    })?)
 }
 
 /// Keeps a block that was folded before from inputs with this digest.
@@ -248,17 +258,28 @@ pub fn fold_for(design: &Design, (least, largest): (f32, f32)) -> Result<CagedFo
         .fold(design)
         .map_err(|message| format!("fold: {message}"))?;
     fold.gear.friction = design.caged.friction;
-    match fold.friction {
+    fold.friction = range_for(fold.friction, (least, largest))?;
+    Ok(fold)
+}
+
+/// The range of friction coefficients that is folded for those between two: a table's, where it says one.
+///
+/// # Errors
+/// Coefficients that the table's range does not hold.
+pub(crate) fn range_for(
+    range: Option<[f32; 2]>,
+    (least, largest): (f32, f32),
+) -> Result<Option<[f32; 2]>, String> {
+    match range {
         Some([low, high]) if least * ONE < low || largest > high * ONE => Err(format!(
             "fold: the friction coefficient runs from {least} to {largest}, and friction = [{low}, {high}] does not hold that; widen it"
         )),
         None if largest > least * ONE => {
             // What is folded for a law is at least a tenth wide.
             let wider = (APART * least / largest).max(1.0).sqrt();
-            fold.friction = Some([least / wider, (largest * wider).min(0.5)]);
-            Ok(fold)
+            Ok(Some([least / wider, (largest * wider).min(0.5)]))
         }
-        _ => Ok(fold),
+        range => Ok(range),
     }
 }
 

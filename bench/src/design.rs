@@ -1,24 +1,27 @@
 //! `design`: a ball screw solved once, on this machine, into the constants that firmware evaluates, with a certificate of their errors.
 
-use std::collections::BTreeMap;
+mod made;
+
 use std::io::{self, IsTerminal as _, Write};
 use std::path::PathBuf;
 
 use clap::ValueEnum as _;
 use clap::error::ErrorKind;
-use epas_design::{Certificate, Figure, Folded};
-use serde::Serialize;
 
-use crate::caged::certified;
+use crate::designs::train::no_row;
 use crate::designs::{Design, DesignSource};
 use crate::failure::Failure;
 use crate::files::{Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
+use crate::{caged, uncaged};
+use made::Made;
 
 /// Folds a design: solves it once, here, into the constants that firmware evaluates.
 ///
-/// The exact balance of a ball is solved in float64 at hundreds of loads. What comes out is a block of constants for the scene
-/// CagedBallScrew, and a certificate: the errors of its friction torque against the exact solver, at 2048 states that were not fitted.
-/// The same design gives the same block, bit for bit.
+/// The exact balance of a ball is solved in float64 at hundreds of loads. What comes out is a block of constants, and a certificate: the errors
+/// of its friction against the exact solver, at states that were not fitted. The same design gives the same block, bit for bit.
+///
+/// With --scene caged the block is that of the scene CagedBallScrew: of a screw with a cage or spacer balls, whose balls press on nothing. With
+/// --scene uncaged it is the ball of the scene UncagedBallScrew, over the deviations of the contact angles too.
 ///
 /// The certificate is printed. --output also writes the block, in the format that the file's ending names: .rs (Rust), .h (C), .toml, or
 /// .bin (each word with its least significant byte first, for a calibration page). --format without --output prints the block, and the
@@ -26,20 +29,24 @@ use crate::files::{Existing, Pending, ends, refuse_ending, refuse_same, standard
 ///
 /// A design file (`simulate --help` names its keys) may say the domain in a table [fold]: friction (a number, or [least, most] for
 /// coefficients that change while firmware runs; the design's without), axial_load ([least, most] of a ball, N; [5, 300] without), seed
-/// (of the certificate's states; 1 without).
+/// (of the certificate's states; 1 without); and for --scene uncaged screw_deviation and nut_deviation (largest, rad; without, what the maps of
+/// [uncaged] reach, at least 1e-4).
 ///
-/// The law is that of a ball that no other ball presses: of a screw with a cage or spacer balls. A closed form (branch = "rolling" or
-/// "sliding") is refused, because it needs no fold. So is a domain over which the torque is not held to 3 %: the exit code is 1, and
-/// the message says where.
+/// A closed form (branch = "rolling" or "sliding") is refused, because it needs no fold. So is a domain over which the torque is not held to
+/// 3 %: the exit code is 1, and the message says where.
 ///
-/// --json prints one object: version (of the layout), digest (of the inputs), bytes, domain (axial_load of a ball, N, and friction, each
-/// [least, most]), certificate (a list of quantity, largest, rms, mean, states, flagged (share), unit), seed, two_answers (share of the
-/// states with two exact answers), unsolved (states without one), seconds.
+/// --json prints one object: version (of the layout), digest (of the inputs), bytes, domain (axial_load of a ball, N, friction, and without
+/// cage screw_deviation and nut_deviation, rad, each [least, most]), certificate (a list of quantity, largest, rms, mean, states, flagged (share),
+/// unit; caged_torque of one ball, or ring_torque and ring_force of rows of balls), seed, two_answers (with a cage: share of the states with two
+/// exact answers), unsolved (states without one), seconds.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Built-in design (`simulate --list` prints all), or design file ending in .toml; - for standard input
     #[arg(value_name = "NAME|GEAR.toml")]
     design: DesignSource,
+    /// Whose ball is folded [default: uncaged where the table [fold] gives a deviation, else caged]
+    #[arg(long, value_enum)]
+    scene: Option<Scene>,
     /// What the block is written as [default: what the output's ending names]
     #[arg(long, value_enum)]
     format: Option<Format>,
@@ -54,9 +61,18 @@ pub struct Arguments {
     force: bool,
 }
 
+/// Scenes whose blocks are folded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Scene {
+    /// A ball screw whose balls do not touch
+    Caged,
+    /// A ball screw whose balls press on each other
+    Uncaged,
+}
+
 /// What a block is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
-enum Format {
+pub enum Format {
     /// A static of checked constants
     Rust,
     /// A header with an array of words
@@ -142,41 +158,55 @@ impl Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let target = arguments.target()?;
     let design = arguments.design.load()?;
-    let failure = |message: String| Failure::Data(format!("{}: {message}", design.name));
-    let table = &design.fold;
-    let fold = table
-        .check_deviations()
-        .and_then(|()| table.fold(&design))
-        .map_err(|message| failure(format!("fold: {message}")))?;
-    let folded = certified(&fold).map_err(|error| error.of(&design.name))?;
-    let failed = |error: epas_design::Failure| failure(error.to_string());
-    let words = folded.words().map_err(failed)?.len();
+    let made = made(&design, arguments.scene)?;
+    let words = made.words()?.len();
     if let Some(target) = &target {
         let name = constant(if standard(&target.path) {
             design.name.as_ref()
         } else {
             target.path.file_stem().unwrap_or_default()
         });
-        let block = match target.format {
-            Format::Rust => folded.rust(&name).map(String::into_bytes),
-            Format::C => folded.c(&name).map(String::into_bytes),
-            Format::Toml => folded.toml().map(String::into_bytes),
-            Format::Binary => folded.bytes(),
-        }
-        .map_err(failed)?;
+        let block = made.written(target.format, &name)?;
         write(target, &block)?;
     }
     let mut out = told(target.iter().map(|target| &target.path));
     if arguments.json {
-        let version = folded.version().map_err(failed)?;
-        serde_json::to_writer(&mut out, &Shown::of(&folded, version, 4 * words))
-            .map_err(io::Error::from)?;
+        serde_json::to_writer(&mut out, &made.shown()?).map_err(io::Error::from)?;
         writeln!(out)?;
         return Ok(());
     }
-    print(&mut out, &design, &folded, words)?;
-    next(&mut out, target.as_ref(), words, folded.block.nodes())?;
+    made.print(&mut out, &design, words)?;
+    next(&mut out, target.as_ref(), &made, words)?;
     Ok(())
+}
+
+/// Folds the ball of a scene.
+fn made(design: &Design, scene: Option<Scene>) -> Result<Made, Failure> {
+    let table = &design.fold;
+    let failure = |message: String| Failure::Data(format!("{}: {message}", design.name));
+    let of_fold = |message: String| failure(format!("fold: {message}"));
+    let named = |error: Failure| error.of(&design.name);
+    let scene = scene.unwrap_or(if table.says_deviations() {
+        Scene::Uncaged
+    } else {
+        Scene::Caged
+    });
+    match scene {
+        Scene::Caged => {
+            let fold = table.fold(design).map_err(of_fold)?;
+            let folded = caged::certified(&fold).map_err(named)?;
+            Ok(Made::Caged(Box::new(folded)))
+        }
+        Scene::Uncaged if design.uncaged.is_none() && !table.says_deviations() => {
+            Err(Failure::Data(no_row(&design.name)))
+        }
+        Scene::Uncaged => {
+            let row = design.uncaged.as_ref();
+            let fold = table.fold_uncaged(design, row).map_err(of_fold)?;
+            let folded = uncaged::certified(&fold).map_err(named)?;
+            Ok(Made::Uncaged(Box::new(folded)))
+        }
+    }
 }
 
 /// The block in its file, whole or not at all.
@@ -206,155 +236,8 @@ fn constant(name: &std::ffi::OsStr) -> String {
     }
 }
 
-/// What `--json` prints.
-#[derive(Serialize)]
-struct Shown {
-    version: u32,
-    digest: String,
-    bytes: usize,
-    domain: BTreeMap<&'static str, [f32; 2]>,
-    certificate: Vec<ShownFigure>,
-    seed: u64,
-    two_answers: f64,
-    unsolved: usize,
-    seconds: f64,
-}
-
-#[derive(Serialize)]
-struct ShownFigure {
-    quantity: &'static str,
-    largest: f64,
-    rms: f64,
-    mean: f64,
-    states: usize,
-    flagged: f64,
-    unit: &'static str,
-}
-
-impl Shown {
-    fn of(folded: &Folded, version: u32, bytes: usize) -> Self {
-        let (least, most) = folded.block.friction_range();
-        let Certificate { seed, figures } = &folded.certificate;
-        let [torque] = figures;
-        Self {
-            version,
-            digest: format!("{:016x}", folded.digest),
-            bytes,
-            domain: [
-                ("axial_load", folded.fold.axial_load),
-                ("friction", [least, most]),
-            ]
-            .into(),
-            certificate: figures
-                .iter()
-                .map(|figure| ShownFigure {
-                    quantity: figure.quantity,
-                    largest: figure.largest,
-                    rms: figure.rms,
-                    mean: figure.mean,
-                    states: figure.states,
-                    flagged: figure.flagged,
-                    unit: "relative",
-                })
-                .collect(),
-            seed: *seed,
-            two_answers: torque.two_answers,
-            unsolved: torque.unsolved,
-            seconds: folded.seconds,
-        }
-    }
-}
-
-/// What was folded, over which domain, and how exact it is.
-fn print(out: &mut dyn Write, design: &Design, folded: &Folded, words: usize) -> io::Result<()> {
-    let gear = &folded.fold.gear;
-    let (least, most) = folded.block.friction_range();
-    let [from, to] = folded.fold.axial_load;
-    let friction = if least < most {
-        format!("{least} to {most}")
-    } else {
-        least.to_string()
-    };
-    writeln!(
-        out,
-        "{}: caged, friction coefficient {}{}, clearance {} um{}, {} loaded balls{}",
-        design.name,
-        gear.friction,
-        design.mark("friction"),
-        // To a nanometre: the gap is an f32.
-        (1e9 * f64::from(gear.clearance.gap())).round() * 1e-3,
-        design.mark("clearance"),
-        gear.loaded_balls,
-        design.mark("loaded_balls"),
-    )?;
-    writeln!(
-        out,
-        "domain: friction coefficient {friction}; axial load {from} to {to} N a ball, both signs"
-    )?;
-    writeln!(
-        out,
-        "block: {} bytes, digest {:016x}; folded in {:.1} s\n",
-        4 * words,
-        folded.digest,
-        folded.seconds
-    )?;
-    let Certificate { seed, figures } = &folded.certificate;
-    writeln!(
-        out,
-        "certificate      largest      rms       mean  states  flagged"
-    )?;
-    for figure in figures {
-        writeln!(
-            out,
-            "{:14} {:7.3} % {:6.3} % {:+8.4} % {:7} {:6.2} %",
-            figure.quantity,
-            100.0 * figure.largest,
-            100.0 * figure.rms,
-            100.0 * figure.mean,
-            figure.states,
-            100.0 * figure.flagged,
-        )?;
-        notes(out, *seed, figure)?;
-    }
-    Ok(())
-}
-
-/// What a figure's numbers rest on.
-fn notes(out: &mut dyn Write, seed: u64, figure: &Figure) -> io::Result<()> {
-    writeln!(
-        out,
-        "Relative errors against the exact solver, at states that were not fitted (seed {seed}); largest at {:.4} N a ball, friction \
-         coefficient {:.4}.",
-        figure.worst_load, figure.worst_friction
-    )?;
-    if figure.two_answers > 0.0 {
-        writeln!(
-            out,
-            "Two exact answers at {:.2} % of the states, where a contact opens later than it closes: the error is that to the nearer one.",
-            100.0 * figure.two_answers
-        )?;
-    }
-    if figure.unsolved > 0 {
-        writeln!(
-            out,
-            "Without an exact answer, and not counted: {} states.",
-            figure.unsolved
-        )?;
-    }
-    Ok(())
-}
-
 /// How firmware takes the block in.
-fn next(
-    out: &mut dyn Write,
-    target: Option<&Target>,
-    words: usize,
-    nodes: usize,
-) -> io::Result<()> {
-    let scene = match nodes {
-        1 => "CagedBallScrew".to_owned(),
-        nodes => format!("CagedBallScrew<{nodes}>"),
-    };
+fn next(out: &mut dyn Write, target: Option<&Target>, made: &Made, words: usize) -> io::Result<()> {
     let Some(Target { format, path, .. }) = target.filter(|target| !standard(&target.path)) else {
         if target.is_none() {
             writeln!(
@@ -367,21 +250,7 @@ fn next(
     let file = path.file_name().unwrap_or_default().to_string_lossy();
     let name = constant(path.file_stem().unwrap_or_default());
     writeln!(out, "\nwrote {}; in firmware:", path.display())?;
-    match format {
-        Format::Rust => writeln!(
-            out,
-            "    include!(\"{file}\");\n    let mut model = FrictionModel::<{scene}, _>::of(&{name});"
-        ),
-        Format::C => writeln!(
-            out,
-            "    #include \"{file}\"    /* {name}_BLOCK, {words} words: what CagedConstants::<{nodes}>::from_block takes */"
-        ),
-        Format::Toml | Format::Binary => writeln!(
-            out,
-            "    let constants = CagedConstants::<{nodes}>::from_block(&words)?;    // {words} words\n    \
-             let mut model = FrictionModel::<{scene}, _>::of(&constants);"
-        ),
-    }
+    made.next(out, *format, (&file, &name), words)
 }
 
 #[cfg(test)]

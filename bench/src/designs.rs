@@ -459,13 +459,7 @@ impl DesignFile {
             .uncaged
             .map(|table| {
                 table
-                    .design(
-                        screw,
-                        clearance,
-                        (caged.friction, caged.rolling_resistance),
-                        caged.reversal_speed,
-                        caged.limits,
-                    )
+                    .design(caged)
                     .map_err(|message| format!("uncaged: {message}"))
             })
             .transpose()?;

@@ -79,18 +79,14 @@ use lines::{Line, Lines};
 /// standstill), and the power lost in grooves and between balls; nothing where a ball is not loaded on both
 /// screw and nut. `in_loop` finds the contacts itself, from the axial load of each ball and the deviations of its
 /// contact angles in either groove, which are read off the given contacts; it has them by the closed form of a row,
-/// which no step runs, and in an object `elastic` as the scene of a ball screw without cage computes them once it has
-/// settled: balls in elastic grooves without play that are renewed by Newton steps; its power is groove_power_loss,
-/// without that between the balls. load_mismatch (over the largest load of a ball) and angle_mismatch say how far the
+/// which no step runs. load_mismatch (over the largest load of a ball) and angle_mismatch say how far the
 /// given contacts are from those found. Largest errors of the closed form over the stored balls and pairs: speeds 3e-3
 /// of the nut's, force 1.6 %, power 5.0 %; in rows of up to 64 of these balls 5 % of the largest force, and 17 %
 /// (power 9.3 %) where balls push each other until their third contacts slide. Such forces are up to a factor of two too
 /// large at 100 N a ball. All of it is null where a ball has four loaded contacts, where numbers of contacts
 /// differ from ball to ball, where balls are loaded in different directions, and where a load is further than 0.1 of the
 /// largest one, or an angle further than 0.01, from those found (so are contacts of a nut that turns the other way). At
-/// standstill the closed form has speeds and power (0) alone, and `elastic` is null; it is also null for balls in two
-/// contacts, which do not tell the play, and where a ball loses its grooves: under the forces of the others alone, its
-/// forces and power are null.
+/// standstill the closed form has speeds and power (0) alone.
 ///
 /// ball_screw_pair: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus, poisson_ratio,
 /// friction, [ball_friction (0)], clearance (radial gap of every contact at the centred ball and the unloaded
@@ -101,10 +97,13 @@ use lines::{Line, Lines};
 /// speed, no neighbour pressing), contact_force (list), groove_torque and groove_torque_free (on the nut, all
 /// balls, pressing and none pressing) and loads (list of [SL, SR, NL, NR], none pressing). The reference has balls
 /// in elastic grooves with exact friction, by contact integrals of 32 nodes; its quantities are null at standstill,
-/// for a ball without load and where no answer was found that meets every balance. `in_loop` is what the scene of
-/// a ball screw without cage computes once it has settled: balls in elastic grooves that are renewed by Newton
-/// steps. It is null where the reference is for lack of speed or load, for a clearance outside -0.02 to 0.05 ball
-/// radii, and where a ball loses its grooves. Its object `closed_form` has the same by a closed form that no scene
+/// for a ball without load and where no answer was found that meets every balance. `in_loop` is what the law finds that
+/// the scene of a ball screw without cage evaluates, folded for the request over a box at least twice as wide: for deviations
+/// of twice the largest one and more, and for 2.5 to 600 N a ball or from half the least to twice the largest load; without
+/// loads, and with flagged: whether a step says that the law does not hold the forces under these loads. It is null where the
+/// reference is for lack of speed or load, for loads of both signs, for a clearance outside -0.02 to 0.05 ball radii, for
+/// deviations above 0.05, and where no law holds the box; it takes some seconds for a screw, fewer for the next request that
+/// shares its law. Its object `closed_form` has the same by a closed form that no scene
 /// runs: it knows no play, preload and two-point contact, and takes of them what is nearest to the clearance; with
 /// it balls that press do not change the torque.
 ///

@@ -6,6 +6,7 @@
 
 use std::f64::consts::TAU;
 
+use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
     Inputs, Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
@@ -17,6 +18,9 @@ use epas_reference::friction::ball_screw_ring::{
 };
 use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
+use epas_trains::Folded;
+
+use crate::uncaged::folded;
 
 /// Part of the track that the balls fill, where a case does not say its length.
 const OCCUPATION: f64 = 0.978;
@@ -51,9 +55,12 @@ pub struct Case {
     /// Turns of the nut that are followed, and states that are compared on the way.
     pub turns: f64,
     pub states: usize,
-    /// Time between two ticks, s.
+    /// Longest time between two ticks, s: as many of one length lead from each state to the next.
     pub tick: f64,
 }
+
+/// Least deviation that a law is folded for, rad.
+const LEAST_DEVIATION: f32 = 1e-4;
 
 impl Case {
     /// Lin 2019, Table 3.6, under 50 N a ball, with deviations of both grooves.
@@ -74,7 +81,7 @@ impl Case {
         speed: 1.0,
         turns: 2.0,
         states: 720,
-        tick: 50e-6,
+        tick: 1e-3,
     };
 }
 
@@ -178,17 +185,50 @@ fn samples((amplitude, order): (f64, u8)) -> GrooveDeviation {
     }
 }
 
-/// One screw, for both.
-struct Pair<const N: usize> {
+/// The exact screw with so many balls.
+fn ring(case: &Case, balls: usize) -> ElasticRing {
+    let (path, turns) = case.track(balls);
+    let steel = Elastic {
+        youngs_modulus: YOUNGS_MODULUS,
+        poisson_ratio: POISSON_RATIO,
+    };
+    ElasticRing {
+        design: BallScrewDesign {
+            pitch_radius: case.pitch_radius,
+            lead: case.lead,
+            ball_radius: case.ball_radius,
+            screw_groove_radius: case.groove_radius,
+            nut_groove_radius: case.groove_radius,
+            contact_angle: case.contact_angle,
+            ball: steel,
+            groove: steel,
+        },
+        clearance: case.clearance,
+        friction: case.friction,
+        ball_friction: case.ball_friction,
+        balls,
+        turns: case.loaded * turns,
+        return_length: (1.0 - case.loaded) * turns * TAU * path,
+        screw_deviation: samples(case.screw),
+        nut_deviation: samples(case.nut),
+        load_shares: vec![],
+        chord: false,
+        places: vec![],
+        // With fewer nodes power and forces disagree on narrow ellipses, and a search for the least power ends off balance.
+        integration: Integration::Full,
+    }
+}
+
+/// The scene of a case.
+struct Followed<const N: usize> {
     model: FrictionModel<UncagedBallScrew<N>>,
-    ring: ElasticRing,
     /// Path radius of the balls; speed of a nominal ball and its speed against the nut, m per unit of nut speed.
     path: f64,
     nominal: f64,
     against: f64,
 }
 
-impl<const N: usize> Pair<N> {
+impl<const N: usize> Followed<N> {
     fn new(case: &Case) -> Result<Self, String> {
         let material = Material {
             youngs_modulus: YOUNGS_MODULUS as f32,
@@ -207,71 +247,53 @@ impl<const N: usize> Pair<N> {
             groove_material: material,
         })
         .map_err(|error| error.to_string())?;
-        let path = f64::from(design.pitch_radius() / design.cos_lead_angle());
-        let pitch = 2.0 * (f64::from(design.ball_radius()) / path).asin();
-        let turns = case.track.unwrap_or(N as f64 * pitch / OCCUPATION / TAU);
+        let (path, turns) = case.track(N);
         let return_length = (1.0 - case.loaded) * turns * TAU * path;
+        // What firmware would have: folded for 5 to 300 N a ball, or up to the case's load where that is more.
+        let mut fold = UncagedFold::of(UncagedDesign {
+            gear: CagedDesign {
+                design,
+                friction: case.friction as f32,
+                rolling_resistance: RollingResistance::NONE,
+                clearance: Clearance::new(case.clearance as f32)
+                    .map_err(|error| error.to_string())?,
+                loaded_balls: 1,
+                reversal_speed: 1e-6,
+                limits: Limits {
+                    nut_speed: (1.01 * TAU * case.speed.abs()) as f32,
+                    axial_load: 1e6,
+                    friction_torque: 1e4,
+                },
+            },
+            deviations: [case.screw.0, case.nut.0]
+                .map(|amplitude| (1.0001 * amplitude.abs() as f32).max(LEAST_DEVIATION)),
+        });
+        let [_, most] = &mut fold.axial_load;
+        *most = most.max(1.001 * case.load_per_ball.abs() as f32);
+        let folded = match folded(&fold) {
+            Ok(Folded::One(folded)) => folded,
+            Ok(Folded::Range(_)) => return Err("one friction coefficient is one node".into()),
+            Err(failure) => return Err(failure.message().into()),
+        };
         let model = FrictionModel::new(&UncagedBallScrewConfiguration {
-            design,
-            friction: case.friction as f32,
+            folded,
             ball_friction: case.ball_friction as f32,
-            clearance: Clearance::new(case.clearance as f32).map_err(|error| error.to_string())?,
             turns: (case.loaded * turns) as f32,
             return_length: return_length as f32,
             screw_deviation: wave(case.screw)?,
             nut_deviation: wave(case.nut)?,
             load_shares: LoadShares::EVEN,
-            rolling_resistance: RollingResistance::NONE,
-            reversal_speed: 1e-6,
-            tick: case.tick as f32,
-            limits: Limits {
-                nut_speed: (2.0 * TAU * case.speed.abs()) as f32,
-                axial_load: 1e6,
-                friction_torque: 1e4,
-            },
+            tick: case.ticks().1 as f32,
         })
         .map_err(|error| error.to_string())?;
         let rolling = f64::from(design.ball_radius() * design.cos_lead_angle());
         let nominal = 0.5 * (path + rolling * case.contact_angle.cos());
         Ok(Self {
             model,
-            ring: Self::ring(case, turns, return_length),
             path,
             nominal,
             against: path - nominal,
         })
-    }
-
-    fn ring(case: &Case, turns: f64, return_length: f64) -> ElasticRing {
-        let steel = Elastic {
-            youngs_modulus: YOUNGS_MODULUS,
-            poisson_ratio: POISSON_RATIO,
-        };
-        ElasticRing {
-            design: BallScrewDesign {
-                pitch_radius: case.pitch_radius,
-                lead: case.lead,
-                ball_radius: case.ball_radius,
-                screw_groove_radius: case.groove_radius,
-                nut_groove_radius: case.groove_radius,
-                contact_angle: case.contact_angle,
-                ball: steel,
-                groove: steel,
-            },
-            clearance: case.clearance,
-            friction: case.friction,
-            ball_friction: case.ball_friction,
-            balls: N,
-            turns: case.loaded * turns,
-            return_length,
-            screw_deviation: samples(case.screw),
-            nut_deviation: samples(case.nut),
-            load_shares: vec![],
-            chord: false,
-            places: vec![],
-            // With fewer nodes power and forces disagree on narrow ellipses, and a search for the least power ends off balance.
-            integration: Integration::Full,
-        }
     }
 
     /// Takes one state of the scene in, with the exact one of the same time.
@@ -308,14 +330,33 @@ impl<const N: usize> Pair<N> {
     }
 }
 
-/// Angular velocity of the nut, rad/s, axial load, N, and ticks between two states of a case.
-fn drive<const N: usize>(case: &Case) -> (f64, f64, usize) {
-    let ticks = (case.turns / case.speed.abs() / case.tick).round() as usize;
-    (
-        case.speed * TAU,
-        case.load_per_ball * N as f64 * case.loaded,
-        (ticks / case.states.max(1)).max(1),
-    )
+impl Case {
+    /// Ticks from each state to the next, and the time between two ticks, s.
+    fn ticks(&self) -> (usize, f64) {
+        let between = self.turns / self.speed.abs() / self.states.max(1) as f64;
+        // A time that is a whole number of ticks to the rounding is so.
+        let ticks = (between / self.tick - 1e-9).ceil().max(1.0);
+        (ticks as usize, between / ticks)
+    }
+
+    /// Angular velocity of the nut, rad/s, and axial load of a screw with so many balls, N.
+    fn drive(&self, balls: usize) -> (f64, f64) {
+        (
+            self.speed * TAU,
+            self.load_per_ball * balls as f64 * self.loaded,
+        )
+    }
+
+    /// Path radius of the balls, m, and turns of the whole track of so many.
+    fn track(&self, balls: usize) -> (f64, f64) {
+        let path = self.pitch_radius.hypot(self.lead / TAU);
+        let pitch = 2.0 * (self.ball_radius / path).asin();
+        let turns = self.track;
+        (
+            path,
+            turns.unwrap_or(balls as f64 * pitch / OCCUPATION / TAU),
+        )
+    }
 }
 
 /// The exact screw over the turns of a case.
@@ -323,16 +364,16 @@ fn drive<const N: usize>(case: &Case) -> (f64, f64, usize) {
 /// # Errors
 /// What is out of range.
 pub fn exact<const N: usize>(case: &Case) -> Result<Vec<RingState>, String> {
-    let (nut_speed, axial_load, per_state) = drive::<N>(case);
+    let (nut_speed, axial_load) = case.drive(N);
+    let (ticks, tick) = case.ticks();
     let asked: Vec<RingSample> = (0..=case.states)
         .map(|state| RingSample {
-            time: (state * per_state) as f64 * case.tick,
+            time: (state * ticks) as f64 * tick,
             nut_speed,
             axial_load,
         })
         .collect();
-    Pair::<N>::new(case)?
-        .ring
+    ring(case, N)
         .simulate(&asked, |_, _| ())
         .map_err(|error| error.to_string())
 }
@@ -350,12 +391,13 @@ pub fn compare<const N: usize>(case: &Case) -> Result<Comparison, String> {
 /// # Errors
 /// What is out of range.
 pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Comparison, String> {
-    let mut pair = Pair::<N>::new(case)?;
-    let (nut_speed, load, per_state) = drive::<N>(case);
+    let mut scene = Followed::<N>::new(case)?;
+    let (nut_speed, load) = case.drive(N);
+    let (ticks, _) = case.ticks();
     let mut comparison = Comparison::default();
     for (at, state) in states.iter().enumerate() {
         let mut step = || {
-            pair.model.step(Inputs {
+            scene.model.step(Inputs {
                 nut_speed: nut_speed as f32,
                 axial_load: load as f32,
             })
@@ -363,7 +405,7 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
         // The last tick of those that lead to a state puts out what holds there; a flag of any of them counts.
         let mut flagged = false;
         let mut outputs = step();
-        for _ in 1..if at == 0 { 1 } else { per_state } {
+        for _ in 1..if at == 0 { 1 } else { ticks } {
             flagged |= outputs.faults.any();
             outputs = step();
         }
@@ -390,7 +432,7 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
         comparison.failed += usize::from(!solved);
         if solved {
             comparison.largest_force = comparison.largest_force.max(state.largest_force());
-            pair.add(&mut comparison, &outputs, state, nut_speed);
+            scene.add(&mut comparison, &outputs, state, nut_speed);
         }
     }
     Ok(comparison)

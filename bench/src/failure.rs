@@ -36,6 +36,14 @@ impl Failure {
         }
     }
 
+    /// What is wrong, in words.
+    pub fn message(&self) -> &str {
+        match self {
+            Self::Data(message) => message,
+            Self::Answered | Self::BrokenPipe => "the output cannot be written",
+        }
+    }
+
     /// Prints what is to be said on stderr and gives the exit code.
     pub fn report(&self) -> ExitCode {
         match self {

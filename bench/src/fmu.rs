@@ -34,8 +34,8 @@ pub use scene::SceneName;
 pub use unit::{Stored, Unit};
 pub use variables::{Causality, Choice, Kind, Variable};
 
-/// Flags of accuracy alone: nothing is wrong with the inputs.
-pub const ACCURACY: u32 = Faults::ACCURACY.bits() as u32;
+/// The flag of accuracy alone: nothing is wrong with the inputs.
+pub const ACCURACY: u32 = Faults::BEYOND_MODEL.bits() as u32;
 
 /// What flags mean, in words.
 pub fn fault_words(faults: u32) -> String {
@@ -46,7 +46,6 @@ pub fn fault_words(faults: u32) -> String {
         (Faults::LOAD_RANGE, "a load is beyond its limit"),
         (Faults::FRICTION_LIMIT, "friction was cut to its limit"),
         (Faults::BEYOND_MODEL, "beyond the model's accuracy"),
-        (Faults::SETTLING, "balls settle"),
         (Faults::ANGLE_NOT_VALID, "the angle cannot be right"),
         (Faults::TEMPERATURE_RANGE, "the temperature is out of range"),
     ]

@@ -54,6 +54,8 @@ mod target;
 #[cfg(feature = "program")]
 mod timing;
 #[doc(hidden)]
+pub mod uncaged;
+#[doc(hidden)]
 pub mod units;
 
 #[cfg(feature = "program")]

@@ -6,6 +6,7 @@ use std::io::{self, Write as _};
 use clap::Parser;
 use rand::RngExt;
 use rand_pcg::Pcg64;
+use rayon::iter::Either;
 use rayon::prelude::*;
 
 use crate::exact_ring::{Case, Comparison, Off, compare};
@@ -144,18 +145,27 @@ impl Over {
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let Arguments { screws, first } = *arguments;
     let progress = Progress::new("whole screws", screws as usize);
-    let found = (first..first.saturating_add(screws))
+    let (found, refused): (Vec<_>, Vec<_>) = (first..first.saturating_add(screws))
         .into_par_iter()
-        .map(|number| {
+        .partition_map(|number| {
             let found = compare::<BALLS>(&case(number));
             progress.step();
-            found
-                .map(|found| (number, found))
-                .map_err(|error| Failure::Data(format!("screw {number}: {error}")))
-        })
-        .collect::<Result<Vec<_>, _>>()?;
+            match found {
+                Ok(found) => Either::Left((number, found)),
+                Err(error) => Either::Right(format!("screw {number}: {error}")),
+            }
+        });
     drop(progress);
     let mut stdout = io::stdout().lock();
+    // A screw whose ball is not folded has no firmware, and no error: it is told.
+    writeln!(
+        stdout,
+        "{} of {screws} screws are folded and compared",
+        found.len()
+    )?;
+    for refused in &refused {
+        writeln!(stdout, "not folded: {refused}")?;
+    }
     writeln!(
         stdout,
         "errors at the same state in per cent, flagged states in the count: torques of screw and grooves over their own exact value, the others \

@@ -81,7 +81,9 @@ use trace::Temperature;
 ///
 /// A screw with a cage is solved first, within two seconds, and what runs is the block that `design` writes for it: a table [fold]
 /// (`design --help` names its keys) says its loads of a ball, 5 to 300 N without, above which outputs are flagged; where [calibration] makes
-/// the friction coefficient change, the block is one for its range, or the range is refused with the reason.
+/// the friction coefficient change, the block is one for its range, or the range is refused with the reason. A screw without cage is solved
+/// likewise, in some seconds, for the deviations of its maps, or those of [fold], and where [fold] gives no loads, for as many as the trace needs:
+/// 5 to 300 N a ball, or up to the next power of two.
 ///
 /// A table [calibration] holds what `calibrate` has told of the screw beyond these; for --scene caged with --memory it gives
 /// full_film_ratio and half_share_speed (rad/s) with reference_temperature and viscosity_pole (K), direction_asymmetry,
@@ -360,12 +362,11 @@ fn list() -> Result<(), Failure> {
         }
         if let Some(balls) = &design.uncaged {
             let [screw, nut] = balls.deviations().map(|angle| 1e3 * angle);
-            let configuration = &balls.configuration;
             write!(
                 stdout,
                 "; uncaged: friction {:5.3}, clearance {:4.1} um, contact angle off by {screw:.1} mrad on the screw, {nut:.1} mrad in the nut",
-                configuration.friction,
-                1e6 * configuration.clearance.gap(),
+                balls.gear.friction,
+                1e6 * balls.gear.clearance.gap(),
             )?;
         }
         writeln!(stdout)?;

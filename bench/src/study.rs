@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::ball::LinearBallParameters;
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
@@ -16,8 +17,10 @@ use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::material::Elastic;
+use epas_trains::Folded;
 
 use crate::failure::Failure;
+use crate::uncaged::folded;
 
 /// Friction coefficient of balls and grooves.
 pub const FRICTION: f64 = 0.1;
@@ -153,24 +156,34 @@ static SCREW_DEVIATION: DeviationMap = match DeviationMap::from_harmonics(
 
 /// The screw of Section 3.4.4 in the loop, its 37 balls or as many as are asked for at the same occupation.
 pub fn whole_screw<const N: usize>() -> Result<FrictionModel<UncagedBallScrew<N>>, Failure> {
-    FrictionModel::new(&UncagedBallScrewConfiguration {
-        design: ball_screw()?,
-        friction: FRICTION as f32,
+    let fold = UncagedFold::of(UncagedDesign {
+        gear: CagedDesign {
+            design: ball_screw()?,
+            friction: FRICTION as f32,
+            rolling_resistance: RollingResistance::NONE,
+            clearance: Clearance::ZERO,
+            loaded_balls: 1,
+            reversal_speed: 1e-3,
+            limits: Limits {
+                nut_speed: 20.0,
+                axial_load: 1e5,
+                friction_torque: 100.0,
+            },
+        },
+        // That of the screw; the nut has none, and counts with the least that is folded for.
+        deviations: [0.0402, 1e-4],
+    });
+    let Folded::One(folded) = folded(&fold)? else {
+        return Err(Failure::Data("one friction coefficient is one node".into()));
+    };
+    Ok(FrictionModel::new(&UncagedBallScrewConfiguration {
+        folded,
         ball_friction: FRICTION as f32,
-        rolling_resistance: RollingResistance::NONE,
-        clearance: Clearance::ZERO,
         turns: (2.0 * N as f32 / 37.0).max(0.11),
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,
         nut_deviation: &DeviationMap::NONE,
         load_shares: LoadShares::EVEN,
-        reversal_speed: 1e-3,
         tick: 1e-3,
-        limits: Limits {
-            nut_speed: 20.0,
-            axial_load: 1e5,
-            friction_torque: 100.0,
-        },
-    })
-    .map_err(|error| Failure::Data(error.to_string()))
+    })?)
 }

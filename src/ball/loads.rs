@@ -5,7 +5,7 @@ use crate::ranges;
 
 /// A load above zero and up to 1e7 N as it is; anything else, NaN included, is none.
 #[inline]
-pub(crate) fn loaded(load: f32) -> f32 {
+pub(crate) const fn loaded(load: f32) -> f32 {
     // Positive numbers are in the order of their bits, everything else is larger: one comparison.
     let bits = load.to_bits();
     f32::from_bits(if bits <= ranges::LOAD.maximum.to_bits() {

@@ -10,7 +10,7 @@
 //! Each is a flank of the nut with its axial forces (caged ball screw), or a diagonal of a ball with its contact
 //! forces (row of balls).
 
-use crate::math;
+use crate::math::constant;
 
 /// Load over preload at which the unloaded side loses contact: `2^(3/2)`.
 pub(crate) const LOST: f32 = 2.828_427_1;
@@ -117,10 +117,10 @@ impl Preload {
 
     /// The larger force, N, under a load not below 0, N: within 9e-4 of the preload.
     #[inline]
-    pub(crate) fn larger(&self, load: f32) -> f32 {
+    pub(crate) const fn larger(&self, load: f32) -> f32 {
         if load < LOST * self.force {
             let plus = 1.0 + closing(load * self.per_three);
-            self.force * (plus * math::sqrt(plus))
+            self.force * (plus * constant::sqrt(plus))
         } else {
             load
         }
@@ -131,12 +131,12 @@ impl Preload {
     /// Both follow from one displacement `x` over the preload's deflection, `F_0 (1 + x)^(3/2)` and
     /// `F_0 (1 - x)^(3/2)`.
     #[inline]
-    pub(crate) fn both(&self, load: f32) -> (f32, f32) {
+    pub(crate) const fn both(&self, load: f32) -> (f32, f32) {
         if load < LOST * self.force {
             let third = load * self.per_three;
             let x = closing(third);
             let (plus, minus) = (1.0 + x, not_negative(1.0 - x));
-            let (up, down) = (math::sqrt(plus), math::sqrt(minus));
+            let (up, down) = (constant::sqrt(plus), constant::sqrt(minus));
             // A step of Newton's method, with the slopes of both powers for their change.
             let excess = plus * up - minus * down - 3.0 * third;
             let step = excess / (up + down);
@@ -152,7 +152,7 @@ impl Preload {
 /// `x` where `((1 + x)^(3/2) - (1 - x)^(3/2))/3` is `t`, for `x` in 0 to 1, within 4.3e-4: the series
 /// `t (1 + t²/24 + ...)` with minimax coefficients, made again in `host-tests/tests/generators/preload.rs`.
 #[inline]
-fn closing(third: f32) -> f32 {
+const fn closing(third: f32) -> f32 {
     let [c1, c2, c3] = CLOSING;
     let square = third * third;
     third * (1.0 + square * (c1 + square * (c2 + square * c3)))

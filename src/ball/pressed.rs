@@ -98,7 +98,7 @@ pub struct BallNode {
 /// `F_0` of its preload; between two friction coefficients linear in their octaves. Below the first knot and above the last one impedance and
 /// torque are in proportion to `W`.
 ///
-/// Accuracy: that of the block's certificate. Cost: a step of [`PressedScrew`](crate::scene::PressedScrew) evaluates it for every ball.
+/// Accuracy: that of the block's certificate. Cost: part of [`STEP_UNCAGED`](crate::promises::STEP_UNCAGED).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallLaw<const NODES: usize> {
@@ -123,6 +123,16 @@ pub struct FreeMotion {
 }
 
 impl BallNumbers {
+    /// All zero.
+    pub const NONE: Self = Self {
+        free: [0.0; POWERS],
+        impedance: [0.0; 3],
+        torque: [0.0; POWERS],
+        slope: 0.0,
+        grip: 0.0,
+        rubbing: 0.0,
+    };
+
     /// These numbers, and a share of the way to others.
     #[inline(always)]
     fn towards(&self, others: &Self, share: f32) -> Self {

@@ -1,5 +1,5 @@
 //! The ball of a ball screw in closed form: a third contact, slip across the track, and what follows from them. No step runs
-//! it: [`elastic`](super::elastic) is the ball of both scenes.
+//! it: both ball screws run laws that a host has folded.
 //!
 //! | file | what | runs in |
 //! |---|---|---|

@@ -110,30 +110,19 @@ impl AcrossTable {
     }
 
     /// The contact where the spin gives the end of the major axis the speed `end_speed = a |w|`, m.
-    #[inline(never)]
-    pub(crate) fn at(&self, end_speed: f32) -> Across {
+    pub(crate) const fn at(&self, end_speed: f32) -> Across {
         let whole = end_speed + self.slip;
         let place = end_speed / whole * CELLS as f32;
         let cell = place as usize;
         let cell = if cell < CELLS { cell } else { CELLS - 1 };
         let x = place - cell as f32;
-        let (Some(&[drag, drag_slope, compliance, compliance_slope]), Some(&next)) =
-            (self.nodes.get(cell), self.nodes.get(cell + 1))
-        else {
-            return Across {
-                drag: 0.0,
-                compliance: 0.0,
-                share: 0.0,
-                drag_growth: 0.0,
-                compliance_growth: 0.0,
-            };
-        };
+        let [drag, drag_slope, compliance, compliance_slope] = self.nodes[cell];
         let [
             next_drag,
             next_drag_slope,
             next_compliance,
             next_compliance_slope,
-        ] = next;
+        ] = self.nodes[cell + 1];
         let (drag, drag_slope) = cubic(x, [drag, drag_slope], [next_drag, next_drag_slope]);
         let (compliance, compliance_slope) = cubic(
             x,
@@ -153,7 +142,7 @@ impl AcrossTable {
 
 /// Value and slope of the cubic with given values and slopes at 0 and 1.
 #[inline(always)]
-fn cubic(x: f32, [here, slope]: [f32; 2], [there, slope_there]: [f32; 2]) -> (f32, f32) {
+const fn cubic(x: f32, [here, slope]: [f32; 2], [there, slope_there]: [f32; 2]) -> (f32, f32) {
     let rise = there - here;
     let third = (slope - rise) + (slope_there - rise);
     let second = (rise - slope) - third;

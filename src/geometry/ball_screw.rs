@@ -242,11 +242,6 @@ impl BallScrew {
         self.parameters.pitch_radius / self.cos_lead_angle()
     }
 
-    /// The same in ball radii.
-    pub(crate) const fn path_in_ball_radii(&self) -> f32 {
-        self.parameters.pitch_radius / (self.cos_lead_angle() * self.parameters.ball_radius)
-    }
-
     /// Axial travel over the angle of a turn, `lead / 2 pi`, m (Lin 2019, eqs. (2.2), (3.55)): torque over the axial load that it holds without friction.
     #[inline]
     #[must_use]

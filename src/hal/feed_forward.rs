@@ -10,7 +10,7 @@ use crate::scene::{Faults, Outputs, UncagedOutputs};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FaultReaction {
-    /// Any fault ([`Faults::faulty`]): neutral. Those of [`Faults::ACCURACY`] are none: their torque is the best
+    /// Any fault ([`Faults::faulty`]): neutral. [`Faults::BEYOND_MODEL`] is none: its torque is the best
     /// estimate, and stays.
     #[default]
     NeutralOnAnyFault,
@@ -166,7 +166,7 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
         const PASSES: u16 = Faults::SPEED_RANGE.bits()
             | Faults::LOAD_RANGE.bits()
             | Faults::FRICTION_LIMIT.bits()
-            | Faults::ACCURACY.bits();
+            | Faults::BEYOND_MODEL.bits();
         match self.reaction {
             FaultReaction::NeutralOnAnyFault => faults.faulty(),
             FaultReaction::LimitedValuesPass => faults.bits() & !PASSES != 0,

@@ -15,7 +15,7 @@ pub(crate) const PARABOLA: [f32; 3] = [1.743_091_7, 1.224_815, 0.490_906_86];
 /// no division; contact forces are never known to five digits. Two at once, operation by operation: a core without
 /// reordering waits a cycle where an operation needs the result of the one before.
 #[inline]
-pub(crate) fn inverse_cube_roots(x: [f32; 2]) -> [f32; 2] {
+pub(crate) const fn inverse_cube_roots(x: [f32; 2]) -> [f32; 2] {
     let [p0, p1, p2] = PARABOLA;
     let [p, q] = x;
     // Wraps only for negative numbers below -2.8e37 and negative NaN, which have no meaning here.

@@ -7,9 +7,8 @@ use crate::error::Error;
 use crate::law::motion::NutAngle;
 use crate::law::{Elements, FrictionLevel};
 use crate::scene::{
-    CoefficientFor, Faults, Inputs, LinearBearingTrain, LinearConstants, LinearInputs,
-    PressedConstants, PressedScrew, Sliding, UncagedBallScrew, UncagedConstants, WithMemory,
-    WithMemoryConstants,
+    CoefficientFor, Faults, Inputs, LinearBearingTrain, LinearConstants, LinearInputs, Sliding,
+    UncagedBallScrew, UncagedConstants, WithMemory, WithMemoryConstants,
 };
 
 impl<S, E, A, L, C> FrictionModel<WithMemory<S, E, A, L>, C>
@@ -58,30 +57,13 @@ where
     }
 }
 
-impl<const N: usize, E, A, L, C> FrictionModel<WithMemory<UncagedBallScrew<N>, E, A, L>, C>
-where
-    E: Elements + Copy,
-    A: NutAngle + Copy,
-    L: CoefficientFor<Inputs>,
-    C: Borrow<WithMemoryConstants<UncagedConstants<N>, E, A, L>>,
-{
-    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted, as without memory: that of
-    /// the last reading.
-    pub fn set_nut_angle(&mut self, angle: f32) {
-        let scene = self.constants.borrow().scene();
-        // The next step takes the balls on by the turns since the last one.
-        let at_last_step = angle - self.state.remembered.moved();
-        scene.set_nut_angle(&mut self.state.scene, at_last_step);
-    }
-}
-
 impl<const N: usize, const NODES: usize, E, A, L, C>
-    FrictionModel<WithMemory<PressedScrew<N, NODES>, E, A, L>, C>
+    FrictionModel<WithMemory<UncagedBallScrew<N, NODES>, E, A, L>, C>
 where
     E: Elements + Copy,
     A: NutAngle + Copy,
     L: CoefficientFor<Inputs>,
-    C: Borrow<WithMemoryConstants<PressedConstants<N, NODES>, E, A, L>>,
+    C: Borrow<WithMemoryConstants<UncagedConstants<N, NODES>, E, A, L>>,
 {
     /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted, as without memory: that of
     /// the last reading.

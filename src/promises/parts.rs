@@ -43,7 +43,7 @@ pub const ANALYTIC_BALL: Promise = Promise {
     counted: &["linear_ball_speed"],
 };
 
-/// [`DeviationMap::at`](crate::DeviationMap::at): a step looks the same table up in integers, at places that it renews.
+/// [`DeviationMap::at`](crate::DeviationMap::at): a step looks the same table up in integers, at the place of each ball.
 pub const DEVIATION_MAP: Promise = Promise {
     function: "DeviationMap::at",
     domain: "one wave in a period",

@@ -87,26 +87,46 @@ pub const BETWEEN_CAGED: Promise = Promise {
     ..STEP_CAGED_MEMORY
 };
 
-/// [`FrictionModel::step`](crate::FrictionModel::step) of an [`UncagedBallScrew`](crate::UncagedBallScrew): one
-/// [`ElasticGrooves::renew`](crate::ball::elastic::ElasticGrooves::renew), for which the deviations of both grooves at one place are
-/// looked up in integers; at a reversal or a jump of the load one
-/// [`ElasticGrooves::start`](crate::ball::elastic::ElasticGrooves::start) in its place; speed and impedance of every ball, and the
-/// forces between them (`Train::intake`, `Intake::press`).
-///
-/// A renewal that is cut short solves its equations twice, and hardly a counted step has one: cycles are 600 above the most
-/// that was counted. Errors of other screws and loads stand in the report's table `whole_screws`.
+/// [`FrictionModel::step`](crate::FrictionModel::step) of an [`UncagedBallScrew`](crate::UncagedBallScrew) whose balls all carry the same
+/// load: the numbers of a ball at this load once ([`BallLaw::numbers`](crate::ball::pressed::BallLaw::numbers)), for every ball the deviations
+/// of both grooves in integers and three polynomials of them ([`BallNumbers::at`](crate::ball::pressed::BallNumbers::at)), and the forces
+/// between the balls (`Train::intake`, `Intake::press_rubbing`).
 pub const STEP_UNCAGED: Promise = Promise {
     function: "UncagedBallScrew: step",
-    domain: "screw of Lin 2019, Section 3.4.4, without gap, friction 0.05 to 0.15, 1500 N on 37 balls that fill two turns, 1 turn/s, screw's deviations of 2 to 3 deg twice a turn; cycles for 37 balls",
-    error: "friction torque over its mean",
-    largest: 0.16,
-    rms: 1.4e-2,
-    mean: 1e-3,
-    outside: "beyond a limit: the limit, flagged; balls in two contacts flagged, if for long until all have passed the return",
+    domain: "lin-3.6, deviations to 1 and 0.5 deg, friction between balls 0 and 0.1, 10 to 300 N a ball, ticks of 1 ms in which no balls meet; cycles for 37 balls",
+    error: "friction torque, relative",
+    largest: 2e-2,
+    rms: 4e-3,
+    mean: 1.2e-3,
+    outside: "beyond a limit: the limit, flagged; loads above the block's, and those under which it holds no forces, flagged",
     not_finite: "no torque, flagged; balls stay where they are",
-    tiny: "no torque at standstill; loads to 1e-3 N a ball as 1e-3 N",
-    cycles: 14_100,
+    tiny: "no torque at standstill; without load that of the preload",
+    cycles: 9_000,
     counted: &["step_train_37", "step_train_37_pressing"],
+};
+
+/// The same where a friction coefficient lies between two nodes: the numbers of both.
+pub const STEP_UNCAGED_RANGE: Promise = Promise {
+    function: "UncagedBallScrew: step, between two nodes",
+    domain: "as with one coefficient, 0.075 to 0.15; cycles for 37 balls",
+    largest: 2.5e-2,
+    rms: 7e-3,
+    mean: 2e-3,
+    cycles: 9_500,
+    counted: &["step_train_37_range"],
+    ..STEP_UNCAGED
+};
+
+/// The same with a load of its own for each ball: its place among the knots too.
+pub const STEP_UNCAGED_SHARES: Promise = Promise {
+    function: "UncagedBallScrew: step, own loads",
+    domain: "as with even loads, shares 0.7 to 1.4; cycles for 37 balls",
+    largest: 7e-2,
+    rms: 1e-2,
+    mean: 3e-3,
+    cycles: 18_000,
+    counted: &["step_train_37_shares"],
+    ..STEP_UNCAGED
 };
 
 /// [`FrictionModel::step`](crate::FrictionModel::step) of an [`UncagedBallScrew`](crate::UncagedBallScrew)
@@ -115,10 +135,13 @@ pub const STEP_UNCAGED: Promise = Promise {
 pub const STEP_UNCAGED_MEMORY: Promise = Promise {
     function: "WithMemory<UncagedBallScrew>: step",
     domain: "as without memory, in steady sliding; one friction coefficient, or by a law; cycles for 37 balls",
-    outside: "beyond a limit: the limit, flagged; balls in two contacts flagged, if for long until all have passed the return; old loads fade, flagged",
+    largest: 5e-3,
+    rms: 2e-3,
+    mean: 1.2e-3,
+    outside: "beyond a limit: the limit, flagged; loads above the block's, and those under which it holds no forces, flagged; old loads fade, flagged",
     not_finite: "the last sound inputs, friction within their limits, flagged",
-    tiny: "no turn: friction stays; loads to 1e-3 N a ball as 1e-3 N",
-    cycles: 14_600,
+    tiny: "no turn: friction stays; without load that of the preload",
+    cycles: 10_000,
     counted: &[
         "step_train_37_memory",
         "step_train_37_memory_pressing",
@@ -171,37 +194,4 @@ pub const BETWEEN_LINEAR: Promise = Promise {
     cycles: 380,
     counted: &["between_linear"],
     ..STEP_LINEAR_MEMORY
-};
-
-/// [`ElasticGrooves::renew`](crate::ball::elastic::ElasticGrooves::renew): one Newton step of a ball's place and motion; errors are
-/// those of balls that have settled. It contains friction of up to four contacts (`LoopSlipMap::at`, with pairs of square roots), the
-/// solution of seven equations, and inverse cube roots of the load.
-pub const SCREW_RENEWAL: Promise = Promise {
-    function: "ElasticGrooves::renew",
-    domain: "balls of catalogue screws in three or four contacts, 5 to 300 N, friction 0.05 to 0.15, clearance within 5 um, deviations to 3 deg",
-    error: "speed over the span of free speeds",
-    largest: 7e-2,
-    rms: 6e-3,
-    mean: 4e-4,
-    outside: "two contacts: 0.25, and it says so; a lost ball stays as it was, and it says so",
-    not_finite: "a lost ball",
-    tiny: "loads to 1e-3 N",
-    cycles: 5800,
-    counted: &["ball_screw_renewal"],
-};
-
-/// [`ElasticGrooves::start`](crate::ball::elastic::ElasticGrooves::start): a ball's place and motion from nothing, at a start, a
-/// reversal, or a jump of the load. Its motion is a nominal ball's, which deviations do not turn, and its place is not in balance
-/// yet: it is what renewals begin with, and nothing is put out before them. Errors are those after the first renewal; after 60 they
-/// are those of [`SCREW_RENEWAL`], and [`Faults::SETTLING`](crate::Faults::SETTLING) stands until friction rests.
-pub const SCREW_START: Promise = Promise {
-    function: "ElasticGrooves::start",
-    error: "speed over the span of free speeds, after one renewal",
-    largest: 2.1,
-    rms: 0.42,
-    mean: 0.12,
-    outside: "always a place that is finite",
-    cycles: 3100,
-    counted: &["ball_screw_start"],
-    ..SCREW_RENEWAL
 };

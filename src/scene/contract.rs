@@ -37,8 +37,7 @@ pub trait Scene {
         *state = Self::initial_state(constants);
     }
 
-    /// Makes a state that other constants left go on under these: balls and memory stay, friction is flagged
-    /// [`Faults::SETTLING`] where it has to settle.
+    /// Makes a state that other constants left go on under these: balls and memory stay.
     ///
     /// # Errors
     /// [`Error`] naming what does not fit to the state, which then is as it was.

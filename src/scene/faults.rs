@@ -2,8 +2,8 @@
 
 /// What was wrong with a tick's inputs, limited in its outputs, or beyond the model; a set of flags.
 ///
-/// [`Faults::BEYOND_MODEL`] and [`Faults::SETTLING`] speak of accuracy alone: inputs and outputs are sound, and the
-/// friction is the best estimate. They are in [`Faults::any`], and are not [`Faults::faulty`].
+/// [`Faults::BEYOND_MODEL`] speaks of accuracy alone: inputs and outputs are sound, and the friction is the best estimate. It is in
+/// [`Faults::any`], and is not [`Faults::faulty`].
 ///
 /// ```
 /// use epas_friction::Faults;
@@ -33,9 +33,6 @@ impl Faults {
     /// The mechanism is where its formulas leave the accuracy that they promise. What is put out is the best estimate, finite
     /// and continuous: not the safe output, and no reason to take the friction away. Where this begins stands with the scene.
     pub const BEYOND_MODEL: Self = Self(1 << 5);
-    /// Balls still settle after a start, a reversal, or a jump of the load, of friction or of the clearance: friction and
-    /// forces between balls are estimates for some milliseconds.
-    pub const SETTLING: Self = Self(1 << 6);
     /// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
     pub const ANGLE_NOT_VALID: Self = Self(1 << 7);
     /// The temperature is no number, or beyond its range: that of the configuration stands in for it.
@@ -44,8 +41,6 @@ impl Faults {
     pub const LOAD_STALE: Self = Self(1 << 9);
     /// A temperature is older than it may be: that of the configuration stands in for it.
     pub const TEMPERATURE_STALE: Self = Self(1 << 10);
-    /// The flags that speak of accuracy alone.
-    pub const ACCURACY: Self = Self(Self::BEYOND_MODEL.0 | Self::SETTLING.0);
 
     /// True where any flag is set.
     #[inline]
@@ -54,12 +49,12 @@ impl Faults {
         self.0 != 0
     }
 
-    /// True where an input was wrong or an output was limited: any flag but those of
-    /// [`Faults::ACCURACY`].
+    /// True where an input was wrong or an output was limited: any flag but
+    /// [`Faults::BEYOND_MODEL`].
     #[inline]
     #[must_use]
     pub const fn faulty(self) -> bool {
-        self.0 & !Self::ACCURACY.0 != 0
+        self.0 & !Self::BEYOND_MODEL.0 != 0
     }
 
     /// True where every flag of `other` is set.
@@ -155,9 +150,7 @@ mod tests {
 
     #[test]
     fn accuracy_is_no_fault() {
-        for flag in [Faults::BEYOND_MODEL, Faults::SETTLING] {
-            assert!(flag.any() && !flag.faulty() && Faults::ACCURACY.contains(flag));
-        }
+        assert!(Faults::BEYOND_MODEL.any() && !Faults::BEYOND_MODEL.faulty());
         assert!((Faults::BEYOND_MODEL | Faults::LOAD_RANGE).faulty());
         assert!(Faults::LOAD_RANGE.faulty() && !Faults::NONE.faulty());
     }

@@ -9,12 +9,10 @@ mod stored;
 
 use core::marker::PhantomData;
 
-use super::changing::ChangingClearance;
 use super::contract::{Admitted, Scene, SceneOutputs};
 use super::faults::Faults;
 use super::passage::{Motion, Passage, way};
 use super::sliding::Sliding;
-use crate::ball::Clearance;
 use crate::error::{Error, attempt, in_range};
 use crate::law::Elements;
 use crate::law::coefficient::{CoefficientLaw, CoefficientModel, TemperatureFade};
@@ -206,22 +204,6 @@ where
     #[inline(always)]
     fn largest_friction(constants: &Self::Constants) -> f32 {
         S::largest_friction(&constants.scene)
-    }
-}
-
-impl<S, E, A, L> ChangingClearance for WithMemory<S, E, A, L>
-where
-    S: Sliding<Constants: Copy> + ChangingClearance,
-    E: Elements + Copy,
-    A: NutAngle + Copy,
-    L: CoefficientFor<<S as Scene>::Inputs>,
-{
-    fn set_clearance(
-        constants: &WithMemoryConstants<S::Constants, E, A, L>,
-        state: &mut WithMemoryState<S, E, A, L>,
-        clearance: Clearance,
-    ) -> Result<(), Error> {
-        S::set_clearance(&constants.scene, &mut state.scene, clearance)
     }
 }
 

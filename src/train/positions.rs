@@ -130,21 +130,6 @@ impl<const N: usize> Train<N> {
         })
     }
 
-    /// Position of one ball; 0 of one that is none.
-    #[inline(always)]
-    pub(crate) fn position(&self, ball: usize) -> u32 {
-        self.press.balls.get(ball).map_or(0, Ball::position)
-    }
-
-    /// Forces between a ball and the one behind it, and between it and the one in front, in the unit of speed times
-    /// impedance.
-    #[inline(always)]
-    pub(crate) fn forces_on(&self, ball: usize) -> [f32; 2] {
-        let force = |ball: usize| self.press.balls.get(ball).map_or(0.0, Ball::force);
-        let behind = ball.wrapping_sub(1);
-        [force(if behind < N { behind } else { N - 1 }), force(ball)]
-    }
-
     /// Force between each ball and the one in front of it, in the unit of speed times impedance; the last
     /// one acts between the last ball and the first.
     #[inline]

@@ -9,12 +9,13 @@ static epas_caged_t caged;
 static epas_caged_range_t caged_range;
 static epas_memory_t memory;
 static epas_screw_t screw;
+static epas_screw_range_t screw_range;
 static epas_linear_t linear;
 
 /* ---- Stack ------------------------------------------------------------------------------------------- */
 
 #define PAINT 0x5AFE5AFEu
-#define PAINTED_WORDS 8192u
+#define PAINTED_WORDS 10240u
 
 /* Bytes of stack that a step may take. */
 #define STEP_STACK 640u
@@ -26,7 +27,11 @@ static const epas_linear_inputs_t linear_inputs = {0.3f, 2000.0f, 700.0f};
 static void set_up_caged(void) { (void)test_setup_caged(&caged); }
 static void set_up_caged_range(void) { (void)test_setup_caged_range(&caged_range); }
 static void set_up_memory(void) { (void)test_setup_memory(&memory); }
+static void set_up_ball(void) { (void)test_setup_ball(); }
+static void set_up_ball_range(void) { (void)test_setup_ball_range(); }
 static void set_up_screw(void) { (void)test_setup_screw(&screw); }
+static void set_up_screw_alone(void) { (void)epas_screw_init(&screw, &test_screw_configuration, NULL); }
+static void set_up_screw_range(void) { (void)epas_screw_range_init(&screw_range, &test_screw_range_configuration, NULL); }
 static void set_up_linear(void) { (void)test_setup_linear(&linear); }
 
 static epas_outputs_t outputs;
@@ -39,6 +44,8 @@ static void swap_caged_range(void) { (void)epas_caged_range_swap(&caged_range, &
 static void step_memory(void) { (void)epas_memory_step(&memory, &memory_inputs, &outputs); }
 static void between_memory(void) { (void)epas_memory_between(&memory, 103u, &outputs); }
 static void step_screw(void) { (void)epas_screw_step(&screw, &inputs, &screw_outputs); }
+static void step_screw_range(void) { (void)epas_screw_range_step(&screw_range, &inputs, &screw_outputs); }
+static void swap_screw_range(void) { (void)epas_screw_range_swap(&screw_range, &test_screw_range_configuration, NULL); }
 static void step_linear(void) { (void)epas_linear_step(&linear, &linear_inputs, &linear_outputs); }
 
 /* Bytes of stack that a function takes, its caller's return address included. */
@@ -78,13 +85,19 @@ static uint32_t stacks(void)
     wrong += stack_within("epas_caged_range_init", set_up_caged_range, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_caged_range_swap", swap_caged_range, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_memory_init", set_up_memory, (4u * PAINTED_WORDS) - 4u);
+    wrong += stack_within("epas_folded_ball_init", set_up_ball, (4u * PAINTED_WORDS) - 4u);
+    wrong += stack_within("epas_folded_ball_range_init", set_up_ball_range, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_screw_init with its tables", set_up_screw, (4u * PAINTED_WORDS) - 4u);
+    wrong += stack_within("epas_screw_init", set_up_screw_alone, (4u * PAINTED_WORDS) - 4u);
+    wrong += stack_within("epas_screw_range_init", set_up_screw_range, (4u * PAINTED_WORDS) - 4u);
+    wrong += stack_within("epas_screw_range_swap", swap_screw_range, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_linear_init with its table", set_up_linear, (4u * PAINTED_WORDS) - 4u);
     wrong += stack_within("epas_caged_step", step_caged, STEP_STACK);
     wrong += stack_within("epas_caged_range_step", step_caged_range, STEP_STACK);
     wrong += stack_within("epas_memory_step", step_memory, STEP_STACK);
     wrong += stack_within("epas_memory_between", between_memory, STEP_STACK);
     wrong += stack_within("epas_screw_step", step_screw, STEP_STACK);
+    wrong += stack_within("epas_screw_range_step", step_screw_range, STEP_STACK);
     wrong += stack_within("epas_linear_step", step_linear, STEP_STACK);
     return wrong;
 }

@@ -139,7 +139,7 @@ extern "C" {
 #define EPAS_STATE_DAMAGED 10u
 
 /**
- * The state is of another scene, another number of balls, another design, friction coefficient or clearance.
+ * The state is of another scene, another number of balls or another design; of a linear bearing, or of another friction coefficient.
  */
 #define EPAS_STATE_FOREIGN 11u
 
@@ -164,7 +164,8 @@ extern "C" {
 #define EPAS_BLOCK_LENGTH 15u
 
 /**
- * The block has another number of friction coefficients: one for `epas_caged_t`, a range for `epas_caged_range_t` and `epas_memory_t`.
+ * The block has another number of friction coefficients: one for `epas_caged_t` and `epas_folded_ball_t`, a range for
+ * `epas_caged_range_t`, `epas_memory_t` and `epas_folded_ball_range_t`.
  */
 #define EPAS_BLOCK_NODES 16u
 
@@ -659,9 +660,14 @@ extern "C" {
 #define EPAS_FIELD_TEMPERATURE_FADE 96u
 
 /**
- * The words of a block.
+ * The words of a block, or a number in it.
  */
 #define EPAS_FIELD_BLOCK 97u
+
+/**
+ * `folded`, or a number in it.
+ */
+#define EPAS_FIELD_FOLDED 98u
 
 /**
  * Samples in a period of a deviation.
@@ -682,6 +688,16 @@ extern "C" {
  * Size of `epas_deviation_t` in words of four bytes.
  */
 #define EPAS_DEVIATION_WORDS 67
+
+/**
+ * Size of `epas_folded_ball_t` in words of four bytes.
+ */
+#define EPAS_FOLDED_BALL_WORDS 1296
+
+/**
+ * Size of `epas_folded_ball_range_t` in words of four bytes.
+ */
+#define EPAS_FOLDED_BALL_RANGE_WORDS 3862
 
 /**
  * Bytes of a state of an adaptation.
@@ -756,12 +772,6 @@ extern "C" {
 #define EPAS_FAULT_BEYOND_MODEL 32u
 
 /**
- * Balls still settle after a start, a reversal, or a jump of the load by a factor of three: forces between them are
- * estimates for some milliseconds. No fault of the inputs, either.
- */
-#define EPAS_FAULT_SETTLING 64u
-
-/**
  * A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
  */
 #define EPAS_FAULT_ANGLE_NOT_VALID 128u
@@ -832,20 +842,35 @@ extern "C" {
 #define EPAS_MEMORY_WORDS 261
 
 /**
- * Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library
+ * Balls in the circuit of `epas_screw_t` and `epas_screw_range_t`, return included. A screw with another number needs the library
  * built with that number.
  */
 #define EPAS_SCREW_BALLS 37
 
 /**
- * Bytes of a state of this scene, as `epas_screw_export` writes it.
+ * Bytes of a state of `epas_screw_t`, as `epas_screw_export` writes it.
  */
-#define EPAS_SCREW_STATE_BYTES 1794u
+#define EPAS_SCREW_STATE_BYTES 370u
 
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 380
+#define EPAS_SCREW_WORDS 157
+
+/**
+ * Friction coefficients of a folded ball for a range of them.
+ */
+#define EPAS_SCREW_RANGE_NODES 3
+
+/**
+ * Bytes of a state of `epas_screw_range_t`, as `epas_screw_range_export` writes it.
+ */
+#define EPAS_SCREW_RANGE_STATE_BYTES 370u
+
+/**
+ * Size of `epas_screw_range_t` in words of eight bytes.
+ */
+#define EPAS_SCREW_RANGE_WORDS 158
 
 /**
  * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
@@ -865,9 +890,9 @@ extern "C" {
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
- * whenever a structure, a function or what a place holds changes.
+ * whenever a structure, a function or what a place holds changes. From version 9 on `epas_screw_t` is set up of a folded block.
  */
-#define EPAS_ABI_VERSION 8u
+#define EPAS_ABI_VERSION 9u
 
 /**
  * Place for the constants and the state of an adaptation; as `epas_caged_t`.
@@ -1095,7 +1120,7 @@ typedef struct epas_memory_t {
 
 /**
  * A ball screw that was folded on a host: the words that `epas-bench design` writes into a header, or those of a calibration page. They are
- * read while a model is made or swapped, and need not stay.
+ * read while a model is made or swapped, or a folded ball is decoded, and need not stay.
  */
 typedef struct epas_block_t {
     /**
@@ -1479,7 +1504,7 @@ typedef struct epas_closed_form_configuration_t {
 } epas_closed_form_configuration_t;
 
 /**
- * Place for the constants and the state of a ball screw whose balls press on each other; as
+ * Place for the constants and the state of a ball screw whose balls press on each other, with one friction coefficient; as
  * `epas_caged_t`.
  */
 typedef struct epas_screw_t {
@@ -1488,6 +1513,18 @@ typedef struct epas_screw_t {
      */
     uint64_t words[EPAS_SCREW_WORDS];
 } epas_screw_t;
+
+/**
+ * Place for a block of a ball screw without cage, decoded, for one friction coefficient. `epas_folded_ball_init` decodes it. The
+ * caller provides it, and leaves it where and as it is for as long as a model is used that was given it: a model reads it in every
+ * step. Models may share it.
+ */
+typedef struct epas_folded_ball_t {
+    /**
+     * Not for the caller.
+     */
+    uint32_t words[EPAS_FOLDED_BALL_WORDS];
+} epas_folded_ball_t;
 
 /**
  * Place for the deviation of a groove's contact angles, periodic along the track: where it is positive the
@@ -1512,34 +1549,13 @@ typedef struct epas_load_share_t {
 } epas_load_share_t;
 
 /**
- * What the engineer sets for a ball screw whose balls press on each other.
+ * The circuit of a ball screw whose balls press on each other.
  */
-typedef struct epas_screw_configuration_t {
-    /**
-     * The design; contact angle 0.05 to 1.5 rad.
-     */
-    struct epas_ball_screw_t design;
-    /**
-     * Coulomb friction coefficient of ball and groove, 1e-6 to 0.5.
-     */
-    float friction;
+typedef struct epas_screw_circuit_t {
     /**
      * Coulomb friction coefficient of ball and ball, 0 to 1.
      */
     float ball_friction;
-    /**
-     * Share of the elastic energy that is lost while a contact passes, 0 to 0.2; hardened steel 0.01.
-     */
-    float hysteresis_loss;
-    /**
-     * Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 for none.
-     */
-    float lubricant_drag;
-    /**
-     * Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
-     * 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play.
-     */
-    float clearance;
     /**
      * Turns of the loaded track, 0.1 to 100.
      */
@@ -1549,8 +1565,8 @@ typedef struct epas_screw_configuration_t {
      */
     float return_length;
     /**
-     * Deviation of the contact angles along the screw's groove, or NULL for none. It has to stay where and
-     * as it is for as long as the model is used.
+     * Deviation of the contact angles along the screw's groove, at most the largest that was folded, or NULL for none. It has to stay
+     * where and as it is for as long as the model is used.
      */
     const struct epas_deviation_t *screw_deviation;
     /**
@@ -1568,18 +1584,25 @@ typedef struct epas_screw_configuration_t {
      */
     uint32_t load_share_count;
     /**
-     * Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3.
-     */
-    float reversal_speed;
-    /**
      * Time between two steps, s, 1e-6 to 1; at the largest nut speed the balls may move by 3 % of the track
      * in it.
      */
     float tick;
+} epas_screw_circuit_t;
+
+/**
+ * What the engineer sets for a ball screw whose balls press on each other, with one friction coefficient.
+ */
+typedef struct epas_screw_configuration_t {
     /**
-     * Bounds that are kept whatever comes in.
+     * What a host has folded: the gear, its friction coefficient, reversal speed and limits. It has to stay where and as it is for as long
+     * as the model is used.
      */
-    struct epas_limits_t limits;
+    const struct epas_folded_ball_t *folded;
+    /**
+     * What is set beside it.
+     */
+    struct epas_screw_circuit_t circuit;
 } epas_screw_configuration_t;
 
 /**
@@ -1620,6 +1643,41 @@ typedef struct epas_screw_outputs_t {
      */
     uint32_t faults;
 } epas_screw_outputs_t;
+
+/**
+ * Place for the constants and the state of a ball screw whose balls press on each other and whose friction coefficient changes; as
+ * `epas_caged_t`.
+ */
+typedef struct epas_screw_range_t {
+    /**
+     * Not for the caller. Its type gives the place its alignment.
+     */
+    uint64_t words[EPAS_SCREW_RANGE_WORDS];
+} epas_screw_range_t;
+
+/**
+ * Place for a decoded block for a range of friction coefficients; as `epas_folded_ball_t`.
+ */
+typedef struct epas_folded_ball_range_t {
+    /**
+     * Not for the caller.
+     */
+    uint32_t words[EPAS_FOLDED_BALL_RANGE_WORDS];
+} epas_folded_ball_range_t;
+
+/**
+ * The same with a friction coefficient that changes.
+ */
+typedef struct epas_screw_range_configuration_t {
+    /**
+     * What a host has folded; as in `epas_screw_configuration_t`.
+     */
+    const struct epas_folded_ball_range_t *folded;
+    /**
+     * What is set beside it.
+     */
+    struct epas_screw_circuit_t circuit;
+} epas_screw_range_configuration_t;
 
 /**
  * Place for the constants and the state of a linear bearing; as `epas_caged_t`.
@@ -2086,10 +2144,10 @@ uint32_t epas_caged_step(struct epas_caged_t *place,
 uint32_t epas_caged_reset(struct epas_caged_t *place);
 
 /**
- * Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
- * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
+ * Consecutive ticks with a fault; 0 after a sound tick, and after one whose only flag is `EPAS_FAULT_BEYOND_MODEL`.
  */
-uint32_t epas_caged_faulted_ticks(const struct epas_caged_t *place, uint32_t *ticks);
+uint32_t epas_caged_faulted_ticks(const struct epas_caged_t *place,
+                                  uint32_t *ticks);
 
 /**
  * Goes on with another block: of a worn gear, another clearance, another lubricant. The friction coefficient is the block's. Where it is
@@ -2171,8 +2229,8 @@ uint32_t epas_closed_form_swap(struct epas_closed_form_t *place,
                                struct epas_failure_t *failure);
 
 /**
- * Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place. Set-up only. Where it fails, every step is
- * refused until it succeeds. `failure` may be NULL.
+ * Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place, of a folded ball for one friction coefficient. Set-up only. Where it fails,
+ * every step is refused until it succeeds. `failure` may be NULL.
  */
 uint32_t epas_screw_init(struct epas_screw_t *place,
                          const struct epas_screw_configuration_t *configuration,
@@ -2197,25 +2255,61 @@ uint32_t epas_screw_set_nut_angle(struct epas_screw_t *place, float angle);
 uint32_t epas_screw_reset(struct epas_screw_t *place);
 
 /**
- * Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
- * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
+ * Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
  */
 uint32_t epas_screw_faulted_ticks(const struct epas_screw_t *place, uint32_t *ticks);
 
 /**
- * Sets the friction coefficient of ball and groove, 1e-6 to 0.5; as `epas_caged_range_set_friction`. Balls take it over as their
- * turn comes, and a tick takes no longer; where it jumps they settle, flagged `EPAS_FAULT_SETTLING`.
+ * Goes on with another configuration, above all another folded ball: of a worn gear, another clearance, another lubricant. Balls stay where
+ * they are, and the friction coefficient is that of the new folded ball; the old one is not read any more. Where it is refused the model goes
+ * on as it was. `failure` may be NULL. In the task of the step; the next step takes as long as any.
  */
-uint32_t epas_screw_set_friction(struct epas_screw_t *place,
-                                 float friction,
-                                 struct epas_failure_t *failure);
+uint32_t epas_screw_swap(struct epas_screw_t *place,
+                         const struct epas_screw_configuration_t *configuration,
+                         struct epas_failure_t *failure);
 
 /**
- * Sets how balls fit between the grooves, m; as `epas_screw_set_friction`.
+ * Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place, with a friction coefficient that changes; as `epas_screw_init`.
  */
-uint32_t epas_screw_set_clearance(struct epas_screw_t *place,
-                                  float clearance,
-                                  struct epas_failure_t *failure);
+uint32_t epas_screw_range_init(struct epas_screw_range_t *place,
+                               const struct epas_screw_range_configuration_t *configuration,
+                               struct epas_failure_t *failure);
+
+/**
+ * One tick; as `epas_caged_step`.
+ */
+uint32_t epas_screw_range_step(struct epas_screw_range_t *place,
+                               const struct epas_inputs_t *inputs,
+                               struct epas_screw_outputs_t *outputs);
+
+/**
+ * Sets the angle of the nut against the screw, rad; as `epas_screw_set_nut_angle`.
+ */
+uint32_t epas_screw_range_set_nut_angle(struct epas_screw_range_t *place, float angle);
+
+/**
+ * Back to the state before the first tick.
+ */
+uint32_t epas_screw_range_reset(struct epas_screw_range_t *place);
+
+/**
+ * Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
+ */
+uint32_t epas_screw_range_faulted_ticks(const struct epas_screw_range_t *place, uint32_t *ticks);
+
+/**
+ * Goes on with another configuration; as `epas_screw_swap`.
+ */
+uint32_t epas_screw_range_swap(struct epas_screw_range_t *place,
+                               const struct epas_screw_range_configuration_t *configuration,
+                               struct epas_failure_t *failure);
+
+/**
+ * Sets the friction coefficient of ball and groove while the model runs, within the folded range; as `epas_caged_range_set_friction`.
+ */
+uint32_t epas_screw_range_set_friction(struct epas_screw_range_t *place,
+                                       float friction,
+                                       struct epas_failure_t *failure);
 
 /**
  * Makes a linear bearing of `EPAS_LINEAR_BALLS` balls in the place. Set-up only. Where it fails, every step is
@@ -2245,8 +2339,7 @@ uint32_t epas_linear_set_carriage_position(struct epas_linear_t *place,
 uint32_t epas_linear_reset(struct epas_linear_t *place);
 
 /**
- * Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
- * accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
+ * Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
  */
 uint32_t epas_linear_faulted_ticks(const struct epas_linear_t *place, uint32_t *ticks);
 
@@ -2303,6 +2396,16 @@ uint32_t epas_screw_export(const struct epas_screw_t *place, uint8_t *bytes, uin
  * Takes the state of a block over; as `epas_caged_import`.
  */
 uint32_t epas_screw_import(struct epas_screw_t *place, const uint8_t *bytes, uint32_t length);
+
+/**
+ * Writes the state as a block of `EPAS_SCREW_RANGE_STATE_BYTES` bytes; as `epas_caged_export`.
+ */
+uint32_t epas_screw_range_export(const struct epas_screw_range_t *place, uint8_t *bytes, uint32_t length);
+
+/**
+ * Takes the state of a block over; as `epas_caged_import`.
+ */
+uint32_t epas_screw_range_import(struct epas_screw_range_t *place, const uint8_t *bytes, uint32_t length);
 
 /**
  * Writes the state as a block of `EPAS_LINEAR_STATE_BYTES` bytes; as `epas_caged_export`.
@@ -2369,6 +2472,21 @@ uint32_t epas_deviation_from_harmonics(struct epas_deviation_t *place,
 uint32_t epas_deviation_from_samples(struct epas_deviation_t *place,
                                      uint32_t turns,
                                      const float *samples,
+                                     struct epas_failure_t *failure);
+
+/**
+ * Decodes a block of a ball screw without cage, for one friction coefficient: at set-up, or in a task while models run that use other
+ * places. Where it fails, the place holds none. `failure` may be NULL.
+ */
+uint32_t epas_folded_ball_init(struct epas_folded_ball_t *place,
+                               const struct epas_block_t *block,
+                               struct epas_failure_t *failure);
+
+/**
+ * Decodes a block for a range of friction coefficients; as `epas_folded_ball_init`.
+ */
+uint32_t epas_folded_ball_range_init(struct epas_folded_ball_range_t *place,
+                                     const struct epas_block_t *block,
                                      struct epas_failure_t *failure);
 
 /**

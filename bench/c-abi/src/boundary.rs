@@ -2,8 +2,9 @@
 //!
 //! A pointer is checked for NULL and alignment; an object that the library has to have initialised carries
 //! a mark that is checked. What cannot be checked is the caller's: that a pointer points to an object of its
-//! type, that nobody else uses the object during the call, and that tables stay for as long as a model that
-//! was given them.
+//! type, that nobody else uses the object during the call, and that tables (deviations, load shares, folded balls) stay where and as
+//! they are for as long as a model that was given them: a model holds `'static` references to them. The place of a model may be moved
+//! or copied, for nothing points into it.
 
 #![allow(unsafe_code)]
 // What the caller owes stands in the module's documentation, for all functions alike.

@@ -2,19 +2,20 @@
 
 use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 
-use crate::scene::{CScene, TablePointers, Tables, regime, screw_inputs};
+use crate::scene::{CScene, InHeader, Pointers, Tables, regime, screw_inputs};
 use crate::status::{EPAS_FIELD_BLOCK, EPAS_NULL_POINTER, Failure};
+use crate::tables::NoTable;
 use crate::types::{
     Block, CagedPlace, CagedRangePlace, EPAS_CAGED_RANGE_STATE_BYTES, EPAS_CAGED_STATE_BYTES,
     EPAS_FAULT_CALL, EPAS_RANGE_NODES, EPAS_REGIME_STANDING, Inputs, Outputs,
 };
 use crate::version::mark;
 
-/// `epas_caged_t`
-pub(crate) struct Caged;
+/// `epas_caged_t`, and `epas_caged_range_t`.
+pub(crate) struct Caged<const NODES: usize>;
 
 /// `epas_caged_range_t`
-pub(crate) struct CagedRange;
+pub(crate) type CagedRange = Caged<EPAS_RANGE_NODES>;
 
 /// What a refused call puts out.
 pub(crate) const REFUSED: Outputs = Outputs {
@@ -45,55 +46,41 @@ pub(crate) fn outputs(outputs: epas_friction::Outputs) -> Outputs {
     }
 }
 
-impl CScene for Caged {
-    type Scene = CagedBallScrew;
+impl InHeader for Caged<1> {
     type Place = CagedPlace;
     type Configuration = Block;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
 
     const MARK: u32 = mark(1);
     const STATE_BYTES: u32 = EPAS_CAGED_STATE_BYTES;
-    const REFUSED: Outputs = REFUSED;
-
-    fn tables(block: &Block) -> TablePointers {
-        TablePointers::of_block(block)
-    }
-
-    fn configure(_: &Block, tables: Tables) -> Result<CagedBallScrewConfiguration, Failure> {
-        block(&tables)
-    }
-
-    #[inline]
-    fn inputs(inputs: Inputs) -> epas_friction::Inputs {
-        screw_inputs(inputs)
-    }
-
-    #[inline]
-    fn outputs(found: epas_friction::Outputs) -> Outputs {
-        outputs(found)
-    }
 }
 
-impl CScene for CagedRange {
-    type Scene = CagedBallScrew<EPAS_RANGE_NODES>;
+impl InHeader for Caged<EPAS_RANGE_NODES> {
     type Place = CagedRangePlace;
     type Configuration = Block;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
 
     const MARK: u32 = mark(6);
     const STATE_BYTES: u32 = EPAS_CAGED_RANGE_STATE_BYTES;
+}
+
+impl<const NODES: usize> CScene for Caged<NODES>
+where
+    Self: InHeader<Configuration = Block>,
+{
+    type Scene = CagedBallScrew<NODES>;
+    type Folded = NoTable;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
     const REFUSED: Outputs = REFUSED;
 
-    fn tables(block: &Block) -> TablePointers {
-        TablePointers::of_block(block)
+    fn pointers(block: &Block) -> Pointers {
+        Pointers {
+            block: *block,
+            ..Pointers::NONE
+        }
     }
 
-    fn configure(
-        _: &Block,
-        tables: Tables,
-    ) -> Result<CagedBallScrewConfiguration<EPAS_RANGE_NODES>, Failure> {
+    fn configure(_: &Block, tables: Tables) -> Result<CagedBallScrewConfiguration<NODES>, Failure> {
         block(&tables)
     }
 

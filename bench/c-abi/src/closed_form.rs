@@ -4,8 +4,9 @@ use epas_friction::{ClosedFormScrew, ClosedFormScrewConfiguration, FrictionBranc
 
 use crate::caged::{REFUSED, outputs};
 use crate::design::{ball_screw, clearance, loaded_balls};
-use crate::scene::{CScene, TablePointers, Tables, limits, screw_inputs};
+use crate::scene::{CScene, InHeader, Pointers, Tables, limits, screw_inputs};
 use crate::status::{EPAS_FIELD_BRANCH, Failure};
+use crate::tables::NoTable;
 use crate::types::{
     ClosedFormConfiguration, ClosedFormPlace, EPAS_BRANCH_ROLLING, EPAS_BRANCH_SLIDING,
     EPAS_CLOSED_FORM_STATE_BYTES, Inputs, Outputs,
@@ -15,19 +16,24 @@ use crate::version::mark;
 /// `epas_closed_form_t`
 pub(crate) struct ClosedForm;
 
-impl CScene for ClosedForm {
-    type Scene = ClosedFormScrew;
+impl InHeader for ClosedForm {
     type Place = ClosedFormPlace;
     type Configuration = ClosedFormConfiguration;
-    type Inputs = Inputs;
-    type Outputs = Outputs;
 
     const MARK: u32 = mark(7);
     const STATE_BYTES: u32 = EPAS_CLOSED_FORM_STATE_BYTES;
+}
+
+impl CScene for ClosedForm {
+    type Scene = ClosedFormScrew;
+    type Folded = NoTable;
+    type Inputs = Inputs;
+    type Outputs = Outputs;
+
     const REFUSED: Outputs = REFUSED;
 
-    fn tables(_: &ClosedFormConfiguration) -> TablePointers {
-        TablePointers::NONE
+    fn pointers(_: &ClosedFormConfiguration) -> Pointers {
+        Pointers::NONE
     }
 
     fn configure(

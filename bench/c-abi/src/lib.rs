@@ -7,7 +7,8 @@
 //! # A further scene
 //!
 //! 1. `types.rs`: its configuration, outputs and the place for its state.
-//! 2. A file like `caged.rs`: `impl CScene`, which translates configuration, inputs and outputs.
+//! 2. A file like `caged.rs`: `impl InHeader`, which says what of it the header has, and `impl CScene`, which translates configuration, inputs
+//!    and outputs.
 //! 3. `boundary/scenes.rs`: its exported functions, each one line that calls the generic one.
 //!
 //! `cargo run -p epas-c-check -- --write` then writes the header.

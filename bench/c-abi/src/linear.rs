@@ -3,8 +3,9 @@
 use epas_friction::{LinearBearingConfiguration, LinearBearingTrain, LinearLimits};
 
 use crate::design::linear_bearing;
-use crate::scene::{CScene, TablePointers, Tables, regime};
+use crate::scene::{CScene, InHeader, Pointers, Tables, TrackPointers, regime};
 use crate::status::Failure;
+use crate::tables::NoTable;
 use crate::types::{
     EPAS_FAULT_CALL, EPAS_LINEAR_BALLS, EPAS_LINEAR_STATE_BYTES, EPAS_REGIME_STANDING,
     LinearConfiguration, LinearInputs, LinearOutputs, LinearPlace,
@@ -14,15 +15,20 @@ use crate::version::mark;
 /// `epas_linear_t`
 pub(crate) struct Linear;
 
-impl CScene for Linear {
-    type Scene = LinearBearingTrain<EPAS_LINEAR_BALLS>;
+impl InHeader for Linear {
     type Place = LinearPlace;
     type Configuration = LinearConfiguration;
-    type Inputs = LinearInputs;
-    type Outputs = LinearOutputs;
 
     const MARK: u32 = mark(3);
     const STATE_BYTES: u32 = EPAS_LINEAR_STATE_BYTES;
+}
+
+impl CScene for Linear {
+    type Scene = LinearBearingTrain<EPAS_LINEAR_BALLS>;
+    type Folded = NoTable;
+    type Inputs = LinearInputs;
+    type Outputs = LinearOutputs;
+
     const REFUSED: LinearOutputs = LinearOutputs {
         friction_force: 0.0,
         groove_force: 0.0,
@@ -33,13 +39,15 @@ impl CScene for Linear {
         faults: EPAS_FAULT_CALL,
     };
 
-    fn tables(configuration: &LinearConfiguration) -> TablePointers {
-        TablePointers {
-            passing: configuration.rail_deviation,
-            recirculating: configuration.carriage_deviation,
-            load_shares: configuration.load_shares,
-            load_share_count: configuration.load_share_count,
-            ..TablePointers::NONE
+    fn pointers(configuration: &LinearConfiguration) -> Pointers {
+        Pointers {
+            track: TrackPointers {
+                passing: configuration.rail_deviation,
+                recirculating: configuration.carriage_deviation,
+                load_shares: configuration.load_shares,
+                load_share_count: configuration.load_share_count,
+            },
+            ..Pointers::NONE
         }
     }
 
@@ -54,9 +62,9 @@ impl CScene for Linear {
             loaded_length: configuration.loaded_length,
             return_length: configuration.return_length,
             wavelength: configuration.wavelength,
-            rail_deviation: tables.passing,
-            carriage_deviation: tables.recirculating,
-            load_shares: tables.load_shares,
+            rail_deviation: tables.track.passing,
+            carriage_deviation: tables.track.recirculating,
+            load_shares: tables.track.load_shares,
             reversal_speed: configuration.reversal_speed,
             tick: configuration.tick,
             limits: LinearLimits {

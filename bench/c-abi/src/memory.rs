@@ -17,8 +17,9 @@ use epas_friction::scene::{
 
 use crate::caged::{REFUSED, block, outputs};
 use crate::design::{ball_screw, clearance, rolling_resistance};
-use crate::scene::{CScene, TablePointers, Tables, screw_inputs};
+use crate::scene::{CScene, InHeader, Pointers, Tables, screw_inputs};
 use crate::status::{EPAS_FIELD_PLAY, EPAS_FIELD_REFERENCE_LOAD, Failure};
+use crate::tables::NoTable;
 use crate::types::{
     BallScrew, Block, EPAS_MEMORY_STATE_BYTES, EPAS_MEMORY_WORDS, EPAS_RANGE_NODES, Inputs, Outputs,
 };
@@ -148,20 +149,28 @@ const LEAST_LOAD: f32 = 0.1;
 /// `epas_memory_t`
 pub(crate) struct Memory;
 
-impl CScene for Memory {
-    type Scene =
-        WithMemory<CagedBallScrew<EPAS_RANGE_NODES>, Elements, Steady<CountSensor>, CoefficientLaw>;
+impl InHeader for Memory {
     type Place = MemoryPlace;
     type Configuration = MemoryConfiguration;
-    type Inputs = MemoryInputs;
-    type Outputs = Outputs;
 
     const MARK: u32 = mark(5);
     const STATE_BYTES: u32 = EPAS_MEMORY_STATE_BYTES;
+}
+
+impl CScene for Memory {
+    type Scene =
+        WithMemory<CagedBallScrew<EPAS_RANGE_NODES>, Elements, Steady<CountSensor>, CoefficientLaw>;
+    type Folded = NoTable;
+    type Inputs = MemoryInputs;
+    type Outputs = Outputs;
+
     const REFUSED: Outputs = REFUSED;
 
-    fn tables(configuration: &MemoryConfiguration) -> TablePointers {
-        TablePointers::of_block(&configuration.block)
+    fn pointers(configuration: &MemoryConfiguration) -> Pointers {
+        Pointers {
+            block: configuration.block,
+            ..Pointers::NONE
+        }
     }
 
     fn configure(

@@ -2,11 +2,11 @@
 
 use epas_friction::scene::{Scene, StoredScene};
 use epas_friction::{
-    DeviationMap, FrictionModel, Limits as CrateLimits, LoadShare as CrateLoadShare, Regime,
+    DeviationMap, Error, FrictionModel, Limits as CrateLimits, LoadShare as CrateLoadShare, Regime,
 };
 
 use crate::status::Failure;
-use crate::tables::{Deviation, LoadShare};
+use crate::tables::{Deviation, LoadShare, NoTable, PlacedTable, Table};
 use crate::types::{
     Block, EPAS_REGIME_BACK_DRIVING, EPAS_REGIME_DRIVING, EPAS_REGIME_LOCKED, EPAS_REGIME_STANDING,
     Inputs, Limits,
@@ -19,37 +19,23 @@ pub(crate) struct Placed<S: Scene> {
     pub(crate) model: FrictionModel<S>,
 }
 
-/// Tables as a configuration points to them.
-pub(crate) struct TablePointers {
+/// Tables along a track, as a configuration points to them.
+pub(crate) struct TrackPointers {
     /// Deviation of the groove that passes by (screw, rail).
     pub(crate) passing: *const Deviation,
     /// Deviation of the groove of the body in which balls recirculate (nut, carriage).
     pub(crate) recirculating: *const Deviation,
     pub(crate) load_shares: *const LoadShare,
     pub(crate) load_share_count: u32,
-    /// Words of a folded screw.
-    pub(crate) block: *const u32,
-    pub(crate) block_words: u32,
 }
 
-impl TablePointers {
-    pub(crate) const NONE: Self = Self {
+impl TrackPointers {
+    const NONE: Self = Self {
         passing: core::ptr::null(),
         recirculating: core::ptr::null(),
         load_shares: core::ptr::null(),
         load_share_count: 0,
-        block: core::ptr::null(),
-        block_words: 0,
     };
-
-    /// Those of a scene with a block alone.
-    pub(crate) const fn of_block(block: &Block) -> Self {
-        Self {
-            block: block.words,
-            block_words: block.count,
-            ..Self::NONE
-        }
-    }
 
     #[inline(always)]
     pub(crate) const fn are_null(&self) -> bool {
@@ -57,42 +43,74 @@ impl TablePointers {
     }
 }
 
-/// Tables that have been found initialised.
-pub(crate) struct Tables {
+/// What a configuration points to: `F` is what a host has folded, decoded, in a scene that keeps a pointer to it.
+pub(crate) struct Pointers<F = NoTable> {
+    pub(crate) track: TrackPointers,
+    /// Words of a block, in a scene that decodes it.
+    pub(crate) block: Block,
+    pub(crate) folded: *const PlacedTable<F>,
+}
+
+impl<F> Pointers<F> {
+    pub(crate) const NONE: Self = Self {
+        track: TrackPointers::NONE,
+        block: Block {
+            words: core::ptr::null(),
+            count: 0,
+        },
+        folded: core::ptr::null(),
+    };
+}
+
+/// Tables along a track that have been found initialised.
+pub(crate) struct TrackTables {
     pub(crate) passing: &'static DeviationMap,
     pub(crate) recirculating: &'static DeviationMap,
     pub(crate) load_shares: &'static [CrateLoadShare],
-    /// Words of a folded screw, where a pointer to them is given.
-    pub(crate) block: Option<&'static [u32]>,
 }
 
-impl Tables {
+impl TrackTables {
     /// What stands in for no table.
     pub(crate) const NONE: Self = Self {
         passing: &DeviationMap::NONE,
         recirculating: &DeviationMap::NONE,
         load_shares: &[CrateLoadShare::MEAN],
-        block: None,
     };
 }
 
-/// A scene with the structures that stand for it in C.
-pub(crate) trait CScene {
-    /// The crate's scene.
-    type Scene: StoredScene;
+/// What has been found where a configuration points to.
+pub(crate) struct Tables<F: 'static = NoTable> {
+    pub(crate) track: TrackTables,
+    /// Words of a block, where a pointer to them is given.
+    pub(crate) block: Option<&'static [u32]>,
+    /// What a host has folded, decoded, where a pointer to it is given.
+    pub(crate) folded: Option<&'static F>,
+}
+
+/// What the header has of a scene.
+pub(crate) trait InHeader {
     /// Where the caller keeps it.
     type Place;
     /// What the engineer sets.
     type Configuration;
-    /// What the control interrupt knows.
-    type Inputs: Copy;
-    /// What a tick returns.
-    type Outputs: Copy;
 
     /// Says that a place holds this scene, as this version of the library has it.
     const MARK: u32;
     /// Bytes of a state, as the header has them.
     const STATE_BYTES: u32;
+}
+
+/// A scene with the structures that stand for it in C.
+pub(crate) trait CScene: InHeader {
+    /// The crate's scene.
+    type Scene: StoredScene;
+    /// What a host has folded and the model points to; [`NoTable`] for nothing.
+    type Folded: Table;
+    /// What the control interrupt knows.
+    type Inputs: Copy;
+    /// What a tick returns.
+    type Outputs: Copy;
+
     /// What a refused call puts out: no friction, flagged.
     const REFUSED: Self::Outputs;
 
@@ -109,11 +127,15 @@ pub(crate) trait CScene {
         "EPAS_..._STATE_BYTES in types.rs"
     );
 
-    fn tables(configuration: &Self::Configuration) -> TablePointers;
+    fn pointers(configuration: &Self::Configuration) -> Pointers<Self::Folded>;
     fn configure(
         configuration: &Self::Configuration,
-        tables: Tables,
+        tables: Tables<Self::Folded>,
     ) -> Result<<Self::Scene as Scene>::Configuration, Failure>;
+    /// What the crate refuses, at the field of the structure in C.
+    fn failure(error: Error) -> Failure {
+        Failure::of(error)
+    }
     fn inputs(inputs: Self::Inputs) -> <Self::Scene as Scene>::Inputs;
     fn outputs(outputs: <Self::Scene as Scene>::Outputs) -> Self::Outputs;
 }
@@ -121,19 +143,19 @@ pub(crate) trait CScene {
 /// The checked and folded model.
 pub(crate) fn model<C: CScene>(
     configuration: &C::Configuration,
-    tables: Tables,
+    tables: Tables<C::Folded>,
 ) -> Result<FrictionModel<C::Scene>, Failure> {
     let configuration = C::configure(configuration, tables)?;
-    FrictionModel::new(&configuration).map_err(Failure::of)
+    FrictionModel::new(&configuration).map_err(C::failure)
 }
 
 /// The checked and folded constants.
 pub(crate) fn constants<C: CScene>(
     configuration: &C::Configuration,
-    tables: Tables,
+    tables: Tables<C::Folded>,
 ) -> Result<<C::Scene as Scene>::Constants, Failure> {
     let configuration = C::configure(configuration, tables)?;
-    C::Scene::constants(&configuration).map_err(Failure::of)
+    C::Scene::constants(&configuration).map_err(C::failure)
 }
 
 /// Regime by its number.

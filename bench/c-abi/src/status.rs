@@ -27,7 +27,7 @@ pub const EPAS_NOT_A_STATE: u32 = 8u32;
 pub const EPAS_STATE_VERSION: u32 = 9u32;
 /// The state's checksum is wrong.
 pub const EPAS_STATE_DAMAGED: u32 = 10u32;
-/// The state is of another scene, another number of balls, another design, friction coefficient or clearance.
+/// The state is of another scene, another number of balls or another design; of a linear bearing, or of another friction coefficient.
 pub const EPAS_STATE_FOREIGN: u32 = 11u32;
 /// A number of the state is none, or one that no state has.
 pub const EPAS_STATE_OUT_OF_RANGE: u32 = 12u32;
@@ -37,7 +37,8 @@ pub const EPAS_NOT_A_BLOCK: u32 = 13u32;
 pub const EPAS_BLOCK_VERSION: u32 = 14u32;
 /// The block has not as many words as it says, or as its scene takes.
 pub const EPAS_BLOCK_LENGTH: u32 = 15u32;
-/// The block has another number of friction coefficients: one for `epas_caged_t`, a range for `epas_caged_range_t` and `epas_memory_t`.
+/// The block has another number of friction coefficients: one for `epas_caged_t` and `epas_folded_ball_t`, a range for
+/// `epas_caged_range_t`, `epas_memory_t` and `epas_folded_ball_range_t`.
 pub const EPAS_BLOCK_NODES: u32 = 16u32;
 /// The block's checksum is wrong.
 pub const EPAS_BLOCK_DAMAGED: u32 = 17u32;
@@ -236,12 +237,14 @@ pub const EPAS_FIELD_FALLBACK_TEMPERATURE: u32 = 94u32;
 pub const EPAS_FIELD_TEMPERATURE_HOLD: u32 = 95u32;
 /// `temperature_fade`
 pub const EPAS_FIELD_TEMPERATURE_FADE: u32 = 96u32;
-/// The words of a block.
+/// The words of a block, or a number in it.
 pub const EPAS_FIELD_BLOCK: u32 = 97u32;
+/// `folded`, or a number in it.
+pub const EPAS_FIELD_FOLDED: u32 = 98u32;
 
 /// Number, name in C, and the crate's name: empty where only this layer names the field. A field to which the crate
 /// gives a name of its own in each scene has a row for each.
-const FIELDS: [(u32, &CStr, &str); 99] = [
+const FIELDS: [(u32, &CStr, &str); 100] = [
     (EPAS_FIELD_PITCH_RADIUS, c"pitch_radius", "pitch_radius"),
     (EPAS_FIELD_LEAD, c"lead", "lead"),
     (EPAS_FIELD_BALL_RADIUS, c"ball_radius", "ball_radius"),
@@ -485,6 +488,7 @@ const FIELDS: [(u32, &CStr, &str); 99] = [
         "fade_time",
     ),
     (EPAS_FIELD_BLOCK, c"block", ""),
+    (EPAS_FIELD_FOLDED, c"folded", ""),
 ];
 
 const STATUS_NAMES: [(u32, &CStr); 18] = [

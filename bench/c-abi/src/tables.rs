@@ -1,12 +1,15 @@
-//! Tables that several models may share: deviations along a groove, shares of the load.
+//! Tables that several models may share: deviations along a groove, shares of the load, what a host has folded of a ball.
 
-use epas_friction::scene::HIGHEST_ORDER;
+use core::mem::MaybeUninit;
+
+use epas_friction::scene::{FoldedBall, HIGHEST_ORDER};
 use epas_friction::{DeviationMap, Harmonic as CrateHarmonic};
 
 use crate::status::{
-    EPAS_FIELD_COSINE, EPAS_FIELD_DEVIATION, EPAS_FIELD_HARMONIC_COUNT, EPAS_FIELD_ORDER,
-    EPAS_FIELD_SHARE, EPAS_FIELD_SINE, EPAS_FIELD_TURNS, Failure,
+    EPAS_FIELD_BLOCK, EPAS_FIELD_COSINE, EPAS_FIELD_DEVIATION, EPAS_FIELD_HARMONIC_COUNT,
+    EPAS_FIELD_ORDER, EPAS_FIELD_SHARE, EPAS_FIELD_SINE, EPAS_FIELD_TURNS, Failure,
 };
+use crate::types::EPAS_SCREW_RANGE_NODES;
 use crate::version::mark;
 
 /// Samples in a period of a deviation.
@@ -54,21 +57,75 @@ pub struct LoadShare {
     pub words: [u32; 2],
 }
 
-/// A deviation in its place, with the mark that says that there is one.
+/// Size of `epas_folded_ball_t` in words of four bytes.
+pub const EPAS_FOLDED_BALL_WORDS: usize = 1296;
+
+/// Size of `epas_folded_ball_range_t` in words of four bytes.
+pub const EPAS_FOLDED_BALL_RANGE_WORDS: usize = 3862;
+
+/// Place for a block of a ball screw without cage, decoded, for one friction coefficient. `epas_folded_ball_init` decodes it. The
+/// caller provides it, and leaves it where and as it is for as long as a model is used that was given it: a model reads it in every
+/// step. Models may share it.
+#[derive(Clone, Copy, Debug)]
 #[repr(C)]
-pub(crate) struct PlacedDeviation {
+pub struct FoldedBallPlace {
+    /// Not for the caller.
+    pub words: [u32; EPAS_FOLDED_BALL_WORDS],
+}
+
+/// Place for a decoded block for a range of friction coefficients; as `epas_folded_ball_t`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct FoldedBallRangePlace {
+    /// Not for the caller.
+    pub words: [u32; EPAS_FOLDED_BALL_RANGE_WORDS],
+}
+
+/// A table in its place, with the mark that says that there is one.
+#[repr(C)]
+pub(crate) struct PlacedTable<T> {
     pub(crate) mark: u32,
-    pub(crate) map: DeviationMap,
+    pub(crate) table: T,
 }
 
-impl PlacedDeviation {
-    pub(crate) const MARK: u32 = mark(0xD0);
+/// What a [`PlacedTable`] may hold.
+pub(crate) trait Table: 'static {
+    const MARK: u32;
 }
 
+/// No table: of a scene that points to none.
+pub(crate) enum NoTable {}
+
+impl Table for NoTable {
+    const MARK: u32 = mark(0xB0);
+}
+
+impl Table for DeviationMap {
+    const MARK: u32 = mark(0xD0);
+}
+
+impl Table for FoldedBall<1> {
+    const MARK: u32 = mark(0xB1);
+}
+
+impl Table for FoldedBall<EPAS_SCREW_RANGE_NODES> {
+    const MARK: u32 = mark(0xB3);
+}
+
+/// Whether a place is as large as the table in it.
+const fn fits<T, Place>() -> bool {
+    size_of::<PlacedTable<T>>() == size_of::<Place>()
+        && align_of::<PlacedTable<T>>() <= align_of::<Place>()
+}
+
+const _: () = assert!(fits::<DeviationMap, Deviation>(), "EPAS_DEVIATION_WORDS");
 const _: () = assert!(
-    size_of::<PlacedDeviation>() == size_of::<Deviation>()
-        && align_of::<PlacedDeviation>() <= align_of::<Deviation>(),
-    "EPAS_DEVIATION_WORDS"
+    fits::<FoldedBall<1>, FoldedBallPlace>(),
+    "EPAS_FOLDED_BALL_WORDS"
+);
+const _: () = assert!(
+    fits::<FoldedBall<EPAS_SCREW_RANGE_NODES>, FoldedBallRangePlace>(),
+    "EPAS_FOLDED_BALL_RANGE_WORDS"
 );
 const _: () = assert!(
     size_of::<epas_friction::LoadShare>() == size_of::<LoadShare>()
@@ -152,6 +209,21 @@ pub(crate) const fn harmonic_count(count: u32) -> Failure {
         0,
         EPAS_LARGEST_HARMONIC_COUNT,
     )
+}
+
+/// Decodes a block's words where the folded ball goes, and sees that its law is one that a model takes. A folded ball is large: what is
+/// returned is no copy of it.
+#[inline(never)]
+pub(crate) fn decode<const NODES: usize>(
+    words: &[u32],
+    place: &mut MaybeUninit<FoldedBall<NODES>>,
+) -> Result<(), Failure> {
+    let folded = match FoldedBall::read(words) {
+        Ok(folded) => place.write(folded),
+        Err(error) => return Err(Failure::of_block(error)),
+    };
+    let law = folded.law.checked();
+    law.map_err(|error| Failure::at(error, EPAS_FIELD_BLOCK))
 }
 
 /// One share of the load.

@@ -1,7 +1,7 @@
 //! The structures of the header. Every number is a `float` or a `uint32_t`, so that none has a field whose
 //! size depends on the compiler's options (`-fshort-enums`).
 
-use crate::tables::{Deviation, LoadShare};
+use crate::tables::{Deviation, FoldedBallPlace, FoldedBallRangePlace, LoadShare};
 
 /// Bytes of a state of an adaptation.
 pub const EPAS_ADAPTATION_STATE_BYTES: u32 = 116u32;
@@ -36,9 +36,6 @@ pub const EPAS_FAULT_FRICTION_LIMIT: u32 = 16u32;
 /// The mechanism is where its formulas leave the accuracy that they promise: the friction is the best estimate. No fault of
 /// the inputs: the faulted ticks do not count it.
 pub const EPAS_FAULT_BEYOND_MODEL: u32 = 32u32;
-/// Balls still settle after a start, a reversal, or a jump of the load by a factor of three: forces between them are
-/// estimates for some milliseconds. No fault of the inputs, either.
-pub const EPAS_FAULT_SETTLING: u32 = 64u32;
 /// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
 pub const EPAS_FAULT_ANGLE_NOT_VALID: u32 = 128u32;
 /// The temperature is NaN or beyond its range: the last one, or the bound, stands in for it.
@@ -127,7 +124,7 @@ pub struct Outputs {
 }
 
 /// A ball screw that was folded on a host: the words that `epas-bench design` writes into a header, or those of a calibration page. They are
-/// read while a model is made or swapped, and need not stay.
+/// read while a model is made or swapped, or a folded ball is decoded, and need not stay.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Block {
@@ -215,33 +212,22 @@ pub const EPAS_MEMORY_STATE_BYTES: u32 = 124u32;
 /// Size of `epas_memory_t` in words of eight bytes.
 pub const EPAS_MEMORY_WORDS: usize = 261;
 
-/// Balls in the circuit of `epas_screw_t`, return included. A screw with another number needs the library
+/// Balls in the circuit of `epas_screw_t` and `epas_screw_range_t`, return included. A screw with another number needs the library
 /// built with that number.
 pub const EPAS_SCREW_BALLS: usize = 37;
 
-/// What the engineer sets for a ball screw whose balls press on each other.
+/// The circuit of a ball screw whose balls press on each other.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
-pub struct ScrewConfiguration {
-    /// The design; contact angle 0.05 to 1.5 rad.
-    pub design: BallScrew,
-    /// Coulomb friction coefficient of ball and groove, 1e-6 to 0.5.
-    pub friction: f32,
+pub struct ScrewCircuit {
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
-    /// Share of the elastic energy that is lost while a contact passes, 0 to 0.2; hardened steel 0.01.
-    pub hysteresis_loss: f32,
-    /// Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 for none.
-    pub lubricant_drag: f32,
-    /// Radial gap of every contact at a centred ball without load, m, play above zero, oversize below; -0.02 to
-    /// 0.05 ball radii. `epas_clearance` finds it from a preload or an axial play.
-    pub clearance: f32,
     /// Turns of the loaded track, 0.1 to 100.
     pub turns: f32,
     /// Length of the return, m, 0 to 10: there balls carry no load.
     pub return_length: f32,
-    /// Deviation of the contact angles along the screw's groove, or NULL for none. It has to stay where and
-    /// as it is for as long as the model is used.
+    /// Deviation of the contact angles along the screw's groove, at most the largest that was folded, or NULL for none. It has to stay
+    /// where and as it is for as long as the model is used.
     pub screw_deviation: *const Deviation,
     /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, or NULL
     /// for none; it has to stay too.
@@ -251,28 +237,63 @@ pub struct ScrewConfiguration {
     pub load_shares: *const LoadShare,
     /// Elements of `load_shares`, 1 to 256; not read where that is NULL.
     pub load_share_count: u32,
-    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3.
-    pub reversal_speed: f32,
     /// Time between two steps, s, 1e-6 to 1; at the largest nut speed the balls may move by 3 % of the track
     /// in it.
     pub tick: f32,
-    /// Bounds that are kept whatever comes in.
-    pub limits: Limits,
 }
 
-/// Bytes of a state of this scene, as `epas_screw_export` writes it.
-pub const EPAS_SCREW_STATE_BYTES: u32 = 1794u32;
+/// What the engineer sets for a ball screw whose balls press on each other, with one friction coefficient.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct ScrewConfiguration {
+    /// What a host has folded: the gear, its friction coefficient, reversal speed and limits. It has to stay where and as it is for as long
+    /// as the model is used.
+    pub folded: *const FoldedBallPlace,
+    /// What is set beside it.
+    pub circuit: ScrewCircuit,
+}
+
+/// The same with a friction coefficient that changes.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct ScrewRangeConfiguration {
+    /// What a host has folded; as in `epas_screw_configuration_t`.
+    pub folded: *const FoldedBallRangePlace,
+    /// What is set beside it.
+    pub circuit: ScrewCircuit,
+}
+
+/// Bytes of a state of `epas_screw_t`, as `epas_screw_export` writes it.
+pub const EPAS_SCREW_STATE_BYTES: u32 = 370u32;
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 380;
+pub const EPAS_SCREW_WORDS: usize = 157;
 
-/// Place for the constants and the state of a ball screw whose balls press on each other; as
+/// Place for the constants and the state of a ball screw whose balls press on each other, with one friction coefficient; as
 /// `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct ScrewPlace {
     /// Not for the caller. Its type gives the place its alignment.
     pub words: [u64; EPAS_SCREW_WORDS],
+}
+
+/// Friction coefficients of a folded ball for a range of them.
+pub const EPAS_SCREW_RANGE_NODES: usize = 3;
+
+/// Bytes of a state of `epas_screw_range_t`, as `epas_screw_range_export` writes it.
+pub const EPAS_SCREW_RANGE_STATE_BYTES: u32 = 370u32;
+
+/// Size of `epas_screw_range_t` in words of eight bytes.
+pub const EPAS_SCREW_RANGE_WORDS: usize = 158;
+
+/// Place for the constants and the state of a ball screw whose balls press on each other and whose friction coefficient changes; as
+/// `epas_caged_t`.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct ScrewRangePlace {
+    /// Not for the caller. Its type gives the place its alignment.
+    pub words: [u64; EPAS_SCREW_RANGE_WORDS],
 }
 
 /// What a ball screw whose balls press on each other returns at a tick; every number is finite.

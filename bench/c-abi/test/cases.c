@@ -151,25 +151,59 @@ uint32_t test_memory_tick(epas_memory_t *place, uint32_t tick)
     return differ(found, &row[7], 8u);
 }
 
+static uint32_t screw_outputs_differ(const epas_screw_outputs_t *outputs, const uint32_t *stored)
+{
+    uint32_t found[8];
+
+    found[0] = bits(outputs->friction_torque);
+    found[1] = bits(outputs->groove_torque);
+    found[2] = bits(outputs->ball_torque);
+    found[3] = bits(outputs->load_torque);
+    found[4] = bits(outputs->largest_contact_force);
+    found[5] = outputs->contacts;
+    found[6] = outputs->regime;
+    found[7] = outputs->faults;
+    return differ(found, stored, 8u);
+}
+
+/* Worn from the middle on; anew from the first tick on. */
 uint32_t test_screw_tick(epas_screw_t *place, uint32_t tick)
 {
     const uint32_t *row = stored_screw[tick];
     const epas_inputs_t inputs = {number(row[0]), number(row[1])};
     epas_screw_outputs_t outputs;
-    uint32_t found[8];
+    uint32_t status = EPAS_OK;
 
-    if (epas_screw_step(place, &inputs, &outputs) != EPAS_OK) {
+    if (tick == 0u) {
+        status = epas_screw_swap(place, &test_screw_configuration, NULL);
+    } else if (tick == (test_ticks / 2u)) {
+        status = epas_screw_swap(place, &test_worn_screw_configuration, NULL);
+    } else {
+        /* As it was. */
+    }
+    if ((status != EPAS_OK) || (epas_screw_step(place, &inputs, &outputs) != EPAS_OK)) {
         return 1u;
     }
-    found[0] = bits(outputs.friction_torque);
-    found[1] = bits(outputs.groove_torque);
-    found[2] = bits(outputs.ball_torque);
-    found[3] = bits(outputs.load_torque);
-    found[4] = bits(outputs.largest_contact_force);
-    found[5] = outputs.contacts;
-    found[6] = outputs.regime;
-    found[7] = outputs.faults;
-    return differ(found, &row[2], 8u);
+    return screw_outputs_differ(&outputs, &row[2]);
+}
+
+/* The friction coefficient rises in every tick, from the least to the largest that was folded. */
+static uint32_t screw_range_tick(epas_screw_range_t *place, uint32_t tick)
+{
+    const uint32_t *row = stored_screw_range[tick];
+    const epas_inputs_t inputs = {number(row[0]), number(row[1])};
+    epas_failure_t range;
+    epas_screw_outputs_t outputs;
+    float friction;
+
+    /* What is refused says what there may be. */
+    (void)epas_screw_range_set_friction(place, 0.0f, &range);
+    friction = range.minimum + ((float)tick * ((range.maximum - range.minimum) / 256.0f));
+    if ((epas_screw_range_set_friction(place, friction, NULL) != EPAS_OK)
+        || (epas_screw_range_step(place, &inputs, &outputs) != EPAS_OK)) {
+        return 1u;
+    }
+    return screw_outputs_differ(&outputs, &row[2]);
 }
 
 uint32_t test_linear_tick(epas_linear_t *place, uint32_t tick)
@@ -257,6 +291,7 @@ uint32_t test_cases(void)
     static epas_closed_form_t closed_form;
     static epas_memory_t memory;
     static epas_screw_t screw;
+    static epas_screw_range_t screw_range;
     static epas_linear_t linear;
     uint32_t total = 0u;
     uint32_t differing;
@@ -300,13 +335,19 @@ uint32_t test_cases(void)
     }
     total += reported("ball screw, balls press on each other", ROWS(stored_screw), differing);
 
-    /* After a reset everything comes again. */
+    /* After a reset everything comes again, but for the folded ball, which the first tick swaps back. */
     differing = (epas_screw_reset(&screw) == EPAS_OK) ? 0u : 1u;
     differing += (epas_screw_set_nut_angle(&screw, 1.25f) == EPAS_OK) ? 0u : 1u;
     for (row = 0u; row < ROWS(stored_screw); row++) {
         differing += test_screw_tick(&screw, row);
     }
     total += reported("the same after a reset", ROWS(stored_screw), differing);
+
+    differing = (test_setup_screw_range(&screw_range) == EPAS_OK) ? 0u : 1u;
+    for (row = 0u; row < ROWS(stored_screw_range); row++) {
+        differing += screw_range_tick(&screw_range, row);
+    }
+    total += reported("the same with a friction coefficient that changes", ROWS(stored_screw_range), differing);
 
     differing = (test_setup_linear(&linear) == EPAS_OK) ? 0u : 1u;
     for (row = 0u; row < ROWS(stored_linear); row++) {

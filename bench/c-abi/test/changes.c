@@ -1,4 +1,4 @@
-/* What is set while a model runs: friction coefficient, clearance, law, level; and what is refused of it. */
+/* What is set while a model runs: block, friction coefficient, law, level; and what is refused of it. */
 #include "epas_test.h"
 
 #include <stddef.h>
@@ -74,49 +74,87 @@ static void caged(void)
     check(epas_caged_range_set_friction(NULL, 0.1f, NULL) == EPAS_NULL_POINTER, "no place");
 }
 
-/* Friction is that of a model that was set up so, once what has changed has settled: within a thousandth. */
-#define SETTLED 1e-3f
-
-/* Without deviations of the grooves: with them, where each ball presses depends on what was before. */
+/* Another folded ball and another friction coefficient are there from the next tick on, as in a model that was made so. */
 static void screw(void)
 {
     static epas_screw_t changed;
     static epas_screw_t made;
     const epas_inputs_t inputs = {60.0f, 6000.0f};
-    epas_screw_configuration_t configuration = test_screw_configuration;
+    epas_screw_configuration_t wrong = test_screw_configuration;
+    epas_screw_outputs_t before = {0};
     epas_screw_outputs_t found = {0};
     epas_screw_outputs_t wanted = {0};
-    float sum = 0.0f;
-    float wanted_sum = 0.0f;
     epas_failure_t failure;
-    uint32_t settled = 0u;
     uint32_t tick;
 
-    configuration.screw_deviation = NULL;
-    configuration.nut_deviation = NULL;
-    configuration.load_shares = NULL;
-    check(epas_screw_init(&changed, &configuration, NULL) == EPAS_OK, "a screw");
-    configuration.friction = 0.13f;
-    configuration.clearance = -5e-7f;
-    check(epas_screw_init(&made, &configuration, NULL) == EPAS_OK, "another one");
-    check(epas_screw_set_friction(&changed, 0.0f, &failure) == EPAS_OUT_OF_RANGE, "no friction");
-    check((failure.minimum == 1e-6f) && (failure.maximum == 0.5f), "and which there may be");
-    check(epas_screw_set_friction(&changed, 0.13f, NULL) == EPAS_OK, "another friction coefficient");
-    check(epas_screw_set_clearance(&changed, -5e-7f, NULL) == EPAS_OK, "another clearance");
-    for (tick = 0u; tick < 600u; tick++) {
-        (void)epas_screw_step(&changed, &inputs, &found);
+    check((test_setup_screw(&changed) == EPAS_OK) && (test_setup_screw(&made) == EPAS_OK), "screws");
+    check(epas_screw_swap(&made, &test_worn_screw_configuration, NULL) == EPAS_OK, "a worn one");
+    check(epas_screw_swap(NULL, &test_screw_configuration, NULL) == EPAS_NULL_POINTER, "no place");
+    check(epas_screw_swap(&changed, NULL, NULL) == EPAS_NULL_POINTER, "no configuration");
+    check(epas_folded_ball_init(&test_spare_ball, &test_block, NULL) != EPAS_OK, "a folded ball of no words");
+    wrong.folded = &test_spare_ball;
+    check(epas_screw_swap(&changed, &wrong, &failure) == EPAS_NOT_INITIALISED, "which is none");
+    check(failure.field == EPAS_FIELD_FOLDED, "and which field");
+    wrong = test_screw_configuration;
+    wrong.circuit.turns = 1.5f;
+    check(epas_screw_swap(&changed, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a track on which the balls do not fit");
+    check(failure.field == EPAS_FIELD_BALL_PITCH, "and which field");
+    for (tick = 0u; tick < 50u; tick++) {
+        (void)epas_screw_step(&changed, &inputs, &before);
         (void)epas_screw_step(&made, &inputs, &wanted);
-        if ((found.faults & EPAS_FAULT_SETTLING) == 0u) {
-            settled++;
-        }
-        if (tick >= 400u) {
-            sum += found.friction_torque;
-            wanted_sum += wanted.friction_torque;
-        }
     }
-    /* A ball that comes into the loaded part a tick earlier counts for a 33rd in that tick, and not in the mean. */
-    check(near(sum, wanted_sum, SETTLED), "friction of a screw that was changed");
-    check((settled > 300u) && (settled < 590u), "which settled in between");
+    check(near(wanted.groove_torque, before.groove_torque, 1e-2f) == 0u, "wear shows");
+    check(epas_screw_swap(&changed, &test_worn_screw_configuration, &failure) == EPAS_OK, "another folded ball");
+    check(failure.status == EPAS_OK, "and no failure");
+    (void)epas_screw_step(&changed, &inputs, &found);
+    (void)epas_screw_step(&made, &inputs, &wanted);
+    check((found.friction_torque == wanted.friction_torque) && (found.contacts == wanted.contacts),
+          "friction of the other folded ball in the next tick, with the balls where they were");
+}
+
+static void screw_range(void)
+{
+    static epas_screw_range_t place;
+    static epas_screw_range_t next;
+    static uint8_t block[EPAS_SCREW_RANGE_STATE_BYTES];
+    const epas_inputs_t inputs = {60.0f, 6000.0f};
+    epas_screw_outputs_t before = {0};
+    epas_screw_outputs_t found = {0};
+    epas_screw_outputs_t wanted = {0};
+    epas_failure_t failure;
+    uint32_t ticks = 1u;
+
+    check(epas_screw_range_step(&place, &inputs, &found) == EPAS_NOT_INITIALISED, "a place of zeros");
+    check(found.faults == EPAS_FAULT_CALL, "a place of zeros, flagged");
+    check((test_setup_screw_range(&place) == EPAS_OK) && (test_setup_screw_range(&next) == EPAS_OK), "screws");
+    check(epas_screw_range_set_friction(NULL, 0.1f, NULL) == EPAS_NULL_POINTER, "no place");
+    check(epas_screw_range_set_friction(&place, 0.0f, &failure) == EPAS_OUT_OF_RANGE, "no friction");
+    check((failure.field == EPAS_FIELD_FRICTION) && (failure.minimum > 0.0f) && (failure.maximum > failure.minimum),
+          "and which there may be");
+    check(epas_screw_range_set_friction(&place, no_number(), NULL) == EPAS_NOT_FINITE, "a friction coefficient that is none");
+    check(epas_screw_range_set_friction(&place, failure.minimum, NULL) == EPAS_OK, "the least friction coefficient");
+    (void)epas_screw_range_step(&place, &inputs, &before);
+    check(epas_screw_range_set_friction(&place, failure.maximum, NULL) == EPAS_OK, "the largest one");
+    (void)epas_screw_range_step(&place, &inputs, &found);
+    check(found.groove_torque > (1.2f * before.groove_torque), "more friction in the next tick");
+    check(epas_screw_range_faulted_ticks(&place, &ticks) == EPAS_OK, "counter");
+    check(ticks == 0u, "no faulted ticks");
+
+    /* The next ignition: the friction coefficient that was set is there again. */
+    check(epas_screw_range_export(&place, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
+    check(epas_screw_range_export(&place, block, sizeof block) == EPAS_OK, "export");
+    check(epas_screw_range_import(&next, block, sizeof block) == EPAS_OK, "import");
+    (void)epas_screw_range_step(&place, &inputs, &wanted);
+    (void)epas_screw_range_step(&next, &inputs, &found);
+    check((found.friction_torque == wanted.friction_torque) && (found.contacts == wanted.contacts), "a tick after an import");
+
+    /* A swap, and a reset, bring the folded friction coefficient back. */
+    check(epas_screw_range_swap(&place, &test_screw_range_configuration, NULL) == EPAS_OK, "a swap");
+    (void)epas_screw_range_step(&place, &inputs, &found);
+    check(found.groove_torque < wanted.groove_torque, "which brings the folded coefficient back");
+    check(epas_screw_range_reset(&next) == EPAS_OK, "a reset");
+    (void)epas_screw_range_step(&next, &inputs, &found);
+    check(found.groove_torque < wanted.groove_torque, "which does so too");
 }
 
 static void linear(void)
@@ -158,11 +196,12 @@ static epas_outputs_t turned(epas_memory_t *place, uint32_t start, uint32_t coun
     return outputs;
 }
 
+/* Screws that remember. */
+static epas_memory_t remembering;
+static epas_memory_t next_remembering;
+
 static void memory(void)
 {
-    static epas_memory_t place;
-    static epas_memory_t next;
-    static epas_memory_t zeros;
     static uint8_t block[EPAS_MEMORY_STATE_BYTES];
     static uint8_t caged_block[EPAS_CAGED_STATE_BYTES];
     epas_memory_configuration_t wrong = test_memory_configuration;
@@ -174,82 +213,82 @@ static void memory(void)
     epas_failure_t failure;
 
     wrong.encoder.play = -1.0f;
-    check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a play below zero");
+    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a play below zero");
     check(failure.field == EPAS_FIELD_PLAY, "and which field");
     wrong = test_memory_configuration;
     wrong.block = test_block;
-    check(epas_memory_init(&place, &wrong, &failure) == EPAS_BLOCK_LENGTH, "a block for one friction coefficient");
+    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_BLOCK_LENGTH, "a block for one friction coefficient");
     check(failure.field == EPAS_FIELD_BLOCK, "and which field");
     wrong = test_memory_configuration;
     wrong.clearance = no_number();
-    check(epas_memory_init(&place, &wrong, &failure) == EPAS_NOT_FINITE, "no clearance");
+    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_NOT_FINITE, "no clearance");
     check(failure.field == EPAS_FIELD_CLEARANCE, "and which field");
     wrong = test_memory_configuration;
     wrong.coefficient.oil.pour_point = 400.0f;
-    check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no pour point");
+    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no pour point");
     check(failure.field == EPAS_FIELD_POUR_POINT, "and which field");
     wrong = test_memory_configuration;
     wrong.coefficient.boundary = 0.9f;
-    check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a coefficient too large for the screw");
+    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a coefficient too large for the screw");
     check((failure.field == EPAS_FIELD_COEFFICIENT) && (failure.maximum == 0.5f), "and which field");
     wrong = test_memory_configuration;
     wrong.reference_load = -1.0f;
-    check(epas_memory_init(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no load");
+    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no load");
     check(failure.field == EPAS_FIELD_REFERENCE_LOAD, "and which field");
-    check(epas_memory_step(&place, &inputs, &other) == EPAS_NOT_INITIALISED, "what was refused has no model");
+    check(epas_memory_step(&remembering, &inputs, &other) == EPAS_NOT_INITIALISED, "what was refused has no model");
     check((other.faults == EPAS_FAULT_CALL) && (other.friction_torque == 0.0f), "no torque, flagged");
-    check(epas_memory_between(&zeros, 0u, &other) == EPAS_NOT_INITIALISED, "between, of zeros");
+    check(epas_memory_between(&next_remembering, 0u, &other) == EPAS_NOT_INITIALISED, "between, of zeros");
     check(other.faults == EPAS_FAULT_CALL, "between, flagged");
 
-    check(test_setup_memory(&place) == EPAS_OK, "a screw that remembers");
-    check(epas_memory_between(&place, 1000u, &other) == EPAS_OK, "before the first step");
+    check(test_setup_memory(&remembering) == EPAS_OK, "a screw that remembers");
+    check(epas_memory_between(&remembering, 1000u, &other) == EPAS_OK, "before the first step");
     check(other.friction_torque == 0.0f, "there is no friction");
-    forward = turned(&place, 1000u, 400u, 0u);
+    forward = turned(&remembering, 1000u, 400u, 0u);
     check((forward.friction_torque > 0.0f) && (forward.faults == 0u), "friction forward");
-    other = turned(&place, 1400u, 0u, 0u);
+    other = turned(&remembering, 1400u, 0u, 0u);
     check(other.friction_torque == forward.friction_torque, "at rest friction stays");
     /* The play and one count take nothing away; a motion beyond the breakaway angle turns it round. */
-    other = turned(&place, 1400u, 1u, 1u);
+    other = turned(&remembering, 1400u, 1u, 1u);
     check(other.friction_torque == forward.friction_torque, "the play");
-    other = turned(&place, 1399u, 400u, 1u);
+    other = turned(&remembering, 1399u, 400u, 1u);
     check(other.friction_torque < (-0.9f * forward.friction_torque), "friction backward");
-    check(epas_memory_between(&place, 99999u, &forward) == EPAS_OK, "a count that is none");
+    check(epas_memory_between(&remembering, 99999u, &forward) == EPAS_OK, "a count that is none");
     check((forward.faults == EPAS_FAULT_ANGLE_NOT_VALID) && (forward.friction_torque == other.friction_torque),
           "friction stays, flagged");
 
     /* A larger breakaway angle: friction builds up later. */
     soft.breakaway_angle = 0.1f;
-    check(epas_memory_init(&next, &soft, NULL) == EPAS_OK, "a breakaway angle as measured");
-    (void)turned(&next, 1000u, 4000u, 0u);
-    (void)turned(&place, 1000u, 4000u, 0u);
-    forward = turned(&place, 5000u, 10u, 1u);
-    other = turned(&next, 5000u, 10u, 1u);
+    check(epas_memory_init(&next_remembering, &soft, NULL) == EPAS_OK, "a breakaway angle as measured");
+    (void)turned(&next_remembering, 1000u, 4000u, 0u);
+    (void)turned(&remembering, 1000u, 4000u, 0u);
+    forward = turned(&remembering, 5000u, 10u, 1u);
+    other = turned(&next_remembering, 5000u, 10u, 1u);
     check(other.friction_torque > forward.friction_torque, "the larger angle");
 
-    check(epas_memory_set_level(&place, 20.0f, 1.0f, &failure) == EPAS_OUT_OF_RANGE, "a level too large");
+    check(epas_memory_set_level(&remembering, 20.0f, 1.0f, &failure) == EPAS_OUT_OF_RANGE, "a level too large");
     check(failure.field == EPAS_FIELD_FORWARD, "and which");
     law.full_film = 0.0f;
-    check(epas_memory_set_coefficient(&place, &law, &failure) == EPAS_OUT_OF_RANGE, "a law without friction");
+    check(epas_memory_set_coefficient(&remembering, &law, &failure) == EPAS_OUT_OF_RANGE, "a law without friction");
     check(failure.field == EPAS_FIELD_FULL_FILM, "and which field");
-    check(epas_memory_set_coefficient(&place, NULL, NULL) == EPAS_NULL_POINTER, "no law");
-    check(epas_memory_swap(&place, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a swap without a load");
+    check(epas_memory_set_coefficient(&remembering, NULL, NULL) == EPAS_NULL_POINTER, "no law");
+    check(epas_memory_swap(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a swap without a load");
     check(failure.field == EPAS_FIELD_REFERENCE_LOAD, "and which field");
 
-    check(epas_memory_export(&place, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
-    check(epas_memory_export(&place, block, sizeof block) == EPAS_OK, "export");
-    check(test_setup_memory(&next) == EPAS_OK, "the next ignition");
+    check(epas_memory_export(&remembering, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
+    check(epas_memory_export(&remembering, block, sizeof block) == EPAS_OK, "export");
+    check(test_setup_memory(&next_remembering) == EPAS_OK, "the next ignition");
     block[40] ^= 1u;
-    check(epas_memory_import(&next, block, sizeof block) == EPAS_STATE_DAMAGED, "a damaged block");
+    check(epas_memory_import(&next_remembering, block, sizeof block) == EPAS_STATE_DAMAGED, "a damaged block");
     block[40] ^= 1u;
     check(epas_caged_import(NULL, caged_block, sizeof caged_block) == EPAS_NULL_POINTER, "no place");
-    check(epas_memory_import_with_count(&next, block, sizeof block) == EPAS_OK, "import with the count");
+    check(epas_memory_import_with_count(&next_remembering, block, sizeof block) == EPAS_OK, "import with the count");
     inputs.count = 4990u;
-    (void)epas_memory_step(&place, &inputs, &forward);
-    (void)epas_memory_step(&next, &inputs, &other);
+    (void)epas_memory_step(&remembering, &inputs, &forward);
+    (void)epas_memory_step(&next_remembering, &inputs, &other);
     check(forward.friction_torque == other.friction_torque, "a tick after an import");
-    check(epas_memory_import(&next, block, sizeof block) == EPAS_OK, "import without the count");
+    check(epas_memory_import(&next_remembering, block, sizeof block) == EPAS_OK, "import without the count");
     inputs.count = 12000u;
-    (void)epas_memory_step(&next, &inputs, &other);
+    (void)epas_memory_step(&next_remembering, &inputs, &other);
     check((other.faults == 0u) && (other.friction_torque == forward.friction_torque), "the turn in between is unknown");
 }
 
@@ -260,11 +299,9 @@ static void memory(void)
 #define LEVEL_FOUND 1e-3f
 #define DRIFT_FOUND 0.02f
 
-/* The closed loop: what the adaptation finds is set as the model's level, and comes back in its friction torque. */
+/* The closed loop of the screw itself (`remembering`) and its model (`next_remembering`): what the adaptation finds is set as the model's level, and comes back in its friction torque. */
 static void adapted(void)
 {
-    static epas_memory_t screw_itself;
-    static epas_memory_t model;
     static epas_adaptation_t adaptation;
     static const epas_adaptation_configuration_t configuration = {
         .tick = 0.01f, .forgetting_time = 2.0f, .filter_time = 0.02f, .noise = 2e-3f,
@@ -277,8 +314,8 @@ static void adapted(void)
     uint32_t refused = 0u;
     uint32_t tick;
 
-    check(test_setup_memory(&screw_itself) == EPAS_OK, "a screw");
-    check(test_setup_memory(&model) == EPAS_OK, "its model");
+    check(test_setup_memory(&remembering) == EPAS_OK, "a screw");
+    check(test_setup_memory(&next_remembering) == EPAS_OK, "its model");
     check(epas_adaptation_init(&adaptation, &configuration, NULL) == EPAS_OK, "an adaptation");
     for (tick = 0u; tick < 4000u; tick++) {
         /* To and fro, 6 rad/s: 400 counts a tick. */
@@ -289,14 +326,14 @@ static void adapted(void)
         if (tick == 1000u) {
             check(near(found.forward, 1.0f, 1e-3f) && near(found.backward, 1.0f, 1e-3f), "levels of 1");
             check(epas_adaptation_commission(&adaptation) == EPAS_OK, "commissioning");
-            check(epas_memory_set_level(&screw_itself, FORWARD, BACKWARD, NULL) == EPAS_OK, "more friction");
+            check(epas_memory_set_level(&remembering, FORWARD, BACKWARD, NULL) == EPAS_OK, "more friction");
         }
         inputs.count = (inputs.count + ((back == 0u) ? 400u : (16384u - 400u))) % 16384u;
         inputs.nut_speed = (back == 0u) ? 6.136f : -6.136f;
-        (void)epas_memory_step(&screw_itself, &inputs, &outputs);
+        (void)epas_memory_step(&remembering, &inputs, &outputs);
         now.observed = outputs.friction_torque;
-        refused += epas_memory_set_level(&model, found.forward, found.backward, NULL);
-        refused += epas_memory_step(&model, &inputs, &outputs);
+        refused += epas_memory_set_level(&next_remembering, found.forward, found.backward, NULL);
+        refused += epas_memory_step(&next_remembering, &inputs, &outputs);
         now.modelled = outputs.friction_torque;
         now.load_torque = outputs.load_torque;
         now.nut_speed = inputs.nut_speed;
@@ -315,6 +352,7 @@ uint32_t test_changes(void)
     failed = 0u;
     caged();
     screw();
+    screw_range();
     linear();
     memory();
     adapted();

@@ -167,12 +167,14 @@ static void states(void)
     check(same_text(epas_status_name(EPAS_STATE_DAMAGED), "damaged state"), "name of a state's status");
 }
 
+/* Words of a block to which something happens. */
+static uint32_t words[1300];
+
 /* A block that is none, or not whole, is refused with a status of its own; the place holds no model then. */
 static void blocks(void)
 {
     static epas_caged_t place;
     static epas_caged_range_t range;
-    static uint32_t words[600];
     const epas_inputs_t sound = {10.0f, 1000.0f};
     epas_block_t block = {words, 0u};
     epas_outputs_t outputs;
@@ -215,6 +217,78 @@ static void blocks(void)
     status = epas_caged_range_init(&range, &test_block, &failure);
     check_failure(status, &failure, EPAS_BLOCK_LENGTH, EPAS_FIELD_BLOCK, "block");
     check(same_text(epas_status_name(EPAS_BLOCK_DAMAGED), "damaged block"), "name of a block's status");
+}
+
+/* The same of a screw without cage. */
+static void folded_balls(void)
+{
+    static epas_caged_t caged;
+    static epas_screw_t screw;
+    epas_screw_configuration_t configuration = test_screw_configuration;
+    epas_block_t block = {words, 0u};
+    epas_failure_t failure;
+    uint32_t status;
+    uint32_t word;
+
+    for (word = 0u; word < test_ball_block.count; word++) {
+        words[word] = test_ball_block.words[word];
+    }
+    block.count = test_ball_block.count;
+    configuration.folded = &test_spare_ball;
+    check(epas_folded_ball_init(&test_spare_ball, &block, &failure) == EPAS_OK, "words that were copied");
+    check(failure.status == EPAS_OK, "and no failure");
+    check(epas_screw_init(&screw, &configuration, NULL) == EPAS_OK, "a screw of them");
+    words[0] ^= 1u;
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
+    check_failure(status, &failure, EPAS_NOT_A_BLOCK, EPAS_FIELD_BLOCK, "block");
+    status = epas_screw_init(&screw, &configuration, &failure);
+    check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_FOLDED, "folded");
+    words[0] ^= 1u;
+    words[1]++;
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_VERSION, EPAS_FIELD_BLOCK, "block");
+    words[1]--;
+    words[3] = 2u;
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_NODES, EPAS_FIELD_BLOCK, "block");
+    words[3] = 1u;
+    words[1000] ^= 1u;
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_DAMAGED, EPAS_FIELD_BLOCK, "block");
+    words[1000] ^= 1u;
+    block.count--;
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_LENGTH, EPAS_FIELD_BLOCK, "block");
+    block.words = NULL;
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
+    check_failure(status, &failure, EPAS_NULL_POINTER, EPAS_FIELD_BLOCK, "block");
+    block.words = (const uint32_t *)(const void *)((const uint8_t *)words + 2);
+    status = epas_folded_ball_init(&test_spare_ball, &block, &failure);
+    check_failure(status, &failure, EPAS_MISALIGNED, EPAS_FIELD_BLOCK, "block");
+    check(epas_folded_ball_init(NULL, &test_ball_block, NULL) == EPAS_NULL_POINTER, "no place");
+    check(epas_folded_ball_init(&test_spare_ball, NULL, NULL) == EPAS_NULL_POINTER, "no block");
+
+    /* Blocks of other scenes, either way. */
+    status = epas_folded_ball_range_init(&test_ball_range, &test_ball_block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_LENGTH, EPAS_FIELD_BLOCK, "block");
+    status = epas_folded_ball_init(&test_spare_ball, &test_ball_range_block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_NODES, EPAS_FIELD_BLOCK, "block");
+    status = epas_folded_ball_init(&test_spare_ball, &test_block, &failure);
+    check_failure(status, &failure, EPAS_BLOCK_LENGTH, EPAS_FIELD_BLOCK, "block");
+    status = epas_caged_init(&caged, &test_ball_block, &failure);
+    check_failure(status, &failure, EPAS_NOT_A_BLOCK, EPAS_FIELD_BLOCK, "block");
+
+    /* A folded ball of another kind, or none. */
+    check(epas_folded_ball_range_init(&test_ball_range, &test_ball_range_block, NULL) == EPAS_OK, "a range");
+    configuration.folded = (const epas_folded_ball_t *)(const void *)&test_ball_range;
+    status = epas_screw_init(&screw, &configuration, &failure);
+    check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_FOLDED, "folded");
+    configuration.folded = (const epas_folded_ball_t *)(const void *)((const uint8_t *)&test_spare_ball + 2);
+    status = epas_screw_init(&screw, &configuration, &failure);
+    check_failure(status, &failure, EPAS_MISALIGNED, EPAS_FIELD_FOLDED, "folded");
+    configuration.folded = NULL;
+    status = epas_screw_init(&screw, &configuration, &failure);
+    check_failure(status, &failure, EPAS_NULL_POINTER, EPAS_FIELD_FOLDED, "folded");
 }
 
 static void closed_form_fields(void)
@@ -297,6 +371,8 @@ static void train_fields(void)
     static epas_linear_t linear;
     static epas_deviation_t empty;
     static epas_load_share_t shares[2];
+    static epas_deviation_t large;
+    static const epas_harmonic_t large_wave = {1u, 0.19f, 0.0f};
     static const float one_wrong[2] = {1.0f, 0.001f};
     epas_screw_configuration_t wrong;
     epas_linear_configuration_t wrong_linear;
@@ -305,7 +381,7 @@ static void train_fields(void)
 
     check(test_setup_screw(&screw) == EPAS_OK, "set-up of the screw");
     wrong = test_screw_configuration;
-    wrong.nut_deviation = &empty;
+    wrong.circuit.nut_deviation = &empty;
     status = epas_screw_init(&screw, &wrong, &failure);
     check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_RECIRCULATING_DEVIATION, "recirculating deviation");
 
@@ -313,44 +389,47 @@ static void train_fields(void)
     status = epas_load_shares_init(shares, one_wrong, 2u, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_SHARE, "share");
     check(failure.index == 1u, "which share");
-    wrong.load_shares = shares;
-    wrong.load_share_count = 2u;
+    wrong.circuit.load_shares = shares;
+    wrong.circuit.load_share_count = 2u;
     status = epas_screw_init(&screw, &wrong, &failure);
     check_failure(status, &failure, EPAS_NOT_INITIALISED, EPAS_FIELD_LOAD_SHARES, "load_shares");
     check(failure.index == 1u, "which share is not initialised");
-    wrong.load_share_count = 257u;
+    wrong.circuit.load_share_count = 257u;
     status = epas_screw_init(&screw, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_LOAD_SHARE_COUNT, "load_share_count");
 
     wrong = test_screw_configuration;
-    wrong.turns = 1.5f;
+    wrong.circuit.turns = 1.5f;
     status = epas_screw_init(&screw, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BALL_PITCH, "ball pitch");
 
-    /* Near the bottom of the groove no deviation is small against the contact angle. */
     wrong = test_screw_configuration;
-    wrong.design.contact_angle = 0.05f;
+    wrong.circuit.tick = not_a_number();
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_NOT_FINITE, EPAS_FIELD_TICK, "tick");
+
+    wrong = test_screw_configuration;
+    wrong.circuit.ball_friction = 1.5f;
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BALL_FRICTION, "ball_friction");
+
+    /* A deviation larger than any that was folded. */
+    check(epas_deviation_from_harmonics(&large, 1u, &large_wave, 1u, NULL) == EPAS_OK, "a large deviation");
+    wrong = test_screw_configuration;
+    wrong.circuit.screw_deviation = &large;
     status = epas_screw_init(&screw, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_PASSING_DEVIATION, "passing deviation");
-    wrong.nut_deviation = wrong.screw_deviation;
-    wrong.screw_deviation = NULL;
+    wrong = test_screw_configuration;
+    wrong.circuit.nut_deviation = &large;
     status = epas_screw_init(&screw, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_RECIRCULATING_DEVIATION,
                   "recirculating deviation");
 
     wrong = test_screw_configuration;
-    wrong.clearance = -0.9e-3f;
-    status = epas_screw_init(&screw, &wrong, &failure);
-    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_CLEARANCE, "clearance");
-    check(failure.minimum == -0.02f * wrong.design.ball_radius, "the range of these balls");
-    wrong.clearance = not_a_number();
-    status = epas_screw_init(&screw, &wrong, &failure);
-    check_failure(status, &failure, EPAS_NOT_FINITE, EPAS_FIELD_CLEARANCE, "clearance");
-    wrong.clearance = -3e-6f;
-    wrong.screw_deviation = NULL;
-    wrong.nut_deviation = NULL;
-    wrong.load_shares = NULL;
-    check(epas_screw_init(&screw, &wrong, &failure) == EPAS_OK, "preload, and no tables");
+    wrong.circuit.screw_deviation = NULL;
+    wrong.circuit.nut_deviation = NULL;
+    wrong.circuit.load_shares = NULL;
+    check(epas_screw_init(&screw, &wrong, &failure) == EPAS_OK, "no tables along the track");
 
     check(test_setup_linear(&linear) == EPAS_OK, "set-up of the linear bearing");
     wrong_linear = test_linear_configuration;
@@ -536,6 +615,7 @@ uint32_t test_refusals(void)
     inputs();
     states();
     blocks();
+    folded_balls();
     closed_form_fields();
     train_fields();
     tables_and_requests();

@@ -28,6 +28,9 @@ const epas_block_t test_block = BLOCK(LIN_3_6_BLOCK);
 const epas_block_t test_worn_block = BLOCK(LIN_3_6_WORN_BLOCK);
 const epas_block_t test_range_block = BLOCK(LIN_3_6_RANGE_BLOCK);
 const epas_block_t test_other_range_block = BLOCK(LIN_4_1_RANGE_BLOCK);
+const epas_block_t test_ball_block = BLOCK(LIN_3_6_BALL_BLOCK);
+const epas_block_t test_worn_ball_block = BLOCK(LIN_3_6_BALL_WORN_BLOCK);
+const epas_block_t test_ball_range_block = BLOCK(LIN_3_6_BALL_RANGE_BLOCK);
 
 /* The same gear by a closed form. */
 const epas_closed_form_configuration_t test_closed_form_configuration = {
@@ -79,33 +82,29 @@ static epas_deviation_t nut_deviation;
 static epas_load_share_t load_shares[6];
 static epas_deviation_t rail_deviation;
 
-/* The ball screw of Lin 2019, Table 3.6. */
-epas_screw_configuration_t test_screw_configuration = {
-    .design = {
-        .pitch_radius = 16.5e-3f,
-        .lead = 20e-3f,
-        .ball_radius = 2.778e-3f,
-        .screw_conformity = 0.56f,
-        .nut_conformity = 0.56f,
-        .contact_angle = 0.785398163f,
-        .ball_material = STEEL,
-        .groove_material = STEEL,
-    },
-    .friction = 0.1f,
-    .ball_friction = 0.12f,
-    .hysteresis_loss = 0.01f,
-    .lubricant_drag = 0.006f,
-    .clearance = 0.0f,
-    .turns = 1.8f,
-    .return_length = 20e-3f,
-    .screw_deviation = &screw_deviation,
-    .nut_deviation = &nut_deviation,
-    .load_shares = load_shares,
-    .load_share_count = 6u,
-    .reversal_speed = 0.5f,
-    .tick = 0.5e-3f,
-    .limits = {.nut_speed = 500.0f, .axial_load = 20000.0f, .friction_torque = 5.0f},
-};
+/* What was folded of the ball screw without cage, decoded, stays too: for one friction coefficient, worn, and for a range. */
+static epas_folded_ball_t ball;
+static epas_folded_ball_t worn_ball;
+epas_folded_ball_range_t test_ball_range;
+/* No model uses it. */
+epas_folded_ball_t test_spare_ball;
+
+#define CIRCUIT \
+    { \
+        .ball_friction = 0.1f, \
+        .turns = 1.8f, \
+        .return_length = 20e-3f, \
+        .screw_deviation = &screw_deviation, \
+        .nut_deviation = &nut_deviation, \
+        .load_shares = load_shares, \
+        .load_share_count = 6u, \
+        .tick = 0.5e-3f, \
+    }
+
+/* The ball screw of Lin 2019, chapter 3.6, without cage. */
+const epas_screw_configuration_t test_screw_configuration = {.folded = &ball, .circuit = CIRCUIT};
+const epas_screw_configuration_t test_worn_screw_configuration = {.folded = &worn_ball, .circuit = CIRCUIT};
+const epas_screw_range_configuration_t test_screw_range_configuration = {.folded = &test_ball_range, .circuit = CIRCUIT};
 
 /* A linear bearing with balls of 10 mm. */
 epas_linear_configuration_t test_linear_configuration = {
@@ -150,9 +149,10 @@ uint32_t test_setup_memory(epas_memory_t *place)
     return epas_memory_init(place, &test_memory_configuration, NULL);
 }
 
-uint32_t test_setup_screw(epas_screw_t *place)
+/* Tables of the screw without cage. */
+static uint32_t set_up_circuit(void)
 {
-    static const epas_harmonic_t waves[2] = {{1u, 0.005f, 0.0f}, {2u, 0.0f, 0.04014f}};
+    static const epas_harmonic_t waves[2] = {{1u, 0.002f, 0.0f}, {2u, 0.0f, 0.014f}};
     static const float shares[6] = {1.4f, 1.2f, 1.1f, 0.9f, 0.8f, 0.6f};
     float triangle[EPAS_DEVIATION_SAMPLES];
     uint32_t sample;
@@ -160,7 +160,7 @@ uint32_t test_setup_screw(epas_screw_t *place)
 
     for (sample = 0u; sample < EPAS_DEVIATION_SAMPLES; sample++) {
         const float rise = (sample < 32u) ? (float)sample : (64.0f - (float)sample);
-        triangle[sample] = (rise - 16.0f) * 0.00125f;
+        triangle[sample] = (rise - 16.0f) * 0.0005f;
     }
     status = epas_deviation_from_harmonics(&screw_deviation, 1u, waves, 2u, NULL);
     if (status == EPAS_OK) {
@@ -169,11 +169,50 @@ uint32_t test_setup_screw(epas_screw_t *place)
     if (status == EPAS_OK) {
         status = epas_load_shares_init(load_shares, shares, 6u, NULL);
     }
+    return status;
+}
+
+uint32_t test_setup_ball(void)
+{
+    return epas_folded_ball_init(&ball, &test_ball_block, NULL);
+}
+
+uint32_t test_setup_ball_range(void)
+{
+    return epas_folded_ball_range_init(&test_ball_range, &test_ball_range_block, NULL);
+}
+
+uint32_t test_setup_screw(epas_screw_t *place)
+{
+    uint32_t status = set_up_circuit();
+
+    if (status == EPAS_OK) {
+        status = test_setup_ball();
+    }
+    if (status == EPAS_OK) {
+        status = epas_folded_ball_init(&worn_ball, &test_worn_ball_block, NULL);
+    }
     if (status == EPAS_OK) {
         status = epas_screw_init(place, &test_screw_configuration, NULL);
     }
     if (status == EPAS_OK) {
         status = epas_screw_set_nut_angle(place, 1.25f);
+    }
+    return status;
+}
+
+uint32_t test_setup_screw_range(epas_screw_range_t *place)
+{
+    uint32_t status = set_up_circuit();
+
+    if (status == EPAS_OK) {
+        status = test_setup_ball_range();
+    }
+    if (status == EPAS_OK) {
+        status = epas_screw_range_init(place, &test_screw_range_configuration, NULL);
+    }
+    if (status == EPAS_OK) {
+        status = epas_screw_range_set_nut_angle(place, 1.25f);
     }
     return status;
 }

@@ -3,7 +3,6 @@
 use core::hint::black_box;
 
 use epas_friction::adaptation::{Adaptation, AdaptationConfiguration};
-use epas_friction::ball::elastic::ElasticGrooves;
 use epas_friction::ball::{
     AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewLoop, ScrewRow,
 };
@@ -25,19 +24,20 @@ use epas_friction::law::motion::{
     AngleReading, CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState,
     SpeedOverTick, Steady, SteadyReading, WrappedAngle, WrappedAngleParameters,
 };
-use epas_friction::scene::{CagedBallScrew, CagedConstants};
+use epas_friction::scene::{CagedBallScrew, CagedConstants, UncagedBallScrew, UncagedConstants};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, CATALOGUE, ClosedFormScrew, DeviationMap, Error, FrictionModel, Inputs,
-    LinearBearingTrain, UncagedBallScrew, defaults,
+    LinearBearingTrain, defaults,
 };
 
 use crate::gears::{LIN_3_6, LIN_3_6_RANGE};
 use crate::peers::{LuGre, Stribeck};
-use crate::remembering::{self, Carriage, FEWER, Gear, GearByLaw};
+use crate::remembering::{self, Carriage, Gear, GearByLaw};
 use crate::scenes::{
     BALLS, CAGED_BY_LAW, CAGED_WITH_MEMORY, CagedByLaw, CagedLawConstants, CagedMemory, ROW,
-    SCREW_DEVIATION, TICK, closed_form_configuration, linear_configuration, uncaged_configuration,
+    SCREW_DEVIATION, TICK, UNCAGED, closed_form_configuration, linear_configuration,
+    uncaged_configuration, uncaged_range_configuration, uncaged_shares_configuration,
 };
 
 /// Everything that is set up once.
@@ -94,16 +94,20 @@ pub struct Contexts {
     pub screw_row: ScrewRow,
     /// The same at a tick, for deviations in radians.
     pub screw_loop: ScrewLoop,
-    /// Grooves of a ball screw with elastic contacts.
-    pub elastic: ElasticGrooves,
     /// Forces between balls.
     pub press: Press<BALLS>,
     /// Forces between balls and their positions.
     pub train: Train<BALLS>,
     /// Ball screw without cage.
     pub uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
+    /// The same with loads of their own for the balls.
+    pub uncaged_shares: FrictionModel<UncagedBallScrew<BALLS>>,
+    /// The same for a range of friction coefficients, between two of them.
+    pub uncaged_range: FrictionModel<UncagedBallScrew<BALLS, 3>>,
     /// The same, whose friction coefficient is set.
-    pub set: FrictionModel<UncagedBallScrew<BALLS>>,
+    pub set: FrictionModel<UncagedBallScrew<BALLS, 3>>,
+    /// The same, that starts anew.
+    pub uncaged_started: FrictionModel<UncagedBallScrew<BALLS>, &'static UncagedConstants<BALLS>>,
     /// The same after turns under a falling load: most balls press on each other.
     pub pressing: FrictionModel<UncagedBallScrew<BALLS>>,
     /// Ball screw without cage, with a memory and an encoder.
@@ -118,8 +122,6 @@ pub struct Contexts {
     pub gear_law: FrictionModel<GearByLaw>,
     /// Its encoder's count.
     pub gear_law_count: u32,
-    /// Ball screw with fewer balls, whose clearance is set.
-    pub fewer: FrictionModel<UncagedBallScrew<FEWER>>,
     /// Linear bearing with a memory.
     pub carriage_memory: FrictionModel<Carriage>,
     /// Linear bearing.
@@ -239,11 +241,17 @@ impl Contexts {
             deviation: &SCREW_DEVIATION,
             screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
             screw_row,
-            elastic: ElasticGrooves::new(&design)?,
             press: Press::new(),
             train: Train::evenly_spaced(0.2248, 0.00594)?,
             uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
-            set: FrictionModel::new(&black_box(uncaged_configuration()?))?,
+            uncaged_shares: FrictionModel::new(&black_box(uncaged_shares_configuration()?))?,
+            uncaged_range: {
+                let mut model = FrictionModel::new(&black_box(uncaged_range_configuration()?))?;
+                model.set_friction(0.09)?;
+                model
+            },
+            set: FrictionModel::new(&black_box(uncaged_range_configuration()?))?,
+            uncaged_started: FrictionModel::of(black_box(&UNCAGED)),
             pressing: pressing(FrictionModel::new(&black_box(uncaged_configuration()?))?),
             gear: FrictionModel::new(&black_box(remembering::gear_configuration()?))?,
             gear_count: 0,
@@ -253,7 +261,6 @@ impl Contexts {
             gear_pressing_count: remembering::PRESSING_COUNT,
             gear_law: FrictionModel::new(&black_box(remembering::gear_law_configuration()?))?,
             gear_law_count: 0,
-            fewer: FrictionModel::new(&black_box(uncaged_configuration()?))?,
             carriage_memory: FrictionModel::new(
                 &black_box(remembering::carriage_configuration()?),
             )?,

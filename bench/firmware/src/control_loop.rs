@@ -5,10 +5,9 @@ use epas_friction::hal::{
     EncoderConfiguration, FaultReaction, FeedForwardConfiguration, FrictionFeedForward,
     MagneticEncoder,
 };
+use epas_friction::scene::UncagedBallScrew;
 use epas_friction::scene::{CagedBallScrew, CagedConstants};
-use epas_friction::{
-    Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, UncagedBallScrew,
-};
+use epas_friction::{Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs};
 
 use crate::cases::Reader;
 use crate::devices::{BIT_LOST, Bridge, GEAR_RATIO, Sensor, TICK};

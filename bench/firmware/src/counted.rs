@@ -7,7 +7,6 @@
 #![allow(improper_ctypes_definitions)]
 
 use epas_friction::adaptation::{Adaptation, AdaptationInputs, Adapted};
-use epas_friction::ball::elastic::{BallInputs, ElasticGrooves, Renewal, Settled};
 use epas_friction::ball::{
     AnalyticLinearBall, LoopBall, LoopSums, ScrewLoop, ScrewRow, ScrewTick, SpeedDeviation,
 };
@@ -29,15 +28,17 @@ use epas_friction::law::motion::{
     SteadyReading, WrappedAngle,
 };
 use epas_friction::law::{Elements, SlidingLimits};
-use epas_friction::scene::{CagedBallScrew, CagedConstants, WithMemoryInputs};
+use epas_friction::scene::{
+    CagedBallScrew, CagedConstants, UncagedBallScrew, UncagedConstants, WithMemoryInputs,
+};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    Clearance, ClosedFormScrew, DeviationMap, FrictionModel, Inputs, LinearBearingTrain,
-    LinearInputs, LinearOutputs, LoadShare, Outputs, UncagedBallScrew, UncagedOutputs, math,
+    ClosedFormScrew, DeviationMap, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
+    LinearOutputs, LoadShare, Outputs, UncagedOutputs, math,
 };
 
 use crate::peers::{LuGre, Stribeck};
-use crate::remembering::{Carriage, FEWER, Gear, GearByLaw};
+use crate::remembering::{Carriage, Gear, GearByLaw};
 use crate::scenes::{
     BALLS, CagedByLaw, CagedLawConstants, CagedMemory, EfficiencyStep, ROW, efficiency_step,
 };
@@ -265,16 +266,17 @@ counted! {
 
     /// A new friction coefficient of 37 balls that run.
     fn count_set_friction_37(
-        model: &mut FrictionModel<UncagedBallScrew<BALLS>>, friction: f32
+        model: &mut FrictionModel<UncagedBallScrew<BALLS, 3>>, friction: f32
     ) -> bool {
         model.set_friction(friction).is_ok()
     }
 
-    /// A new clearance of balls that run.
-    fn count_set_clearance_uncaged(
-        model: &mut FrictionModel<UncagedBallScrew<FEWER>>, clearance: &Clearance
-    ) -> bool {
-        model.set_clearance(*clearance).is_ok()
+    /// A ball screw without cage from its constants to its first tick.
+    fn count_start_37(
+        model: &mut FrictionModel<UncagedBallScrew<BALLS>, &'static UncagedConstants<BALLS>>,
+        constants: &'static UncagedConstants<BALLS>
+    ) -> () {
+        *model = FrictionModel::of(constants);
     }
 
     /// One tick of elements in proportion.
@@ -357,18 +359,6 @@ counted! {
         row.ball(screw, nut, share, sums)
     }
 
-    /// One Newton step of a ball's place and motion.
-    fn count_ball_screw_renewal(
-        grooves: &ElasticGrooves, state: &mut Settled, inputs: &BallInputs
-    ) -> Renewal {
-        grooves.renew(state, inputs)
-    }
-
-    /// A ball's place and motion from nothing.
-    fn count_ball_screw_start(grooves: &ElasticGrooves, inputs: &BallInputs) -> Settled {
-        grooves.start(inputs)
-    }
-
     /// Forces between balls that all touch, from given speeds and impedances.
     fn count_press_37(
         press: &mut Press<BALLS>, free: &[f32; BALLS], impedance: &[f32; BALLS], room: &[f32; BALLS]
@@ -393,6 +383,20 @@ counted! {
     /// The same, where most balls press on each other.
     fn count_step_train_37_pressing(
         model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
+    ) -> UncagedOutputs {
+        model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// The same with loads of their own for the balls.
+    fn count_step_train_37_shares(
+        model: &mut FrictionModel<UncagedBallScrew<BALLS>>, nut_speed: f32, axial_load: f32
+    ) -> UncagedOutputs {
+        model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// The same with a friction coefficient between two nodes.
+    fn count_step_train_37_range(
+        model: &mut FrictionModel<UncagedBallScrew<BALLS, 3>>, nut_speed: f32, axial_load: f32
     ) -> UncagedOutputs {
         model.step(Inputs { nut_speed, axial_load })
     }

@@ -5,17 +5,17 @@ use epas_friction::defaults::COEFFICIENT;
 use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, SpeedOverTick};
-use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
+use epas_friction::scene::{
+    Freshness, UncagedBallScrew, UncagedBallScrewConfiguration, WithMemory,
+    WithMemoryConfiguration, WithMemoryInputs,
+};
 use epas_friction::{
     Error, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
-    UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
-use crate::scenes::{BALLS, ROW, TICK, linear_configuration, uncaged_configuration};
-
-/// Balls of the screw whose clearance is set. The cost is that of any number; with as many as elsewhere the compiler would make one
-/// function of what both setters share, and the other count would move.
-pub const FEWER: usize = 24;
+use crate::scenes::{
+    BALLS, ROW, TICK, linear_configuration, uncaged_configuration, uncaged_range_configuration,
+};
 
 /// Counts of the encoder in a turn of the nut.
 pub const COUNTS: u32 = 1 << 14;
@@ -25,7 +25,7 @@ pub type Gear =
     WithMemory<UncagedBallScrew<BALLS>, ProportionalElements<8>, CountSensor, OneCoefficient>;
 
 /// The same with a friction coefficient by speed and temperature.
-pub type GearByLaw = WithMemory<UncagedBallScrew<BALLS>, ProportionalElements<8>, CountSensor>;
+pub type GearByLaw = WithMemory<UncagedBallScrew<BALLS, 3>, ProportionalElements<8>, CountSensor>;
 
 /// A linear bearing with one friction coefficient.
 pub type Carriage =
@@ -57,7 +57,7 @@ pub fn gear_configuration() -> Result<
     Error,
 > {
     let screw = uncaged_configuration()?;
-    let friction = screw.friction;
+    let friction = screw.folded.friction;
     gear(screw, OneCoefficient::new(friction)?)
 }
 
@@ -66,21 +66,19 @@ pub fn gear_configuration() -> Result<
 /// # Errors
 /// None.
 pub fn gear_law_configuration() -> Result<
-    WithMemoryConfiguration<UncagedBallScrewConfiguration, ProportionalElements<8>, CountSensor>,
+    WithMemoryConfiguration<UncagedBallScrewConfiguration<3>, ProportionalElements<8>, CountSensor>,
     Error,
 > {
-    let mut screw = uncaged_configuration()?;
-    screw.friction = COEFFICIENT.boundary;
-    gear(screw, CoefficientLaw::new(&COEFFICIENT)?)
+    gear(
+        uncaged_range_configuration()?,
+        CoefficientLaw::new(&COEFFICIENT)?,
+    )
 }
 
-fn gear<L: Copy>(
-    scene: UncagedBallScrewConfiguration,
+fn gear<C: Copy, L: Copy>(
+    scene: C,
     coefficient: L,
-) -> Result<
-    WithMemoryConfiguration<UncagedBallScrewConfiguration, ProportionalElements<8>, CountSensor, L>,
-    Error,
-> {
+) -> Result<WithMemoryConfiguration<C, ProportionalElements<8>, CountSensor, L>, Error> {
     Ok(WithMemoryConfiguration {
         scene,
         elements: elements(0.2, 2e-3)?,

@@ -11,18 +11,17 @@ use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, Temperatur
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    CagedBallScrew, CagedConstants, Freshness, WithMemory, WithMemoryConfiguration,
-    WithMemoryConstants, WithMemoryInputs,
+    CagedBallScrew, CagedConstants, Freshness, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedConstants, WithMemory, WithMemoryConfiguration, WithMemoryConstants, WithMemoryInputs,
 };
 use epas_friction::{
     BallScrew, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS, DeviationMap, Error,
     FrictionBranch, FrictionModel, GrooveSize, Harmonic, Inputs, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearConstants,
-    LinearInputs, LinearLimits, LoadShare, LoadShares, Material, RollingResistance,
-    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
+    LinearInputs, LinearLimits, LoadShare, LoadShares, Material,
 };
 
-use crate::gears::{LIN_3_6, LIN_3_6_RANGE};
+use crate::gears::{LIN_3_6, LIN_3_6_BALL, LIN_3_6_BALL_RANGE, LIN_3_6_RANGE};
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
 
 /// Balls in the ball screw's circuit.
@@ -73,7 +72,8 @@ const BEARING: LinearBearing = folded(LinearBearing::new(LinearBearingParameters
 static CURVATURE: FittedCurvature = FittedCurvature::of(&DESIGN, Groove::Screw);
 static EFFICIENCY: EfficiencyGeometry = EfficiencyGeometry::of(&DESIGN);
 static LINEAR: LinearConstants<ROW> = folded(LinearConstants::new(&folded(linear_configuration())));
-static UNCAGED: UncagedConstants<BALLS> =
+/// Constants of the screw without a cage.
+pub static UNCAGED: UncagedConstants<BALLS> =
     folded(UncagedConstants::new(&folded(uncaged_configuration())));
 
 /// `?` of a constant function.
@@ -397,19 +397,56 @@ pub const fn closed_form_configuration() -> Result<ClosedFormScrewConfiguration,
 /// None.
 pub const fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
     Ok(UncagedBallScrewConfiguration {
-        design: DESIGN,
-        friction: 0.1,
+        folded: &LIN_3_6_BALL,
         ball_friction: 0.1,
-        rolling_resistance: RollingResistance::STEEL,
-        clearance: Clearance::ZERO,
         turns: 2.0,
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,
         nut_deviation: &NUT_DEVIATION,
         load_shares: LoadShares::EVEN,
-        reversal_speed: 0.5,
         tick: TICK,
-        limits: LIMITS,
+    })
+}
+
+/// Loads of the balls over their mean, in eight parts of the track: a nut that is pulled at one end.
+static SHARES: [LoadShare; 8] = [
+    folded(LoadShare::new(1.35)),
+    folded(LoadShare::new(1.22)),
+    folded(LoadShare::new(1.10)),
+    folded(LoadShare::new(1.0)),
+    folded(LoadShare::new(0.92)),
+    folded(LoadShare::new(0.85)),
+    folded(LoadShare::new(0.80)),
+    folded(LoadShare::new(0.76)),
+];
+
+/// The same with loads of their own for the balls.
+///
+/// # Errors
+/// None.
+pub const fn uncaged_shares_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
+    let even = folded(uncaged_configuration());
+    Ok(UncagedBallScrewConfiguration {
+        load_shares: LoadShares::same(&SHARES),
+        ..even
+    })
+}
+
+/// The same for a range of friction coefficients.
+///
+/// # Errors
+/// None.
+pub const fn uncaged_range_configuration() -> Result<UncagedBallScrewConfiguration<3>, Error> {
+    let even = folded(uncaged_configuration());
+    Ok(UncagedBallScrewConfiguration {
+        folded: &LIN_3_6_BALL_RANGE,
+        ball_friction: even.ball_friction,
+        turns: even.turns,
+        return_length: even.return_length,
+        screw_deviation: even.screw_deviation,
+        nut_deviation: even.nut_deviation,
+        load_shares: even.load_shares,
+        tick: even.tick,
     })
 }
 

@@ -4,34 +4,33 @@ use core::hint::black_box;
 
 use epas_friction::adaptation::AdaptationInputs;
 use epas_friction::ball::LoopSums;
-use epas_friction::ball::elastic::BallInputs;
 use epas_friction::kinematics::EllipticContact;
 use epas_friction::law::{FrictionLevel, SlidingLimits};
 use epas_friction::scene::WithMemoryInputs;
-use epas_friction::{Clearance, Faults, Inputs, LoadShare, Regime};
+use epas_friction::{Faults, Inputs, LoadShare, Regime};
 
 use crate::contexts::Contexts;
 use crate::counted::{
-    FourContacts, count_adaptation_update, count_ball_screw_ball, count_ball_screw_renewal,
-    count_ball_screw_row, count_ball_screw_start, count_between_caged, count_between_linear,
-    count_between_train_37, count_cbrt, count_cbrt_and_squared, count_cbrt_squared,
-    count_curvature_circular_groove, count_curvature_exact, count_curvature_fitted,
-    count_curvature_literature, count_deviation_map, count_efficiency_backdrive,
-    count_efficiency_rolling, count_efficiency_sliding, count_friction_coefficient,
-    count_friction_coefficient_warming, count_friction_map, count_hertz_ellipse,
-    count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick, count_kinematics_update,
-    count_libm_cbrtf, count_libm_cosf, count_libm_powf, count_libm_sincosf, count_libm_sqrtf,
-    count_linear_ball_analytic, count_linear_ball_speed, count_lugre_step, count_memory_8,
-    count_memory_load_exact_8, count_memory_preloaded_10, count_memory_seat,
-    count_memory_together_10, count_micromath_cos, count_micromath_powf, count_micromath_sqrt,
-    count_play, count_press_37, count_set_clearance_uncaged, count_set_friction_37,
-    count_set_friction_caged, count_sin_cos, count_sqrt, count_start_caged, count_start_caged_law,
-    count_step_caged, count_step_caged_law, count_step_caged_memory, count_step_caged_range,
-    count_step_closed_form, count_step_efficiency, count_step_linear, count_step_linear_memory,
-    count_step_train_37, count_step_train_37_law, count_step_train_37_memory,
-    count_step_train_37_memory_pressing, count_step_train_37_pressing, count_stribeck_curve,
-    count_swap_caged, count_train_37, count_turn_of_angles, count_turn_of_counts,
-    count_turn_of_speed, count_turn_steady,
+    FourContacts, count_adaptation_update, count_ball_screw_ball, count_ball_screw_row,
+    count_between_caged, count_between_linear, count_between_train_37, count_cbrt,
+    count_cbrt_and_squared, count_cbrt_squared, count_curvature_circular_groove,
+    count_curvature_exact, count_curvature_fitted, count_curvature_literature, count_deviation_map,
+    count_efficiency_backdrive, count_efficiency_rolling, count_efficiency_sliding,
+    count_friction_coefficient, count_friction_coefficient_warming, count_friction_map,
+    count_hertz_ellipse, count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick,
+    count_kinematics_update, count_libm_cbrtf, count_libm_cosf, count_libm_powf,
+    count_libm_sincosf, count_libm_sqrtf, count_linear_ball_analytic, count_linear_ball_speed,
+    count_lugre_step, count_memory_8, count_memory_load_exact_8, count_memory_preloaded_10,
+    count_memory_seat, count_memory_together_10, count_micromath_cos, count_micromath_powf,
+    count_micromath_sqrt, count_play, count_press_37, count_set_friction_37,
+    count_set_friction_caged, count_sin_cos, count_sqrt, count_start_37, count_start_caged,
+    count_start_caged_law, count_step_caged, count_step_caged_law, count_step_caged_memory,
+    count_step_caged_range, count_step_closed_form, count_step_efficiency, count_step_linear,
+    count_step_linear_memory, count_step_train_37, count_step_train_37_law,
+    count_step_train_37_memory, count_step_train_37_memory_pressing, count_step_train_37_pressing,
+    count_step_train_37_range, count_step_train_37_shares, count_stribeck_curve, count_swap_caged,
+    count_train_37, count_turn_of_angles, count_turn_of_counts, count_turn_of_speed,
+    count_turn_steady,
 };
 use crate::gears::{LIN_3_6, LIN_3_6_RANGE, LIN_3_6_WORN};
 use crate::inputs::{
@@ -42,7 +41,7 @@ use crate::numbers::{
     adapted, all, linear_outputs, motion, outputs, screw_ball, two, uncaged_outputs,
 };
 use crate::remembering::{carriage_inputs, counted_inputs, counted_on};
-use crate::scenes::{BALLS, CAGED_BY_LAW, EfficiencyStep, TICK, remembered};
+use crate::scenes::{BALLS, CAGED_BY_LAW, EfficiencyStep, TICK, UNCAGED, remembered};
 use crate::spread::Spread;
 
 /// Most inputs and most outputs that a function has.
@@ -306,12 +305,11 @@ subjects! {
             let done = timed!(c, count_set_friction_37(model, friction));
             [f32::from(u8::from(done))]
         };
-    set_clearance_uncaged: |spread| -> [1] [spread.between(-5e-6, 5e-6)],
-        |c, [gap]| -> [1] {
-            let clearance = black_box(Clearance::new(gap).unwrap_or(Clearance::ZERO));
-            let model = black_box(&mut c.fewer);
-            let done = timed!(c, count_set_clearance_uncaged(model, &clearance));
-            [f32::from(u8::from(done))]
+    start_37: |spread| -> [2] tick(spread),
+        |c, [nut_speed, axial_load]| -> [7] {
+            let model = black_box(&mut c.uncaged_started);
+            timed!(c, count_start_37(model, black_box(&UNCAGED)));
+            uncaged_outputs(&model.step(Inputs { nut_speed, axial_load }))
         };
     memory_8: |spread| -> [3] memory(spread),
         |c, [turn, forward, backward]| -> [1] {
@@ -400,35 +398,6 @@ subjects! {
             let ball = timed!(c, count_ball_screw_ball(row, screw, nut, &LoadShare::MEAN, &mut sums));
             [ball.speed, ball.impedance, c.screw_loop.groove_torque(&sums)]
         };
-    ball_screw_renewal: |spread| -> [5] [
-            spread.between(-300.0, 300.0), spread.between(-0.05, 0.05), spread.between(-0.05, 0.05),
-            spread.between(-5e-6, 1e-5), spread.between(0.05, 0.15),
-        ],
-        |c, [axial_load, screw_deviation, nut_deviation, clearance, friction]| -> [4] {
-            let inputs = BallInputs {
-                axial_load: axial_load + 5.0_f32.copysign(axial_load),
-                force: 0.0, rubbing: [0.0; 2], screw_deviation, nut_deviation, friction, clearance,
-            };
-            let grooves = black_box(&c.elastic);
-            let mut ball = grooves.start(&inputs);
-            let _ = grooves.renew(&mut ball, &inputs);
-            let _ = grooves.renew(&mut ball, &inputs);
-            let found = timed!(c, count_ball_screw_renewal(grooves, &mut ball, &inputs));
-            [found.speed, found.compliance, found.torque, found.carried]
-        };
-    ball_screw_start: |spread| -> [5] [
-            spread.between(-300.0, 300.0), spread.between(-0.05, 0.05), spread.between(-0.05, 0.05),
-            spread.between(-5e-6, 1e-5), spread.between(0.05, 0.15),
-        ],
-        |c, [axial_load, screw_deviation, nut_deviation, clearance, friction]| -> [1] {
-            let inputs = BallInputs {
-                axial_load: axial_load + 5.0_f32.copysign(axial_load),
-                force: 0.0, rubbing: [0.0; 2], screw_deviation, nut_deviation, friction, clearance,
-            };
-            let grooves = black_box(&c.elastic);
-            let ball = timed!(c, count_ball_screw_start(grooves, &inputs));
-            [grooves.renew(&mut ball.clone(), &inputs).speed]
-        };
     press_37: |spread| -> [3] train(spread),
         |c, input| -> [37] {
             let free = black_box(wave(input));
@@ -450,6 +419,14 @@ subjects! {
     step_train_37_pressing: |spread| -> [2] [spread.between(10.0, 30.0), spread.between(4_000.0, 40.0)],
         |c, [nut_speed, axial_load]| -> [7] uncaged_outputs(
             &timed!(c, count_step_train_37_pressing(black_box(&mut c.pressing), nut_speed, axial_load))
+        );
+    step_train_37_shares: |spread| -> [2] tick(spread),
+        |c, [nut_speed, axial_load]| -> [7] uncaged_outputs(
+            &timed!(c, count_step_train_37_shares(black_box(&mut c.uncaged_shares), nut_speed, axial_load))
+        );
+    step_train_37_range: |spread| -> [2] tick(spread),
+        |c, [nut_speed, axial_load]| -> [7] uncaged_outputs(
+            &timed!(c, count_step_train_37_range(black_box(&mut c.uncaged_range), nut_speed, axial_load))
         );
     step_train_37_memory: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [7] {

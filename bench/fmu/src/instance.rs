@@ -14,7 +14,7 @@ use crate::state::Snapshot;
 /// What a call may say beside its success.
 pub type Said = Result<Option<String>, String>;
 
-/// Flags of accuracy alone: nothing is wrong with the inputs. As in the crate's `Faults::ACCURACY`.
+/// The flag of accuracy alone: nothing is wrong with the inputs.
 const ACCURACY: u32 = epas_bench::fmu::ACCURACY;
 
 /// Most ticks of one communication step.

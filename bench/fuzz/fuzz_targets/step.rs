@@ -26,7 +26,7 @@ fuzz_target!(|data: &[u8]| {
         0 => run::<ClosedFormScrew>(seed, signals),
         1 => run::<CagedBallScrew<5>>(seed, signals),
         2 => run::<UncagedBallScrew<2>>(seed, signals),
-        3 => run::<UncagedBallScrew<7>>(seed, signals),
+        3 => run::<UncagedBallScrew<7, 3>>(seed, signals),
         4 => run::<UncagedBallScrew<37>>(seed, signals),
         5 => run::<LinearBearingTrain<1>>(seed, signals),
         6 => run::<LinearBearingTrain<3>>(seed, signals),

@@ -17,7 +17,7 @@ use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
 
-/// Figures of ball screws of steel, as firmware computes them.
+/// Figures of ball screws of steel, by the exact balls that firmware's constants are folded from.
 ///
 /// Arrays broadcast against each other. A design's figures follow from its own numbers alone, so that any part of a study gives
 /// the same bits.
@@ -31,14 +31,14 @@ type Any<'py> = Bound<'py, PyAny>;
 ///     preload: load of each contact of an oversized ball without a load, N; 0, or from 1e-3 on.
 ///     axial_load: N, 1e-3 to 1e7; it opposes the travel.
 ///     turns: turns of the track that are filled with balls side by side.
-///     friction: coefficient of ball and groove, 1e-6 to 0.5.
+///     friction: coefficient of ball and groove, 1e-3 to 0.5.
 ///     ball_friction: coefficient of ball and ball, 0 to 0.5.
 ///     deviation: by which the contact angle at one of two neighbouring balls is off, rad, 0 to 0.2.
 ///     strict: whether a design out of range is an error; else its figures are NaN.
 ///
 /// Returns:
 ///     DesignFigures: loaded_balls, friction_torque (N m), efficiency, max_pressure (Pa), contact_force (between two balls, N;
-///     NaN where a ball leaves the model), float32, of the broadcast shape.
+///     NaN where a ball has no balance), float32, of the broadcast shape.
 ///
 /// Raises:
 ///     Error: a value out of its range, with its place in the arrays.

@@ -153,7 +153,8 @@ def test_memory_between_steps() -> None:
 
 def test_friction_is_set_while_it_runs() -> None:
     design = ef.Design.built_in("lin-3.6")
-    for screw in [ef.UncagedBallScrew(design), ef.CagedBallScrew(design, friction_range=(0.02, 0.12))]:
+    uncaged = ef.UncagedBallScrew(design, friction_range=(0.02, 0.12))
+    for screw in [uncaged, ef.CagedBallScrew(design, friction_range=(0.02, 0.12))]:
         before = screw.run(np.full(2000, 5.0), 1500.0).friction_torque[-1]
         screw.set_friction(0.02)
         after = screw.run(np.full(2000, 5.0), 1500.0).friction_torque[-1]

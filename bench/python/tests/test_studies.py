@@ -26,7 +26,7 @@ def test_any_partition_of_designs_has_the_same_bits():
 
 
 def test_a_study_has_the_friction_of_the_scene():
-    # The scene's law over the load and settled balls agree within 2e-4, rolling resistance is 1 % of the friction.
+    # A study has the exact ball that the scene is folded from, without rolling resistance, which is 1 % of the friction here.
     design = ef.Design.built_in("lin-4.1")
     found = ef.design_figures(14.5e-3, 7e-3, 2e-3, 0.54, np.pi / 4, axial_load=3000.0, friction=0.075, turns=71.5 * 4e-3 / (np.pi * 29e-3))
     assert found.loaded_balls == 71

@@ -1,21 +1,23 @@
 //! What many designs of a ball screw do under one duty: friction torque, efficiency, contact pressure, force between balls.
 //!
-//! Every number is what firmware would compute: the settled balls of the scenes, whose grooves rub as in their `step()`, and the
-//! contact ellipse; without rolling resistance, which is about 1 % of the friction. A design's figures follow from its own
+//! Torque and force between balls are those of the float64 reference: balls in elastic balance with Coulomb friction by contact integrals, which
+//! is what a step is folded from; without rolling resistance, which is about 1 % of the friction. A design's figures follow from its own
 //! numbers alone, so that any partition of a table of designs gives the same answers, to the bit: an engine that spreads a
 //! table over threads or machines calls [`figures`] row by row, or [`columns`] for a slice.
 
 use core::f32::consts::TAU;
 
-use epas_friction::ball::elastic::{BallInputs, ElasticGrooves};
+use epas_design::drawing::drawing;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::law::breakaway::ScrewContacts;
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, Material, Range,
 };
-
-use crate::settled::{SettledRow, settled};
+use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
+use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::patch::Integration;
+use epas_reference::friction::rolling_resistance::RollingResistance;
 
 /// A design of steel balls in steel grooves, both grooves alike.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +43,7 @@ pub struct Duty {
     pub axial_load: f32,
     /// Turns of the track that are filled with balls side by side, one ball's length to 100.
     pub turns: f32,
-    /// Friction coefficient of ball and groove, 1e-6 to 0.5.
+    /// Friction coefficient of ball and groove, 1e-3 to 0.5.
     pub friction: f32,
     /// Friction coefficient of ball and ball, 0 to 0.5.
     pub ball_friction: f32,
@@ -92,7 +94,7 @@ pub fn figures(design: &Design, duty: &Duty) -> Result<Figures, Error> {
             .at(contact_load)
             .max_pressure
     };
-    let balls = Balls::of(&screw, clearance, loaded_balls, duty)?;
+    let balls = Balls::of(&screw, clearance, loaded_balls, duty);
     let friction_torque = f32::from(loaded_balls) * balls.torque;
     let load_torque = duty.axial_load * design.lead / TAU;
     Ok(Figures {
@@ -129,7 +131,7 @@ impl Duty {
     fn check(&self, screw: &BallScrew) -> Result<(), Error> {
         in_range("axial_load", self.axial_load, 1e-3, 1e7)?;
         in_range("turns", self.turns, one_ball(screw), 100.0)?;
-        in_range("friction", self.friction, 1e-6, 0.5)?;
+        in_range("friction", self.friction, 1e-3, 0.5)?;
         in_range("ball_friction", self.ball_friction, 0.0, 0.5)?;
         in_range("deviation", self.deviation, 0.0, 0.2)
     }
@@ -146,50 +148,62 @@ fn one_ball(screw: &BallScrew) -> f32 {
     2.0 * screw.ball_radius() * screw.cos_lead_angle() / (TAU * screw.pitch_radius())
 }
 
-/// Two neighbouring balls of a design.
+/// Balls of a design.
 struct Balls {
-    /// Friction torque of the ball whose grooves are as they should be, no neighbour pressing, N m.
+    /// Friction torque of a ball whose grooves are as they should be, no neighbour pressing, N m.
     torque: f32,
     /// As in [`Figures`].
     contact_force: f32,
 }
 
 impl Balls {
-    fn of(
-        screw: &BallScrew,
-        clearance: Clearance,
-        loaded_balls: u16,
-        duty: &Duty,
-    ) -> Result<Self, Error> {
-        let grooves = ElasticGrooves::new(screw)?;
-        let ball = |nut_deviation| BallInputs {
-            axial_load: duty.axial_load / f32::from(loaded_balls),
-            force: 0.0,
-            rubbing: [0.0; 2],
-            screw_deviation: 0.0,
-            nut_deviation,
-            friction: duty.friction,
-            clearance: clearance.gap(),
+    fn of(screw: &BallScrew, clearance: Clearance, loaded_balls: u16, duty: &Duty) -> Self {
+        let axial_load = f64::from(duty.axial_load) / f64::from(loaded_balls);
+        let ball = CagedBall {
+            design: drawing(screw.parameters()),
+            clearance: clearance.gap().into(),
+            friction: duty.friction.into(),
+            rolling: RollingResistance::NONE,
+            integration: Integration::Full,
         };
-        let pair = |deviation| {
-            let balls = [ball(deviation), ball(0.0)].into_iter();
-            settled::<2>(screw, &grooves, balls, duty.ball_friction)
-        };
+        let torque = ball
+            .along(&[axial_load])
+            .ok()
+            .and_then(|found| found.into_iter().next()?.ok())
+            .map_or(f64::NAN, |found| found.torque);
         // Balls press in one of the two ways; in the other they part.
-        let pairs = [pair(duty.deviation), pair(-duty.deviation)];
-        let force = |pair: &Option<SettledRow>| {
-            let pressing = pair.as_ref()?.pressing.as_ref()?;
-            pressing.forces.first().copied()
-        };
-        let nominal = pairs[0].as_ref().and_then(|pair| pair.alone.get(1));
-        Ok(Self {
-            torque: nominal.map_or(f32::NAN, |ball| ball.torque),
-            contact_force: match (force(&pairs[0]), force(&pairs[1])) {
-                (Some(one), Some(other)) => one.max(other),
+        let forces = [1.0, -1.0].map(|way| {
+            let pair = pair(&ball, axial_load, way * f64::from(duty.deviation), duty);
+            pair.and_then(|pair| pair.contact_forces.first().copied())
+        });
+        Self {
+            torque: torque as f32,
+            contact_force: match forces {
+                [Some(one), Some(other)] => one.max(other) as f32,
                 _ => f32::NAN,
             },
-        })
+        }
     }
+}
+
+/// Two neighbours, the nut's groove off by a deviation at the one behind; none where they have no balance.
+fn pair(ball: &CagedBall, axial_load: f64, deviation: f64, duty: &Duty) -> Option<RowMotion> {
+    let of_row = |nut_deviation| RowBall {
+        screw_deviation: 0.0,
+        nut_deviation,
+        axial_load,
+    };
+    ElasticRow {
+        design: ball.design,
+        clearance: ball.clearance,
+        friction: ball.friction,
+        ball_friction: duty.ball_friction.into(),
+        nut_speed: 1.0,
+        balls: vec![of_row(deviation), of_row(0.0)],
+        integration: ball.integration,
+    }
+    .solve()
+    .ok()
 }
 
 fn in_range(field: &'static str, value: f32, minimum: f32, maximum: f32) -> Result<(), Error> {

@@ -1,9 +1,14 @@
 //! Table `[fold]` of a design file: the domain over which `design` folds it.
 
-use epas_design::CagedFold;
+use epas_design::{CagedDesign, CagedFold, UncagedFold};
+use epas_friction::Range;
 use serde::Deserialize;
 
 use super::Design;
+use super::train::UncagedDesign;
+
+/// Largest deviations that a law is folded for, rad.
+const DEVIATION: Range = Range::new(1e-4, 0.1);
 
 /// Table `[fold]` of a design file.
 #[derive(Clone, Debug, Default, Deserialize)]
@@ -24,27 +29,49 @@ enum Friction {
     Range([f32; 2]),
 }
 
+/// What a table says of a domain, beside a design's own friction coefficient.
+struct Domain {
+    friction: f32,
+    range: Option<[f32; 2]>,
+}
+
 impl FoldTable {
-    /// Refuses deviations, which a caged screw's balls do not feel: whoever asks for a block of them means another one.
-    ///
-    /// # Errors
-    /// The key that stands there.
-    pub fn check_deviations(&self) -> Result<(), String> {
-        for (key, there) in [
-            ("screw_deviation", self.screw_deviation.is_some()),
-            ("nut_deviation", self.nut_deviation.is_some()),
-        ] {
-            if there {
-                return Err(format!(
-                    "{key} belongs to the law of balls that press on each other, which is not folded yet: without it the design is folded \
-                     with a cage"
-                ));
+    /// The domain of a design with a friction coefficient, which its file leaves to the default where `mark` says so.
+    fn domain(&self, own: f32, mark: &str) -> Result<Domain, String> {
+        match self.friction {
+            None => Ok(Domain {
+                friction: own,
+                range: None,
+            }),
+            Some(Friction::One(friction)) => Ok(Domain {
+                friction,
+                range: None,
+            }),
+            Some(Friction::Range([least, most])) => {
+                if least < most && !(least..=most).contains(&own) {
+                    return Err(format!(
+                        "the design's friction = {own}{mark} is not within friction = [{least}, {most}]"
+                    ));
+                }
+                Ok(Domain {
+                    friction: own,
+                    range: Some([least, most]),
+                })
             }
         }
-        Ok(())
     }
 
-    /// The design with the domain of this table.
+    /// Whether it says for which loads of a ball a design is folded.
+    pub const fn says_axial_load(&self) -> bool {
+        self.axial_load.is_some()
+    }
+
+    /// Whether it says for which deviations a design is folded: of balls that press on each other.
+    pub const fn says_deviations(&self) -> bool {
+        self.screw_deviation.is_some() || self.nut_deviation.is_some()
+    }
+
+    /// A caged design with the domain of this table.
     ///
     /// # Errors
     /// What of it cannot be folded.
@@ -53,20 +80,51 @@ impl FoldTable {
             return Err("a closed form (branch = \"rolling\" or \"sliding\") needs no fold".into());
         }
         let mut fold = CagedFold::of(design.caged);
-        match self.friction {
-            None => {}
-            Some(Friction::One(friction)) => fold.gear.friction = friction,
-            Some(Friction::Range([least, most])) => {
-                let friction = fold.gear.friction;
-                if least < most && !(least..=most).contains(&friction) {
-                    return Err(format!(
-                        "the design's friction = {friction}{} is not within friction = [{least}, {most}]",
-                        design.mark("friction")
-                    ));
-                }
-                fold.friction = Some([least, most]);
-            }
-        }
+        let domain = self.domain(fold.gear.friction, design.mark("friction"))?;
+        fold.gear.friction = domain.friction;
+        fold.friction = domain.range;
+        fold.axial_load = self.axial_load.unwrap_or(fold.axial_load);
+        fold.seed = self.seed.map_or(fold.seed, u64::from);
+        Ok(fold)
+    }
+
+    /// A design without cage with the domain of this table: deviations of a groove are this table's, or those of its map, at least the least that
+    /// a law is folded for. Its balls are those of `row`, or where it has none those of the design.
+    ///
+    /// # Errors
+    /// What of it cannot be folded.
+    pub fn fold_uncaged(
+        &self,
+        design: &Design,
+        row: Option<&UncagedDesign>,
+    ) -> Result<UncagedFold, String> {
+        let gear = row.map_or(design.caged, |row| row.gear);
+        let of_maps = row.map_or([0.0; 2], UncagedDesign::deviations);
+        let deviation = |name: &str, given: Option<f32>, of_map: f32| match given {
+            None => Ok(of_map.max(DEVIATION.minimum)),
+            Some(given) if DEVIATION.contains(given) && given >= of_map => Ok(given),
+            Some(given) => Err(format!(
+                "{name} = {given} is out of range; allowed: {} to {}",
+                of_map.max(DEVIATION.minimum),
+                DEVIATION.maximum
+            )),
+        };
+        let [screw, nut] = of_maps;
+        let deviations = [
+            deviation("screw_deviation", self.screw_deviation, screw)?,
+            deviation("nut_deviation", self.nut_deviation, nut)?,
+        ];
+        let domain = self.domain(gear.friction, design.mark("friction"))?;
+        let mut fold = UncagedFold::of(epas_design::UncagedDesign {
+            gear: CagedDesign {
+                friction: domain.friction,
+                // The law is that of one ball.
+                loaded_balls: 1,
+                ..gear
+            },
+            deviations,
+        });
+        fold.friction = domain.range;
         fold.axial_load = self.axial_load.unwrap_or(fold.axial_load);
         fold.seed = self.seed.map_or(fold.seed, u64::from);
         Ok(fold)

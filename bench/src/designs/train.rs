@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use epas_design::CagedDesign;
 use epas_friction::{
     BallScrew, Clearance, DeviationMap, GrooveSize, Harmonic, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
-    RollingResistance, UncagedBallScrewConfiguration, defaults,
+    RollingResistance, defaults,
 };
 use serde::Deserialize;
 
@@ -14,14 +15,26 @@ use super::tables::{
 };
 use crate::failure::Failure;
 
-/// A ball screw without cage: how many balls, and everything but the tick.
+/// A ball screw without cage.
 #[derive(Clone, Copy, Debug)]
 pub struct UncagedDesign {
     /// Number of balls in the circuit.
     pub balls: u8,
-    /// Configuration; the tick is the trace's.
-    pub configuration: UncagedBallScrewConfiguration,
-    /// What its deviation is, where the float64 reference can follow it.
+    /// The screw with its numbers; how many balls share the load follows from the circuit.
+    pub gear: CagedDesign,
+    /// Friction coefficient of ball and ball.
+    pub ball_friction: f32,
+    /// Turns of the loaded track.
+    pub turns: f32,
+    /// Length of the return, m.
+    pub return_length: f32,
+    /// Deviation of the contact angles along the screw's groove.
+    pub screw_deviation: &'static DeviationMap,
+    /// Deviation of the contact angles along the nut's groove.
+    pub nut_deviation: &'static DeviationMap,
+    /// Load of a ball over the mean load, along the loaded track.
+    pub load_shares: LoadShares,
+    /// What its deviation is, where the closed form of the whole screw can follow it.
     pub wave: Option<Wave>,
 }
 
@@ -32,8 +45,22 @@ impl UncagedDesign {
             let samples = (0..64).map(|sample: u32| map.at(sample << 26).abs());
             samples.fold(0.0, f32::max)
         };
-        let configuration = &self.configuration;
-        [configuration.screw_deviation, configuration.nut_deviation].map(largest)
+        [self.screw_deviation, self.nut_deviation].map(largest)
+    }
+
+    /// Balls that share the load: those on the loaded track.
+    pub fn loaded_balls(&self) -> f32 {
+        let screw = &self.gear.design;
+        let loaded =
+            self.turns * std::f32::consts::TAU * screw.pitch_radius() / screw.cos_lead_angle();
+        f32::from(self.balls) * loaded / (loaded + self.return_length)
+    }
+
+    /// Largest load of one ball under an axial load, N.
+    pub fn ball_load(&self, axial_load: f32) -> f32 {
+        let LoadShares { positive, negative } = self.load_shares;
+        let shares = positive.iter().chain(negative).map(LoadShare::share);
+        axial_load.abs() / self.loaded_balls() * shares.fold(1.0, f32::max)
     }
 }
 
@@ -57,6 +84,13 @@ pub struct LinearDesign {
     pub configuration: LinearBearingConfiguration,
     /// Keys that its file leaves to the defaults.
     pub defaulted: Vec<&'static str>,
+}
+
+/// What a design lacks that says nothing of its balls.
+pub fn no_row(design: &str) -> String {
+    format!(
+        "{design} says nothing of its balls: a design file does in a table [uncaged], and of the built-in designs lin-3.6"
+    )
 }
 
 /// Name of the built-in linear bearing.
@@ -161,20 +195,20 @@ pub fn built_in(name: &str, screw: BallScrew, balls: u16) -> Option<UncagedDesig
         load_shares: None,
         negative_load_shares: None,
     };
-    let limits = Limits {
-        nut_speed: 2e3,
-        axial_load: 1e5,
-        friction_torque: 100.0,
+    let gear = CagedDesign {
+        design: screw,
+        friction: 0.1,
+        rolling_resistance: RollingResistance::NONE,
+        clearance: Clearance::ZERO,
+        loaded_balls: balls,
+        reversal_speed: 1e-2,
+        limits: Limits {
+            nut_speed: 2e3,
+            axial_load: 1e5,
+            friction_torque: 100.0,
+        },
     };
-    table
-        .design(
-            screw,
-            Clearance::ZERO,
-            (0.1, RollingResistance::NONE),
-            1e-2,
-            limits,
-        )
-        .ok()
+    table.design(gear).ok()
 }
 
 impl UncagedTable {
@@ -183,15 +217,8 @@ impl UncagedTable {
         self.ball_friction.is_some()
     }
 
-    /// The scene of a checked geometry.
-    pub fn design(
-        &self,
-        screw: BallScrew,
-        clearance: Clearance,
-        (friction, rolling_resistance): (f32, RollingResistance),
-        reversal_speed: f32,
-        limits: Limits,
-    ) -> Result<UncagedDesign, String> {
+    /// The screw with its balls.
+    pub fn design(&self, gear: CagedDesign) -> Result<UncagedDesign, String> {
         refuse_fit(self.fit.as_ref())?;
         let turns = self.deviation_turns.unwrap_or(1);
         let waves = self.screw_deviation.as_deref().unwrap_or_default();
@@ -214,21 +241,13 @@ impl UncagedTable {
         };
         Ok(UncagedDesign {
             balls: self.balls,
-            configuration: UncagedBallScrewConfiguration {
-                design: screw,
-                friction,
-                ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
-                rolling_resistance,
-                clearance,
-                turns: self.turns,
-                return_length: self.return_length.unwrap_or(0.0),
-                screw_deviation: map("screw_deviation", turns, waves)?,
-                nut_deviation: map("nut_deviation", turns, on_nut)?,
-                load_shares: self.load_shares()?,
-                reversal_speed,
-                tick: 1e-3,
-                limits,
-            },
+            gear,
+            ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
+            turns: self.turns,
+            return_length: self.return_length.unwrap_or(0.0),
+            screw_deviation: map("screw_deviation", turns, waves)?,
+            nut_deviation: map("nut_deviation", turns, on_nut)?,
+            load_shares: self.load_shares()?,
             wave: wave
                 .filter(|_| self.load_shares.is_none() && self.negative_load_shares.is_none()),
         })

@@ -5,24 +5,25 @@
 //! change a force by up to 2.9e-4 N: less than 1e-4 of it, but where a small force is left by two free speeds that are
 //! nearly equal (0.4 % of 0.07 N).
 //!
-//! In the loop balls are what they are in the scene of a ball screw without cage, once it has settled ([`elastic`]); what
+//! In the loop balls follow the law that the scene of a ball screw without cage evaluates, folded for the request ([`folded`]); what
 //! a closed form finds is answered beside it ([`closed_form`]).
 
 mod closed_form;
-mod elastic;
+mod folded;
 mod request;
 
 use serde::Serialize;
 
 use super::answer::Answer;
 use super::fields::{BadField, Fields};
+use folded::FoldedRow;
 use request::{Request, Row};
 
-/// What the crate computes: what its scene does, and a closed form.
+/// What the crate computes: by the law of its scene, and by a closed form.
 #[derive(Default, Serialize)]
 struct InLoop {
     #[serde(flatten)]
-    scene: Row,
+    law: FoldedRow,
     closed_form: Row,
 }
 
@@ -37,7 +38,7 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
     }
     let design = request.design()?;
     let in_loop = InLoop {
-        scene: elastic::row(&request, &design)?,
+        law: folded::row(&request, &design),
         closed_form: closed_form::row(&request, &design)?,
     };
     Answer::both(&in_loop, &request.reference()?)

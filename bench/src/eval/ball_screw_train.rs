@@ -1,11 +1,9 @@
 //! `ball_screw_train`: a row of touching balls in a ball screw, each with given contacts.
 //!
-//! In the loop it is answered by the closed form of a row ([`closed_form`]), which no step runs; beside it stands what the scene
-//! computes ([`elastic`]). Both find the contacts themselves.
+//! In the loop it is answered by the closed form of a row ([`closed_form`]), which no step runs and which finds the contacts itself.
 
 mod closed_form;
 mod contacts;
-mod elastic;
 
 use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
@@ -22,7 +20,6 @@ use super::fields::{BadField, Fields, in_range};
 use super::train::{LARGEST_TRAIN, ScrewNumbers, solved};
 use closed_form::ClosedRow;
 use contacts::{Given, Ways};
-use elastic::ElasticRow;
 
 /// Names of the grooves' flanks: screw or nut, left or right.
 const FLANKS: [(&str, Groove); 4] = [
@@ -39,16 +36,6 @@ struct Row {
     orbital_speed: Option<Vec<f64>>,
     contact_force: Option<Vec<f64>>,
     power_loss: Option<f64>,
-}
-
-/// What the crate computes.
-#[derive(Default, Serialize)]
-struct InLoop {
-    /// What the closed form of a row finds for the axial loads and deviations that the contacts follow from.
-    #[serde(flatten)]
-    closed: ClosedRow,
-    /// What the scene computes for them.
-    elastic: Option<ElasticRow>,
 }
 
 struct Request {
@@ -142,20 +129,17 @@ impl Request {
         Ok(())
     }
 
-    /// What closed form and scene find, in f32.
-    fn in_loop(&self) -> Result<InLoop, BadField> {
+    /// What the closed form finds, in f32.
+    fn in_loop(&self) -> Result<ClosedRow, BadField> {
         self.check_design()?;
         if self.nut_speed == 0.0 {
-            return Ok(InLoop {
-                closed: self.standstill().into(),
-                elastic: None,
-            });
+            return Ok(self.standstill().into());
         }
         Ok(self.of_one_screw().unwrap_or_default())
     }
 
     /// The same for balls that have such contacts; none where they are not of one screw.
-    fn of_one_screw(&self) -> Option<InLoop> {
+    fn of_one_screw(&self) -> Option<ClosedRow> {
         let balls: Vec<Given> = self
             .balls
             .iter()
@@ -174,10 +158,7 @@ impl Request {
             friction: self.friction as f32,
             nut_speed: self.nut_speed as f32,
         };
-        Some(InLoop {
-            closed: closed_form::row(&given, &design, ways).unwrap_or_default(),
-            elastic: elastic::row(&given, |angle| self.design(angle), ways),
-        })
+        closed_form::row(&given, &design, ways)
     }
 
     /// Whether the crate takes the screw, with the mean contact angle for its nominal one.

@@ -1,6 +1,8 @@
 //! Models of a unit, of a design whose numbers have been changed.
 
+use epas_friction::scene::{FoldedBall, UncagedBallScrewConfiguration};
 use epas_friction::{Error, FrictionModel, LinearBearingTrain, UncagedBallScrew};
+use epas_trains::{Folded, NODES};
 
 use super::parameters::Values;
 use super::rows::Row;
@@ -8,10 +10,9 @@ use super::running::{ByAngle, Moving, Running};
 use super::scene::SceneName;
 use crate::caged::CagedScene;
 use crate::designs::Design;
-use crate::designs::train::LinearDesign;
-use crate::failure::Failure;
+use crate::designs::train::{LinearDesign, UncagedDesign, no_row};
 use crate::simulate::linear::Linear;
-use crate::simulate::memory::{self, Remembering};
+use crate::simulate::memory::{self, Remembered, Remembering};
 use crate::simulate::nut::STEPS;
 use crate::simulate::remembering::{Sensor, Use, remembering};
 use crate::simulate::uncaged::Uncaged;
@@ -22,7 +23,7 @@ use crate::simulate::uncaged::Uncaged;
 /// The parameter that is wrong, its value and what is allowed.
 pub fn caged(design: &Design) -> Result<Box<dyn Running>, String> {
     design.check().map_err(said)?;
-    let scene = CagedScene::of(design).map_err(|failure| refused(&failure))?;
+    let scene = CagedScene::of(design).map_err(|failure| failure.message().to_owned())?;
     Ok(Box::new(scene.model().map_err(said)?))
 }
 
@@ -37,13 +38,6 @@ pub fn caged_with_memory(design: &Design, values: &Values<'_>) -> Result<Box<dyn
 
 fn said(error: Error) -> String {
     error.to_string()
-}
-
-fn refused(failure: &Failure) -> String {
-    match failure {
-        Failure::Data(message) => message.clone(),
-        _ => "the model cannot be made".into(),
-    }
 }
 
 fn mean_load(values: &Values<'_>) -> Result<f32, String> {
@@ -70,7 +64,7 @@ where
     design.check().map_err(said)?;
     match remembering(design, load, angle, then) {
         Ok((running, _)) => Ok(running),
-        Err(failure) => Err(refused(&failure)),
+        Err(failure) => Err(failure.message().into()),
     }
 }
 
@@ -108,13 +102,6 @@ pub fn row(design: &Design) -> Result<Uncaged, String> {
     })
 }
 
-/// What a design lacks that says nothing of a row of balls.
-pub fn no_row(design: &str) -> String {
-    format!(
-        "{design} says nothing of its balls: a design file does in a table [uncaged], and of the built-in designs lin-3.6"
-    )
-}
-
 /// A screw whose balls press on each other.
 ///
 /// # Errors
@@ -125,18 +112,48 @@ pub fn uncaged<const N: usize>(
     values: &Values<'_>,
 ) -> Result<Box<dyn Running>, String> {
     let row = row(design)?;
-    let mut configuration = row.balls.configuration;
-    configuration.tick = checked_tick(values)? as f32;
-    if scene.has_memory() {
-        let remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
-        let friction = configuration.friction;
-        let speed = memory::speed(configuration.tick).map_err(said)?;
-        let model = memory::configuration(configuration, &remembered, speed, friction)
-            .and_then(|whole| FrictionModel::<Remembering<UncagedBallScrew<N>>>::new(&whole))
+    row.balls.gear.checked().map_err(said)?;
+    let remembered = if scene.has_memory() {
+        Some(row.remembered_at(mean_load(values)?).map_err(said)?)
+    } else {
+        None
+    };
+    let tick = checked_tick(values)? as f32;
+    match row
+        .folded(0.0)
+        .map_err(|failure| failure.message().to_owned())?
+        .folded
+    {
+        Folded::One(folded) => row_of::<N, 1>(&row.balls, folded, remembered.as_ref(), tick),
+        Folded::Range(folded) => row_of::<N, NODES>(&row.balls, folded, remembered.as_ref(), tick),
+    }
+}
+
+/// The same by a law of its ball.
+fn row_of<const N: usize, const K: usize>(
+    balls: &UncagedDesign,
+    folded: &'static FoldedBall<K>,
+    remembered: Option<&Remembered>,
+    tick: f32,
+) -> Result<Box<dyn Running>, String> {
+    let configuration = UncagedBallScrewConfiguration {
+        folded,
+        ball_friction: balls.ball_friction,
+        turns: balls.turns,
+        return_length: balls.return_length,
+        screw_deviation: balls.screw_deviation,
+        nut_deviation: balls.nut_deviation,
+        load_shares: balls.load_shares,
+        tick,
+    };
+    if let Some(remembered) = remembered {
+        let speed = memory::speed(tick).map_err(said)?;
+        let model = memory::configuration(configuration, remembered, speed, balls.gear.friction)
+            .and_then(|whole| FrictionModel::<Remembering<UncagedBallScrew<N, K>>>::new(&whole))
             .map_err(said)?;
         Ok(Box::new(Row { model, motion: 0.0 }))
     } else {
-        let model = FrictionModel::<UncagedBallScrew<N>>::new(&configuration).map_err(said)?;
+        let model = FrictionModel::<UncagedBallScrew<N, K>>::new(&configuration).map_err(said)?;
         Ok(Box::new(Row { model, motion: 0.0 }))
     }
 }

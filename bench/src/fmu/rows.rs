@@ -103,8 +103,8 @@ fn remembered<I>(moment: &Moment<'_>, scene: I, temperature: usize) -> WithMemor
 }
 
 macro_rules! balls {
-    ($scene:ident, $inputs:ident, $outputs:ident, $temperature:literal) => {
-        impl<const N: usize> Balls for FrictionModel<$scene<N>> {
+    ([$($generics:tt)*] $scene:ty, $inputs:ident, $outputs:ident, $temperature:literal) => {
+        impl<$($generics)*> Balls for FrictionModel<$scene> {
             fn tick(&mut self, moment: &Moment<'_>) -> (Vec<f64>, [f64; 4]) {
                 $outputs(self.step($inputs(moment)))
             }
@@ -120,7 +120,7 @@ macro_rules! balls {
             }
         }
 
-        impl<const N: usize> Balls for FrictionModel<Remembering<$scene<N>>> {
+        impl<$($generics)*> Balls for FrictionModel<Remembering<$scene>> {
             fn tick(&mut self, moment: &Moment<'_>) -> (Vec<f64>, [f64; 4]) {
                 $outputs(self.step(remembered(moment, $inputs(moment), $temperature)))
             }
@@ -138,5 +138,5 @@ macro_rules! balls {
     };
 }
 
-balls!(UncagedBallScrew, screw_inputs, of_screw, 2);
-balls!(LinearBearingTrain, bearing_inputs, of_bearing, 3);
+balls!([const N: usize, const K: usize] UncagedBallScrew<N, K>, screw_inputs, of_screw, 2);
+balls!([const N: usize] LinearBearingTrain<N>, bearing_inputs, of_bearing, 3);

@@ -1,5 +1,6 @@
 //! A unit: a scene with a design, its variables, and models of it.
 
+use epas_friction::Error;
 use serde::{Deserialize, Serialize};
 
 use super::models;
@@ -8,12 +9,13 @@ use super::running::Running;
 use super::scene::SceneName;
 use super::variables::{Causality, Kind, TIME, Variable, inputs, outputs, parameter};
 use crate::caged::{keep_words, words};
-use crate::designs::train::LinearDesign;
+use crate::designs::train::{LinearDesign, no_row};
 use crate::designs::{self, Design, DesignSource};
 use crate::failure::Failure;
 use crate::simulate::linear::Linear;
 use crate::simulate::nut::Nut;
 use crate::simulate::remembering::coefficients;
+use crate::uncaged;
 
 /// Mean size of the load, N, where a design does not say one.
 const MEAN_LOAD: f32 = 1000.0;
@@ -112,7 +114,12 @@ impl Unit {
         };
         if let Some(words) = &stored.block {
             // A model with the numbers that the unit starts with needs no fold.
-            keep_words(words).map_err(|error| format!("the unit's block: {error}"))?;
+            let kept = if scene.has_row() {
+                uncaged::read(words).map(drop)
+            } else {
+                keep_words(words)
+            };
+            kept.map_err(|error| format!("the unit's block: {error}"))?;
         }
         let kept = (text.clone(), stored.block.clone());
         let unit = Self::of(*scene, source, kept, stored.tick)?;
@@ -139,7 +146,7 @@ impl Unit {
         let balls = match (scene.has_row(), balls) {
             (false, _) => 0,
             (true, Some(balls)) => balls,
-            (true, None) => return Err(models::no_row(&design)),
+            (true, None) => return Err(no_row(&design)),
         };
         let mut variables = vec![TIME];
         variables.extend(inputs(scene));
@@ -236,7 +243,7 @@ impl Unit {
     }
 }
 
-/// The words of the block of a screw without a row of balls, folded for the friction coefficients that its scene takes.
+/// The words of the block of a screw, folded for the friction coefficients that its scene takes.
 fn block(scene: SceneName, source: &Source) -> Result<Option<Vec<u32>>, Failure> {
     match source {
         Source::Screw(design) if !scene.has_row() => {
@@ -248,7 +255,12 @@ fn block(scene: SceneName, source: &Source) -> Result<Option<Vec<u32>>, Failure>
             };
             words(design, coefficients).map_err(|failure| failure.of(&design.name))
         }
-        _ => Ok(None),
+        Source::Screw(design) => {
+            let row = models::row(design).map_err(Failure::Data)?;
+            let words = uncaged::words(design, &row.balls);
+            Ok(Some(words.map_err(|failure| failure.of(&design.name))?))
+        }
+        Source::Bearing(_) => Ok(None),
     }
 }
 
@@ -328,17 +340,26 @@ fn longest_tick(scene: SceneName, source: &Source) -> Result<Option<f64>, String
     if !scene.has_row() {
         return Ok(scene.has_tick().then_some(tick));
     }
-    for _ in 0..halvings {
-        let built = match source {
-            Source::Screw(design) => models::row(design)?.model(tick as f32, None).map(drop),
-            Source::Bearing(design) => Linear {
-                design: (**design).clone(),
+    // The number of ticks changes nothing of what is folded.
+    let built: Box<dyn Fn(f64) -> Result<(), Error>> = match source {
+        Source::Screw(design) => {
+            let row = models::row(design)?;
+            let configuration = row
+                .folded(0.0)
+                .map_err(|failure| failure.message().to_owned())?;
+            Box::new(move |tick| row.model(&configuration, tick as f32, None).map(drop))
+        }
+        Source::Bearing(design) => {
+            let design = (**design).clone();
+            let row = Linear {
+                design,
                 memory: false,
-            }
-            .model(tick as f32, None)
-            .map(drop),
-        };
-        match built {
+            };
+            Box::new(move |tick| row.model(tick as f32, None).map(drop))
+        }
+    };
+    for _ in 0..halvings {
+        match built(tick) {
             Err(error) if error.field() == "tick" => tick *= 0.5,
             Err(error) => return Err(error.to_string()),
             Ok(()) => break,

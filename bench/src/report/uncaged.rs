@@ -16,7 +16,7 @@ use crate::failure::Failure;
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let mut blocks = vec![
         Block::Text(
-            "Balls of the scene stand in elastic grooves and are renewed by Newton steps, one a tick; what is exact is every ball in elastic \
+            "A tick of the scene evaluates every ball by a law that was folded before, over its load and the deviations of its grooves; what is exact is every ball in elastic \
              balance with Coulomb friction by contact integrals, pressing and rubbing on its neighbours by complementarity, in float64 and from other \
              sources."
                 .into(),

@@ -1,6 +1,6 @@
 //! What bindings to other languages take of a simulation: traces, scenes with their models and rows.
 
-pub use epas_trains::{Balls, Built, MOST_BALLS};
+pub use epas_trains::{Balls, Built, MOST_BALLS, ScrewConfiguration};
 
 pub use super::caged::{Caged, CagedRow, wrapped};
 pub use super::linear::{Linear, LinearRow};

@@ -5,7 +5,7 @@ use super::linear::Linear;
 use super::manoeuvre::Manoeuvre;
 use super::uncaged::Uncaged;
 use crate::designs::DesignSource;
-use crate::designs::train::LinearDesign;
+use crate::designs::train::{LinearDesign, no_row};
 use crate::failure::Failure;
 
 /// A scene of the in-loop model, by its name.
@@ -56,11 +56,7 @@ pub fn choose(
         SceneName::Uncaged => {
             let design = screw("lin-3.6")?;
             let Some(balls) = design.uncaged else {
-                return Err(Failure::Data(format!(
-                    "{} says nothing of its balls: a design file does in a table [uncaged], and of the \
-                     built-in designs lin-3.6",
-                    design.name
-                )));
+                return Err(Failure::Data(no_row(&design.name)));
             };
             Ok(Chosen::Uncaged(Box::new(Uncaged {
                 design,

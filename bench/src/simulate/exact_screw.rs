@@ -75,7 +75,7 @@ pub fn exact_screw(
 
 /// Speeds and loads as the scene lets them in.
 fn within_limits(design: &UncagedDesign, trace: &Trace<ScrewSample>) -> Vec<ScrewSample> {
-    let limits = design.configuration.limits;
+    let limits = design.gear.limits;
     let within = |value: f64, limit: f32| value.clamp(-f64::from(limit), limit.into());
     trace
         .samples
@@ -90,10 +90,10 @@ fn within_limits(design: &UncagedDesign, trace: &Trace<ScrewSample>) -> Vec<Scre
 
 /// The screw of a design, with the table of load shares that the samples need.
 fn ring(design: &UncagedDesign, samples: &[ScrewSample]) -> Result<ElasticRing, Failure> {
-    let configuration = &design.configuration;
+    let gear = &design.gear;
     let pushes = samples.iter().any(|sample| sample.axial_load > 0.0);
     let pulls = samples.iter().any(|sample| sample.axial_load < 0.0);
-    let shares = configuration.load_shares;
+    let shares = design.load_shares;
     if pushes && pulls && shares.positive != shares.negative {
         return Err(Failure::Data(
             "--reference has one table of load shares, and this trace needs those of both signs of the load".into(),
@@ -105,15 +105,15 @@ fn ring(design: &UncagedDesign, samples: &[ScrewSample]) -> Result<ElasticRing, 
         shares.positive
     };
     Ok(ElasticRing {
-        design: drawing(configuration.design.parameters()),
-        clearance: configuration.clearance.gap().into(),
-        friction: configuration.friction.into(),
-        ball_friction: configuration.ball_friction.into(),
+        design: drawing(gear.design.parameters()),
+        clearance: gear.clearance.gap().into(),
+        friction: gear.friction.into(),
+        ball_friction: design.ball_friction.into(),
         balls: design.balls.into(),
-        turns: configuration.turns.into(),
-        return_length: configuration.return_length.into(),
-        screw_deviation: deviation(configuration.screw_deviation),
-        nut_deviation: deviation(configuration.nut_deviation),
+        turns: design.turns.into(),
+        return_length: design.return_length.into(),
+        screw_deviation: deviation(design.screw_deviation),
+        nut_deviation: deviation(design.nut_deviation),
         load_shares: shares
             .iter()
             .map(|share: &LoadShare| share.share().into())
@@ -203,8 +203,8 @@ struct Rolling {
 
 impl Rolling {
     fn new(design: &UncagedDesign) -> Result<Self, ReferenceError> {
-        let configuration = &design.configuration;
-        let drawing = drawing(configuration.design.parameters());
+        let drawing = drawing(design.gear.design.parameters());
+        let resistance = &design.gear.rolling_resistance;
         let (path, cos) = (
             drawing.pitch_radius.hypot(drawing.lead / TAU),
             drawing.lead_angle().cos(),
@@ -215,8 +215,8 @@ impl Rolling {
         };
         Ok(Self {
             resistance: RollingResistance {
-                hysteresis_loss: configuration.rolling_resistance.hysteresis_loss.into(),
-                lubricant_drag: configuration.rolling_resistance.lubricant_drag.into(),
+                hysteresis_loss: resistance.hysteresis_loss.into(),
+                lubricant_drag: resistance.lubricant_drag.into(),
             },
             radii: both(|drawing, groove| Ok(relative_radii(drawing, groove)?[0]))?,
             semi_minor: both(|drawing, groove| Ok(drawing.contact(groove)?.semi_minor))?,
@@ -249,10 +249,10 @@ fn friction(
     chosen: &[usize],
     sizes: &[f64],
 ) -> Vec<Friction> {
-    let configuration = &design.configuration;
-    let reduced_lead = f64::from(configuration.design.parameters().lead) / TAU;
-    let reversal_speed = f64::from(configuration.reversal_speed);
-    let largest = f64::from(configuration.limits.friction_torque);
+    let gear = &design.gear;
+    let reduced_lead = f64::from(gear.design.parameters().lead) / TAU;
+    let reversal_speed = f64::from(gear.reversal_speed);
+    let largest = f64::from(gear.limits.friction_torque);
     let mut index = 0;
     samples
         .iter()

@@ -48,9 +48,7 @@ impl Linear {
         remembered: Option<&Remembered>,
     ) -> Result<Train<LinearSample, LinearOutputs>, Failure> {
         let build = |tick| self.model(tick, remembered);
-        // Its balls are renewed in every tick.
-        Train::new(trace, (f32::INFINITY, f64::INFINITY), build)
-            .map_err(|failure| failure.of(self.name()))
+        Train::new(trace, build).map_err(|failure| failure.of(self.name()))
     }
 
     /// The model for a tick, s.

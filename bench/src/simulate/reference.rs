@@ -39,7 +39,6 @@ pub fn whole_screw(
     design: &UncagedDesign,
     trace: &Trace<ScrewSample>,
 ) -> Result<Vec<Friction>, Failure> {
-    let configuration = &design.configuration;
     let limited = |what: &str| {
         Failure::Data(format!(
             "--reference=closed-form follows an uncaged ball screw at one speed and load, with one sine on the screw, no \
@@ -48,13 +47,13 @@ pub fn whole_screw(
     };
     let wave = match design.wave {
         Some(wave) => wave,
-        None if std::ptr::eq(configuration.screw_deviation, configuration.nut_deviation) => Wave {
+        None if std::ptr::eq(design.screw_deviation, design.nut_deviation) => Wave {
             amplitude: 0.0,
             order: 1,
         },
         None => return Err(limited("this deviation or these load shares are others")),
     };
-    if configuration.clearance != Clearance::ZERO || configuration.return_length > 0.0 {
+    if design.gear.clearance != Clearance::ZERO || design.return_length > 0.0 {
         return Err(limited("this circuit is another"));
     }
     let [first, .., last] = trace.samples.as_slice() else {
@@ -69,7 +68,7 @@ pub fn whole_screw(
 
     let refused =
         |error: &dyn std::fmt::Display| Failure::Data(format!("--reference=closed-form: {error}"));
-    let parameters = configuration.design.parameters();
+    let parameters = design.gear.design.parameters();
     let drawing = drawing(parameters);
     let law = |groove| -> Result<HertzLaw, Failure> {
         let contact = drawing.contact(groove).map_err(|error| refused(&error))?;
@@ -80,16 +79,16 @@ pub fn whole_screw(
             track: (&drawing).into(),
             screw: law(Groove::Screw)?,
             nut: law(Groove::Nut)?,
-            friction: configuration.friction.into(),
+            friction: design.gear.friction.into(),
             contact_angle: drawing.contact_angle,
         },
         balls: design.balls.into(),
-        turns: configuration.turns.into(),
+        turns: design.turns.into(),
         axial_load: first.axial_load,
         nut_speed: first.nut_speed,
         deviation: wave.amplitude.into(),
         cycles: wave.order.into(),
-        ball_friction: configuration.ball_friction.into(),
+        ball_friction: design.ball_friction.into(),
         ball_slip: BallSlip::Orbiting,
     };
     let angle = ((last.time - first.time) * first.nut_speed).abs();

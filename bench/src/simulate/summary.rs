@@ -97,14 +97,13 @@ pub struct Flags {
     faults: [usize; FAULTS.len()],
 }
 
-const FAULTS: [(Faults, &str); 11] = [
+const FAULTS: [(Faults, &str); 10] = [
     (Faults::SPEED_NOT_FINITE, "speed not finite"),
     (Faults::LOAD_NOT_FINITE, "load not finite"),
     (Faults::SPEED_RANGE, "speed limit"),
     (Faults::LOAD_RANGE, "load limit"),
     (Faults::FRICTION_LIMIT, "torque limit"),
     (Faults::BEYOND_MODEL, "beyond the model"),
-    (Faults::SETTLING, "balls settling"),
     (Faults::ANGLE_NOT_VALID, "angle not valid"),
     (Faults::TEMPERATURE_RANGE, "temperature range"),
     (Faults::LOAD_STALE, "load too old"),

@@ -3,21 +3,10 @@
 use epas_trains::{Balls, Built, MOST_BALLS};
 
 use super::trace::{Sample, SceneSample, Trace};
-use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
 
 /// Most ticks for each sample of a trace.
 const MOST_TICKS: u32 = 1 << 16;
-
-/// Angle of the nut up to which every ball of a ball screw is renewed in time, rad.
-const LONGEST_ROUND: f64 = 0.12;
-
-/// The longest angle of the nut in a tick, rad: a round is as many ticks as balls and one more, and another one where a ball
-/// passes the return.
-pub fn longest_turn(design: &UncagedDesign) -> f64 {
-    let passing = design.configuration.return_length > 0.0;
-    LONGEST_ROUND / (f64::from(design.balls) + if passing { 2.0 } else { 1.0 })
-}
 
 /// What a train does at a sample.
 #[derive(Clone, Copy, Debug)]
@@ -39,21 +28,13 @@ pub struct Train<S: SceneSample, Outputs> {
 }
 
 impl<S: SceneSample, Outputs> Train<S, Outputs> {
-    /// The model that `build` makes for a tick, s: as many ticks for each sample, doubled from one, as its limits need, and as
-    /// keep the motion in a tick within the `longest` one up to the trace's peak speed, or the model's `largest`.
+    /// The model that `build` makes for a tick, s: as many ticks for each sample, doubled from one, as its limits need.
     pub fn new(
         trace: &Trace<S>,
-        (largest, longest): (f32, f64),
         build: impl Fn(f32) -> Built<S::Inputs, Outputs>,
     ) -> Result<Self, Failure> {
         let step = equal_step(trace)?;
-        let speeds = trace.samples.iter().map(|sample| sample.speed().abs());
-        let motion = step * speeds.fold(0.0, f64::max).min(largest.into());
         let mut ticks = 1;
-        // A motion at the bound, to the rounding of the trace's times, is within it.
-        while ticks < MOST_TICKS && motion > (1.0 + 1e-9) * longest * f64::from(ticks) {
-            ticks *= 2;
-        }
         loop {
             match build((step / f64::from(ticks)) as f32) {
                 Ok(Some(model)) => {

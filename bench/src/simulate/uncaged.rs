@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use epas_friction::promises::STEP_UNCAGED;
-use epas_friction::{Error, Inputs, Outputs, UncagedBallScrewConfiguration, UncagedOutputs};
-use epas_trains::Built;
+use epas_friction::{Error, Inputs, Outputs, UncagedOutputs};
+use epas_trains::{Built, ScrewConfiguration};
 
 use super::exact_screw::exact_screw;
 use super::manoeuvre::Manoeuvre;
@@ -15,12 +15,14 @@ use super::samples::ScrewSample;
 use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
 use super::summary::{Lines, Pressing};
-use super::trace::Trace;
-use super::train::{Train, TrainRow, longest_turn};
+use super::trace::{Sample, Trace};
+use super::train::{Train, TrainRow};
 use super::train_picture::{TrainPoint, draw};
 use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
+use crate::progress::Working;
+use crate::uncaged;
 
 /// The scene.
 pub struct Uncaged {
@@ -47,10 +49,22 @@ impl Uncaged {
         trace: &Trace<ScrewSample>,
         remembered: Option<&Remembered>,
     ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
-        let build = |tick| self.model(tick, remembered);
-        let largest = self.balls.configuration.limits.nut_speed;
-        let motion = (largest, longest_turn(&self.balls));
-        Train::new(trace, motion, build).map_err(|failure| failure.of(self.name()))
+        let loads = trace.samples.iter().map(|sample| sample.load().abs());
+        let configuration = {
+            let _working = Working::new("folding the screw");
+            self.folded(loads.fold(0.0, f64::max) as f32)?
+        };
+        let build = |tick| self.model(&configuration, tick, remembered);
+        Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+
+    /// What its model is made of, up to an axial load, N.
+    ///
+    /// # Errors
+    /// What cannot be folded, with the reason.
+    pub fn folded(&self, axial_load: f32) -> Result<ScrewConfiguration, Failure> {
+        let friction = self.balls.gear.friction;
+        uncaged::configuration(&self.design, &self.balls, (friction, friction), axial_load)
     }
 
     /// The model for a tick, s.
@@ -59,12 +73,15 @@ impl Uncaged {
     /// [`Error`] naming a field out of range.
     pub fn model(
         &self,
+        configuration: &ScrewConfiguration,
         tick: f32,
         remembered: Option<&Remembered>,
     ) -> Built<Inputs, UncagedOutputs> {
-        let mut configuration = self.balls.configuration;
-        configuration.tick = tick;
-        let friction = configuration.friction;
+        let configuration = ScrewConfiguration {
+            tick,
+            ..*configuration
+        };
+        let friction = self.balls.gear.friction;
         let whole = memory::whole(configuration, remembered, tick, friction)?;
         epas_trains::screw(self.balls.balls, &whole)
     }
@@ -76,44 +93,32 @@ impl Uncaged {
     /// # Errors
     /// [`Error`] naming a field out of range.
     pub fn remembered_at(&self, axial_load: f32) -> Result<Remembered, Error> {
-        let UncagedBallScrewConfiguration {
-            ref design,
-            friction,
-            clearance,
-            rolling_resistance,
-            turns,
-            return_length,
-            ..
-        } = self.balls.configuration;
-        let loaded =
-            turns * std::f32::consts::TAU * design.pitch_radius() / design.cos_lead_angle();
+        let gear = &self.balls.gear;
         memory::Screw {
-            design,
-            friction,
-            clearance,
-            rolling_resistance,
-            loaded_balls: f32::from(self.balls.balls) * loaded / (loaded + return_length),
+            design: &gear.design,
+            friction: gear.friction,
+            clearance: gear.clearance,
+            rolling_resistance: gear.rolling_resistance,
+            loaded_balls: self.balls.loaded_balls(),
         }
         .remembered(axial_load)
     }
 
     /// What decides its friction.
     fn settings(&self) -> Lines {
-        let UncagedBallScrewConfiguration {
-            friction,
+        let UncagedDesign {
+            ref gear,
             ball_friction,
-            clearance,
-            reversal_speed,
             ..
-        } = self.balls.configuration;
-        let mut settings = screw::settings(&self.design, friction, clearance);
+        } = self.balls;
+        let mut settings = screw::settings(&self.design, gear.friction, gear.clearance);
         let mark = self.design.mark("ball_friction");
         settings.add("between balls", format!("{ball_friction}{mark}"));
         let [screw, nut] = self.balls.deviations().map(|angle| 1e3 * angle);
         let text = format!("screw {screw:.1} mrad, nut {nut:.1} mrad at most");
         settings.add("contact angle deviates", text);
         if !self.memory {
-            let speed = screw::reversal_speed(&self.design, reversal_speed);
+            let speed = screw::reversal_speed(&self.design, gear.reversal_speed);
             settings.add("reversal speed", speed);
         }
         settings

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use epas_friction::FrictionModel;
 use epas_friction::Inputs;
-use epas_friction::scene::{CagedBallScrew, CagedConstants};
+use epas_friction::scene::{CagedBallScrew, CagedConstants, FoldedBall};
 use serde_json::Value;
 
 use super::eval::number;
@@ -147,6 +147,56 @@ fn a_range_of_coefficients_goes_to_standard_output() {
     assert_eq!(names(folder), ["screw.toml"]);
 }
 
+/// Balls that press on each other have a block of their own, over the deviations of their grooves.
+#[test]
+fn a_block_without_cage_holds_deviations() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let row = "[uncaged]\nballs = 20\nturns = 1\nscrew_deviation = [{ order = 1, sine = 2e-3 }]\n";
+    let fold = "[fold]\naxial_load = [20, 30]\n";
+    let text = format!("friction = 0.1\n{DESIGN}{row}{fold}");
+    fs::write(folder.join("screw.toml"), &text).unwrap();
+    let run = design(
+        folder,
+        "screw.toml --scene uncaged --json --output ball.bin",
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let said: Value = serde_json::from_str(&run.stdout).unwrap();
+    let words = words_of_bytes(&fs::read(folder.join("ball.bin")).unwrap());
+    let block = FoldedBall::<1>::read(&words).unwrap();
+    assert!((block.law.deviations[0] - 2e-3).abs() < 1e-5 && block.law.deviations[1] == 1e-4);
+    assert_eq!(number(&said["bytes"]) as usize, 4 * words.len());
+    assert_eq!(number(&said["domain"]["axial_load"][1]), 30.0);
+    let reach = number(&said["domain"]["screw_deviation"][1]);
+    assert_eq!(number(&said["domain"]["screw_deviation"][0]), -reach);
+    for (place, (name, unit)) in [
+        ("ring_torque", "relative"),
+        ("ring_force", "of the largest"),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let figure = &said["certificate"][place];
+        assert_eq!(
+            (&figure["quantity"], &figure["unit"]),
+            (&name.into(), &unit.into())
+        );
+        assert!(
+            number(&figure["rms"]) <= number(&figure["largest"]),
+            "{figure}"
+        );
+    }
+    // A deviation in the table says that balls press, and needs no row of balls; without either there is none.
+    let fold = format!("{fold}nut_deviation = 1e-3\n");
+    fs::write(folder.join("pair.toml"), format!("{DESIGN}{fold}")).unwrap();
+    let run = design(folder, "pair.toml");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(run.stdout.contains("ring_torque"), "{}", run.stdout);
+    let run = design(folder, "lin-4.1 --scene uncaged");
+    assert_eq!(run.code, 1);
+    assert!(run.stderr.contains("[uncaged]"), "{}", run.stderr);
+}
+
 /// One coefficient of the table is the one that is folded.
 #[test]
 fn the_table_gives_the_coefficient() {
@@ -172,8 +222,8 @@ fn refusals_name_their_reason_and_leave_nothing() {
     let folder = folder.path();
     for (addition, word) in [
         ("branch = \"rolling\"", "closed form"),
-        ("[fold]\nscrew_deviation = 0.01", "screw_deviation"),
-        ("[fold]\nnut_deviation = 0.01", "not folded yet"),
+        ("[fold]\nscrew_deviation = 0.2", "0.0001 to 0.1"),
+        ("[fold]\nnut_deviation = -0.01", "nut_deviation"),
         ("[fold]\nfriction = 0.9", "friction"),
         ("[fold]\nfriction = [0.2, 0.3]", "0.1 (default)"),
         ("[fold]\nfriction = [0.12, 0.08]", "friction"),

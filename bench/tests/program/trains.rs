@@ -272,12 +272,11 @@ fn single_balls_of_a_ball_screw_are_those_of_the_golden_cases() {
     println!("speed/w_N, power: {worst:?}");
 }
 
-/// What the closed form finds and what the scene runs (`elastic`), on the stored balls in elastic grooves without play, whose contacts both find themselves from axial load and deviations. Bounds are measured against the reference with the
-/// stored contacts: of the closed form 1.7 % of the force, 3.0e-3 of the nut's speed and 5.1 % of the power; of the scene 2.7e-6 of
-/// the speed, 2.0e-3 of a single ball's power, and 1.6 % of the force, by which contacts that give way differ from those held. Four
-/// contacts have a preload that nothing tells. Backward, the same screw seen from its other end gives the same.
+/// What the closed form finds on the stored balls in elastic grooves without play, whose contacts it finds itself from axial load and deviations.
+/// Bounds are measured against the reference with the stored contacts: 1.7 % of the force, 3.0e-3 of the nut's speed and 5.1 % of the power.
+/// Four contacts have a preload that nothing tells.
 #[test]
-fn closed_form_and_scene_find_the_contacts() {
+fn regression_closed_form_finds_the_contacts() {
     let stored = golden("ballscrew.json");
     let mut requests = Vec::new();
     for case in stored["impedance"].as_array().unwrap() {
@@ -305,17 +304,10 @@ fn closed_form_and_scene_find_the_contacts() {
     let lines: Vec<_> = requests.iter().map(Value::to_string).collect();
     let (code, answers) = ask(&lines);
     assert_eq!((code, answers.len()), (0, requests.len()));
-    let mirrored: Vec<_> = requests
-        .iter()
-        .map(|row| mirrored(row).to_string())
-        .collect();
-    let (_, from_behind) = ask(&mirrored);
     let mut worst = [0.0_f64; 3];
-    let (mut worst_elastic, mut mismatch) = ([0.0_f64; 3], 0.0_f64);
     let mut compared = 0;
-    for ((request, answer), from_behind) in requests.iter().zip(&answers).zip(&from_behind) {
+    for (request, answer) in requests.iter().zip(&answers) {
         let (closed, exact) = (&answer["in_loop"], &answer["reference"]);
-        let elastic = &answer["in_loop"]["elastic"];
         let four = request["balls"][0]["contacts"].as_object().unwrap().len() == 4;
         for name in [
             "orbital_speed",
@@ -325,7 +317,6 @@ fn closed_form_and_scene_find_the_contacts() {
         ] {
             assert_eq!(closed[name].is_null(), four, "{request}: {answer}");
         }
-        assert_eq!(elastic.is_null(), four, "{request}: {answer}");
         if four {
             continue;
         }
@@ -343,45 +334,8 @@ fn closed_form_and_scene_find_the_contacts() {
         }
         assert!(number(&closed["load_mismatch"]) < 0.05, "{answer}");
         assert!(number(&closed["angle_mismatch"]) < 3e-4, "{answer}");
-        let forces = numbers(&exact["contact_force"]);
-        // Balls that rub on each other lose power that is not in the grooves'.
-        let power = if forces.is_empty() {
-            relative(&elastic["groove_power_loss"], number(&exact["power_loss"]))
-        } else {
-            0.0
-        };
-        let found = [
-            difference(&elastic["contact_force"], &forces) / largest,
-            difference(&elastic["orbital_speed"], &numbers(&exact["orbital_speed"])) / 5.0,
-            power,
-        ];
-        for (worst, found) in worst_elastic.iter_mut().zip(found) {
-            *worst = worst.max(found);
-        }
-        mismatch = mismatch.max(number(&elastic["load_mismatch"]));
-        let behind = &from_behind["in_loop"]["elastic"];
-        let backward: Vec<_> = numbers(&elastic["orbital_speed"])
-            .into_iter()
-            .map(|speed| -speed)
-            .collect();
-        assert!(
-            difference(&behind["orbital_speed"], &backward) < 1e-6
-                && difference(
-                    &behind["contact_force"],
-                    &numbers(&elastic["contact_force"])
-                ) < 1e-4 * largest,
-            "{answer} {from_behind}"
-        );
     }
     println!("closed form: force, speed/w_N, power: {worst:?}");
-    println!("scene: force, speed/w_N, power: {worst_elastic:?}, loads {mismatch}");
-    assert!(
-        worst_elastic[0] < 0.02
-            && worst_elastic[1] < 1e-5
-            && worst_elastic[2] < 3e-3
-            && mismatch < 2.5e-3,
-        "{worst_elastic:?} {mismatch}"
-    );
     assert_eq!(compared, 29);
     assert!(
         worst[0] < 0.02 && worst[1] < 3.1e-3 && worst[2] < 0.055,
@@ -409,7 +363,7 @@ fn mirrored(request: &Value) -> Value {
 }
 
 /// Contacts that the closed form finds are told as such in both directions of load and motion, with play and
-/// without: what is recovered are the row's own state and its own speeds. With play two contacts do not tell what the scene takes.
+/// without: what is recovered are the row's own state and its own speeds.
 #[test]
 fn contacts_of_the_row_are_recovered() {
     let design = BallScrew::new(BallScrewParameters {
@@ -452,12 +406,6 @@ fn contacts_of_the_row_are_recovered() {
                 answers[0]
             );
             assert!(number(&closed["angle_mismatch"]) < 1e-5, "{}", answers[0]);
-            assert_eq!(
-                answers[0]["in_loop"]["elastic"].is_null(),
-                fit == GrooveFit::Play,
-                "{}",
-                answers[0]
-            );
             let tick = row.at(speed, load);
             let wanted = states.map(|(screw, nut)| {
                 let ball = tick.ball(screw, nut, &LoadShare::MEAN);

@@ -11,4 +11,4 @@ pub use balls::{Balls, Built, Configuration};
 pub use bearing::bearing;
 pub use memory::{ELEMENTS, Elements, Remembering, RememberingConfiguration, TEMPERATURE, fresh};
 pub use number::MOST_BALLS;
-pub use screw::screw;
+pub use screw::{Folded, NODES, ScrewConfiguration, screw};

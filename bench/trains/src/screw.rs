@@ -1,13 +1,67 @@
 //! A ball screw whose balls press on each other.
 
-use epas_friction::{
-    FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
-};
+use epas_friction::scene::{FoldedBall, UncagedBallScrew, UncagedBallScrewConfiguration};
+use epas_friction::{DeviationMap, FrictionModel, Inputs, LoadShares, UncagedOutputs};
 
 use crate::balls::{Built, Configuration};
-use crate::memory::Remembering;
+use crate::memory::{Remembering, RememberingConfiguration};
 use crate::number::with_balls;
 use crate::row::{Row, pressing};
+
+/// Friction coefficients of a block for a range of them.
+pub const NODES: usize = 3;
+
+/// What a host has folded of a screw's ball, for one friction coefficient or a range of them.
+#[derive(Clone, Copy, Debug)]
+pub enum Folded {
+    /// One friction coefficient.
+    One(&'static FoldedBall<1>),
+    /// A range of them.
+    Range(&'static FoldedBall<NODES>),
+}
+
+/// What is set for a screw beside what a host has folded of its ball: see [`UncagedBallScrewConfiguration`].
+#[derive(Clone, Copy, Debug)]
+pub struct ScrewConfiguration {
+    /// What a host has folded.
+    pub folded: Folded,
+    /// Friction coefficient of ball and ball.
+    pub ball_friction: f32,
+    /// Turns of the loaded track.
+    pub turns: f32,
+    /// Length of the return, m.
+    pub return_length: f32,
+    /// Deviation along the screw's groove.
+    pub screw_deviation: &'static DeviationMap,
+    /// Deviation along the nut's groove.
+    pub nut_deviation: &'static DeviationMap,
+    /// Loads of the balls over their mean.
+    pub load_shares: LoadShares,
+    /// Time between two ticks, s.
+    pub tick: f32,
+}
+
+impl ScrewConfiguration {
+    /// The scene's configuration, with one of the blocks.
+    const fn with<const N: usize>(
+        &self,
+        folded: &'static FoldedBall<N>,
+    ) -> UncagedBallScrewConfiguration<N> {
+        UncagedBallScrewConfiguration {
+            folded,
+            ball_friction: self.ball_friction,
+            turns: self.turns,
+            return_length: self.return_length,
+            screw_deviation: self.screw_deviation,
+            nut_deviation: self.nut_deviation,
+            load_shares: self.load_shares,
+            tick: self.tick,
+        }
+    }
+}
+
+/// A screw for a range of friction coefficients.
+type RangeScrew<const N: usize> = UncagedBallScrew<N, NODES>;
 
 /// A ball screw with so many balls, 1 to 64.
 ///
@@ -15,17 +69,55 @@ use crate::row::{Row, pressing};
 /// [`epas_friction::Error`] naming a field out of range.
 pub fn screw(
     balls: u8,
-    configuration: &Configuration<UncagedBallScrewConfiguration>,
+    configuration: &Configuration<ScrewConfiguration>,
 ) -> Built<Inputs, UncagedOutputs> {
     match configuration {
-        Configuration::Plain(plain) => with_balls!(plain, UncagedBallScrew, balls, plain),
-        Configuration::Remembering(whole) => {
-            with_balls!(remembering, UncagedBallScrew, balls, whole)
-        }
+        Configuration::Plain(plain) => match plain.folded {
+            Folded::One(folded) => {
+                with_balls!(plain, UncagedBallScrew, balls, &plain.with(folded))
+            }
+            Folded::Range(folded) => {
+                with_balls!(plain, RangeScrew, balls, &plain.with(folded))
+            }
+        },
+        Configuration::Remembering(whole) => match whole.scene.folded {
+            Folded::One(folded) => {
+                let scene = whole.scene.with(folded);
+                with_balls!(remembering, UncagedBallScrew, balls, &around(whole, scene))
+            }
+            Folded::Range(folded) => {
+                let scene = whole.scene.with(folded);
+                with_balls!(remembering, RangeScrew, balls, &around(whole, scene))
+            }
+        },
     }
 }
 
-impl<const N: usize> Row for UncagedBallScrew<N> {
+/// The same memory around another scene.
+fn around<A, B>(whole: &RememberingConfiguration<A>, scene: B) -> RememberingConfiguration<B> {
+    let RememberingConfiguration {
+        elements,
+        angle,
+        reference_load,
+        play,
+        coefficient,
+        temperature,
+        freshness,
+        ..
+    } = whole;
+    RememberingConfiguration {
+        scene,
+        elements: *elements,
+        angle: *angle,
+        reference_load: *reference_load,
+        play: *play,
+        coefficient: *coefficient,
+        temperature: *temperature,
+        freshness: *freshness,
+    }
+}
+
+impl<const N: usize, const K: usize> Row for UncagedBallScrew<N, K> {
     fn pressing(state: &Self::State) -> u64 {
         pressing(&state.circuit.train)
     }

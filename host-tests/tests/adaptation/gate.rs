@@ -89,7 +89,7 @@ fn what_does_not_count_changes_nothing_and_says_why() {
         (
             AdaptationFlags::FAULTED,
             AdaptationInputs {
-                faults: Faults::SETTLING,
+                faults: Faults::BEYOND_MODEL,
                 ..good
             },
         ),

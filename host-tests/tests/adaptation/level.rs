@@ -7,9 +7,9 @@ use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{Sliding, WithMemory, WithMemoryConfiguration};
-use epas_friction::{FrictionModel, Inputs, Outputs, UncagedBallScrew};
+use epas_friction::{FrictionModel, Inputs, Outputs};
 
-use crate::kit::gears::{CagedScrew, SCREW_BALLS, caged, uncaged};
+use crate::kit::gears::{CagedScrew, SCREW_BALLS, UncagedScrew, caged, uncaged};
 use crate::kit::remembering::at;
 
 const TICK: f32 = 1e-4;
@@ -85,7 +85,7 @@ where
 #[test]
 fn a_level_scales_sliding_friction_in_its_direction() {
     levels_scale_sliding::<CagedScrew>(caged());
-    levels_scale_sliding::<UncagedBallScrew<SCREW_BALLS>>(uncaged());
+    levels_scale_sliding::<UncagedScrew<SCREW_BALLS>>(uncaged());
 }
 
 /// A turn back by a tenth of the breakaway angle slides no element: friction falls by stiffness times turn, whatever the level. A level that

@@ -27,7 +27,7 @@ fn any_inputs() -> impl Strategy<Value = AdaptationInputs> {
         Just(Regime::Locked)
     ];
     let faults = prop_oneof![
-        8 => Just(Faults::NONE), 1 => Just(Faults::LOAD_RANGE), 1 => Just(Faults::SETTLING)
+        8 => Just(Faults::NONE), 1 => Just(Faults::LOAD_RANGE), 1 => Just(Faults::BEYOND_MODEL)
     ];
     let level = prop_oneof![3 => Just(1.0_f32), 1 => any_number(12.0)];
     (

@@ -3,7 +3,6 @@
 #[path = "../kit/mod.rs"]
 mod kit;
 
-mod elastic_ball;
 mod linear_ball;
 mod rotary_bearing;
 mod screw_ball;

@@ -12,7 +12,6 @@
 //! | `lines` | `kinematics::friction_power` |
 //! | `sagitta` | `kinematics::path` |
 //! | `preload` | `ball::preload` |
-//! | `elastic_balls` | chosen constants of `ball::elastic` |
 
 #[path = "../kit/mod.rs"]
 mod kit;
@@ -20,7 +19,6 @@ mod kit;
 mod axis_ratio;
 mod backbones;
 mod cube_roots;
-mod elastic_balls;
 mod lines;
 mod nodes;
 mod preload;

@@ -5,15 +5,15 @@ use std::sync::LazyLock;
 
 use super::random::Random;
 use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw};
-use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
+use epas_friction::ball::pressed::{BallKnot, BallLaw, BallNode, BallNumbers, KNOTS};
+use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration, FoldedBall};
 use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, Clearance, ClosedFormScrew,
     ClosedFormScrewConfiguration, DeviationMap, Faults, FrictionBranch, FrictionModel, GrooveSize,
     Inputs, Limits, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
     LinearBearingTrain, LinearInputs, LinearLimits, LinearOutputs, LoadShare, LoadShares, Material,
-    Outputs, Regime, RollingResistance, Scene, UncagedBallScrew, UncagedBallScrewConfiguration,
-    UncagedOutputs,
+    Outputs, Regime, Scene, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 
 /// Numbers at which formulas break.
@@ -183,14 +183,6 @@ pub fn design(random: &mut Random) -> BallScrew {
     }
 }
 
-/// From none to the most.
-fn rolling_resistance(random: &mut Random) -> RollingResistance {
-    RollingResistance {
-        hysteresis_loss: random.of(&[0.0, 0.01, 0.2]),
-        lubricant_drag: random.of(&[0.0, 0.006, 10.0]),
-    }
-}
-
 fn limits(random: &mut Random) -> Limits {
     Limits {
         nut_speed: if random.one_in(2) {
@@ -255,7 +247,7 @@ fn flags(
         }
     }
     // What the sensors deliver says nothing of friction's limit, nor of the model's accuracy.
-    let beside_torque = faults.bits() & !(Faults::FRICTION_LIMIT | Faults::ACCURACY).bits();
+    let beside_torque = faults.bits() & !(Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL).bits();
     if beside_torque == expected.bits() {
         Ok(lost)
     } else {
@@ -560,22 +552,123 @@ pub fn sound_train<const N: usize>(train: &Train<N>) -> Result<(), String> {
     Ok(())
 }
 
-impl<const N: usize> Trial for UncagedBallScrew<N> {
+/// Numbers of a ball, from the likely to the absurd.
+fn ball_numbers(random: &mut Random) -> BallNumbers {
+    let mut powers = |size: f32| {
+        let size = random.of(&[0.0, 1e-3, 0.1, 0.16]) * size;
+        std::array::from_fn(|_| size * (2.0 * random.unit() - 1.0))
+    };
+    let (free, torque) = (powers(1.0), powers(1.0));
+    let impedance = random.size(0.02, 900.0);
+    let steep = random.of(&[0.0, 0.01, 0.4]) * impedance;
+    BallNumbers {
+        free,
+        impedance: [
+            impedance,
+            random.within(-steep, steep),
+            random.within(-steep, steep),
+        ],
+        torque,
+        slope: random.of(&[0.0, 1e-4, 1.0]) * random.sign(),
+        grip: random.of(&[0.0, -1e-3, -0.5, 0.7, 3.0]),
+        rubbing: random.of(&[0.0, 0.01, 1.0]),
+    }
+}
+
+/// Knots whose loads rise, at times to no more than the last one's.
+fn ball_knots(random: &mut Random) -> [BallKnot; KNOTS] {
+    let mut load = random.size(1e-6, 100.0);
+    let widest = random.of(&[0.0, 1e-3, 1.0, 100.0, 1e5]);
+    let needed = random.of(&[1, 2, KNOTS]);
+    let loads: [f32; KNOTS] = std::array::from_fn(|knot| {
+        if knot < needed {
+            load += widest * random.unit();
+        }
+        load
+    });
+    std::array::from_fn(|knot| BallKnot {
+        load: loads[knot],
+        per_width: BallKnot::per_width(loads[knot], loads[(knot + 1).min(KNOTS - 1)]),
+        numbers: ball_numbers(random),
+    })
+}
+
+/// What a host may have folded, from the likely to the absurd.
+fn folded_ball<const NODES: usize>(random: &mut Random) -> FoldedBall<NODES> {
+    let mut friction = random.size(1e-6, 0.1);
+    let nodes = std::array::from_fn(|_| {
+        friction *= random.of(&[1.02, 1.5, 2.0]);
+        BallNode {
+            friction,
+            branches: [ball_knots(random), ball_knots(random)],
+            unheld: [0, random.bits() as u32],
+        }
+    });
+    let law = BallLaw {
+        nodes,
+        deviations: [random.of(&[0.2, 0.2, 1.0]), random.of(&[0.2, 0.2, 1.0])],
+        lift_off: random.of(&[0.0, 0.0, 10.0, 1e7]),
+    };
+    let (least, largest) = law.friction_range();
+    let ball_radius = random.size(1e-4, 0.05);
+    let path_radius = (ball_radius * random.size(1.02, 100.0)).min(1.0);
+    FoldedBall {
+        law,
+        friction: random.within(least, largest),
+        lead: random.of(&[0.0, 1e-9, 0.01, 0.2]),
+        ball_radius,
+        path_radius,
+        speed: path_radius * random.of(&[1e-3, 0.2, 0.5, 1.0]),
+        reversal_speed: random.size(1e-6, 1e3),
+        limits: limits(random),
+    }
+}
+
+/// Folded balls that can be drawn by lot.
+pub trait Lot: Sized + 'static {
+    fn all() -> &'static [Self];
+}
+
+/// Balls of a lot.
+const LOT: usize = 400;
+
+fn lot<const NODES: usize>(seed: u64) -> Vec<FoldedBall<NODES>> {
+    let mut random = Random(seed);
+    (0..LOT).map(|_| folded_ball(&mut random)).collect()
+}
+
+impl Lot for FoldedBall<1> {
+    fn all() -> &'static [Self] {
+        static ALL: LazyLock<Vec<FoldedBall<1>>> = LazyLock::new(|| lot(31));
+        &ALL
+    }
+}
+
+impl Lot for FoldedBall<3> {
+    fn all() -> &'static [Self] {
+        static ALL: LazyLock<Vec<FoldedBall<3>>> = LazyLock::new(|| lot(33));
+        &ALL
+    }
+}
+
+impl<const N: usize, const NODES: usize> Trial for UncagedBallScrew<N, NODES>
+where
+    FoldedBall<NODES>: Lot,
+{
     fn name() -> String {
-        format!("ball screw without cage, {N} balls")
+        format!("ball screw without cage, {N} balls, {NODES} nodes")
     }
 
-    fn configuration(random: &mut Random) -> UncagedBallScrewConfiguration {
-        let design = design(random);
-        let limits = limits(random);
+    fn configuration(random: &mut Random) -> UncagedBallScrewConfiguration<NODES> {
+        let folded = &FoldedBall::<NODES>::all()[random.below(LOT)];
+        let limits = folded.limits;
         // Turns that hold the balls, from a nearly full track to a nearly empty one.
-        let full = N as f32 * design.ball_ratio() / std::f32::consts::PI;
+        let pitch = 2.0 * (folded.ball_radius / folded.path_radius).asin();
+        let full = N as f32 * pitch / std::f32::consts::TAU;
         let turns = (full * random.of(&[0.3, 0.999, 1.001, 1.05, 1.5, 5.0])).clamp(0.1, 100.0);
         UncagedBallScrewConfiguration {
-            friction: random.size(1e-6, 0.5),
-            ball_friction: random.within(0.0, 1.0),
-            rolling_resistance: rolling_resistance(random),
-            clearance: clearance(random, &design),
+            folded,
+            ball_friction: random.of(&[0.0, 0.1, 0.1, 1.0]) * random.unit(),
             turns: if random.one_in(4) {
                 random.size(0.1, 100.0)
             } else {
@@ -584,30 +677,27 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
             return_length: match random.below(4) {
                 0 => 0.0,
                 1 => random.size(1e-4, 10.0),
-                _ => (design.pitch_radius() * random.size(0.01, 10.0)).min(10.0),
+                _ => (folded.path_radius * random.size(0.01, 10.0)).min(10.0),
             },
             screw_deviation: map(random),
             nut_deviation: map(random),
             load_shares: LoadShares::same(shares(random)),
-            reversal_speed: random.size(1e-6, 1e3),
             tick: if random.one_in(2) {
                 random.size(1e-6, 1e-2)
             } else {
                 (0.03 / limits.nut_speed).clamp(1e-6, 1.0)
             },
-            design,
-            limits,
         }
     }
 
     fn sensors(
         random: &mut Random,
-        configuration: &UncagedBallScrewConfiguration,
+        configuration: &UncagedBallScrewConfiguration<NODES>,
         last: [f32; 3],
     ) -> [f32; 3] {
         [
-            random.signal(configuration.limits.nut_speed, last[0]),
-            random.signal(configuration.limits.axial_load, last[1]),
+            random.signal(configuration.folded.limits.nut_speed, last[0]),
+            random.signal(configuration.folded.limits.axial_load, last[1]),
             0.0,
         ]
     }
@@ -620,11 +710,11 @@ impl<const N: usize> Trial for UncagedBallScrew<N> {
     }
 
     fn check(
-        configuration: &UncagedBallScrewConfiguration,
+        configuration: &UncagedBallScrewConfiguration<NODES>,
         [speed, load, _]: [f32; 3],
         outputs: &UncagedOutputs,
     ) -> Result<(), String> {
-        let limits = &configuration.limits;
+        let limits = &configuration.folded.limits;
         let lost = flags(
             outputs.faults,
             (speed, limits.nut_speed),

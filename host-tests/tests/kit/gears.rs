@@ -1,14 +1,17 @@
 //! Ordinary mechanisms, one of every scene.
 
-use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
+use core::f32::consts::TAU;
+
+use epas_friction::ball::pressed::{BallLaw, KNOTS};
+use epas_friction::scene::{
+    CagedBallScrew, CagedBallScrewConfiguration, CatalogueBall, FoldedBall,
+};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
     DeviationMap, FrictionBranch, GrooveSize, Harmonic, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
-    Material, RollingResistance, UncagedBallScrewConfiguration,
+    Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
-
-use super::designs::screw;
 
 /// Balls of [`uncaged`], and of [`full`].
 pub const SCREW_BALLS: usize = 37;
@@ -134,27 +137,126 @@ pub fn closed_form(branch: FrictionBranch) -> ClosedFormScrewConfiguration {
     }
 }
 
-/// 32 x 20 x 6.35 with two and a half turns of 37 balls and a return.
-pub fn uncaged() -> UncagedBallScrewConfiguration {
-    UncagedBallScrewConfiguration {
-        design: CATALOGUE[15].design().unwrap(),
-        friction: 0.075,
-        ball_friction: 0.1,
-        rolling_resistance: RollingResistance::STEEL,
+/// Nodes of [`UncagedScrew`].
+pub const BALL_NODES: usize = 3;
+
+/// A screw without cage for a range of friction coefficients.
+pub type UncagedScrew<const N: usize> = UncagedBallScrew<N, BALL_NODES>;
+
+/// Its configuration.
+pub type UncagedConfiguration = UncagedBallScrewConfiguration<BALL_NODES>;
+
+/// Bounds of a screw without cage.
+const BALL_LIMITS: Limits = Limits {
+    friction_torque: 50.0,
+    ..LIMITS
+};
+
+/// The ball of the screw of Lin 2019, Table 3.6, that its neighbours press on, by the closed form: its bits do not change with what a host
+/// folds. The closed form knows nothing of what friction between balls does to their speeds; here it is that of a folded ball in its order.
+const fn ball_of(friction: f32) -> FoldedBall {
+    let Ok(design) = BallScrew::new(DISSERTATION_DESIGNS[1].parameters) else {
+        panic!("a design is out of range")
+    };
+    let ball = FoldedBall::of_catalogue(&CatalogueBall {
+        design,
+        friction,
         clearance: Clearance::ZERO,
+        deviations: [0.0402, 0.0225],
+        axial_load: 300.0,
+        reversal_speed: 0.5,
+        limits: BALL_LIMITS,
+    });
+    let Ok(mut ball) = ball else {
+        panic!("a number of a ball is out of range")
+    };
+    let mut knot = 0;
+    while knot < 2 * KNOTS {
+        ball.law.nodes[0].branches[knot / KNOTS][knot % KNOTS]
+            .numbers
+            .grip = -0.5;
+        knot += 1;
+    }
+    ball
+}
+
+/// For one friction coefficient, and for a range of them.
+pub static BALL: FoldedBall = ball_of(0.1);
+pub static BALL_RANGE: FoldedBall<BALL_NODES> = FoldedBall {
+    law: BallLaw {
+        nodes: [
+            ball_of(0.0667).law.nodes[0],
+            BALL.law.nodes[0],
+            ball_of(0.15).law.nodes[0],
+        ],
+        deviations: BALL.law.deviations,
+        lift_off: BALL.law.lift_off,
+    },
+    friction: BALL.friction,
+    lead: BALL.lead,
+    ball_radius: BALL.ball_radius,
+    path_radius: BALL.path_radius,
+    speed: BALL.speed,
+    reversal_speed: BALL.reversal_speed,
+    limits: BALL.limits,
+};
+
+/// A folded ball with other numbers, for as long as the program runs.
+pub fn changed<const NODES: usize>(
+    folded: &FoldedBall<NODES>,
+    change: impl FnOnce(&mut FoldedBall<NODES>),
+) -> &'static FoldedBall<NODES> {
+    let mut folded = *folded;
+    change(&mut folded);
+    Box::leak(Box::new(folded))
+}
+
+/// Two waves a turn as large as the folded ball takes, Lin 2019, Fig. 3.23.
+static BALL_SCREW_MAP: DeviationMap = match DeviationMap::from_harmonics(
+    1,
+    &[Harmonic {
+        order: 2,
+        cosine: 0.0,
+        sine: BALL_RANGE.law.deviations[0],
+    }],
+) {
+    Ok(map) => map,
+    Err(_) => panic!("a deviation is too large"),
+};
+
+static BALL_NUT_MAP: DeviationMap = match DeviationMap::from_harmonics(
+    1,
+    &[Harmonic {
+        order: 3,
+        cosine: 0.4 * BALL_RANGE.law.deviations[1],
+        sine: 0.8 * BALL_RANGE.law.deviations[1],
+    }],
+) {
+    Ok(map) => map,
+    Err(_) => panic!("a deviation is too large"),
+};
+
+/// Two waves a turn on the screw, as a share of the largest deviation that the folded ball of one friction coefficient takes.
+pub fn screw_wave(share: f32) -> &'static DeviationMap {
+    wave(1, 2, 0.0, share * BALL.law.deviations[0])
+}
+
+/// That ball with two and a half turns of 37 balls and a return.
+pub fn uncaged() -> UncagedConfiguration {
+    UncagedBallScrewConfiguration {
+        folded: &BALL_RANGE,
+        ball_friction: 0.1,
         turns: 2.5,
         return_length: 0.01,
-        screw_deviation: &SCREW_MAP,
-        nut_deviation: &NUT_MAP,
+        screw_deviation: &BALL_SCREW_MAP,
+        nut_deviation: &BALL_NUT_MAP,
         load_shares: LoadShares::EVEN,
-        reversal_speed: 0.5,
         tick: 1e-4,
-        limits: LIMITS,
     }
 }
 
 /// [`uncaged`] with grooves that do not deviate.
-pub fn even() -> UncagedBallScrewConfiguration {
+pub fn even() -> UncagedConfiguration {
     UncagedBallScrewConfiguration {
         screw_deviation: &DeviationMap::NONE,
         nut_deviation: &DeviationMap::NONE,
@@ -163,41 +265,43 @@ pub fn even() -> UncagedBallScrewConfiguration {
 }
 
 /// Balls that nearly fill the track of [`uncaged`].
-pub const CROWD: usize = 41;
+pub const CROWD: usize = 48;
 
 /// [`uncaged`] with ticks long enough for a [`CROWD`] to close up.
-pub fn crowded() -> UncagedBallScrewConfiguration {
+pub fn crowded() -> UncagedConfiguration {
     UncagedBallScrewConfiguration {
+        folded: changed(&BALL_RANGE, |folded| folded.limits.nut_speed = 100.0),
         tick: 5e-4,
-        limits: Limits {
-            nut_speed: 100.0,
-            ..LIMITS
-        },
         ..uncaged()
     }
 }
 
-/// The screw of Lin 2019, Tables 2.1 and 3.6, whose two turns 37 balls fill, with a wave on its screw.
+/// The screw of Lin 2019, Table 3.6, whose two turns 37 balls fill, with a wave on its screw.
 pub fn full(screw_deviation: &'static DeviationMap, tick: f32) -> UncagedBallScrewConfiguration {
     UncagedBallScrewConfiguration {
-        design: screw(),
-        friction: 0.1,
+        folded: changed(&BALL, |folded| {
+            folded.reversal_speed = 1e-3;
+            folded.limits = Limits {
+                nut_speed: 300.0,
+                axial_load: 20_000.0,
+                friction_torque: 50.0,
+            };
+        }),
         ball_friction: 0.1,
-        rolling_resistance: RollingResistance::NONE,
-        clearance: Clearance::ZERO,
         turns: 2.0,
         return_length: 0.0,
         screw_deviation,
         nut_deviation: &DeviationMap::NONE,
         load_shares: LoadShares::EVEN,
-        reversal_speed: 1e-3,
         tick,
-        limits: Limits {
-            nut_speed: 300.0,
-            axial_load: 20_000.0,
-            friction_torque: 10.0,
-        },
     }
+}
+
+/// Length of the loaded track of a screw without cage, m.
+pub fn loaded_length<const NODES: usize>(
+    configuration: &UncagedBallScrewConfiguration<NODES>,
+) -> f32 {
+    configuration.turns * TAU * configuration.folded.path_radius
 }
 
 /// Balls of 10 mm, Lin 2019, Table 3.3.

@@ -11,19 +11,17 @@ use epas_friction::law::motion::{
     CountSensor, CountSensorParameters, SpeedOverTick, Steady, WrappedAngle, WrappedAngleParameters,
 };
 use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
-use epas_friction::{
-    LinearBearingConfiguration, LinearBearingTrain, UncagedBallScrew, UncagedBallScrewConfiguration,
-};
+use epas_friction::{LinearBearingConfiguration, LinearBearingTrain};
 
 use super::gears::{
-    CagedConfiguration, CagedScrew, LINEAR_BALLS, SCREW_BALLS, caged, linear, uncaged,
+    CagedConfiguration, CagedScrew, LINEAR_BALLS, SCREW_BALLS, UncagedConfiguration, UncagedScrew,
+    caged, linear, uncaged,
 };
 
 pub type Slip = ProportionalElements<8>;
 pub type SpinAndSeat = Together<ProportionalElements<4>, SeatElement>;
 pub type CagedByAngle = WithMemory<CagedScrew, Slip, WrappedAngle>;
-pub type UncagedByCounts =
-    WithMemory<UncagedBallScrew<SCREW_BALLS>, SpinAndSeat, Steady<CountSensor>>;
+pub type UncagedByCounts = WithMemory<UncagedScrew<SCREW_BALLS>, SpinAndSeat, Steady<CountSensor>>;
 pub type LinearBySpeed = WithMemory<
     LinearBearingTrain<LINEAR_BALLS>,
     LoadExactElements<8>,
@@ -87,7 +85,7 @@ pub fn caged_by_angle() -> WithMemoryConfiguration<CagedConfiguration, Slip, Wra
 }
 
 pub fn uncaged_by_counts()
--> WithMemoryConfiguration<UncagedBallScrewConfiguration, SpinAndSeat, Steady<CountSensor>> {
+-> WithMemoryConfiguration<UncagedConfiguration, SpinAndSeat, Steady<CountSensor>> {
     let sensor = CountSensor::new(CountSensorParameters {
         period: COUNTS,
         turn_per_count: TAU / COUNTS as f32,

@@ -5,7 +5,6 @@ use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, Faults,
     FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LoadShare, Regime,
-    UncagedBallScrew,
 };
 
 use crate::kit::gears;
@@ -48,9 +47,9 @@ fn at_the_reversal_speed_a_mechanism_moves() {
     }
 
     let configuration = gears::uncaged();
-    let speed = configuration.reversal_speed;
+    let speed = configuration.folded.reversal_speed;
     let mut model =
-        FrictionModel::<UncagedBallScrew<{ gears::SCREW_BALLS }>>::new(&configuration).unwrap();
+        FrictionModel::<gears::UncagedScrew<{ gears::SCREW_BALLS }>>::new(&configuration).unwrap();
     for (nut_speed, regime) in [
         (speed, Regime::Driving),
         (speed.next_down(), Regime::Standing),
@@ -177,7 +176,7 @@ fn a_drive_locks_at_a_thousand_pitch_radii() {
 fn an_uncaged_screw_is_locked_by_its_own_friction() {
     let configuration = gears::uncaged();
     let mut model =
-        FrictionModel::<UncagedBallScrew<{ gears::SCREW_BALLS }>>::new(&configuration).unwrap();
+        FrictionModel::<gears::UncagedScrew<{ gears::SCREW_BALLS }>>::new(&configuration).unwrap();
     for step in 0..400_u16 {
         let axial_load = -2.0 * f32::from(step);
         let outputs = model.step(Inputs {
@@ -200,7 +199,8 @@ fn an_uncaged_screw_is_locked_by_its_own_friction() {
 #[test]
 fn every_scene_counts_its_faults() {
     let mut screw =
-        FrictionModel::<UncagedBallScrew<{ gears::SCREW_BALLS }>>::new(&gears::uncaged()).unwrap();
+        FrictionModel::<gears::UncagedScrew<{ gears::SCREW_BALLS }>>::new(&gears::uncaged())
+            .unwrap();
     let mut bearing =
         FrictionModel::<LinearBearingTrain<{ gears::LINEAR_BALLS }>>::new(&gears::linear())
             .unwrap();

@@ -21,6 +21,8 @@ fn all_scenes(seed: u64, models: u64, ticks: u64) -> u64 {
         + soak::<UncagedBallScrew<16>>(seed, models, ticks)
         + soak::<UncagedBallScrew<37>>(seed, models / 4, ticks)
         + soak::<UncagedBallScrew<64>>(seed, models / 4, ticks)
+        + soak::<UncagedBallScrew<7, 3>>(seed, models, ticks)
+        + soak::<UncagedBallScrew<37, 3>>(seed, models / 4, ticks)
         + soak::<LinearBearingTrain<1>>(seed, models, ticks)
         + soak::<LinearBearingTrain<2>>(seed, models, ticks)
         + soak::<LinearBearingTrain<5>>(seed, models, ticks)

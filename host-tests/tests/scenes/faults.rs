@@ -4,16 +4,17 @@ use crate::kit::absurd::{EDGES, Trial, sound_train};
 use crate::kit::measured;
 use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
-use epas_friction::scene::{Admitted, SceneOutputs};
+use epas_friction::ball::pressed::BallNode;
+use epas_friction::scene::{Admitted, FoldedBall, SceneOutputs};
 use epas_friction::{
     BallScrew, Clearance, ClosedFormScrew, DeviationMap, Error, Faults, FrictionBranch,
     FrictionModel, Inputs, LinearBearing, LinearBearingTrain, LinearInputs, Outputs, Scene,
-    UncagedBallScrew, UncagedBallScrewConfiguration, promises,
+    promises,
 };
 
 const COMMAND: &str = "cargo test -p epas-reference --test scenes faults -- --nocapture";
 
-type Screw = UncagedBallScrew<{ gears::SCREW_BALLS }>;
+type Screw = gears::UncagedScrew<{ gears::SCREW_BALLS }>;
 type Rail = LinearBearingTrain<{ gears::LINEAR_BALLS }>;
 
 /// Speed and load of a weave with reversals: one a second at 10 kHz.
@@ -93,7 +94,8 @@ fn suffer<S: Trial>(
         S::check(configuration, given, &outputs).unwrap_or_else(|error| panic!("{line}: {error}"));
         S::check_state(&model).unwrap_or_else(|error| panic!("{line}: {error}"));
         assert_eq!(
-            (faults(&outputs).bits() & !(Faults::FRICTION_LIMIT | Faults::ACCURACY).bits()) != 0,
+            (faults(&outputs).bits() & !(Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL).bits())
+                != 0,
             flagged,
             "{line}"
         );
@@ -143,12 +145,7 @@ fn trains_recover_at_once_but_for_where_the_balls_are() {
         2,
         |outputs| outputs.faults,
         |outputs, expected, since| {
-            // What settles says so, and balls that a spike of the speed took too far.
-            let accuracy = (outputs.faults | expected.faults).bits()
-                & (Faults::SETTLING | Faults::BEYOND_MODEL).bits();
-            if accuracy == 0 {
-                friction(outputs.groove_torque, expected.groove_torque, since);
-            }
+            friction(outputs.groove_torque, expected.groove_torque, since);
         },
     );
     suffer::<Rail>(
@@ -302,7 +299,7 @@ fn ticks_from_a_microsecond_to_ten_milliseconds() {
     for (tick, fastest) in [(1e-6, 500.0), (1e-5, 500.0), (1e-3, 400.0), (1e-2, 40.0)] {
         let mut screw = gears::uncaged();
         screw.tick = tick;
-        screw.limits.nut_speed = fastest;
+        screw.folded = gears::changed(screw.folded, |folded| folded.limits.nut_speed = fastest);
         let mut model = FrictionModel::<Screw>::new(&screw).unwrap();
         for step in 0..20_000 {
             let (speed, load) = weave(step);
@@ -347,46 +344,81 @@ fn refused_or_sound<S: Trial>(configuration: &S::Configuration, random: &mut Ran
     false
 }
 
+/// One of these numbers.
+fn corrupt_one(random: &mut Random, fields: &mut [&mut f32]) {
+    let which = random.below(fields.len());
+    corrupted(random, fields[which]);
+}
+
+/// Numbers of a folded ball, of all kinds.
+fn folded_fields<const NODES: usize>(folded: &mut FoldedBall<NODES>) -> Vec<&mut f32> {
+    let BallNode {
+        friction,
+        branches: [[first, .., last], [.., other]],
+        ..
+    } = &mut folded.law.nodes[0];
+    let [screw, nut] = &mut folded.law.deviations;
+    vec![
+        &mut folded.friction,
+        &mut folded.lead,
+        &mut folded.ball_radius,
+        &mut folded.path_radius,
+        &mut folded.speed,
+        &mut folded.reversal_speed,
+        &mut folded.limits.nut_speed,
+        &mut folded.limits.axial_load,
+        &mut folded.limits.friction_torque,
+        screw,
+        nut,
+        &mut folded.law.lift_off,
+        friction,
+        &mut first.load,
+        &mut first.per_width,
+        &mut first.numbers.free[0],
+        &mut first.numbers.impedance[0],
+        &mut last.load,
+        &mut last.numbers.torque[3],
+        &mut last.numbers.slope,
+        &mut other.numbers.free[5],
+        &mut other.numbers.impedance[2],
+        &mut other.numbers.grip,
+        &mut other.numbers.rubbing,
+    ]
+}
+
 #[test]
 fn corrupted_configurations_are_refused_or_harmless() {
     const COUNT: u32 = 30_000;
     let mut random = Random(3);
     let mut refused = 0;
-    for _ in 0..COUNT {
+    for count in 0..COUNT {
         let mut screw = gears::uncaged();
-        let mut parameters = *screw.design.parameters();
-        let fields: [&mut f32; 13] = [
+        // What is folded stays in memory for as long as the program runs: 15 kB each.
+        if count % 10 == 0 {
+            screw.folded = gears::changed(screw.folded, |folded| {
+                corrupt_one(&mut random, &mut folded_fields(folded))
+            });
+        } else {
+            corrupt_one(
+                &mut random,
+                &mut [
+                    &mut screw.ball_friction,
+                    &mut screw.turns,
+                    &mut screw.return_length,
+                    &mut screw.tick,
+                ],
+            );
+        }
+        refused += u32::from(refused_or_sound::<Screw>(&screw, &mut random));
+
+        let mut caged = gears::closed_form(FrictionBranch::Rolling);
+        let mut parameters = *caged.design.parameters();
+        let mut gap = caged.clearance.gap();
+        let fields: [&mut f32; 8] = [
             &mut parameters.pitch_radius,
             &mut parameters.lead,
             &mut parameters.ball_radius,
             &mut parameters.contact_angle,
-            &mut screw.friction,
-            &mut screw.ball_friction,
-            &mut screw.turns,
-            &mut screw.return_length,
-            &mut screw.reversal_speed,
-            &mut screw.tick,
-            &mut screw.limits.nut_speed,
-            &mut screw.limits.axial_load,
-            &mut screw.limits.friction_torque,
-        ];
-        let which = random.below(fields.len());
-        for (index, field) in fields.into_iter().enumerate() {
-            if index == which {
-                corrupted(&mut random, field);
-            }
-        }
-        let Ok(design) = BallScrew::new(parameters) else {
-            refused += 3;
-            continue;
-        };
-        screw.design = design;
-        refused += u32::from(refused_or_sound::<Screw>(&screw, &mut random));
-
-        let mut caged = gears::closed_form(FrictionBranch::Rolling);
-        caged.design = design;
-        let mut gap = caged.clearance.gap();
-        let fields: [&mut f32; 4] = [
             &mut caged.friction,
             &mut caged.rolling_tangent,
             &mut gap,
@@ -398,8 +430,8 @@ fn corrupted_configurations_are_refused_or_harmless() {
                 corrupted(&mut random, field);
             }
         }
-        if let Ok(clearance) = Clearance::new(gap) {
-            caged.clearance = clearance;
+        if let (Ok(clearance), Ok(design)) = (Clearance::new(gap), BallScrew::new(parameters)) {
+            (caged.clearance, caged.design) = (clearance, design);
             refused += u32::from(refused_or_sound::<ClosedFormScrew>(&caged, &mut random));
         } else {
             refused += 1;
@@ -448,7 +480,7 @@ fn a_reversal_every_tick_is_even() {
     static NONE: DeviationMap = DeviationMap::NONE;
     let mut screw = FrictionModel::<Screw>::new(&gears::uncaged()).unwrap();
     let mut rail = FrictionModel::<Rail>::new(&gears::linear()).unwrap();
-    let mut even = FrictionModel::<Screw>::new(&UncagedBallScrewConfiguration {
+    let mut even = FrictionModel::<Screw>::new(&gears::UncagedConfiguration {
         screw_deviation: &NONE,
         nut_deviation: &NONE,
         ..gears::uncaged()

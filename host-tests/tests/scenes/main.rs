@@ -16,7 +16,6 @@ mod memory;
 mod noise;
 mod phases;
 mod preloaded;
-mod pressed;
 mod promises;
 mod scene_constants;
 mod step_promises;

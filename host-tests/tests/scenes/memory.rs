@@ -21,11 +21,12 @@ use epas_friction::scene::{
 };
 use epas_friction::{
     ClosedFormScrew, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain,
-    LinearInputs, Regime, UncagedBallScrew,
+    LinearInputs, Regime,
 };
 
 use crate::kit::gears::{
-    CagedScrew, LINEAR_BALLS, SCREW_BALLS, caged, closed_form, linear, printed_phase, uncaged, worn,
+    CagedScrew, LINEAR_BALLS, SCREW_BALLS, UncagedScrew, caged, changed, closed_form, linear,
+    printed_phase, uncaged, worn,
 };
 use crate::kit::random::Random;
 use crate::kit::remembering::at;
@@ -210,7 +211,7 @@ where
 #[test]
 fn churned_lubricant_adds_to_the_friction() {
     churns::<CagedScrew>(caged(), screw(0.0, 3000.0));
-    churns::<UncagedBallScrew<SCREW_BALLS>>(uncaged(), screw(0.0, 3000.0));
+    churns::<UncagedScrew<SCREW_BALLS>>(uncaged(), screw(0.0, 3000.0));
 }
 
 /// Closed forms of a screw.
@@ -287,10 +288,10 @@ fn steady_sliding_is_the_scene_without_memory() {
         );
     }
     let mut configuration = uncaged();
-    configuration.reversal_speed = 1e-6;
-    let friction = configuration.friction;
+    configuration.folded = changed(configuration.folded, |folded| folded.reversal_speed = 1e-6);
+    let friction = configuration.folded.friction;
     let loads = [screw(0.0, 3000.0), screw(0.0, -500.0)];
-    slides_as_without::<UncagedBallScrew<SCREW_BALLS>>(
+    slides_as_without::<UncagedScrew<SCREW_BALLS>>(
         configuration,
         friction,
         (0.5, BREAKAWAY),
@@ -518,7 +519,7 @@ fn an_old_load_fades() {
 #[test]
 fn between_steps_the_memory_goes_on() {
     let configuration = uncaged();
-    type Model = FrictionModel<WithMemory<UncagedBallScrew<SCREW_BALLS>, Slip, CountSensor>>;
+    type Model = FrictionModel<WithMemory<UncagedScrew<SCREW_BALLS>, Slip, CountSensor>>;
     let sensor = CountSensor::new(CountSensorParameters {
         period: 1 << 14,
         turn_per_count: 1e-4,
@@ -529,7 +530,7 @@ fn between_steps_the_memory_goes_on() {
         configuration,
         slip(0.5, BREAKAWAY),
         sensor,
-        configuration.friction,
+        configuration.folded.friction,
     );
     let mut fast = Model::new(&configuration).unwrap();
     let mut slow = Model::new(&configuration).unwrap();
@@ -544,7 +545,7 @@ fn between_steps_the_memory_goes_on() {
         for _ in 0..9 {
             counts = if step < 200 { counts + 1 } else { counts - 1 };
             let outputs = fast.between(counts);
-            assert!(!outputs.faults.any() || outputs.faults == Faults::SETTLING);
+            assert!(!outputs.faults.any());
         }
         counts = if step < 200 { counts + 1 } else { counts - 1 };
         let inputs = fresh(screw(5.0, 2000.0), counts);
@@ -581,7 +582,7 @@ fn phase_of(state: &impl std::fmt::Debug) -> u32 {
 /// stand where they would have without the gap.
 #[test]
 fn balls_catch_up_with_a_turn_that_was_missed() {
-    type Model = FrictionModel<WithMemory<UncagedBallScrew<SCREW_BALLS>, Slip, CountSensor>>;
+    type Model = FrictionModel<WithMemory<UncagedScrew<SCREW_BALLS>, Slip, CountSensor>>;
     let sensor = CountSensor::new(CountSensorParameters {
         period: 1 << 16,
         turn_per_count: 1e-3,
@@ -589,11 +590,12 @@ fn balls_catch_up_with_a_turn_that_was_missed() {
     })
     .unwrap();
     let scene = uncaged();
-    let configuration = with_memory(scene, slip(0.5, BREAKAWAY), sensor, scene.friction);
+    let limits = scene.folded.limits;
+    let configuration = with_memory(scene, slip(0.5, BREAKAWAY), sensor, scene.folded.friction);
     // Half of what balls may turn in a tick.
-    let counts = (0.5 * scene.limits.nut_speed * scene.tick / 1e-3) as u32;
+    let counts = (0.5 * limits.nut_speed * scene.tick / 1e-3) as u32;
     let [mut gap, mut sound] = [(); 2].map(|()| Model::new(&configuration).unwrap());
-    let inputs = screw(0.5 * scene.limits.nut_speed, 2000.0);
+    let inputs = screw(0.5 * limits.nut_speed, 2000.0);
     let step = |model: &mut Model, reading: u32| model.step(fresh(inputs, reading));
     for tick in 0..1000 {
         step(&mut sound, tick * counts);
@@ -622,9 +624,10 @@ fn balls_catch_up_with_a_turn_that_was_missed() {
 /// An angle that is set while turns wait for the next step is that of the last reading.
 #[test]
 fn an_angle_is_set_once() {
-    type Model = FrictionModel<WithMemory<UncagedBallScrew<SCREW_BALLS>, Slip, WrappedAngle>>;
+    type Model = FrictionModel<WithMemory<UncagedScrew<SCREW_BALLS>, Slip, WrappedAngle>>;
     let scene = uncaged();
-    let configuration = with_memory(scene, slip(0.5, BREAKAWAY), angle_sensor(), scene.friction);
+    let friction = scene.folded.friction;
+    let configuration = with_memory(scene, slip(0.5, BREAKAWAY), angle_sensor(), friction);
     let configuration = WithMemoryConfiguration {
         play: 0.0,
         ..configuration
@@ -696,14 +699,15 @@ fn odd_under_reversal_of_motion_and_load() {
     }
 }
 
-/// Constants are swapped, a clearance and a coefficient are set: memory stays, and constants that do not fit are refused.
+/// Constants are swapped: memory stays, balls have the new friction at once, and constants that do not fit are refused.
 #[test]
 fn changes_while_it_runs_keep_the_memory() {
     let configuration = uncaged();
-    type Scene = WithMemory<UncagedBallScrew<SCREW_BALLS>, Slip, SpeedOverTick>;
+    type Scene = WithMemory<UncagedScrew<SCREW_BALLS>, Slip, SpeedOverTick>;
     let of = |friction: f32, turns: f32| {
         let mut scene = configuration;
-        (scene.friction, scene.turns) = (friction, turns);
+        scene.folded = changed(scene.folded, |folded| folded.friction = friction);
+        scene.turns = turns;
         let whole = with_memory(scene, slip(0.5, BREAKAWAY), speed_sensor(), friction);
         <Scene as epas_friction::Scene>::constants(&whole).unwrap()
     };
@@ -729,8 +733,9 @@ fn changes_while_it_runs_keep_the_memory() {
     assert!(
         (after.friction_torque - before.friction_torque).abs() <= 1.2e-7 * before.friction_torque
     );
-    assert!(after.faults.contains(Faults::SETTLING));
-    for _ in 0..2000 {
+    assert!(!after.faults.any());
+    // Elements slide fully again.
+    for _ in 0..100 {
         step(&mut model, 20.0);
     }
     let grown = step(&mut model, 20.0).friction_torque / before.friction_torque;

@@ -4,13 +4,13 @@ use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
 use epas_friction::law::memory::{Hysteresis, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Steady};
 use epas_friction::scene::{Freshness, Sliding, WithMemory, WithMemoryConfiguration};
-use epas_friction::{
-    FrictionModel, Inputs, Outputs, Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
-    UncagedOutputs,
-};
+use epas_friction::{FrictionModel, Inputs, Outputs, Regime, UncagedOutputs};
 use epas_reference::closed_loop::ClosedLoop;
 
-use crate::kit::gears::{CagedConfiguration, CagedScrew, SCREW_BALLS, caged, uncaged};
+use crate::kit::gears::{
+    CagedConfiguration, CagedScrew, SCREW_BALLS, UncagedConfiguration, UncagedScrew, caged,
+    changed, uncaged,
+};
 use crate::kit::random::Random;
 use crate::kit::remembering::at;
 
@@ -179,8 +179,8 @@ where
     Restlessness::of(&outputs)
 }
 
-fn screw() -> UncagedBallScrewConfiguration {
-    UncagedBallScrewConfiguration {
+fn screw() -> UncagedConfiguration {
+    UncagedConfiguration {
         tick: TICK as f32,
         ..uncaged()
     }
@@ -215,11 +215,11 @@ fn friction_by_the_speed_chatters() {
     let rest = by_speed::<CagedScrew>(&scene, counted());
     assert!(rest.changes > 3000 && rest.largest > 0.08, "{rest:?}");
     let mut random = Random(11);
-    let scene = UncagedBallScrewConfiguration {
-        reversal_speed: 0.1,
+    let scene = UncagedConfiguration {
+        folded: changed(screw().folded, |folded| folded.reversal_speed = 0.1),
         ..screw()
     };
-    let rest = by_speed::<UncagedBallScrew<SCREW_BALLS>>(&scene, || speed(&mut random));
+    let rest = by_speed::<UncagedScrew<SCREW_BALLS>>(&scene, || speed(&mut random));
     assert!(rest.changes > 300 && rest.largest > 0.04, "{rest:?}");
 }
 
@@ -228,7 +228,7 @@ fn rests(half_width: f32, rest: Rest) -> [Restlessness; 2] {
     let angle = Steady::new(counts(), half_width * ClosedLoop::COUNT as f32).unwrap();
     [
         with_memory::<CagedScrew, _>(caged(), caged().friction, angle, rest),
-        with_memory::<UncagedBallScrew<SCREW_BALLS>, _>(screw(), screw().friction, angle, rest),
+        with_memory::<UncagedScrew<SCREW_BALLS>, _>(screw(), screw().folded.friction, angle, rest),
     ]
 }
 

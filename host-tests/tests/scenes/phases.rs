@@ -3,20 +3,21 @@
 use std::f32::consts::TAU;
 
 use epas_friction::{
-    BallScrew, BallScrewParameters, DeviationMap, Error, FrictionModel, Inputs, LinearBearing,
-    LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearInputs,
-    UncagedBallScrew, UncagedBallScrewConfiguration,
+    DeviationMap, Error, FrictionModel, Inputs, LinearBearing, LinearBearingConfiguration,
+    LinearBearingParameters, LinearBearingTrain, LinearInputs, UncagedBallScrewConfiguration,
 };
 
-use crate::kit::gears::{self, LINEAR_BALLS, SCREW_BALLS, wave};
+use crate::kit::gears::{
+    self, LINEAR_BALLS, SCREW_BALLS, UncagedConfiguration, UncagedScrew, wave,
+};
 
 type Linear = LinearBearingTrain<LINEAR_BALLS>;
-type Uncaged = UncagedBallScrew<SCREW_BALLS>;
+type Uncaged = UncagedScrew<SCREW_BALLS>;
 
 /// Torques of balls, which press where the grooves deviate, from an angle of the nut on.
 fn from_angle(angle: f32) -> Vec<f32> {
     let configuration = UncagedBallScrewConfiguration {
-        screw_deviation: wave(2, 1, 0.0, 0.04),
+        screw_deviation: wave(2, 1, 0.0, gears::BALL_RANGE.law.deviations[0]),
         nut_deviation: &DeviationMap::NONE,
         return_length: 0.0,
         turns: 2.53,
@@ -29,8 +30,7 @@ fn from_angle(angle: f32) -> Vec<f32> {
         axial_load: 3000.0,
     };
     (0..600)
-        .map(|_| model.step(inputs).groove_torque)
-        .skip(300)
+        .map(|_| model.step(inputs).friction_torque)
         .collect()
 }
 
@@ -134,19 +134,15 @@ fn a_screw_is_as_long_and_its_ticks_as_short_as_promised() {
     let configuration = gears::uncaged();
     let (turns, per_turn) = (
         f64::from(configuration.turns),
-        f64::from(TAU) * f64::from(configuration.design.path_radius()),
+        f64::from(TAU) * f64::from(configuration.folded.path_radius),
     );
-    // A short pitch radius: 1000 turns are 6 m.
-    let design = BallScrew::new(BallScrewParameters {
-        pitch_radius: 1e-3,
-        lead: 1e-4,
-        ball_radius: 1e-4,
-        ..*configuration.design.parameters()
+    // A short path radius: 1000 turns are 6 m.
+    let small = gears::changed(configuration.folded, |folded| {
+        (folded.ball_radius, folded.path_radius, folded.speed) = (1e-4, 1e-3, 5e-4);
     });
-    let small = design.unwrap();
-    let small_turn = f64::from(TAU) * f64::from(small.path_radius());
+    let small_turn = f64::from(TAU) * f64::from(small.path_radius);
     let short = UncagedBallScrewConfiguration {
-        design: small,
+        folded: small,
         return_length: 9.0,
         ..configuration
     };
@@ -162,44 +158,46 @@ fn a_screw_is_as_long_and_its_ticks_as_short_as_promised() {
     let mut slow = gears::uncaged();
     slow.tick = 0.9;
     slow.return_length = 5.0;
-    slow.limits.nut_speed = 10.0;
+    slow.folded = gears::changed(slow.folded, |folded| folded.limits.nut_speed = 10.0);
     let found = range(&FrictionModel::<Uncaged>::new(&slow));
     close(found, "tick", 0.499 * f64::from(TAU) / 10.0, false);
 }
 
-/// Grooves deviate by half the contact angle at most, here 10 degrees of 20: so much is taken, and a thousandth more refused.
+/// Grooves deviate by what a ball was folded for at most, here 10 degrees on the screw and 5 in the nut: so much is taken, and a thousandth
+/// more refused.
 #[test]
-fn grooves_deviate_by_as_much_as_promised() {
-    let largest = 10_f32.to_radians();
-    let more = 1.001 * largest;
-    let mut screw = gears::uncaged();
-    screw.design = BallScrew::new(BallScrewParameters {
-        contact_angle: 2.0 * largest,
-        ..*screw.design.parameters()
-    })
-    .unwrap();
-    (screw.screw_deviation, screw.nut_deviation) = (&DeviationMap::NONE, &DeviationMap::NONE);
+fn grooves_deviate_by_as_much_as_a_ball_was_folded_for() {
+    let largest = [10_f32, 5.0].map(f32::to_radians);
+    let even = gears::even();
+    let folded = gears::changed(even.folded, |folded| folded.law.deviations = largest);
     let with = |screw_deviation, nut_deviation| {
-        let configuration = UncagedBallScrewConfiguration {
+        FrictionModel::<Uncaged>::new(&UncagedConfiguration {
+            folded,
             screw_deviation,
             nut_deviation,
-            ..screw
-        };
-        FrictionModel::<Uncaged>::new(&configuration)
+            ..even
+        })
     };
+    let none = &DeviationMap::NONE;
+    let [screw, nut] = largest.map(|size| wave(1, 1, 0.0, size));
+    assert!(with(screw, none).is_ok() && with(none, nut).is_ok() && with(screw, nut).is_ok());
+    // A map keeps its largest sample to four roundings.
+    let borders = largest.map(|size| f64::from(size) * (1.0 + 4.0 * f64::from(f32::EPSILON)));
+    let [screw, nut] = largest.map(|size| wave(1, 1, 0.0, 1.001 * size));
+    let found = range(&with(screw, none));
+    close(found, "screw_deviation", borders[0], false);
+    close(range(&with(none, nut)), "nut_deviation", borders[1], false);
+}
+
+/// Grooves of a bearing deviate by half the contact angle at most, here 10 degrees of 20: so much is taken, and a thousandth more refused.
+#[test]
+fn straight_grooves_deviate_by_as_much_as_promised() {
+    let largest = 10_f32.to_radians();
+    let more = 1.001 * largest;
     let [taken, refused] = [largest, more].map(|size| wave(1, 1, 0.0, size));
     let none = &DeviationMap::NONE;
-    assert!(with(taken, none).is_ok() && with(none, taken).is_ok());
     // A map keeps its largest sample to four roundings.
     let border = f64::from(largest) * (1.0 + 4.0 * f64::from(f32::EPSILON));
-    close(
-        range(&with(refused, none)),
-        "screw_deviation",
-        border,
-        false,
-    );
-    close(range(&with(none, refused)), "nut_deviation", border, false);
-
     let mut bearing = gears::linear();
     bearing.bearing = LinearBearing::new(LinearBearingParameters {
         contact_angle: 2.0 * largest,
@@ -222,30 +220,4 @@ fn grooves_deviate_by_as_much_as_promised() {
         border,
         false,
     );
-}
-
-/// Deviations of both grooves that would have a ball run against the nut, or twice as fast, are refused with a size that would not.
-#[test]
-fn grooves_that_would_turn_a_ball_round_are_refused() {
-    let mut screw = gears::uncaged();
-    screw.design = BallScrew::new(BallScrewParameters {
-        contact_angle: 75_f32.to_radians(),
-        pitch_radius: 10e-3,
-        ball_radius: 4e-3,
-        lead: 5e-3,
-        ..*screw.design.parameters()
-    })
-    .unwrap();
-    screw.return_length = 0.5;
-    let mut with = |size: f32| {
-        (screw.screw_deviation, screw.nut_deviation) =
-            (wave(1, 1, 0.0, size), wave(1, 1, 0.0, size));
-        FrictionModel::<UncagedBallScrew<3>>::new(&screw)
-    };
-    // Within half the inverse tangent of the contact angle, what a row's formula takes.
-    let largest = 0.13;
-    let (field, least, most) = range(&with(largest));
-    assert_eq!((field, least), ("screw_deviation", 0.0));
-    assert!((0.11..0.125).contains(&most), "{most}");
-    assert!(with(most).is_ok());
 }

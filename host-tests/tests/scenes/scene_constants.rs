@@ -3,18 +3,22 @@
 use std::fmt::Debug;
 use std::hint::black_box;
 
+use epas_friction::ball::pressed::BallLaw;
 use epas_friction::ball::{
     AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow,
 };
 use epas_friction::contact::FrictionMap;
+use epas_friction::scene::FoldedBall;
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
     ClosedFormScrewConstants, DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch,
     FrictionModel, GrooveSize, Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration,
     LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits,
-    LoadShare, LoadShares, Material, Outputs, RollingResistance, Scene, UncagedBallScrew,
+    LoadShare, LoadShares, Material, Outputs, Scene, UncagedBallScrew,
     UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
 };
+
+use crate::kit::gears::{BALL, BALL_NODES, BALL_RANGE, UncagedScrew};
 
 const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
     match set_up {
@@ -29,12 +33,12 @@ static WAVES: DeviationMap = folded(DeviationMap::from_harmonics(
         Harmonic {
             order: 2,
             cosine: 0.0,
-            sine: 0.04014,
+            sine: 0.7 * BALL.law.deviations[0],
         },
         Harmonic {
             order: 5,
-            cosine: 0.003,
-            sine: -0.002,
+            cosine: 0.1 * BALL.law.deviations[0],
+            sine: -0.05 * BALL.law.deviations[0],
         },
     ],
 ));
@@ -42,8 +46,8 @@ static SLOW_WAVE: DeviationMap = folded(DeviationMap::from_harmonics(
     2,
     &[Harmonic {
         order: 3,
-        cosine: 0.01,
-        sine: 0.02,
+        cosine: 0.4 * BALL.law.deviations[1],
+        sine: 0.8 * BALL.law.deviations[1],
     }],
 ));
 static SHARES: [LoadShare; 3] = [
@@ -72,13 +76,12 @@ const fn closed_form(branch: FrictionBranch, clearance: Clearance) -> ClosedForm
     }
 }
 
-const fn uncaged(clearance: Clearance) -> UncagedBallScrewConfiguration {
+const fn uncaged<const NODES: usize>(
+    folded: &'static FoldedBall<NODES>,
+) -> UncagedBallScrewConfiguration<NODES> {
     UncagedBallScrewConfiguration {
-        design: folded(BallScrew::new(DISSERTATION_DESIGNS[1].parameters)),
-        friction: 0.1,
+        folded,
         ball_friction: 0.1,
-        rolling_resistance: RollingResistance::STEEL,
-        clearance,
         turns: 2.0,
         return_length: 0.03,
         screw_deviation: &WAVES,
@@ -87,9 +90,7 @@ const fn uncaged(clearance: Clearance) -> UncagedBallScrewConfiguration {
             positive: &SHARES,
             negative: &REVERSED,
         },
-        reversal_speed: 0.5,
         tick: 1e-4,
-        limits: LIMITS,
     }
 }
 
@@ -125,7 +126,6 @@ const PRELOAD: GrooveFit = GrooveFit::Preload {
 };
 
 const OVERSIZE: Clearance = folded(Clearance::new(-2e-6));
-const WIDE: Clearance = folded(Clearance::new(20e-6));
 
 static ROLLING: ClosedFormScrewConstants = folded(ClosedFormScrewConstants::new(&closed_form(
     FrictionBranch::Rolling,
@@ -135,9 +135,17 @@ static SLIDING: ClosedFormScrewConstants = folded(ClosedFormScrewConstants::new(
     FrictionBranch::Sliding,
     Clearance::ZERO,
 )));
-static ZERO: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(Clearance::ZERO)));
-static PLAY: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(WIDE)));
-static PRELOADED: UncagedConstants<24> = folded(UncagedConstants::new(&uncaged(OVERSIZE)));
+static PRELOADED_BALL: FoldedBall = FoldedBall {
+    law: BallLaw {
+        lift_off: 60.0,
+        ..BALL.law
+    },
+    ..BALL
+};
+static ONE: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(&BALL)));
+static RANGE: UncagedConstants<37, BALL_NODES> =
+    folded(UncagedConstants::new(&uncaged(&BALL_RANGE)));
+static PRELOADED: UncagedConstants<24> = folded(UncagedConstants::new(&uncaged(&PRELOADED_BALL)));
 static CARRIAGE: LinearConstants<24> = folded(LinearConstants::new(&linear()));
 
 /// `Debug` prints the shortest text that reads back as the same number, and the sign of a zero: equal texts
@@ -216,9 +224,9 @@ fn a_folded_closed_form_is_the_one_set_up_at_run_time() {
 
 #[test]
 fn a_folded_ball_screw_without_cage_is_the_one_set_up_at_run_time() {
-    same_gear::<UncagedBallScrew<37>>(&ZERO, &uncaged(Clearance::ZERO), nut);
-    same_gear::<UncagedBallScrew<37>>(&PLAY, &uncaged(WIDE), nut);
-    same_gear::<UncagedBallScrew<24>>(&PRELOADED, &uncaged(OVERSIZE), nut);
+    same_gear::<UncagedBallScrew<37>>(&ONE, &uncaged(&BALL), nut);
+    same_gear::<UncagedScrew<37>>(&RANGE, &uncaged(&BALL_RANGE), nut);
+    same_gear::<UncagedBallScrew<24>>(&PRELOADED, &uncaged(&PRELOADED_BALL), nut);
 }
 
 #[test]
@@ -233,8 +241,8 @@ fn a_folded_linear_bearing_is_the_one_set_up_at_run_time() {
 /// The angle moves the screw's deviations under the balls, whoever owns the constants.
 #[test]
 fn a_model_of_a_reference_takes_the_nut_angle() {
-    let mut referring = FrictionModel::<UncagedBallScrew<37>, _>::of(&ZERO);
-    let mut owning = FrictionModel::<UncagedBallScrew<37>>::of(ZERO);
+    let mut referring = FrictionModel::<UncagedBallScrew<37>, _>::of(&ONE);
+    let mut owning = FrictionModel::<UncagedBallScrew<37>>::of(ONE);
     let at_rest: UncagedOutputs = referring.step(nut(50.0, 3_000.0));
     same_bits(&at_rest, &owning.step(nut(50.0, 3_000.0)));
     // Half a wave of the screw's deviations.
@@ -251,10 +259,9 @@ fn a_refused_gear_names_its_field() {
     const BAD: Result<UncagedConstants<37>, Error> =
         UncagedConstants::new(&UncagedBallScrewConfiguration {
             tick: 0.1,
-            ..uncaged(Clearance::ZERO)
+            ..uncaged(&BALL)
         });
-    const CROWDED: Result<UncagedConstants<60>, Error> =
-        UncagedConstants::new(&uncaged(Clearance::ZERO));
+    const CROWDED: Result<UncagedConstants<60>, Error> = UncagedConstants::new(&uncaged(&BALL));
     const HASTY: Result<LinearConstants<24>, Error> =
         LinearConstants::new(&LinearBearingConfiguration {
             limits: LinearLimits {

@@ -2,8 +2,6 @@
 
 use crate::kit::designs::{SCREW_TRACK as TRACK, screw};
 use crate::kit::errors::Errors;
-use crate::kit::gears;
-use crate::kit::given;
 use crate::kit::random::Random;
 use crate::kit::remembering::at;
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -11,9 +9,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use epas_friction::ball::{
     AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow,
 };
-use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, OneCoefficient, TemperatureFade, Viscosity,
-};
+use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::promises;
@@ -25,20 +21,15 @@ use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
     DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Inputs, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShare, Material, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    LinearInputs, LinearLimits, LoadShare, Material,
 };
-use epas_reference::design::BallScrewDesign;
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
-use epas_reference::friction::ball_screw_ring::{ElasticRing, GrooveDeviation, steady_samples};
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::isotonic::isotonic_by_min_max;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
-use epas_reference::friction::patch::Integration;
 use epas_reference::hertz::{Hertz, contact_modulus};
-use epas_reference::material::Elastic;
 
 /// Torque of both closed forms in all four quadrants by the reference's efficiencies, with the direction that
 /// the scene takes near a reversal.
@@ -169,28 +160,6 @@ fn balls_of_a_screw() {
     ball_errors.assert_promised(&promises::SCREW_BALL);
 }
 
-/// Ticks from one state to the next, and the time of one, s.
-const TICKS: usize = 100;
-const TICK: f32 = 1e-4;
-
-/// The screw of [`screw`] in float64.
-fn exact_screw() -> BallScrewDesign {
-    let steel = Elastic {
-        youngs_modulus: 210e9,
-        poisson_ratio: 0.28,
-    };
-    BallScrewDesign {
-        pitch_radius: 16.5e-3,
-        lead: 20e-3,
-        ball_radius: 2.778e-3,
-        screw_groove_radius: 3.254e-3,
-        nut_groove_radius: 3.254e-3,
-        contact_angle: FRAC_PI_4,
-        ball: steel,
-        groove: steel,
-    }
-}
-
 /// A scene with a memory whose elements slide fully within a tick of the motions here, and whose balls follow every turn: in steady
 /// motion its friction is that of the scene. The breakaway angle, rad (m), is that under 1 N m (1 N).
 pub type Remembering<S, L> =
@@ -229,176 +198,8 @@ pub fn sound<I>(scene: I, reading: f32) -> WithMemoryInputs<I, f32> {
     at(scene, reading, TEMPERATURE)
 }
 
-/// A law that gives a friction coefficient at a speed: a fifth more at standstill, a fifth less far beyond.
-fn law_through(friction: f32, speed: f32) -> CoefficientLaw {
-    CoefficientLaw::new(&CoefficientParameters {
-        boundary: 1.2 * friction,
-        full_film: 0.8 * friction,
-        half_share_speed: speed,
-        reference_temperature: TEMPERATURE,
-        viscosity: Viscosity::through((313.15, 0.1), (373.15, 0.01), 233.15).unwrap(),
-        forward: 1.0,
-        backward: 1.0,
-        churning: 0.0,
-    })
-    .unwrap()
-}
-
 /// Reading between two steps over that of a step: friction is asked for at an angle hardly beyond the step's.
 pub const BETWEEN: f32 = 1e-3;
-
-/// Friction torque over its mean against the exact whole screw, two turns of the nut, balls that have settled: without memory; with
-/// it, one friction coefficient and a law; and between two steps. Set up with another friction coefficient and another gap, which
-/// then become these, it is the same.
-#[test]
-fn uncaged_step() {
-    // Without memory, with it, between two steps, without memory and set while running.
-    let mut errors = [(); 4].map(|()| Errors::default());
-    for (friction, degrees, load, speed) in [
-        (0.1, 2.0, -1500.0, TAU),
-        (0.1, 3.0, -1500.0, TAU),
-        (0.1, 2.5, 1500.0, TAU),
-        (0.1, 2.5, 1500.0, -TAU),
-        (0.05, 2.5, -1500.0, TAU),
-        (0.15, 2.5, 1500.0, TAU),
-    ] {
-        let states = ElasticRing {
-            design: exact_screw(),
-            clearance: 0.0,
-            friction: f64::from(friction),
-            ball_friction: 0.1,
-            balls: 37,
-            turns: 2.0,
-            return_length: 0.0,
-            screw_deviation: GrooveDeviation::sine(2.0, f64::to_radians(degrees)),
-            nut_deviation: GrooveDeviation::NONE,
-            load_shares: vec![],
-            chord: false,
-            places: vec![],
-            integration: Integration::Coarse,
-        }
-        .simulate(&steady_samples(speed, load, 2.0 * TAU, 200), |_, _| ())
-        .unwrap();
-        let wave = gears::wave(1, 2, 0.0, degrees.to_radians() as f32);
-        let configuration = UncagedBallScrewConfiguration {
-            friction,
-            ..gears::full(wave, TICK)
-        };
-        let mut model = FrictionModel::<UncagedBallScrew<37>>::new(&configuration).unwrap();
-        let mut other =
-            FrictionModel::<UncagedBallScrew<37>>::new(&UncagedBallScrewConfiguration {
-                friction: 0.7 * friction,
-                clearance: Clearance::new(-1e-6).unwrap(),
-                ..configuration
-            })
-            .unwrap();
-        other.set_friction(configuration.friction).unwrap();
-        other.set_clearance(configuration.clearance).unwrap();
-        let scale = (6e-5, TICK);
-        let one = OneCoefficient::new(friction).unwrap();
-        let mut remembers = remembering::<UncagedBallScrew<37>, _>(configuration, one, scale);
-        let law = law_through(friction, TAU as f32);
-        let mut by_law = remembering::<UncagedBallScrew<37>, _>(configuration, law, scale);
-        let mean =
-            states.iter().map(|state| state.torque().abs()).sum::<f64>() / states.len() as f64;
-        for (place, state) in states.iter().enumerate() {
-            let inputs = Inputs {
-                nut_speed: speed as f32,
-                axial_load: load as f32,
-            };
-            let reading = inputs.nut_speed;
-            let known = sound(inputs, reading);
-            for _ in 1..TICKS {
-                if place > 0 {
-                    let _ = model.step(inputs);
-                    let _ = other.step(inputs);
-                    let _ = remembers.step(known);
-                    let _ = by_law.step(known);
-                }
-            }
-            for (found, kind) in [
-                (model.step(inputs), 0),
-                (remembers.step(known), 1),
-                (by_law.step(known), 1),
-                (remembers.between(BETWEEN * reading), 2),
-                (by_law.between(BETWEEN * reading), 2),
-                (other.step(inputs), 3),
-            ] {
-                if found.faults.any() {
-                    continue;
-                }
-                let error = (f64::from(found.friction_torque) - state.torque()) / mean;
-                errors[kind].add_case(error, || {
-                    format!("friction {friction} {degrees} deg {load} {speed} state {place}")
-                });
-            }
-        }
-    }
-    let [errors, with_memory, between, set] = &errors;
-    assert!(with_memory.count > 1.9 * errors.count);
-    assert!(set.count > 0.9 * errors.count);
-    with_memory.assert_promised(&promises::STEP_UNCAGED_MEMORY);
-    between.assert_promised(&promises::BETWEEN_UNCAGED);
-    errors.assert_promised(&promises::STEP_UNCAGED);
-    set.assert_promised(&promises::STEP_UNCAGED);
-}
-
-/// Play of 5 um under 5 N a ball, where a light contact lies far from what it gives way: balls come to rest where the exact
-/// ones do. Where one finds its place in steps that are cut short, they are flagged.
-#[test]
-fn light_balls_with_play() {
-    const BALLS: usize = 16;
-    let parameters = DISSERTATION_DESIGNS[2].parameters;
-    let (turns, load, speed) = (0.75, 80.0, TAU);
-    let states = ElasticRing {
-        design: given::ball_screw(&parameters),
-        clearance: f64::from(5e-6_f32),
-        friction: 0.1,
-        ball_friction: 0.1,
-        balls: BALLS,
-        turns,
-        return_length: 0.0,
-        screw_deviation: GrooveDeviation::sine(2.0, 0.03),
-        nut_deviation: GrooveDeviation::NONE,
-        load_shares: vec![],
-        chord: false,
-        places: vec![],
-        integration: Integration::Coarse,
-    }
-    .simulate(&steady_samples(speed, load, TAU, 100), |_, _| ())
-    .unwrap();
-    let mut model = FrictionModel::<UncagedBallScrew<BALLS>>::new(&UncagedBallScrewConfiguration {
-        design: BallScrew::new(parameters).unwrap(),
-        clearance: Clearance::new(5e-6).unwrap(),
-        turns: turns as f32,
-        ..gears::full(gears::wave(1, 2, 0.0, 0.03), TICK)
-    })
-    .unwrap();
-    let mut errors = Errors::of("light balls with play");
-    let largest = states
-        .iter()
-        .map(|state| state.groove_torque)
-        .fold(0.0, f64::max);
-    let mut flagged = 0;
-    for (place, state) in states.iter().enumerate() {
-        let inputs = Inputs {
-            nut_speed: speed as f32,
-            axial_load: load as f32,
-        };
-        for _ in 1..if place > 0 { TICKS } else { 1 } {
-            let _ = model.step(inputs);
-        }
-        let found = model.step(inputs);
-        if found.faults.any() {
-            flagged += 1;
-            continue;
-        }
-        let error = (f64::from(found.groove_torque) - state.groove_torque) / largest;
-        errors.add_case(error, || format!("state {place}"));
-    }
-    println!("{flagged} of {} flagged", states.len());
-    errors.assert_measured();
-}
 
 /// Forces of a row of touching balls on a track that is long enough for an open end.
 #[test]

@@ -6,7 +6,7 @@ use crate::kit::measured;
 use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
 use epas_friction::train::{Press, Train};
-use epas_friction::{FrictionModel, Inputs, UncagedBallScrew, promises};
+use epas_friction::{FrictionModel, Inputs, promises};
 
 /// Speeds and forces of a row in contact by the max-min formula of isotonic regression, in f64.
 fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {
@@ -135,7 +135,7 @@ fn tracks_full_and_almost_full_keep_every_ball() {
 fn long_run<const N: usize>(ticks: u64, every: u64) {
     let mut configuration = gears::uncaged();
     configuration.turns = 2.5 * N as f32 / 37.0;
-    let mut model = FrictionModel::<UncagedBallScrew<N>>::new(&configuration).unwrap();
+    let mut model = FrictionModel::<gears::UncagedScrew<N>>::new(&configuration).unwrap();
     // A rotation for the sine of speed and load, renewed now and then.
     let turn = 2.0 * std::f64::consts::PI * 1e-4;
     let (step_sin, step_cos) = turn.sin_cos();
@@ -150,12 +150,12 @@ fn long_run<const N: usize>(ticks: u64, every: u64) {
             cos * step_cos - sin * step_sin,
         );
         let sensors = [(300.0 * sin) as f32, (8e3 * cos) as f32, 0.0];
-        let outputs = model.step(UncagedBallScrew::<N>::inputs(sensors));
+        let outputs = model.step(gears::UncagedScrew::<N>::inputs(sensors));
         worst = worst.max(outputs.largest_contact_force);
         sum += f64::from(outputs.friction_torque.abs());
         contacts += u64::from(outputs.contacts);
         if tick % every == 0 {
-            let checked = UncagedBallScrew::<N>::check(&configuration, sensors, &outputs)
+            let checked = gears::UncagedScrew::<N>::check(&configuration, sensors, &outputs)
                 .and_then(|()| sound_train(&model.state().circuit.train));
             checked.unwrap_or_else(|error| panic!("tick {tick}: {error}"));
         }

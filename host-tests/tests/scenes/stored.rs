@@ -8,12 +8,13 @@ use std::fmt::Debug;
 use epas_friction::scene::{StoredScene, WithMemoryInputs};
 use epas_friction::stored::crc32;
 use epas_friction::{
-    Clearance, ClosedFormScrew, DeviationMap, FrictionBranch, FrictionModel, Inputs,
-    LinearBearingTrain, LinearInputs, Refusal, UncagedBallScrew,
+    ClosedFormScrew, DeviationMap, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain,
+    LinearInputs, Refusal,
 };
 
 use crate::kit::gears::{
-    CROWD, CagedScrew, LINEAR_BALLS, SCREW_BALLS, caged, closed_form, crowded, linear, uncaged,
+    CROWD, CagedScrew, LINEAR_BALLS, SCREW_BALLS, UncagedScrew, caged, closed_form, crowded,
+    linear, uncaged,
 };
 use crate::kit::random::Random;
 use crate::kit::remembering::{
@@ -21,7 +22,7 @@ use crate::kit::remembering::{
     linear_by_speed, uncaged_by_counts,
 };
 
-type Uncaged = UncagedBallScrew<SCREW_BALLS>;
+type Uncaged = UncagedScrew<SCREW_BALLS>;
 type Linear = LinearBearingTrain<LINEAR_BALLS>;
 
 /// Offsets in a block.
@@ -150,14 +151,13 @@ impl Kept for Uncaged {
     }
 
     fn set(model: &mut FrictionModel<Self>) {
-        model.set_friction(0.06).unwrap();
-        model.set_clearance(Clearance::new(-1e-6).unwrap()).unwrap();
+        model.set_friction(0.08).unwrap();
         model.set_nut_angle(1.0);
     }
 }
 
 /// Balls that press.
-impl Kept for UncagedBallScrew<CROWD> {
+impl Kept for UncagedScrew<CROWD> {
     fn model() -> FrictionModel<Self> {
         FrictionModel::new(&crowded()).unwrap()
     }
@@ -316,7 +316,7 @@ fn a_scene_goes_on_to_the_bit() {
         goes_on::<Uncaged>(set);
         goes_on::<Linear>(set);
     }
-    goes_on::<UncagedBallScrew<CROWD>>(false);
+    goes_on::<UncagedScrew<CROWD>>(false);
 }
 
 #[test]
@@ -437,10 +437,10 @@ fn blocks_are_as_small_as_said() {
     }
     assert_eq!(bytes::<CagedScrew>(), 24);
     assert_eq!(bytes::<ClosedFormScrew>(), 20);
-    assert_eq!(bytes::<Uncaged>(), 1794);
+    assert_eq!(bytes::<Uncaged>(), 370);
     assert_eq!(bytes::<Linear>(), 181);
     assert_eq!(bytes::<CagedByAngle>(), 116);
-    assert_eq!(bytes::<UncagedByCounts>(), 1895);
+    assert_eq!(bytes::<UncagedByCounts>(), 471);
     assert_eq!(bytes::<LinearBySpeed>(), 284);
 }
 
@@ -452,7 +452,7 @@ fn kinds_of_scenes_have_their_numbers() {
         u16::from_le_bytes([block[KIND_AT], block[KIND_AT + 1]])
     }
     let plain = [kind::<CagedScrew>(), kind::<Uncaged>(), kind::<Linear>()];
-    assert_eq!(plain, [4, 2, 3]);
+    assert_eq!(plain, [4, 6, 3]);
     let remembering = [
         kind::<CagedByAngle>(),
         kind::<UncagedByCounts>(),

@@ -5,7 +5,7 @@ use crate::ball::preload::Preload;
 use crate::contact::Across;
 use crate::error::{Error, attempt};
 use crate::geometry::{BallScrew, Groove};
-use crate::math;
+use crate::math::constant;
 
 /// Load of a light contact below which it does not count, over that of the main contacts. A numerical floor: such a contact adds
 /// about a millionth to friction, and its ellipse, a hundredth of the main contact's, has not vanished.
@@ -66,11 +66,11 @@ impl Contacts {
 
     /// Loads of the contacts under a given difference of the two diagonals.
     #[inline]
-    pub(super) fn loads(&self, normal: f32) -> Loads {
+    pub(super) const fn loads(&self, normal: f32) -> Loads {
         // Share of sliding friction across the track, to some per cent.
         let sliding = self.sliding;
         let spinning = self.screw.end_speed() * cube_root(normal);
-        let size = math::sqrt(spinning * spinning + sliding * sliding + 1e-30);
+        let size = constant::sqrt(spinning * spinning + sliding * sliding + 1e-30);
         let main = self
             .preload
             .larger(normal * size / (size - self.friction * sliding));

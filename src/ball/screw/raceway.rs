@@ -35,7 +35,7 @@ impl Raceway {
 
     /// The contact under a load of which this is the cube root.
     #[inline]
-    pub(super) fn under(&self, root: f32) -> Across {
+    pub(super) const fn under(&self, root: f32) -> Across {
         self.table.at(self.end_speed * root)
     }
 
@@ -53,7 +53,7 @@ impl Raceway {
 
 /// `x^(1/3)` of a positive normal number within 6e-5.
 #[inline]
-pub(super) fn cube_root(x: f32) -> f32 {
+pub(super) const fn cube_root(x: f32) -> f32 {
     let [inverse, _] = inverse_cube_roots([x, 1.0]);
     x * inverse * inverse
 }

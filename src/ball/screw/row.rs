@@ -5,7 +5,7 @@ use super::fit::GrooveFit;
 use super::raceway::cube_root;
 use super::speeds::Speeds;
 use super::tick::{Mean, ScrewTick, limited};
-use crate::ball::loads::{LoadShare, loaded};
+use crate::ball::loads::loaded;
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::ranges;
@@ -127,7 +127,7 @@ impl ScrewRow {
     /// third contact. Cost: 892 modelled cycles on a Cortex-M4F.
     #[inline]
     #[must_use]
-    pub fn at(&self, nut_speed: f32, axial_load_per_ball: f32) -> ScrewTick {
+    pub const fn at(&self, nut_speed: f32, axial_load_per_ball: f32) -> ScrewTick {
         let normal = self.normal * counted(axial_load_per_ball);
         let side = if axial_load_per_ball < 0.0 { 1.0 } else { -1.0 };
         if self.play {
@@ -152,7 +152,7 @@ impl ScrewRow {
     /// Loads up to 1e7 N; those under 1e-3 N count as 1e-3 N. Deviations up to
     /// [`ScrewRow::largest_deviation`]; NaN is none.
     #[must_use]
-    pub fn contacts(
+    pub const fn contacts(
         &self,
         nut_speed: f32,
         axial_load: f32,
@@ -183,7 +183,7 @@ impl ScrewRow {
         }
     }
 
-    fn in_two_points(&self, normal: f32, side: f32) -> ScrewTick {
+    const fn in_two_points(&self, normal: f32, side: f32) -> ScrewTick {
         let Contacts {
             friction,
             screw,
@@ -192,7 +192,7 @@ impl ScrewRow {
         } = &self.contacts;
         let slides = if self.sticks_to_screw { nut } else { screw };
         let contact = slides.under(cube_root(normal));
-        let limit = friction * normal;
+        let limit = *friction * normal;
         let per_limit = 1.0 / (4.0 * limit);
         ScrewTick::new(
             &self.speeds,
@@ -209,7 +209,7 @@ impl ScrewRow {
         )
     }
 
-    fn in_more_points(&self, normal: f32, side: f32, on_screw: bool) -> ScrewTick {
+    const fn in_more_points(&self, normal: f32, side: f32, on_screw: bool) -> ScrewTick {
         let Loads {
             main,
             third,
@@ -259,41 +259,6 @@ impl ScrewRow {
             },
         )
     }
-
-    /// Largest deviation of a ball's speed, m per unit of nut speed, that contact angles make which deviate by up
-    /// to this much: at the corners of the deviations, where it is largest, in both directions of load and motion,
-    /// and with one loaded diagonal alone: a preload on the other one makes it smaller. For set-up.
-    pub(crate) const fn fastest_deviation(&self, on_screw: f32, in_nut: f32) -> f32 {
-        const ONE_DIAGONAL: Mean = Mean {
-            gain: 1.0,
-            compliance: 0.0,
-            compliance_rolling: 0.0,
-            torque: 0.0,
-            torque_rolling: 0.0,
-            main_load: 0.0,
-            third_load: 0.0,
-        };
-        let mut fastest = 0.0;
-        // Each bit stands for one sign.
-        let mut signs = 0;
-        while signs < 16 {
-            let side = signed(1.0, signs & 1);
-            let turned = if self.play {
-                self.speeds.in_two_points(side)
-            } else {
-                self.speeds.in_more_points(side, signs & 2 == 0)
-            };
-            let ball = ScrewTick::new(&self.speeds, turned, &ONE_DIAGONAL).ball(
-                signed(on_screw, signs & 4),
-                signed(in_nut, signs & 8),
-                &LoadShare::MEAN,
-            );
-            let size = ball.speed_deviation.abs();
-            fastest = if size > fastest { size } else { fastest };
-            signs += 1;
-        }
-        fastest
-    }
 }
 
 /// Spin of a nominal ball in the contacts with the screw and with the nut, over the nut's speed.
@@ -311,48 +276,11 @@ const fn spins(design: &BallScrew, play: bool) -> [f32; 2] {
 
 /// Size of an axial load on a ball, N, within what counts.
 #[inline]
-fn counted(axial_load: f32) -> f32 {
+const fn counted(axial_load: f32) -> f32 {
     let size = loaded(axial_load.abs());
     if size > SMALLEST_LOAD {
         size
     } else {
         SMALLEST_LOAD
-    }
-}
-
-/// `value` with the sign that a bit stands for.
-const fn signed(value: f32, bit: u8) -> f32 {
-    if bit == 0 { value } else { -value }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Set-up looks at deviations alone, without the loads that a tick finds them from.
-    #[test]
-    fn the_fastest_ball_is_that_of_the_heaviest_loads() {
-        let fits = [
-            GrooveFit::Zero,
-            GrooveFit::Play,
-            GrooveFit::Preload {
-                contact_force: 1e-3,
-            },
-            GrooveFit::Preload { contact_force: 1e6 },
-        ];
-        for size in &crate::CATALOGUE {
-            for fit in fits {
-                let row = ScrewRow::new(&size.design().unwrap(), 0.1, fit).unwrap();
-                let mut fastest = 0.0_f32;
-                for (nut_speed, load) in [(1.0, 1e7), (1.0, -1e7), (-1.0, 1e7), (-1.0, -1e7)] {
-                    let tick = row.at(nut_speed, load);
-                    for (screw, nut) in [(0.1, 0.07), (0.1, -0.07), (-0.1, 0.07), (-0.1, -0.07)] {
-                        let ball = tick.ball(screw, nut, &LoadShare::MEAN);
-                        fastest = fastest.max(ball.speed_deviation.abs());
-                    }
-                }
-                assert_eq!(row.fastest_deviation(0.1, 0.07), fastest, "{fit:?}");
-            }
-        }
     }
 }

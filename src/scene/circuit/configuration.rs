@@ -121,12 +121,6 @@ impl Circuit {
         speed * self.travel
     }
 
-    /// Whether a ball at a position of the track carries load.
-    #[inline(always)]
-    pub(crate) fn is_loaded(&self, position: u32) -> bool {
-        self.zone.is_loaded(position)
-    }
-
     /// Shares of the balls under a load of this sign: once a tick.
     #[inline(always)]
     pub(crate) const fn shares(&self, negative: bool) -> &'static [LoadShare] {

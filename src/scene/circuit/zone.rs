@@ -85,14 +85,6 @@ impl LoadedZone {
         })
     }
 
-    /// Whether balls at `position` carry load.
-    #[inline(always)]
-    pub(super) fn is_loaded(&self, position: u32) -> bool {
-        let entry =
-            ((u64::from(position) * u64::from(self.entries)) >> (32 + FRACTION_BITS)) as usize;
-        entry < self.shares.positive.len()
-    }
-
     /// Units of the deviations of the passing groove and of the recirculating one, rad.
     #[inline(always)]
     pub(super) const fn units(&self) -> (f32, f32) {

@@ -1,6 +1,6 @@
 //! Full friction of a ball screw without cage, as a memory needs it.
 
-use super::{UncagedBallScrew, UncagedConstants, UncagedState};
+use super::{UncagedBallScrew, UncagedConstants, UncagedFull, UncagedState};
 use crate::error::Range;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
@@ -8,10 +8,9 @@ use crate::scene::contract::Inputs;
 use crate::scene::faults::bounded;
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::passage::Passage;
-use crate::scene::pressed::UncagedFull;
 use crate::scene::sliding::{Sliding, SlidingFriction};
 
-impl<const N: usize> Sliding for UncagedBallScrew<N> {
+impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> {
     const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
 
     const COUNTS_PRELOAD: bool = true;
@@ -20,14 +19,13 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
 
     #[inline(always)]
     fn full(
-        constants: &UncagedConstants<N>,
+        constants: &UncagedConstants<N, NODES>,
         state: &mut UncagedState<N>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
     ) -> UncagedFull {
-        state.ring.take_friction(friction.of(inputs.nut_speed).0);
+        state.friction = constants.place(friction.of(inputs.nut_speed).0);
         let mut full = constants.full(state, inputs);
-        full.row.groove *= state.ring.friction_ahead();
         full.row.ways = friction.over_own(inputs.nut_speed);
         full
     }
@@ -39,7 +37,7 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
 
     #[inline(always)]
     fn passed(
-        constants: &UncagedConstants<N>,
+        constants: &UncagedConstants<N, NODES>,
         inputs: Inputs,
         full: &UncagedFull,
         passage: Passage,
@@ -48,7 +46,7 @@ impl<const N: usize> Sliding for UncagedBallScrew<N> {
     }
 
     #[inline(always)]
-    fn in_a_tick(constants: &UncagedConstants<N>, turn: f32, _: f32) -> (f32, f32) {
+    fn in_a_tick(constants: &UncagedConstants<N, NODES>, turn: f32, _: f32) -> (f32, f32) {
         let turn = bounded(turn, constants.limits.nut_speed * constants.tick);
         (turn, turn * constants.per_tick)
     }

@@ -1,36 +1,57 @@
 //! A ball screw without cage as bytes.
 
-use super::{Ring, UncagedBallScrew, UncagedConstants, UncagedState};
+use super::{UncagedBallScrew, UncagedConstants, UncagedFull, UncagedState};
+use crate::ranges;
 use crate::scene::circuit::CircuitState;
+use crate::scene::faults::Faults;
+use crate::scene::row::RowFull;
 use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
-impl<const N: usize> StoredScene for UncagedBallScrew<N> {
-    const KIND: u16 = 2;
+impl<const N: usize, const NODES: usize> StoredScene for UncagedBallScrew<N, NODES> {
+    const KIND: u16 = 6;
     const BALLS: u16 = N as u16;
 
-    fn fingerprint(constants: &UncagedConstants<N>, fingerprint: &mut Fingerprint) {
-        constants.ring.fingerprint(fingerprint);
+    /// The friction coefficient has a meaning of its own; only its range has to fit, which [`Self::complete`] sees to.
+    fn fingerprint(constants: &UncagedConstants<N, NODES>, fingerprint: &mut Fingerprint) {
         constants.circuit.fingerprint(fingerprint);
-        fingerprint.numbers(&[constants.friction, constants.clearance, constants.per_ball]);
+        fingerprint.numbers(&[constants.reduced_lead, constants.per_ball]);
     }
 
     fn complete(
-        constants: &UncagedConstants<N>,
+        constants: &UncagedConstants<N, NODES>,
         state: &mut UncagedState<N>,
     ) -> Result<(), Refusal> {
         state.circuit.train.in_order()?;
-        state.ring.complete(&constants.ring)
+        let friction = state.friction.friction();
+        if constants.law.holds(friction) {
+            state.friction = constants.place(friction);
+            Ok(())
+        } else {
+            Err(Refusal::OutOfRange { field: "friction" })
+        }
     }
 
     fn forget_readings(_: &mut UncagedState<N>) {}
 }
 
 impl<const N: usize> Stored for UncagedState<N> {
-    const BYTES: usize = CircuitState::<N>::BYTES + Ring::<N>::BYTES;
+    const BYTES: usize = CircuitState::<N>::BYTES + 4;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         self.circuit.exchange(port)?;
-        self.ring.exchange(port)
+        let mut friction = self.friction.friction();
+        port.number("friction", &mut friction, ranges::FRICTION_OF_A_ROW)?;
+        self.friction = self.friction.with_friction(friction);
+        Ok(())
+    }
+}
+
+impl Stored for UncagedFull {
+    const BYTES: usize = RowFull::BYTES + Faults::BYTES;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        self.row.exchange(port)?;
+        self.faults.exchange(port)
     }
 }

@@ -8,7 +8,9 @@ use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::law::FrictionLevel;
 use epas_friction::scene::{CagedConstants, Scene, WithMemoryInputs};
-use epas_friction::{CATALOGUE, Error, FrictionModel, Inputs, LinearInputs, Outputs, Regime};
+use epas_friction::{
+    CATALOGUE, Error, FrictionModel, Inputs, LinearInputs, Outputs, Regime, UncagedOutputs,
+};
 
 use crate::gears;
 use crate::outcome::Outcome;
@@ -210,25 +212,33 @@ fn memory() -> Result<Vec<Vec<u32>>, Error> {
         .collect()
 }
 
-fn screw() -> Result<Vec<Vec<u32>>, Error> {
-    let mut model = setups::screw()?;
-    let mut numbers = Numbers(0x0037_0037);
+/// Ticks of a screw without cage, with its nut's largest speed and load; something may change on the way.
+fn ticks_without_cage<S>(
+    mut model: FrictionModel<S>,
+    start: u32,
+    change: impl Fn(&mut FrictionModel<S>, u32) -> Result<(), Error>,
+) -> Result<Vec<Vec<u32>>, Error>
+where
+    S: Scene<Inputs = Inputs, Outputs = UncagedOutputs>,
+{
+    let mut numbers = Numbers(start);
     let mut speed = Wander {
         value: 0.0,
-        bound: 500.0,
+        bound: 100.0,
     };
     let mut load = Wander {
         value: 0.0,
         bound: 20_000.0,
     };
-    Ok((0..TICKS)
+    (0..TICKS)
         .map(|tick| {
+            change(&mut model, tick)?;
             let inputs = Inputs {
                 nut_speed: speed.next(&mut numbers, tick, 0),
                 axial_load: load.next(&mut numbers, tick, 30),
             };
             let outputs = model.step(inputs);
-            vec![
+            Ok(vec![
                 inputs.nut_speed.to_bits(),
                 inputs.axial_load.to_bits(),
                 outputs.friction_torque.to_bits(),
@@ -239,9 +249,27 @@ fn screw() -> Result<Vec<Vec<u32>>, Error> {
                 outputs.contacts.into(),
                 regime(outputs.regime),
                 outputs.faults.bits().into(),
-            ]
+            ])
         })
-        .collect())
+        .collect()
+}
+
+/// Worn from the middle on.
+fn screw() -> Result<Vec<Vec<u32>>, Error> {
+    ticks_without_cage(setups::screw()?, 0x0037_0037, |model, tick| {
+        if tick == TICKS / 2 {
+            model.swap_constants(setups::worn_screw()?)?;
+        }
+        Ok(())
+    })
+}
+
+/// Its friction coefficient rises in every tick, from the least to the largest that was folded.
+fn screw_range() -> Result<Vec<Vec<u32>>, Error> {
+    let (least, largest) = gears::LIN_3_6_BALL_RANGE.law.friction_range();
+    ticks_without_cage(setups::screw_range()?, 0x0037_0003, |model, tick| {
+        model.set_friction(least + tick as f32 * ((largest - least) / 256.0))
+    })
 }
 
 fn linear() -> Result<Vec<Vec<u32>>, Error> {
@@ -403,6 +431,13 @@ pub fn generated() -> Outcome<String> {
         "nut_speed, axial_load; friction_torque, groove_torque, ball_torque, load_torque, \
          largest_contact_force, contacts, regime, faults",
         &screw()?,
+    )?;
+    table(
+        &mut text,
+        "stored_screw_range",
+        "nut_speed, axial_load; friction_torque, groove_torque, ball_torque, load_torque, \
+         largest_contact_force, contacts, regime, faults",
+        &screw_range()?,
     )?;
     table(
         &mut text,

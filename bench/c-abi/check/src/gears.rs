@@ -1,6 +1,9 @@
-//! Folded blocks of the tests and of the README's example: those of the project's firmware, as words in C.
+//! Folded blocks of the tests and of the README's examples: those of the project's firmware, as words in C.
 
 use std::fmt::Write as _;
+use std::sync::LazyLock;
+
+use epas_friction::scene::FoldedBall;
 
 use crate::outcome::Outcome;
 
@@ -31,8 +34,42 @@ pub static LIN_3_6: &[u32] = lin_3_6::WORDS;
 pub static LIN_3_6_RANGE: &[u32] = lin_3_6_range::WORDS;
 /// Worn, with play.
 pub static LIN_3_6_WORN: &[u32] = lin_3_6_worn::WORDS;
-/// The gear of the README's example.
+/// The gear of the README's first example.
 pub static LIN_4_1_RANGE: &[u32] = lin_4_1_range::WORDS;
+
+/// A ball screw without cage of the firmware: what was folded of its ball, from which its words are written.
+macro_rules! ball {
+    ($module:ident, $file:literal) => {
+        mod $module {
+            #![allow(dead_code, missing_docs, clippy::all, clippy::pedantic)]
+            include!(concat!("../../../firmware/src/gears/", $file));
+        }
+    };
+}
+
+ball!(lin_3_6_ball, "lin_3_6_ball.rs");
+ball!(lin_3_6_ball_range, "lin_3_6_ball_range.rs");
+
+pub use lin_3_6_ball::LIN_3_6_BALL;
+pub use lin_3_6_ball_range::LIN_3_6_BALL_RANGE;
+
+/// [`LIN_3_6_BALL`] with a fifth more friction torque: as worn as a test needs it.
+pub static LIN_3_6_BALL_WORN: LazyLock<FoldedBall> = LazyLock::new(|| {
+    let mut worn = LIN_3_6_BALL;
+    for node in &mut worn.law.nodes {
+        for knot in node.branches.as_flattened_mut() {
+            knot.numbers.torque = knot.numbers.torque.map(|torque| 1.2 * torque);
+        }
+    }
+    worn
+});
+
+/// Words of a folded ball. Their digest is that of no design.
+pub fn words_of<const NODES: usize>(ball: &FoldedBall<NODES>) -> Outcome<Vec<u32>> {
+    let mut words = vec![0; FoldedBall::<NODES>::WORDS];
+    ball.write(0, &mut words)?;
+    Ok(words)
+}
 
 /// A header with arrays.
 fn header(guard: &str, arrays: &[(&str, &[u32])]) -> Outcome<String> {
@@ -68,11 +105,24 @@ pub fn of_tests() -> Outcome<String> {
             ("LIN_3_6_RANGE_BLOCK", LIN_3_6_RANGE),
             ("LIN_3_6_WORN_BLOCK", LIN_3_6_WORN),
             ("LIN_4_1_RANGE_BLOCK", LIN_4_1_RANGE),
+            ("LIN_3_6_BALL_BLOCK", &words_of(&LIN_3_6_BALL)?),
+            ("LIN_3_6_BALL_WORN_BLOCK", &words_of(&LIN_3_6_BALL_WORN)?),
+            ("LIN_3_6_BALL_RANGE_BLOCK", &words_of(&LIN_3_6_BALL_RANGE)?),
         ],
     )
 }
 
-/// The block of the README's example.
-pub fn of_example() -> Outcome<String> {
-    header("GEAR_BLOCK_H", &[("GEAR_BLOCK", LIN_4_1_RANGE)])
+/// The blocks of the README's examples: each the header that `epas-bench design` writes.
+pub fn of_examples() -> Outcome<[(&'static str, String); 2]> {
+    let screw = words_of(&LIN_3_6_BALL_RANGE)?;
+    Ok([
+        (
+            "test/gear.h",
+            header("GEAR_BLOCK_H", &[("GEAR_BLOCK", LIN_4_1_RANGE)])?,
+        ),
+        (
+            "test/screw.h",
+            header("SCREW_BLOCK_H", &[("SCREW_BLOCK", &screw)])?,
+        ),
+    ])
 }

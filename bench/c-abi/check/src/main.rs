@@ -51,7 +51,9 @@ fn run(root: &Path, write: bool, host_only: bool) -> Outcome<()> {
     let header = header::generated(root)?;
     up_to_date(root, "include/epas_friction.h", &header, write)?;
     up_to_date(root, "test/gears.h", &gears::of_tests()?, write)?;
-    up_to_date(root, "test/gear.h", &gears::of_example()?, write)?;
+    for (name, text) in gears::of_examples()? {
+        up_to_date(root, name, &text, write)?;
+    }
     let stored = cases::generated()?;
     up_to_date(root, "test/stored.h", &stored, write)?;
     cases::told(root, &stored)?;

@@ -4,13 +4,13 @@ use std::fs;
 use std::path::Path;
 
 use epas_friction::adaptation::Adaptation;
-use epas_friction::scene::{CagedBallScrew, Scene};
+use epas_friction::scene::{CagedBallScrew, FoldedBall, Scene};
 use epas_friction::{
     ClosedFormScrew, DeviationMap, FrictionModel, LinearBearingTrain, LoadShare, UncagedBallScrew,
 };
 
 use crate::outcome::Outcome;
-use crate::setups::{NODES, Remembering};
+use crate::setups::{BALL_NODES, NODES, Remembering};
 
 /// As the library keeps a model.
 #[repr(C)]
@@ -28,7 +28,7 @@ const fn words<S: Scene>() -> usize {
 }
 
 /// The constants of `types.rs` with what they have to be, and the README's line of each.
-fn needed() -> [(&'static str, &'static str, usize); 7] {
+fn needed() -> [(&'static str, &'static str, usize); 8] {
     [
         (
             "EPAS_CAGED_WORDS",
@@ -56,6 +56,11 @@ fn needed() -> [(&'static str, &'static str, usize); 7] {
             words::<UncagedBallScrew<37>>(),
         ),
         (
+            "EPAS_SCREW_RANGE_WORDS",
+            "`epas_screw_range_t` (37 balls)",
+            words::<UncagedBallScrew<37, BALL_NODES>>(),
+        ),
+        (
             "EPAS_LINEAR_WORDS",
             "`epas_linear_t` (32 balls)",
             words::<LinearBearingTrain<32>>(),
@@ -69,8 +74,16 @@ fn needed() -> [(&'static str, &'static str, usize); 7] {
 }
 
 /// The tables that models share, by the README's line of each, and their bytes.
-const TABLES: [(&str, usize); 2] = [
-    // A mark before the map.
+const TABLES: [(&str, usize); 4] = [
+    // A mark before the table.
+    (
+        "`epas_folded_ball_t` | ",
+        size_of::<u32>() + size_of::<FoldedBall<1>>(),
+    ),
+    (
+        "`epas_folded_ball_range_t` | ",
+        size_of::<u32>() + size_of::<FoldedBall<BALL_NODES>>(),
+    ),
     (
         "`epas_deviation_t` | ",
         size_of::<u32>() + size_of::<DeviationMap>(),
@@ -108,7 +121,7 @@ pub fn check(root: &Path, write: bool) -> Outcome<()> {
         )?;
     }
     for (line, bytes) in TABLES {
-        says(root, README, &format!("| {line}{bytes} "))?;
+        says(root, README, &format!("| {line}{} ", with_comma(bytes)))?;
     }
     Ok(())
 }

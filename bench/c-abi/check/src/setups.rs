@@ -7,8 +7,8 @@ use epas_friction::law::coefficient::{
 use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
 use epas_friction::scene::{
-    CagedBallScrew, CagedBallScrewConfiguration, Freshness, Scene, WithMemory,
-    WithMemoryConfiguration,
+    CagedBallScrew, CagedBallScrewConfiguration, FoldedBall, Freshness, Scene, UncagedConstants,
+    WithMemory, WithMemoryConfiguration,
 };
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
@@ -157,36 +157,26 @@ fn kept<T>(value: T) -> &'static T {
     Box::leak(Box::new(value))
 }
 
-/// The ball screw of Lin 2019, Table 3.6, with two waves of deviation a turn on the screw and a triangle on
-/// the nut.
-pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
+/// Friction coefficients of a folded ball for a range of them.
+pub const BALL_NODES: usize = 3;
+
+/// The ball screw of Lin 2019, chapter 3.6, without cage, with two waves of deviation a turn on the screw and a triangle on the nut: less than 1
+/// and 0.5 degrees.
+fn without_cage<const NODES: usize>(
+    folded: &'static FoldedBall<NODES>,
+) -> Result<UncagedBallScrewConfiguration<NODES>, Error> {
     let triangle = std::array::from_fn(|sample: usize| {
         let sample = sample as f32;
         let rise = if sample < 32.0 { sample } else { 64.0 - sample };
-        (rise - 16.0) * 0.00125
+        (rise - 16.0) * 0.0005
     });
     let shares = [1.4_f32, 1.2, 1.1, 0.9, 0.8, 0.6]
         .into_iter()
         .map(LoadShare::new)
         .collect::<Result<Vec<_>, _>>()?;
-    let mut model = FrictionModel::<UncagedBallScrew<37>>::new(&UncagedBallScrewConfiguration {
-        design: BallScrew::new(BallScrewParameters {
-            pitch_radius: 16.5e-3,
-            lead: 20e-3,
-            ball_radius: 2.778e-3,
-            screw_groove: GrooveSize::Conformity(0.56),
-            nut_groove: GrooveSize::Conformity(0.56),
-            contact_angle: std::f32::consts::FRAC_PI_4,
-            ball_material: Material::STEEL,
-            groove_material: Material::STEEL,
-        })?,
-        friction: 0.1,
-        ball_friction: 0.12,
-        rolling_resistance: RollingResistance {
-            hysteresis_loss: 0.01,
-            lubricant_drag: 0.006,
-        },
-        clearance: Clearance::ZERO,
+    Ok(UncagedBallScrewConfiguration {
+        folded,
+        ball_friction: 0.1,
         turns: 1.8,
         return_length: 20e-3,
         screw_deviation: kept(DeviationMap::from_harmonics(
@@ -194,28 +184,45 @@ pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
             &[
                 Harmonic {
                     order: 1,
-                    cosine: 0.005,
+                    cosine: 0.002,
                     sine: 0.0,
                 },
                 Harmonic {
                     order: 2,
                     cosine: 0.0,
-                    sine: 0.04014,
+                    sine: 0.014,
                 },
             ],
         )?),
         nut_deviation: kept(DeviationMap::from_samples(2, &triangle)?),
         load_shares: LoadShares::same(kept(shares)),
-        reversal_speed: 0.5,
         tick: 0.5e-3,
-        limits: Limits {
-            nut_speed: 500.0,
-            axial_load: 20_000.0,
-            friction_torque: 5.0,
-        },
-    })?;
+    })
+}
+
+/// Its model, with the angle of its nut.
+fn with_angle<const NODES: usize>(
+    folded: &'static FoldedBall<NODES>,
+) -> Result<FrictionModel<UncagedBallScrew<37, NODES>>, Error> {
+    let configuration = without_cage(folded)?;
+    let mut model = FrictionModel::<UncagedBallScrew<37, NODES>>::new(&configuration)?;
     model.set_nut_angle(1.25);
     Ok(model)
+}
+
+/// The screw without cage, with one friction coefficient.
+pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
+    with_angle(&gears::LIN_3_6_BALL)
+}
+
+/// What it goes on with: worn.
+pub fn worn_screw() -> Result<UncagedConstants<37>, Error> {
+    UncagedConstants::new(&without_cage(&gears::LIN_3_6_BALL_WORN)?)
+}
+
+/// The screw without cage, for a range of friction coefficients.
+pub fn screw_range() -> Result<FrictionModel<UncagedBallScrew<37, BALL_NODES>>, Error> {
+    with_angle(&gears::LIN_3_6_BALL_RANGE)
 }
 
 /// A linear bearing with balls of 10 mm.

@@ -22,7 +22,7 @@ const MACHINES: [(&str, &str); 2] = [
 ];
 
 /// What a user links of the library, by its functions.
-const PARTS: [(&str, &[&str]); 10] = [
+const PARTS: [(&str, &[&str]); 11] = [
     ("epas_clearance", &["epas_clearance"]),
     ("epas_efficiency", &["epas_efficiency"]),
     ("epas_curvature", &["epas_curvature"]),
@@ -48,7 +48,23 @@ const PARTS: [(&str, &[&str]); 10] = [
         ],
     ),
     ("epas_linear", &["epas_linear_init", "epas_linear_step"]),
-    ("epas_screw", &["epas_screw_init", "epas_screw_step"]),
+    (
+        "epas_screw",
+        &[
+            "epas_folded_ball_init",
+            "epas_screw_init",
+            "epas_screw_step",
+        ],
+    ),
+    (
+        "epas_screw_range",
+        &[
+            "epas_folded_ball_range_init",
+            "epas_screw_range_init",
+            "epas_screw_range_step",
+            "epas_screw_range_set_friction",
+        ],
+    ),
     (
         "everything",
         &[
@@ -58,6 +74,8 @@ const PARTS: [(&str, &[&str]); 10] = [
             "epas_deviation_from_harmonics",
             "epas_deviation_from_samples",
             "epas_load_shares_init",
+            "epas_folded_ball_init",
+            "epas_folded_ball_range_init",
             "epas_caged_init",
             "epas_caged_step",
             "epas_caged_reset",
@@ -96,10 +114,18 @@ const PARTS: [(&str, &[&str]); 10] = [
             "epas_screw_set_nut_angle",
             "epas_screw_reset",
             "epas_screw_faulted_ticks",
-            "epas_screw_set_friction",
-            "epas_screw_set_clearance",
+            "epas_screw_swap",
             "epas_screw_export",
             "epas_screw_import",
+            "epas_screw_range_init",
+            "epas_screw_range_step",
+            "epas_screw_range_set_nut_angle",
+            "epas_screw_range_reset",
+            "epas_screw_range_faulted_ticks",
+            "epas_screw_range_swap",
+            "epas_screw_range_set_friction",
+            "epas_screw_range_export",
+            "epas_screw_range_import",
             "epas_linear_init",
             "epas_linear_step",
             "epas_linear_set_carriage_position",

@@ -37,7 +37,7 @@ pub(super) unsafe fn init<C: CScene>(
         unsafe { (&raw mut (*place).mark).write(0) };
         usable(configuration).map_err(bare)?;
         let configuration = unsafe { &*configuration };
-        let tables = unsafe { tables(&C::tables(configuration)) }?;
+        let tables = unsafe { tables(&C::pointers(configuration)) }?;
         let model = model::<C>(configuration, tables)?;
         unsafe { (&raw mut (*place).model).write(model) };
         unsafe { (&raw mut (*place).mark).write(C::MARK) };
@@ -89,7 +89,7 @@ pub(super) unsafe fn swap<C: CScene>(
         .and_then(|placed| {
             usable(configuration).map_err(bare)?;
             let configuration = unsafe { &*configuration };
-            let tables = unsafe { tables(&C::tables(configuration)) }?;
+            let tables = unsafe { tables(&C::pointers(configuration)) }?;
             let constants = constants::<C>(configuration, tables)?;
             let swapped = placed.model.swap_constants(constants);
             swapped.map(drop).map_err(Failure::of)

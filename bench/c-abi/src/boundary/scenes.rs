@@ -1,17 +1,15 @@
 //! The exported functions of the scenes, each one line that calls the generic one.
 
-use epas_friction::Clearance;
-
 use super::models::{change, export, faulted_ticks, import, init, placed, reset, step, swap};
 use crate::caged::{Caged, CagedRange};
 use crate::closed_form::ClosedForm;
 use crate::linear::Linear;
-use crate::screw::Screw;
+use crate::screw::{Screw, ScrewRange};
 use crate::status::{EPAS_OK, Failure};
 use crate::types::{
     Block, CagedPlace, CagedRangePlace, ClosedFormConfiguration, ClosedFormPlace, Inputs,
     LinearConfiguration, LinearInputs, LinearOutputs, LinearPlace, Outputs, ScrewConfiguration,
-    ScrewOutputs, ScrewPlace,
+    ScrewOutputs, ScrewPlace, ScrewRangeConfiguration, ScrewRangePlace,
 };
 
 /// Makes a caged ball screw in the place, of a block for one friction coefficient. Set-up only. Where it fails, every step is refused until
@@ -22,7 +20,7 @@ pub unsafe extern "C" fn epas_caged_init(
     block: *const Block,
     failure: *mut Failure,
 ) -> u32 {
-    unsafe { init::<Caged>(place, block, failure) }
+    unsafe { init::<Caged<1>>(place, block, failure) }
 }
 
 /// One tick: bounded time, finite outputs whatever the inputs are. Where the call is refused the outputs are
@@ -33,23 +31,22 @@ pub unsafe extern "C" fn epas_caged_step(
     inputs: *const Inputs,
     outputs: *mut Outputs,
 ) -> u32 {
-    unsafe { step::<Caged>(place, inputs, outputs) }
+    unsafe { step::<Caged<1>>(place, inputs, outputs) }
 }
 
 /// Back to the state before the first tick.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_caged_reset(place: *mut CagedPlace) -> u32 {
-    unsafe { reset::<Caged>(place) }
+    unsafe { reset::<Caged<1>>(place) }
 }
 
-/// Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
-/// accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
+/// Consecutive ticks with a fault; 0 after a sound tick, and after one whose only flag is `EPAS_FAULT_BEYOND_MODEL`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_caged_faulted_ticks(
     place: *const CagedPlace,
     ticks: *mut u32,
 ) -> u32 {
-    unsafe { faulted_ticks::<Caged>(place, ticks) }
+    unsafe { faulted_ticks::<Caged<1>>(place, ticks) }
 }
 
 /// Goes on with another block: of a worn gear, another clearance, another lubricant. The friction coefficient is the block's. Where it is
@@ -60,7 +57,7 @@ pub unsafe extern "C" fn epas_caged_swap(
     block: *const Block,
     failure: *mut Failure,
 ) -> u32 {
-    unsafe { swap::<Caged>(place, block, failure) }
+    unsafe { swap::<Caged<1>>(place, block, failure) }
 }
 
 /// Makes a caged ball screw in the place, of a block for a range of friction coefficients; as `epas_caged_init`.
@@ -165,15 +162,15 @@ pub unsafe extern "C" fn epas_closed_form_swap(
     unsafe { swap::<ClosedForm>(place, configuration, failure) }
 }
 
-/// Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place. Set-up only. Where it fails, every step is
-/// refused until it succeeds. `failure` may be NULL.
+/// Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place, of a folded ball for one friction coefficient. Set-up only. Where it fails,
+/// every step is refused until it succeeds. `failure` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_screw_init(
     place: *mut ScrewPlace,
     configuration: *const ScrewConfiguration,
     failure: *mut Failure,
 ) -> u32 {
-    unsafe { init::<Screw>(place, configuration, failure) }
+    unsafe { init::<Screw<1>>(place, configuration, failure) }
 }
 
 /// One tick; as `epas_caged_step`.
@@ -183,14 +180,14 @@ pub unsafe extern "C" fn epas_screw_step(
     inputs: *const Inputs,
     outputs: *mut ScrewOutputs,
 ) -> u32 {
-    unsafe { step::<Screw>(place, inputs, outputs) }
+    unsafe { step::<Screw<1>>(place, inputs, outputs) }
 }
 
 /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted: once after
 /// start-up, and again whenever an absolute sensor has it; between, the model integrates the speed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_screw_set_nut_angle(place: *mut ScrewPlace, angle: f32) -> u32 {
-    match unsafe { placed::<Screw>(place) } {
+    match unsafe { placed::<Screw<1>>(place) } {
         Ok(placed) => {
             placed.model.set_nut_angle(angle);
             EPAS_OK
@@ -202,44 +199,98 @@ pub unsafe extern "C" fn epas_screw_set_nut_angle(place: *mut ScrewPlace, angle:
 /// Back to the state before the first tick.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_screw_reset(place: *mut ScrewPlace) -> u32 {
-    unsafe { reset::<Screw>(place) }
+    unsafe { reset::<Screw<1>>(place) }
 }
 
-/// Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
-/// accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
+/// Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_screw_faulted_ticks(
     place: *const ScrewPlace,
     ticks: *mut u32,
 ) -> u32 {
-    unsafe { faulted_ticks::<Screw>(place, ticks) }
+    unsafe { faulted_ticks::<Screw<1>>(place, ticks) }
 }
 
-/// Sets the friction coefficient of ball and groove, 1e-6 to 0.5; as `epas_caged_range_set_friction`. Balls take it over as their
-/// turn comes, and a tick takes no longer; where it jumps they settle, flagged `EPAS_FAULT_SETTLING`.
+/// Goes on with another configuration, above all another folded ball: of a worn gear, another clearance, another lubricant. Balls stay where
+/// they are, and the friction coefficient is that of the new folded ball; the old one is not read any more. Where it is refused the model goes
+/// on as it was. `failure` may be NULL. In the task of the step; the next step takes as long as any.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn epas_screw_set_friction(
+pub unsafe extern "C" fn epas_screw_swap(
     place: *mut ScrewPlace,
+    configuration: *const ScrewConfiguration,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { swap::<Screw<1>>(place, configuration, failure) }
+}
+
+/// Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place, with a friction coefficient that changes; as `epas_screw_init`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_range_init(
+    place: *mut ScrewRangePlace,
+    configuration: *const ScrewRangeConfiguration,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { init::<ScrewRange>(place, configuration, failure) }
+}
+
+/// One tick; as `epas_caged_step`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_range_step(
+    place: *mut ScrewRangePlace,
+    inputs: *const Inputs,
+    outputs: *mut ScrewOutputs,
+) -> u32 {
+    unsafe { step::<ScrewRange>(place, inputs, outputs) }
+}
+
+/// Sets the angle of the nut against the screw, rad; as `epas_screw_set_nut_angle`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_range_set_nut_angle(
+    place: *mut ScrewRangePlace,
+    angle: f32,
+) -> u32 {
+    match unsafe { placed::<ScrewRange>(place) } {
+        Ok(placed) => {
+            placed.model.set_nut_angle(angle);
+            EPAS_OK
+        }
+        Err(status) => status,
+    }
+}
+
+/// Back to the state before the first tick.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_range_reset(place: *mut ScrewRangePlace) -> u32 {
+    unsafe { reset::<ScrewRange>(place) }
+}
+
+/// Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_range_faulted_ticks(
+    place: *const ScrewRangePlace,
+    ticks: *mut u32,
+) -> u32 {
+    unsafe { faulted_ticks::<ScrewRange>(place, ticks) }
+}
+
+/// Goes on with another configuration; as `epas_screw_swap`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_range_swap(
+    place: *mut ScrewRangePlace,
+    configuration: *const ScrewRangeConfiguration,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { swap::<ScrewRange>(place, configuration, failure) }
+}
+
+/// Sets the friction coefficient of ball and groove while the model runs, within the folded range; as `epas_caged_range_set_friction`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_range_set_friction(
+    place: *mut ScrewRangePlace,
     friction: f32,
     failure: *mut Failure,
 ) -> u32 {
-    unsafe { change::<Screw>(place, |model| model.set_friction(friction), failure) }
-}
-
-/// Sets how balls fit between the grooves, m; as `epas_screw_set_friction`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn epas_screw_set_clearance(
-    place: *mut ScrewPlace,
-    clearance: f32,
-    failure: *mut Failure,
-) -> u32 {
-    unsafe {
-        change::<Screw>(
-            place,
-            |model| model.set_clearance(Clearance::new(clearance)?),
-            failure,
-        )
-    }
+    unsafe { change::<ScrewRange>(place, |model| model.set_friction(friction), failure) }
 }
 
 /// Makes a linear bearing of `EPAS_LINEAR_BALLS` balls in the place. Set-up only. Where it fails, every step is
@@ -285,8 +336,7 @@ pub unsafe extern "C" fn epas_linear_reset(place: *mut LinearPlace) -> u32 {
     unsafe { reset::<Linear>(place) }
 }
 
-/// Consecutive ticks with a fault; 0 after a sound tick, and after one whose flags speak of
-/// accuracy alone (`EPAS_FAULT_BEYOND_MODEL`, `EPAS_FAULT_SETTLING`).
+/// Consecutive ticks with a fault; as `epas_caged_faulted_ticks`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_linear_faulted_ticks(
     place: *const LinearPlace,
@@ -314,7 +364,7 @@ pub unsafe extern "C" fn epas_caged_export(
     bytes: *mut u8,
     length: u32,
 ) -> u32 {
-    unsafe { export::<Caged>(place, bytes, length) }
+    unsafe { export::<Caged<1>>(place, bytes, length) }
 }
 
 /// Takes the state of a block over, of the same lead and the exact length: before the first step. A block that is
@@ -325,7 +375,7 @@ pub unsafe extern "C" fn epas_caged_import(
     bytes: *const u8,
     length: u32,
 ) -> u32 {
-    unsafe { import::<Caged>(place, bytes, length) }
+    unsafe { import::<Caged<1>>(place, bytes, length) }
 }
 
 /// Writes the state as a block of `EPAS_CAGED_RANGE_STATE_BYTES` bytes; as `epas_caged_export`.
@@ -375,7 +425,7 @@ pub unsafe extern "C" fn epas_screw_export(
     bytes: *mut u8,
     length: u32,
 ) -> u32 {
-    unsafe { export::<Screw>(place, bytes, length) }
+    unsafe { export::<Screw<1>>(place, bytes, length) }
 }
 
 /// Takes the state of a block over; as `epas_caged_import`.
@@ -385,7 +435,27 @@ pub unsafe extern "C" fn epas_screw_import(
     bytes: *const u8,
     length: u32,
 ) -> u32 {
-    unsafe { import::<Screw>(place, bytes, length) }
+    unsafe { import::<Screw<1>>(place, bytes, length) }
+}
+
+/// Writes the state as a block of `EPAS_SCREW_RANGE_STATE_BYTES` bytes; as `epas_caged_export`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_range_export(
+    place: *const ScrewRangePlace,
+    bytes: *mut u8,
+    length: u32,
+) -> u32 {
+    unsafe { export::<ScrewRange>(place, bytes, length) }
+}
+
+/// Takes the state of a block over; as `epas_caged_import`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_screw_range_import(
+    place: *mut ScrewRangePlace,
+    bytes: *const u8,
+    length: u32,
+) -> u32 {
+    unsafe { import::<ScrewRange>(place, bytes, length) }
 }
 
 /// Writes the state as a block of `EPAS_LINEAR_STATE_BYTES` bytes; as `epas_caged_export`.

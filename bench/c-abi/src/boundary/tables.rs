@@ -1,21 +1,24 @@
 //! Tables: the exported functions that make them, and what a configuration's pointers to them lead to.
 
+use core::mem::MaybeUninit;
 use core::slice;
 
+use epas_friction::scene::FoldedBall;
 use epas_friction::{DeviationMap, LoadShare as CrateLoadShare};
 
 use super::pointers::{bare, report, usable};
-use crate::scene::{TablePointers, Tables};
+use crate::scene::{Pointers, Tables, TrackPointers, TrackTables};
 use crate::status::{
-    EPAS_FIELD_BLOCK, EPAS_FIELD_LOAD_SHARE_COUNT, EPAS_FIELD_LOAD_SHARES,
+    EPAS_FIELD_BLOCK, EPAS_FIELD_FOLDED, EPAS_FIELD_LOAD_SHARE_COUNT, EPAS_FIELD_LOAD_SHARES,
     EPAS_FIELD_PASSING_DEVIATION, EPAS_FIELD_RECIRCULATING_DEVIATION, EPAS_NOT_INITIALISED,
-    Failure,
+    EPAS_NULL_POINTER, Failure,
 };
 use crate::tables::{
     Deviation, EPAS_DEVIATION_SAMPLES, EPAS_LARGEST_HARMONIC_COUNT, EPAS_LARGEST_SHARE_COUNT,
-    Harmonic, LoadShare, PlacedDeviation, deviation_of_harmonics, deviation_of_samples,
-    harmonic_count, is_load_share, load_share,
+    FoldedBallPlace, FoldedBallRangePlace, Harmonic, LoadShare, PlacedTable, Table, decode,
+    deviation_of_harmonics, deviation_of_samples, harmonic_count, is_load_share, load_share,
 };
+use crate::types::{Block, EPAS_SCREW_RANGE_NODES};
 
 /// Makes a deviation, with a period of `turns` turns (1 to 100), of `count` waves (0 to
 /// `EPAS_LARGEST_HARMONIC_COUNT`). Set-up only. `failure` may be NULL.
@@ -58,6 +61,27 @@ pub unsafe extern "C" fn epas_deviation_from_samples(
     unsafe { place_deviation(place, failure, make) }
 }
 
+/// Decodes a block of a ball screw without cage, for one friction coefficient: at set-up, or in a task while models run that use other
+/// places. Where it fails, the place holds none. `failure` may be NULL.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_folded_ball_init(
+    place: *mut FoldedBallPlace,
+    block: *const Block,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { place_folded::<1, _>(place, block, failure) }
+}
+
+/// Decodes a block for a range of friction coefficients; as `epas_folded_ball_init`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_folded_ball_range_init(
+    place: *mut FoldedBallRangePlace,
+    block: *const Block,
+    failure: *mut Failure,
+) -> u32 {
+    unsafe { place_folded::<EPAS_SCREW_RANGE_NODES, _>(place, block, failure) }
+}
+
 /// Folds `count` shares of the load (1 to `EPAS_LARGEST_SHARE_COUNT`), each a ball's load over the mean load,
 /// 0.01 to 100. Set-up only. `failure` may be NULL.
 #[unsafe(no_mangle)]
@@ -81,38 +105,78 @@ pub unsafe extern "C" fn epas_load_shares_init(
     unsafe { report(make(), failure) }
 }
 
-/// Puts a deviation into its place; where it cannot be made, the place holds none.
-unsafe fn place_deviation(
-    place: *mut Deviation,
+/// Puts a table into its place; where it cannot be made, the place holds none.
+unsafe fn place_table<T: Table, Place>(
+    place: *mut Place,
     failure: *mut Failure,
-    make: impl FnOnce() -> Result<DeviationMap, Failure>,
+    make: impl FnOnce(&mut MaybeUninit<T>) -> Result<(), Failure>,
 ) -> u32 {
     let outcome = usable(place).map_err(bare).and_then(|()| {
-        let place = place.cast::<PlacedDeviation>();
+        let place = place.cast::<PlacedTable<MaybeUninit<T>>>();
         unsafe { (&raw mut (*place).mark).write(0) };
-        let map = make()?;
-        unsafe { (&raw mut (*place).map).write(map) };
-        unsafe { (&raw mut (*place).mark).write(PlacedDeviation::MARK) };
+        // SAFETY: the place is the caller's and nobody else uses it; a table that is not made is not read, for want of the mark.
+        make(unsafe { &mut (*place).table })?;
+        unsafe { (&raw mut (*place).mark).write(T::MARK) };
         Ok(())
     });
     unsafe { report(outcome, failure) }
 }
 
-/// A deviation that a configuration points to.
+/// Puts a deviation into its place.
+unsafe fn place_deviation(
+    place: *mut Deviation,
+    failure: *mut Failure,
+    make: impl FnOnce() -> Result<DeviationMap, Failure>,
+) -> u32 {
+    let put = |table: &mut MaybeUninit<DeviationMap>| {
+        table.write(make()?);
+        Ok(())
+    };
+    unsafe { place_table(place, failure, put) }
+}
+
+/// Puts a decoded block into its place.
+unsafe fn place_folded<const NODES: usize, Place>(
+    place: *mut Place,
+    block: *const Block,
+    failure: *mut Failure,
+) -> u32
+where
+    FoldedBall<NODES>: Table,
+{
+    let put = |table: &mut MaybeUninit<FoldedBall<NODES>>| {
+        usable(block).map_err(bare)?;
+        let words = unsafe { words(&*block) }?;
+        let none = || Failure::pointer(EPAS_NULL_POINTER, EPAS_FIELD_BLOCK);
+        decode(words.ok_or_else(none)?, table)
+    };
+    unsafe { place_table(place, failure, put) }
+}
+
+/// A table that a configuration points to, where it does.
+unsafe fn placed_table<T: Table>(
+    pointer: *const PlacedTable<T>,
+    field: u32,
+) -> Result<Option<&'static T>, Failure> {
+    if pointer.is_null() {
+        return Ok(None);
+    }
+    usable(pointer).map_err(|status| Failure::pointer(status, field))?;
+    if unsafe { (&raw const (*pointer).mark).read() } == T::MARK {
+        // SAFETY: the mark says that the table has been made; the caller promises that it stays as long as the model.
+        Ok(Some(unsafe { &(*pointer).table }))
+    } else {
+        Err(Failure::pointer(EPAS_NOT_INITIALISED, field))
+    }
+}
+
+/// A deviation that a configuration points to, or none.
 unsafe fn deviation(
     pointer: *const Deviation,
     field: u32,
 ) -> Result<&'static DeviationMap, Failure> {
-    if pointer.is_null() {
-        return Ok(Tables::NONE.passing);
-    }
-    usable(pointer).map_err(|status| Failure::pointer(status, field))?;
-    let placed = pointer.cast::<PlacedDeviation>();
-    if unsafe { (&raw const (*placed).mark).read() } == PlacedDeviation::MARK {
-        Ok(unsafe { &(*placed).map })
-    } else {
-        Err(Failure::pointer(EPAS_NOT_INITIALISED, field))
-    }
+    let found = unsafe { placed_table(pointer.cast(), field) }?;
+    Ok(found.unwrap_or(TrackTables::NONE.passing))
 }
 
 /// Shares of the load that a configuration points to.
@@ -121,7 +185,7 @@ unsafe fn load_shares(
     count: u32,
 ) -> Result<&'static [CrateLoadShare], Failure> {
     if pointer.is_null() {
-        return Ok(Tables::NONE.load_shares);
+        return Ok(TrackTables::NONE.load_shares);
     }
     usable(pointer).map_err(|status| Failure::pointer(status, EPAS_FIELD_LOAD_SHARES))?;
     let length = share_count(count)?;
@@ -150,39 +214,40 @@ fn share_count(count: u32) -> Result<usize, Failure> {
     }
 }
 
-/// The tables of a configuration. A scene that has none does not link what checks them.
+/// What a configuration points to. A scene without tables along a track does not link what checks them.
 #[inline(always)]
-pub(super) unsafe fn tables(pointers: &TablePointers) -> Result<Tables, Failure> {
-    if pointers.are_null() {
-        Ok(Tables {
-            block: unsafe { block(pointers) }?,
-            ..Tables::NONE
-        })
-    } else {
-        unsafe { pointed_tables(pointers) }
-    }
+pub(super) unsafe fn tables<F: Table>(pointers: &Pointers<F>) -> Result<Tables<F>, Failure> {
+    let track = &pointers.track;
+    Ok(Tables {
+        track: if track.are_null() {
+            TrackTables::NONE
+        } else {
+            unsafe { track_tables(track) }?
+        },
+        block: unsafe { words(&pointers.block) }?,
+        folded: unsafe { placed_table(pointers.folded, EPAS_FIELD_FOLDED) }?,
+    })
 }
 
 #[inline(never)]
-unsafe fn pointed_tables(pointers: &TablePointers) -> Result<Tables, Failure> {
-    Ok(Tables {
+unsafe fn track_tables(pointers: &TrackPointers) -> Result<TrackTables, Failure> {
+    Ok(TrackTables {
         passing: unsafe { deviation(pointers.passing, EPAS_FIELD_PASSING_DEVIATION) }?,
         recirculating: unsafe {
             deviation(pointers.recirculating, EPAS_FIELD_RECIRCULATING_DEVIATION)
         }?,
         load_shares: unsafe { load_shares(pointers.load_shares, pointers.load_share_count) }?,
-        block: None,
     })
 }
 
 /// The words of a block, where there is a pointer to them.
 #[inline(always)]
-unsafe fn block(pointers: &TablePointers) -> Result<Option<&'static [u32]>, Failure> {
-    if pointers.block.is_null() {
+unsafe fn words(block: &Block) -> Result<Option<&'static [u32]>, Failure> {
+    if block.words.is_null() {
         return Ok(None);
     }
-    usable(pointers.block).map_err(|status| Failure::pointer(status, EPAS_FIELD_BLOCK))?;
+    usable(block.words).map_err(|status| Failure::pointer(status, EPAS_FIELD_BLOCK))?;
     Ok(Some(unsafe {
-        core::slice::from_raw_parts(pointers.block, pointers.block_words as usize)
+        slice::from_raw_parts(block.words, block.count as usize)
     }))
 }

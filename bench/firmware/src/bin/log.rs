@@ -27,11 +27,11 @@ fn main() -> ! {
 
 fn log() -> Result<(), Error> {
     let configuration = uncaged_configuration()?;
-    defmt::info!("design {}", configuration.design);
+    defmt::info!("lead {}", configuration.folded.lead);
     // What an engineer gets wrong, and what the log says of it.
     let wrong = BallScrewParameters {
         lead: -1.0,
-        ..*configuration.design.parameters()
+        ..*configuration.folded.lead.parameters()
     };
     if let Err(error) = BallScrew::new(wrong) {
         defmt::warn!("refused: {}", error);

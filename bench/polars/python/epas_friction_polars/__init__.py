@@ -42,7 +42,7 @@ def design_figures(
     ball_friction: float = 0.1,
     deviation: float = math.radians(1.0),
 ) -> pl.Expr:
-    """Figures of each row's ball screw, of steel, as firmware computes them in single precision.
+    """Figures of each row's ball screw, of steel, by the exact balls that firmware's constants are folded from.
 
     Parameters
     ----------
@@ -59,14 +59,14 @@ def design_figures(
     turns
         Turns of the track that are filled with balls side by side.
     friction, ball_friction
-        Friction coefficient of ball and groove, 1e-6 to 0.5, and of ball and ball, 0 to 0.5.
+        Friction coefficient of ball and groove, 1e-3 to 0.5, and of ball and ball, 0 to 0.5.
     deviation
         By which the contact angle at one of two neighbouring balls is off, rad, 0 to 0.2.
 
     Returns
     -------
     An expression of structs: ``loaded_balls``, ``friction_torque`` (N m), ``efficiency``, ``max_pressure`` (Pa),
-    ``contact_force`` (between two balls, N; null where a ball leaves the model) and ``refused``: why a row has no figures
+    ``contact_force`` (between two balls, N; null where a ball has no balance) and ``refused``: why a row has no figures
     (field, value, range), null where it has.
 
     A row's figures follow from the row alone: any partition of a table, on threads or machines, has the same bits.

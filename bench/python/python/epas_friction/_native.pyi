@@ -309,7 +309,18 @@ class CagedBallScrewWithMemory:
 
 @final
 class UncagedBallScrew:
-    def __new__(cls, design: Design, *, tick: float = 2e-4, friction: float | None = None, ball_friction: float | None = None, memory_load: float | None = None) -> Self: ...
+    def __new__(
+        cls,
+        design: Design,
+        *,
+        tick: float = 2e-4,
+        friction: float | None = None,
+        friction_range: tuple[float, float] | None = None,
+        ball_friction: float | None = None,
+        memory_load: float | None = None,
+    ) -> Self: ...
+    @staticmethod
+    def from_block(design: Design, block: bytes, *, tick: float = 2e-4, ball_friction: float | None = None) -> UncagedBallScrew: ...
     def step(self, nut_speed: float, axial_load: float) -> UncagedOutputs: ...
     def run(self, nut_speed: ArrayLike, axial_load: ArrayLike, *, allow_faults: bool = False) -> UncagedRun: ...
     def reset(self) -> None: ...

@@ -25,7 +25,7 @@ class Regime(IntEnum):
 class Faults(IntFlag):
     """What was wrong with a tick's inputs, limited in its outputs, or beyond the model.
 
-    ``BEYOND_MODEL`` and ``SETTLING`` speak of accuracy alone.
+    ``BEYOND_MODEL`` speaks of accuracy alone.
     """
 
     NONE = 0
@@ -35,7 +35,6 @@ class Faults(IntFlag):
     LOAD_RANGE = 1 << 3
     FRICTION_LIMIT = 1 << 4
     BEYOND_MODEL = 1 << 5
-    SETTLING = 1 << 6
     ANGLE_NOT_VALID = 1 << 7
     TEMPERATURE_RANGE = 1 << 8
     LOAD_STALE = 1 << 9

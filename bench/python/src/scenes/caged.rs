@@ -47,7 +47,7 @@ fn branch_of(py: Python<'_>, name: &str) -> PyResult<Option<FrictionBranch>> {
 }
 
 /// The words of a block's bytes, least significant first.
-fn words(py: Python<'_>, block: &[u8]) -> PyResult<Vec<u32>> {
+pub fn words(py: Python<'_>, block: &[u8]) -> PyResult<Vec<u32>> {
     let (words, rest) = block.as_chunks::<4>();
     if rest.is_empty() {
         return Ok(words

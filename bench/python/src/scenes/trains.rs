@@ -1,9 +1,11 @@
 //! Rows of balls that press on each other: a ball screw without cage, a linear bearing.
 
-use epas_bench::bindings::{Balls, Built, Linear, MOST_BALLS, Uncaged};
+use epas_bench::bindings::{Balls, Built, Linear, MOST_BALLS, ScrewConfiguration, Uncaged};
+use epas_bench::uncaged::{configuration, configuration_with, read};
 use epas_friction::{Inputs, LinearInputs, LinearOutputs, UncagedOutputs};
 use pyo3::prelude::*;
 
+use super::caged::words;
 use super::columns::{Columns, LinearColumns, UncagedColumns};
 use crate::design::{Design, LinearDesign};
 use crate::errors::{Refused, refused};
@@ -23,16 +25,21 @@ fn model<I, O>(py: Python<'_>, built: Built<I, O>) -> PyResult<Box<dyn Balls<I, 
 
 /// A ball screw without cage: friction of the grooves, and between balls that press on each other.
 ///
+/// Its ball is solved when the screw is made, in some seconds, and in three times as many for a range of friction coefficients: what runs is the
+/// law that firmware evaluates, for 5 to 300 N a ball, or the loads of the table [fold] of a design file. Other threads run meanwhile, and a
+/// design that was solved before is there at once.
+///
 /// Args:
 ///     design: with what it says of its circuit of balls; "lin-3.6" of the built-in designs has 37.
 ///     tick: time between two steps, s; balls may not travel too far in one.
 ///     friction: coefficient of ball and groove; the design's where it is left out.
+///     friction_range: least and largest coefficient that :meth:`set_friction` may set; the coefficient alone where it is left out.
 ///     ball_friction: coefficient of two balls; the design's where it is left out.
 ///     memory_load: axial load, N, at which elements that stick and slip are designed; without it friction has no memory, and
 ///         passes through a reversal with the speed.
 ///
 /// Raises:
-///     Error: a value out of its range, or a design that says nothing of its circuit.
+///     Error: a value out of its range, a design that says nothing of its circuit, or one whose ball cannot be folded.
 #[pyclass(module = "epas_friction")]
 pub struct UncagedBallScrew {
     model: Box<dyn Balls<Inputs, UncagedOutputs>>,
@@ -51,36 +58,58 @@ const fn screw_inputs([nut_speed, axial_load]: [f64; 2]) -> Inputs {
 #[pymethods]
 impl UncagedBallScrew {
     #[new]
-    #[pyo3(signature = (design, *, tick=2e-4, friction=None, ball_friction=None, memory_load=None))]
+    #[pyo3(signature = (design, *, tick=2e-4, friction=None, friction_range=None, ball_friction=None, memory_load=None))]
     fn new(
         py: Python<'_>,
         design: &Design,
         tick: f32,
         friction: Option<f32>,
+        friction_range: Option<(f32, f32)>,
         ball_friction: Option<f32>,
         memory_load: Option<f32>,
     ) -> PyResult<Self> {
-        let Some(mut balls) = design.inner.uncaged else {
-            let message = format!("{} says nothing of its circuit of balls", design.inner.name);
-            return Err(refused(py, Refused::value("uncaged", message)));
-        };
-        let configuration = &mut balls.configuration;
-        configuration.friction = friction.unwrap_or(configuration.friction);
-        configuration.ball_friction = ball_friction.unwrap_or(configuration.ball_friction);
-        let scene = Uncaged {
-            design: bindings_design(design),
-            balls,
-            memory: memory_load.is_some(),
-        };
-        let remembered = memory_load
-            .map(|load| scene.remembered_at(load))
-            .transpose()
-            .map_err(|error| refused(py, error))?;
-        Ok(Self {
-            model: model(py, scene.model(tick, remembered.as_ref()))?,
-            balls: balls.balls,
-            tick,
-        })
+        let mut scene = scene(py, design, memory_load)?;
+        let gear = &mut scene.balls.gear;
+        gear.friction = friction.unwrap_or(gear.friction);
+        gear.checked().map_err(|error| refused(py, error))?;
+        let own = gear.friction;
+        let (least, largest) = friction_range.unwrap_or((own, own));
+        if !(least <= own && own <= largest) {
+            let error = Refused::range("friction", own.into(), least.into(), largest.into());
+            return Err(refused(py, error));
+        }
+        let own = scene.balls.ball_friction;
+        scene.balls.ball_friction = ball_friction.unwrap_or(own);
+        let made = py.detach(|| configuration(&scene.design, &scene.balls, (least, largest), 0.0));
+        let made = made.map_err(|failure| refused(py, failure))?;
+        Self::of(py, &scene, &made, tick, memory_load)
+    }
+
+    /// A screw by a block of its ball that was folded before, of the command ``design``.
+    ///
+    /// Args:
+    ///     design: with what it says of its circuit of balls; how its balls rub in the grooves stands in the block.
+    ///     block: its bytes, of each word the least significant first.
+    ///     tick: time between two steps, s.
+    ///     ball_friction: coefficient of two balls; the design's where it is left out.
+    ///
+    /// Raises:
+    ///     Error: bytes that are no block, a block of another version, a damaged one, or one of a design whose deviations it does not hold.
+    #[staticmethod]
+    #[pyo3(signature = (design, block, *, tick=2e-4, ball_friction=None))]
+    fn from_block(
+        py: Python<'_>,
+        design: &Design,
+        block: &[u8],
+        tick: f32,
+        ball_friction: Option<f32>,
+    ) -> PyResult<Self> {
+        let mut scene = scene(py, design, None)?;
+        let own = scene.balls.ball_friction;
+        scene.balls.ball_friction = ball_friction.unwrap_or(own);
+        let folded = read(&words(py, block)?).map_err(|error| refused(py, error))?;
+        let made = configuration_with(&scene.balls, folded);
+        Self::of(py, &scene, &made, tick, None)
     }
 
     /// One tick, as in the control interrupt: never an exception, faults are flagged.
@@ -139,7 +168,7 @@ impl UncagedBallScrew {
         self.model.reset();
     }
 
-    /// Sets the friction coefficient of ball and groove, 1e-6 to 0.5. Balls take it over as their turn comes.
+    /// Sets the friction coefficient of ball and groove, within the block's range, from the next tick on.
     ///
     /// Raises:
     ///     Error: a value out of its range; the model stays as it was.
@@ -189,9 +218,37 @@ impl UncagedBallScrew {
     }
 }
 
-/// The design as the program has it.
-fn bindings_design(design: &Design) -> epas_bench::bindings::Design {
-    (*design.inner).clone()
+impl UncagedBallScrew {
+    fn of(
+        py: Python<'_>,
+        scene: &Uncaged,
+        configuration: &ScrewConfiguration,
+        tick: f32,
+        memory_load: Option<f32>,
+    ) -> PyResult<Self> {
+        let remembered = memory_load
+            .map(|load| scene.remembered_at(load))
+            .transpose()
+            .map_err(|error| refused(py, error))?;
+        Ok(Self {
+            model: model(py, scene.model(configuration, tick, remembered.as_ref()))?,
+            balls: scene.balls.balls,
+            tick,
+        })
+    }
+}
+
+/// The scene of a design.
+fn scene(py: Python<'_>, design: &Design, memory_load: Option<f32>) -> PyResult<Uncaged> {
+    let Some(balls) = design.inner.uncaged else {
+        let message = format!("{} says nothing of its circuit of balls", design.inner.name);
+        return Err(refused(py, Refused::value("uncaged", message)));
+    };
+    Ok(Uncaged {
+        design: (*design.inner).clone(),
+        balls,
+        memory: memory_load.is_some(),
+    })
 }
 
 /// Places of the bits that are set.

@@ -1,5 +1,6 @@
 use epas_design::caged::Block;
 use epas_design::{CagedDesign, CagedFold};
+use epas_friction::promises::STEP_CAGED;
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{Faults, FrictionModel, Inputs, Limits, RollingResistance};
 
@@ -44,8 +45,8 @@ fn scene(design: &Design, duty: &Duty) -> (f32, f32) {
     (found.friction_torque, found.efficiency)
 }
 
-/// A study computes the screws of the scenes: settled balls are near the block of the same screw, with and without preload. Measured: 0.50 %
-/// of the torque, 4.1e-4 of the efficiency; half as much again is accepted.
+/// A study has the exact balls that the caged scene is folded from, with and without preload: they differ by the error of the fold, of which
+/// [`STEP_CAGED`] promises the largest, and the efficiency by no more than that part of the friction's share.
 #[test]
 fn a_study_has_the_friction_of_the_caged_scene() {
     for (preload, lead) in [(0.0, 7e-3), (30.0, 7e-3), (0.0, 20e-3), (100.0, 10e-3)] {
@@ -61,12 +62,13 @@ fn a_study_has_the_friction_of_the_caged_scene() {
             found.friction_torque / torque - 1.0,
             found.efficiency - efficiency
         );
+        let error = STEP_CAGED.largest as f32;
         assert!(
-            (found.friction_torque / torque - 1.0).abs() < 7.5e-3,
+            (found.friction_torque / torque - 1.0).abs() < error,
             "{found:?} {torque}"
         );
         assert!(
-            (found.efficiency - efficiency).abs() < 6e-4,
+            (found.efficiency - efficiency).abs() < error * (1.0 - efficiency),
             "{found:?} {efficiency}"
         );
     }

@@ -4,10 +4,10 @@
 use epas_friction::ball::GrooveFit;
 
 /// Places of the flanks in a list of contacts.
-pub const SL: usize = 0;
-pub const SR: usize = 1;
-pub const NL: usize = 2;
-pub const NR: usize = 3;
+const SL: usize = 0;
+const SR: usize = 1;
+const NL: usize = 2;
+const NR: usize = 3;
 
 /// Contacts of a ball as they are given: load, N, and contact angle, rad, in the order SL, SR, NL, NR.
 pub type Given = [Option<(f32, f32)>; 4];

@@ -2,11 +2,11 @@
 
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, FrictionBranch, Limits, RollingResistance,
-    UncagedBallScrewConfiguration,
 };
 
 use super::named::{BALL, GROOVE, NUT, SCREW, Values, list, named, single};
 use crate::designs::Design;
+use crate::designs::train::UncagedDesign;
 use crate::fmu::scene::SceneName;
 use crate::fmu::variables::{Choice, Kind, Variable, parameter};
 
@@ -21,23 +21,16 @@ struct Common {
 
 impl Common {
     fn of(design: &Design, scene: SceneName) -> Self {
-        if let (true, Some(train)) = (scene.has_row(), &design.uncaged) {
-            let row = &train.configuration;
-            return Self {
-                friction: row.friction,
-                rolling_resistance: row.rolling_resistance,
-                clearance: row.clearance,
-                reversal_speed: row.reversal_speed,
-                limits: row.limits,
-            };
-        }
-        let caged = &design.caged;
+        let gear = match (scene.has_row(), &design.uncaged) {
+            (true, Some(train)) => &train.gear,
+            _ => &design.caged,
+        };
         Self {
-            friction: caged.friction,
-            rolling_resistance: caged.rolling_resistance,
-            clearance: caged.clearance,
-            reversal_speed: caged.reversal_speed,
-            limits: caged.limits,
+            friction: gear.friction,
+            rolling_resistance: gear.rolling_resistance,
+            clearance: gear.clearance,
+            reversal_speed: gear.reversal_speed,
+            limits: gear.limits,
         }
     }
 }
@@ -49,7 +42,7 @@ pub fn of_screw(design: &Design, scene: SceneName) -> Vec<Variable> {
     geometry(&mut l, design.screw().parameters());
     common.contacts(&mut l);
     match (scene.has_row(), &design.uncaged) {
-        (true, Some(train)) => row(&mut l, &train.configuration),
+        (true, Some(train)) => row(&mut l, train),
         _ => caged(&mut l, design),
     }
     common.limits(&mut l);
@@ -107,7 +100,7 @@ impl Common {
 }
 
 /// What only a screw with a row of balls has.
-fn row(l: &mut Vec<Variable>, train: &UncagedBallScrewConfiguration) {
+fn row(l: &mut Vec<Variable>, train: &UncagedDesign) {
     let friction = "Coulomb friction coefficient of ball and ball, 0 to 1";
     let turns = "turns of the loaded track, 0.1 to 100";
     list(
@@ -244,15 +237,9 @@ pub fn changed_screw(
 fn changed_row(design: &mut Design, values: &Values<'_>) {
     let caged = design.caged;
     if let Some(train) = &mut design.uncaged {
-        let row = &mut train.configuration;
-        row.design = caged.design;
-        row.friction = caged.friction;
-        row.rolling_resistance = caged.rolling_resistance;
-        row.clearance = caged.clearance;
-        row.reversal_speed = caged.reversal_speed;
-        row.limits = caged.limits;
-        row.ball_friction = values.single("ball_friction");
-        row.turns = values.single("turns");
-        row.return_length = values.single("return_length");
+        train.gear = caged;
+        train.ball_friction = values.single("ball_friction");
+        train.turns = values.single("turns");
+        train.return_length = values.single("return_length");
     }
 }

@@ -1,4 +1,4 @@
-//! Torque of one ball over lead, load and friction: the papers' closed forms, the scene and the exact model.
+//! Torque of one ball over lead, load and friction: the papers' closed forms, a folded block and the exact model.
 
 use std::f64::consts::FRAC_PI_4;
 
@@ -25,7 +25,7 @@ const LEAD: f64 = 20e-3;
 /// Name and mark of each model.
 const MODELS: [(&str, Mark); 5] = [
     ("exact", Mark::Line),
-    ("scene", Mark::Circles),
+    ("folded", Mark::Circles),
     ("three-point closed form, no play", Mark::Dashed),
     ("two-point closed form, play", Mark::Dashed),
     ("rolling ball, eq. (3)", Mark::Dashed),
@@ -54,17 +54,16 @@ fn design(lead: f64) -> Result<BallScrew, epas_friction::Error> {
 fn torques(lead: f64, load: f64, friction: f64) -> Result<[f64; 5], Failure> {
     let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
     let design = design(lead).map_err(failure)?;
-    let ball = json!({"screw_deviation": 0.0, "nut_deviation": 0.0, "axial_load": load});
     let request = json!({
-        "id": 0, "model": "ball_screw_pair", "pitch_radius": PITCH_RADIUS, "lead": lead, "ball_radius": BALL_RADIUS,
+        "id": 0, "model": "caged_torque", "pitch_radius": PITCH_RADIUS, "lead": lead, "ball_radius": BALL_RADIUS,
         "groove_radius": GROOVE_RADIUS, "contact_angle": FRAC_PI_4, "youngs_modulus": 2.1e11, "poisson_ratio": 0.28,
-        "friction": friction, "clearance": 0.0, "nut_speed": 1.0, "balls": [ball, ball],
+        "friction": friction, "clearance": 0.0, "axial_load": [load], "direction": 1,
     });
-    let pair = eval::both(&request.to_string());
-    let of_pair = |side: fn(&(Value, Value)) -> &Value| {
-        pair.as_ref()
-            .and_then(|pair| side(pair)["groove_torque_free"].as_f64())
-            .map_or(f64::NAN, |torque| 0.5 * torque / load)
+    let both = eval::both(&request.to_string());
+    let of = |side: fn(&(Value, Value)) -> &Value| {
+        both.as_ref()
+            .and_then(|both| side(both)["torque"][0].as_f64())
+            .map_or(f64::NAN, |torque| torque / load)
     };
     let closed = |fit: GrooveFit| -> Result<f64, Failure> {
         let row = ScrewRow::new(&design, friction as f32, fit).map_err(failure)?;
@@ -78,8 +77,8 @@ fn torques(lead: f64, load: f64, friction: f64) -> Result<[f64; 5], Failure> {
         0.0,
     );
     Ok([
-        of_pair(|pair| &pair.1),
-        of_pair(|pair| &pair.0),
+        of(|both| &both.1),
+        of(|both| &both.0),
         closed(GrooveFit::Zero)?,
         closed(GrooveFit::Play)?,
         rolling.into(),

@@ -6,12 +6,12 @@ use epas_friction::law::coefficient::{
 };
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    Motion, Passage, Scene, Sliding, SlidingFriction, WithMemory, WithMemoryConfiguration,
+    Motion, Passage, Sliding, SlidingFriction, WithMemory, WithMemoryConfiguration,
     WithMemoryInputs,
 };
 use epas_friction::{
     ClosedFormScrew, Faults, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain,
-    LinearInputs, UncagedBallScrew,
+    LinearInputs,
 };
 
 use super::{
@@ -19,7 +19,7 @@ use super::{
     slip, speed_sensor, with_memory,
 };
 use crate::kit::gears::{
-    CROWD, CagedScrew, LINEAR_BALLS, SCREW_BALLS, caged, closed_form, crowded, even, linear,
+    CROWD, CagedScrew, LINEAR_BALLS, UncagedScrew, caged, closed_form, crowded, linear,
 };
 use crate::kit::random::Random;
 
@@ -167,7 +167,7 @@ fn full_friction_is_what_passes_in_its_direction() {
             std::any::type_name::<S>()
         );
     }
-    check::<UncagedBallScrew<CROWD>>(&crowded(), screw(0.0, 3000.0), 50.0, |outputs| {
+    check::<UncagedScrew<CROWD>>(&crowded(), screw(0.0, 3000.0), 50.0, |outputs| {
         [outputs.groove_torque, outputs.ball_torque]
     });
     let load = LinearInputs {
@@ -189,40 +189,6 @@ fn both_ways(friction: f32) -> DirectionalCoefficient {
     DirectionalCoefficient {
         forward: friction,
         backward: friction,
-    }
-}
-
-/// Balls follow a coefficient that changes by less than a tenth, and are flagged while those last renewed are further behind.
-#[test]
-fn balls_far_behind_their_coefficient_are_flagged() {
-    type Uncaged = UncagedBallScrew<SCREW_BALLS>;
-    let constants = Uncaged::constants(&even()).unwrap();
-    let inputs = screw(20.0, 3000.0);
-    let flagged = |after: f32| {
-        let mut state = Uncaged::initial_state(&constants);
-        let mut settles = |friction: f32| {
-            let full = Uncaged::full(&constants, &mut state, inputs, both_ways(friction));
-            let way = 1.0;
-            let passage = Passage {
-                share: way,
-                way,
-                standing: false,
-            };
-            Uncaged::passed(&constants, inputs, &full, passage)
-                .faults
-                .contains(Faults::SETTLING)
-        };
-        let before = (0..2000).filter(|_| settles(0.08)).count();
-        assert!(before < 500 && !settles(0.08), "{before}");
-        (0..2000).filter(|_| settles(after)).count()
-    };
-    assert_eq!(flagged(0.087), 0);
-    assert_eq!(flagged(0.0735), 0);
-    // The rest of a jump falls by 1/37 of itself in a tick: from 0.25 and 0.2 of the new one to a tenth of it in
-    // 37 ln(2.5) = 34 and 37 ln 2 = 26 ticks, the first of which is that of the jump.
-    for (after, ticks) in [(0.064, 34), (0.1, 26)] {
-        let found = flagged(after);
-        assert!(found.abs_diff(ticks) <= 2, "{after}: {found} ticks");
     }
 }
 

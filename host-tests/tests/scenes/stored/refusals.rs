@@ -6,14 +6,12 @@ use std::fmt::Debug;
 use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{StoredScene, WithMemoryConfiguration};
 use epas_friction::stored::VERSION;
-use epas_friction::{
-    BallScrew, BallScrewParameters, Clearance, Faults, FrictionModel, LinearBearingTrain, Material,
-    Refusal, UncagedBallScrew, UncagedBallScrewConfiguration,
-};
+use epas_friction::{Faults, FrictionModel, LinearBearingTrain, Refusal, UncagedBallScrew};
 
 use crate::kit::absurd::{Trial, accepted};
 use crate::kit::gears::{
-    CagedConfiguration, CagedScrew, LINEAR_BALLS, caged, linear, linear_of_smaller_balls, uncaged,
+    BALL_RANGE, CagedConfiguration, CagedScrew, LINEAR_BALLS, UncagedConfiguration, UncagedScrew,
+    caged, changed, linear, linear_of_smaller_balls, uncaged,
 };
 use crate::kit::random::Random;
 use crate::kit::remembering::{COUNTS, CagedByAngle, UncagedByCounts, slip, with_memory};
@@ -126,7 +124,7 @@ fn foreign_and_old_blocks_are_refused() {
     );
     let uncaged = export(&Uncaged::model());
     assert_eq!(refused(&mut model, &uncaged), Refusal::OtherScene);
-    let mut seven = FrictionModel::<UncagedBallScrew<7>>::new(&uncaged_of_seven()).unwrap();
+    let mut seven = FrictionModel::<UncagedScrew<7>>::new(&uncaged_of_seven()).unwrap();
     assert_eq!(
         seven.import(&uncaged),
         Err(Refusal::OtherBalls {
@@ -138,8 +136,8 @@ fn foreign_and_old_blocks_are_refused() {
     assert_eq!(refused(&mut remembers, &block), Refusal::OtherScene);
 }
 
-fn uncaged_of_seven() -> UncagedBallScrewConfiguration {
-    UncagedBallScrewConfiguration {
+fn uncaged_of_seven() -> UncagedConfiguration {
+    UncagedConfiguration {
         turns: 1.0,
         ..uncaged()
     }
@@ -192,18 +190,19 @@ fn blocks_of_other_constants_are_refused() {
     let mut others = [uncaged(); 5];
     others[0].turns = 2.45;
     others[1].screw_deviation = &TWO_TURNS;
-    others[2].design = epas_friction::CATALOGUE[14].design().unwrap();
-    others[3].design = BallScrew::new(BallScrewParameters {
-        ball_material: Material::SILICON_NITRIDE,
-        ..*uncaged().design.parameters()
-    })
-    .unwrap();
+    others[2].folded = changed(&BALL_RANGE, |folded| folded.ball_radius *= 0.9);
+    others[3].folded = changed(&BALL_RANGE, |folded| folded.lead *= 1.1);
     others[4].return_length = 0.02;
     refused_by_all::<Uncaged>(&block, &others);
     let mut slower = uncaged();
     slower.tick = 2e-5;
-    let mut model = FrictionModel::<Uncaged>::new(&slower).unwrap();
-    assert_eq!(model.import(&block), Ok(()));
+    // What balls do may be folded anew: their places mean the same.
+    let mut other_law = uncaged();
+    other_law.folded = changed(&BALL_RANGE, |folded| folded.law.lift_off = 20.0);
+    for same in [slower, other_law] {
+        let mut model = FrictionModel::<Uncaged>::new(&same).unwrap();
+        assert_eq!(model.import(&block), Ok(()));
+    }
 
     let block = export(&Linear::model());
     let mut others = [linear(), linear(), linear_of_smaller_balls()];
@@ -307,27 +306,29 @@ fn a_ratio_of_two_coefficients_is_in_range() {
     }
 }
 
-/// A clearance that other balls take, and these do not.
+/// A friction coefficient for which these balls were not folded.
 #[test]
-fn a_clearance_of_other_balls_is_refused() {
-    let mut other = Uncaged::model();
-    let own = Clearance::new(-1e-6).unwrap();
-    other.set_clearance(own).unwrap();
-    let block = export(&other);
-    let bytes = own.gap().to_le_bytes();
-    let at = block.windows(4).position(|window| window == bytes).unwrap();
-    let with = |gap: f32| {
+fn a_coefficient_of_other_balls_is_refused() {
+    let mut model = Uncaged::model();
+    let block = export(&model);
+    let (least, largest) = BALL_RANGE.law.friction_range();
+    // The last number before the checksum.
+    let at = block.len() - 8;
+    let with = |friction: f32| {
         let mut block = block.clone();
-        block[at..at + 4].copy_from_slice(&gap.to_le_bytes());
+        block[at..at + 4].copy_from_slice(&friction.to_le_bytes());
         sealed(block)
     };
-    // Play up to 0.05 of the ball radius, 3.175 mm.
-    let mut model = Uncaged::model();
-    assert_eq!(model.import(&with(1.58e-4)), Ok(()));
-    assert_eq!(
-        refused(&mut model, &with(1.6e-4)),
-        Refusal::OutOfRange { field: "clearance" }
-    );
+    for taken in [least, 0.5 * (least + largest), largest] {
+        assert_eq!(model.import(&with(taken)), Ok(()), "{taken}");
+    }
+    for other in [0.9 * least, 1.1 * largest, 0.0, f32::NAN] {
+        assert_eq!(
+            refused(&mut model, &with(other)),
+            Refusal::OutOfRange { field: "friction" },
+            "{other}"
+        );
+    }
 }
 
 /// Numbers that no state has, in a block that is whole.
@@ -452,7 +453,7 @@ fn random_blocks_are_refused_or_harmless() {
     for (taken, refused) in [
         check::<CagedScrew>(8),
         check::<UncagedBallScrew<2>>(30),
-        check::<UncagedBallScrew<7>>(30),
+        check::<UncagedBallScrew<7, 3>>(30),
         check::<UncagedBallScrew<37>>(30),
         check::<LinearBearingTrain<1>>(30),
         check::<LinearBearingTrain<16>>(60),

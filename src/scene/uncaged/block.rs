@@ -122,14 +122,7 @@ fn of_knot(knot: &BallKnot) -> impl Iterator<Item = u32> + use<> {
 const NO_KNOT: BallKnot = BallKnot {
     load: 0.0,
     per_width: 0.0,
-    numbers: BallNumbers {
-        free: [0.0; 6],
-        impedance: [0.0; 3],
-        torque: [0.0; 6],
-        slope: 0.0,
-        grip: 0.0,
-        rubbing: 0.0,
-    },
+    numbers: BallNumbers::NONE,
 };
 
 const NO_NODE: BallNode = BallNode {

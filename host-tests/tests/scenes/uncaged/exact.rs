@@ -5,10 +5,10 @@ use std::sync::LazyLock;
 
 use epas_design::uncaged::UncagedBlock;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
-use epas_friction::scene::{FoldedBall, PressedScrew, PressedScrewConfiguration};
+use epas_friction::scene::FoldedBall;
 use epas_friction::{
     BallScrew, Clearance, DISSERTATION_DESIGNS, DeviationMap, FrictionModel, Inputs, Limits,
-    LoadShare, LoadShares, RollingResistance,
+    LoadShare, LoadShares, RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ring::{
@@ -100,8 +100,8 @@ pub static RANGE: LazyLock<FoldedBall<3>> =
 pub fn screw<const NODES: usize>(
     folded: &'static FoldedBall<NODES>,
     ball_friction: f32,
-) -> PressedScrewConfiguration<NODES> {
-    PressedScrewConfiguration {
+) -> UncagedBallScrewConfiguration<NODES> {
+    UncagedBallScrewConfiguration {
         folded,
         ball_friction,
         turns: 0.8463,
@@ -139,10 +139,10 @@ fn along(map: &DeviationMap, from: f64) -> GrooveDeviation {
 
 /// A model that is stepped beside the exact ring.
 pub struct Beside<const NODES: usize> {
-    configuration: PressedScrewConfiguration<NODES>,
+    configuration: UncagedBallScrewConfiguration<NODES>,
     clearance: Clearance,
     friction: f32,
-    pub model: FrictionModel<PressedScrew<BALLS, NODES>>,
+    pub model: FrictionModel<UncagedBallScrew<BALLS, NODES>>,
     nut_angle: f64,
 }
 
@@ -163,7 +163,7 @@ pub struct Pair {
 }
 
 impl<const NODES: usize> Beside<NODES> {
-    pub fn new(configuration: PressedScrewConfiguration<NODES>, clearance: Clearance) -> Self {
+    pub fn new(configuration: UncagedBallScrewConfiguration<NODES>, clearance: Clearance) -> Self {
         Self {
             model: FrictionModel::new(&configuration).unwrap(),
             friction: configuration.folded.friction,
@@ -245,7 +245,7 @@ impl<const NODES: usize> Beside<NODES> {
     /// The exact ring at its start: balls at equal distances.
     pub fn started(&self) -> ElasticRing {
         let design = exact_design();
-        let PressedScrewConfiguration {
+        let UncagedBallScrewConfiguration {
             ball_friction,
             turns,
             return_length,

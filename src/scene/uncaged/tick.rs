@@ -1,6 +1,6 @@
 //! What a tick computes: every ball at its place, then how they press.
 
-use super::{PressedConstants, PressedState, UncagedFull};
+use super::{UncagedConstants, UncagedFull, UncagedState};
 use crate::ball::pressed::{BallNumbers, FreeMotion};
 use crate::scene::circuit::UNLOADED;
 use crate::scene::contract::Inputs;
@@ -24,10 +24,10 @@ struct Common {
     grip: Grip<true>,
 }
 
-impl<const N: usize, const NODES: usize> PressedConstants<N, NODES> {
+impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     /// Full friction in the direction of motion; moves the balls on by a tick.
     #[inline(always)]
-    pub(super) fn full(&self, state: &mut PressedState<N>, inputs: Inputs) -> UncagedFull {
+    pub(super) fn full(&self, state: &mut UncagedState<N>, inputs: Inputs) -> UncagedFull {
         let Inputs {
             nut_speed,
             axial_load,
@@ -82,7 +82,7 @@ impl<const N: usize, const NODES: usize> PressedConstants<N, NODES> {
     }
 
     #[inline(always)]
-    fn common(&self, state: &PressedState<N>, inputs: Inputs) -> Common {
+    fn common(&self, state: &UncagedState<N>, inputs: Inputs) -> Common {
         let way = way(inputs.nut_speed);
         let mean = inputs.axial_load * self.per_ball;
         let branch = usize::from(way * mean < 0.0);

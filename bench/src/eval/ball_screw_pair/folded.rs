@@ -1,0 +1,160 @@
+//! A row of balls by the law that the scene of a ball screw without cage evaluates, folded for the request.
+//!
+//! The law is folded over a box at least twice as wide as the request: deviations of twice the largest in either groove, in steps of
+//! [`DEVIATIONS`], and [`LOADS`] of a ball, or from half the least to twice the largest where that is wider, in powers of two. Requests
+//! that are much alike share a law, which takes some seconds to fold.
+
+use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
+use epas_friction::scene::FoldedBall;
+use epas_friction::train::Press;
+use epas_friction::{BallScrew, Clearance, Limits, RollingResistance};
+use epas_reference::friction::ball_screw_row::RowBall;
+use epas_trains::Folded;
+use serde::Serialize;
+
+use super::super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};
+use super::request::{Request, Row};
+use crate::uncaged::folded;
+
+/// Step of the deviations for which a law is folded, rad.
+const DEVIATIONS: f32 = 0.01;
+
+/// Loads of a ball for which a law is folded at least, N: twice as wide as 5 to 300 N either way.
+const LOADS: [f32; 2] = [2.5, 600.0];
+
+/// Limits that no request meets.
+const LIMITS: Limits = Limits {
+    nut_speed: 10.0,
+    axial_load: 1e6,
+    friction_torque: 1e6,
+};
+
+/// What the law finds.
+#[derive(Default, Serialize)]
+pub struct FoldedRow {
+    #[serde(flatten)]
+    found: Row,
+    /// Whether a step under these loads is flagged, because the law does not hold the forces.
+    flagged: Option<bool>,
+}
+
+/// What the law finds; nothing where the clearance is not among those of the crate, for loads of both signs in one row, and where no law
+/// holds the box.
+pub fn row(request: &Request, design: &BallScrew) -> FoldedRow {
+    let one_side = request.balls.windows(2).all(|pair| match pair {
+        [one, other] => one.axial_load * other.axial_load > 0.0,
+        _ => true,
+    });
+    if !one_side {
+        return FoldedRow::default();
+    }
+    let found = law(request, design).map(|law| answer(request, law));
+    found.flatten().unwrap_or_default()
+}
+
+/// The law of the request's box.
+fn law(request: &Request, design: &BallScrew) -> Option<&'static FoldedBall> {
+    let clearance = Clearance::new(request.clearance as f32).ok()?;
+    let largest = |of: fn(&RowBall) -> f64| {
+        let sizes = request.balls.iter().map(|ball| of(ball).abs() as f32);
+        sizes.fold(0.0, f32::max)
+    };
+    let deviation = largest(|ball| ball.screw_deviation.abs().max(ball.nut_deviation.abs()));
+    let steps = (2.0 * deviation / DEVIATIONS).ceil().max(1.0);
+    let mut fold = UncagedFold::of(UncagedDesign {
+        gear: CagedDesign {
+            design: *design,
+            friction: request.friction as f32,
+            rolling_resistance: RollingResistance::NONE,
+            clearance,
+            loaded_balls: 1,
+            reversal_speed: 1e-6,
+            limits: LIMITS,
+        },
+        deviations: [steps * DEVIATIONS; 2],
+    });
+    let [least, most] = LOADS;
+    let twice = 2.0 * largest(|ball| ball.axial_load);
+    let half = 0.5 / largest(|ball| ball.axial_load.recip());
+    fold.axial_load = [
+        if half < least {
+            half.log2().floor().exp2()
+        } else {
+            least
+        },
+        if twice > most {
+            twice.log2().ceil().exp2()
+        } else {
+            most
+        },
+    ];
+    match folded(&fold).ok()? {
+        Folded::One(law) => Some(law),
+        Folded::Range(_) => None,
+    }
+}
+
+/// None where a ball runs further from nominal rolling than a step takes.
+fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
+    let law = &ball.law;
+    let place = law.place(ball.friction);
+    // In the frame in which the nut turns forward.
+    let way = if request.nut_speed < 0.0 { -1.0 } else { 1.0 };
+    let count = request.balls.len();
+    let mean = request
+        .balls
+        .iter()
+        .map(|ball| ball.axial_load)
+        .sum::<f64>()
+        / count as f64;
+    let branch = usize::from(way * mean < 0.0);
+    let load = law.load_of(mean as f32);
+    let numbers = law.numbers(load, branch, place);
+
+    let [screw, nut] = law.deviations.map(|largest| way / f64::from(largest));
+    let motions: Vec<_> = request
+        .balls
+        .iter()
+        .map(|ball| {
+            let deviations = [screw * ball.screw_deviation, nut * ball.nut_deviation];
+            let load = law.load_of(ball.axial_load as f32);
+            law.at(load, branch, place, deviations.map(|part| part as f32))
+        })
+        .collect();
+    let (mut free, mut impedance) = ([0.0; LARGEST_TRAIN], [1.0; LARGEST_TRAIN]);
+    for ((motion, free), impedance) in motions.iter().zip(&mut free).zip(&mut impedance) {
+        (*free, *impedance) = (motion.speed, motion.impedance);
+    }
+    let mut press = Press::<LARGEST_TRAIN>::new();
+    let grip = numbers.grip * request.ball_friction as f32;
+    if !press.solve_rubbing(&free, &impedance, &room_of_a_row(count), grip) {
+        return None;
+    }
+    let free_torque: f64 = motions.iter().map(|motion| f64::from(motion.torque)).sum();
+    let change: f32 = motions
+        .iter()
+        .zip(press.speeds())
+        .map(|(motion, speed)| {
+            let change = speed - motion.speed;
+            (numbers.slope + 0.5 * ball.speed * motion.impedance * change) * change
+        })
+        .sum();
+    let nominal = ball.path_radius - ball.speed;
+    let orbital = |speed: f32| f64::from((nominal + ball.speed * speed) / ball.path_radius);
+    let forces = contact_forces(&press);
+    let heaviest = request
+        .balls
+        .iter()
+        .map(|ball| ball.axial_load.abs() as f32);
+    let most = law.load_of(heaviest.fold(0.0, f32::max));
+    Some(FoldedRow {
+        found: Row {
+            free_speed: Some(motions.iter().map(|motion| orbital(motion.speed)).collect()),
+            contact_force: Some(forces.iter().take(count - 1).map(|&f| f.into()).collect()),
+            groove_torque: Some(free_torque + f64::from(change)),
+            groove_torque_free: Some(free_torque),
+            loads: None,
+        },
+        flagged: Some(!(law.holds_forces(load, branch, place) && law.holds_load(most))),
+    })
+}
