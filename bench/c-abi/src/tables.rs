@@ -218,10 +218,8 @@ pub(crate) fn decode<const NODES: usize>(
     words: &[u32],
     place: &mut MaybeUninit<FoldedBall<NODES>>,
 ) -> Result<(), Failure> {
-    let folded = match FoldedBall::read(words) {
-        Ok(folded) => place.write(folded),
-        Err(error) => return Err(Failure::of_block(error)),
-    };
+    let folded = place.write(FoldedBall::EMPTY);
+    folded.read_from(words).map_err(Failure::of_block)?;
     let law = folded.law.checked();
     law.map_err(|error| Failure::at(error, EPAS_FIELD_BLOCK))
 }

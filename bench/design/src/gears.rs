@@ -80,7 +80,7 @@ pub fn firmware() -> Result<[(&'static str, CagedFold); 4], Error> {
 }
 
 /// Largest deviations of the contact angles of the gear without cage, rad: those of the firmware's maps, rounded up.
-const DEVIATIONS: [f32; 2] = [0.0401, 0.0225];
+const DEVIATIONS: [f32; 2] = [0.01745, 0.00873];
 
 /// What the firmware has without cage, each with the name of its `static`: the gear of the scenes for one friction coefficient, and for a range.
 ///

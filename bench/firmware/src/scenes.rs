@@ -36,23 +36,23 @@ pub const TICK: f32 = 1e-3;
 /// Oversize of the balls of the gear with a cage: with 36 of them, 100 N on each flank of the nut.
 const OVERSIZE: Clearance = folded(Clearance::new(-4.068_737e-7));
 
-/// Two waves a turn, Lin 2019, Fig. 3.23.
+/// Two waves of 1 degree a turn.
 pub static SCREW_DEVIATION: DeviationMap = folded(DeviationMap::from_harmonics(
     1,
     &[Harmonic {
         order: 2,
         cosine: 0.0,
-        sine: 0.04,
+        sine: 0.0174,
     }],
 ));
 
-/// Three waves a turn.
+/// Three waves of half a degree a turn.
 static NUT_DEVIATION: DeviationMap = folded(DeviationMap::from_harmonics(
     1,
     &[Harmonic {
         order: 3,
-        cosine: 0.02,
-        sine: 0.01,
+        cosine: 0.0078,
+        sine: 0.0039,
     }],
 ));
 

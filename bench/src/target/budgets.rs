@@ -262,12 +262,31 @@ mod tests {
             .collect()
     }
 
-    /// README prints what was found: errors are within the promises, cycles are those that are stored.
+    /// README prints the stored cycles of each scene.
     #[test]
-    fn readme_is_within_the_promises() {
+    fn readme_has_the_stored_cycles() {
         let figures = stored::figures().unwrap();
         let readme = include_str!("../../../README.md");
-        let (_, table) = readme.split_once("| formula | largest error |").unwrap();
+        for (scene, counted) in [
+            ("`CagedBallScrew`", "step_caged"),
+            ("`UncagedBallScrew<37>`", "step_train_37_pressing"),
+            ("`LinearBearingTrain<24>`", "step_linear"),
+            ("`ClosedFormScrew`", "step_closed_form"),
+        ] {
+            let row = format!("| {scene} |");
+            let row = readme.lines().find(|line| line.starts_with(&row)).unwrap();
+            let cells: Vec<&str> = row.split('|').collect();
+            let cycles = f64::from(figures.function(counted).unwrap().cycles_max);
+            assert_eq!(numbers(cells[3]), [cycles], "{row}");
+        }
+    }
+
+    /// The page of accuracy prints what was found: errors are within the promises, cycles are those that are stored.
+    #[test]
+    fn accuracy_page_is_within_the_promises() {
+        let figures = stored::figures().unwrap();
+        let page = include_str!("../../accuracy.md");
+        let (_, table) = page.split_once("| formula | largest error |").unwrap();
         let rows: Vec<&str> = table
             .lines()
             .skip(2)

@@ -200,16 +200,16 @@ mod tests {
         assert!(figures.require().is_err());
     }
 
-    /// README prints what is stored.
+    /// The page of accuracy prints what is stored.
     #[test]
-    fn readme_says_how_long_the_longest_paths_are() {
+    fn accuracy_page_says_how_long_the_longest_paths_are() {
         let figures = stored::figures().unwrap();
         let of = |name: &str| {
             let entry = figures.function(name).unwrap();
             let longest = entry.longest.unwrap();
             (longest, f64::from(longest) / f64::from(entry.cycles_max))
         };
-        let readme = include_str!("../../../README.md").replace('\n', " ");
+        let page = include_str!("../../accuracy.md").replace('\n', " ");
         let caged = figures.functions.iter().map(|entry| entry.name.as_str());
         let caged = caged.filter(|name| name.starts_with("step_caged") || *name == "between_caged");
         let most = caged.map(|name| of(name).1).fold(0.0, f64::max);
@@ -228,7 +228,7 @@ mod tests {
                 linear.1
             ),
         ] {
-            assert!(readme.contains(&said), "{said}");
+            assert!(page.contains(&said), "{said}");
         }
     }
 }

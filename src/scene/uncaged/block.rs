@@ -36,37 +36,67 @@ impl<const NODES: usize> FoldedBall<NODES> {
         nodes: NODES,
     };
 
-    /// Reads a block that `epas-design` wrote; for constants too. Its numbers are not checked, but for the checksum over them.
+    /// Reads a block that `epas-design` wrote; for constants too. Its numbers are not checked, but for the checksum over them. What is returned
+    /// is as large as the block: firmware that reads one at set-up calls [`Self::read_from`].
     ///
     /// # Errors
     /// [`Error`] naming `magic`, `version`, `nodes`, `words` (how many there are) or `checksum` (0 for one that is wrong).
     pub const fn read(words: &[u32]) -> Result<Self, Error> {
+        let mut folded = Self::EMPTY;
+        attempt!(folded.read_from(words));
+        Ok(folded)
+    }
+
+    /// The same into a place that is there already, such as a `static`: the stack holds no copy of it.
+    ///
+    /// # Errors
+    /// As those of [`Self::read`]; the place then is as it was.
+    pub const fn read_from(&mut self, words: &[u32]) -> Result<(), Error> {
         attempt!(Self::LAYOUT.check(words));
-        let mut nodes = [NO_NODE; NODES];
         let mut number = 0;
         while number < NODES {
-            nodes[number] = node(words, HEADER + COMMON + number * NODE);
+            read_node(
+                &mut self.law.nodes[number],
+                words,
+                HEADER + COMMON + number * NODE,
+            );
             number += 1;
         }
-        Ok(Self {
-            law: BallLaw {
-                nodes,
-                deviations: floats(words, HEADER + 9),
-                lift_off: float(words, HEADER + 11),
-            },
-            friction: float(words, HEADER),
-            lead: float(words, HEADER + 1),
-            ball_radius: float(words, HEADER + 2),
-            path_radius: float(words, HEADER + 3),
-            speed: float(words, HEADER + 4),
-            reversal_speed: float(words, HEADER + 5),
-            limits: Limits {
-                nut_speed: float(words, HEADER + 6),
-                axial_load: float(words, HEADER + 7),
-                friction_torque: float(words, HEADER + 8),
-            },
-        })
+        self.law.deviations = floats(words, HEADER + 9);
+        self.law.lift_off = float(words, HEADER + 11);
+        self.friction = float(words, HEADER);
+        self.lead = float(words, HEADER + 1);
+        self.ball_radius = float(words, HEADER + 2);
+        self.path_radius = float(words, HEADER + 3);
+        self.speed = float(words, HEADER + 4);
+        self.reversal_speed = float(words, HEADER + 5);
+        self.limits = Limits {
+            nut_speed: float(words, HEADER + 6),
+            axial_load: float(words, HEADER + 7),
+            friction_torque: float(words, HEADER + 8),
+        };
+        Ok(())
     }
+
+    /// All zero: a place for [`Self::read_from`], which no model takes before.
+    pub const EMPTY: Self = Self {
+        law: BallLaw {
+            nodes: [NO_NODE; NODES],
+            deviations: [0.0; 2],
+            lift_off: 0.0,
+        },
+        friction: 0.0,
+        lead: 0.0,
+        ball_radius: 0.0,
+        path_radius: 0.0,
+        speed: 0.0,
+        reversal_speed: 0.0,
+        limits: Limits {
+            nut_speed: 0.0,
+            axial_load: 0.0,
+            friction_torque: 0.0,
+        },
+    };
 
     /// Writes the block, with the digest of what it was folded from, to the begin of `words`: for a host.
     ///
@@ -131,9 +161,8 @@ const NO_NODE: BallNode = BallNode {
     unheld: [0; 2],
 };
 
-/// The node that begins at a word.
-const fn node(words: &[u32], at: usize) -> BallNode {
-    let mut node = NO_NODE;
+/// Reads the node that begins at a word.
+const fn read_node(node: &mut BallNode, words: &[u32], at: usize) {
     node.friction = float(words, at);
     let mut branch = 0;
     while branch < 2 {
@@ -146,7 +175,6 @@ const fn node(words: &[u32], at: usize) -> BallNode {
         node.unheld[branch] = word(words, at + 1 + 2 * KNOTS * KNOT + branch);
         branch += 1;
     }
-    node
 }
 
 /// The knot that begins at a word, with or without one after it.

@@ -92,19 +92,6 @@ const TAKES_IN: Bound = Bound::Writes(12, "epas_friction::train::ball::Ball::tak
 
 /// Loops by their functions; the first row that fits counts.
 pub const LOOPS: &[Row] = &[
-    // Arrays of four contacts, of two arcs, and the constant number of Newton steps of a start.
-    row(
-        "epas_friction::ball::elastic::renewal::shortened",
-        Bound::Times(Count::Of(4)),
-    ),
-    row(
-        "epas_friction::ball::elastic::start::Side::of",
-        Bound::Times(Count::Of(2)),
-    ),
-    row(
-        "epas_friction::ball::elastic::grooves::ElasticGrooves::start",
-        Bound::Times(Count::Of(4)),
-    ),
     // Once over all balls.
     row("epas_friction::train::press::Press::solve", TAKES_IN),
     row("epas_friction::train::press::Press::let_go", BALLS),
@@ -113,11 +100,6 @@ pub const LOOPS: &[Row] = &[
         "epas_friction::scene::uncaged::UncagedConstants::rubbing",
         BALLS,
     ),
-    row(
-        "epas_friction::ball::elastic::ring::Ring::begin_anew",
-        BALLS,
-    ),
-    row("epas_friction::ball::elastic::ring::Ring::set", BALLS),
     // Balls that the scene has not asked for are taken in when the tick ends.
     row(
         "epas_friction::scene::uncaged::UncagedConstants::full",
@@ -227,17 +209,8 @@ pub const PLACES: &[(&str, Total)] = &[
     ),
 ];
 
-/// Functions of which one call of another calls one at most.
-pub const ALTERNATIVES: &[[&str; 2]] = &[
-    // A tick in which all balls begin anew renews none.
-    [
-        "epas_friction::ball::elastic::ring::Ring::begin_anew",
-        "epas_friction::ball::elastic::grooves::ElasticGrooves::renew",
-    ],
-];
-
 /// Types whose length is the number of balls of a train.
-const TRAINS: [&str; 9] = [
+const TRAINS: [&str; 8] = [
     "UncagedBallScrew",
     "UncagedConstants",
     "LinearBearingTrain",
@@ -245,7 +218,6 @@ const TRAINS: [&str; 9] = [
     "Press",
     "Train",
     "Intake",
-    "Ring",
     "CircuitState",
 ];
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use super::bounds::{ALTERNATIVES, Bound, LOOPS, PLACES, Row, Total, plain};
+use super::bounds::{Bound, LOOPS, PLACES, Row, Total, plain};
 use super::context::Context;
 use super::graph::Graph;
 use super::loops::{Loop, first};
@@ -20,8 +20,6 @@ pub struct Known<'known, 'data> {
     pub loops: &'known [Loop],
     /// Where its code comes from.
     pub origins: &'known Origins<'data>,
-    /// For each edge the function that it calls, without lengths of arrays.
-    pub calls: &'known [Option<String>],
 }
 
 /// Limits over all loops and places of a function, with the balls that the first of them knows.
@@ -42,7 +40,6 @@ impl Known<'_, '_> {
             limit.what = format!("{total:?}");
             limits.push(limit);
         }
-        limits.extend(ALTERNATIVES.iter().map(|names| self.alternatives(names)));
         limits.retain(|limit| !limit.terms.is_empty());
         Ok(limits)
     }
@@ -165,21 +162,6 @@ impl Known<'_, '_> {
             }
         }
         Ok(())
-    }
-
-    /// At most one call of these functions.
-    fn alternatives(&self, names: &[&str]) -> Limit {
-        let mut limit = Limit {
-            most: 1.0,
-            what: format!("calls of {}", names.join(" or ")),
-            ..Limit::default()
-        };
-        for (edge, called) in self.calls.iter().enumerate() {
-            if called.as_deref().is_some_and(|name| names.contains(&name)) {
-                limit.add(edge, 1.0);
-            }
-        }
-        limit
     }
 }
 

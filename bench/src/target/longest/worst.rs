@@ -2,7 +2,6 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::bounds::plain;
 use super::code::Code;
 use super::context::Context;
 use super::graph::Graph;
@@ -77,22 +76,18 @@ impl<'image> Worst<'image> {
             let address = graph.blocks[block].start();
             format!("the flow at {address:#x} has a loop with several entries")
         })?;
-        let mut names = Vec::with_capacity(graph.edges.len());
         let mut calls = BTreeSet::new();
         let mut cycles = Vec::with_capacity(graph.edges.len());
         for edge in &graph.edges {
             let mut sum = edge.cycles;
-            let mut name = None;
             if let Some(called) = edge.call {
                 let call = graph.blocks[edge.from].end();
                 let full = &self.code.function(called).map_err(text)?.name;
-                name = Some(plain(full));
                 let frames = self.origins.frames(call);
                 let context = context.of_call(full, &steps, call, &frames)?;
                 sum += self.cycles(called, context)?;
                 calls.insert((called, context));
             }
-            names.push(name);
             cycles.push(sum);
         }
         let known = Known {
@@ -100,7 +95,6 @@ impl<'image> Worst<'image> {
             graph: &graph,
             loops: &loops,
             origins: self.origins,
-            calls: &names,
         };
         let limits = known.limits(context)?;
         Ok(Derived {
