@@ -45,7 +45,6 @@
 //! | [`model`] | [`FrictionModel`]: admit, compute, limit, count | step |
 //! | [`adaptation`] | level of the friction, drag and sensor errors, found while the vehicle runs; health | beside the step |
 //! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle | beside the step |
-//! | [`promises`] | domain, errors, behaviour outside and cost of every function, in one table | nowhere: a table |
 //! | `fits` | stored coefficients of fits, for the tests that make them again; not documented | nowhere: constants |
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
@@ -84,7 +83,6 @@ pub mod law;
 pub mod material;
 pub mod math;
 pub mod model;
-pub mod promises;
 pub mod ranges;
 pub mod scene;
 pub mod stored;

@@ -19,6 +19,7 @@ pub mod kinematics;
 pub mod material;
 pub mod measured;
 pub mod presliding;
+pub mod promises;
 pub mod published;
 pub mod record;
 pub mod rig;

@@ -106,7 +106,7 @@ pub struct FrictionNode {
 /// 0 there to 1 an octave above it; without a preload it is 1.
 /// Below the least load the torque is in proportion to `W`.
 ///
-/// Accuracy: that of the block's certificate. Cost: part of [`STEP_CAGED`](crate::promises::STEP_CAGED).
+/// Accuracy: that of the block's certificate. Cost: part of a step of [`CagedBallScrew`](crate::CagedBallScrew).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadLaw<const NODES: usize> {

@@ -98,7 +98,7 @@ pub struct BallNode {
 /// `F_0` of its preload; between two friction coefficients linear in their octaves. Below the first knot and above the last one impedance and
 /// torque are in proportion to `W`.
 ///
-/// Accuracy: that of the block's certificate. Cost: part of [`STEP_UNCAGED`](crate::promises::STEP_UNCAGED).
+/// Accuracy: that of the block's certificate. Cost: part of a step of [`UncagedBallScrew`](crate::UncagedBallScrew).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallLaw<const NODES: usize> {

@@ -1,6 +1,6 @@
 //! Friction of the whole screw, first of all: what the scenes that firmware runs say over a manoeuvre, their error and their cost.
 
-use epas_friction::promises::{Promise, STEP_CAGED, STEP_UNCAGED};
+use epas_reference::promises::{self, Promise};
 
 use super::context::Context;
 use super::statistics::Errors;
@@ -49,7 +49,7 @@ struct Found {
 struct Row {
     scene: &'static str,
     found: Found,
-    promise: Promise,
+    promise: &'static Promise,
     time: &'static str,
     counted: &'static str,
 }
@@ -65,7 +65,7 @@ fn errors_and_costs(context: &Context, weave: &Courses) -> Result<Table, Failure
         Row {
             scene: "balls in a cage",
             found: against_exact(&weave.caged),
-            promise: STEP_CAGED,
+            promise: promises::of("step_caged"),
             time: "step_caged",
             counted: "step_caged",
         },
@@ -77,7 +77,7 @@ fn errors_and_costs(context: &Context, weave: &Courses) -> Result<Table, Failure
                 kind: "torque over that of sliding: elements, random strokes, exact hysteresis"
                     .into(),
             },
-            promise: STEP_CAGED,
+            promise: promises::of("step_caged"),
             time: "step_caged_memory",
             counted: "step_caged_memory",
         },
@@ -91,7 +91,7 @@ fn errors_and_costs(context: &Context, weave: &Courses) -> Result<Table, Failure
                     context.flagship.turns
                 ),
             },
-            promise: STEP_UNCAGED,
+            promise: promises::of("step_uncaged"),
             time: "step_train_37",
             counted: "step_train_37_pressing",
         },

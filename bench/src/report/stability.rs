@@ -5,7 +5,7 @@ mod maps;
 mod recorded;
 mod two_point;
 
-use epas_friction::promises;
+use epas_reference::promises::PROMISES;
 
 use super::context::Context;
 use super::statistics::Errors;
@@ -30,18 +30,18 @@ fn table_of_promises() -> Table {
         ]
         .map(String::from)
         .to_vec(),
-        rows: promises::ALL
-            .iter()
+        rows: PROMISES
+            .all()
             .map(|promise| {
                 vec![
-                    promise.function.into(),
-                    promise.domain.into(),
-                    promise.error.into(),
+                    promise.function.clone().into(),
+                    promise.domain.clone().into(),
+                    promise.error.clone().into(),
                     Cell::power(promise.largest),
                     Cell::power(promise.rms),
                     Cell::power(promise.mean),
-                    promise.outside.into(),
-                    promise.not_finite.into(),
+                    promise.outside.clone().into(),
+                    promise.not_finite.clone().into(),
                     Cell::fixed(f64::from(promise.cycles), 0),
                 ]
             })

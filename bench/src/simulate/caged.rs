@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use epas_design::CagedDesign;
-use epas_friction::promises::{Promise, STEP_CAGED, STEP_CAGED_RANGE};
 use epas_friction::{Error, FrictionBranch, Inputs, Outputs, RollingResistance};
+use epas_reference::promises::{self, Promise};
 
 use super::caged_exact::ExactCaged;
 use super::manoeuvre::Manoeuvre;
@@ -259,10 +259,12 @@ impl Scene for Caged {
 
 impl Caged {
     /// What the error of this scene is, where it is promised.
-    fn promise(&self) -> Option<Promise> {
+    fn promise(&self) -> Option<&'static Promise> {
         match (self.design.branch, self.memory) {
-            (None, true) if self.design.calibrated.is_some() => Some(STEP_CAGED_RANGE),
-            (None, _) => Some(STEP_CAGED),
+            (None, true) if self.design.calibrated.is_some() => {
+                Some(promises::of("step_caged_range"))
+            }
+            (None, _) => Some(promises::of("step_caged")),
             _ => None,
         }
     }

@@ -1,7 +1,7 @@
 //! A linear bearing whose balls press on each other.
 
-use epas_friction::promises::STEP_LINEAR;
 use epas_friction::{Error, LinearInputs, LinearOutputs};
+use epas_reference::promises;
 use epas_trains::{Built, bearing};
 
 use super::manoeuvre::Manoeuvre;
@@ -233,7 +233,10 @@ impl Scene for Linear {
                         motor: None,
                         friction,
                         parts: Some([outputs.groove_force, outputs.ball_force].map(f64::from)),
-                        error: Some(STEP_LINEAR.largest * f64::from(outputs.groove_force).abs()),
+                        error: Some(
+                            promises::of("step_linear").largest
+                                * f64::from(outputs.groove_force).abs(),
+                        ),
                         reference: None,
                         regime: outputs.regime,
                         flagged: outputs.faults.any(),
@@ -253,7 +256,7 @@ impl Scene for Linear {
             parts: ["grooves", "ball to ball"],
             error: format!(
                 "largest error promised of the grooves, {:.1} %",
-                100.0 * STEP_LINEAR.largest
+                100.0 * promises::of("step_linear").largest
             ),
             reference: "",
         };

@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use epas_friction::promises::STEP_UNCAGED;
 use epas_friction::{Error, Inputs, Outputs, UncagedOutputs};
+use epas_reference::promises;
 use epas_trains::{Built, ScrewConfiguration};
 
 use super::exact_screw::exact_screw;
@@ -280,7 +280,7 @@ impl Uncaged {
                         motor: Some(row.sample.axial_load * reduced_lead + friction),
                         friction,
                         parts: Some([outputs.groove_torque, outputs.ball_torque].map(f64::from)),
-                        error: Some(STEP_UNCAGED.rms * friction.abs()),
+                        error: Some(promises::of("step_uncaged").rms * friction.abs()),
                         reference: row.reference.map(|friction| friction.friction_torque),
                         regime: outputs.regime,
                         flagged: outputs.faults.any(),
@@ -305,7 +305,10 @@ impl Uncaged {
             speed: "nut speed (rad/s)",
             friction: ("friction torque", "N m"),
             parts: ["grooves", "ball to ball"],
-            error: format!("rms error promised, {:.1} %", 100.0 * STEP_UNCAGED.rms),
+            error: format!(
+                "rms error promised, {:.1} %",
+                100.0 * promises::of("step_uncaged").rms
+            ),
             reference: "reference",
         }
     }

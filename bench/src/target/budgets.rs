@@ -1,7 +1,6 @@
-//! What the crate promises to cost, beside what was counted: every number stands in
-//! [`promises`](epas_friction::promises).
+//! What the crate promises to cost, beside what was counted: every number is in [`promises`](epas_reference::promises).
 
-use epas_friction::promises::{ALL, FOOTPRINTS, Footprint, STEP_SPREAD};
+use epas_reference::promises::{Footprint, PROMISES};
 
 use super::figures::{Figures, SceneFigures};
 use crate::failure::Failure;
@@ -28,8 +27,8 @@ impl Budget {
 /// the size of each scene.
 pub fn budgets(figures: &Figures) -> Vec<Budget> {
     let mut budgets = Vec::new();
-    for promise in ALL {
-        for &name in promise.counted {
+    for promise in PROMISES.all() {
+        for name in &promise.counted {
             budgets.push(Budget {
                 what: format!("{name}: cycles"),
                 most: f64::from(promise.cycles),
@@ -43,13 +42,13 @@ pub fn budgets(figures: &Figures) -> Vec<Budget> {
         if entry.name.starts_with("step_") {
             budgets.push(Budget {
                 what: format!("{}: most over least cycles", entry.name),
-                most: STEP_SPREAD,
+                most: PROMISES.step_spread,
                 found: Some(f64::from(entry.cycles_max) / f64::from(entry.cycles_min)),
             });
         }
     }
-    for footprint in FOOTPRINTS {
-        budgets.extend(sizes(&footprint, figures.scene(footprint.scene)));
+    for footprint in &PROMISES.footprints {
+        budgets.extend(sizes(footprint, figures.scene(&footprint.scene)));
     }
     budgets
 }
@@ -90,7 +89,7 @@ pub fn require(figures: &Figures) -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::Data(format!(
-        "promises of src/promises.rs that do not hold:\n{}",
+        "promises of host-tests/promises.toml that do not hold:\n{}",
         broken.join("\n")
     )))
 }
@@ -100,7 +99,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use epas_firmware::subjects::SUBJECTS;
-    use epas_friction::promises::{self, Promise};
+    use epas_reference::promises;
 
     use super::*;
     use crate::target::stored;
@@ -111,9 +110,9 @@ mod tests {
         let figures = stored::figures().unwrap();
         require(&figures).unwrap();
         let counted: BTreeSet<&str> = SUBJECTS.iter().map(|subject| subject.name).collect();
-        let promised: Vec<&str> = ALL
-            .iter()
-            .flat_map(|promise| promise.counted.iter().copied())
+        let promised: Vec<&str> = PROMISES
+            .all()
+            .flat_map(|promise| promise.counted.iter().map(String::as_str))
             .collect();
         let distinct: BTreeSet<&str> = promised.iter().copied().collect();
         assert_eq!(distinct.len(), promised.len(), "{promised:?}");
@@ -123,7 +122,8 @@ mod tests {
         }
         for scene in &figures.scenes {
             assert!(
-                FOOTPRINTS
+                PROMISES
+                    .footprints
                     .iter()
                     .any(|footprint| footprint.scene == scene.name),
                 "{}",
@@ -135,14 +135,9 @@ mod tests {
     /// A function of the loop is counted; only what runs at set-up has no cycles.
     #[test]
     fn every_promise_of_cycles_is_counted() {
-        for Promise {
-            function,
-            cycles,
-            counted,
-            ..
-        } in ALL
-        {
-            assert_eq!(cycles > 0, !counted.is_empty(), "{function}");
+        for promise in PROMISES.all() {
+            let counted = !promise.counted.is_empty();
+            assert_eq!(promise.cycles > 0, counted, "{}", promise.name);
         }
     }
 
@@ -150,85 +145,81 @@ mod tests {
     #[test]
     fn no_promise_of_cycles_is_far_above_its_count() {
         let figures = stored::figures().unwrap();
-        let count = |name: &&str| figures.function(name).unwrap().cycles_max;
-        for Promise {
-            function,
-            cycles,
-            counted,
-            ..
-        } in ALL
-        {
-            let Some(most) = counted.iter().map(count).max() else {
+        let count = |name: &String| figures.function(name).unwrap().cycles_max;
+        for promise in PROMISES.all() {
+            let cycles = promise.cycles;
+            let Some(most) = promise.counted.iter().map(count).max() else {
                 continue;
             };
             // Derived: numbers that are easy to read lie so close.
             let room = (most / 20).max(20);
             assert!(
                 (most..=most + room).contains(&cycles),
-                "{function}: {most} counted, {cycles} promised"
+                "{}: {most} counted, {cycles} promised",
+                promise.name
             );
         }
     }
 
-    /// What README says of a formula.
+    /// What the page of accuracy says of a formula.
     struct Line {
         /// How its row begins.
         row: &'static str,
-        /// The promise whose error is of the same kind; none where there is none.
-        error: Option<Promise>,
+        /// Entry of the promise whose error is of the same kind; none where there is none.
+        error: Option<&'static str>,
         /// What its cycles are of, in their order.
         cycles: &'static [&'static str],
     }
 
     const fn line(
         row: &'static str,
-        error: Option<Promise>,
+        error: Option<&'static str>,
         cycles: &'static [&'static str],
     ) -> Line {
         Line { row, error, cycles }
     }
 
-    /// Every row of README's table, in its order.
+    /// Every row of the page's table, in its order.
     const LINES: [Line; 13] = [
         line(
             "groove curvature: literature",
-            Some(promises::LITERATURE_CURVATURE),
+            Some("literature_curvature"),
             &["curvature_literature"],
         ),
         line(
             "groove curvature: circular groove",
-            Some(promises::CIRCULAR_CURVATURE),
+            Some("circular_curvature"),
             &["curvature_circular_groove"],
         ),
         line(
             "groove curvature: fitted",
-            Some(promises::FITTED_CURVATURE),
+            Some("fitted_curvature"),
             &["curvature_fitted"],
         ),
         line(
             "groove curvature: exact",
-            Some(promises::GOTHIC_ARCH),
+            Some("gothic_arch"),
             &["curvature_exact"],
         ),
-        line("contact ellipse", Some(promises::HERTZ), &["hertz_ellipse"]),
+        line("contact ellipse", Some("hertz"), &["hertz_ellipse"]),
         line(
             "efficiency, rolling",
-            Some(promises::ROLLING_EFFICIENCY),
+            Some("rolling_efficiency"),
             &["efficiency_rolling"],
         ),
         line(
             "efficiency, full sliding",
-            Some(promises::EFFICIENCY),
+            Some("efficiency"),
             &["efficiency_sliding"],
         ),
         line(
             "caged ball screw",
-            Some(promises::STEP_CAGED),
+            Some("step_caged"),
             &["step_caged", "step_caged_range"],
         ),
         line(
             "the caged one with memory",
-            Some(promises::MEMORY),
+            Some("memory"),
             &["step_caged_memory", "step_caged_law", "between_caged"],
         ),
         line(
@@ -238,11 +229,11 @@ mod tests {
         ),
         line(
             "linear ball, published formula",
-            Some(promises::ANALYTIC_BALL),
+            Some("analytic_ball"),
             &["linear_ball_analytic"],
         ),
-        line("cube root", Some(promises::CBRT), &["cbrt"]),
-        line("sine and cosine", Some(promises::SIN_COS), &["sin_cos"]),
+        line("cube root", Some("cbrt"), &["cbrt"]),
+        line("sine and cosine", Some("sin_cos"), &["sin_cos"]),
     ];
 
     /// The numbers of a cell, a per cent as a hundredth.
@@ -301,7 +292,8 @@ mod tests {
             assert!(row.starts_with(line.row), "{text}");
             if let Some(promise) = line.error {
                 let found = numbers(error)[0];
-                assert!(found > 0.0 && found <= promise.largest, "{text}");
+                let largest = promises::of(promise).largest;
+                assert!(found > 0.0 && found <= largest, "{text}");
             }
             let counted: Vec<f64> = line
                 .cycles

@@ -1,7 +1,7 @@
 //! How well a level is followed.
 
 use epas_friction::adaptation::AdaptationConfiguration;
-use epas_friction::promises;
+use epas_reference::promises;
 
 use crate::kit::errors::Errors;
 use crate::trace::{DRIVE, Truth, configuration, drive};
@@ -98,7 +98,7 @@ fn the_level_keeps_its_promise() {
     for error in &left.errors {
         errors.add(*error);
     }
-    errors.assert_promised(&promises::ADAPTATION);
+    errors.assert_promised(promises::of("adaptation"));
 }
 
 /// The same inputs give the same bits.

@@ -7,7 +7,7 @@ use crate::kit::golden;
 use crate::kit::measured;
 use crate::kit::random::Random;
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
-use epas_friction::promises;
+use epas_reference::promises;
 use std::f64::consts::FRAC_PI_4;
 use std::sync::OnceLock;
 
@@ -192,7 +192,7 @@ fn random_contact_angles_and_side_forces() {
         let error = f64::from(formula.speed_deviation) - eps;
         errors.add_at(error, format_args!("deviations {deviations:?} rho {rho}"));
     }
-    errors.assert_promised(&promises::ANALYTIC_BALL);
+    errors.assert_promised(promises::of("analytic_ball"));
 }
 
 #[test]

@@ -5,7 +5,7 @@ use crate::kit::exact_friction::quadrature;
 use crate::kit::golden;
 use crate::kit::measured;
 use epas_friction::contact::FrictionMap;
-use epas_friction::promises::FRICTION_MAP;
+use epas_reference::promises;
 
 /// Offsets of both signs, dense about the rim, up to sliding.
 fn offsets() -> Vec<f32> {
@@ -74,7 +74,7 @@ fn maps_equal_the_contact_integral() {
     // Documented errors of the maps: the two-term expansion outside the contact, continuous at its rim, is
     // chosen for its cost within 1e-3, 2e-3 and 1e-3.
     let [mut force, mut moment, mut power] = all;
-    force.assert_promised(&FRICTION_MAP);
+    force.assert_promised(promises::of("friction_map"));
     force.name = "friction map, force".into();
     moment.name = "friction map, moment".into();
     power.name = "friction map, power".into();

@@ -9,12 +9,12 @@ use epas_friction::kinematics::{
     ContactKinematics, ContactSlip, EllipticContact, FrictionPower, KinematicsParameters,
     PitchMethod, SlipParts,
 };
-use epas_friction::promises;
 use epas_friction::{BallScrew, CATALOGUE, Error, GrooveSize};
 use epas_reference::kinematics::{
     self as reference, HertzMean, KinematicsInput, MeanSlip, Raceway, Revised, operating,
     pitch_angle,
 };
+use epas_reference::promises;
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 
@@ -324,9 +324,13 @@ fn random_geometries() {
         sweep.add(&random.input(), &format!("random {step}"));
     }
     sweep.assert();
-    sweep.rolling.assert_promised(&promises::KINEMATICS);
-    sweep.updated.assert_promised(&promises::KINEMATICS_UPDATE);
-    sweep.slide_to_roll.assert_promised(&promises::SLIP_RATIOS);
+    sweep.rolling.assert_promised(promises::of("kinematics"));
+    sweep
+        .updated
+        .assert_promised(promises::of("kinematics_update"));
+    sweep
+        .slide_to_roll
+        .assert_promised(promises::of("slip_ratios"));
 }
 
 /// Alberdi et al., sections 4.1 and 4.2, and yaw angles of section 4.3.2.

@@ -2,7 +2,7 @@
 
 use std::fmt::{Display, Formatter, Result};
 
-use epas_friction::promises::Promise;
+use epas_reference::promises::Promise;
 
 use super::measured;
 

@@ -1,12 +1,13 @@
 //! Laws of the elements: what they are at their limits, over cycles, in the mirror, for any tick and any number.
 
+use epas_friction::Error;
 use epas_friction::law::memory::{
     Backbone, BackboneElement, Hysteresis, LoadExactElements, MemoryState, Part, PreloadedElements,
     ProportionalElements, SLIP_4, SLIP_6, SLIP_8, SLIP_10, SPIN_4, SPIN_6, SPIN_8, SPIN_10,
     sticking_share,
 };
 use epas_friction::law::{Elements, SlidingLimits};
-use epas_friction::{Error, promises};
+use epas_reference::promises;
 
 use crate::kit::errors::Errors;
 use crate::kit::measured;
@@ -388,14 +389,14 @@ fn rounding_is_as_promised() {
         &mut table(&SPIN_4.elements),
         &mut proportional_errors,
     );
-    proportional_errors.assert_promised(&promises::MEMORY);
+    proportional_errors.assert_promised(promises::of("memory"));
     let mut errors = Errors::default();
     compare(
         &LoadExactElements::<8>::new(1.0, 1.0, 4.0).unwrap(),
         &mut transcription::Elements::by_load(8, 4.0),
         &mut errors,
     );
-    errors.assert_promised(&promises::MEMORY_LOAD_EXACT);
+    errors.assert_promised(promises::of("memory_load_exact"));
 }
 
 /// Sum of two flanks' loads over that without an axial load, from the load that a caged screw tells over the same, `1 + F/(2 sqrt(2) P)`:
@@ -439,7 +440,7 @@ fn flanks_share_as_promised() {
         let wanted = exact.follow(turn, forward, backward, both_flanks(load));
         errors.add_case(found - wanted, || format!("{tick}: {load}"));
     }
-    errors.assert_promised(&promises::MEMORY_PRELOADED);
+    errors.assert_promised(promises::of("memory_preloaded"));
 }
 
 #[test]

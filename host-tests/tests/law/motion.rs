@@ -6,7 +6,7 @@ use epas_friction::law::motion::{
     CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState, SpeedOverTick,
     Steady, Turn, WrappedAngle, WrappedAngleParameters,
 };
-use epas_friction::promises;
+use epas_reference::promises;
 
 use crate::kit::errors::Errors;
 use crate::kit::random::Random;
@@ -71,7 +71,7 @@ fn counts_are_exact_across_the_end() {
             }
         }
     }
-    errors.assert_promised(&promises::TURN_OF_COUNTS);
+    errors.assert_promised(promises::of("turn_of_counts"));
 }
 
 #[test]
@@ -145,7 +145,7 @@ fn speeds_are_turns_over_a_tick() {
             format!("{speed} {tick}")
         });
     }
-    errors.assert_promised(&promises::TURN_OF_SPEED);
+    errors.assert_promised(promises::of("turn_of_speed"));
 }
 
 /// A sensor behind a play lets through the turn of its counts less what the play takes, from the same place.
@@ -171,7 +171,7 @@ fn a_steady_sensor_turns_as_promised() {
         let exact = (before + turn) - (before + turn).clamp(-1.0, 1.0);
         errors.add_case(f64::from(found.angle()) - exact, || tick.to_string());
     }
-    errors.assert_promised(&promises::TURN_STEADY);
+    errors.assert_promised(promises::of("turn_steady"));
 }
 
 /// Angles that wrap at either end: the difference of the readings, which are what they are.
@@ -203,7 +203,7 @@ fn angles_lose_nothing_across_either_end() {
         }
         assert!(crossings > 1000);
     }
-    errors.assert_promised(&promises::TURN_OF_ANGLES);
+    errors.assert_promised(promises::of("turn_of_angles"));
 }
 
 #[test]
@@ -254,7 +254,7 @@ fn a_play_keeps_noise_away() {
         turned += f64::from(turn);
         assert!((turned - place).abs() < 1.0 + 1e-2);
     }
-    errors.assert_promised(&promises::PLAY);
+    errors.assert_promised(promises::of("play"));
     let mut way = 0.0;
     for tick in 0..10_000 {
         // A slow turn with counts of noise of 0.9 of the play's width.

@@ -5,7 +5,7 @@ use epas_friction::law::memory::{
     Together, sticking_share,
 };
 use epas_friction::law::{Elements, SlidingLimits};
-use epas_friction::promises;
+use epas_reference::promises;
 
 use crate::elements::proportional;
 use crate::kit::errors::Errors;
@@ -38,7 +38,7 @@ fn friction_is_that_of_the_formula() {
         errors.add_case(friction - true_friction, || tick.to_string());
         assert!(friction <= forward.into() && friction >= f64::from(-backward));
     }
-    errors.assert_promised(&promises::MEMORY_SEAT);
+    errors.assert_promised(promises::of("memory_seat"));
 }
 
 #[test]
@@ -139,7 +139,7 @@ fn together_they_are_the_sum_of_both() {
         errors.add_case(f64::from(found_seated) - wanted, || format!("{tick}: seat"));
         place = f64::from(seated_state.second.place());
     }
-    errors.assert_promised(&promises::MEMORY_TOGETHER);
+    errors.assert_promised(promises::of("memory_together"));
 }
 
 #[test]

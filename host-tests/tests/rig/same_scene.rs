@@ -13,8 +13,8 @@ use epas_friction::scene::{
 };
 use epas_friction::{
     BallScrew, Clearance, DISSERTATION_DESIGNS, FrictionModel, Inputs, Limits, RollingResistance,
-    promises,
 };
+use epas_reference::promises;
 use epas_reference::rig::friction::{Sliding, State};
 use epas_reference::rig::parameters::{Coefficient, Parameters};
 
@@ -155,7 +155,7 @@ fn sliding_with_a_law_is_that_of_the_scene() {
             }
         }
     }
-    errors.assert_promised(&promises::STEP_CAGED_RANGE);
+    errors.assert_promised(promises::of("step_caged_range"));
 }
 
 /// The scene of the rig's screw with the rig's law of the coefficient.

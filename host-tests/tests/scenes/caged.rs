@@ -7,12 +7,12 @@ use std::sync::LazyLock;
 use epas_design::caged::Block;
 use epas_design::{CagedDesign, CagedFold, Failure, Figure, Folded};
 use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
-use epas_friction::promises;
 use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, Clearance, DISSERTATION_DESIGNS, FrictionModel,
     Inputs, Limits, Outputs, Regime, defaults,
 };
+use epas_reference::promises;
 
 /// Friction coefficients and clearances, m, that the designs take in turn.
 const FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
@@ -83,7 +83,7 @@ fn folded_step() {
         let folded = fold(parameters, clearance, friction).folded().unwrap();
         certified(&folded, &mut errors, &line);
     }
-    errors.assert_promised(&promises::STEP_CAGED);
+    errors.assert_promised(promises::of("step_caged"));
 }
 
 /// A block for a range of friction coefficients, in and between its nodes; a range that it cannot hold to 3 % is refused.
@@ -109,7 +109,7 @@ fn folded_step_between_nodes() {
         blocks += 1;
     }
     assert!(2 * refused <= blocks, "{refused} of {blocks} refused");
-    errors.assert_promised(&promises::STEP_CAGED_RANGE);
+    errors.assert_promised(promises::of("step_caged_range"));
 }
 
 /// Screws of all leads, with preload, without, and with play; loads to 300 N a ball.

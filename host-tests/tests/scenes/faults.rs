@@ -9,8 +9,8 @@ use epas_friction::scene::{Admitted, FoldedBall, SceneOutputs};
 use epas_friction::{
     BallScrew, Clearance, ClosedFormScrew, DeviationMap, Error, Faults, FrictionBranch,
     FrictionModel, Inputs, LinearBearing, LinearBearingTrain, LinearInputs, Outputs, Scene,
-    promises,
 };
+use epas_reference::promises::PROMISES;
 
 const COMMAND: &str = "cargo test -p epas-reference --test scenes faults -- --nocapture";
 
@@ -214,7 +214,7 @@ where
         let outputs = model.step(S::inputs(lost));
         S::check(configuration, lost, &outputs).unwrap();
         assert!(
-            faults(&outputs).faulty() || tick + 1 < promises::TICKS_TO_FLAG,
+            faults(&outputs).faulty() || tick + 1 < PROMISES.ticks_to_flag,
             "tick {tick} is not flagged"
         );
     }
@@ -223,7 +223,7 @@ where
         let outputs = model.step(S::inputs(sound));
         let expected = never_failed.step(S::inputs(sound));
         assert!(
-            !faults(&outputs).faulty() || tick + 1 < promises::TICKS_TO_RECOVER,
+            !faults(&outputs).faulty() || tick + 1 < PROMISES.ticks_to_recover,
             "still flagged {tick} ticks after"
         );
         assert_eq!(S::numbers(&outputs), S::numbers(&expected), "tick {tick}");

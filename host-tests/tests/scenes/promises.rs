@@ -1,8 +1,7 @@
-//! The table of promises: measured, and printed where it says.
+//! The table of promises: measured.
 
 use crate::kit::errors::Errors;
 use crate::kit::given;
-use std::fmt::Write;
 use std::path::Path;
 
 use crate::kit::random::Random;
@@ -13,12 +12,12 @@ use epas_friction::curvature::{
 use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
-use epas_friction::promises::{self, Footprint, Promise};
 use epas_friction::{CATALOGUE, DeviationMap, Harmonic, math};
 use epas_reference::curvature;
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::maps;
 use epas_reference::hertz::Hertz;
+use epas_reference::promises::{self, PROMISES};
 
 /// Error of `found` in units of the last place of the exact value.
 fn ulps(found: f32, exact: f64) -> f64 {
@@ -56,11 +55,11 @@ fn scalar_kernels() {
         angles.add_case(f64::from(sin) - f64::from(angle).sin(), line);
         angles.add_case(f64::from(cos) - f64::from(angle).cos(), line);
     }
-    sqrt.assert_promised(&promises::SQRT);
-    cbrt.assert_promised(&promises::CBRT);
-    squared.assert_promised(&promises::CBRT_SQUARED);
-    both.assert_promised(&promises::CBRT_AND_SQUARED);
-    angles.assert_promised(&promises::SIN_COS);
+    sqrt.assert_promised(promises::of("sqrt"));
+    cbrt.assert_promised(promises::of("cbrt"));
+    squared.assert_promised(promises::of("cbrt_squared"));
+    both.assert_promised(promises::of("cbrt_and_squared"));
+    angles.assert_promised(promises::of("sin_cos"));
 }
 
 #[test]
@@ -93,10 +92,10 @@ fn curvatures() {
             circular.add_case(f64::from(found) / truth - 1.0, line);
         }
     }
-    literature.assert_promised(&promises::LITERATURE_CURVATURE);
-    circular.assert_promised(&promises::CIRCULAR_CURVATURE);
-    exact.assert_promised(&promises::GOTHIC_ARCH);
-    fitted.assert_promised(&promises::FITTED_CURVATURE);
+    literature.assert_promised(promises::of("literature_curvature"));
+    circular.assert_promised(promises::of("circular_curvature"));
+    exact.assert_promised(promises::of("gothic_arch"));
+    fitted.assert_promised(promises::of("fitted_curvature"));
 }
 
 #[test]
@@ -123,7 +122,7 @@ fn contact_ellipses() {
             errors.add_case(error, || format!("{first} {second} {modulus} {load}"));
         }
     }
-    errors.assert_promised(&promises::HERTZ);
+    errors.assert_promised(promises::of("hertz"));
 }
 
 #[test]
@@ -160,10 +159,10 @@ fn efficiencies() {
         let found = f64::from(found.rolling_backdrive_efficiency(friction, 0.0));
         driven.add_case(found - exact.rolling_backdrive(), line);
     }
-    sliding.assert_promised(&promises::EFFICIENCY);
-    rolling.assert_promised(&promises::ROLLING_EFFICIENCY);
-    backdrive.assert_promised(&promises::BACKDRIVE_EFFICIENCY);
-    driven.assert_promised(&promises::ROLLING_BACKDRIVE_EFFICIENCY);
+    sliding.assert_promised(promises::of("efficiency"));
+    rolling.assert_promised(promises::of("rolling_efficiency"));
+    backdrive.assert_promised(promises::of("backdrive_efficiency"));
+    driven.assert_promised(promises::of("rolling_backdrive_efficiency"));
 }
 
 #[test]
@@ -181,7 +180,7 @@ fn friction_maps() {
             errors.add_case(f64::from(fast.force(offset)) - wanted, line);
         }
     }
-    errors.assert_promised(&promises::FRICTION_MAP);
+    errors.assert_promised(promises::of("friction_map"));
 }
 
 /// One wave in a period, between the table's samples as well as on them.
@@ -207,108 +206,7 @@ fn deviations() {
             errors.add_case(error, || format!("{amplitude} {angle} {phase}"));
         }
     }
-    errors.assert_promised(&promises::DEVIATION_MAP);
-}
-
-/// A number with an exponent where it is small.
-fn shown(number: f64) -> String {
-    if number < 0.1 {
-        format!("{number:e}")
-    } else {
-        number.to_string()
-    }
-}
-
-/// A table as Markdown, as it stands in `src/promises.md`.
-fn table(title: &str, promises: &[Promise]) -> String {
-    let mut text = format!(
-        "\n# {title}\n\n\
-         | function | domain | error | largest | rms | mean | outside | NaN, infinities | zeros, subnormals | cycles | \
-         counted as |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
-    );
-    for &Promise {
-        function,
-        domain,
-        error,
-        largest,
-        rms,
-        mean,
-        outside,
-        not_finite,
-        tiny,
-        cycles,
-        counted,
-    } in promises
-    {
-        let counted = counted
-            .iter()
-            .map(|name| format!("`{name}`"))
-            .collect::<Vec<_>>()
-            .join(", ");
-        let _ = writeln!(
-            text,
-            "| `{function}` | {domain} | {error} | {} | {} | {} | {outside} | {not_finite} | {tiny} | {cycles} | {counted} |",
-            shown(largest),
-            shown(rms),
-            shown(mean),
-        );
-    }
-    text
-}
-
-/// The size of the programs with one scene each, as it stands there.
-fn sizes() -> String {
-    let mut text = String::from(
-        "\n# Programs with one scene each, bytes\n\n\
-         | scene | flash | flash, built for size | RAM | stack of a step | stack of the set-up |\n|---|---|---|---|---|---|\n",
-    );
-    for Footprint {
-        scene,
-        flash,
-        flash_small,
-        ram,
-        stack,
-        stack_set_up,
-    } in promises::FOOTPRINTS
-    {
-        let _ = writeln!(
-            text,
-            "| `{scene}` | {flash} | {flash_small} | {ram} | {stack} | {stack_set_up} |"
-        );
-    }
-    text
-}
-
-#[test]
-fn the_page_shows_the_table() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../src/promises.md");
-    let tables = table("Steps, and what they call", &promises::STEPS)
-        + &table("Functions of which a step runs the parts", &promises::PARTS)
-        + &table(
-            "Functions that firmware calls by their names",
-            &promises::DIRECT,
-        )
-        + &sizes();
-    let page = std::fs::read_to_string(path).unwrap();
-    assert!(
-        page == tables,
-        "src/promises.md has to hold exactly:\n{tables}"
-    );
-}
-
-/// The names in the lists of `src/promises.rs`, in the order of [`promises::ALL`].
-fn names() -> Vec<String> {
-    let source = include_str!("../../../src/promises.rs");
-    ["STEPS", "PARTS", "DIRECT"]
-        .iter()
-        .flat_map(|list| {
-            let (_, rest) = source.split_once(&format!("pub const {list}: ")).unwrap();
-            let (_, rest) = rest.split_once("= [").unwrap();
-            let (entries, _) = rest.split_once(']').unwrap();
-            entries.split(',').map(str::trim).map(str::to_owned)
-        })
-        .filter(|name| !name.is_empty())
-        .collect()
+    errors.assert_promised(promises::of("deviation_map"));
 }
 
 /// All of a folder's sources without their comments and white space.
@@ -332,47 +230,12 @@ fn sources(folder: &Path) -> String {
 /// and names the entry.
 #[test]
 fn every_error_is_asserted_by_its_name() {
-    let names = names();
-    assert_eq!(names.len(), promises::ALL.len());
     let tests = sources(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests")));
-    let missing: Vec<&String> = names
-        .iter()
-        .zip(promises::ALL)
-        .filter(|(_, promise)| !promise.error.starts_with("none"))
-        .map(|(name, _)| name)
-        .filter(|name| !tests.contains(&format!(".assert_promised(&promises::{name})")))
+    let missing: Vec<&str> = PROMISES
+        .all()
+        .filter(|promise| !promise.error.starts_with("none"))
+        .map(|promise| &*promise.name)
+        .filter(|name| !tests.contains(&format!(".assert_promised(promises::of(\"{name}\")")))
         .collect();
     assert!(missing.is_empty(), "{missing:?}");
-}
-
-/// Every constant of a promise stands in one of the lists, once: none is left out of the page and of what is counted.
-#[test]
-fn every_promise_stands_in_a_list() {
-    let declared = sources(Path::new(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/../src/promises"
-    )));
-    let mut declared: Vec<String> = declared
-        .split("pubconst")
-        .filter_map(|part| part.split_once(":Promise="))
-        .map(|(name, _)| name.to_owned())
-        .collect();
-    let mut listed = names();
-    declared.sort();
-    listed.sort();
-    assert_eq!(declared, listed);
-}
-
-/// A promise without an error has none in any column.
-#[test]
-fn no_error_is_zero() {
-    for promise in promises::ALL {
-        let zero = [promise.largest, promise.rms, promise.mean] == [0.0; 3];
-        assert_eq!(
-            zero,
-            promise.error.starts_with("none"),
-            "{}",
-            promise.function
-        );
-    }
 }

@@ -12,7 +12,6 @@ use epas_friction::ball::{
 use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
-use epas_friction::promises;
 use epas_friction::scene::{
     CoefficientFor, Freshness, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
 };
@@ -30,6 +29,7 @@ use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::isotonic::isotonic_by_min_max;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::hertz::{Hertz, contact_modulus};
+use epas_reference::promises;
 
 /// Torque of both closed forms in all four quadrants by the reference's efficiencies, with the direction that
 /// the scene takes near a reversal.
@@ -89,7 +89,7 @@ fn closed_form_step() {
         }
     }
     // A dozen roundings of 2^-24, which add up at random.
-    errors.assert_promised(&promises::STEP_CLOSED_FORM);
+    errors.assert_promised(promises::of("step_closed_form"));
 }
 
 /// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.
@@ -156,8 +156,8 @@ fn balls_of_a_screw() {
             }
         }
     }
-    row_errors.assert_promised(&promises::SCREW_ROW);
-    ball_errors.assert_promised(&promises::SCREW_BALL);
+    row_errors.assert_promised(promises::of("screw_row"));
+    ball_errors.assert_promised(promises::of("screw_ball"));
 }
 
 /// A scene with a memory whose elements slide fully within a tick of the motions here, and whose balls follow every turn: in steady
@@ -223,7 +223,7 @@ fn train() {
             errors.add_case(error, || format!("{free:?} {impedance:?}"));
         }
     }
-    errors.assert_promised(&promises::TRAIN);
+    errors.assert_promised(promises::of("train"));
 }
 
 const BALL_RADIUS: f64 = 0.005;
@@ -284,7 +284,7 @@ fn pairs_in_a_linear_bearing() {
             closed.add_case(f64::from(rear.contact_force(&front)) - exact, line);
         }
     }
-    closed.assert_promised(&promises::ANALYTIC_PAIR);
+    closed.assert_promised(promises::of("analytic_pair"));
 }
 
 /// Straight grooves: friction of the grooves is the power that all balls lose over the speed; without memory, with it, and
@@ -349,7 +349,7 @@ fn linear_step() {
             }
         }
     }
-    with_memory.assert_promised(&promises::STEP_LINEAR_MEMORY);
-    between.assert_promised(&promises::BETWEEN_LINEAR);
-    errors.assert_promised(&promises::STEP_LINEAR);
+    with_memory.assert_promised(promises::of("step_linear_memory"));
+    between.assert_promised(promises::of("between_linear"));
+    errors.assert_promised(promises::of("step_linear"));
 }

@@ -6,7 +6,8 @@ use crate::kit::measured;
 use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
 use epas_friction::train::{Press, Train};
-use epas_friction::{FrictionModel, Inputs, promises};
+use epas_friction::{FrictionModel, Inputs};
+use epas_reference::promises;
 
 /// Speeds and forces of a row in contact by the max-min formula of isotonic regression, in f64.
 fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {
@@ -71,7 +72,7 @@ fn force_error<const N: usize>(ratio: f32, rows: u32, random: &mut Random) -> (f
         }
     }
     if ratio <= 1e6 {
-        errors.assert_promised(&promises::PRESS);
+        errors.assert_promised(promises::of("press"));
     } else {
         measured::assert("stiff rows beyond a ratio of 1e6, force", errors.largest);
     }

@@ -1,10 +1,11 @@
 //! Friction coefficient by speed, temperature and direction.
 
+use epas_friction::defaults;
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, OilData, TemperatureFade, Viscosity,
 };
-use epas_friction::{defaults, promises};
 use epas_reference::coefficient::{FilmContact, Vogel, Walther, coefficient};
+use epas_reference::promises;
 
 use crate::kit::errors::Errors;
 
@@ -110,8 +111,8 @@ fn the_rational_form_is_near_the_full_law() {
     for errors in [alone, cold] {
         errors.assert_measured();
     }
-    both.assert_promised(&promises::FRICTION_COEFFICIENT);
-    warming.assert_promised(&promises::FRICTION_COEFFICIENT_WARMING);
+    both.assert_promised(promises::of("friction_coefficient"));
+    warming.assert_promised(promises::of("friction_coefficient_warming"));
 }
 
 /// Tabulated: 0.057, against `1/(1 + (x/x_1)^0.67)^2` with the best half-share speed; half a unit of its last digit.

@@ -7,7 +7,7 @@ use crate::error::{Error, attempt, in_range};
 ///
 /// For simulations, whose speed has no noise, and for sensors without an angle. Noise adds up: `sigma sqrt(t dt)` after a time
 /// `t`, 1.6 mrad after a second of 0.05 rad/s at 1 kHz. A speed that is no number is no reading, and its turn is lost.
-/// Cost: [`TURN_OF_SPEED`](crate::promises::TURN_OF_SPEED).
+/// Cost: 30 modelled cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedOverTick {

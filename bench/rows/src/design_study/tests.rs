@@ -1,8 +1,8 @@
 use epas_design::caged::Block;
 use epas_design::{CagedDesign, CagedFold};
-use epas_friction::promises::STEP_CAGED;
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{Faults, FrictionModel, Inputs, Limits, RollingResistance};
+use epas_reference::promises;
 
 use super::*;
 
@@ -46,7 +46,7 @@ fn scene(design: &Design, duty: &Duty) -> (f32, f32) {
 }
 
 /// A study has the exact balls that the caged scene is folded from, with and without preload: they differ by the error of the fold, of which
-/// [`STEP_CAGED`] promises the largest, and the efficiency by no more than that part of the friction's share.
+/// `step_caged` promises the largest, and the efficiency by no more than that part of the friction's share.
 #[test]
 fn a_study_has_the_friction_of_the_caged_scene() {
     for (preload, lead) in [(0.0, 7e-3), (30.0, 7e-3), (0.0, 20e-3), (100.0, 10e-3)] {
@@ -62,7 +62,7 @@ fn a_study_has_the_friction_of_the_caged_scene() {
             found.friction_torque / torque - 1.0,
             found.efficiency - efficiency
         );
-        let error = STEP_CAGED.largest as f32;
+        let error = promises::of("step_caged").largest as f32;
         assert!(
             (found.friction_torque / torque - 1.0).abs() < error,
             "{found:?} {torque}"

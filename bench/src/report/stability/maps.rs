@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write as _;
 
-use epas_friction::promises::{self, Promise};
+use epas_reference::promises;
 use serde_json::Value;
 
 use crate::document::Cell;
@@ -28,8 +28,8 @@ pub struct Map {
     over: Option<&'static str>,
     /// Flag of the reference under which the quantity does not count.
     unless: Option<&'static str>,
-    /// What is promised on the promise's own domain, a part of the map.
-    promise: Option<&'static Promise>,
+    /// Entry of what is promised on the promise's own domain, a part of the map.
+    promise: Option<&'static str>,
     /// Cells of a side over those of the others: where the reference takes long.
     fineness: f64,
 }
@@ -196,7 +196,7 @@ pub const MAPS: [Map; 18] = [
         request: |contact, lead| groove("nut", contact, lead, 1.0),
         value: ("/kappa1", "/kappa1"),
         over: Some("/kappa2"),
-        promise: Some(&promises::GOTHIC_ARCH),
+        promise: Some("gothic_arch"),
         ..PLAIN
     },
     Map {
@@ -206,7 +206,7 @@ pub const MAPS: [Map; 18] = [
         request: |contact, lead| groove("screw", contact, lead, 1.0),
         value: ("/kappa1", "/kappa1"),
         over: Some("/kappa2"),
-        promise: Some(&promises::GOTHIC_ARCH),
+        promise: Some("gothic_arch"),
         ..PLAIN
     },
     Map {
@@ -216,7 +216,7 @@ pub const MAPS: [Map; 18] = [
         request: |contact, lead| groove("nut", contact, lead, 1.0),
         value: ("/fitted", "/kappa1"),
         over: Some("/kappa2"),
-        promise: Some(&promises::FITTED_CURVATURE),
+        promise: Some("fitted_curvature"),
         ..PLAIN
     },
     Map {
@@ -226,7 +226,7 @@ pub const MAPS: [Map; 18] = [
         request: hugging,
         value: ("/kappa1", "/kappa1"),
         over: Some("/kappa1"),
-        promise: Some(&promises::GOTHIC_ARCH),
+        promise: Some("gothic_arch"),
         ..PLAIN
     },
     Map {
@@ -236,7 +236,7 @@ pub const MAPS: [Map; 18] = [
         request: |scale, contact| groove("nut", contact, 10.0, power(scale)),
         value: ("/kappa1", "/kappa1"),
         over: Some("/kappa2"),
-        promise: Some(&promises::GOTHIC_ARCH),
+        promise: Some("gothic_arch"),
         ..PLAIN
     },
     Map {
@@ -246,7 +246,7 @@ pub const MAPS: [Map; 18] = [
         request: |friction, lead| efficiency(friction, lead, 45.0, 0.2),
         value: ("/sliding_drive", "/sliding_drive"),
         unless: Some("/locked_drive"),
-        promise: Some(&promises::EFFICIENCY),
+        promise: Some("efficiency"),
         ..PLAIN
     },
     Map {
@@ -256,7 +256,7 @@ pub const MAPS: [Map; 18] = [
         request: |friction, lead| efficiency(friction, lead, 45.0, 0.2),
         value: ("/sliding_backdrive", "/sliding_backdrive"),
         unless: Some("/locked_backdrive"),
-        promise: Some(&promises::EFFICIENCY),
+        promise: Some("efficiency"),
         ..PLAIN
     },
     Map {
@@ -276,7 +276,7 @@ pub const MAPS: [Map; 18] = [
         request: |contact, ratio| efficiency(0.1, 10.0, contact, ratio),
         value: ("/rolling_screw", "/rolling_screw"),
         unless: Some("/locked_drive"),
-        promise: Some(&promises::EFFICIENCY),
+        promise: Some("efficiency"),
         ..PLAIN
     },
     Map {
@@ -307,7 +307,7 @@ pub const MAPS: [Map; 18] = [
         request: |lead, contact| kinematics(lead, contact, 40.0, 100.0),
         value: ("/screw/rolling_slip", "/screw/rolling_slip"),
         over: Some("/screw/entrainment_speed"),
-        promise: Some(&promises::KINEMATICS),
+        promise: Some("kinematics"),
         ..PLAIN
     },
     Map {
@@ -327,7 +327,7 @@ pub const MAPS: [Map; 18] = [
         request: |ratio, load| ellipse(power(ratio), power(load), 2.5e-3, 1.139e11),
         value: ("/semi_major", "/semi_major"),
         over: Some("/semi_major"),
-        promise: Some(&promises::HERTZ),
+        promise: Some("hertz"),
         ..PLAIN
     },
     Map {
@@ -337,7 +337,7 @@ pub const MAPS: [Map; 18] = [
         request: |radius, modulus| ellipse(8.0, 100.0, power(radius), power(modulus)),
         value: ("/max_pressure", "/max_pressure"),
         over: Some("/max_pressure"),
-        promise: Some(&promises::HERTZ),
+        promise: Some("hertz"),
         ..PLAIN
     },
     Map {
@@ -351,7 +351,7 @@ pub const MAPS: [Map; 18] = [
             )
         },
         value: ("/force", "/force"),
-        promise: Some(&promises::FRICTION_MAP),
+        promise: Some("friction_map"),
         ..PLAIN
     },
     Map {
@@ -373,7 +373,7 @@ pub const MAPS: [Map; 18] = [
         y: ("deviation (deg)", -3.0, 3.0),
         request: |side, degrees| linear([(degrees, side)]),
         value: ("/analytic/speed_deviation/0", "/speed_deviation/0"),
-        promise: Some(&promises::ANALYTIC_BALL),
+        promise: Some("analytic_ball"),
         ..PLAIN
     },
     Map {
@@ -541,7 +541,10 @@ impl Map {
             Cell::power(errors.largest),
             Cell::power(errors.rms()),
             Cell::power(errors.mean()),
-            promised(self.promise.map(|promise| promise.largest), errors.largest),
+            promised(
+                self.promise.map(|name| promises::of(name).largest),
+                errors.largest,
+            ),
             in_loop.into(),
             reference.into(),
             self.over.unwrap_or("").into(),

@@ -4,8 +4,9 @@
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, OneCoefficient, Viscosity,
 };
-use epas_friction::{Clearance, Inputs, UncagedBallScrew, promises};
+use epas_friction::{Clearance, Inputs, UncagedBallScrew};
 use epas_reference::friction::ball_screw_ring::{RingState, steady_samples};
+use epas_reference::promises;
 
 use super::exact::{BALLS, Beside, PLAIN, TICK, screw};
 use crate::kit::errors::Errors;
@@ -105,6 +106,6 @@ fn memory_in_steady_sliding_regression() {
             }
         }
     }
-    steps.assert_promised(&promises::STEP_UNCAGED_MEMORY);
-    between.assert_promised(&promises::BETWEEN_UNCAGED);
+    steps.assert_promised(promises::of("step_uncaged_memory"));
+    between.assert_promised(promises::of("between_uncaged"));
 }

@@ -2,7 +2,8 @@
 //! each tick against the exact ring of balls at the same places.
 
 use epas_friction::scene::FoldedBall;
-use epas_friction::{Clearance, Inputs, LoadShares, UncagedBallScrewConfiguration, promises};
+use epas_friction::{Clearance, Inputs, LoadShares, UncagedBallScrewConfiguration};
+use epas_reference::promises;
 
 use super::exact::{BALLS, Beside, Found, PLAIN, PRELOADED, RANGE, TICK, oversize, screw, uneven};
 use crate::kit::errors::Errors;
@@ -160,7 +161,9 @@ fn ticks_of_even_loads_regression() {
     let of = |ball_friction| cases(&PLAIN, ball_friction, Clearance::ZERO, EVEN);
     let mut found = all_events("even loads, smooth balls", &of(0.0));
     found.join(&all_events("even loads, rubbing balls", &of(0.1)));
-    found.torque_apart.assert_promised(&promises::STEP_UNCAGED);
+    found
+        .torque_apart
+        .assert_promised(promises::of("step_uncaged"));
 }
 
 #[test]
@@ -170,14 +173,16 @@ fn ticks_of_own_loads_regression() {
     found.join(&all_events("own loads, rubbing balls", &of(0.1)));
     found
         .torque_apart
-        .assert_promised(&promises::STEP_UNCAGED_SHARES);
+        .assert_promised(promises::of("step_uncaged_shares"));
 }
 
 #[test]
 fn ticks_with_preload_regression() {
     let cases = cases(&PRELOADED, 0.1, oversize(), EVEN);
     let found = all_events("preload, rubbing balls", &cases);
-    found.torque_apart.assert_promised(&promises::STEP_UNCAGED);
+    found
+        .torque_apart
+        .assert_promised(promises::of("step_uncaged"));
 }
 
 /// Between the nodes, which stand at equal distances in octaves: halfway, where the error is largest, and near the ends.
@@ -205,5 +210,5 @@ fn ticks_between_nodes_regression() {
     let found = all_events("between nodes", &cases);
     found
         .torque_apart
-        .assert_promised(&promises::STEP_UNCAGED_RANGE);
+        .assert_promised(promises::of("step_uncaged_range"));
 }
