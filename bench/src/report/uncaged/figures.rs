@@ -75,11 +75,7 @@ impl Run {
             .collect();
         Ok(Self {
             degrees,
-            courses: [
-                exact.collect(),
-                scene.collect(),
-                closed,
-            ],
+            courses: [exact.collect(), scene.collect(), closed],
             flagged,
             refused,
         })

@@ -29,15 +29,15 @@ impl Over {
 
     fn axis(self) -> (&'static str, f64, f64) {
         match self {
-            Self::Friction => ("friction coefficient", 0.03, 0.15),
-            Self::Clearance => ("clearance (um)", -5.0, 20.0),
+            Self::Friction => ("friction coefficient", 0.075, 0.15),
+            Self::Clearance => ("clearance (um)", -5.0, 10.0),
         }
     }
 
     fn name(self) -> &'static str {
         match self {
-            Self::Friction => "friction 0.03 to 0.15, no play",
-            Self::Clearance => "clearance -5 to 20 um, friction 0.1",
+            Self::Friction => "friction 0.075 to 0.15, no clearance",
+            Self::Clearance => "clearance -5 to 10 um, friction 0.1",
         }
     }
 
@@ -157,7 +157,7 @@ fn line(over: Over, place: f64, columns: usize) -> [Vec<Found>; 2] {
 
 /// Table and figure.
 pub fn blocks(quick: bool) -> Vec<Block> {
-    let (columns, lines) = if quick { (8, 2) } else { (26, 10) };
+    let (columns, lines) = if quick { (8, 2) } else { (26, 6) };
     let mut panels = Vec::new();
     let mut rows = Vec::new();
     for over in Over::ALL {

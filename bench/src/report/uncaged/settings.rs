@@ -149,9 +149,9 @@ fn cases() -> Vec<(&'static str, &'static str, Case)> {
         ),
         lin("50 N, ticks of 50 us", Case { tick: 50e-6, ..LIN }),
         lin(
-            "friction 0.05",
+            "friction 0.075",
             Case {
-                friction: 0.05,
+                friction: 0.075,
                 ..LIN
             },
         ),
