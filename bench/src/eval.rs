@@ -98,12 +98,12 @@ use lines::{Line, Lines};
 /// balls, pressing and none pressing) and loads (list of [SL, SR, NL, NR], none pressing). The reference has balls
 /// in elastic grooves with exact friction, by contact integrals of 32 nodes; its quantities are null at standstill,
 /// for a ball without load and where no answer was found that meets every balance. `in_loop` is what the law finds that
-/// the scene of a ball screw without cage evaluates, folded for the request over a box at least twice as wide: for deviations
-/// of twice the largest one and more, and for 2.5 to 600 N a ball or from half the least to twice the largest load; without
+/// the scene of a ball screw without cage evaluates, folded for the request: for deviations up to the largest one in each groove,
+/// of either sign, and for 5 to 300 N a ball, or down and up to the next power of two where the request needs more; without
 /// loads, and with flagged: whether a step says that the law does not hold the forces under these loads. It is null where the
 /// reference is for lack of speed or load, for loads of both signs, for a clearance outside -0.02 to 0.05 ball radii, for
-/// deviations above 0.05, and where no law holds the box; it takes some seconds for a screw, fewer for the next request that
-/// shares its law. Its object `closed_form` has the same by a closed form that no scene
+/// deviations above 0.1, and where no law holds these deviations and loads. A law takes some seconds; requests with the same screw,
+/// friction, clearance and largest deviations share one. Its object `closed_form` has the same by a closed form that no scene
 /// runs: it knows no play, preload and two-point contact, and takes of them what is nearest to the clearance; with
 /// it balls that press do not change the torque.
 ///

@@ -7,6 +7,7 @@
 use std::f64::consts::TAU;
 
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
+use epas_friction::scene::FoldedBall;
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
     Inputs, Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
@@ -20,7 +21,7 @@ use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
 use epas_trains::Folded;
 
-use crate::uncaged::folded;
+use crate::uncaged::{MARGIN, folded};
 
 /// Part of the track that the balls fill, where a case does not say its length.
 const OCCUPATION: f64 = 0.978;
@@ -63,7 +64,7 @@ pub struct Case {
 const LEAST_DEVIATION: f32 = 1e-4;
 
 impl Case {
-    /// Lin 2019, Table 3.6, under 50 N a ball, with deviations of both grooves.
+    /// Lin 2019, Table 3.6, under 50 N a ball, with deviations of 1 degree on the screw and 0.5 degrees in the nut.
     pub const LIN: Self = Self {
         pitch_radius: 16.5e-3,
         lead: 20e-3,
@@ -76,8 +77,8 @@ impl Case {
         load_per_ball: 50.0,
         track: None,
         loaded: 0.95,
-        screw: (2.3 * TAU / 360.0, 2),
-        nut: (0.7 * TAU / 360.0, 3),
+        screw: (TAU / 360.0, 2),
+        nut: (0.5 * TAU / 360.0, 3),
         speed: 1.0,
         turns: 2.0,
         states: 720,
@@ -230,51 +231,17 @@ struct Followed<const N: usize> {
 
 impl<const N: usize> Followed<N> {
     fn new(case: &Case) -> Result<Self, String> {
-        let material = Material {
-            youngs_modulus: YOUNGS_MODULUS as f32,
-            poisson_ratio: POISSON_RATIO as f32,
-            ..Material::STEEL
-        };
-        let groove = GrooveSize::Radius(case.groove_radius as f32);
-        let design = BallScrew::new(BallScrewParameters {
-            pitch_radius: case.pitch_radius as f32,
-            lead: case.lead as f32,
-            ball_radius: case.ball_radius as f32,
-            screw_groove: groove,
-            nut_groove: groove,
-            contact_angle: case.contact_angle as f32,
-            ball_material: material,
-            groove_material: material,
-        })
-        .map_err(|error| error.to_string())?;
+        let law = case.law()?;
+        // A law is shared by cases of other speeds.
+        let folded = Box::leak(Box::new(FoldedBall {
+            limits: Limits {
+                nut_speed: (1.01 * TAU * case.speed.abs()) as f32,
+                ..law.limits
+            },
+            ..*law
+        }));
         let (path, turns) = case.track(N);
         let return_length = (1.0 - case.loaded) * turns * TAU * path;
-        // What firmware would have: folded for 5 to 300 N a ball, or up to the case's load where that is more.
-        let mut fold = UncagedFold::of(UncagedDesign {
-            gear: CagedDesign {
-                design,
-                friction: case.friction as f32,
-                rolling_resistance: RollingResistance::NONE,
-                clearance: Clearance::new(case.clearance as f32)
-                    .map_err(|error| error.to_string())?,
-                loaded_balls: 1,
-                reversal_speed: 1e-6,
-                limits: Limits {
-                    nut_speed: (1.01 * TAU * case.speed.abs()) as f32,
-                    axial_load: 1e6,
-                    friction_torque: 1e4,
-                },
-            },
-            deviations: [case.screw.0, case.nut.0]
-                .map(|amplitude| (1.0001 * amplitude.abs() as f32).max(LEAST_DEVIATION)),
-        });
-        let [_, most] = &mut fold.axial_load;
-        *most = most.max(1.001 * case.load_per_ball.abs() as f32);
-        let folded = match folded(&fold) {
-            Ok(Folded::One(folded)) => folded,
-            Ok(Folded::Range(_)) => return Err("one friction coefficient is one node".into()),
-            Err(failure) => return Err(failure.message().into()),
-        };
         let model = FrictionModel::new(&UncagedBallScrewConfiguration {
             folded,
             ball_friction: case.ball_friction as f32,
@@ -286,8 +253,9 @@ impl<const N: usize> Followed<N> {
             tick: case.ticks().1 as f32,
         })
         .map_err(|error| error.to_string())?;
-        let rolling = f64::from(design.ball_radius() * design.cos_lead_angle());
-        let nominal = 0.5 * (path + rolling * case.contact_angle.cos());
+        let cos_lead_angle = case.pitch_radius / path;
+        let rolling = case.ball_radius * cos_lead_angle * case.contact_angle.cos();
+        let nominal = 0.5 * (path + rolling);
         Ok(Self {
             model,
             path,
@@ -331,6 +299,56 @@ impl<const N: usize> Followed<N> {
 }
 
 impl Case {
+    /// The law that firmware would have, folded once for all cases that share it: for 5 to 300 N a ball, or up to [`MARGIN`] times the case's load
+    /// where that is more, and for its deviations.
+    ///
+    /// # Errors
+    /// What is out of range; why the design is not folded.
+    pub fn law(&self) -> Result<&'static FoldedBall, String> {
+        let named = |error: epas_friction::Error| error.to_string();
+        let material = Material {
+            youngs_modulus: YOUNGS_MODULUS as f32,
+            poisson_ratio: POISSON_RATIO as f32,
+            ..Material::STEEL
+        };
+        let groove = GrooveSize::Radius(self.groove_radius as f32);
+        let design = BallScrew::new(BallScrewParameters {
+            pitch_radius: self.pitch_radius as f32,
+            lead: self.lead as f32,
+            ball_radius: self.ball_radius as f32,
+            screw_groove: groove,
+            nut_groove: groove,
+            contact_angle: self.contact_angle as f32,
+            ball_material: material,
+            groove_material: material,
+        })
+        .map_err(named)?;
+        let mut fold = UncagedFold::of(UncagedDesign {
+            gear: CagedDesign {
+                design,
+                friction: self.friction as f32,
+                rolling_resistance: RollingResistance::NONE,
+                clearance: Clearance::new(self.clearance as f32).map_err(named)?,
+                loaded_balls: 1,
+                reversal_speed: 1e-6,
+                limits: Limits {
+                    nut_speed: 1e3,
+                    axial_load: 1e6,
+                    friction_torque: 1e4,
+                },
+            },
+            deviations: [self.screw.0, self.nut.0]
+                .map(|amplitude| (1.0001 * amplitude.abs() as f32).max(LEAST_DEVIATION)),
+        });
+        let [_, most] = &mut fold.axial_load;
+        *most = most.max(MARGIN * self.load_per_ball.abs() as f32);
+        match folded(&fold) {
+            Ok(Folded::One(folded)) => Ok(folded),
+            Ok(Folded::Range(_)) => Err("one friction coefficient is one node".into()),
+            Err(failure) => Err(failure.message().into()),
+        }
+    }
+
     /// Ticks from each state to the next, and the time between two ticks, s.
     fn ticks(&self) -> (usize, f64) {
         let between = self.turns / self.speed.abs() / self.states.max(1) as f64;
@@ -381,15 +399,17 @@ pub fn exact<const N: usize>(case: &Case) -> Result<Vec<RingState>, String> {
 /// Follows both over the turns of a case.
 ///
 /// # Errors
-/// What is out of range.
+/// What is out of range; why the design is not folded.
 pub fn compare<const N: usize>(case: &Case) -> Result<Comparison, String> {
+    // Told before the exact screw is followed.
+    let _ = case.law()?;
     follow::<N>(case, &exact::<N>(case)?)
 }
 
 /// Follows the scene beside the states of the exact screw.
 ///
 /// # Errors
-/// What is out of range.
+/// What is out of range; why the design is not folded.
 pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Comparison, String> {
     let mut scene = Followed::<N>::new(case)?;
     let (nut_speed, load) = case.drive(N);

@@ -195,7 +195,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         quick: arguments.quick,
         competition,
         target,
-        flagship: Flagship::new(arguments.quick)?,
+        flagship: Flagship::new(arguments.quick),
     };
     let document = Document {
         title: "epas-friction: friction of a ball screw, its error and its cost".into(),

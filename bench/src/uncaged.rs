@@ -1,7 +1,8 @@
 //! A screw without cage that runs on this machine: the law of one ball, folded from its design.
 //!
 //! Folding takes some seconds. A law is folded once and kept by what it was folded from, so that a program that runs a design twice waits
-//! once. It is kept as long as the program runs, because models refer to it: five kilobytes for one friction coefficient, fifteen for a range.
+//! once; so is the reason why a design is not folded. It is kept as long as the program runs, because models refer to it: five kilobytes for one
+//! friction coefficient, fifteen for a range.
 
 use std::collections::HashMap;
 use std::sync::{LazyLock, Mutex, PoisonError};
@@ -17,11 +18,12 @@ use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
 
-/// Laws that were folded, by the digest of their inputs.
-static FOLDED: LazyLock<Mutex<HashMap<u64, Folded>>> = LazyLock::new(Mutex::default);
+/// Laws that were folded, and reasons why they were not, by the digest of their inputs.
+static FOLDED: LazyLock<Mutex<HashMap<u64, Result<Folded, String>>>> =
+    LazyLock::new(Mutex::default);
 
 /// By how much the loads that are folded for pass the largest one that is asked for, at least: a model counts loaded balls by their places.
-const MARGIN: f32 = 1.1;
+pub const MARGIN: f32 = 1.1;
 
 /// Largest axial load of a ball that can be folded for, N.
 const LARGEST_LOAD: f32 = 1e5;
@@ -33,10 +35,13 @@ const LARGEST_LOAD: f32 = 1e5;
 pub fn folded(fold: &UncagedFold) -> Result<Folded, Failure> {
     let digest = fold.digest();
     if let Some(folded) = kept(digest) {
-        return Ok(folded);
+        return folded.map_err(Failure::Data);
     }
     // Not locked: others go on meanwhile.
-    Ok(keep(digest, &fold.block()?))
+    match fold.block() {
+        Ok(block) => Ok(keep(digest, &block)),
+        Err(failure) => Err(Failure::Data(refuse(digest, failure.to_string()))),
+    }
 }
 
 /// The law of a fold with its certificate, told while it is made; kept as any other law.
@@ -49,9 +54,16 @@ pub fn certified(fold: &UncagedFold) -> Result<FoldedUncaged, Failure> {
     Ok(folded)
 }
 
-fn kept(digest: u64) -> Option<Folded> {
+fn kept(digest: u64) -> Option<Result<Folded, String>> {
     let folded = FOLDED.lock().unwrap_or_else(PoisonError::into_inner);
-    folded.get(&digest).copied()
+    folded.get(&digest).cloned()
+}
+
+/// Keeps the reason why inputs with this digest are not folded, and gives it back.
+fn refuse(digest: u64, reason: String) -> String {
+    let mut folded = FOLDED.lock().unwrap_or_else(PoisonError::into_inner);
+    let _ = folded.entry(digest).or_insert_with(|| Err(reason.clone()));
+    reason
 }
 
 /// Keeps a law that was folded from inputs with this digest.
@@ -63,13 +75,13 @@ fn keep(digest: u64, block: &UncagedBlock) -> Folded {
         _ => false,
     };
     match folded.get(&digest) {
-        Some(kept) if same(kept) => *kept,
+        Some(Ok(kept)) if same(kept) => *kept,
         _ => {
             let kept = match block {
                 UncagedBlock::One(block) => Folded::One(Box::leak(Box::new(*block))),
                 UncagedBlock::Range(block) => Folded::Range(Box::leak(Box::new(*block))),
             };
-            folded.insert(digest, kept);
+            folded.insert(digest, Ok(kept));
             kept
         }
     }
@@ -201,6 +213,22 @@ mod tests {
         let row = narrow.uncaged.unwrap();
         let refused = fold_for(&narrow, &row, (0.1, 0.1), 0.0).unwrap_err();
         assert!(refused.contains("screw_deviation = 0.005"), "{refused}");
+    }
+
+    /// A design that is not folded is not tried again, and its reason stays the same.
+    #[test]
+    fn a_reason_is_kept() {
+        let mut wrong = fold(&design(""), 0.0);
+        wrong.gear.deviations = [0.2, 1e-4];
+        let refused = folded(&wrong).unwrap_err();
+        assert!(
+            refused.message().starts_with("deviations"),
+            "{}",
+            refused.message()
+        );
+        let kept = kept(wrong.digest()).unwrap().unwrap_err();
+        assert_eq!(kept, refused.message());
+        assert_eq!(folded(&wrong).unwrap_err().message(), kept);
     }
 
     /// Words are the law, one that is kept is not folded again, and a model goes on with it.

@@ -140,12 +140,14 @@ impl Balls<'_> {
     pub fn samples(&self) -> Result<Vec<BallSample>, Failure> {
         let speeds = Speeds::of(&self.ball.design);
         let balls = self.balls()?;
-        let free = self.along(&balls, &[], |_, _| AlongTrack::Free);
+        let unsolved_most = (UNSOLVED * self.loads.len() as f64) as usize;
+        let free = self.along(&balls, &[], unsolved_most, |_, _| AlongTrack::Free);
+        self.check_solved(&[&free])?;
         let mut held = means(&free, self.loads.len(), &speeds);
         let mut pushed = Vec::new();
         // One Newton step brings the mean force to zero, but for the curvature of the laws.
-        for round in 0..2 {
-            pushed = self.along(&balls, &free, |_, load| {
+        for (round, most) in [usize::MAX, unsolved_most].into_iter().enumerate() {
+            pushed = self.along(&balls, &free, most, |_, load| {
                 AlongTrack::Held(speeds.orbital(held[load]))
             });
             if round == 0 {
@@ -154,20 +156,35 @@ impl Balls<'_> {
                 }
             }
         }
+        self.check_solved(&[&free, &pushed])?;
         let rubbed = with_nearest(&self.rubbed(&balls, &pushed, &held, &speeds));
         let mut samples: Vec<BallSample> = (0..self.loads.len())
             .filter_map(|load| self.sample(load, held[load], &free, &pushed, &rubbed, &speeds))
             .collect();
-        let unsolved = self.loads.len() - samples.len();
-        if unsolved as f64 > UNSOLVED * self.loads.len() as f64 {
-            return Err(Failure::Domain(format!(
-                "the exact balance of balls with deviations is not found under {unsolved} of {} loads, friction coefficient {:.4}",
-                self.loads.len(),
-                self.ball.friction
-            )));
-        }
         samples.reverse();
         Ok(samples)
+    }
+
+    /// Refuses answers of which more than a few loads have none at some point.
+    fn check_solved(&self, all: &[&[Along]]) -> Result<(), Failure> {
+        let solved = |load: usize| {
+            all.iter()
+                .all(|points| points.iter().all(|along| along[load].is_some()))
+        };
+        let unsolved: Vec<usize> = (0..self.loads.len())
+            .filter(|load| !solved(*load))
+            .collect();
+        let most = UNSOLVED * self.loads.len() as f64;
+        match unsolved.first() {
+            Some(&first) if unsolved.len() as f64 > most => Err(Failure::Domain(format!(
+                "the exact balance of balls with deviations is not found under more than {:.0} % of the loads, first at {:.3} N a ball, friction \
+                 coefficient {:.4}; narrow the domain there, or the deviations",
+                100.0 * UNSOLVED,
+                self.loads[first],
+                self.ball.friction
+            ))),
+            _ => Ok(()),
+        }
     }
 
     fn balls(&self) -> Result<Vec<DeviatingBall>, Failure> {
@@ -194,11 +211,13 @@ impl Balls<'_> {
             .collect()
     }
 
-    /// Every ball along all loads, each state from the one before; the first from `starts`.
+    /// Every ball along all loads, each state from the one before; the first from `starts`. A ball that has no answer under more than `unsolved`
+    /// loads is given up: a search without an answer is the longest one.
     fn along(
         &self,
         balls: &[DeviatingBall],
         starts: &[Along],
+        unsolved: usize,
         drive: impl Fn(usize, usize) -> AlongTrack + Sync,
     ) -> Vec<Along> {
         balls
@@ -208,13 +227,18 @@ impl Balls<'_> {
                 let mut last: Option<BallStart> = starts
                     .get(point)
                     .and_then(|along| Some(along.first()?.as_ref()?.start));
+                let mut failed = 0;
                 let solve = |(number, &load): (usize, &f64)| {
+                    if failed > unsolved {
+                        return None;
+                    }
                     let drive = BallDrive {
                         axial_load: self.side * load,
                         along: drive(point, number),
                         rubbing: [0.0; 2],
                     };
                     let found = ball.solve(&drive, last.as_ref()).ok();
+                    failed += usize::from(found.is_none());
                     last = found.map(|found| found.start).or(last);
                     found
                 };

@@ -1,8 +1,8 @@
 //! A row of balls by the law that the scene of a ball screw without cage evaluates, folded for the request.
 //!
-//! The law is folded over a box at least twice as wide as the request: deviations of twice the largest in either groove, in steps of
-//! [`DEVIATIONS`], and [`LOADS`] of a ball, or from half the least to twice the largest where that is wider, in powers of two. Requests
-//! that are much alike share a law, which takes some seconds to fold.
+//! The law is folded for the largest deviation of each groove, either sign, and for 5 to 300 N a ball, or down and up to the next power of two
+//! where the request needs more. Requests with the same screw, friction coefficient, clearance and largest deviations share a law, which takes some
+//! seconds to fold.
 
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
@@ -16,11 +16,8 @@ use super::super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};
 use super::request::{Request, Row};
 use crate::uncaged::folded;
 
-/// Step of the deviations for which a law is folded, rad.
-const DEVIATIONS: f32 = 0.01;
-
-/// Loads of a ball for which a law is folded at least, N: twice as wide as 5 to 300 N either way.
-const LOADS: [f32; 2] = [2.5, 600.0];
+/// Least deviation that a law is folded for, rad.
+const LEAST_DEVIATION: f32 = 1e-4;
 
 /// Limits that no request meets.
 const LIMITS: Limits = Limits {
@@ -59,8 +56,6 @@ fn law(request: &Request, design: &BallScrew) -> Option<&'static FoldedBall> {
         let sizes = request.balls.iter().map(|ball| of(ball).abs() as f32);
         sizes.fold(0.0, f32::max)
     };
-    let deviation = largest(|ball| ball.screw_deviation.abs().max(ball.nut_deviation.abs()));
-    let steps = (2.0 * deviation / DEVIATIONS).ceil().max(1.0);
     let mut fold = UncagedFold::of(UncagedDesign {
         gear: CagedDesign {
             design: *design,
@@ -71,23 +66,25 @@ fn law(request: &Request, design: &BallScrew) -> Option<&'static FoldedBall> {
             reversal_speed: 1e-6,
             limits: LIMITS,
         },
-        deviations: [steps * DEVIATIONS; 2],
+        deviations: [
+            largest(|ball| ball.screw_deviation),
+            largest(|ball| ball.nut_deviation),
+        ]
+        .map(|deviation| deviation.max(LEAST_DEVIATION)),
     });
-    let [least, most] = LOADS;
-    let twice = 2.0 * largest(|ball| ball.axial_load);
-    let half = 0.5 / largest(|ball| ball.axial_load.recip());
-    fold.axial_load = [
-        if half < least {
-            half.log2().floor().exp2()
-        } else {
-            least
-        },
-        if twice > most {
-            twice.log2().ceil().exp2()
-        } else {
-            most
-        },
-    ];
+    let loads = request
+        .balls
+        .iter()
+        .map(|ball| ball.axial_load.abs() as f32);
+    let [least, most] = &mut fold.axial_load;
+    for load in loads {
+        if load < *least {
+            *least = load.log2().floor().exp2();
+        }
+        if load > *most {
+            *most = load.log2().ceil().exp2();
+        }
+    }
     match folded(&fold).ok()? {
         Folded::One(law) => Some(law),
         Folded::Range(_) => None,

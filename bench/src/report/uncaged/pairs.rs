@@ -8,8 +8,8 @@ use crate::eval;
 use crate::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::statistics::Errors;
 
-/// Deviation of one of the balls, degrees: it loads the third contact, or takes load from it.
-const DEVIATIONS: [f64; 2] = [2.0, -2.0];
+/// Deviation of one of the balls, degrees: it loads the third contact, or takes load from it. One law holds both.
+const DEVIATIONS: [f64; 2] = [1.0, -1.0];
 
 /// Force that is large enough to divide by, N: below it a force is left by nearly equal speeds.
 const LEAST_FORCE: f64 = 0.02;
@@ -29,15 +29,15 @@ impl Over {
 
     fn axis(self) -> (&'static str, f64, f64) {
         match self {
-            Self::Friction => ("friction coefficient", 0.03, 0.15),
-            Self::Clearance => ("clearance (um)", -5.0, 20.0),
+            Self::Friction => ("friction coefficient", 0.075, 0.15),
+            Self::Clearance => ("clearance (um)", -5.0, 10.0),
         }
     }
 
     fn name(self) -> &'static str {
         match self {
-            Self::Friction => "friction 0.03 to 0.15, no play",
-            Self::Clearance => "clearance -5 to 20 um, friction 0.1",
+            Self::Friction => "friction 0.075 to 0.15, no clearance",
+            Self::Clearance => "clearance -5 to 10 um, friction 0.1",
         }
     }
 
@@ -60,34 +60,66 @@ impl Over {
     }
 }
 
-/// One pair: relative errors of force and torque of the law, and of the closed form's force.
+/// One pair, in the order in which it presses in the exact model.
 #[derive(Clone, Default)]
 struct Found {
+    exact: Exact,
+    /// Relative errors of force and torque of the law, and of the closed form's force.
     force: Option<f64>,
     torque: Option<f64>,
     closed_form: Option<f64>,
-    /// Whether a ball stands in two contacts only.
-    two_points: bool,
+    /// Whether a step says that the law does not hold the forces.
+    flagged: bool,
     request: String,
+}
+
+/// What the exact pair does.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+enum Exact {
+    /// No answer was found that meets every balance.
+    Unsolved,
+    /// The balls do not press.
+    #[default]
+    Apart,
+    /// They press; a ball of them stands in two contacts only.
+    OnTwo,
+    /// They press; each stands in three or four contacts.
+    OnMore,
 }
 
 impl Found {
     fn new(over: Over, load: f64, place: f64, degrees: f64) -> Self {
         // The faster ball is behind where they press.
-        [degrees < 0.0, degrees > 0.0]
-            .into_iter()
-            .find_map(|reversed| Self::pressing(&over.request(load, place, degrees, reversed)))
-            .unwrap_or_default()
+        let mut last = Self::default();
+        for reversed in [degrees < 0.0, degrees > 0.0] {
+            let found = Self::of(&over.request(load, place, degrees, reversed));
+            match found.exact {
+                Exact::OnTwo | Exact::OnMore => return found,
+                Exact::Unsolved => last = found,
+                Exact::Apart => (),
+            }
+        }
+        last
     }
 
-    /// None where the balls do not press in the exact model, or it has no answer.
-    fn pressing(request: &Value) -> Option<Self> {
+    fn of(request: &Value) -> Self {
         let request = request.to_string();
-        let (in_loop, reference) = eval::both(&request)?;
         let number = |of: &Value, place: &str| of.pointer(place).and_then(Value::as_f64);
-        let exact = number(&reference, "/contact_force/0").filter(|force| *force > 0.0)?;
+        let (in_loop, reference) = eval::both(&request).unwrap_or_default();
+        let exact = number(&reference, "/contact_force/0");
+        let torque = number(&reference, "/groove_torque");
+        let (Some(exact), Some(torque)) = (exact, torque) else {
+            return Self {
+                exact: Exact::Unsolved,
+                request,
+                ..Self::default()
+            };
+        };
+        if exact <= 0.0 {
+            return Self::default();
+        }
         let off = |place: &str, over: f64| Some(number(&in_loop, place)? / over - 1.0);
-        let two_points = reference["loads"].as_array().is_some_and(|balls| {
+        let on_two = reference["loads"].as_array().is_some_and(|balls| {
             balls.iter().any(|loads| {
                 (0..4)
                     .filter(|&contact| loads[contact].as_f64() > Some(0.0))
@@ -96,43 +128,54 @@ impl Found {
             })
         });
         let forceful = exact >= LEAST_FORCE;
-        Some(Self {
+        Self {
+            exact: if on_two { Exact::OnTwo } else { Exact::OnMore },
             force: off("/contact_force/0", exact).filter(|_| forceful),
-            torque: off("/groove_torque", number(&reference, "/groove_torque")?),
+            torque: off("/groove_torque", torque),
             closed_form: off("/closed_form/contact_force/0", exact).filter(|_| forceful),
-            two_points,
+            flagged: in_loop["flagged"] == true,
             request,
-        })
+        }
     }
+}
+
+/// Pairs of a line of the map, for each of [`DEVIATIONS`].
+fn line(over: Over, place: f64, columns: usize) -> [Vec<Found>; 2] {
+    let load = |column: usize| {
+        let share = (column as f64 + 0.5) / columns as f64;
+        10f64.powf(LOADS.0 + (LOADS.1 - LOADS.0) * share)
+    };
+    // The first pair has the law folded that all of the line share.
+    let _ = Found::new(over, load(0), place, DEVIATIONS[0]);
+    DEVIATIONS.map(|degrees| {
+        (0..columns)
+            .into_par_iter()
+            .map(|column| Found::new(over, load(column), place, degrees))
+            .collect()
+    })
 }
 
 /// Table and figure.
 pub fn blocks(quick: bool) -> Vec<Block> {
-    let (columns, lines) = if quick { (8, 3) } else { (26, 20) };
+    let (columns, lines) = if quick { (8, 2) } else { (26, 6) };
     let mut panels = Vec::new();
     let mut rows = Vec::new();
     for over in Over::ALL {
-        for degrees in DEVIATIONS {
-            let (_, low, high) = over.axis();
-            let grid: Vec<Vec<Found>> = (0..lines)
-                .into_par_iter()
-                .map(|line| {
-                    let place = low + (high - low) * (f64::from(line) + 0.5) / f64::from(lines);
-                    (0..columns)
-                        .into_par_iter()
-                        .map(|column| {
-                            let share = (f64::from(column) + 0.5) / f64::from(columns);
-                            let load = 10f64.powf(LOADS.0 + (LOADS.1 - LOADS.0) * share);
-                            Found::new(over, load, place, degrees)
-                        })
-                        .collect()
-                })
-                .collect();
+        let (_, low, high) = over.axis();
+        let found: Vec<[Vec<Found>; 2]> = (0..lines)
+            .into_par_iter()
+            .map(|number| {
+                let share = (f64::from(number) + 0.5) / f64::from(lines);
+                line(over, low + (high - low) * share, columns)
+            })
+            .collect();
+        for (sign, degrees) in DEVIATIONS.into_iter().enumerate() {
+            let grid: Vec<&[Found]> = found.iter().map(|line| line[sign].as_slice()).collect();
             for (quantity, value) in QUANTITIES {
                 panels.push(panel(over, degrees, quantity, &grid, value));
             }
-            for two_points in [false, true] {
-                rows.extend(row(over, degrees, two_points, &grid));
+            for (exact, contacts) in CONTACTS {
+                rows.extend(row(over, degrees, (exact, contacts), &grid));
             }
         }
     }
@@ -140,18 +183,20 @@ pub fn blocks(quick: bool) -> Vec<Block> {
         Block::Table(Table {
             name: "exact_pairs",
             caption: format!(
-                "Two balls of Table 3.6's screw, SR and NL loaded with 5 to 300 N, the screw's contact angles of one turned: errors of the law that a step \
-                 evaluates, folded over twice the deviation and 2.5 to 600 N, against the exact pair, per cent; forces from {LEAST_FORCE} N. Where both light \
-                 contacts of a ball are open one of its grooves sticks. The last column reproduces the largest error of the force"
+                "Two balls of Table 3.6's screw, SR and NL loaded with 5 to 300 N, the screw's contact angles of one turned by 1 degree: errors of the law that a \
+                 step evaluates against the exact pair, per cent; forces from {LEAST_FORCE} N. A law is folded for each friction coefficient and clearance, for \
+                 deviations up to 1 degree on the screw and for these loads. Pairs without a law have no error; those that a step flags, because the \
+                 law does not hold the forces there, are in the errors. Where both light contacts of a ball are open one of its grooves sticks. The \
+                 last column reproduces the largest error of the force"
             ),
             columns: COLUMNS.map(String::from).to_vec(),
             rows,
         }),
         Block::Figure(Figure {
             name: "exact_pairs_maps",
-            caption: "Errors of the folded law against the exact pair, per cent: force between the balls and torque of the grooves. A deviation of +2 \
-                      degrees loads the third contact, one of -2 degrees takes load from it. Nothing is drawn where balls press with less than 0.02 N \
-                      (force), or not at all."
+            caption: "Errors of the folded law against the exact pair, per cent: force between the balls and torque of the grooves. A deviation of +1 \
+                      degree loads the third contact, one of -1 degree takes load from it. Nothing is drawn where balls press with less than 0.02 N \
+                      (force), or not at all, and where there is no law."
                 .into(),
             panels,
             columns: 2,
@@ -186,7 +231,7 @@ fn panel(
     over: Over,
     degrees: f64,
     quantity: &str,
-    grid: &[Vec<Found>],
+    grid: &[&[Found]],
     value: fn(&Found) -> Option<f64>,
 ) -> Panel {
     let (label, low, high) = over.axis();
@@ -211,11 +256,13 @@ fn panel(
     })
 }
 
-const COLUMNS: [&str; 13] = [
+const COLUMNS: [&str; 15] = [
     "over",
     "deviation (deg)",
     "contacts",
     "pairs",
+    "without a law",
+    "flagged",
     "force: largest error (%)",
     "rms",
     "mean",
@@ -227,39 +274,81 @@ const COLUMNS: [&str; 13] = [
     "worst case",
 ];
 
-/// The pairs of which a ball stands in two contacts only, or the others; none where there are none.
-fn row(over: Over, degrees: f64, two_points: bool, grid: &[Vec<Found>]) -> Option<Vec<Cell>> {
+/// Pairs of a row of the table, and their name.
+const CONTACTS: [(Exact, &str); 3] = [
+    (Exact::OnMore, "three or four"),
+    (Exact::OnTwo, "two"),
+    (Exact::Unsolved, "no exact answer"),
+];
+
+/// Pairs that the exact model has so; none where there are none.
+fn row(
+    over: Over,
+    degrees: f64,
+    (exact, contacts): (Exact, &str),
+    grid: &[&[Found]],
+) -> Option<Vec<Cell>> {
     let found: Vec<&Found> = grid
         .iter()
+        .copied()
         .flatten()
-        .filter(|found| found.two_points == two_points && found.torque.is_some())
+        .filter(|found| found.exact == exact)
         .collect();
-    let errors = |value: fn(&Found) -> Option<f64>| -> Errors {
+    if found.is_empty() {
+        return None;
+    }
+    let count = |of: fn(&Found) -> bool| {
+        let count = found.iter().filter(|found| of(found)).count();
+        Cell::fixed(count as f64, 0)
+    };
+    let mut row = vec![
+        over.name().into(),
+        Cell::fixed(degrees, 0),
+        contacts.into(),
+        count(|_| true),
+    ];
+    if exact == Exact::Unsolved {
+        row.resize(COLUMNS.len() - 1, "".into());
+        row.push(found[0].request.clone().into());
+        return Some(row);
+    }
+    row.extend([
+        count(|found| found.torque.is_none()),
+        count(|found| found.flagged),
+    ]);
+    let errors = |value: fn(&Found) -> Option<f64>| -> Vec<f64> {
         found
             .iter()
             .filter_map(|found| Some(100.0 * value(found)?))
             .collect()
     };
-    let (force, torque) = (errors(|found| found.force), errors(|found| found.torque));
+    let forces = errors(|found| found.force);
+    let close = forces.iter().filter(|error| error.abs() <= 1.0).count();
+    let within = 100.0 * close as f64 / forces.len() as f64;
+    let figures = |errors: &[f64]| {
+        let over: Errors = errors.iter().copied().collect();
+        [over.largest, over.rms(), over.mean()].map(|error| {
+            // Nothing was compared.
+            if errors.is_empty() {
+                "".into()
+            } else {
+                Cell::fixed(error, 3)
+            }
+        })
+    };
+    row.extend(figures(&forces));
+    row.push(if forces.is_empty() {
+        "".into()
+    } else {
+        Cell::fixed(within, 1)
+    });
+    row.extend(figures(&errors(|found| found.torque)));
+    let [_, closed_form, _] = figures(&errors(|found| found.closed_form));
+    row.push(closed_form);
     let size = |found: &&&Found| found.force.map_or(0.0, f64::abs);
     let worst = found
         .iter()
         .max_by(|one, other| size(one).total_cmp(&size(other)))?;
-    let forces: Vec<f64> = found.iter().filter_map(|found| found.force).collect();
-    let close = forces.iter().filter(|error| error.abs() <= 0.01).count();
-    Some(vec![
-        over.name().into(),
-        Cell::fixed(degrees, 0),
-        if two_points { "two" } else { "three or four" }.into(),
-        Cell::fixed(found.len() as f64, 0),
-        Cell::fixed(force.largest, 3),
-        Cell::fixed(force.rms(), 3),
-        Cell::fixed(force.mean(), 3),
-        Cell::fixed(100.0 * close as f64 / forces.len() as f64, 1),
-        Cell::fixed(torque.largest, 3),
-        Cell::fixed(torque.rms(), 3),
-        Cell::fixed(torque.mean(), 3),
-        Cell::fixed(errors(|found| found.closed_form).rms(), 1),
-        worst.request.clone().into(),
-    ])
+    row.push(worst.request.clone().into());
+    Some(row)
 }

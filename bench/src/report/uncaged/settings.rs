@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::document::{Block, Cell, Table};
 use crate::exact_ring::{Case, Comparison, Off, compare};
-use crate::failure::Failure;
+use crate::uncaged::MARGIN;
 
 /// Balls of every screw of the table.
 const BALLS: usize = 16;
@@ -149,9 +149,9 @@ fn cases() -> Vec<(&'static str, &'static str, Case)> {
         ),
         lin("50 N, ticks of 50 us", Case { tick: 50e-6, ..LIN }),
         lin(
-            "friction 0.05",
+            "friction 0.075",
             Case {
-                friction: 0.05,
+                friction: 0.075,
                 ..LIN
             },
         ),
@@ -190,6 +190,14 @@ fn cases() -> Vec<(&'static str, &'static str, Case)> {
                 load_per_ball: 5.0,
                 clearance: 5e-6,
                 ..RACK
+            },
+        ),
+        lin(
+            "deviations of 2.3 and 0.7 degrees",
+            Case {
+                screw: (2.3 * DEGREE, 2),
+                nut: (0.7 * DEGREE, 3),
+                ..LIN
             },
         ),
         lin(
@@ -274,35 +282,38 @@ fn cases() -> Vec<(&'static str, &'static str, Case)> {
 }
 
 /// The table.
-pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
+pub fn blocks(quick: bool) -> Vec<Block> {
     let mut cases = cases();
     if quick {
         cases.truncate(6);
     }
-    let found = cases
-        .par_iter()
-        .map(|(_, _, case)| compare::<BALLS>(case).map_err(Failure::Data))
-        .collect::<Result<Vec<_>, _>>()?;
+    // One after the other: a fold takes all cores, and cases share laws. What is not folded is told in its row.
+    for (_, _, case) in &cases {
+        let _ = case.law();
+    }
     let rows = cases
-        .iter()
-        .zip(&found)
-        .map(|((design, setting, _), found)| row(design, setting, found))
+        .par_iter()
+        .map(|(design, setting, case)| match compare::<BALLS>(case) {
+            Ok(found) => row(design, setting, &found),
+            Err(reason) => refused(design, setting, &reason),
+        })
         .collect();
-    Ok(vec![Block::Table(Table {
+    vec![Block::Table(Table {
         name: "whole_screws",
         caption: format!(
             "The scene against the exact whole screw: {BALLS} balls over two turns, errors at the same state in per cent, of torque and groove torque over their own exact value, of the others over \
              the largest exact one; 45 degrees contact angle \
-             (26 x 10: 48), friction 0.1 and 0.1 between balls, deviations of 2.3 and 0.7 degrees, 5 % of the track a \
+             (26 x 10: 48), friction 0.1 and 0.1 between balls, no clearance, deviations of 1 degree on the screw and 0.5 degrees in the nut, 5 % of the track a \
              return, one turn a second, ticks of at most 1 ms unless said otherwise. \
-             Each law is folded for 5 to 300 N a ball. States that the scene flags are compared like all others"
+             Each law is folded for the deviations of its row and for 5 to 300 N a ball, or up to {MARGIN} times the row's load where that is more. States \
+             that the scene flags are compared like all others; a state without an exact solution is not. The last column says why a screw is not folded"
         ),
         columns: COLUMNS.map(String::from).to_vec(),
         rows,
-    })])
+    })]
 }
 
-const COLUMNS: [&str; 15] = [
+const COLUMNS: [&str; 17] = [
     "screw",
     "setting",
     "largest force (N)",
@@ -318,6 +329,8 @@ const COLUMNS: [&str; 15] = [
     "pairs that press (%)",
     "states compared",
     "flagged",
+    "no exact solution",
+    "not folded",
 ];
 
 fn row(design: &str, setting: &str, found: &Comparison) -> Vec<Cell> {
@@ -334,7 +347,17 @@ fn row(design: &str, setting: &str, found: &Comparison) -> Vec<Cell> {
     row.extend(percent(&found.force));
     row.extend(percent(&found.torque));
     row.extend([&found.groove, &found.ball, &found.speed, &found.pairs].map(largest));
-    row.push(Cell::fixed(found.compared as f64, 0));
-    row.push(Cell::fixed(found.flagged as f64, 0));
+    row.extend(
+        [found.compared, found.flagged, found.failed].map(|states| Cell::fixed(states as f64, 0)),
+    );
+    row.push("".into());
+    row
+}
+
+/// A screw that has no law: the reason in the place of figures.
+fn refused(design: &str, setting: &str, reason: &str) -> Vec<Cell> {
+    let mut row = vec![Cell::from(design), setting.into()];
+    row.resize(COLUMNS.len() - 1, "".into());
+    row.push(reason.into());
     row
 }
