@@ -14,8 +14,9 @@ use epas_friction::law::breakaway::ScrewContacts;
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, Material, Range,
 };
-use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
-use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::held_ball::{
+    AlongTrack, BallDrive, BallStart, DeviatingBall, HeldBall, HeldBallFriction,
+};
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 
@@ -95,14 +96,18 @@ pub fn figures(design: &Design, duty: &Duty) -> Result<Figures, Error> {
             .max_pressure
     };
     let balls = Balls::of(&screw, clearance, loaded_balls, duty);
-    let friction_torque = f32::from(loaded_balls) * balls.torque;
+    let nominal = balls.alone(0.0, None);
+    let torque = |ball: &Alone| f64::from(loaded_balls) * ball.free.torque;
+    let friction_torque = nominal.as_ref().map_or(f64::NAN, torque) as f32;
+    let force = |ball: &Alone| balls.contact_force(ball, duty.deviation.into());
+    let contact_force = nominal.as_ref().and_then(force).unwrap_or(f64::NAN) as f32;
     let load_torque = duty.axial_load * design.lead / TAU;
     Ok(Figures {
         loaded_balls,
         friction_torque,
         efficiency: load_torque / (load_torque + friction_torque),
         max_pressure: pressure(Groove::Screw).max(pressure(Groove::Nut)),
-        contact_force: balls.contact_force,
+        contact_force,
     })
 }
 
@@ -148,62 +153,101 @@ fn one_ball(screw: &BallScrew) -> f32 {
     2.0 * screw.ball_radius() * screw.cos_lead_angle() / (TAU * screw.pitch_radius())
 }
 
-/// Balls of a design.
+/// Balls of a design, under the load of each.
 struct Balls {
-    /// Friction torque of a ball whose grooves are as they should be, no neighbour pressing, N m.
-    torque: f32,
-    /// As in [`Figures`].
-    contact_force: f32,
+    /// Ball in grooves of any deviation.
+    ball: HeldBall,
+    axial_load: f64,
+    /// Friction coefficient of ball and ball.
+    ball_friction: f64,
 }
+
+/// A ball in its grooves, and how it runs by itself.
+struct Alone {
+    grooves: DeviatingBall,
+    free: HeldBallFriction,
+}
+
+/// Rounds in which the force between two balls settles, friction between them following it.
+const ROUNDS: usize = 60;
 
 impl Balls {
     fn of(screw: &BallScrew, clearance: Clearance, loaded_balls: u16, duty: &Duty) -> Self {
-        let axial_load = f64::from(duty.axial_load) / f64::from(loaded_balls);
-        let ball = CagedBall {
-            design: drawing(screw.parameters()),
-            clearance: clearance.gap().into(),
-            friction: duty.friction.into(),
-            rolling: RollingResistance::NONE,
-            integration: Integration::Full,
-        };
-        let torque = ball
-            .along(&[axial_load])
-            .ok()
-            .and_then(|found| found.into_iter().next()?.ok())
-            .map_or(f64::NAN, |found| found.torque);
-        // Balls press in one of the two ways; in the other they part.
-        let forces = [1.0, -1.0].map(|way| {
-            let pair = pair(&ball, axial_load, way * f64::from(duty.deviation), duty);
-            pair.and_then(|pair| pair.contact_forces.first().copied())
-        });
         Self {
-            torque: torque as f32,
-            contact_force: match forces {
-                [Some(one), Some(other)] => one.max(other) as f32,
-                _ => f32::NAN,
+            ball: HeldBall {
+                design: drawing(screw.parameters()),
+                clearance: clearance.gap().into(),
+                friction: duty.friction.into(),
+                rolling: RollingResistance::NONE,
+                integration: Integration::Coarse,
             },
+            axial_load: f64::from(duty.axial_load) / f64::from(loaded_balls),
+            ball_friction: duty.ball_friction.into(),
         }
     }
-}
 
-/// Two neighbours, the nut's groove off by a deviation at the one behind; none where they have no balance.
-fn pair(ball: &CagedBall, axial_load: f64, deviation: f64, duty: &Duty) -> Option<RowMotion> {
-    let of_row = |nut_deviation| RowBall {
-        screw_deviation: 0.0,
-        nut_deviation,
-        axial_load,
-    };
-    ElasticRow {
-        design: ball.design,
-        clearance: ball.clearance,
-        friction: ball.friction,
-        ball_friction: duty.ball_friction.into(),
-        nut_speed: 1.0,
-        balls: vec![of_row(deviation), of_row(0.0)],
-        integration: ball.integration,
+    /// A ball in a nut's groove that deviates, found from the state of another one, or from one that is near.
+    fn alone(&self, nut_deviation: f64, start: Option<&BallStart>) -> Option<Alone> {
+        let grooves = self.ball.in_grooves(0.0, nut_deviation).ok()?;
+        let near = || grooves.near(self.axial_load);
+        let start = start.copied().or_else(near);
+        let free = self.run(&grooves, AlongTrack::Free, [0.0; 2], start.as_ref())?;
+        Some(Alone { grooves, free })
     }
-    .solve()
-    .ok()
+
+    fn run(
+        &self,
+        grooves: &DeviatingBall,
+        along: AlongTrack,
+        forces: [f64; 2],
+        start: Option<&BallStart>,
+    ) -> Option<HeldBallFriction> {
+        let drive = BallDrive {
+            axial_load: self.axial_load,
+            along,
+            rubbing: forces.map(|force| self.ball_friction * force),
+        };
+        grooves.solve(&drive, start).ok()
+    }
+
+    /// Force with which a ball presses on the one in front, N; none where they have no balance.
+    ///
+    /// Newton's method on the speed that both have.
+    fn pressing(&self, behind: &Alone, ahead: &Alone) -> Option<f64> {
+        let [mut rear, mut front] = [behind.free, ahead.free];
+        let faster = rear.orbital_speed - front.orbital_speed;
+        if faster <= 0.0 {
+            return Some(0.0);
+        }
+        let mut force = faster / (1.0 / rear.stiffness + 1.0 / front.stiffness);
+        let mut speed = front.orbital_speed + force / front.stiffness;
+        for _ in 0..ROUNDS {
+            let held = AlongTrack::Held(speed);
+            rear = self.run(&behind.grooves, held, [0.0, force], Some(&rear.start))?;
+            front = self.run(&ahead.grooves, held, [force, 0.0], Some(&front.start))?;
+            let left = rear.force + front.force;
+            let found = 0.5 * (front.force - rear.force).max(0.0);
+            let change = (found - force).abs();
+            // As precise as the balance of a ball is.
+            let allowed = 1e-4 * found + 1e-8 * self.axial_load;
+            force = found;
+            if left.abs() <= allowed && change <= allowed {
+                return Some(force);
+            }
+            speed -= left / (rear.stiffness + front.stiffness);
+        }
+        None
+    }
+
+    /// As in [`Figures`].
+    fn contact_force(&self, nominal: &Alone, deviation: f64) -> Option<f64> {
+        // Balls press in one of the two ways; in the other they part.
+        let of = |nut_deviation| {
+            let behind = self.alone(nut_deviation, Some(&nominal.free.start))?;
+            self.pressing(&behind, nominal)
+        };
+        Some(of(deviation)?.max(of(-deviation)?))
+    }
 }
 
 fn in_range(field: &'static str, value: f32, minimum: f32, maximum: f32) -> Result<(), Error> {
