@@ -58,11 +58,15 @@ pub(crate) fn near(ball: &PlacedBall<'_>) -> Option<BallState> {
     let (place, rows) = search.guessed_place()?;
     let total: f64 = rows.iter().map(|row| row.patch.friction_limit).sum();
     // From coarse smoothing on: a contact that sticks is found in a few steps.
-    let motion = [1e-1, 1e-2, 1e-3, ball.rest_spin]
-        .into_iter()
-        .fold(rolling(&ball.grooves.track), |from, rest_spin| {
-            minimise(from, 1e-3 * total, |y| ball_dissipation(&rows, y, rest_spin)).point
-        });
+    let motion = [1e-1, 1e-2, 1e-3, ball.rest_spin].into_iter().fold(
+        rolling(&ball.grooves.track),
+        |from, rest_spin| {
+            minimise(from, 1e-3 * total, |y| {
+                ball_dissipation(&rows, y, rest_spin)
+            })
+            .point
+        },
+    );
     Some(BallState::new(place, motion, 0.0))
 }
 
