@@ -7,7 +7,8 @@
 //! (100 designs), because a ball takes its neighbour's motion for its own.
 //!
 //! The closed form of a catalogue would be a thousand times as fast and is no substitute: over 40 designs of the studies it has 1.06 to 3.6 times the
-//! torque, and up to 13 times the force. //!
+//! torque, and up to 13 times the force.
+//!
 //! A design's figures follow from its own numbers alone, so that any partition of a table of designs gives the same answers, to the bit: an
 //! engine that spreads a table over threads or machines calls [`figures`] row by row, or [`columns`] for a slice.
 //!
