@@ -1,11 +1,12 @@
-"""A million designs by a Polars expression, and the same rows again in other parts.
+"""Many designs by a Polars expression, the same rows again in other parts, and the force between balls of the best.
 
-    python study.py --designs 1000000
+    python study.py --designs 100000
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 import time
 
 import polars as pl
@@ -34,15 +35,17 @@ def designs(first: int, count: int) -> pl.LazyFrame:
     return pl.LazyFrame().select(number).with_columns(columns)
 
 
-def studied(frame: pl.LazyFrame) -> pl.LazyFrame:
-    """Figures beside the designs."""
-    return frame.with_columns(design_figures(**{name: name for name in RANGES}).alias("figures")).unnest("figures")
+def studied(frame: pl.LazyFrame, deviation: float = 0.0) -> pl.LazyFrame:
+    """Figures beside the designs; balls press on each other where there is a deviation, rad."""
+    figures = design_figures(**{name: name for name in RANGES}, deviation=deviation)
+    return frame.with_columns(figures.alias("figures")).unnest("figures")
 
 
 def main() -> None:
     """Reads the arguments."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--designs", type=int, default=1_000_000)
+    parser.add_argument("--designs", type=int, default=100_000)
+    parser.add_argument("--best", type=int, default=100, help="designs whose balls are looked at pressing")
     given = parser.parse_args()
     start = time.perf_counter()
     whole = studied(designs(0, given.designs)).collect(engine="streaming").sort("number")
@@ -52,9 +55,14 @@ def main() -> None:
     parts = pl.concat([studied(designs(first, min(777, few - first))).collect() for first in range(0, few, 777)])
     assert parts.equals(whole.head(few)), "parts and whole do not agree"
     print(f"the first {few} rows again, in parts of 777: the same to the bit")
-    best = whole.filter(pl.col("refused").is_null()).top_k(3, by="efficiency")
-    print(best.select("number", "lead", "preload", "friction_torque", "efficiency", "max_pressure", "contact_force"))
-    print(whole.select(pl.col("refused").is_not_null().sum(), pl.col("contact_force").is_null().sum().alias("no force")))
+    known = whole.filter(pl.col("efficiency").is_not_null())
+    best = known.top_k(given.best, by="efficiency").select("number", *RANGES)
+    start = time.perf_counter()
+    pressing = studied(best.lazy(), math.radians(1.0)).collect(engine="streaming").sort("efficiency", descending=True)
+    print(f"force between balls of the best {given.best}: {time.perf_counter() - start:.1f} s")
+    print(pressing.head(3).select("number", "lead", "preload", "friction_torque", "efficiency", "max_pressure", "contact_force"))
+    print(whole.select(pl.col("refused").is_not_null().sum(), pl.col("friction_torque").is_null().sum().alias("no torque")))
+    print(pressing.select(pl.col("contact_force").is_null().sum().alias("no force")))
 
 
 if __name__ == "__main__":

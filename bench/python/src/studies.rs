@@ -20,7 +20,10 @@ type Any<'py> = Bound<'py, PyAny>;
 /// Figures of ball screws of steel, by the exact balls that firmware's constants are folded from.
 ///
 /// Arrays broadcast against each other. A design's figures follow from its own numbers alone, so that any part of a study gives
-/// the same bits.
+/// the same bits. Rolling resistance, about 1 % of the friction, is left out.
+///
+/// One core looks at some 1500 designs a second without a deviation, and at 75 with the force between balls: thousands are looked at
+/// with ``deviation=0``, and the best of them with the force.
 ///
 /// Args:
 ///     pitch_radius: radius of the cylinder on which the ball centres run, m.
@@ -33,7 +36,8 @@ type Any<'py> = Bound<'py, PyAny>;
 ///     turns: turns of the track that are filled with balls side by side.
 ///     friction: coefficient of ball and groove, 1e-3 to 0.5.
 ///     ball_friction: coefficient of ball and ball, 0 to 0.5.
-///     deviation: by which the contact angle at one of two neighbouring balls is off, rad, 0 to 0.2.
+///     deviation: by which the contact angle at one of two neighbouring balls is off, rad, 0 to 0.2; one degree where it is left out. At 0
+///         no ball presses, and a design takes a twentieth of the time.
 ///     strict: whether a design out of range is an error; else its figures are NaN.
 ///
 /// Returns:

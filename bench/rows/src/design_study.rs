@@ -1,9 +1,20 @@
 //! What many designs of a ball screw do under one duty: friction torque, efficiency, contact pressure, force between balls.
 //!
-//! Torque and force between balls are those of the float64 reference: balls in elastic balance with Coulomb friction by contact integrals, which
-//! is what a step is folded from; without rolling resistance, which is about 1 % of the friction. A design's figures follow from its own
-//! numbers alone, so that any partition of a table of designs gives the same answers, to the bit: an engine that spreads a
-//! table over threads or machines calls [`figures`] row by row, or [`columns`] for a slice.
+//! Torque and force between balls are those of the exact ball of the float64 reference that the constants of firmware are folded from: a ball
+//! in elastic balance with Coulomb friction by contact integrals, free or held by its neighbours. Nothing is folded: a design is looked at
+//! under one load. Left out is rolling resistance, about 1 % of the friction. The torque is off by up to 3.5e-4 (contact integrals of 32 nodes
+//! against 160, 200 designs of the studies, friction 0.1); the force by up to 1.2 % against a row of two balls with all of the friction between them
+//! (100 designs), because a ball takes its neighbour's motion for its own.
+//!
+//! The closed form of a catalogue would be a thousand times as fast and is no substitute: over 40 designs of the studies it has 1.06 to 3.6 times the
+//! torque, and up to 13 times the force.
+//!
+//! A design's figures follow from its own numbers alone, so that any partition of a table of designs gives the same answers, to the bit: an
+//! engine that spreads a table over threads or machines calls [`figures`] row by row, or [`columns`] for a slice.
+//!
+//! One core looks at some 1,500 designs a second without a deviation, for torque, efficiency and pressure, and at 75 with the force between balls
+//! (processor time of an AMD EPYC): thousands are looked at without, and the best of them with it. One in a thousand of the studies'
+//! designs has no torque, and one in a hundred no force, where the reference finds no balance.
 
 use core::f32::consts::TAU;
 
@@ -14,8 +25,9 @@ use epas_friction::law::breakaway::ScrewContacts;
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, Material, Range,
 };
-use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
-use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::held_ball::{
+    AlongTrack, BallDrive, BallStart, DeviatingBall, HeldBall, HeldBallFriction,
+};
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 
@@ -47,7 +59,8 @@ pub struct Duty {
     pub friction: f32,
     /// Friction coefficient of ball and ball, 0 to 0.5.
     pub ball_friction: f32,
-    /// By which the grooves' contact angle at one of two neighbouring balls is off, rad, either way, 0 to 0.2.
+    /// By which the grooves' contact angle at one of two neighbouring balls is off, rad, either way, 0 to 0.2. At 0 no ball presses, and a
+    /// design takes a twentieth of the time.
     pub deviation: f32,
 }
 
@@ -74,7 +87,7 @@ pub struct Figures {
     /// Largest contact pressure in either groove, Pa.
     pub max_pressure: f32,
     /// Larger of the forces between two neighbouring balls, N, of which one has its contact angle off by the deviation, one way
-    /// and the other; no number where a ball loses its grooves or leaves the model.
+    /// and the other, and the faster one follows the slower; no number where a ball has no balance.
     pub contact_force: f32,
 }
 
@@ -95,14 +108,18 @@ pub fn figures(design: &Design, duty: &Duty) -> Result<Figures, Error> {
             .max_pressure
     };
     let balls = Balls::of(&screw, clearance, loaded_balls, duty);
-    let friction_torque = f32::from(loaded_balls) * balls.torque;
+    let nominal = balls.alone(0.0, None);
+    let torque = |ball: &Alone| f64::from(loaded_balls) * ball.free.torque;
+    let friction_torque = nominal.as_ref().map_or(f64::NAN, torque) as f32;
+    let force = |ball: &Alone| balls.contact_force(ball, duty.deviation.into());
+    let contact_force = nominal.as_ref().and_then(force).unwrap_or(f64::NAN) as f32;
     let load_torque = duty.axial_load * design.lead / TAU;
     Ok(Figures {
         loaded_balls,
         friction_torque,
         efficiency: load_torque / (load_torque + friction_torque),
         max_pressure: pressure(Groove::Screw).max(pressure(Groove::Nut)),
-        contact_force: balls.contact_force,
+        contact_force,
     })
 }
 
@@ -148,62 +165,107 @@ fn one_ball(screw: &BallScrew) -> f32 {
     2.0 * screw.ball_radius() * screw.cos_lead_angle() / (TAU * screw.pitch_radius())
 }
 
-/// Balls of a design.
+/// Balls of a design, under the load of each.
 struct Balls {
-    /// Friction torque of a ball whose grooves are as they should be, no neighbour pressing, N m.
-    torque: f32,
-    /// As in [`Figures`].
-    contact_force: f32,
+    /// Ball in grooves of any deviation.
+    ball: HeldBall,
+    axial_load: f64,
+    /// Friction coefficient of ball and ball.
+    ball_friction: f64,
 }
+
+/// A ball in its grooves, and how it runs by itself.
+struct Alone {
+    grooves: DeviatingBall,
+    free: HeldBallFriction,
+}
+
+/// Rounds in which the force between two balls settles, friction between them following it.
+const ROUNDS: usize = 20;
 
 impl Balls {
     fn of(screw: &BallScrew, clearance: Clearance, loaded_balls: u16, duty: &Duty) -> Self {
-        let axial_load = f64::from(duty.axial_load) / f64::from(loaded_balls);
-        let ball = CagedBall {
-            design: drawing(screw.parameters()),
-            clearance: clearance.gap().into(),
-            friction: duty.friction.into(),
-            rolling: RollingResistance::NONE,
-            integration: Integration::Full,
-        };
-        let torque = ball
-            .along(&[axial_load])
-            .ok()
-            .and_then(|found| found.into_iter().next()?.ok())
-            .map_or(f64::NAN, |found| found.torque);
-        // Balls press in one of the two ways; in the other they part.
-        let forces = [1.0, -1.0].map(|way| {
-            let pair = pair(&ball, axial_load, way * f64::from(duty.deviation), duty);
-            pair.and_then(|pair| pair.contact_forces.first().copied())
-        });
         Self {
-            torque: torque as f32,
-            contact_force: match forces {
-                [Some(one), Some(other)] => one.max(other) as f32,
-                _ => f32::NAN,
+            ball: HeldBall {
+                design: drawing(screw.parameters()),
+                clearance: clearance.gap().into(),
+                friction: duty.friction.into(),
+                rolling: RollingResistance::NONE,
+                integration: Integration::Coarse,
             },
+            axial_load: f64::from(duty.axial_load) / f64::from(loaded_balls),
+            ball_friction: duty.ball_friction.into(),
         }
     }
-}
 
-/// Two neighbours, the nut's groove off by a deviation at the one behind; none where they have no balance.
-fn pair(ball: &CagedBall, axial_load: f64, deviation: f64, duty: &Duty) -> Option<RowMotion> {
-    let of_row = |nut_deviation| RowBall {
-        screw_deviation: 0.0,
-        nut_deviation,
-        axial_load,
-    };
-    ElasticRow {
-        design: ball.design,
-        clearance: ball.clearance,
-        friction: ball.friction,
-        ball_friction: duty.ball_friction.into(),
-        nut_speed: 1.0,
-        balls: vec![of_row(deviation), of_row(0.0)],
-        integration: ball.integration,
+    /// A ball in a nut's groove that deviates, found from the state of another one, or from one that is near.
+    fn alone(&self, nut_deviation: f64, start: Option<&BallStart>) -> Option<Alone> {
+        let grooves = self.ball.in_grooves(0.0, nut_deviation).ok()?;
+        let near = || grooves.near(self.axial_load);
+        let start = start.copied().or_else(near);
+        let free = self.run(&grooves, AlongTrack::Free, [0.0; 2], start.as_ref())?;
+        Some(Alone { grooves, free })
     }
-    .solve()
-    .ok()
+
+    fn run(
+        &self,
+        grooves: &DeviatingBall,
+        along: AlongTrack,
+        rubbing: [f64; 2],
+        start: Option<&BallStart>,
+    ) -> Option<HeldBallFriction> {
+        let drive = BallDrive {
+            axial_load: self.axial_load,
+            along,
+            rubbing,
+        };
+        grooves.solve(&drive, start).ok()
+    }
+
+    /// Force with which the faster of two balls presses on the slower one, which it follows, N; none where they have no balance.
+    ///
+    /// Newton's method on the speed that both have.
+    fn pressing(&self, one: &Alone, other: &Alone) -> Option<f64> {
+        let speed = |ball: &Alone| ball.free.orbital_speed;
+        let (behind, ahead) = if speed(one) > speed(other) {
+            (one, other)
+        } else {
+            (other, one)
+        };
+        let [mut rear, mut front] = [behind.free, ahead.free];
+        let faster = rear.orbital_speed - front.orbital_speed;
+        let mut force = faster / (1.0 / rear.stiffness + 1.0 / front.stiffness);
+        let mut speed = front.orbital_speed + force / front.stiffness;
+        for _ in 0..ROUNDS {
+            let held = AlongTrack::Held(speed);
+            let rubbing = self.ball_friction * force;
+            rear = self.run(&behind.grooves, held, [0.0, rubbing], Some(&rear.start))?;
+            front = self.run(&ahead.grooves, held, [rubbing, 0.0], Some(&front.start))?;
+            let left = rear.force + front.force;
+            let found = 0.5 * (front.force - rear.force).max(0.0);
+            let change = (found - force).abs();
+            // A hundredth of what the law of one ball leaves; balls that hardly press are as precise as their balance is.
+            let allowed = 1e-4 * found + 1e-8 * self.axial_load;
+            force = found;
+            if left.abs() <= allowed && change <= allowed {
+                return Some(force);
+            }
+            speed -= left / (rear.stiffness + front.stiffness);
+        }
+        None
+    }
+
+    /// As in [`Figures`].
+    fn contact_force(&self, nominal: &Alone, deviation: f64) -> Option<f64> {
+        if deviation == 0.0 {
+            return Some(0.0);
+        }
+        let of = |nut_deviation| {
+            let off = self.alone(nut_deviation, Some(&nominal.free.start))?;
+            self.pressing(&off, nominal)
+        };
+        Some(of(deviation)?.max(of(-deviation)?))
+    }
 }
 
 fn in_range(field: &'static str, value: f32, minimum: f32, maximum: f32) -> Result<(), Error> {

@@ -51,6 +51,25 @@ pub(crate) fn settle(
     }
 }
 
+/// A start for [`settle`] that costs little, for a ball without friction of its neighbours: the same guess as there, its motion to a thousandth
+/// of the friction limits only. Where Newton's method does not lead on from it, `settle` begins from nothing.
+pub(crate) fn near(ball: &PlacedBall<'_>) -> Option<BallState> {
+    let search = Search::new(ball, Drive::Force(0.0), unit(ball));
+    let (place, rows) = search.guessed_place()?;
+    let total: f64 = rows.iter().map(|row| row.patch.friction_limit).sum();
+    // From coarse smoothing on: a contact that sticks is found in a few steps.
+    let motion = [1e-1, 1e-2, 1e-3, ball.rest_spin].into_iter().fold(
+        rolling(&ball.grooves.track),
+        |from, rest_spin| {
+            minimise(from, 1e-3 * total, |y| {
+                ball_dissipation(&rows, y, rest_spin)
+            })
+            .point
+        },
+    );
+    Some(BallState::new(place, motion, 0.0))
+}
+
 /// Share of the accepted residual at which no other start is tried: where the motion is soft, as with two contacts that both slide across, a
 /// residual that is just accepted belongs to a motion that is not.
 const SHARP: f64 = 0.01;
@@ -180,6 +199,13 @@ impl<'a> Search<'a> {
 
     /// Start for Newton's method with the push of a third contact that spins with the ball.
     fn guess(&self) -> Option<BallState> {
+        let (place, rows) = self.guessed_place()?;
+        let (motion, force) = self.motion(&rows, &rolling(&self.ball.grooves.track))?;
+        Some(BallState::new(place, motion, force))
+    }
+
+    /// Where that push moves the ball, and its contacts there.
+    fn guessed_place(&self) -> Option<(Vector3<f64>, Vec<ScrewRow>)> {
         let ball = self.ball;
         let frictionless = self.place(&Vector3::zeros(), None)?;
         let push = 0.35 * self.towards_third() * self.bound(&frictionless);
@@ -189,8 +215,7 @@ impl<'a> Search<'a> {
             Some(&frictionless),
         )?;
         let rows = ball.rows(&place)?;
-        let (motion, force) = self.motion(&rows, &rolling(&ball.grooves.track))?;
-        Some(BallState::new(place, motion, force))
+        Some((place, rows))
     }
 
     /// Sign of the push across: towards SL for SR-NL loads and NL for SL-NR loads where the nut turns forward.

@@ -27,7 +27,7 @@ use super::ball_screw_grooves::ElasticGrooves;
 use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
 use super::ball_screw_row::RowBallMotion;
 use super::ball_screw_rubbing::BallContact;
-use super::ball_screw_settle::settle;
+use super::ball_screw_settle::{near, settle};
 use super::patch::Integration;
 use super::rolling_resistance::{RollingResistance, rolling_losses};
 use crate::curvature::Groove;
@@ -148,6 +148,25 @@ impl HeldBall {
 }
 
 impl DeviatingBall {
+    /// A state near that of the free ball under an axial load, N, for [`Self::solve`]: in a tenth of the time that a ball takes from nothing.
+    /// None where the ball leaves its grooves.
+    pub fn near(&self, axial_load: f64) -> Option<BallStart> {
+        near(&self.placed(axial_load)).map(BallStart)
+    }
+
+    /// The ball with no friction of its neighbours.
+    fn placed(&self, axial_load: f64) -> PlacedBall<'_> {
+        PlacedBall {
+            grooves: &self.grooves,
+            friction: self.ball.friction,
+            way: 1.0,
+            axial_load,
+            rubbing: Rubbing::default(),
+            integration: self.ball.integration,
+            rest_spin: STICK_SPIN,
+        }
+    }
+
     /// How it runs, found from the state of a neighbouring one, or from nothing.
     ///
     /// # Errors
@@ -168,15 +187,7 @@ impl DeviatingBall {
             AlongTrack::Free => Drive::Force(0.0),
             AlongTrack::Held(speed) => Drive::Speed(within("orbital_speed", speed, -10.0, 10.0)?),
         };
-        let mut ball = PlacedBall {
-            grooves: &self.grooves,
-            friction: self.ball.friction,
-            way: 1.0,
-            axial_load: drive.axial_load,
-            rubbing: Rubbing::default(),
-            integration: self.ball.integration,
-            rest_spin: STICK_SPIN,
-        };
+        let mut ball = self.placed(drive.axial_load);
         let start = start.map(|start| &start.0);
         let solved = if drive.rubbing == [0.0; 2] {
             settle(&ball, along, start)?
@@ -308,6 +319,22 @@ mod tests {
             nut_speed: 1.0,
             balls,
             integration: Integration::Full,
+        }
+    }
+
+    /// From a state that is near it is the ball found from nothing: both balances are accurate to 1e-8 of the loads.
+    #[test]
+    fn a_near_start_leads_to_the_same_ball() {
+        for (deviation, axial_load) in [(0.0, -200.0), (0.02, -20.0), (-0.02, 8.0), (0.0, 120.0)] {
+            let ball = BALL.in_grooves(0.0, deviation).unwrap();
+            let drive = BallDrive { axial_load, ..FREE };
+            let expected = ball.solve(&drive, None).unwrap();
+            let near = ball.near(axial_load).unwrap();
+            let found = ball.solve(&drive, Some(&near)).unwrap();
+            assert!((found.torque / expected.torque - 1.0).abs() < 1e-7);
+            assert!((found.orbital_speed - expected.orbital_speed).abs() < 1e-7);
+            // It has not been found already.
+            assert!(near.0.motion != expected.start.0.motion);
         }
     }
 
