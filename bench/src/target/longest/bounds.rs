@@ -105,6 +105,15 @@ pub const LOOPS: &[Row] = &[
         "epas_friction::scene::uncaged::UncagedConstants::full",
         Bound::Takes(&[Total::TakenIn]),
     ),
+    // The same for even loads and for loads of their own.
+    row(
+        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::full::{closure#0}",
+        Bound::Takes(&[Total::TakenIn]),
+    ),
+    row(
+        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::full::{closure#1}",
+        Bound::Takes(&[Total::TakenIn]),
+    ),
     row(
         "epas_friction::scene::linear::LinearConstants::full",
         Bound::Takes(&[Total::TakenIn]),
@@ -275,10 +284,12 @@ pub fn plain(name: &str) -> String {
     plain.replace('>', "")
 }
 
-/// Whether an argument of a function is a constant: a length, or a choice.
+/// Whether arguments of a function are constants: lengths, or a choice.
 fn is_constant(argument: &str) -> bool {
-    let digits = argument.bytes().all(|byte| byte.is_ascii_digit());
-    !argument.is_empty() && digits || matches!(argument, "true" | "false")
+    let digits = argument
+        .split(", ")
+        .all(|one| !one.is_empty() && one.bytes().all(|byte| byte.is_ascii_digit()));
+    digits || matches!(argument, "true" | "false")
 }
 
 #[cfg(test)]
