@@ -259,7 +259,7 @@ pub fn balls_in(name: &str) -> Option<u32> {
     TRAINS.iter().find_map(|train| {
         name.match_indices(train).find_map(|(place, _)| {
             let rest = name[place + train.len()..].strip_prefix('<')?;
-            rest.split_once('>')?.0.parse().ok()
+            rest.split(['>', ',']).next()?.parse().ok()
         })
     })
 }
