@@ -457,3 +457,42 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
     }
     Ok(comparison)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Cases of one design share a law, whatever the speed and the load up to 300 N a ball; a case without one is refused.
+    #[test]
+    fn a_law_is_shared() {
+        let law = Case::LIN.law().unwrap();
+        let other = Case {
+            load_per_ball: -200.0,
+            speed: 20.0,
+            loaded: 1.0,
+            ..Case::LIN
+        };
+        assert!(std::ptr::eq(law, other.law().unwrap()));
+        let wrong = Case {
+            clearance: 1.0,
+            ..Case::LIN
+        };
+        let refused = compare::<4>(&wrong).unwrap_err();
+        assert!(refused.contains("clearance"), "{refused}");
+    }
+
+    /// Scene and exact screw over a few degrees of the nut.
+    #[test]
+    fn the_scene_is_near_the_exact_screw() {
+        let found = compare::<4>(&Case {
+            turns: 0.05,
+            states: 10,
+            ..Case::LIN
+        })
+        .unwrap();
+        assert_eq!((found.compared, found.failed), (11, 0));
+        assert_eq!(found.course.len(), 11);
+        let [largest, rms, _] = found.torque.relative();
+        assert!(rms <= largest && largest < 0.02, "{largest} {rms}");
+    }
+}

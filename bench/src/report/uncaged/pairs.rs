@@ -352,3 +352,45 @@ fn row(
     row.push(worst.request.clone().into());
     Some(row)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A pair without a law is counted and has no error; one that is flagged is in the errors; one without an exact answer has a row of its own.
+    #[test]
+    fn every_pair_is_counted() {
+        let pressing = Found {
+            exact: Exact::OnMore,
+            force: Some(0.5),
+            torque: Some(-0.25),
+            flagged: true,
+            ..Found::default()
+        };
+        let without = Found {
+            force: None,
+            torque: None,
+            flagged: false,
+            ..pressing.clone()
+        };
+        let unsolved = Found {
+            exact: Exact::Unsolved,
+            ..Found::default()
+        };
+        let line = [pressing, without, unsolved, Found::default()];
+        let of = |contacts| row(Over::Friction, 1.0, contacts, &[&line]);
+        let [more, two, none] = CONTACTS.map(of);
+        let shown = |row: &Option<Vec<Cell>>| -> Vec<String> {
+            let row = row.as_ref().unwrap();
+            assert_eq!(row.len(), COLUMNS.len());
+            row.iter().map(|cell| cell.shown().to_owned()).collect()
+        };
+        assert_eq!(shown(&more)[3..8], ["2", "1", "1", "50.000", "50.000"]);
+        assert_eq!(shown(&more)[9..11], ["0.0", "25.000"]);
+        assert_eq!(shown(&none)[3..6], ["1", "", ""]);
+        assert!(two.is_none());
+        let alone = [line[1].clone()];
+        let empty = row(Over::Friction, 1.0, CONTACTS[0], &[&alone]);
+        assert_eq!(shown(&empty)[3..8], ["1", "1", "0", "", ""]);
+    }
+}

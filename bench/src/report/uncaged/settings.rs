@@ -361,3 +361,17 @@ fn refused(design: &str, setting: &str, reason: &str) -> Vec<Cell> {
     row.push(reason.into());
     row
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A screw that is not folded stands in the table, with its reason.
+    #[test]
+    fn rows_are_as_long_as_the_headings() {
+        let compared = row("33 x 20", "50 N", &Comparison::default());
+        let refused = refused("33 x 20", "50 N", "no balance");
+        assert_eq!([compared.len(), refused.len()], [COLUMNS.len(); 2]);
+        assert_eq!(refused.last().map(Cell::shown), Some("no balance"));
+    }
+}
