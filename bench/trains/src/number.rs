@@ -7,7 +7,11 @@ pub const MOST_BALLS: u8 = 64;
 #[cfg(not(feature = "any-number"))]
 macro_rules! with_balls {
     ($model:ident, $scene:ident, $balls:expr, $configuration:expr) => {{
-        let _ = ($balls, $configuration, core::marker::PhantomData::<$scene<1>>);
+        let _ = (
+            $balls,
+            $configuration,
+            core::marker::PhantomData::<$scene<1>>,
+        );
         Ok(None)
     }};
 }
