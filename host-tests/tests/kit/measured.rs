@@ -160,8 +160,6 @@ const UNCAGED_TICKS: &[Measured] = &[
     row("screw without cage in time", [7.1e-2, 1.7e-2, 3.8e-3], [4.7e-2, 1.1e-2, 2.5e-3]),
     largest("screw without cage, balance of a ball", 6.5e-5, 4.3e-5),
     largest("screw without cage, losses of all grooves", 1.5e-6, 4.7e-7),
-    largest("screw without cage, mirrored torque", 9.7e-7, 3.3e-7),
-    largest("screw without cage, mirrored force", 1.2e-7, 0.0),
     largest("screw without cage, counted from another ball", 1.3e-6, 4.2e-7),
     largest("range at its last node", 1.2e-7, 0.0),
 ];

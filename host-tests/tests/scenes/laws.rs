@@ -45,7 +45,8 @@ fn closed_form_configuration(
 fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> {
     static NONE: DeviationMap = DeviationMap::NONE;
     let mut random = Random(seed);
-    loop {
+    // Each try leaves a folded ball for as long as the program runs.
+    for _ in 0..1_000 {
         let (configuration, ..) = accepted::<UncagedBallScrew<7>>(&mut random);
         let configuration = UncagedBallScrewConfiguration {
             folded: changed(configuration.folded, |folded| {
@@ -61,6 +62,7 @@ fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> 
             return model;
         }
     }
+    panic!("no screw without cage of a thousand has a model");
 }
 
 /// A linear bearing without deviations; its limits.
@@ -285,8 +287,8 @@ proptest! {
         // Without friction between balls nothing is lost there.
         let outputs = uncaged(seed, 0.0).step(inputs(speed, load));
         prop_assert_eq!(outputs.ball_torque, 0.0);
-        // Balls that are alike do not press on each other.
-        let outputs = uncaged(seed, 0.5).step(inputs(speed, load));
+        // Balls that are alike do not press on each other, with as much friction between them as every ball of the lot takes.
+        let outputs = uncaged(seed, 0.1).step(inputs(speed, load));
         prop_assert_eq!(outputs.contacts, 0);
         prop_assert!(outputs.faults.any() || outputs.friction_torque == outputs.groove_torque);
         // One ball has no neighbour, whatever the grooves do.
