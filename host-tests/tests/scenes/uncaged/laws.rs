@@ -181,8 +181,9 @@ fn a_mirrored_screw_has_the_mirrored_torque() {
         nut_deviation: wave(1, 3, 0.0, 0.9 * BALL.law.deviations[1]),
         ..gears::full(screw_wave(0.9), TICK)
     };
-    // Travel is rounded to whole units of a position, a ball's up and its mirror image's down: two that meet close up a unit sooner or later,
-    // and press harder or less by what takes that unit from the speed of a tick. Two units, because both round.
+    // Every tick rounds a ball's travel to whole units of its position, by up to half a unit, its mirror image's the other way: after `n` ticks
+    // two balls and their images are up to `2 n` units closer or further apart, and where they meet they press by what takes these units
+    // from the speed of a tick.
     let law = &configuration.folded.law;
     let place = law.place(configuration.folded.friction);
     let track = 2.0 * TAU * f64::from(configuration.folded.path_radius);
@@ -195,10 +196,11 @@ fn a_mirrored_screw_has_the_mirrored_torque() {
             usize::from(load < 0.0),
             place,
         );
-        let allowed = units * numbers.impedance.map(f32::abs).iter().sum::<f32>() as f64;
+        let impedance: f32 = numbers.impedance.map(f32::abs).iter().sum();
         let [mut there, mut back] = [(); 2]
             .map(|()| FrictionModel::<UncagedBallScrew<BALLS>>::new(&configuration).unwrap());
-        for _ in 0..600 {
+        for tick in 1..=600 {
+            let allowed = f64::from(tick) * units * f64::from(impedance);
             let one = there.step(inputs(10.0, load));
             let other = back.step(inputs(-10.0, -load));
             // Both sums of the balls' torques round at every ball, in another order; forces that differ rub.
