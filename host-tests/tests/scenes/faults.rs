@@ -396,7 +396,7 @@ fn corrupted_configurations_are_refused_or_harmless() {
         // What is folded stays in memory for as long as the program runs: 15 kB each.
         if count % 10 == 0 {
             screw.folded = gears::changed(screw.folded, |folded| {
-                corrupt_one(&mut random, &mut folded_fields(folded))
+                corrupt_one(&mut random, &mut folded_fields(folded));
             });
         } else {
             corrupt_one(

@@ -149,7 +149,7 @@ fn beyond_the_model_is_flagged_in_its_tick() {
     let knots = &plain.folded.law.nodes[0].branches[1];
     let unheld = UncagedBallScrewConfiguration {
         folded: changed(plain.folded, |folded| {
-            folded.law.nodes[0].unheld = [0, 1 << 3]
+            folded.law.nodes[0].unheld = [0, 1 << 3];
         }),
         ..plain
     };
