@@ -365,9 +365,9 @@ const WHERE: &str = "Where the cycles go. Square root: 14 are the instruction, 9
     prescribes. Cube root: 64 for common numbers, one chain of operations whose results are used at once, to an error of \
     half a unit in the last place; below 2^-125 a second call and two scalings come to it. Kinematics tick: ten loads and \
     ten stores are 40 alone. Train of 37: 42 a ball to take speeds and impedances in, 36 to 44 to settle speeds, forces \
-    and positions, some 1,300 to join balls to clusters. Step of 37 balls: 122 a ball to find its deviations, speed and \
-    impedance, 14 of them a division; 1,400 once a tick; 36 a ball to settle; where most balls press, 800 more to join \
-    them.";
+    and positions, some 1,300 to join balls to clusters. Step of 37 balls: 4,600 for the train, the rest some 70 a \
+    ball for the deviations of both grooves and three polynomials of them; with a load of its own for each ball 300 more a ball, for its place among \
+    the knots and both ends of its interval.";
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {

@@ -99,7 +99,7 @@ fn errors_and_costs(context: &Context, weave: &Courses) -> Result<Table, Failure
     Ok(Table {
         name: "friction",
         caption: "Error and cost of a step. What was found in this run; the largest error promised holds over the whole domain of the scene (table \"promises\"), \
-                  for memory beyond the reversal alone. Cycles: the most on a Cortex-M4F, where every ball presses."
+                  for memory beyond the reversal alone, for 37 balls without the ticks in which balls meet, which what was found has too. Cycles: the most on a Cortex-M4F."
             .into(),
         columns: [
             "scene",
