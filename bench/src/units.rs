@@ -125,7 +125,12 @@ const POSITION: &[Unit] = &[
     unit("um", &["um"], 1e-6, Length),
 ];
 const SPEED: &[Unit] = &[
-    unit("rad_s", &["rad/s", "rad/sec", "rads^-1", "rads-1"], 1.0, Angle),
+    unit(
+        "rad_s",
+        &["rad/s", "rad/sec", "rads^-1", "rads-1"],
+        1.0,
+        Angle,
+    ),
     unit(
         "deg_s",
         &["deg/s", "deg/sec", "degs^-1", "degs-1"],

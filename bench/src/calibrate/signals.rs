@@ -248,7 +248,10 @@ impl Rows {
                 rest.fill(false);
             }
         }
-        let weights: Vec<f64> = moves.iter().map(|moves| f64::from(u8::from(*moves))).collect();
+        let weights: Vec<f64> = moves
+            .iter()
+            .map(|moves| f64::from(u8::from(*moves)))
+            .collect();
         let filtered = self.filter.apply(&weights);
         let rows = filtered.iter().map(|weight| *weight > 0.5).collect();
         self.moves = Some(Arc::new([moves, rows]));

@@ -161,7 +161,11 @@ pub fn calibrate(
     let whole = literature(&slide)?;
     let sure = uncertainty(&slide, &whole);
 
-    let all = if plain.one_speed { plain } else { terms(&prepared) };
+    let all = if plain.one_speed {
+        plain
+    } else {
+        terms(&prepared)
+    };
     let (mut models, mut untold) = (Vec::new(), Vec::new());
     let mut add = |law: Law, terms: Terms, name: &str| match model(
         &prepared,

@@ -281,7 +281,16 @@ fn no_number_is_a_missing_sample() {
         let data = file.block("##DT", &[], &doubles(&values));
         let table = read(&file.done(group, data, 0)).unwrap();
         assert_eq!(table.times.len(), rows);
-        assert!(table.columns.iter().all(|column| column.values.iter().all(|x| x.is_finite())));
-        assert!(table.notes[0].contains("are no numbers"), "{:?}", table.notes);
+        assert!(
+            table
+                .columns
+                .iter()
+                .all(|column| column.values.iter().all(|x| x.is_finite()))
+        );
+        assert!(
+            table.notes[0].contains("are no numbers"),
+            "{:?}",
+            table.notes
+        );
     }
 }

@@ -205,8 +205,7 @@ impl ScrewSummary {
     fn peak_pressure(&self, design: &Design, balls: u16) -> f32 {
         let screw = design.screw();
         let load = self.course.peak_load() as f32;
-        let contact_force =
-            ScrewContacts::of(screw).preloaded(load, balls, design.caged.clearance);
+        let contact_force = ScrewContacts::of(screw).preloaded(load, balls, design.caged.clearance);
         HertzContact::of(screw, Groove::Screw)
             .at(contact_force)
             .max_pressure

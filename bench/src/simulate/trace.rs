@@ -489,7 +489,9 @@ impl Rows {
                     table.values(column)
                 };
                 let value = values.and_then(|values| values.get(row));
-                value.copied().ok_or_else(|| "a column is missing".to_owned())
+                value
+                    .copied()
+                    .ok_or_else(|| "a column is missing".to_owned())
             })
         });
         Ok((samples.collect::<Result<_, _>>()?, temperature))

@@ -54,7 +54,11 @@ pub fn stands_still(
         .copied()
         .collect();
     let (low, high) = range(&at_rest);
-    let many = if rests.len() == 1 { "stretch" } else { "stretches" };
+    let many = if rests.len() == 1 {
+        "stretch"
+    } else {
+        "stretches"
+    };
     findings.push(Finding::new(
         FindingKind::Rests,
         samples as f64,

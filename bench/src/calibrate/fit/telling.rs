@@ -272,7 +272,12 @@ fn worst(
     };
     let lacking = hints.lacking(&names).filter(|_| reason != Reason::AtBound);
     let because = lacking.unwrap_or_else(|| what.into());
-    Some(setting(&sure.intervals[chosen], value, (names, reason), (because, hints)))
+    Some(setting(
+        &sure.intervals[chosen],
+        value,
+        (names, reason),
+        (because, hints),
+    ))
 }
 
 /// The first parameter that the sensors cannot have seen, and the value that it is set to.
@@ -297,11 +302,7 @@ fn setting(
     (because, hints): (String, &dyn Hints),
 ) -> (Untold, (&'static str, f64)) {
     let name = chosen.name;
-    let unit = if chosen.unit == "1" {
-        ""
-    } else {
-        chosen.unit
-    };
+    let unit = if chosen.unit == "1" { "" } else { chosen.unit };
     let set = format!(
         "{} is set to {value}{}{unit}",
         words(&[name], hints),

@@ -125,7 +125,10 @@ pub fn written(
         text,
         design,
         left_out,
-        at_bound: at_bound.iter().map(|estimate| estimate.name.clone()).collect(),
+        at_bound: at_bound
+            .iter()
+            .map(|estimate| estimate.name.clone())
+            .collect(),
     })
 }
 

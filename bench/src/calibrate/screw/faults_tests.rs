@@ -161,7 +161,10 @@ fn a_forgotten_ratio_has_a_word() {
         *torque /= 1.8;
     }
     let message = said(&trace).unwrap_err();
-    assert!(message.contains("--ratio 1.7") || message.contains("--ratio 1.8"), "{message}");
+    assert!(
+        message.contains("--ratio 1.7") || message.contains("--ratio 1.8"),
+        "{message}"
+    );
 }
 
 /// A logger at 2.3 ms, by 4 % more or less each time.

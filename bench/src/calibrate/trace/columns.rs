@@ -22,9 +22,9 @@ use crate::source::Source;
 
 use crate::calibrate::trace::channels::{range, resolution, unwrap};
 use crate::calibrate::trace::clock::Clock;
-use crate::calibrate::trace::table::{self, Column, Table};
 use crate::calibrate::trace::free_load::{self, LoadKind};
 use crate::calibrate::trace::outliers;
+use crate::calibrate::trace::table::{self, Column, Table};
 use crate::calibrate::trace::{Coordinate, Repairs, Trace};
 use crate::units::{self, Dimension, Part, Quantity};
 

@@ -65,7 +65,8 @@ fn moments(signal: &[f64]) -> (f64, f64) {
     (mean, (square / count).sqrt())
 }
 
-fn correlation(one: &[f64], other: &[f64]) -> f64 {
+/// Correlation of two signals; 0 where one never changes.
+pub fn correlation(one: &[f64], other: &[f64]) -> f64 {
     let ((mean, deviation), (mean_other, deviation_other)) = (moments(one), moments(other));
     let both: f64 = one
         .iter()
@@ -119,10 +120,16 @@ mod tests {
 
     #[test]
     fn what_changes_or_drives_the_effort_is_a_load() {
-        let slow = load(|time, noise| 12.0 * (TAU * 0.1 * time).sin() + 4.0 * noise, 0.0);
+        let slow = load(
+            |time, noise| 12.0 * (TAU * 0.1 * time).sin() + 4.0 * noise,
+            0.0,
+        );
         assert_eq!(kind(&slow, &effort(), STEP), LoadKind::Changes);
         // Whole periods in a block: the effort follows it.
-        let fast = load(|time, noise| 40.0 * (TAU * 8.0 * time).sin() + 4.0 * noise, 0.0);
+        let fast = load(
+            |time, noise| 40.0 * (TAU * 8.0 * time).sin() + 4.0 * noise,
+            0.0,
+        );
         let follows: Vec<f64> = effort()
             .iter()
             .zip(&fast)
@@ -130,7 +137,13 @@ mod tests {
             .collect();
         assert_eq!(kind(&fast, &follows, STEP), LoadKind::Changes);
         let pulse = load(
-            |time, noise| if (3.0..3.02).contains(&time) { 90.0 } else { noise },
+            |time, noise| {
+                if (3.0..3.02).contains(&time) {
+                    90.0
+                } else {
+                    noise
+                }
+            },
             0.0,
         );
         assert_eq!(kind(&pulse, &effort(), STEP), LoadKind::Changes);

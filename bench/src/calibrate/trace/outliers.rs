@@ -275,7 +275,7 @@ impl<'a> Channel<'a> {
         while sample < end.min(samples - 1) {
             let left = sample - 1;
             let jump = self.between(left, sample);
-            if jump.abs() <= rough.noise {
+            if jump.abs() <= rough.noise && rough.off[sample] <= rough.noise {
                 sample += 1;
                 continue;
             }
@@ -406,7 +406,8 @@ fn answered(sample: usize, motion: Option<&Roughness>) -> bool {
 
 /// Whether a position is an angle.
 const fn turns(part: Part, dimension: Dimension) -> bool {
-    matches!(dimension, Dimension::Angle) || !matches!(part, Part::Carriage) && matches!(dimension, Dimension::Unsaid)
+    matches!(dimension, Dimension::Angle)
+        || !matches!(part, Part::Carriage) && matches!(dimension, Dimension::Unsaid)
 }
 
 /// Whether an angle starts again after a turn, whatever a few of its samples do.

@@ -2,7 +2,8 @@
 //!
 //! Between two steps of its sensor, or within its noise, a motion has no direction; friction at rest is anything up to
 //! breakaway, or nothing where the drive is off. Such samples belong to no direction of sliding and are left out of every
-//! regression, on both sides of it. What they can tell is that friction is at least as large as the effort there.
+//! regression, on both sides of it. What they can tell is that friction is at least as large as the effort there. A stop in
+//! which the effort follows a load is none.
 
 use std::borrow::Cow;
 use std::collections::VecDeque;
@@ -11,6 +12,7 @@ use std::ops::Range;
 use crate::calibrate::signals::noise::white_noise;
 use crate::calibrate::trace::Trace;
 use crate::calibrate::trace::channels::{range, resolution};
+use crate::calibrate::trace::free_load::correlation;
 
 /// Shortest rest, s. A weave of 0.6 rad at 0.2 Hz stays for 0.22 s within a step of 6 mrad (a coarse encoder of ten bits)
 /// where it turns round: a rest is longer.
@@ -26,13 +28,29 @@ const SPREAD: (f64, f64) = (8.0, 4.0);
 /// Deviations of a mean that are no motion.
 const MEAN: f64 = 3.0;
 
+/// Correlation of effort and load from which most of the effort's changes are the load's: a half of their square.
+const FOLLOWS: f64 = 0.7;
+
 /// Stretches at rest, in order.
 pub fn rests(trace: &Trace) -> Vec<Range<usize>> {
     let window = ((SHORTEST / trace.step).ceil() as usize).max(FEWEST);
-    match trace.speed.as_deref().filter(|_| trace.position_summed) {
+    let mut rests = match trace.speed.as_deref().filter(|_| trace.position_summed) {
         Some(speed) => of_speed(speed, window),
         None => of_position(&trace.position, trace.resolution, window),
-    }
+    };
+    rests.retain(|rest| !holds(trace, rest));
+    rests
+}
+
+/// Whether a drive holds against a load that changes: such a stop tells the load's gain, and what is remembered of the friction.
+fn holds(trace: &Trace, rest: &Range<usize>) -> bool {
+    let load = trace
+        .load
+        .as_deref()
+        .and_then(|load| load.get(rest.clone()));
+    let effort = trace.effort.get(rest.clone());
+    load.zip(effort)
+        .is_some_and(|(load, effort)| correlation(load, effort) > FOLLOWS)
 }
 
 /// A signal without its rests.
@@ -42,7 +60,9 @@ pub fn moving<'a>(signal: &'a [f64], rests: &[Range<usize>]) -> Cow<'a, [f64]> {
     }
     let starts = std::iter::once(0).chain(rests.iter().map(|rest| rest.end));
     let ends = rests.iter().map(|rest| rest.start).chain([signal.len()]);
-    let stretches = starts.zip(ends).filter_map(|(start, end)| signal.get(start..end));
+    let stretches = starts
+        .zip(ends)
+        .filter_map(|(start, end)| signal.get(start..end));
     Cow::Owned(stretches.flatten().copied().collect())
 }
 

@@ -257,7 +257,14 @@ impl Growing {
         let columns: Vec<_> = self
             .columns
             .iter()
-            .map(|column| (column.place, column.name.as_str(), column.quantity, column.unit))
+            .map(|column| {
+                (
+                    column.place,
+                    column.name.as_str(),
+                    column.quantity,
+                    column.unit,
+                )
+            })
             .collect();
         let Some(units) = front::units(record, &columns) else {
             return Ok(false);

@@ -330,11 +330,7 @@ fn linear(coordinate: Coordinate, terms: Terms, load: bool) -> Vec<LinearParamet
     if load {
         linear.push(free(GAIN, units.gain));
     }
-    let level = if terms.one_speed {
-        AT_ONE_SPEED
-    } else {
-        LEVEL
-    };
+    let level = if terms.one_speed { AT_ONE_SPEED } else { LEVEL };
     linear.push(positive(level, units.effort));
     if terms.position {
         linear.push(free(SLOPE, units.stiffness));

@@ -105,7 +105,11 @@ fn runs(speeds: &[f64], rest: f64, step: f64) -> Trace {
         let acceleration = (after - before) / (2.0 * tick);
         let torque = 8e-6 * acceleration + 4e-5 * speed + 3.7e-3 * speed.signum();
         let moves = *speed != 0.0;
-        effort.push(if moves { torque + 2e-4 * rough[sample] } else { 0.0 });
+        effort.push(if moves {
+            torque + 2e-4 * rough[sample]
+        } else {
+            0.0
+        });
         position.push((angle / step).round() * step);
         angle += speed * tick;
     }
@@ -121,12 +125,19 @@ fn runs(speeds: &[f64], rest: f64, step: f64) -> Trace {
 /// However long the rests, what slides tells the friction.
 #[test]
 fn rests_between_runs_change_nothing() {
-    for (rest, step) in [(0.0, TAU / 4096.0), (0.7, TAU / 4096.0), (2.5, TAU / 2000.0)] {
+    for (rest, step) in [
+        (0.0, TAU / 4096.0),
+        (0.7, TAU / 4096.0),
+        (2.5, TAU / 2000.0),
+    ] {
         let trace = runs(&[-3.0, 3.0, -8.0, 8.0, -17.0, 17.0], rest, step);
         let (answer, _) = plain(&trace, &Filters::default()).unwrap();
         for (name, truth) in [("viscous_friction", 4e-5), ("coulomb_friction", 3.7e-3)] {
             let found = answer.parameter(name).unwrap();
-            assert!((found.low..=found.high).contains(&truth), "{rest}: {found:?}");
+            assert!(
+                (found.low..=found.high).contains(&truth),
+                "{rest}: {found:?}"
+            );
             assert!(found.half_width() < 0.2 * truth, "{rest}: {found:?}");
         }
         let told = answer.cannot_tell.join("; ");
@@ -143,7 +154,11 @@ fn one_speed_tells_one_number() {
     let found = answer.parameter("friction_at_one_speed").unwrap();
     let truth = 3.7e-3 + 4e-5 * 6.0;
     assert!((found.low..=found.high).contains(&truth), "{found:?}");
-    assert!(answer.cannot_tell[0].starts_with(
-        "the trace moves at one speed: Coulomb and viscous friction are one number, 0.0039"
-    ), "{}", answer.cannot_tell[0]);
+    assert!(
+        answer.cannot_tell[0].starts_with(
+            "the trace moves at one speed: Coulomb and viscous friction are one number, 0.0039"
+        ),
+        "{}",
+        answer.cannot_tell[0]
+    );
 }

@@ -148,7 +148,8 @@ fn every_fault_names_its_line() {
 
 #[test]
 fn lines_above_units_below_and_empty_cells() {
-    let text = "Recorder 3\n\nTime;Nut speed;Axial load\nms;1/min;kN\n0;60;1,5\n250;;\n500;-60;0,5\n";
+    let text =
+        "Recorder 3\n\nTime;Nut speed;Axial load\nms;1/min;kN\n0;60;1,5\n250;;\n500;-60;0,5\n";
     let samples = parse(text.as_bytes()).unwrap();
     let turn = 60.0 * (std::f64::consts::TAU / 60.0);
     // The row without a speed is left out.
@@ -162,5 +163,8 @@ fn lines_above_units_below_and_empty_cells() {
     );
     let text = "time,nut_speed,axial_load\n0,1,10\n1,1,\n2,1,nan\n3,1,40\n";
     let loads = parse(text.as_bytes()).unwrap();
-    assert_eq!(loads.iter().map(|moment| moment.load).collect::<Vec<_>>(), [10.0, 20.0, 30.0, 40.0]);
+    assert_eq!(
+        loads.iter().map(|moment| moment.load).collect::<Vec<_>>(),
+        [10.0, 20.0, 30.0, 40.0]
+    );
 }

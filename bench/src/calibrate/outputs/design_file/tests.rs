@@ -181,7 +181,10 @@ fn what_is_at_a_bound_is_not_written() {
     let mut calibration = whole();
     for name in ["full_film_ratio", "gain", "preload"] {
         let parameters = &mut calibration.parameters;
-        let found = parameters.iter_mut().find(|found| found.name == name).unwrap();
+        let found = parameters
+            .iter_mut()
+            .find(|found| found.name == name)
+            .unwrap();
         found.at_bound = true;
     }
     let written = written(USERS, (&calibration, None), "weave").unwrap();

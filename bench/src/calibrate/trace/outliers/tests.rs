@@ -26,7 +26,11 @@ fn measured() -> Vec<[f64; 3]> {
         .map(|sample| {
             let [angle, torque, load] = drive(1e-3 * sample as f64);
             let angle = (angle / STEP).round() * STEP;
-            [angle, torque + 2e-3 * rough[0][sample], load + 4.0 * rough[1][sample]]
+            [
+                angle,
+                torque + 2e-3 * rough[0][sample],
+                load + 4.0 * rough[1][sample],
+            ]
         })
         .collect()
 }
@@ -70,7 +74,14 @@ fn a_clean_trace_is_left_alone() {
 /// drive to the noise of the neighbours.
 #[test]
 fn dropouts_and_spikes_are_left_out_and_named() {
-    for (column, wrong) in [(0, 0.0), (0, 65.535), (1, 0.0), (1, 3.0), (2, 0.0), (2, -8e3)] {
+    for (column, wrong) in [
+        (0, 0.0),
+        (0, 65.535),
+        (1, 0.0),
+        (1, 3.0),
+        (2, 0.0),
+        (2, -8e3),
+    ] {
         let mut rows = measured();
         let inner: Vec<usize> = chosen(column)
             .into_iter()
@@ -115,7 +126,10 @@ fn a_run_of_an_angle_that_wraps_is_left_out() {
     for (sample, found) in trace.position.iter().enumerate() {
         let truth = drive(1e-3 * sample as f64)[0] + shift;
         // A cubic over 9 ms: the fourth derivative of the ripple, 0.01 (2 pi 9)^4, over 24 times 4.5^4 ms^4, and a step.
-        assert!((found - truth).abs() < 2e-3, "{sample}: {found} for {truth}");
+        assert!(
+            (found - truth).abs() < 2e-3,
+            "{sample}: {found} for {truth}"
+        );
     }
 }
 
@@ -135,7 +149,10 @@ fn what_is_too_much_or_does_not_come_back_is_refused() {
         row[0] += 1.5;
     }
     let message = read(&rows, "nut_position").unwrap_err();
-    assert!(message.contains("it jumps by 1.5") && message.contains("before row 3001"), "{message}");
+    assert!(
+        message.contains("it jumps by 1.5") && message.contains("before row 3001"),
+        "{message}"
+    );
 }
 
 /// A torque that peaks for one slow sample as the speed starts is real; one that does not move anything is none.

@@ -86,6 +86,22 @@ fn a_motion_never_rests() {
         .collect();
     assert_eq!(rests(&trace(weave, step, None, STEP)), []);
     // Ten steps a second.
-    let creeping: Vec<f64> = (0..20_000).map(|k| (f64::from(k) / 100.0).floor() * step).collect();
+    let creeping: Vec<f64> = (0..20_000)
+        .map(|k| (f64::from(k) / 100.0).floor() * step)
+        .collect();
     assert_eq!(rests(&trace(creeping, step, None, STEP)), []);
+}
+
+/// A drive that holds a load which changes stays in; one that is off while the load changes does not.
+#[test]
+fn a_stop_under_a_load_that_the_drive_holds_is_none() {
+    let load: Vec<f64> = (0..8000)
+        .map(|k| 300.0 * (TAU * 0.4 * STEP * f64::from(k)).sin())
+        .collect();
+    let mut held = trace(runs(2.0), 1e-3, None, STEP);
+    held.effort = load.iter().map(|load| 1e-3 * load + 0.01).collect();
+    held.load = Some(load);
+    assert_eq!(rests(&held), []);
+    held.effort = noise(4, 8000, 0.0);
+    assert_eq!(rests(&held).len(), 4);
 }

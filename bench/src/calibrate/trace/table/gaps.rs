@@ -84,9 +84,12 @@ pub fn filled(table: Table) -> Result<Table, String> {
 fn moving(table: &Table) -> Option<usize> {
     let parts = [Part::Nut, Part::Motor, Part::Carriage, Part::Plain];
     let of = |of: fn(Part) -> Quantity| {
-        parts
-            .into_iter()
-            .find_map(|part| table.columns.iter().position(|column| column.quantity == of(part)))
+        parts.into_iter().find_map(|part| {
+            table
+                .columns
+                .iter()
+                .position(|column| column.quantity == of(part))
+        })
     };
     of(Quantity::Position).or_else(|| of(Quantity::Speed))
 }
