@@ -127,7 +127,7 @@ fn every_fault_names_its_line() {
         ("time,nut_speed,axial_load\n,1,1\n", 2, "no number"),
         (
             "time,nut_speed,axial_load\n0,1,1\n1,1,\n",
-            3,
+            4,
             "column axial_load: it has fewer than two numbers",
         ),
         (
