@@ -183,7 +183,10 @@ fn gaps_jitter_and_repeats_are_repaired_and_counted() {
         writeln!(text, "{time:.4},{},1", angle(time)).unwrap();
     }
     let trace = read(&text, None).unwrap();
-    assert_eq!((trace.repairs.clone(), trace.len()), (Repairs::default(), 3000));
+    assert_eq!(
+        (trace.repairs.clone(), trace.len()),
+        (Repairs::default(), 3000)
+    );
     assert!((trace.step * 1500.0 - 1.0).abs() < 1e-4);
 }
 
