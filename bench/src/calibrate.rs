@@ -52,7 +52,7 @@ pub(crate) fn accepts(text: &[u8]) -> Result<usize, String> {
         let rows = signals::Rows::new(trace.step, &signals::RowSettings::default())?;
         let rows = rows.of(&motion.speed);
         checks::examine(&trace, &motion)?;
-        checks::load_gain(&trace, &motion, 1e-3)?;
+        checks::load_gain(&trace, &motion, 1e-3, true)?;
         Ok(trace.len().max(rows.len()))
     };
     // Either may be refused by itself: a length and a torque need a design.

@@ -4,7 +4,7 @@ use csv::StringRecord;
 
 use crate::units::cut;
 
-/// Refuses columns that are not separated by commas.
+/// Refuses columns that are not separated by what separates them in tables that are read.
 ///
 /// # Errors
 /// What separates them, and what to do.
@@ -13,18 +13,13 @@ pub fn separated(header: &StringRecord) -> Result<(), String> {
     let separator = [(';', "semicolons"), ('\t', "tabs"), ('|', "bars")]
         .into_iter()
         .find(|(letter, _)| joined.iter().any(|name| name.contains(*letter)));
-    let Some((letter, name)) = separator else {
+    let Some((_, name)) = separator else {
         return Ok(());
     };
     let line = cut(&joined.join(","));
     let shown = line.escape_debug();
-    let decimal = if letter == ';' {
-        "; where numbers have a decimal comma, make it a point first"
-    } else {
-        ""
-    };
     Err(format!(
-        "here stands \"{shown}\": the columns are separated by {name}; columns are separated by commas, and numbers have a decimal point. Save the table so{decimal}"
+        "here stands \"{shown}\": the columns are separated by {name}, and no line has the names of a time and of another column that is known; columns are separated by commas, semicolons or tabs"
     ))
 }
 

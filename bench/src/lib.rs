@@ -33,6 +33,7 @@ mod files;
 #[doc(hidden)]
 pub mod fmu;
 mod folder;
+mod front;
 mod headings;
 #[doc(hidden)]
 pub mod mdf4;

@@ -72,6 +72,9 @@ pub enum Dimension {
 }
 
 impl Unit {
+    /// Where no unit is said.
+    pub const SI: Self = UNSAID;
+
     /// A value of the unit in SI.
     pub fn si(self, value: f64) -> f64 {
         if self.factor == 1.0 && self.offset == 0.0 {
@@ -122,8 +125,18 @@ const POSITION: &[Unit] = &[
     unit("um", &["um"], 1e-6, Length),
 ];
 const SPEED: &[Unit] = &[
-    unit("rad_s", &["rad/s", "rads^-1", "rads-1"], 1.0, Angle),
-    unit("deg_s", &["deg/s", "degs^-1", "degs-1"], PI / 180.0, Angle),
+    unit(
+        "rad_s",
+        &["rad/s", "rad/sec", "rads^-1", "rads-1"],
+        1.0,
+        Angle,
+    ),
+    unit(
+        "deg_s",
+        &["deg/s", "deg/sec", "degs^-1", "degs-1"],
+        PI / 180.0,
+        Angle,
+    ),
     unit(
         "rpm",
         &[
@@ -133,8 +146,8 @@ const SPEED: &[Unit] = &[
         Angle,
     ),
     unit("rps", &["rps", "rev/s"], TAU, Angle),
-    unit("m_s", &["m/s", "ms^-1"], 1.0, Length),
-    unit("mm_s", &["mm/s"], 1e-3, Length),
+    unit("m_s", &["m/s", "m/sec", "ms^-1"], 1.0, Length),
+    unit("mm_s", &["mm/s", "mm/sec"], 1e-3, Length),
     unit("um_s", &["um/s"], 1e-6, Length),
     unit("km_h", &["km/h", "kmh", "kph"], 1.0 / 3.6, Length),
 ];
@@ -160,6 +173,8 @@ const TEMPERATURE: &[Unit] = &[
 /// Every name without a unit. A longer name stands before one that it starts with.
 const NAMES: &[(&str, Quantity)] = &[
     ("time", Quantity::Time),
+    ("timestamps", Quantity::Time),
+    ("timestamp", Quantity::Time),
     ("position", Quantity::Position(Part::Plain)),
     ("motor_position", Quantity::Position(Part::Motor)),
     ("nut_position", Quantity::Position(Part::Nut)),

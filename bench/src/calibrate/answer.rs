@@ -17,6 +17,8 @@ pub struct Estimate {
     pub high: f64,
     /// Whether it was set instead of estimated.
     pub fixed: bool,
+    /// Whether it ended at a bound of what is allowed: then it is no estimate, and is written nowhere.
+    pub at_bound: bool,
 }
 
 impl Estimate {
@@ -29,6 +31,7 @@ impl Estimate {
             low: value,
             high: value,
             fixed: true,
+            at_bound: false,
         }
     }
 
@@ -45,7 +48,15 @@ struct Entry {
     low: f64,
     high: f64,
     fixed: bool,
+    #[serde(skip_serializing_if = "is_false")]
+    at_bound: bool,
     unit: &'static str,
+}
+
+// As serde calls it.
+#[allow(clippy::trivially_copy_pass_by_ref)]
+fn is_false(value: &bool) -> bool {
+    !value
 }
 
 /// How a model of friction does on the trace.
@@ -123,6 +134,7 @@ fn by_name<S: Serializer>(estimates: &[Estimate], serializer: S) -> Result<S::Ok
             low: estimate.low,
             high: estimate.high,
             fixed: estimate.fixed,
+            at_bound: estimate.at_bound,
             unit: estimate.unit,
         };
         map.serialize_entry(&estimate.name, &entry)?;
@@ -145,6 +157,7 @@ mod tests {
                     low: 94.0,
                     high: f64::INFINITY,
                     fixed: false,
+                    at_bound: false,
                 },
                 Estimate::fixed("friction", "", 0.1),
             ],

@@ -22,6 +22,7 @@ use crate::calibrate::checks::relation::{
 };
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::channels::range;
+use crate::calibrate::trace::rests::{moving, rests};
 use crate::calibrate::trace::{Coordinate, Trace};
 
 /// Fastest that a nut turns, rad/s (95,000 turns a minute), and that a carriage travels, m/s.
@@ -54,7 +55,9 @@ fn look(trace: &Trace, motion: &Motion) -> Result<Vec<Finding>, String> {
     finite(trace)?;
     moves(trace, motion)?;
     let mut findings = told_by_reader(trace);
-    effort_lives(trace, &mut findings)?;
+    let rests = rests(trace);
+    excitation::stands_still(trace, &rests, &mut findings)?;
+    effort_lives(&moving(&trace.effort, &rests), &mut findings)?;
     measured_speed(trace, motion, &mut findings)?;
     if let Some(relation) = relation(trace, motion) {
         signs(trace, motion, &relation)?;
@@ -68,23 +71,37 @@ fn look(trace: &Trace, motion: &Motion) -> Result<Vec<Finding>, String> {
         unexplained(trace, motion, &relation, &mut findings)?;
     }
     clocks(trace, motion, &mut findings)?;
-    excitation::add(trace, motion, &mut findings)?;
+    excitation::add(trace, motion, &rests, &mut findings)?;
     Ok(findings)
 }
 
 /// Whether the effort of the load is what the lead makes of it, on a trace whose load is worth it: `travel` is the
-/// carriage's travel of a unit of the coordinate, m/rad or 1.
+/// carriage's travel of a unit of the coordinate, m/rad or 1. Where nobody said a ratio of the motor's gear, the effort must be
+/// that of a nut without one.
 ///
 /// # Errors
-/// A load in a wrong unit or of a wrong sign.
-pub fn load_gain(trace: &Trace, motion: &Motion, travel: f64) -> Result<(), Failure> {
+/// A load in a wrong unit or of a wrong sign; a ratio that was forgotten.
+pub fn load_gain(
+    trace: &Trace,
+    motion: &Motion,
+    travel: f64,
+    ratio_unsaid: bool,
+) -> Result<(), Failure> {
     /// A friction that is not understood yet changes the gain by less.
     const WITHIN: f64 = 3.0;
+    /// Load cells, leads and losses of a screw that is worth a calibration are known to less: the least ratios of gears are larger.
+    const WITHOUT_GEAR: f64 = 1.4;
     let Some(relation) = relation(trace, motion).filter(|r| r.gain_certainty.abs() > CERTAIN)
     else {
         return Ok(());
     };
     let gain = relation.gain / travel;
+    if ratio_unsaid && gain > 0.0 && gain.max(1.0 / gain) > WITHOUT_GEAR {
+        return Err(Failure::Data(format!(
+            "a newton of axial load takes {gain:.3} of the effort that the lead makes of it: are torque and position the motor's, behind a gear? --ratio says its turns in a turn of the nut, as --ratio {:.2} (--ratio 1 says that there is none); else the load, the effort or the lead is in a wrong unit",
+            1.0 / gain
+        )));
+    }
     if gain > 1.0 / WITHIN && gain < WITHIN {
         return Ok(());
     }
@@ -149,7 +166,7 @@ fn moves(trace: &Trace, motion: &Motion) -> Result<(), String> {
 
 fn told_by_reader(trace: &Trace) -> Vec<Finding> {
     let mut findings = Vec::new();
-    let repairs = trace.repairs;
+    let repairs = &trace.repairs;
     let repaired = repairs.missing + repairs.jittered + repairs.repeated;
     if repaired > 0 {
         findings.push(Finding::new(
@@ -160,6 +177,24 @@ fn told_by_reader(trace: &Trace) -> Vec<Finding> {
                 repairs.missing, repairs.jittered, repairs.repeated
             ),
         ));
+    }
+    if repairs.free_running > 0 {
+        findings.push(Finding::new(
+            FindingKind::Repaired,
+            repairs.free_running as f64,
+            format!(
+                "the samples have no even tick, as of a logger that runs free: all {} of them were interpolated at their own times to ticks of {:.4} ms",
+                repairs.free_running,
+                1e3 * trace.step
+            ),
+        ));
+    }
+    for left_out in &repairs.left_out {
+        let count = left_out.rows.len() as f64;
+        findings.push(Finding::new(FindingKind::LeftOut, count, left_out.told()));
+    }
+    for note in &repairs.notes {
+        findings.push(Finding::new(FindingKind::Repaired, 1.0, note));
     }
     if !trace.ignored.is_empty() {
         findings.push(Finding::new(
@@ -172,14 +207,14 @@ fn told_by_reader(trace: &Trace) -> Vec<Finding> {
 }
 
 /// The effort changes, and is not cut off.
-fn effort_lives(trace: &Trace, findings: &mut Vec<Finding>) -> Result<(), String> {
-    let (low, high) = range(&trace.effort);
+fn effort_lives(effort: &[f64], findings: &mut Vec<Finding>) -> Result<(), String> {
+    let (low, high) = range(effort);
     if !(high > low) {
         return Err(format!(
             "the effort is {low} at every sample: a dead channel"
         ));
     }
-    let share = clipped(&trace.effort, low, high);
+    let share = clipped(effort, low, high);
     if share > CLIPPED[0] {
         return Err(format!(
             "{:.0} % of the effort stands at its limits of {low:.4} and {high:.4}: it is clipped; widen the range, or cut those parts out",
@@ -288,7 +323,7 @@ fn signs(trace: &Trace, motion: &Motion, relation: &Relation) -> Result<(), Stri
         .is_none_or(|sliding| sliding.power > -CERTAIN);
     if trace.load.is_some() && relation.gain_certainty < -CERTAIN && resists {
         return Err(
-            "the effort falls as the load rises: turn the sign of the load, which is positive where it opposes a positive motion"
+            "the effort falls as the load rises: turn the sign of the load, which is positive where it opposes a positive motion (of a left-hand thread, a positive turn travels the other way: turn the sign of the load, or of position and torque both)"
                 .into(),
         );
     }

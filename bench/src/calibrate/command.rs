@@ -255,6 +255,7 @@ impl Arguments {
                 ..RowSettings::default()
             },
             profiles: self.profile.clone(),
+            ratio_unsaid: self.ratio.is_none(),
             ..Request::default()
         }
     }

@@ -136,6 +136,10 @@ impl OutputArguments {
                     let names = written.left_out.join(", ");
                     told.push(format!("a design file has no key for {names}"));
                 }
+                if !written.at_bound.is_empty() {
+                    let names = written.at_bound.join(", ");
+                    told.push(format!("not written, because at a bound: {names}"));
+                }
             }
             if let Some(path) = &self.constants {
                 let text = constants::text(&written.design, &picture.name)?;

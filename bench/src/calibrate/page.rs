@@ -115,7 +115,12 @@ fn parameters(estimates: &[Estimate]) -> Table {
             [number(estimate.low), number(estimate.high)]
         });
         row.push(estimate.unit.into());
-        row.push(if estimate.fixed { "set" } else { "estimated" }.into());
+        let origin = match (estimate.fixed, estimate.at_bound) {
+            (true, _) => "set",
+            (false, true) => "at its bound",
+            (false, false) => "estimated",
+        };
+        row.push(origin.into());
         row
     });
     Table {

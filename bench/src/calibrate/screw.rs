@@ -20,6 +20,8 @@ pub mod blocks;
 pub mod choice;
 pub mod evidence;
 pub mod exact;
+#[cfg(test)]
+mod faults_tests;
 pub mod friction;
 pub mod hints;
 #[cfg(test)]
@@ -75,6 +77,8 @@ pub struct Request {
     pub without_models: bool,
     /// Names of the parameters whose profile likelihoods are found.
     pub profiles: Vec<String>,
+    /// Whether the ratio of the motor's gear was left at 1 without a word.
+    pub ratio_unsaid: bool,
     /// Trace that is not fitted and scores the models; without it every third block of the fitted one.
     pub unseen: Option<Trace>,
 }
@@ -94,6 +98,7 @@ impl Default for Request {
             search: Spacing::COARSE,
             without_models: false,
             profiles: Vec::new(),
+            ratio_unsaid: false,
             unseen: None,
         }
     }
@@ -157,8 +162,8 @@ pub fn calibrate(
         .transpose()?;
     let motion = Motion::of(trace, &request.smoothing)?;
     let findings = examine(trace, &motion)?;
-    load_gain(trace, &motion, reduced_lead(design))?;
-    let rows = Rows::new(trace.step, &request.rows)?;
+    load_gain(trace, &motion, reduced_lead(design), request.ratio_unsaid)?;
+    let rows = Rows::of_trace(trace, &request.rows)?;
     let smoothing = request.smoothing.filter(trace.step)?;
     let evidence = Evidence::of(trace, &motion);
     plausible(design, &evidence)?;
@@ -173,7 +178,11 @@ pub fn calibrate(
         .map(|unseen| unseen.problem(screw, values, choice.clone(), request.search))
         .transpose()?;
     let problem = ScrewProblem::new(screw, measured, &smoothing, values, choice, request.search)?;
-    let hints = ScrewHints { evidence, values };
+    let hints = ScrewHints {
+        evidence,
+        values,
+        step: trace.resolution,
+    };
     let told = tell(&problem, &request.fit, &hints)?;
     if let Some(refusal) = told.fit.refusal() {
         return Err(Failure::Data(refusal));
@@ -256,7 +265,7 @@ impl<'a> Unseen<'a> {
         Ok(Self {
             trace,
             motion: Motion::of(trace, &request.smoothing)?,
-            rows: Rows::new(trace.step, &request.rows)?,
+            rows: Rows::of_trace(trace, &request.rows)?,
             smoothing: request.smoothing.filter(trace.step)?,
         })
     }
@@ -324,6 +333,8 @@ fn spoiled(findings: Vec<Finding>) -> impl Iterator<Item = String> {
                 | FindingKind::ShiftedSpeed
                 | FindingKind::SignUnchecked
                 | FindingKind::DeadChannel
+                | FindingKind::LeftOut
+                | FindingKind::Rests
                 | FindingKind::Repaired
                 | FindingKind::IgnoredColumns
         )
@@ -385,6 +396,7 @@ fn answer(
                 low: interval.low,
                 high: interval.high,
                 fixed: false,
+                at_bound: interval.at_bound,
             },
             None => Estimate::fixed(name, unit, value),
         }

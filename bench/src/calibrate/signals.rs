@@ -22,11 +22,15 @@ pub mod spectrum;
 #[cfg(test)]
 mod tests;
 
+use std::ops::Range;
+use std::sync::Arc;
+
 use crate::failure::Failure;
 
 use crate::calibrate::signals::filter::ZeroPhase;
 use crate::calibrate::signals::noise::{derivative, of_derivatives};
 use crate::calibrate::trace::Trace;
+use crate::calibrate::trace::rests::rests;
 
 /// Cut-off of the position's filter where the sampling is fast enough, Hz.
 const CUTOFF: f64 = 40.0;
@@ -180,6 +184,9 @@ pub struct Rows {
     step: f64,
     every: usize,
     edge: usize,
+    /// For every sample, whether the trace moves there, and whether most of what a row there holds is motion; nothing where it never
+    /// rests.
+    moves: Option<Arc<[Vec<bool>; 2]>>,
 }
 
 impl Rows {
@@ -216,12 +223,53 @@ impl Rows {
             step,
             every,
             edge: (edge / step).ceil() as usize,
+            moves: None,
         })
     }
 
-    /// The rows of a signal: filtered, every few samples, without the edges. None where the signal is too short.
+    /// Rows of a trace, without what stands still in it.
+    ///
+    /// # Errors
+    /// Those of [`Self::new`].
+    pub fn of_trace(trace: &Trace, settings: &RowSettings) -> Result<Self, Failure> {
+        Ok(Self::new(trace.step, settings)?.without(&rests(trace), trace.len()))
+    }
+
+    /// The same rows without some stretches of so many samples. The relation of effort and motion holds sample by sample: with these
+    /// samples set to zero on both sides before the filter, it holds in every row, also where a row sees a start or a stop.
+    #[must_use]
+    pub fn without(mut self, stretches: &[Range<usize>], samples: usize) -> Self {
+        if stretches.is_empty() {
+            return self;
+        }
+        let mut moves = vec![true; samples];
+        for stretch in stretches {
+            if let Some(rest) = moves.get_mut(stretch.clone()) {
+                rest.fill(false);
+            }
+        }
+        let weights: Vec<f64> = moves
+            .iter()
+            .map(|moves| f64::from(u8::from(*moves)))
+            .collect();
+        let filtered = self.filter.apply(&weights);
+        let rows = filtered.iter().map(|weight| *weight > 0.5).collect();
+        self.moves = Some(Arc::new([moves, rows]));
+        self
+    }
+
+    /// The rows of a signal: filtered, every few samples, without the edges and rests. None where the signal is too short.
     pub fn of(&self, signal: &[f64]) -> Vec<f64> {
-        let filtered = self.filter.apply(signal);
+        let filtered = match &self.moves {
+            Some(moves) if moves[0].len() == signal.len() => {
+                let moving = signal.iter().zip(&moves[0]);
+                let signal: Vec<f64> = moving
+                    .map(|(value, moves)| if *moves { *value } else { 0.0 })
+                    .collect();
+                self.filter.apply(&signal)
+            }
+            _ => self.filter.apply(signal),
+        };
         self.samples(signal.len())
             .filter_map(|sample| filtered.get(sample).copied())
             .collect()
@@ -229,7 +277,13 @@ impl Rows {
 
     /// The samples that become rows, of so many.
     pub fn samples(&self, samples: usize) -> impl Iterator<Item = usize> + use<> {
-        (self.edge..samples.saturating_sub(self.edge)).step_by(self.every)
+        let moves = self.moves.clone();
+        (self.edge..samples.saturating_sub(self.edge))
+            .step_by(self.every)
+            .filter(move |sample| {
+                let moves = moves.as_ref().and_then(|moves| moves[1].get(*sample));
+                moves.is_none_or(|moves| *moves)
+            })
     }
 
     /// Number of rows of so many samples.

@@ -6,11 +6,19 @@
 //! | [`table`] | the file's numbers in SI units |
 //! | [`clock`] | one sample clock: tick, gaps, jitter |
 //! | [`channels`] | angles without jumps, the step of a sensor |
+//! | [`outliers`] | samples that no mechanism makes |
+//! | [`rests`] | where a trace stands still |
+//! | [`free_load`] | a load that never leaves its noise |
 
 pub mod channels;
 pub mod clock;
 pub mod columns;
+pub mod free_load;
+pub mod outliers;
+pub mod rests;
 pub mod table;
+
+use self::outliers::LeftOut;
 
 /// What position, speed and effort are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +30,7 @@ pub enum Coordinate {
 }
 
 /// What a reader of a trace has repaired.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Repairs {
     /// Samples that were missing, and are interpolated now.
     pub missing: usize,
@@ -30,6 +38,12 @@ pub struct Repairs {
     pub jittered: usize,
     /// Samples that stood twice.
     pub repeated: usize,
+    /// Samples of a clock that runs free, without an even tick: all of them are interpolated.
+    pub free_running: usize,
+    /// Samples that no mechanism makes, by column.
+    pub left_out: Vec<LeftOut>,
+    /// What else was done, a sentence each.
+    pub notes: Vec<String>,
 }
 
 /// A trace on one sample clock, in SI units. All lists are as long as `effort`.

@@ -78,7 +78,7 @@ pub fn sums(found: &ScrewCalibration) -> Result<Sums, SumsError> {
 /// What the page draws.
 fn picture(trace: &Trace, request: &Request, found: &ScrewCalibration) -> Result<Picture, Failure> {
     let motion = Motion::of(trace, &request.smoothing)?;
-    let rows = Rows::new(trace.step, &request.rows)?;
+    let rows = Rows::of_trace(trace, &request.rows)?;
     let samples: Vec<usize> = rows.samples(trace.len()).collect();
     let at =
         |signal: &[f64]| -> Vec<f64> { samples.iter().map(|sample| signal[*sample]).collect() };

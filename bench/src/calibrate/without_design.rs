@@ -16,22 +16,25 @@ pub mod slide;
 
 use crate::calibrate::answer::{Calibration, ModelScore};
 use crate::calibrate::checks::examine;
+use crate::calibrate::checks::excitation::one_speed;
 use crate::calibrate::checks::finding::{Finding, FindingKind};
 use crate::calibrate::fit::problem::Separable;
 use crate::calibrate::fit::separable::{Fit, FitSettings, fit};
 use crate::calibrate::fit::uncertainty::{Uncertainty, uncertainty};
 use crate::calibrate::laws::Law;
 use crate::calibrate::page::picture::{Correlations, Picture};
+use crate::calibrate::page::shown::digits;
 use crate::calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
 use crate::calibrate::sums::{Reference, Sums, SumsError};
-use crate::calibrate::trace::Trace;
+use crate::calibrate::trace::rests::rests;
+use crate::calibrate::trace::{Coordinate, Trace};
 use crate::calibrate::without_design::choice::{
     LAWS, PLAIN, Prepared, estimates, left_out, model, terms,
 };
 
 use crate::calibrate::without_design::closed_loop::size;
 use crate::calibrate::without_design::controller::SeenController;
-use crate::calibrate::without_design::slide::{Slide, Terms};
+use crate::calibrate::without_design::slide::{AT_ONE_SPEED, Slide, Terms};
 use crate::controller::Controller;
 use crate::failure::Failure;
 
@@ -82,19 +85,23 @@ impl<'a> Filtered<'a> {
         Ok(Self {
             trace,
             motion: motion(trace, filters.smoothing)?,
-            rows: Rows::new(trace.step, &settings)?,
+            rows: Rows::of_trace(trace, &settings)?,
         })
     }
 
     /// The plain model.
-    fn plain(&self) -> Slide<'_> {
-        Slide::new(
-            self.trace,
-            &self.motion,
-            &self.rows,
-            LAWS[0],
-            Terms::default(),
-        )
+    fn plain(&self, terms: Terms) -> Slide<'_> {
+        Slide::new(self.trace, &self.motion, &self.rows, LAWS[0], terms)
+    }
+
+    /// The speed of a trace that moves at one, and the terms that it can tell.
+    fn one_speed(&self) -> (Option<f64>, Terms) {
+        let speed = one_speed(self.trace, &self.motion, &rests(self.trace));
+        let terms = Terms {
+            one_speed: speed.is_some(),
+            ..Terms::default()
+        };
+        (speed, terms)
     }
 
     fn prepared(&self, controller: Option<Controller>) -> Prepared<'_> {
@@ -149,11 +156,16 @@ pub fn calibrate(
         .transpose()?;
     let other = other.as_ref().map(|other| other.prepared(controller));
 
-    let slide = filtered.plain();
+    let (speed, plain) = filtered.one_speed();
+    let slide = filtered.plain(plain);
     let whole = literature(&slide)?;
     let sure = uncertainty(&slide, &whole);
 
-    let all = terms(&prepared);
+    let all = if plain.one_speed {
+        plain
+    } else {
+        terms(&prepared)
+    };
     let (mut models, mut untold) = (Vec::new(), Vec::new());
     let mut add = |law: Law, terms: Terms, name: &str| match model(
         &prepared,
@@ -166,8 +178,9 @@ pub fn calibrate(
         Err(Failure::Data(why)) => untold.push(left_out(name, &why)),
         Err(_) => {}
     };
-    add(LAWS[0], Terms::default(), PLAIN);
-    for law in LAWS {
+    add(LAWS[0], plain, PLAIN);
+    // At one speed there is nothing to be compared.
+    for law in LAWS.into_iter().filter(|_| !plain.one_speed) {
         let name = if law.name == PLAIN {
             format!("{PLAIN}, with the drive's other terms")
         } else {
@@ -192,7 +205,13 @@ pub fn calibrate(
         residual_rms: whole.residual_rms(),
         relative_error: size(&whole.residual) / size(slide.target()),
         effective_rows: sure.effective_rows,
-        cannot_tell: [cannot_tell(trace, &filtered.motion, &findings), untold].concat(),
+        cannot_tell: [
+            one_number(&sure, speed, trace.coordinate),
+            ended_at_bound(&sure),
+            cannot_tell(trace, &filtered.motion, &findings),
+            untold,
+        ]
+        .concat(),
         models,
         winner,
     };
@@ -222,7 +241,8 @@ fn literature(slide: &Slide<'_>) -> Result<Fit, Failure> {
 pub fn plain(trace: &Trace, filters: &Filters) -> Result<(Calibration, Sums), Failure> {
     let filtered = Filtered::new(trace, filters)?;
     let findings = examine(trace, &filtered.motion)?;
-    let slide = filtered.plain();
+    // Traces at several speeds tell together what each of them cannot.
+    let slide = filtered.plain(Terms::default());
     let whole = literature(&slide)?;
     let sure = uncertainty(&slide, &whole);
     let references = slide.linear().iter().map(|parameter| Reference {
@@ -233,12 +253,21 @@ pub fn plain(trace: &Trace, filters: &Filters) -> Result<(Calibration, Sums), Fa
     let refused = |error: SumsError| Failure::Data(error.to_string());
     let mut sums = Sums::new(references.collect()).map_err(refused)?;
     sums.add(&whole, &sure).map_err(refused)?;
+    let (speed, terms) = filtered.one_speed();
+    let slide = filtered.plain(terms);
+    let whole = literature(&slide)?;
+    let sure = uncertainty(&slide, &whole);
     let answer = Calibration {
         parameters: estimates(&sure),
         residual_rms: whole.residual_rms(),
         relative_error: size(&whole.residual) / size(slide.target()),
         effective_rows: sure.effective_rows,
-        cannot_tell: cannot_tell(trace, &filtered.motion, &findings),
+        cannot_tell: [
+            one_number(&sure, speed, trace.coordinate),
+            ended_at_bound(&sure),
+            cannot_tell(trace, &filtered.motion, &findings),
+        ]
+        .concat(),
         models: Vec::new(),
         winner: None,
     };
@@ -263,13 +292,45 @@ fn rank(models: &mut [ModelScore]) -> Option<String> {
         .map(|model| model.name.clone())
 }
 
+/// The sentence of a trace that moves at one speed.
+fn one_number(sure: &Uncertainty, speed: Option<f64>, coordinate: Coordinate) -> Vec<String> {
+    let mut intervals = sure.intervals.iter();
+    let found = intervals.find(|interval| interval.name == AT_ONE_SPEED);
+    let (Some(speed), Some(found)) = (speed, found) else {
+        return Vec::new();
+    };
+    let unit = match coordinate {
+        Coordinate::Rotation => "rad/s",
+        Coordinate::Translation => "m/s",
+    };
+    vec![format!(
+        "the trace moves at one speed: Coulomb and viscous friction are one number, {} {} at {} {unit}; move at several speeds, over a factor of three or more, to tell them apart",
+        digits(found.value, 3),
+        found.unit,
+        digits(speed, 3),
+    )]
+}
+
+/// Sentences of what ended at its bound.
+fn ended_at_bound(sure: &Uncertainty) -> Vec<String> {
+    let ended = sure.intervals.iter().filter(|interval| interval.at_bound);
+    let sentences = ended.map(|interval| {
+        format!(
+            "{}: ended at its bound of {}, and is not told",
+            interval.name.replace('_', " "),
+            digits(interval.value, 3)
+        )
+    });
+    sentences.collect()
+}
+
 /// What a trace without a design cannot tell.
 fn cannot_tell(trace: &Trace, motion: &Motion, findings: &[Finding]) -> Vec<String> {
-    // Load, temperature and reversals are told below, with what would help.
+    // Load, temperature, reversals and one speed are told elsewhere, with what would help.
     let told = |kind: FindingKind| match kind {
         FindingKind::NoLoad => trace.load.is_none(),
         FindingKind::ConstantTemperature => trace.temperature.is_none(),
-        FindingKind::FewReversals => true,
+        FindingKind::FewReversals | FindingKind::ConstantSpeed => true,
         _ => false,
     };
     let mut sentences: Vec<String> = findings
@@ -354,8 +415,11 @@ fn picture(prepared: &Prepared<'_>, terms: Terms, sure: &Uncertainty) -> Result<
         let slide = Slide::new(prepared.trace, prepared.motion, prepared.rows, law, terms);
         fit(&slide, &FitSettings::default()).map(|fit| (slide, fit))
     };
-    let (slide, fit) =
-        of(LAWS[LAWS.len() - 1], terms).or_else(|_| of(LAWS[0], Terms::default()))?;
+    let (slide, fit) = if terms.one_speed {
+        of(LAWS[0], terms)?
+    } else {
+        of(LAWS[LAWS.len() - 1], terms).or_else(|_| of(LAWS[0], Terms::default()))?
+    };
     let trace = prepared.trace;
     let samples: Vec<usize> = prepared.rows.samples(trace.len()).collect();
     let at =

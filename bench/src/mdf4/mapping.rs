@@ -84,7 +84,7 @@ impl Mapping {
 fn entry(column: &str, value: &toml::Value) -> Result<Entry, String> {
     let known = || {
         units::names()
-            .filter(|name| *name != "time")
+            .filter(|name| units::quantity(name) != Some(Quantity::Time))
             .collect::<Vec<_>>()
             .join(", ")
     };

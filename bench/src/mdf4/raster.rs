@@ -113,7 +113,7 @@ fn valid_rows(samples: &Samples, name: &str, notes: &mut Vec<String>) -> Result<
         return Ok(vec![true; all]);
     }
     let said = format!(
-        "channel {}: {invalid} of {all} samples are marked invalid",
+        "channel {}: {invalid} of {all} samples are marked invalid or are no numbers",
         cut(name)
     );
     if invalid as f64 > MOST_INVALID * all as f64 {

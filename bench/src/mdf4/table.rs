@@ -127,13 +127,18 @@ fn time_unit(file: &File, group: &Group) -> Result<Unit, String> {
     })
 }
 
-/// Values in SI units, those that are valid within the range of f32.
+/// Values in SI units, those that are valid within the range of f32. What is no number counts as invalid.
 fn in_si(mut samples: Samples, unit: Unit, name: &str) -> Result<Samples, String> {
+    let mut missing = Vec::new();
     for (sample, value) in samples.values.iter_mut().enumerate() {
         if samples.valid.get(sample) == Some(&false) {
             continue;
         }
         let shown = cut(name);
+        if value.is_nan() {
+            missing.push(sample);
+            continue;
+        }
         if !value.is_finite() {
             return Err(format!(
                 "channel {shown}: sample {sample} = {value} is not finite"
@@ -145,6 +150,14 @@ fn in_si(mut samples: Samples, unit: Unit, name: &str) -> Result<Samples, String
             ));
         }
         *value = unit.si(*value);
+    }
+    if !missing.is_empty() && samples.valid.is_empty() {
+        samples.valid.resize(samples.values.len(), true);
+    }
+    for sample in missing {
+        if let Some(valid) = samples.valid.get_mut(sample) {
+            *valid = false;
+        }
     }
     Ok(samples)
 }

@@ -263,3 +263,34 @@ fn any_file_cut_off_or_changed_is_read_or_refused() {
         }
     }
 }
+
+/// A sample that is no number is left out with its row.
+#[test]
+fn no_number_is_a_missing_sample() {
+    for (place, rows) in [(1, 99), (2, 99)] {
+        let mut file = File::new();
+        let group = file.three(100);
+        let mut values = Vec::new();
+        for sample in 0..100 {
+            let mut row = [0.01 * f64::from(sample), 60.0, 1.0];
+            if sample == 40 {
+                row[place] = f64::NAN;
+            }
+            values.extend(row);
+        }
+        let data = file.block("##DT", &[], &doubles(&values));
+        let table = read(&file.done(group, data, 0)).unwrap();
+        assert_eq!(table.times.len(), rows);
+        assert!(
+            table
+                .columns
+                .iter()
+                .all(|column| column.values.iter().all(|x| x.is_finite()))
+        );
+        assert!(
+            table.notes[0].contains("are no numbers"),
+            "{:?}",
+            table.notes
+        );
+    }
+}

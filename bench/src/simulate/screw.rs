@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
+use epas_friction::law::breakaway::ScrewContacts;
 use epas_friction::{Clearance, Outputs};
 
 use super::reference::Friction;
@@ -201,13 +201,53 @@ impl ScrewSummary {
         lines
     }
 
-    /// Pressure at the screw with the peak load shared evenly, Pa.
+    /// Pressure at the screw with the peak load shared evenly beside the preload, Pa.
     fn peak_pressure(&self, design: &Design, balls: u16) -> f32 {
         let screw = design.screw();
-        let per_load = EfficiencyGeometry::of(screw).normal_per_axial_load();
-        let contact_force = self.course.peak_load() as f32 / f32::from(balls) * per_load;
+        let load = self.course.peak_load() as f32;
+        let contact_force = ScrewContacts::of(screw).preloaded(load, balls, design.caged.clearance);
         HertzContact::of(screw, Groove::Screw)
             .at(contact_force)
             .max_pressure
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use epas_friction::{Faults, Regime};
+
+    use super::*;
+    use crate::designs::read;
+
+    /// Peak pressure of a design under a load, GPa.
+    fn pressure(preload: f32, axial_load: f64) -> f32 {
+        let design = read(
+            &format!(
+                "pitch_radius = 0.0145\nlead = 0.007\nball_radius = 0.002\nconformity = 0.52\n\
+                 contact_angle = 0.7853981633974483\nfriction = 0.1\npreload = {preload}\nloaded_balls = 71\n"
+            ),
+            "design",
+        )
+        .unwrap();
+        let mut summary = ScrewSummary::new(&design);
+        summary.course.add(&Moment {
+            time: 0.0,
+            speed: 1.0,
+            load: axial_load,
+            friction: 0.0,
+            regime: Regime::Driving,
+            faults: Faults::default(),
+        });
+        1e-9 * summary.peak_pressure(&design, 71)
+    }
+
+    /// The preload presses without a load, and of a load's contact it bears at most itself: pressures rise with the third root.
+    #[test]
+    fn the_preload_counts_in_the_pressure() {
+        let free = pressure(20.0, 0.0);
+        assert!((pressure(160.0, 0.0) / free - 2.0).abs() < 1e-3);
+        let [bare, loaded] = [0.1, 20.0].map(|preload| pressure(preload, 3500.0));
+        assert!(loaded > bare);
+        assert!(loaded.powi(3) < 1.001 * (bare.powi(3) + free.powi(3)));
     }
 }

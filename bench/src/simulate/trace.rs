@@ -5,13 +5,16 @@ use std::io::{Read, Seek};
 use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
 
 use crate::aside::say;
+use crate::calibrate::trace::outliers::{self, LeftOut};
+use crate::calibrate::trace::table;
 use crate::designs::calibration::TEMPERATURES;
 use crate::failure::Failure;
 use crate::files::line_of;
+use crate::front;
 use crate::headings;
 use crate::mdf4::{self, Mapping};
 use crate::source::Source;
-use crate::units::{Dimension, Quantity, Unit, channel, cut, heading};
+use crate::units::{Dimension, Quantity, Unit, channel, cut, heading, quantity};
 
 /// One moment of a trace: what one scene's columns hold.
 pub trait Sample: Copy {
@@ -138,14 +141,20 @@ impl Temperature {
         }
     }
 
-    /// One more value, K.
-    fn take(&mut self, value: f64) -> Result<(), String> {
+    /// Refuses what is no temperature, K.
+    fn check(value: f64) -> Result<(), String> {
         let (low, high) = TEMPERATURES;
         if !(f64::from(low)..=f64::from(high)).contains(&value) {
             return Err(format!(
                 "{TEMPERATURE} = {value} is out of range; allowed: {low} to {high} K; a column in degrees Celsius is named temperature_C"
             ));
         }
+        Ok(())
+    }
+
+    /// One more value, K.
+    fn take(&mut self, value: f64) -> Result<(), String> {
+        Self::check(value)?;
         if let Self::Followed(values) = self {
             values.push(value as f32);
         }
@@ -217,10 +226,11 @@ fn channels_of<S: Sample>(
         master: &first,
         mapping: channels,
     };
-    let found = mdf4::read(input, &request)?;
+    let mut found = mdf4::read(input, &request)?;
     for note in &found.notes {
         say(format_args!("note: {note}"));
     }
+    leave_out(&mut found)?;
     let mut places = Vec::new();
     for wanted in &wanted {
         let column = found
@@ -265,6 +275,22 @@ fn channels_of<S: Sample>(
     }
     enough(&samples)?;
     Ok((samples, temperature))
+}
+
+/// Leaves out what no mechanism makes.
+fn leave_out(found: &mut mdf4::Table) -> Result<(), String> {
+    let columns = found
+        .columns
+        .iter()
+        .map(|column| table::Column::si(&column.name, column.quantity, column.values.clone()));
+    let mut table = table::Table::of(found.times.clone(), columns.collect())?;
+    for left_out in outliers::clean(&mut table)? {
+        say(format_args!("note: {}", left_out.told()));
+    }
+    for (column, cleaned) in found.columns.iter_mut().zip(table.columns) {
+        column.values = cleaned.values;
+    }
+    Ok(())
 }
 
 /// A trace has a duration.
@@ -318,66 +344,172 @@ fn parse<S: Sample>(
     input: impl Read + Seek,
     followed: bool,
 ) -> Result<(Vec<S>, Temperature), Fault> {
-    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(input);
+    let input = front::Table::new(input);
+    let (separator, above) = (input.separator, input.lines);
+    let mut reader = ReaderBuilder::new()
+        .trim(Trim::All)
+        .delimiter(separator)
+        .from_reader(input);
+    let below = |mut fault: Fault| {
+        fault.line += above;
+        fault
+    };
     let start = reader.position().clone();
     let header = match reader.headers() {
         Ok(header) => header.clone(),
-        Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
+        Err(error) => return Err(below(Fault::from_csv(&error, reader, &start))),
     };
-    if !header.is_empty() {
-        headings::separated(&header).map_err(|message| Fault::new(1, message))?;
-    }
-    let places = S::COLUMNS
-        .iter()
-        .map(|column| place(&header, column))
-        .collect::<Result<Vec<_>, _>>()?;
-    let warm = if followed {
-        found(&header, TEMPERATURE)?
-    } else {
-        None
-    };
-    let named = |name| matches!(heading(name), Ok(Some((Quantity::Temperature, _))));
-    let mut temperature = match warm {
-        Some(_) => Temperature::Followed(Vec::new()),
-        None if header.iter().any(named) => Temperature::Ignored,
-        None => Temperature::None,
-    };
-
-    let mut samples: Vec<S> = Vec::new();
+    let mut rows = Rows::of::<S>(&header, followed).map_err(below)?;
+    rows.separator = separator;
     let mut record = StringRecord::new();
     loop {
         let start = reader.position().clone();
         match reader.read_record(&mut record) {
             Ok(true) => {}
             Ok(false) => break,
-            Err(error) => return Err(Fault::from_csv(&error, reader, &start)),
+            Err(error) => return Err(below(Fault::from_csv(&error, reader, &start))),
         }
-        let sample = S::read(|column| {
-            let index = S::COLUMNS.iter().position(|known| *known == column);
-            let (place, unit) = index
-                .and_then(|index| places.get(index))
-                .ok_or("a column is missing")?;
-            number(&record, *place, column).map(|value| unit.map_or(value, |unit| unit.si(value)))
-        });
-        let next = sample
-            .and_then(|sample| follows(&samples, sample))
-            .and_then(|sample| {
-                if let Some((place, unit)) = warm {
-                    let value = number(&record, place, TEMPERATURE)?;
-                    temperature.take(unit.map_or(value, |unit| unit.si(value)))?;
-                }
-                Ok(sample)
-            });
-        match next {
-            Ok(sample) => samples.push(sample),
-            Err(message) => {
-                let line = line_of(reader.into_inner(), start.byte(), start.line());
-                return Err(Fault::new(line, message));
-            }
+        if let Err(message) = rows.add(&record) {
+            let line = line_of(reader.into_inner(), start.byte(), start.line());
+            return Err(below(Fault::new(line, message)));
         }
     }
-    enough(&samples).map_err(|message| Fault::new(reader.position().line(), message))?;
-    Ok((samples, temperature))
+    let last = above + reader.position().line();
+    rows.samples().map_err(|message| Fault::new(last, message))
+}
+
+/// Rows of a table as they are read.
+struct Rows {
+    /// Name, place and unit of the columns, time first; the temperature last where it is followed.
+    places: Vec<(&'static str, usize, Option<Unit>)>,
+    values: Vec<Vec<f64>>,
+    temperature: Temperature,
+    separator: u8,
+}
+
+impl Rows {
+    fn of<S: Sample>(header: &StringRecord, followed: bool) -> Result<Self, Fault> {
+        if !header.is_empty() {
+            headings::separated(header).map_err(|message| Fault::new(1, message))?;
+        }
+        let mut places = S::COLUMNS
+            .iter()
+            .map(|column| place(header, column).map(|(place, unit)| (*column, place, unit)))
+            .collect::<Result<Vec<_>, _>>()?;
+        let warm = if followed {
+            found(header, TEMPERATURE)?
+        } else {
+            None
+        };
+        let named = |name| matches!(heading(name), Ok(Some((Quantity::Temperature, _))));
+        let temperature = match warm {
+            Some(_) => Temperature::Followed(Vec::new()),
+            None if header.iter().any(named) => Temperature::Ignored,
+            None => Temperature::None,
+        };
+        places.extend(warm.map(|(place, unit)| (TEMPERATURE, place, unit)));
+        Ok(Self {
+            values: vec![Vec::new(); places.len()],
+            places,
+            temperature,
+            separator: b',',
+        })
+    }
+
+    /// Takes units from a row below the headings; whether there are any.
+    fn takes_units(&mut self, record: &StringRecord) -> Result<bool, String> {
+        let columns: Vec<_> = self
+            .places
+            .iter()
+            .filter_map(|(name, place, unit)| {
+                let quantity = quantity(name)?;
+                Some((*place, *name, quantity, unit.unwrap_or(Unit::SI)))
+            })
+            .collect();
+        let Some(units) = front::units(record.as_byte_record(), &columns) else {
+            return Ok(false);
+        };
+        for ((name, _, unit), below) in self.places.iter_mut().zip(units?) {
+            if refused(name) == Some(below.dimension) {
+                return Err(format!("{name} is not measured in {}", below.shown()));
+            }
+            *unit = Some(below);
+        }
+        Ok(true)
+    }
+
+    fn add(&mut self, record: &StringRecord) -> Result<(), String> {
+        let times = self.values.first().map_or(0, Vec::len);
+        if times == 0 && self.takes_units(record)? {
+            return Ok(());
+        }
+        let all = self.places.iter().zip(&mut self.values).enumerate();
+        for (column, ((name, place, unit), values)) in all {
+            let cell = record.get(*place).unwrap_or_default();
+            let value = match number(cell, name, self.separator)? {
+                Some(value) => unit.map_or(value, |unit| unit.si(value)),
+                None if column == 0 => return Err(format!("{name} has no number")),
+                None => f64::NAN,
+            };
+            if column == 0 {
+                rises(values, value)?;
+            }
+            if *name == TEMPERATURE && !value.is_nan() {
+                Temperature::check(value)?;
+            }
+            values.push(value);
+        }
+        Ok(())
+    }
+
+    /// The samples: empty cells filled, and what no mechanism makes left out.
+    fn samples<S: Sample>(self) -> Result<(Vec<S>, Temperature), String> {
+        let mut values = self.values.into_iter();
+        let times = values.next().unwrap_or_default();
+        enough(&times)?;
+        let names = self.places.iter().skip(1).zip(values);
+        let columns = names.filter_map(|((name, ..), values)| {
+            Some(table::Column::si(name, quantity(name)?, values))
+        });
+        let mut table = table::Table::of(times, columns.collect())?;
+        let left_out = outliers::clean(&mut table)?;
+        let repaired = left_out.iter().map(LeftOut::told);
+        for note in table.notes.iter().cloned().chain(repaired) {
+            say(format_args!("note: {note}"));
+        }
+        let mut temperature = self.temperature;
+        for value in table.values(TEMPERATURE).unwrap_or_default() {
+            temperature.take(*value)?;
+        }
+        let samples = (0..table.times.len()).map(|row| {
+            S::read(|column| {
+                let values = if column == "time" {
+                    Some(&table.times[..])
+                } else {
+                    table.values(column)
+                };
+                let value = values.and_then(|values| values.get(row));
+                value
+                    .copied()
+                    .ok_or_else(|| "a column is missing".to_owned())
+            })
+        });
+        Ok((samples.collect::<Result<_, _>>()?, temperature))
+    }
+}
+
+/// Refuses a time that does not rise, and a trace that is too long.
+fn rises(times: &[f64], time: f64) -> Result<(), String> {
+    if times.len() == MOST_SAMPLES {
+        return Err(format!("a trace has at most {MOST_SAMPLES} samples"));
+    }
+    match times.last() {
+        Some(last) if time < *last => Err(format!("time goes back from {last} to {time}")),
+        Some(last) if time == *last => Err(format!(
+            "time = {time} stands twice: samples at the same time cannot be told apart"
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// The sample, where it may follow those before it.
@@ -385,18 +517,8 @@ fn follows<S: Sample>(samples: &[S], sample: S) -> Result<S, String> {
     if samples.len() == MOST_SAMPLES {
         return Err(format!("a trace has at most {MOST_SAMPLES} samples"));
     }
-    match samples.last() {
-        Some(last) if sample.time() < last.time() => Err(format!(
-            "time goes back from {} to {}",
-            last.time(),
-            sample.time()
-        )),
-        Some(last) if sample.time() == last.time() => Err(format!(
-            "time = {} stands twice: samples at the same time cannot be told apart",
-            sample.time()
-        )),
-        _ => Ok(sample),
-    }
+    let last = samples.last().map(Sample::time);
+    rises(last.as_slice(), sample.time()).map(|()| sample)
 }
 
 /// Place of a column and its unit, which must be there once: under its own name, else with a unit behind it or in brackets.
@@ -463,23 +585,23 @@ fn starts_like(name: &str, column: &str) -> bool {
     own.eq_ignore_ascii_case(column)
 }
 
-/// A number that f32 can hold.
-fn number(record: &StringRecord, index: usize, column: &str) -> Result<f64, String> {
-    let text = record.get(index).unwrap_or_default();
+/// A number that f32 can hold; none where the sample is missing.
+fn number(text: &str, column: &str, separator: u8) -> Result<Option<f64>, String> {
     let fault = |problem: &str| {
         let shown: String = text.chars().take(40).collect();
         format!("{column} = {shown:?} {problem}")
     };
-    let value: f64 = text
-        .parse()
-        .map_err(|_| fault(headings::no_number(text.as_bytes())))?;
+    let Some(number) = front::number(text.as_bytes(), separator) else {
+        return Ok(None);
+    };
+    let value = number.map_err(|()| fault(headings::no_number(text.as_bytes())))?;
     if !value.is_finite() {
         return Err(fault("is not finite"));
     }
     if value.abs() > f64::from(f32::MAX) {
         return Err(fault("is beyond the range of float32"));
     }
-    Ok(value)
+    Ok(Some(value))
 }
 
 #[cfg(test)]

@@ -116,3 +116,19 @@ fn the_sign_of_a_zero_stays() {
     let (_, unit) = heading("axial_load").unwrap().unwrap();
     assert!(unit.si(-0.0).is_sign_negative());
 }
+
+#[test]
+fn seconds_may_be_written_out() {
+    for (text, one) in [
+        ("rad/sec", 1.0),
+        ("deg/sec", PI / 180.0),
+        ("\u{b0}/sec", PI / 180.0),
+        ("m/sec", 1.0),
+        ("mm/sec", 1e-3),
+    ] {
+        let unit = written(Quantity::Speed(Part::Plain), text).unwrap();
+        assert_eq!(unit.factor, one, "{text}");
+    }
+    let (quantity, _) = heading("timestamps").unwrap().unwrap();
+    assert_eq!(quantity, Quantity::Time);
+}

@@ -398,7 +398,7 @@ fn a_malformed_trace_stops_with_its_line_and_leaves_nothing() {
             "back",
         ),
         (
-            "time,nut_speed,axial_load\n0,1,2\n1,NaN,2\n",
+            "time,nut_speed,axial_load\n0,1,2\n1,inf,2\n",
             "line 3",
             "finite",
         ),

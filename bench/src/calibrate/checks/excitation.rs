@@ -1,25 +1,76 @@
 //! What a trace excites, and so what it can tell.
 
+use std::ops::Range;
+
 use crate::calibrate::checks::finding::{Finding, FindingKind};
 use crate::calibrate::checks::relation::root_mean_square;
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::channels::range;
+use crate::calibrate::trace::rests::moving;
 use crate::calibrate::trace::{Coordinate, Trace};
 
 /// Share of the speed's root mean square below which a motion rests.
 const REST: f64 = 0.02;
 /// Least share of the moving time in the rarer direction.
 const RARER: f64 = 0.01;
+/// Fewest samples that move.
+const MOVING: usize = 50;
 /// Fewest reversals that show how the friction turns.
 const REVERSALS: usize = 10;
-/// Ratio of the fast to the slow part of the moving time (their 95 % and 5 % values) below which the speed is one speed.
+/// Ratio of the fastest to the slowest of one speed, and the share of the moving time that has it; the rest are starts and stops.
 const ONE_SPEED: f64 = 1.3;
+const MOSTLY: f64 = 0.9;
 /// Share of the largest load below which its deviation is no change.
 const LOAD_CHANGES: f64 = 0.1;
 /// Range of temperature below which there is no change, K.
 const TEMPERATURE_CHANGES: f64 = 5.0;
 /// A fifth of the least breakaway travel that is usual: 2 mrad of a nut, 5 um of a carriage.
 const FINE_ENOUGH: [f64; 2] = [0.4e-3, 1e-6];
+
+/// Says for how long the trace rests, and within which efforts it stayed there.
+///
+/// # Errors
+/// A trace that rests throughout.
+pub fn stands_still(
+    trace: &Trace,
+    rests: &[Range<usize>],
+    findings: &mut Vec<Finding>,
+) -> Result<(), String> {
+    let samples: usize = rests.iter().map(Range::len).sum();
+    if samples == 0 {
+        return Ok(());
+    }
+    if trace.len() - samples < MOVING {
+        return Err(format!(
+            "the trace rests: its position or speed leaves the sensor's step, or its noise, in {} of {} samples only; no friction of sliding shows",
+            trace.len() - samples,
+            trace.len()
+        ));
+    }
+    let at_rest: Vec<f64> = rests
+        .iter()
+        .filter_map(|rest| trace.effort.get(rest.clone()))
+        .flatten()
+        .copied()
+        .collect();
+    let (low, high) = range(&at_rest);
+    let many = if rests.len() == 1 {
+        "stretch"
+    } else {
+        "stretches"
+    };
+    findings.push(Finding::new(
+        FindingKind::Rests,
+        samples as f64,
+        format!(
+            "the trace stands still for {:.2} s of {:.2} s, in {} {many}: such samples belong to no direction of sliding and are left out; the effort there is {low:.3e} to {high:.3e}",
+            samples as f64 * trace.step,
+            trace.len() as f64 * trace.step,
+            rests.len()
+        ),
+    ));
+    Ok(())
+}
 
 /// Shares of the samples that move forwards and backwards.
 fn directions(motion: &Motion) -> [f64; 2] {
@@ -61,21 +112,24 @@ fn reversals(motion: &Motion) -> usize {
     count
 }
 
-/// Whether the speed has one size while the trace moves.
-fn one_speed(motion: &Motion) -> Option<f64> {
+/// The speed, where it has one size for most of the time that the trace moves. A speed that was measured is not smoothed for it:
+/// starts and stops are short.
+pub fn one_speed(trace: &Trace, motion: &Motion, rests: &[Range<usize>]) -> Option<f64> {
     const MOST: usize = 100_000;
     let slow = rest(motion);
-    let mut speeds: Vec<f64> = motion
-        .speed
+    let measured = trace.speed.as_deref().filter(|_| trace.position_summed);
+    let moves = moving(measured.unwrap_or(&motion.speed), rests);
+    let mut speeds: Vec<f64> = moves
         .iter()
-        .step_by(motion.speed.len() / MOST + 1)
+        .step_by(moves.len() / MOST + 1)
         .map(|w| w.abs())
         .filter(|w| *w > slow)
         .collect();
     speeds.sort_by(f64::total_cmp);
-    let at = |share: f64| speeds.get((share * speeds.len() as f64) as usize).copied();
-    let (low, high) = (at(0.05)?, at(0.95)?);
-    (high < ONE_SPEED * low).then_some(high)
+    let middle = speeds.get(speeds.len() / 2).copied()?;
+    let within = |limit: f64| speeds.partition_point(|speed| *speed < limit);
+    let near = within(middle * ONE_SPEED.sqrt()) - within(middle / ONE_SPEED.sqrt());
+    (near as f64 > MOSTLY * speeds.len() as f64).then_some(middle)
 }
 
 /// How much the load changes: its deviation from its mean, over its largest value; 0 without.
@@ -96,11 +150,16 @@ fn load_changes(load: &[f64]) -> f64 {
 ///
 /// # Errors
 /// A trace that tells nothing.
-pub fn add(trace: &Trace, motion: &Motion, findings: &mut Vec<Finding>) -> Result<(), String> {
+pub fn add(
+    trace: &Trace,
+    motion: &Motion,
+    rests: &[Range<usize>],
+    findings: &mut Vec<Finding>,
+) -> Result<(), String> {
     let mut add =
         |kind, figure, message: String| findings.push(Finding::new(kind, figure, message));
     let both_ways = both_ways(motion);
-    let one_speed = one_speed(motion);
+    let one_speed = one_speed(trace, motion, rests);
     let changes = load(trace, &mut add);
     if let (Some(speed), false, false) = (one_speed, both_ways, changes) {
         return Err(format!(

@@ -33,6 +33,10 @@ pub enum FindingKind {
     Unexplained,
     /// A channel never changes, and is not used.
     DeadChannel,
+    /// Samples that no mechanism makes were left out.
+    LeftOut,
+    /// The trace rests for some of its time.
+    Rests,
     /// Samples were repaired.
     Repaired,
     /// Columns of the file were left aside.

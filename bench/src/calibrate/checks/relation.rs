@@ -7,6 +7,7 @@
 use nalgebra::{DMatrix, DVector, SVector};
 
 use crate::calibrate::signals::Motion;
+use crate::calibrate::trace::rests::rests;
 use crate::calibrate::trace::{Coordinate, Trace};
 
 /// Terms of the relation.
@@ -108,9 +109,16 @@ fn moving(trace: &Trace, motion: &Motion, margin: usize, most: usize) -> Vec<usi
     let slow = SLIDING * root_mean_square(&motion.speed);
     let inner = margin..samples.saturating_sub(margin);
     let stride = inner.len() / most + 1;
+    let rests = rests(trace);
+    let mut rests = rests.iter().peekable();
     inner
         .step_by(stride)
         .filter(|sample| motion.speed.get(*sample).is_some_and(|w| w.abs() > slow))
+        // Near a start or a stop the smoothed speed says otherwise.
+        .filter(|sample| {
+            while rests.next_if(|rest| rest.end <= *sample).is_some() {}
+            rests.peek().is_none_or(|rest| *sample < rest.start)
+        })
         .collect()
 }
 

@@ -138,7 +138,7 @@ fn a_good_trace_has_no_finding() {
     assert_eq!(kinds(&trace(brisk)), []);
     let good = trace(brisk);
     let motion = Motion::of(&good, &SmoothingSettings::default()).unwrap();
-    load_gain(&good, &motion, TRAVEL).unwrap();
+    load_gain(&good, &motion, TRAVEL, true).unwrap();
 }
 
 #[test]
@@ -313,7 +313,7 @@ fn wrong_units_are_refused() {
         *load *= 1e-3;
     }
     let motion = Motion::of(&kilonewtons, &SmoothingSettings::default()).unwrap();
-    let message = word(load_gain(&kilonewtons, &motion, TRAVEL).unwrap_err());
+    let message = word(load_gain(&kilonewtons, &motion, TRAVEL, false).unwrap_err());
     assert!(message.contains("wrong unit"), "{message}");
 }
 

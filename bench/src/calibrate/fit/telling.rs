@@ -5,7 +5,8 @@
 //! |---|---|
 //! | condition above 100, and a parameter of the null direction known to worse than a quarter | the one known worst is set |
 //! | interval as wide as the bounds, or of a factor of ten to both sides | it is set |
-//! | value at a bound | a sentence |
+//! | value at a bound | it is set, or where the trace objects to that, a sentence |
+//! | what the caller's sensors cannot see ([`Hints::unseen`]) | it is set, whatever the residual says |
 //! | correlation above 0.95 | a sentence |
 
 use crate::calibrate::fit::problem::{Scale, Separable};
@@ -52,6 +53,12 @@ pub trait Hints {
         None
     }
 
+    /// Why the sensors cannot have seen a parameter of this value, where they cannot.
+    fn unseen(&self, name: &str, value: f64) -> Option<String> {
+        let _ = (name, value);
+        None
+    }
+
     /// Whether a parameter is never set.
     fn needed(&self, name: &str) -> bool {
         let _ = name;
@@ -77,6 +84,8 @@ pub enum Reason {
     Wide,
     /// The value is at a bound.
     AtBound,
+    /// The sensors cannot have seen it.
+    Unseen,
     /// Correlation of two parameters.
     Correlation(f64),
 }
@@ -141,7 +150,7 @@ pub fn tell(
         fixed.push(value);
         let without = again(problem, &fixed, &part, &found, settings)?;
         evaluations += without.evaluations;
-        if grows(&found, &without, sure.effective_rows) {
+        if next.reason != Reason::Unseen && grows(&found, &without, sure.effective_rows) {
             // The trace does object to that value.
             fixed.pop();
             kept.push(value.0);
@@ -227,6 +236,9 @@ fn worst(
         let open = from.iter().copied().filter(open);
         open.max_by(|a, b| size(*a).total_cmp(&size(*b)))
     };
+    if let Some(unseen) = unseen(problem, sure, hints) {
+        return Some(unseen);
+    }
     let all: Vec<usize> = (0..sure.intervals.len()).collect();
     let part = |k: usize| sure.null_direction[k].powi(2);
     let members: Vec<usize> = all.iter().copied().filter(|k| part(*k) > PART).collect();
@@ -237,13 +249,17 @@ fn worst(
             (members, k, Reason::NullDirection(sure.condition))
         }
         _ => {
-            let wide: Vec<usize> = all
-                .into_iter()
-                .filter(|k| is_wide(&sure.intervals[*k]))
-                .collect();
+            let is = |k: &usize| is_wide(&sure.intervals[*k]);
+            let wide: Vec<usize> = all.iter().copied().filter(is).collect();
             let width = |k: usize| sure.intervals[k].half_width / half_range(&sure.intervals[k]);
-            let k = vaguest(&wide, &width)?;
-            (vec![k], k, Reason::Wide)
+            match vaguest(&wide, &width) {
+                Some(k) => (vec![k], k, Reason::Wide),
+                None => {
+                    let mut bounds = all.into_iter().filter(|k| sure.intervals[*k].at_bound);
+                    let k = bounds.find(open)?;
+                    (vec![k], k, Reason::AtBound)
+                }
+            }
         }
     };
     let names: Vec<&'static str> = names.into_iter().map(|k| sure.intervals[k].name).collect();
@@ -251,14 +267,42 @@ fn worst(
     let value = prior(problem, name, hints);
     let what = match reason {
         Reason::NullDirection(_) if names.len() > 1 => "the trace sees only their combination",
+        Reason::AtBound => "it ended at its bound, which no trace tells",
         _ => "the trace does not show it",
     };
-    let because = hints.lacking(&names).unwrap_or_else(|| what.into());
-    let unit = if sure.intervals[chosen].unit == "1" {
-        ""
-    } else {
-        sure.intervals[chosen].unit
-    };
+    let lacking = hints.lacking(&names).filter(|_| reason != Reason::AtBound);
+    let because = lacking.unwrap_or_else(|| what.into());
+    Some(setting(
+        &sure.intervals[chosen],
+        value,
+        (names, reason),
+        (because, hints),
+    ))
+}
+
+/// The first parameter that the sensors cannot have seen, and the value that it is set to.
+fn unseen(
+    problem: &dyn Separable,
+    sure: &Uncertainty,
+    hints: &dyn Hints,
+) -> Option<(Untold, (&'static str, f64))> {
+    sure.intervals.iter().find_map(|interval| {
+        let because = hints.unseen(interval.name, interval.value)?;
+        let value = prior(problem, interval.name, hints);
+        let of = (vec![interval.name], Reason::Unseen);
+        Some(setting(interval, value, of, (because, hints)))
+    })
+}
+
+/// A parameter that is set, with a sentence.
+fn setting(
+    chosen: &Interval,
+    value: f64,
+    (names, reason): (Vec<&'static str>, Reason),
+    (because, hints): (String, &dyn Hints),
+) -> (Untold, (&'static str, f64)) {
+    let name = chosen.name;
+    let unit = if chosen.unit == "1" { "" } else { chosen.unit };
     let set = format!(
         "{} is set to {value}{}{unit}",
         words(&[name], hints),
@@ -271,7 +315,7 @@ fn worst(
         fixed: Some((name, value)),
         sentence,
     };
-    Some((untold, (name, value)))
+    (untold, (name, value))
 }
 
 fn prior(problem: &dyn Separable, name: &str, hints: &dyn Hints) -> f64 {

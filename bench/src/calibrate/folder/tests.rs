@@ -90,6 +90,7 @@ fn fit(trace: &Path) -> Result<(Calibration, Sums), Failure> {
         low: value - 1.96 * error,
         high: value + 1.96 * error,
         fixed: false,
+        at_bound: false,
     };
     let calibration = Calibration {
         parameters: vec![

@@ -47,6 +47,8 @@ pub struct Written {
     pub design: Design,
     /// Estimated parameters that a design file has no key for.
     pub left_out: Vec<String>,
+    /// Parameters that ended at a bound, and are not written.
+    pub at_bound: Vec<String>,
 }
 
 /// At what a screw was calibrated, as parameters that were set: a design file needs them beside the estimated ones.
@@ -89,7 +91,10 @@ pub fn written(
     let mut left_out = Vec::new();
     let mut waves = Waves::default();
     let circumstances = screw.map(circumstances).unwrap_or_default();
-    for estimate in calibration.parameters.iter().chain(&circumstances) {
+    let all = calibration.parameters.iter().chain(&circumstances);
+    let (at_bound, told): (Vec<&Estimate>, Vec<&Estimate>) =
+        all.partition(|estimate| estimate.at_bound);
+    for estimate in told {
         let name = estimate.name.as_str();
         if FRICTION_KEYS.contains(&name) || OTHER_KEYS.contains(&name) && !estimate.fixed {
             set(table(&mut document)?, estimate, &trace);
@@ -120,6 +125,10 @@ pub fn written(
         text,
         design,
         left_out,
+        at_bound: at_bound
+            .iter()
+            .map(|estimate| estimate.name.clone())
+            .collect(),
     })
 }
 

@@ -48,6 +48,7 @@ fn calibration() -> Calibration {
                 low: 0.11,
                 high: f64::INFINITY,
                 fixed: false,
+                at_bound: false,
             },
             Estimate::fixed("gain", "", 1.0),
         ],

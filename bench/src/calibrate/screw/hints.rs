@@ -11,7 +11,13 @@ pub struct ScrewHints {
     pub evidence: Evidence,
     /// Values of the design.
     pub values: Values,
+    /// Step of the position's sensor, rad of the nut.
+    pub step: f64,
 }
+
+/// Fewest steps of the position from the turn of a motion to full sliding: of a way that the sensor sees in fewer of them, the place
+/// of the turn, known to a step, decides.
+const STEPS: f64 = 2.0;
 
 /// Parameters by what tells them.
 const ROLLING: [&str; 2] = ["hysteresis_loss", "lubricant_drag"];
@@ -82,6 +88,16 @@ impl Hints for ScrewHints {
     fn prior(&self, name: &str) -> Option<f64> {
         let nonlinear = Nonlinear::named(name).map(|of| of.value(&self.values));
         nonlinear.or_else(|| Linear::named(name).map(|of| of.value(&self.values)))
+    }
+
+    fn unseen(&self, name: &str, value: f64) -> Option<String> {
+        let way = matches!(name, "breakaway_angle" | "backlash");
+        (way && value > 0.0 && value < STEPS * self.step).then(|| {
+            format!(
+                "not estimated; a step of the position is {:.2e} rad of the nut, too coarse for it",
+                self.step
+            )
+        })
     }
 
     fn needed(&self, name: &str) -> bool {

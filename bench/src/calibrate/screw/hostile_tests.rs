@@ -50,7 +50,7 @@ const fn word(spoiling: Spoiling) -> (bool, &'static str) {
         Spoiling::WrongLoadSign => (false, "turn the sign of the load"),
         Spoiling::ShiftedClock => (false, "shift the channels to one clock"),
         Spoiling::ClockGoesBack => (false, "time goes back"),
-        Spoiling::NotANumber => (false, "not finite"),
+        Spoiling::NotANumber => (true, "interpolated linearly"),
         Spoiling::Gap => (false, "a gap of"),
         Spoiling::DeadAngle => (false, "never moves"),
         Spoiling::DeadLoad => (false, "nothing presses the balls"),
@@ -67,7 +67,7 @@ fn spoiled_traces_are_refused_or_told() {
         let (answered, word) = word(spoiling);
         let (is_answer, text) = match said(&trace.clone().spoiled(spoiling)) {
             Ok(answer) => {
-                // Missing samples do not move the friction out of its interval.
+                // Samples that are missing do not move the friction out of its interval.
                 let friction = answer.parameter("friction").unwrap();
                 assert!(
                     friction.low < 0.115 && 0.115 < friction.high,

@@ -114,7 +114,7 @@ fn sawtooth(steps: f64, step: f64, filter: &ZeroPhase, order: u8, [band, white]:
 
 /// Standard deviation of white noise, found from fourth differences: motion, which is slow against the sampling, hardly
 /// shows in them. A twentieth of them, the largest, may be jolts and is left out.
-fn white_noise(signal: &[f64]) -> f64 {
+pub fn white_noise(signal: &[f64]) -> f64 {
     /// Root of the sum of squares of 1, 4, 6, 4, 1.
     const GAIN: f64 = 8.366_600_265_340_756;
     /// Mean square of the inner 95 % of a normal distribution of unit variance: `1 - 2 1.960 0.05845 / 0.95`.

@@ -9,9 +9,9 @@ const EXACT: f64 = 1e-3;
 /// Samples of a stretch whose mean tick is taken.
 const STRETCH: usize = 16;
 /// Longest gap that is filled, in ticks.
-const LONGEST_GAP: f64 = 10.0;
+pub const LONGEST_GAP: f64 = 10.0;
 /// Largest share of samples that may be missing, and of samples that may stand twice.
-const MOST_MISSING: f64 = 0.02;
+pub const MOST_MISSING: f64 = 0.02;
 /// Largest root mean square of the distance from the tick, in ticks.
 const MOST_JITTER: f64 = 0.3;
 /// Distance of samples, in ticks, below which no cubic is laid through them.
@@ -66,25 +66,62 @@ impl Clock {
         }
         let median = median_tick(&times, STRETCH / 2);
         check_tick(median)?;
-        let (start, step, rough) = grid(&times, median)?;
+        check_gaps(&times, median)?;
+        match Self::even(&times, repeated) {
+            Ok(clock) => Ok(clock),
+            Err(why) => match free_tick(&times) {
+                Some(step) => Self::free(times, step, repeated),
+                None => Err(why),
+            },
+        }
+    }
+
+    /// The clock of a tick that is even.
+    fn even(times: &[f64], repeated: usize) -> Result<Self, String> {
+        let samples = times.len();
+        let (start, step, rough) = grid(times)?;
         if rough > MOST_JITTER {
             return Err(format!(
-                "the samples have no even tick: they stand {rough:.2} ticks of {step:.6} s off it (root mean square, at most {MOST_JITTER})"
+                "the samples have no even tick: they stand {rough:.2} ticks of {step:.6} s off it (root mean square, at most {MOST_JITTER}); where their times are exact, resample them to even ticks"
             ));
         }
         let last = times.last().copied().unwrap_or_default();
         let ticks = ((last - start) / step + ON_TICK) as usize + 1;
-        let missing = |missing: usize| {
-            format!(
-                "{missing} of {ticks} samples are missing: at most {:.0} % are filled",
-                100.0 * MOST_MISSING
-            )
-        };
         // The count proper comes with the places; no list is made for what cannot be right.
         if ticks as f64 > (1.0 + 2.0 * MOST_MISSING) * samples as f64 {
-            return Err(missing(ticks - samples));
+            return Err(missing(ticks - samples, ticks));
         }
-        let mut clock = Self {
+        let mut clock = Self::ticking(start, step, repeated);
+        clock.place(times.to_vec(), ticks);
+        let found = clock.repairs.missing;
+        if found as f64 > MOST_MISSING * ticks as f64 {
+            return Err(missing(found, ticks));
+        }
+        Ok(clock)
+    }
+
+    /// A clock of even ticks for samples without: every tick is interpolated.
+    fn free(times: Vec<f64>, step: f64, repeated: usize) -> Result<Self, String> {
+        let first = times.first().copied().unwrap_or_default();
+        let last = times.last().copied().unwrap_or_default();
+        let ticks = ((last - first) / step) as usize + 1;
+        let left_out = times
+            .windows(2)
+            .map(|pair| ((pair[1] - pair[0]) / step).round().max(1.0) as usize - 1)
+            .sum();
+        if left_out as f64 > MOST_MISSING * ticks as f64 {
+            return Err(missing(left_out, ticks));
+        }
+        let mut clock = Self::ticking(first, step, repeated);
+        clock.place(times, ticks);
+        clock.repairs.missing = left_out;
+        clock.repairs.jittered = 0;
+        clock.repairs.free_running = ticks;
+        Ok(clock)
+    }
+
+    fn ticking(start: f64, step: f64, repeated: usize) -> Self {
+        Self {
             start,
             step,
             repairs: Repairs {
@@ -93,13 +130,7 @@ impl Clock {
             },
             times: Vec::new(),
             places: Vec::new(),
-        };
-        clock.place(times, ticks);
-        let found = clock.repairs.missing;
-        if found as f64 > MOST_MISSING * ticks as f64 {
-            return Err(missing(found));
         }
-        Ok(clock)
     }
 
     /// Finds every tick among the samples, and counts what has to be repaired.
@@ -182,7 +213,7 @@ fn neighbours(sample: usize, samples: usize) -> [usize; 4] {
 
 /// The cubic through four samples at a time (Lagrange); `None` where two of them stand closer than the noise of their values
 /// allows.
-fn cubic(times: [f64; 4], values: [f64; 4], time: f64, closest: f64) -> Option<f64> {
+pub fn cubic(times: [f64; 4], values: [f64; 4], time: f64, closest: f64) -> Option<f64> {
     let close = times
         .windows(2)
         .any(|pair| matches!(pair, [a, b] if !(b - a > closest)));
@@ -203,7 +234,7 @@ fn cubic(times: [f64; 4], values: [f64; 4], time: f64, closest: f64) -> Option<f
 }
 
 /// Median of the mean ticks of so many samples.
-fn median_tick(times: &[f64], samples: usize) -> f64 {
+pub fn median_tick(times: &[f64], samples: usize) -> f64 {
     let mut ticks: Vec<f64> = times
         .iter()
         .zip(times.iter().skip(samples))
@@ -254,10 +285,8 @@ fn follow(times: &[f64], step: f64) -> impl Iterator<Item = (f64, f64)> {
     })
 }
 
-/// First tick, tick, and the root mean square of the samples' distance from their ticks, in ticks.
-fn grid(times: &[f64], median: f64) -> Result<(f64, f64, f64), String> {
-    let first = times.first().copied().unwrap_or_default();
-    let last = times.last().copied().unwrap_or_default();
+/// Refuses a gap that is too long to be filled.
+fn check_gaps(times: &[f64], median: f64) -> Result<(), String> {
     for (sample, pair) in times.windows(2).enumerate() {
         if let [before, after] = pair
             && after - before > (LONGEST_GAP + 1.0) * median
@@ -268,6 +297,44 @@ fn grid(times: &[f64], median: f64) -> Result<(f64, f64, f64), String> {
             ));
         }
     }
+    Ok(())
+}
+
+fn missing(missing: usize, ticks: usize) -> String {
+    format!(
+        "{missing} of {ticks} samples are missing: at most {:.0} % are filled",
+        100.0 * MOST_MISSING
+    )
+}
+
+/// Mean tick of a clock that runs free: its distances vary, each by itself. Where samples come evenly and only their times
+/// jitter, a distance that is too long is followed by one too short, and neighbours correlate by -0.5.
+fn free_tick(times: &[f64]) -> Option<f64> {
+    /// Half way between those two.
+    const FREE: f64 = -0.25;
+    /// Largest deviation of the distances, over their mean, whose gaps a cubic bridges.
+    const MOST_SPREAD: f64 = 0.5;
+    let median = median_tick(times, 1);
+    let ordinary: Vec<f64> = times
+        .windows(2)
+        .map(|pair| pair[1] - pair[0])
+        .filter(|tick| *tick < 1.5 * median)
+        .collect();
+    let count = ordinary.len() as f64;
+    let mean = ordinary.iter().sum::<f64>() / count;
+    let square: f64 = ordinary.iter().map(|tick| (tick - mean).powi(2)).sum();
+    let both: f64 = ordinary
+        .windows(2)
+        .map(|pair| (pair[0] - mean) * (pair[1] - mean))
+        .sum();
+    let free = both > FREE * square && square <= count * (MOST_SPREAD * mean).powi(2);
+    (free && 2.0 * count > times.len() as f64).then_some(mean)
+}
+
+/// First tick, tick, and the root mean square of the samples' distance from their ticks, in ticks.
+fn grid(times: &[f64]) -> Result<(f64, f64, f64), String> {
+    let first = times.first().copied().unwrap_or_default();
+    let last = times.last().copied().unwrap_or_default();
     // A time printed with few digits, or one that jitters, has a median that is off; the mean of longer stretches is not.
     let ticks = follow(times, mean_tick(times)).map(|(tick, _)| tick);
     let ticks = ticks.last().unwrap_or_default();

@@ -11,6 +11,7 @@
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::io::{Read, Seek};
 
@@ -21,8 +22,10 @@ use crate::source::Source;
 
 use crate::calibrate::trace::channels::{range, resolution, unwrap};
 use crate::calibrate::trace::clock::Clock;
+use crate::calibrate::trace::free_load::{self, LoadKind};
+use crate::calibrate::trace::outliers;
 use crate::calibrate::trace::table::{self, Column, Table};
-use crate::calibrate::trace::{Coordinate, Trace};
+use crate::calibrate::trace::{Coordinate, Repairs, Trace};
 use crate::units::{self, Dimension, Part, Quantity};
 
 /// Largest trace file, bytes: what twelve million samples of many columns need; a quoted field may span lines, and is
@@ -126,7 +129,8 @@ struct Reference {
 }
 
 fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace, String> {
-    let clock = Clock::of(std::mem::take(&mut table.times), table.repeated)?;
+    let left_out = outliers::clean(&mut table)?;
+    let clock = Clock::of(std::mem::take(&mut table.times), table.repeated.len())?;
     let (effort, torque) = effort(&mut table)?;
     let position = motion(&mut table, Quantity::Position);
     let speed = motion(&mut table, Quantity::Speed);
@@ -150,14 +154,17 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
             Ok::<_, String>(clock.resample(scaled(column.values, factor)))
         })
         .transpose()?;
+    // The sensor's step is found before samples are interpolated, which lie between its steps.
+    let mut step_of_sensor = 0.0;
     let position = position
-        .map(|(column, part)| {
+        .map(|(mut column, part)| {
             let reference = refer(&column, part)?;
-            angle(column, reference)
+            let filled = std::mem::take(&mut column.left_out);
+            let values = angle(column, reference)?;
+            step_of_sensor = resolution(&measured_only(&values, &filled));
+            Ok::<_, String>(values)
         })
         .transpose()?;
-    // Found before samples are interpolated, which lie between the sensor's steps.
-    let step_of_sensor = position.as_deref().map_or(0.0, resolution);
     let position_summed = position.is_none();
     let position = match position {
         Some(values) => clock.resample(values),
@@ -178,6 +185,12 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
         .ignored
         .extend(table.columns.drain(..).map(|column| column.name));
     let rotates = torque || frame.is_some();
+    let mut repairs = Repairs {
+        left_out,
+        notes: table.notes,
+        ..clock.repairs.clone()
+    };
+    let load = load.and_then(|column| measured_load(column, &effort, clock.step, &mut repairs));
     Ok(Trace {
         name: name.into(),
         coordinate: if rotates {
@@ -193,11 +206,50 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
         speed,
         effort: clock.resample(effort),
         reference_position,
-        load: load.map(|column| clock.resample(column.values)),
+        load: load.map(|values| clock.resample(values)),
         temperature: temperature.map(|column| clock.resample(column.values)),
-        repairs: clock.repairs,
+        repairs,
         ignored: table.ignored,
     })
+}
+
+/// The values without those that were filled in.
+fn measured_only<'a>(values: &'a [f64], filled: &[usize]) -> Cow<'a, [f64]> {
+    if filled.is_empty() {
+        return Cow::Borrowed(values);
+    }
+    let mut filled = filled.iter().copied().peekable();
+    let kept = values
+        .iter()
+        .enumerate()
+        .filter(|(sample, _)| filled.next_if_eq(sample).is_none());
+    Cow::Owned(kept.map(|(_, value)| *value).collect())
+}
+
+/// The load, unless its channel holds noise alone: none then, or the load that stays.
+fn measured_load(
+    column: Column,
+    effort: &[f64],
+    step: f64,
+    repairs: &mut Repairs,
+) -> Option<Vec<f64>> {
+    match free_load::kind(&column.values, effort, step) {
+        LoadKind::Changes => Some(column.values),
+        LoadKind::Noise(mean, deviation) => {
+            repairs.notes.push(format!(
+                "column {}: it never leaves its own noise of {deviation:.3} N (rms) about {mean:.3} N, which is no load: it is not used; the load's gain stays 1, and friction is taken to be the same both ways",
+                column.name
+            ));
+            None
+        }
+        LoadKind::Constant(mean, deviation) => {
+            repairs.notes.push(format!(
+                "column {}: it stays at {mean:.4} N within its own noise of {deviation:.3} N (rms), and is taken as that load throughout",
+                column.name
+            ));
+            Some(vec![mean; column.values.len()])
+        }
+    }
 }
 
 /// Values times a factor.

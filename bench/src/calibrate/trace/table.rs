@@ -1,10 +1,13 @@
 //! The table of a CSV file or a measurement file: which column holds what, and its numbers in SI units.
 
+mod gaps;
+
 use std::io::{Read, Seek};
 
 use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder, Trim};
 
 use crate::files::line_of;
+use crate::front;
 use crate::headings;
 use crate::mdf4;
 use crate::units::{Quantity, Unit, cut, heading};
@@ -25,8 +28,24 @@ pub struct Column {
     pub unit: Unit,
     /// Values, in SI units.
     pub values: Vec<f64>,
+    /// Samples that were left out and filled.
+    pub left_out: Vec<usize>,
     /// Where it stands in a line.
     place: usize,
+}
+
+impl Column {
+    /// A column in SI units.
+    pub fn si(name: &str, quantity: Quantity, values: Vec<f64>) -> Self {
+        Self {
+            name: name.into(),
+            quantity,
+            unit: Unit::SI,
+            values,
+            left_out: Vec::new(),
+            place: 0,
+        }
+    }
 }
 
 /// A table whose times rise.
@@ -38,8 +57,41 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// Names of columns that are not known.
     pub ignored: Vec<String>,
-    /// Samples that had the time of the one before, and were dropped.
-    pub repeated: usize,
+    /// Rows that had the time of the one before, and were dropped: each with the sample that it stood behind.
+    pub repeated: Vec<usize>,
+    /// What was done to the samples.
+    pub notes: Vec<String>,
+    /// Samples of the file that are left, where some are not.
+    left: Vec<usize>,
+}
+
+impl Table {
+    /// A table of columns whose empty cells are no numbers; filled.
+    ///
+    /// # Errors
+    /// A column with too few samples, or with gaps.
+    pub fn of(times: Vec<f64>, columns: Vec<Column>) -> Result<Self, String> {
+        gaps::filled(Self {
+            times,
+            columns,
+            ignored: Vec::new(),
+            repeated: Vec::new(),
+            notes: Vec::new(),
+            left: Vec::new(),
+        })
+    }
+
+    /// The values of a column of this name.
+    pub fn values(&self, name: &str) -> Option<&[f64]> {
+        let column = self.columns.iter().find(|column| column.name == name);
+        column.map(|column| column.values.as_slice())
+    }
+
+    /// Row of a sample in the file; the first one under the heading is 1.
+    pub fn row(&self, sample: usize) -> usize {
+        let sample = self.left.get(sample).copied().unwrap_or(sample);
+        sample + 1 + self.repeated.partition_point(|before| *before < sample)
+    }
 }
 
 /// Reads a table.
@@ -47,11 +99,17 @@ pub struct Table {
 /// # Errors
 /// What is wrong, with the line.
 pub fn read(input: impl Read + Seek) -> Result<Table, String> {
-    let mut reader = ReaderBuilder::new().trim(Trim::All).from_reader(input);
+    let input = front::Table::new(input);
+    let (separator, above) = (input.separator, input.lines);
+    let mut reader = ReaderBuilder::new()
+        .trim(Trim::All)
+        .delimiter(separator)
+        .from_reader(input);
     let mut table = match header(&mut reader) {
         Ok(header) => header,
-        Err(message) => return Err(format!("line 1: {message}")),
+        Err(message) => return Err(format!("line {}: {message}", above + 1)),
     };
+    table.separator = separator;
     let mut record = ByteRecord::new();
     loop {
         let (byte, line) = (reader.position().byte(), reader.position().line());
@@ -61,16 +119,17 @@ pub fn read(input: impl Read + Seek) -> Result<Table, String> {
             Err(error) => Some(message(&error)),
         };
         if let Some(message) = fault {
-            let line = line_of(reader.into_inner(), byte, line);
+            let line = above + line_of(reader.into_inner(), byte, line);
             return Err(format!("line {line}: {message}"));
         }
     }
     let time = table.columns.remove(0);
+    let (ignored, repeated) = (table.ignored, table.repeated);
+    let table = Table::of(time.values, table.columns)?;
     Ok(Table {
-        times: time.values,
-        columns: table.columns,
-        ignored: table.ignored,
-        repeated: table.repeated,
+        ignored,
+        repeated,
+        ..table
     })
 }
 
@@ -102,13 +161,21 @@ pub fn of_measurement(found: mdf4::Table) -> Result<Table, String> {
         quantity: column.quantity,
         unit: column.unit,
         values: at(&column.values),
+        left_out: Vec::new(),
         place: 0,
     });
+    let dropped = (0..found.times.len()).filter(|sample| !first(sample));
     Ok(Table {
         times: at(&found.times),
         columns: columns.collect(),
-        repeated: found.times.len() - kept.len(),
+        // So many were kept before it.
+        repeated: dropped
+            .enumerate()
+            .map(|(before, row)| (row - before).saturating_sub(1))
+            .collect(),
         ignored: found.ignored,
+        notes: Vec::new(),
+        left: Vec::new(),
     })
 }
 
@@ -130,7 +197,8 @@ fn message(error: &csv::Error) -> String {
 struct Growing {
     columns: Vec<Column>,
     ignored: Vec<String>,
-    repeated: usize,
+    repeated: Vec<usize>,
+    separator: u8,
 }
 
 fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
@@ -145,7 +213,8 @@ fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
     let mut table = Growing {
         columns: Vec::new(),
         ignored: Vec::new(),
-        repeated: 0,
+        repeated: Vec::new(),
+        separator: b',',
     };
     for (place, name) in header.iter().enumerate() {
         // A spreadsheet may put a byte-order mark before the first name.
@@ -169,6 +238,7 @@ fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
             quantity,
             unit,
             values: Vec::new(),
+            left_out: Vec::new(),
             place,
         });
     }
@@ -182,21 +252,52 @@ fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
 }
 
 impl Growing {
+    /// Takes units from a row below the headings; whether there are any.
+    fn takes_units(&mut self, record: &ByteRecord) -> Result<bool, String> {
+        let columns: Vec<_> = self
+            .columns
+            .iter()
+            .map(|column| {
+                (
+                    column.place,
+                    column.name.as_str(),
+                    column.quantity,
+                    column.unit,
+                )
+            })
+            .collect();
+        let Some(units) = front::units(record, &columns) else {
+            return Ok(false);
+        };
+        for (column, unit) in self.columns.iter_mut().zip(units?) {
+            column.unit = unit;
+        }
+        Ok(true)
+    }
+
     /// Adds a line.
     fn add(&mut self, record: &ByteRecord) -> Result<(), String> {
+        let first = self.columns.iter().all(|column| column.values.is_empty());
+        if first && self.takes_units(record)? {
+            return Ok(());
+        }
         for place in 0..self.columns.len() {
             let Some(column) = self.columns.get_mut(place) else {
                 continue;
             };
-            let value = number(record.get(column.place).unwrap_or_default(), &column.name)?;
-            let value = column.unit.si(value);
+            let cell = record.get(column.place).unwrap_or_default();
+            let value = match number(cell, &column.name, self.separator)? {
+                Some(value) => column.unit.si(value),
+                None if place == 0 => return Err(format!("{} has no number", column.name)),
+                None => f64::NAN,
+            };
             if place == 0 {
                 match column.values.last() {
                     Some(last) if value < *last => {
                         return Err(format!("time goes back from {last} s to {value} s"));
                     }
                     Some(last) if value == *last => {
-                        self.repeated += 1;
+                        self.repeated.push(column.values.len() - 1);
                         return Ok(());
                     }
                     _ => {}
@@ -213,21 +314,21 @@ impl Growing {
     }
 }
 
-/// A number that f32 can hold.
-fn number(text: &[u8], column: &str) -> Result<f64, String> {
+/// A number that f32 can hold; none where the sample is missing.
+fn number(text: &[u8], column: &str, separator: u8) -> Result<Option<f64>, String> {
     let fault = |problem: &str| {
         let shown: String = String::from_utf8_lossy(text).chars().take(40).collect();
         format!("{column} = {shown:?} {problem}")
     };
-    let value: f64 = std::str::from_utf8(text)
-        .ok()
-        .and_then(|text| text.parse().ok())
-        .ok_or_else(|| fault(headings::no_number(text)))?;
+    let Some(number) = front::number(text, separator) else {
+        return Ok(None);
+    };
+    let value = number.map_err(|()| fault(headings::no_number(text)))?;
     if !value.is_finite() {
         return Err(fault("is not finite"));
     }
     if value.abs() > f64::from(f32::MAX) {
         return Err(fault("is beyond the range of float32"));
     }
-    Ok(value)
+    Ok(Some(value))
 }

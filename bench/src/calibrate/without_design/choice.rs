@@ -150,6 +150,7 @@ pub fn terms(prepared: &Prepared<'_>) -> Terms {
         period: None,
         load: true,
         delay: true,
+        one_speed: false,
     };
     let slide = prepared.slide(LAWS[LAWS.len() - 1], without);
     let Ok(fit) = fitted(&slide, false) else {
@@ -207,7 +208,11 @@ pub fn model(
     name: &str,
 ) -> Result<Fitted, Failure> {
     let slide = prepared.slide(law, terms);
-    let plain = terms == Terms::default();
+    let plain = terms
+        == Terms {
+            one_speed: terms.one_speed,
+            ..Terms::default()
+        };
     let share = if unseen.is_some() { 1.0 } else { FITTED };
     let seen = Part::before(&slide, share);
     let fit = fitted(&seen, plain)?;
@@ -297,6 +302,7 @@ pub fn estimates(uncertainty: &Uncertainty) -> Vec<Estimate> {
             low: interval.low,
             high: interval.high,
             fixed: false,
+            at_bound: interval.at_bound,
         })
         .collect()
 }

@@ -27,6 +27,8 @@ pub struct Terms {
     pub load: bool,
     /// Delay between the effort as it is written down and as it acts.
     pub delay: bool,
+    /// Whether the trace moves at one speed: drag and level are one number.
+    pub one_speed: bool,
 }
 
 /// A model of a trace without a design.
@@ -57,6 +59,8 @@ const DRAG: &str = "viscous_friction";
 const FORWARD: &str = "viscous_friction_forward";
 const BACKWARD: &str = "viscous_friction_backward";
 const LEVEL: &str = "coulomb_friction";
+/// Name of the level and the drag together.
+pub const AT_ONE_SPEED: &str = "friction_at_one_speed";
 const OFFSET: &str = "offset";
 const STIFFNESS: &str = "position_stiffness";
 const SLOPE: &str = "friction_slope";
@@ -192,7 +196,9 @@ impl<'a> Slide<'a> {
             ..
         } = self.motion;
         let mut columns = vec![acceleration.clone()];
-        if self.terms.drag_of_each_direction {
+        if self.terms.one_speed {
+            // Nothing beside the level.
+        } else if self.terms.drag_of_each_direction {
             columns.push(speed.iter().map(|speed| speed.max(0.0)).collect());
             columns.push(speed.iter().map(|speed| speed.min(0.0)).collect());
         } else {
@@ -248,7 +254,7 @@ impl<'a> Slide<'a> {
         let both = value(DRAG);
         Ok(SlideResistance {
             friction: self.law.friction(&self.scales, nonlinear)?,
-            level: value(LEVEL),
+            level: value(LEVEL) + value(AT_ONE_SPEED),
             drag: [value(FORWARD) + both, value(BACKWARD) + both],
             offset: value(OFFSET),
             middle: self.middle,
@@ -307,7 +313,9 @@ fn linear(coordinate: Coordinate, terms: Terms, load: bool) -> Vec<LinearParamet
         Coordinate::Translation => INERTIA[1],
     };
     let mut linear = vec![positive(inertia, units.inertia)];
-    if terms.drag_of_each_direction {
+    if terms.one_speed {
+        // Nothing beside the level.
+    } else if terms.drag_of_each_direction {
         linear.extend([FORWARD, BACKWARD].map(|name| free(name, units.drag)));
     } else {
         linear.push(free(DRAG, units.drag));
@@ -322,7 +330,8 @@ fn linear(coordinate: Coordinate, terms: Terms, load: bool) -> Vec<LinearParamet
     if load {
         linear.push(free(GAIN, units.gain));
     }
-    linear.push(positive(LEVEL, units.effort));
+    let level = if terms.one_speed { AT_ONE_SPEED } else { LEVEL };
+    linear.push(positive(level, units.effort));
     if terms.position {
         linear.push(free(SLOPE, units.stiffness));
     }

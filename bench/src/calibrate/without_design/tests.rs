@@ -83,3 +83,78 @@ fn coulomb_friction_does_not_count_as_inertia() {
         assert!(held >= 50, "{held}");
     }
 }
+
+/// Runs of a second and a half at these speeds, rad/s, with ramps of 40 ms and rests of some time between them, s; the drive is off at
+/// rest, and the position has steps. Inertia 8e-6 kg m^2, drag 4e-5 N m s/rad, Coulomb 3.7e-3 N m.
+fn runs(speeds: &[f64], rest: f64, step: f64) -> Trace {
+    let tick = 1e-3;
+    let mut profile = vec![0.0; 100];
+    for speed in speeds {
+        let ramp = |k: i32| speed * f64::from(k) / 40.0;
+        profile.extend((0..40).map(ramp));
+        profile.extend(vec![*speed; 1500]);
+        profile.extend((0..40).rev().map(ramp));
+        profile.extend(vec![0.0; (rest / tick) as usize]);
+    }
+    let rough = noise(17, profile.len(), 0.0);
+    let mut angle = 0.0;
+    let (mut position, mut effort) = (Vec::new(), Vec::new());
+    for (sample, speed) in profile.iter().enumerate() {
+        let before = profile[sample.saturating_sub(1)];
+        let after = profile[(sample + 1).min(profile.len() - 1)];
+        let acceleration = (after - before) / (2.0 * tick);
+        let torque = 8e-6 * acceleration + 4e-5 * speed + 3.7e-3 * speed.signum();
+        let moves = *speed != 0.0;
+        effort.push(if moves {
+            torque + 2e-4 * rough[sample]
+        } else {
+            0.0
+        });
+        position.push((angle / step).round() * step);
+        angle += speed * tick;
+    }
+    Trace {
+        step: tick,
+        resolution: step,
+        position,
+        effort,
+        ..drive(0)
+    }
+}
+
+/// However long the rests, what slides tells the friction.
+#[test]
+fn rests_between_runs_change_nothing() {
+    for (rest, step) in [(0.5, TAU / 4096.0), (2.5, TAU / 2000.0)] {
+        let trace = runs(&[-3.0, 3.0, -8.0, 8.0, -17.0, 17.0], rest, step);
+        let (answer, _) = plain(&trace, &Filters::default()).unwrap();
+        for (name, truth) in [("viscous_friction", 4e-5), ("coulomb_friction", 3.7e-3)] {
+            let found = answer.parameter(name).unwrap();
+            assert!(
+                (found.low..=found.high).contains(&truth),
+                "{rest}: {found:?}"
+            );
+            assert!(found.half_width() < 0.2 * truth, "{rest}: {found:?}");
+        }
+        let told = answer.cannot_tell.join("; ");
+        assert!(told.contains("stands still"), "{told}");
+    }
+}
+
+/// At one speed both frictions are one number, `3.7e-3 + 4e-5 6` N m, whether the position or the speed is measured.
+#[test]
+fn one_speed_tells_one_number() {
+    let speeds = [6.0, -6.0, 6.0, -6.0, 6.0, -6.0];
+    let (answer, _) = plain(&runs(&speeds, 1.0, TAU / 4096.0), &Filters::default()).unwrap();
+    assert_eq!(answer.parameter("coulomb_friction"), None);
+    let found = answer.parameter("friction_at_one_speed").unwrap();
+    let truth = 3.7e-3 + 4e-5 * 6.0;
+    assert!((found.low..=found.high).contains(&truth), "{found:?}");
+    assert!(
+        answer.cannot_tell[0].starts_with(
+            "the trace moves at one speed: Coulomb and viscous friction are one number, 0.0039"
+        ),
+        "{}",
+        answer.cannot_tell[0]
+    );
+}

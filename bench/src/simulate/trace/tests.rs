@@ -97,8 +97,8 @@ fn every_fault_names_its_line() {
             3,
             "stands twice",
         ),
-        ("time;nut_speed;axial_load\n0,5;1;2\n", 1, "semicolons"),
-        ("time\tnut_speed\taxial_load\n0\t1\t2\n", 1, "tabs"),
+        ("time|nut_speed|axial_load\n0,5|1|2\n", 1, "bars"),
+        ("time;nut_spd;axial_ld\n0;1;2\n", 1, "semicolons"),
         (
             "time,nut_speed,axial_load\n0,\"1,5\",2\n",
             2,
@@ -120,11 +120,16 @@ fn every_fault_names_its_line() {
             1,
             "are both nut_speed",
         ),
-        ("time,nut_speed,axial_load\n0,1,NaN\n", 2, "finite"),
+        ("time,nut_speed,axial_load\n0,1,inf\n", 2, "finite"),
         ("time,nut_speed,axial_load\n0,1,-inf\n", 2, "finite"),
         ("time,nut_speed,axial_load\n0,1,1e39\n", 2, "float32"),
         ("time,nut_speed,axial_load\n0,1,2\n1,1\n", 3, "columns"),
-        ("time,nut_speed,axial_load\n0,1,\n", 2, "no number"),
+        ("time,nut_speed,axial_load\n,1,1\n", 2, "no number"),
+        (
+            "time,nut_speed,axial_load\n0,1,1\n1,1,\n",
+            4,
+            "column axial_load: it has fewer than two numbers",
+        ),
         (
             "time,nut_speed,axial_load\n0,1,2\n1,1,2\n0.5,1,2\n",
             4,
@@ -139,4 +144,27 @@ fn every_fault_names_its_line() {
     }
     let fault = parse(b"time,nut_speed,axial_load\n0,1,2\n0,\xff,2\n").unwrap_err();
     assert_eq!(fault.line, 3);
+}
+
+#[test]
+fn lines_above_units_below_and_empty_cells() {
+    let text =
+        "Recorder 3\n\nTime;Nut speed;Axial load\nms;1/min;kN\n0;60;1,5\n250;;\n500;-60;0,5\n";
+    let samples = parse(text.as_bytes()).unwrap();
+    let turn = 60.0 * (std::f64::consts::TAU / 60.0);
+    // The row without a speed is left out.
+    assert_eq!(
+        samples,
+        [(0.0, turn, 1500.0), (0.5, -turn, 500.0)].map(|(time, speed, load)| Moment {
+            time,
+            speed,
+            load
+        })
+    );
+    let text = "time,nut_speed,axial_load\n0,1,10\n1,1,\n2,1,nan\n3,1,40\n";
+    let loads = parse(text.as_bytes()).unwrap();
+    assert_eq!(
+        loads.iter().map(|moment| moment.load).collect::<Vec<_>>(),
+        [10.0, 20.0, 30.0, 40.0]
+    );
 }

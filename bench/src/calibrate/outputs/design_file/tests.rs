@@ -27,6 +27,7 @@ fn estimate(name: &str, value: f64) -> Estimate {
         low: 0.9 * value,
         high: 1.1 * value,
         fixed: false,
+        at_bound: false,
     }
 }
 
@@ -172,4 +173,24 @@ fn a_number_out_of_range_is_named() {
     assert!(error.contains("drag"), "{error}");
     assert!(written("friction = ", (&whole(), None), "weave").is_err());
     assert!(written("calibration = 3", (&whole(), None), "weave").is_err());
+}
+
+/// What ended at a bound is none of the user's numbers, nor of the constants that follow from them.
+#[test]
+fn what_is_at_a_bound_is_not_written() {
+    let mut calibration = whole();
+    for name in ["full_film_ratio", "gain", "preload"] {
+        let parameters = &mut calibration.parameters;
+        let found = parameters
+            .iter_mut()
+            .find(|found| found.name == name)
+            .unwrap();
+        found.at_bound = true;
+    }
+    let written = written(USERS, (&calibration, None), "weave").unwrap();
+    assert_eq!(written.at_bound, ["full_film_ratio", "preload", "gain"]);
+    for name in ["full_film_ratio", "gain", "preload"] {
+        assert!(!written.text.contains(name), "{}", written.text);
+    }
+    assert!(written.text.contains("clearance = -1e-6"));
 }

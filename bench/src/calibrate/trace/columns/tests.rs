@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::fmt::Write;
 use std::io::Cursor;
 
+use crate::calibrate::fit::toys::noise;
 use crate::calibrate::trace::columns::{Frame, from_reader};
 use crate::calibrate::trace::{Coordinate, Repairs, Trace};
 use crate::failure::Failure;
@@ -182,8 +183,31 @@ fn gaps_jitter_and_repeats_are_repaired_and_counted() {
         writeln!(text, "{time:.4},{},1", angle(time)).unwrap();
     }
     let trace = read(&text, None).unwrap();
-    assert_eq!((trace.repairs, trace.len()), (Repairs::default(), 3000));
+    assert_eq!(
+        (trace.repairs.clone(), trace.len()),
+        (Repairs::default(), 3000)
+    );
     assert!((trace.step * 1500.0 - 1.0).abs() < 1e-4);
+}
+
+/// Distances of 5 % more or less, each by itself, and three samples that are missing.
+#[test]
+fn a_clock_that_runs_free_is_interpolated_at_its_own_times() {
+    let rough = noise(3, 3000, 0.0);
+    let (mut time, mut text) = (0.0, String::from("time,position,motor_force\n"));
+    for (sample, rough) in rough.iter().enumerate() {
+        if !(800..803).contains(&sample) {
+            writeln!(text, "{time},{},1", angle(time)).unwrap();
+        }
+        time += 1e-3 * (1.0 + 0.05 * rough);
+    }
+    let trace = read(&text, None).unwrap();
+    assert_eq!(trace.repairs.free_running, trace.len());
+    assert_eq!(trace.repairs.missing, 3);
+    assert!((trace.step * 1e3 - 1.0).abs() < 0.01, "{}", trace.step);
+    let exact = |time: f64| angle(time * trace.step * 1e3);
+    // At 190 rad/s, a thousandth of a tick beside a sample counts as on it.
+    close(&trace.position, exact, 190.0 * 1e-6);
 }
 
 #[test]
@@ -220,7 +244,7 @@ fn every_fault_has_a_word() {
         ("time,position", "t,1", "motor_torque or motor_force"),
         ("time,motor_force", "t,1", "position or speed"),
         ("position,motor_force", "1,1", "time is missing"),
-        ("time;position;motor_force", "t;1;1", "separated by commas"),
+        ("time|position|motor_force", "t|1|1", "separated by bars"),
         (
             "time,position,position,motor_force",
             "t,1,1,1",
@@ -253,10 +277,10 @@ fn every_fault_has_a_word() {
         (
             "time,position,motor_force",
             "t,NaN,1",
-            "line 2: position = \"NaN\" is not finite",
+            "column position: it has fewer than two numbers",
         ),
         ("time,position,motor_force", "t,-inf,1", "is not finite"),
-        ("time,position,motor_force", "t,,1", "is no number"),
+        ("time,position,motor_force", "t,-,1", "is no number"),
         ("time,position,motor_force", "t,1e39,1", "float32"),
         ("time,position,motor_force", "t,1", "line 2: 2 columns"),
         (

@@ -1,0 +1,430 @@
+//! Samples that no mechanism makes: dropouts and spikes of a channel.
+//!
+//! A sample is left out where it stands off the cubic through its four neighbours by more than the channel's own noise,
+//! by more than the speed changes there, and by more than the channel moves on meanwhile: to get there and back, the
+//! mechanism would need a speed that it has neither before nor after. A run of up to ten such samples is left out where
+//! the channel goes on behind it as before. An angle may start again after a turn.
+//!
+//! An effort or a load can rise and fall within a tick, and a run of such samples may be a pulse. There a run is left
+//! out only where all its samples are the same number to the last digit, which a noisy channel never reads by itself, and
+//! a single sample stays where the motion answers to it.
+
+#[cfg(test)]
+mod tests;
+
+use std::f64::consts::TAU;
+
+use crate::calibrate::trace::channels::{range, resolution};
+use crate::calibrate::trace::clock::{LONGEST_GAP, MOST_MISSING, cubic, median_tick};
+use crate::calibrate::trace::table::{Column, Table};
+use crate::units::{Dimension, Part, Quantity};
+
+/// Longest run that is left out: what the clock fills.
+const LONGEST: usize = LONGEST_GAP as usize;
+/// Samples of a window whose roughness is looked at, and fewest of a channel.
+const WINDOW: usize = 128;
+/// Share of a window that outliers leave alone: a run of ten disturbs the cubics of 14 samples, a tenth of the window.
+const QUIET: f64 = 0.75;
+/// Noise beyond which a sample is none of it, over the quiet share of the roughest window. Of white noise the distance from
+/// the cubic is 1.39 standard deviations, three quarters of its sizes are below 1.15 of that: seven of them are 11
+/// deviations, and of a Laplace distribution's samples 6 in 100,000 are beyond.
+const BEYOND_NOISE: f64 = 7.0;
+/// Steps of the sensor that flicker.
+const FLICKER: f64 = 3.0;
+/// A position that jumps by this many times the fastest travel of a tick is none of the mechanism.
+const JUMPS: f64 = 3.0;
+/// Longest tick, s, within which a mechanism cannot leave and reach such speeds: motors need some milliseconds for it.
+const JUMP_TICK: f64 = 5e-3;
+/// Rows that a message names.
+const NAMED: usize = 12;
+
+/// Samples of a column that were left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LeftOut {
+    /// Name of the column.
+    pub column: String,
+    /// Their rows in the file; the first row under the heading is 1.
+    pub rows: Vec<usize>,
+}
+
+impl LeftOut {
+    /// A sentence.
+    pub fn told(&self) -> String {
+        let count = self.rows.len();
+        let many = if count == 1 {
+            "sample stands"
+        } else {
+            "samples stand"
+        };
+        format!(
+            "column {}: {count} {many} off what the mechanism can do (dropouts or spikes), left out and interpolated: {}",
+            self.column,
+            listed(&self.rows)
+        )
+    }
+}
+
+fn listed(rows: &[usize]) -> String {
+    let names: Vec<String> = rows.iter().take(NAMED).map(ToString::to_string).collect();
+    let more = if rows.len() > NAMED { ", ..." } else { "" };
+    let word = if rows.len() == 1 { "row" } else { "rows" };
+    format!("{word} {}{more}", names.join(", "))
+}
+
+/// Replaces what no mechanism makes by what stands about it; what was left out, column by column.
+///
+/// # Errors
+/// A column with too many such samples, or a position that jumps.
+pub fn clean(table: &mut Table) -> Result<Vec<LeftOut>, String> {
+    if table.times.len() < WINDOW {
+        return Ok(Vec::new());
+    }
+    let mut found = Vec::new();
+    let mut motion: Option<Roughness> = None;
+    let mut order: Vec<usize> = (0..table.columns.len()).collect();
+    // What moves comes first: it judges the others.
+    order.sort_by_key(|place| rank(table.columns[*place].quantity));
+    for place in order {
+        let quantity = table.columns[place].quantity;
+        if !judged(quantity) {
+            continue;
+        }
+        let channel = Channel::of(&table.times, &table.columns[place]);
+        let rough = channel.roughness();
+        let runs = if rough.measured {
+            channel.runs(&rough, motion.as_ref())?
+        } else {
+            Vec::new()
+        };
+        let samples = runs.concat();
+        let rows: Vec<usize> = samples.iter().map(|sample| table.row(*sample)).collect();
+        check_share(&channel, &rows)?;
+        if !samples.is_empty() {
+            let values = channel.filled(&runs);
+            let column = &mut table.columns[place];
+            column.values = values;
+            column.left_out = samples;
+            found.push(LeftOut {
+                column: column.name.clone(),
+                rows,
+            });
+        }
+        if rank(quantity) <= 1 && motion.is_none() {
+            motion = Some(Channel::of(&table.times, &table.columns[place]).roughness());
+        }
+    }
+    Ok(found)
+}
+
+/// Positions, then speeds, then what acts.
+const fn rank(quantity: Quantity) -> u8 {
+    match quantity {
+        Quantity::Position(_) => 0,
+        Quantity::Speed(_) => 1,
+        _ => 2,
+    }
+}
+
+/// Whether a column is measured: what is wanted may jump.
+const fn judged(quantity: Quantity) -> bool {
+    !matches!(quantity, Quantity::Time | Quantity::ReferencePosition)
+}
+
+fn check_share(channel: &Channel<'_>, rows: &[usize]) -> Result<(), String> {
+    let all = channel.values.len();
+    if rows.len() as f64 <= MOST_MISSING * all as f64 {
+        return Ok(());
+    }
+    Err(format!(
+        "column {}: {} of {all} samples stand off what the mechanism can do, as a loose plug or a word that is torn makes them ({}): at most {:.0} % are left out",
+        channel.name,
+        rows.len(),
+        listed(rows),
+        100.0 * MOST_MISSING
+    ))
+}
+
+/// A column with its times.
+struct Channel<'a> {
+    name: &'a str,
+    times: &'a [f64],
+    values: &'a [f64],
+    quantity: Quantity,
+    /// Whether it is an angle that starts again after a turn.
+    wraps: bool,
+    tick: f64,
+}
+
+/// How rough a channel is.
+struct Roughness {
+    /// Whether it has noise or steps of a sensor: what has neither was not measured, and its pulses are meant.
+    measured: bool,
+    /// Distance of every sample from the cubic through its neighbours; 0 at the ends.
+    off: Vec<f64>,
+    /// Distance beyond which it is no noise.
+    noise: f64,
+}
+
+/// What stands about a run: the two samples before, the two behind.
+struct About {
+    places: [usize; 4],
+    /// Values, from the sample before the run on.
+    values: [f64; 4],
+    /// By how much the run may stand off the cubic.
+    allowed: f64,
+}
+
+impl<'a> Channel<'a> {
+    fn of(times: &'a [f64], column: &'a Column) -> Self {
+        let angle = matches!(column.quantity, Quantity::Position(part) if turns(part, column.unit.dimension));
+        Self {
+            name: &column.name,
+            times,
+            values: &column.values,
+            quantity: column.quantity,
+            wraps: angle && wraps(&column.values),
+            tick: median_tick(times, 1),
+        }
+    }
+
+    /// A difference; of an angle that wraps, the shorter way.
+    fn between(&self, from: usize, to: usize) -> f64 {
+        let moved = self.values[to] - self.values[from];
+        if self.wraps {
+            moved - TAU * (moved / TAU).round()
+        } else {
+            moved
+        }
+    }
+
+    /// What stands about the samples after `before` and before `after`.
+    fn about(&self, before: usize, after: usize, noise: f64) -> Option<About> {
+        let last = self.values.len() - 1;
+        if before == 0 || after >= last {
+            return None;
+        }
+        let places = [before - 1, before, after, after + 1];
+        let [a, b, c, d] = places.map(|place| self.times[place]);
+        let [back, over, on] = [
+            self.between(places[0], before),
+            self.between(before, after),
+            self.between(after, places[3]),
+        ];
+        let (first, second) = (back / (b - a), on / (d - c));
+        let span = c - b;
+        let goes_on = (over - 0.5 * span * (first + second)).abs();
+        Some(About {
+            places,
+            values: [-back, 0.0, over, over + on],
+            allowed: noise + 0.5 * span * (second - first).abs() + goes_on,
+        })
+    }
+
+    /// Distance of a sample from the cubic through what stands about it.
+    fn off(&self, sample: usize, about: &About) -> f64 {
+        let times = about.places.map(|place| self.times[place]);
+        let expected = cubic(times, about.values, self.times[sample], 0.0).unwrap_or(0.0);
+        let off = self.between(about.places[1], sample) - expected;
+        if self.wraps {
+            off - TAU * (off / TAU).round()
+        } else {
+            off
+        }
+    }
+
+    fn roughness(&self) -> Roughness {
+        let samples = self.values.len();
+        let mut off = vec![0.0; samples];
+        for (sample, off) in off.iter_mut().enumerate().skip(2) {
+            if let Some(about) = self.about(sample - 1, sample + 1, 0.0) {
+                *off = self.off(sample, &about).abs();
+            }
+        }
+        let quiet = off
+            .chunks(WINDOW)
+            .filter(|window| 2 * window.len() > WINDOW)
+            .map(|window| {
+                let mut sizes = window.to_vec();
+                let place = (QUIET * sizes.len() as f64) as usize;
+                *sizes.select_nth_unstable_by(place, f64::total_cmp).1
+            })
+            .fold(0.0, f64::max);
+        let (low, high) = range(self.values);
+        // Roundings of the numbers themselves.
+        let rounding = 1e-9 * (high - low);
+        let noise = BEYOND_NOISE * quiet + FLICKER * resolution(self.values);
+        Roughness {
+            measured: noise > rounding,
+            off,
+            noise: noise + rounding,
+        }
+    }
+
+    /// Runs of samples that no mechanism makes.
+    fn runs(
+        &self,
+        rough: &Roughness,
+        motion: Option<&Roughness>,
+    ) -> Result<Vec<Vec<usize>>, String> {
+        let fastest = self.fastest();
+        let samples = self.values.len();
+        let [start, end] = self.ends(rough.noise, fastest);
+        let mut runs: Vec<Vec<usize>> = Vec::new();
+        runs.extend((start > 0).then(|| (0..start).collect()));
+        let mut sample = start + 1;
+        while sample < end.min(samples - 1) {
+            let left = sample - 1;
+            let jump = self.between(left, sample);
+            if jump.abs() <= rough.noise && rough.off[sample] <= rough.noise {
+                sample += 1;
+                continue;
+            }
+            match self.run(sample, rough, motion) {
+                Some(run) => {
+                    sample = run.last().map_or(sample, |last| *last) + 2;
+                    runs.push(run);
+                }
+                None if self.jumps(left, jump, rough.noise, fastest) => {
+                    return Err(format!(
+                        "column {}: it jumps by {jump:.4} before row {} (at {} s) and does not come back, {:.0} times as far as the mechanism travels in a tick: the sensor lost its place, or two records are joined; cut the trace there",
+                        self.name,
+                        sample + 1,
+                        self.times[sample],
+                        jump.abs() / (fastest * self.tick).max(f64::MIN_POSITIVE)
+                    ));
+                }
+                None => sample += 1,
+            }
+        }
+        runs.extend((end < samples).then(|| (end..samples).collect()));
+        Ok(runs)
+    }
+
+    /// Samples between those of a position's ends that have no two neighbours on one side and jump to their one.
+    fn ends(&self, noise: f64, fastest: f64) -> [usize; 2] {
+        let last = self.values.len() - 1;
+        let jumps = |before: &usize| {
+            let jump = self.between(*before, before + 1);
+            self.jumps(*before, jump, noise, fastest)
+        };
+        let start = [1, 0].into_iter().find(jumps).map_or(0, |place| place + 1);
+        let end = [last - 2, last - 1].into_iter().find(jumps);
+        [start, end.map_or(last + 1, |place| place + 1)]
+    }
+
+    /// The shortest run that starts at a sample and stands off at its first and last: all its samples that do.
+    fn run(
+        &self,
+        sample: usize,
+        rough: &Roughness,
+        motion: Option<&Roughness>,
+    ) -> Option<Vec<usize>> {
+        for last in sample..sample + LONGEST {
+            let about = self.about(sample - 1, last + 1, rough.noise)?;
+            let far = |sample: &usize| self.off(*sample, &about).abs() > about.allowed;
+            if far(&sample) && far(&last) {
+                let run: Vec<usize> = (sample..=last).filter(far).collect();
+                return self.believed(&run, motion).then_some(run);
+            }
+        }
+        None
+    }
+
+    /// Whether a run of samples that stand off is a fault: of an effort or a load, one word, or a single peak that nothing answers to.
+    fn believed(&self, run: &[usize], motion: Option<&Roughness>) -> bool {
+        match (rank(self.quantity), run) {
+            (0, _) => true,
+            (2, [single]) => !answered(*single, motion),
+            (_, run) => run
+                .windows(2)
+                .all(|pair| self.values[pair[0]] == self.values[pair[1]]),
+        }
+    }
+
+    /// Whether a position moves farther than the mechanism can.
+    fn jumps(&self, before: usize, jump: f64, noise: f64, fastest: f64) -> bool {
+        let time = (self.times[before + 1] - self.times[before]).max(self.tick);
+        rank(self.quantity) == 0
+            && self.tick <= JUMP_TICK
+            && jump.abs() > noise + JUMPS * fastest * time
+    }
+
+    /// The largest speed that holds for three of five ticks.
+    fn fastest(&self) -> f64 {
+        let speeds: Vec<f64> = (1..self.values.len())
+            .map(|sample| {
+                let time = self.times[sample] - self.times[sample - 1];
+                self.between(sample - 1, sample) / time
+            })
+            .collect();
+        speeds
+            .windows(5)
+            .map(|near| {
+                let mut near = [near[0], near[1], near[2], near[3], near[4]];
+                near.sort_by(f64::total_cmp);
+                near[2].abs()
+            })
+            .fold(0.0, f64::max)
+    }
+
+    /// The values with the runs replaced by the cubic through what stands about them; at an end they are held.
+    fn filled(&self, runs: &[Vec<usize>]) -> Vec<f64> {
+        let mut values = self.values.to_vec();
+        let (low, high) = range(self.values);
+        for run in runs {
+            let (Some(first), Some(last)) = (run.first(), run.last()) else {
+                continue;
+            };
+            let before = first.checked_sub(1);
+            let about = before.and_then(|before| self.about(before, last + 1, 0.0));
+            let (Some(before), Some(about)) = (before, about) else {
+                let held = before.unwrap_or(last + 1);
+                run.iter()
+                    .for_each(|sample| values[*sample] = self.values[held]);
+                continue;
+            };
+            let times = about.places.map(|place| self.times[place]);
+            for sample in run {
+                let expected = cubic(times, about.values, self.times[*sample], 0.0).unwrap_or(0.0);
+                let mut value = self.values[before] + expected;
+                if self.wraps && value > high {
+                    value -= TAU;
+                } else if self.wraps && value < low {
+                    value += TAU;
+                }
+                values[*sample] = value;
+            }
+        }
+        values
+    }
+}
+
+/// Whether the motion changes about a sample by more than its noise: then an effort's peak was real.
+fn answered(sample: usize, motion: Option<&Roughness>) -> bool {
+    motion.is_some_and(|motion| {
+        let near = sample.saturating_sub(2)..(sample + 3).min(motion.off.len());
+        motion.off[near].iter().any(|off| *off > motion.noise)
+    })
+}
+
+/// Whether a position is an angle.
+const fn turns(part: Part, dimension: Dimension) -> bool {
+    matches!(dimension, Dimension::Angle)
+        || !matches!(part, Part::Carriage) && matches!(dimension, Dimension::Unsaid)
+}
+
+/// Whether an angle starts again after a turn, whatever a few of its samples do.
+fn wraps(values: &[f64]) -> bool {
+    let jumps = values
+        .windows(2)
+        .filter(|pair| (pair[1] - pair[0]).abs() > 0.5 * TAU)
+        .count();
+    if jumps == 0 {
+        return false;
+    }
+    let mut sorted = values.to_vec();
+    let tail = (MOST_MISSING * values.len() as f64) as usize;
+    let last = sorted.len() - 1 - tail;
+    sorted.sort_by(f64::total_cmp);
+    sorted[last] - sorted[tail] <= 1.01 * TAU
+}

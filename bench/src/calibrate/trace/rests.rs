@@ -1,0 +1,150 @@
+//! Where a trace stands still.
+//!
+//! Between two steps of its sensor, or within its noise, a motion has no direction; friction at rest is anything up to
+//! breakaway, or nothing where the drive is off. Such samples belong to no direction of sliding and are left out of every
+//! regression, on both sides of it. What they can tell is that friction is at least as large as the effort there. A stop in
+//! which the effort follows a load is none.
+
+use std::borrow::Cow;
+use std::collections::VecDeque;
+use std::ops::Range;
+
+use crate::calibrate::signals::noise::white_noise;
+use crate::calibrate::trace::Trace;
+use crate::calibrate::trace::channels::{range, resolution};
+use crate::calibrate::trace::free_load::correlation;
+
+/// Shortest rest, s. A weave of 0.6 rad at 0.2 Hz stays for 0.22 s within a step of 6 mrad (a coarse encoder of ten bits)
+/// where it turns round: a rest is longer.
+const SHORTEST: f64 = 0.3;
+/// Fewest samples of a rest.
+const FEWEST: usize = 8;
+/// Steps of a sensor that flickers between two values; a sample that was interpolated may lie beyond them by a little.
+const FLICKER: f64 = 1.25;
+/// White noise beyond this share of the sensor's step is no rounding.
+const ROUNDING: f64 = 0.4;
+/// Range of some hundred samples of white noise, and the largest of them, in standard deviations.
+const SPREAD: (f64, f64) = (8.0, 4.0);
+/// Deviations of a mean that are no motion.
+const MEAN: f64 = 3.0;
+
+/// Correlation of effort and load from which most of the effort's changes are the load's: a half of their square.
+const FOLLOWS: f64 = 0.7;
+
+/// Stretches at rest, in order.
+pub fn rests(trace: &Trace) -> Vec<Range<usize>> {
+    let window = ((SHORTEST / trace.step).ceil() as usize).max(FEWEST);
+    let mut rests = match trace.speed.as_deref().filter(|_| trace.position_summed) {
+        Some(speed) => of_speed(speed, window),
+        None => of_position(&trace.position, trace.resolution, window),
+    };
+    rests.retain(|rest| !holds(trace, rest));
+    rests
+}
+
+/// Whether a drive holds against a load that changes: such a stop tells the load's gain, and what is remembered of the friction.
+fn holds(trace: &Trace, rest: &Range<usize>) -> bool {
+    let load = trace
+        .load
+        .as_deref()
+        .and_then(|load| load.get(rest.clone()));
+    let effort = trace.effort.get(rest.clone());
+    load.zip(effort)
+        .is_some_and(|(load, effort)| correlation(load, effort) > FOLLOWS)
+}
+
+/// A signal without its rests.
+pub fn moving<'a>(signal: &'a [f64], rests: &[Range<usize>]) -> Cow<'a, [f64]> {
+    if rests.is_empty() {
+        return Cow::Borrowed(signal);
+    }
+    let starts = std::iter::once(0).chain(rests.iter().map(|rest| rest.end));
+    let ends = rests.iter().map(|rest| rest.start).chain([signal.len()]);
+    let stretches = starts
+        .zip(ends)
+        .filter_map(|(start, end)| signal.get(start..end));
+    Cow::Owned(stretches.flatten().copied().collect())
+}
+
+/// The noise of a signal beyond its rounding.
+fn noise(signal: &[f64], resolution: f64) -> f64 {
+    let white = white_noise(signal);
+    if white <= ROUNDING * resolution {
+        0.0
+    } else {
+        white
+    }
+}
+
+/// Where the position stays within a step of its sensor, or its noise, for a window.
+fn of_position(position: &[f64], resolution: f64, window: usize) -> Vec<Range<usize>> {
+    let (low, high) = range(position);
+    let rounding = 1e-12 * (high - low);
+    let band = (FLICKER * resolution)
+        .max(SPREAD.0 * noise(position, resolution))
+        .max(rounding);
+    let (mut least, mut most) = (VecDeque::new(), VecDeque::new());
+    let mut rests = Vec::new();
+    let mut first = 0;
+    for (sample, value) in position.iter().enumerate() {
+        push(&mut least, sample, |other| position[other] >= *value);
+        push(&mut most, sample, |other| position[other] <= *value);
+        while let (Some(lowest), Some(highest)) = (least.front(), most.front()) {
+            let (lowest, highest): (usize, usize) = (*lowest, *highest);
+            if position[highest] - position[lowest] <= band {
+                break;
+            }
+            first = lowest.min(highest) + 1;
+            least.retain(|other| *other >= first);
+            most.retain(|other| *other >= first);
+        }
+        if sample + 1 - first >= window {
+            add(&mut rests, first..sample + 1);
+        }
+    }
+    rests
+}
+
+/// Adds a sample behind those of a list that it does not outdo.
+fn push(list: &mut VecDeque<usize>, sample: usize, outdone: impl Fn(usize) -> bool) {
+    while list.back().is_some_and(|last| outdone(*last)) {
+        list.pop_back();
+    }
+    list.push_back(sample);
+}
+
+/// Where the speed, and its mean over a window, are no more than a step of its sensor or its noise.
+fn of_speed(speed: &[f64], window: usize) -> Vec<Range<usize>> {
+    let step = resolution(speed);
+    let noise = noise(speed, step);
+    let largest = (FLICKER * step).max(SPREAD.1 * noise);
+    let mean = (0.5 * step).max(MEAN * noise / (window as f64).sqrt());
+    let mut rests = Vec::new();
+    let (mut sum, mut first) = (0.0, 0);
+    for (sample, value) in speed.iter().enumerate() {
+        if value.abs() > largest {
+            (sum, first) = (0.0, sample + 1);
+            continue;
+        }
+        sum += value;
+        if sample + 1 - first > window {
+            sum -= speed[sample - window];
+            first += 1;
+        }
+        if sample + 1 - first == window && sum.abs() <= mean * window as f64 {
+            add(&mut rests, first..sample + 1);
+        }
+    }
+    rests
+}
+
+/// Adds a stretch, and joins it with the last one where they touch.
+fn add(rests: &mut Vec<Range<usize>>, stretch: Range<usize>) {
+    match rests.last_mut() {
+        Some(last) if last.end >= stretch.start => last.end = stretch.end,
+        _ => rests.push(stretch),
+    }
+}
+
+#[cfg(test)]
+mod tests;
