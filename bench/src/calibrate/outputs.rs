@@ -138,7 +138,9 @@ impl OutputArguments {
                 }
                 if !written.at_bound.is_empty() {
                     let names = written.at_bound.join(", ");
-                    told.push(format!("not written, because at a bound: {names}"));
+                    told.push(format!(
+                        "not written, because at a bound or beside one that is: {names}"
+                    ));
                 }
             }
             if let Some(path) = &self.constants {

@@ -252,13 +252,12 @@ fn worst(
             let is = |k: &usize| is_wide(&sure.intervals[*k]);
             let wide: Vec<usize> = all.iter().copied().filter(is).collect();
             let width = |k: usize| sure.intervals[k].half_width / half_range(&sure.intervals[k]);
-            match vaguest(&wide, &width) {
-                Some(k) => (vec![k], k, Reason::Wide),
-                None => {
-                    let mut bounds = all.into_iter().filter(|k| sure.intervals[*k].at_bound);
-                    let k = bounds.find(open)?;
-                    (vec![k], k, Reason::AtBound)
-                }
+            if let Some(k) = vaguest(&wide, &width) {
+                (vec![k], k, Reason::Wide)
+            } else {
+                let mut bounds = all.into_iter().filter(|k| sure.intervals[*k].at_bound);
+                let k = bounds.find(open)?;
+                (vec![k], k, Reason::AtBound)
             }
         }
     };

@@ -35,6 +35,12 @@ const FRICTION_KEYS: [&str; 9] = [
 /// Keys of the table for what is no friction of the screw: only where they were estimated.
 const OTHER_KEYS: [&str; 5] = ["inertia", "drag", "churning", "offset", "gain"];
 
+/// Keys that a design file has together or not at all.
+const TOGETHER: [[&str; 2]; 2] = [
+    ["full_film_ratio", "half_share_speed"],
+    ["breakaway_angle", "largest_load"],
+];
+
 /// What a comment of this program starts with.
 const MARK: &str = "calibrated: ";
 
@@ -47,7 +53,7 @@ pub struct Written {
     pub design: Design,
     /// Estimated parameters that a design file has no key for.
     pub left_out: Vec<String>,
-    /// Parameters that ended at a bound, and are not written.
+    /// Parameters that ended at a bound, or say nothing without one that did, and are not written.
     pub at_bound: Vec<String>,
 }
 
@@ -93,7 +99,7 @@ pub fn written(
     let circumstances = screw.map(circumstances).unwrap_or_default();
     let all = calibration.parameters.iter().chain(&circumstances);
     let (at_bound, told): (Vec<&Estimate>, Vec<&Estimate>) =
-        all.partition(|estimate| estimate.at_bound);
+        all.partition(|estimate| ends_at_bound(calibration, &estimate.name));
     for estimate in told {
         let name = estimate.name.as_str();
         if FRICTION_KEYS.contains(&name) || OTHER_KEYS.contains(&name) && !estimate.fixed {
@@ -112,7 +118,7 @@ pub fn written(
             left_out.push(estimate.name.clone());
         }
     }
-    if let Some(screw) = screw {
+    if let Some(screw) = screw.filter(|_| !ends_at_bound(calibration, "breakaway_angle")) {
         let name = toml_edit::value(elements(screw.elements));
         table(&mut document)?.insert("elements", name);
     }
@@ -129,6 +135,15 @@ pub fn written(
             .iter()
             .map(|estimate| estimate.name.clone())
             .collect(),
+    })
+}
+
+/// Whether a parameter ended at a bound, or one that it says nothing without.
+fn ends_at_bound(calibration: &Calibration, name: &str) -> bool {
+    let group = TOGETHER.iter().find(|group| group.contains(&name));
+    let mut ended = calibration.parameters.iter().filter(|other| other.at_bound);
+    ended.any(|other| {
+        other.name == name || group.is_some_and(|group| group.contains(&other.name.as_str()))
     })
 }
 

@@ -379,8 +379,9 @@ impl<'a> Channel<'a> {
             let about = before.and_then(|before| self.about(before, last + 1, 0.0));
             let (Some(before), Some(about)) = (before, about) else {
                 let held = before.unwrap_or(last + 1);
-                run.iter()
-                    .for_each(|sample| values[*sample] = self.values[held]);
+                for sample in run {
+                    values[*sample] = self.values[held];
+                }
                 continue;
             };
             let times = about.places.map(|place| self.times[place]);

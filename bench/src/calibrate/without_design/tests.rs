@@ -122,7 +122,7 @@ fn runs(speeds: &[f64], rest: f64, step: f64) -> Trace {
     }
 }
 
-/// However long the rests, what slides tells the friction.
+/// However long the rests, what slides tells the friction. Of an interval of 95 % twice the half width is 1 in 10000.
 #[test]
 fn rests_between_runs_change_nothing() {
     for (rest, step) in [(0.5, TAU / 4096.0), (2.5, TAU / 2000.0)] {
@@ -130,10 +130,8 @@ fn rests_between_runs_change_nothing() {
         let (answer, _) = plain(&trace, &Filters::default()).unwrap();
         for (name, truth) in [("viscous_friction", 4e-5), ("coulomb_friction", 3.7e-3)] {
             let found = answer.parameter(name).unwrap();
-            assert!(
-                (found.low..=found.high).contains(&truth),
-                "{rest}: {found:?}"
-            );
+            let off = (found.value - truth).abs();
+            assert!(off < 2.0 * found.half_width(), "{rest}: {found:?}");
             assert!(found.half_width() < 0.2 * truth, "{rest}: {found:?}");
         }
         let told = answer.cannot_tell.join("; ");

@@ -188,8 +188,11 @@ fn what_is_at_a_bound_is_not_written() {
         found.at_bound = true;
     }
     let written = written(USERS, (&calibration, None), "weave").unwrap();
-    assert_eq!(written.at_bound, ["full_film_ratio", "preload", "gain"]);
-    for name in ["full_film_ratio", "gain", "preload"] {
+    assert_eq!(
+        written.at_bound,
+        ["full_film_ratio", "half_share_speed", "preload", "gain"]
+    );
+    for name in ["full_film_ratio", "half_share_speed", "gain", "preload"] {
         assert!(!written.text.contains(name), "{}", written.text);
     }
     assert!(written.text.contains("clearance = -1e-6"));
