@@ -10,8 +10,8 @@ use epas_firmware::gears::LIN_3_6;
 use epas_firmware::scenes::{BALLS, course, linear_configuration, uncaged_configuration};
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{
-    BallScrew, BallScrewParameters, Error, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
-    UncagedBallScrew,
+    BallScrew, BallScrewParameters, DISSERTATION_DESIGNS, Error, FrictionModel, Inputs,
+    LinearBearingTrain, LinearInputs, UncagedBallScrew,
 };
 
 #[entry]
@@ -29,9 +29,10 @@ fn log() -> Result<(), Error> {
     let configuration = uncaged_configuration()?;
     defmt::info!("lead {}", configuration.folded.lead);
     // What an engineer gets wrong, and what the log says of it.
+    let [_, design, _] = DISSERTATION_DESIGNS;
     let wrong = BallScrewParameters {
         lead: -1.0,
-        ..*configuration.folded.lead.parameters()
+        ..design.parameters
     };
     if let Err(error) = BallScrew::new(wrong) {
         defmt::warn!("refused: {}", error);
