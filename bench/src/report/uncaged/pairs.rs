@@ -186,7 +186,8 @@ pub fn blocks(quick: bool) -> Vec<Block> {
                 "Two balls of Table 3.6's screw, SR and NL loaded with 5 to 300 N, the screw's contact angles of one turned by 1 degree: errors of the law that a \
                  step evaluates against the exact pair, per cent; forces from {LEAST_FORCE} N. A law is folded for each friction coefficient and clearance, for \
                  deviations up to 1 degree on the screw and for these loads. Pairs without a law have no error; those that a step flags, because the \
-                 law does not hold the forces there, are in the errors. Where both light contacts of a ball are open one of its grooves sticks. The \
+                 law does not hold the forces there, are in the errors. Not shown: friction below 0.075, where a fold takes up to a minute, and play above 10 um, \
+                 where none was found. Where both light contacts of a ball are open one of its grooves sticks. The \
                  last column reproduces the largest error of the force"
             ),
             columns: COLUMNS.map(String::from).to_vec(),
