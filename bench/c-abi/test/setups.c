@@ -3,7 +3,9 @@
 
 #include <stddef.h>
 
+#include "gear.h"
 #include "gears.h"
+#include "screw.h"
 
 #define STEEL {210e9f, 0.28f, 7800.0f}
 
@@ -27,10 +29,10 @@
 const epas_block_t test_block = BLOCK(LIN_3_6_BLOCK);
 const epas_block_t test_worn_block = BLOCK(LIN_3_6_WORN_BLOCK);
 const epas_block_t test_range_block = BLOCK(LIN_3_6_RANGE_BLOCK);
-const epas_block_t test_other_range_block = BLOCK(LIN_4_1_RANGE_BLOCK);
+const epas_block_t test_other_range_block = BLOCK(GEAR_BLOCK);
 const epas_block_t test_ball_block = BLOCK(LIN_3_6_BALL_BLOCK);
 const epas_block_t test_worn_ball_block = BLOCK(LIN_3_6_BALL_WORN_BLOCK);
-const epas_block_t test_ball_range_block = BLOCK(LIN_3_6_BALL_RANGE_BLOCK);
+const epas_block_t test_ball_range_block = BLOCK(SCREW_BLOCK);
 
 /* The same gear by a closed form. */
 const epas_closed_form_configuration_t test_closed_form_configuration = {
