@@ -21,7 +21,7 @@ use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
 use epas_trains::Folded;
 
-use crate::uncaged::{MARGIN, folded};
+use crate::uncaged::{LEAST_DEVIATION, MARGIN, folded};
 
 /// Part of the track that the balls fill, where a case does not say its length.
 const OCCUPATION: f64 = 0.978;
@@ -59,9 +59,6 @@ pub struct Case {
     /// Longest time between two ticks, s: as many of one length lead from each state to the next.
     pub tick: f64,
 }
-
-/// Least deviation that a law is folded for, rad.
-const LEAST_DEVIATION: f32 = 1e-4;
 
 impl Case {
     /// Lin 2019, Table 3.6, under 50 N a ball, with deviations of 1 degree on the screw and 0.5 degrees in the nut.

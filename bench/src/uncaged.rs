@@ -25,6 +25,9 @@ static FOLDED: LazyLock<Mutex<HashMap<u64, Result<Folded, String>>>> =
 /// By how much the loads that are folded for pass the largest one that is asked for, at least: a model counts loaded balls by their places.
 pub const MARGIN: f32 = 1.1;
 
+/// Least deviation that a law is folded for where a groove has none, rad.
+pub const LEAST_DEVIATION: f32 = 1e-4;
+
 /// Largest axial load of a ball that can be folded for, N.
 const LARGEST_LOAD: f32 = 1e5;
 

@@ -14,10 +14,7 @@ use serde::Serialize;
 
 use super::super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};
 use super::request::{Request, Row};
-use crate::uncaged::folded;
-
-/// Least deviation that a law is folded for, rad.
-const LEAST_DEVIATION: f32 = 1e-4;
+use crate::uncaged::{LEAST_DEVIATION, folded};
 
 /// Limits that no request meets.
 const LIMITS: Limits = Limits {
