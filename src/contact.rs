@@ -22,6 +22,7 @@ mod along;
 mod integrals;
 mod rolling;
 
-pub(crate) use across::{Across, AcrossTable, slip_and_spin};
+pub use across::slip_and_spin;
+pub(crate) use across::{Across, AcrossTable};
 pub use along::{FrictionMap, NormalizedFriction, SMALLEST_AXIS_RATIO};
 pub use rolling::{RollingContact, RollingResistance};

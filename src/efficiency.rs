@@ -1,7 +1,7 @@
-//! Closed-form efficiency of a ball screw, self-locking, the best contact angle, and a design procedure.
+//! Closed-form efficiency of a ball screw, and self-locking.
 //!
-//! [`EfficiencyGeometry`] runs at the set-up of the scene by closed forms. The rest ([`DynamicCorrection`], the optimum, the design
-//! procedure) is called directly; no scene links it.
+//! [`EfficiencyGeometry`] runs at the set-up of the scene by closed forms. The contact angle of least loss, the published design
+//! procedure and the correction for the balls' inertia are in `epas-design`.
 //!
 //! Two answers stand side by side, both after Lin, Velinsky, Ravani 1994:
 //!
@@ -18,12 +18,5 @@
 //! gives 0.980, the second 0.860.
 
 mod closed_form;
-mod design;
-mod dynamic;
 
 pub use closed_form::{Drive, EfficiencyGeometry};
-pub use design::{
-    DesignFigures, DesignRequest, Duty, OptimumContactAngle, optimum_contact_angle,
-    optimum_efficiency,
-};
-pub use dynamic::DynamicCorrection;

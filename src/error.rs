@@ -25,8 +25,11 @@ impl Range {
         value >= self.minimum && value <= self.maximum
     }
 
-    /// `value`, or the error that names `field` where it is not a number within the range.
-    pub(crate) const fn checked(self, field: &'static str, value: f32) -> Result<f32, Error> {
+    /// `value`, or the error that names `field`.
+    ///
+    /// # Errors
+    /// [`Error`] where `value` is no number within the range.
+    pub const fn checked(self, field: &'static str, value: f32) -> Result<f32, Error> {
         in_range(field, value, self.minimum, self.maximum)
     }
 }

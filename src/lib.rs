@@ -37,8 +37,8 @@
 //! | [`contact`] | friction of one contact: along the track, across it, in any direction; rolling resistance | set-up; direct |
 //! | [`train`] | a row of balls that push each other: free speeds and impedances in, forces and moves out | step of both trains |
 //! | [`ball`] | one ball between its grooves: by a folded law in a ball screw, in closed form in a linear bearing | step of all scenes |
-//! | [`efficiency`] | closed-form efficiency, self-locking; optimum and design procedure | set-up of the scene by closed forms; direct |
-//! | [`kinematics`] | rolling, side and spin slip of a contact, their ratios and friction power | direct |
+//! | [`efficiency`] | closed-form efficiency, self-locking | set-up of the scene by closed forms; direct |
+//! | [`kinematics`] | rolling, side and spin slip of a contact, and their ratios | direct |
 //! | [`law`] | friction that remembers; friction coefficient by speed and temperature | step of scenes with memory; direct |
 //! | [`defaults`] | friction coefficient, clearance, rolling resistance and lubricant where nothing is measured | set-up |
 //! | [`scene`] | what a mechanism needs and what it leaves out | step |

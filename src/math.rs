@@ -18,7 +18,7 @@
 //! calls those of [`constant`], so that all of it can be done by the compiler.
 
 pub mod constant;
-pub(crate) mod elliptic;
+pub mod elliptic;
 pub mod own;
 
 #[cfg(feature = "libm")]

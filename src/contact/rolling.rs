@@ -142,7 +142,8 @@ impl RollingContact {
     }
 
     /// `3/16 loss b_1/R1`, N^(-1/3), and the drag under 1 N, N^(1/2).
-    pub(crate) const fn coefficients(&self) -> (f32, f32) {
+    #[must_use]
+    pub const fn coefficients(&self) -> (f32, f32) {
         (self.hysteresis, self.lubricant)
     }
 

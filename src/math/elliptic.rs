@@ -27,15 +27,15 @@ pub(crate) const GAUSS: [(f32, f32); 5] = [
 ];
 
 /// Complete elliptic integrals of the modulus `e = sqrt(1 - k^2)`.
-pub(crate) struct Complete {
+pub struct Complete {
     /// First kind, `K`.
-    pub(crate) first: f32,
+    pub first: f32,
     /// Second kind, `E`.
-    pub(crate) second: f32,
+    pub second: f32,
     /// `(1 - e^2/2 - E/K)/e^4`: what `E/K = 1 - e^2/2 - tail e^4` leaves beyond its first two terms, without their factor. Near a
     /// circle, where `e` and the difference itself vanish, it is 1/16; with it differences of `K` and `E` over powers of `e`
     /// ([`FrictionMap`](crate::contact::FrictionMap)) lose no digits there.
-    pub(crate) tail: f32,
+    pub tail: f32,
 }
 
 /// Complete elliptic integrals of an ellipse with the axis ratio `k`, 0.001 to 1, by the arithmetic-geometric mean.
@@ -43,7 +43,8 @@ pub(crate) struct Complete {
 /// `K = pi/(2 mean)` and `E = K (1 - e^2/2 - sum)`, with the sum of `2^(i-1) c_i^2` from `i = 1` on and half the
 /// differences `c_i` of the two means (Abramowitz and Stegun 17.6). Every `c_i` holds the factor `e^2`; the tail is
 /// summed without it.
-pub(crate) const fn complete(k: f32) -> Complete {
+#[must_use]
+pub const fn complete(k: f32) -> Complete {
     let eccentricity2 = (1.0 - k) * (1.0 + k);
     let mut arithmetic = 1.0;
     let mut geometric = k;

@@ -2,7 +2,7 @@
 
 use epas_friction::{
     BallScrewParameters, Clearance, Error, GrooveSize, LinearBearingParameters,
-    Material as CrateMaterial, RollingResistance,
+    Material as CrateMaterial,
 };
 
 use crate::status::{
@@ -101,17 +101,6 @@ pub(crate) fn linear_bearing(
 /// The crate's clearance, of a gap that is checked against the design where it is used.
 pub(crate) fn clearance(gap: f32) -> Result<Clearance, Failure> {
     Clearance::new(gap).map_err(Failure::of)
-}
-
-/// The crate's rolling resistance.
-pub(crate) const fn rolling_resistance(
-    hysteresis_loss: f32,
-    lubricant_drag: f32,
-) -> RollingResistance {
-    RollingResistance {
-        hysteresis_loss,
-        lubricant_drag,
-    }
 }
 
 /// The crate's number of loaded balls.

@@ -1,27 +1,26 @@
 //! A caged ball screw, by a folded block, whose friction remembers: its structures in C, and what they are in the crate.
 
+use epas_friction::Range;
 use epas_friction::law::FrictionLevel;
-use epas_friction::law::breakaway::{
-    Breakaway, BreakawayConfiguration, ScrewContacts, Tables as Backbones,
-};
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, OilData, TemperatureFade, Viscosity,
 };
-use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4};
+use epas_friction::law::memory::{Hysteresis, Part, ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
-use epas_friction::ranges::LOAD;
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
     WithMemoryInputs,
 };
 
 use crate::caged::{REFUSED, block, outputs};
-use crate::design::{ball_screw, clearance, rolling_resistance};
 use crate::scene::{CScene, InHeader, Pointers, Tables, screw_inputs};
-use crate::status::{EPAS_FIELD_PLAY, EPAS_FIELD_REFERENCE_LOAD, Failure};
+use crate::status::{
+    EPAS_FIELD_PLAY, EPAS_FIELD_REFERENCE_TORQUE, EPAS_FIELD_SLIP_ANGLE, EPAS_FIELD_SLIP_SHARE,
+    EPAS_FIELD_SPIN_ANGLE, Failure,
+};
 use crate::tables::NoTable;
 use crate::types::{
-    BallScrew, Block, EPAS_MEMORY_STATE_BYTES, EPAS_MEMORY_WORDS, EPAS_RANGE_NODES, Inputs, Outputs,
+    Block, EPAS_MEMORY_STATE_BYTES, EPAS_MEMORY_WORDS, EPAS_RANGE_NODES, Inputs, Outputs,
 };
 use crate::version::mark;
 
@@ -82,26 +81,22 @@ pub struct Coefficient {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct MemoryConfiguration {
-    /// The screw: a block for a range of friction coefficients, which holds those of the law. Its own coefficient is that of which the first
-    /// motion after a reversal is computed, best the boundary coefficient; its reversal speed has no meaning here.
+    /// The screw: a block for a range of friction coefficients, which holds those of the law. Its own coefficient and
+    /// its reversal speed have no meaning here.
     pub block: Block,
-    /// The design that was folded, from which the first motion after a reversal follows.
-    pub design: BallScrew,
-    /// Radial gap that was folded, m, play above zero, oversize below; -0.02 to 0.05 ball radii.
-    pub clearance: f32,
-    /// Share of the elastic energy that is lost while a contact passes, as folded, 0 to 0.2.
-    pub hysteresis_loss: f32,
-    /// Drag of the lubricant on one contact under 100 N, as folded, N, 0 to 10.
-    pub lubricant_drag: f32,
     /// The nut's angle.
     pub encoder: Encoder,
     /// The friction coefficient in the loop.
     pub coefficient: Coefficient,
-    /// Axial load for which the first motion after a reversal is computed, N, 0 to 1e7: the usual one.
-    pub reference_load: f32,
-    /// Turn of the nut after a reversal within which slip of the balls builds up, rad, 1e-6 to 10, as measured; 0 for what
-    /// follows from the design.
-    pub breakaway_angle: f32,
+    /// Friction of gross sliding for which the two breakaway angles hold, N m, 1e-9 to 1e9. This number and the next three follow from the
+    /// design: `epas-bench simulate --memory` prints them, at the mean load of its trace.
+    pub reference_torque: f32,
+    /// Share of slip across the ball path in the friction, 1e-6 to 0.999999; the rest is spin of the contacts.
+    pub slip_share: f32,
+    /// Turn of the nut after a reversal within which slip builds up, rad, 1e-9 to 1e3, of the design or as measured.
+    pub slip_angle: f32,
+    /// The same of spin, rad, 1e-9 to 1e3.
+    pub spin_angle: f32,
     /// Age up to which a load counts as it is, s, 0 to 1e3.
     pub load_hold: f32,
     /// Time after that in which it fades to none, s, 1e-6 to 1e3.
@@ -143,8 +138,11 @@ pub struct MemoryPlace {
 /// Sticking and slipping elements.
 type Elements = ProportionalElements<8>;
 
-/// Least load of a contact for which elements are made, N.
-const LEAST_LOAD: f32 = 0.1;
+/// Breakaway angles, rad.
+const BREAKAWAY_ANGLE: Range = Range::new(1e-9, 1e3);
+
+/// Shares of slip: each of the two parts has one.
+const SLIP_SHARE: Range = Range::new(1e-6, 1.0 - 1e-6);
 
 /// `epas_memory_t`
 pub(crate) struct Memory;
@@ -186,7 +184,7 @@ impl CScene for Memory {
         Failure,
     > {
         let scene = block(&tables)?;
-        let elements = elements(&scene, configuration)?;
+        let elements = elements(configuration)?;
         Ok(WithMemoryConfiguration {
             scene,
             elements,
@@ -228,49 +226,38 @@ impl CScene for Memory {
     }
 }
 
-/// Elements of slip and spin that follow from the design, and from an identified breakaway angle where there is one.
-fn elements(
-    scene: &CagedBallScrewConfiguration<EPAS_RANGE_NODES>,
-    configuration: &MemoryConfiguration,
-) -> Result<Elements, Failure> {
-    let loaded_balls = scene.loaded_balls;
-    let design = ball_screw(&configuration.design)?;
-    let clearance = clearance(configuration.clearance)?;
-    let load = configuration.reference_load;
-    if !(LOAD.minimum..=LOAD.maximum).contains(&load) {
-        return Err(Failure::number(EPAS_FIELD_REFERENCE_LOAD, load, LOAD));
+/// Elements of slip and spin.
+fn elements(configuration: &MemoryConfiguration) -> Result<Elements, Failure> {
+    let MemoryConfiguration {
+        reference_torque,
+        slip_share,
+        slip_angle,
+        spin_angle,
+        ..
+    } = *configuration;
+    for (angle, field) in [
+        (slip_angle, EPAS_FIELD_SLIP_ANGLE),
+        (spin_angle, EPAS_FIELD_SPIN_ANGLE),
+    ] {
+        if let Err(error) = BREAKAWAY_ANGLE.checked("", angle) {
+            return Err(Failure::at(error, field));
+        }
     }
-    let contact_load = ScrewContacts::of(&design).preloaded(load, loaded_balls, clearance);
-    let mut breakaway = Breakaway::of(
-        &design,
-        &BreakawayConfiguration {
-            friction: scene.friction,
-            clearance,
-            rolling_resistance: rolling_resistance(
-                configuration.hysteresis_loss,
-                configuration.lubricant_drag,
-            ),
-            loaded_balls,
-            contact_load: if contact_load > LEAST_LOAD {
-                contact_load
-            } else {
-                LEAST_LOAD
-            },
-        },
-    )
-    .map_err(Failure::of)?;
-    if configuration.breakaway_angle != 0.0 {
-        breakaway = breakaway
-            .with_slip_angle(configuration.breakaway_angle)
-            .map_err(Failure::of)?;
+    if let Err(error) = SLIP_SHARE.checked("", slip_share) {
+        return Err(Failure::at(error, EPAS_FIELD_SLIP_SHARE));
     }
-    breakaway
-        .elements(&Backbones {
-            slip: &SLIP_4.elements,
-            spin: &SPIN_4.elements,
-            rolling_resistance: &[],
-        })
-        .map_err(Failure::of)
+    let slip = Part {
+        backbone: &SLIP_4.elements,
+        share: slip_share,
+        breakaway_angle: slip_angle,
+    };
+    let spin = Part {
+        backbone: &SPIN_4.elements,
+        share: 1.0 - slip_share,
+        breakaway_angle: spin_angle,
+    };
+    ProportionalElements::new(reference_torque, &[slip, spin])
+        .map_err(|error| Failure::at(error, EPAS_FIELD_REFERENCE_TORQUE))
 }
 
 fn encoder(encoder: &Encoder) -> Result<Steady<CountSensor>, Failure> {

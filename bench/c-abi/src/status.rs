@@ -2,7 +2,6 @@
 
 use core::ffi::CStr;
 
-use epas_friction::error::Range;
 use epas_friction::{Error, Refusal};
 
 /// Everything went well.
@@ -147,10 +146,10 @@ pub const EPAS_FIELD_OTHER: u32 = 49u32;
 pub const EPAS_FIELD_AXIAL_PLAY: u32 = 50u32;
 /// `given`
 pub const EPAS_FIELD_GIVEN: u32 = 51u32;
-/// `hysteresis_loss`
-pub const EPAS_FIELD_HYSTERESIS_LOSS: u32 = 52u32;
-/// `lubricant_drag`
-pub const EPAS_FIELD_LUBRICANT_DRAG: u32 = 53u32;
+/// `slip_share`
+pub const EPAS_FIELD_SLIP_SHARE: u32 = 52u32;
+/// `spin_angle`
+pub const EPAS_FIELD_SPIN_ANGLE: u32 = 53u32;
 /// `forgetting_time`
 pub const EPAS_FIELD_FORGETTING_TIME: u32 = 54u32;
 /// `filter_time`
@@ -223,10 +222,10 @@ pub const EPAS_FIELD_OIL_DENSITY: u32 = 87u32;
 pub const EPAS_FIELD_POUR_POINT: u32 = 88u32;
 /// The least or largest friction coefficient of a law, with its factors.
 pub const EPAS_FIELD_COEFFICIENT: u32 = 89u32;
-/// `reference_load`
-pub const EPAS_FIELD_REFERENCE_LOAD: u32 = 90u32;
-/// `breakaway_angle`
-pub const EPAS_FIELD_BREAKAWAY_ANGLE: u32 = 91u32;
+/// `reference_torque`
+pub const EPAS_FIELD_REFERENCE_TORQUE: u32 = 90u32;
+/// `slip_angle`
+pub const EPAS_FIELD_SLIP_ANGLE: u32 = 91u32;
 /// `load_hold`
 pub const EPAS_FIELD_LOAD_HOLD: u32 = 92u32;
 /// `load_fade`
@@ -281,16 +280,8 @@ const FIELDS: [(u32, &CStr, &str); 100] = [
         c"rolling_tangent",
         "rolling_tangent",
     ),
-    (
-        EPAS_FIELD_HYSTERESIS_LOSS,
-        c"hysteresis_loss",
-        "hysteresis_loss",
-    ),
-    (
-        EPAS_FIELD_LUBRICANT_DRAG,
-        c"lubricant_drag",
-        "lubricant_drag",
-    ),
+    (EPAS_FIELD_SLIP_SHARE, c"slip_share", ""),
+    (EPAS_FIELD_SPIN_ANGLE, c"spin_angle", ""),
     (EPAS_FIELD_BRANCH, c"branch", ""),
     (EPAS_FIELD_CLEARANCE, c"clearance", "clearance"),
     (EPAS_FIELD_LOADED_BALLS, c"loaded_balls", "loaded_balls"),
@@ -460,16 +451,8 @@ const FIELDS: [(u32, &CStr, &str); 100] = [
     (EPAS_FIELD_OIL_DENSITY, c"oil.density", "density"),
     (EPAS_FIELD_POUR_POINT, c"oil.pour_point", "pour_point"),
     (EPAS_FIELD_COEFFICIENT, c"coefficient", "coefficient"),
-    (
-        EPAS_FIELD_REFERENCE_LOAD,
-        c"reference_load",
-        "reference_load",
-    ),
-    (
-        EPAS_FIELD_BREAKAWAY_ANGLE,
-        c"breakaway_angle",
-        "breakaway_angle",
-    ),
+    (EPAS_FIELD_REFERENCE_TORQUE, c"reference_torque", ""),
+    (EPAS_FIELD_SLIP_ANGLE, c"slip_angle", ""),
     (EPAS_FIELD_LOAD_HOLD, c"load_hold", "load_hold"),
     (EPAS_FIELD_LOAD_FADE, c"load_fade", "load_fade"),
     (
@@ -625,22 +608,6 @@ impl Failure {
         Self {
             status,
             ..Self::at(error, EPAS_FIELD_BLOCK)
-        }
-    }
-
-    /// A number out of its range.
-    pub(crate) const fn number(field: u32, value: f32, range: Range) -> Self {
-        Self {
-            status: if value.is_finite() {
-                EPAS_OUT_OF_RANGE
-            } else {
-                EPAS_NOT_FINITE
-            },
-            field,
-            index: 0,
-            value,
-            minimum: range.minimum,
-            maximum: range.maximum,
         }
     }
 

@@ -220,9 +220,17 @@ static void memory(void)
     check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_BLOCK_LENGTH, "a block for one friction coefficient");
     check(failure.field == EPAS_FIELD_BLOCK, "and which field");
     wrong = test_memory_configuration;
-    wrong.clearance = no_number();
-    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_NOT_FINITE, "no clearance");
-    check(failure.field == EPAS_FIELD_CLEARANCE, "and which field");
+    wrong.slip_angle = no_number();
+    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_NOT_FINITE, "no breakaway angle of slip");
+    check(failure.field == EPAS_FIELD_SLIP_ANGLE, "and which field");
+    wrong = test_memory_configuration;
+    wrong.spin_angle = 0.0f;
+    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no breakaway angle of spin");
+    check(failure.field == EPAS_FIELD_SPIN_ANGLE, "and which field");
+    wrong = test_memory_configuration;
+    wrong.slip_share = 1.0f;
+    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no share of spin");
+    check(failure.field == EPAS_FIELD_SLIP_SHARE, "and which field");
     wrong = test_memory_configuration;
     wrong.coefficient.oil.pour_point = 400.0f;
     check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no pour point");
@@ -232,9 +240,9 @@ static void memory(void)
     check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a coefficient too large for the screw");
     check((failure.field == EPAS_FIELD_COEFFICIENT) && (failure.maximum == 0.5f), "and which field");
     wrong = test_memory_configuration;
-    wrong.reference_load = -1.0f;
-    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no load");
-    check(failure.field == EPAS_FIELD_REFERENCE_LOAD, "and which field");
+    wrong.reference_torque = -1.0f;
+    check(epas_memory_init(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "no reference torque");
+    check(failure.field == EPAS_FIELD_REFERENCE_TORQUE, "and which field");
     check(epas_memory_step(&remembering, &inputs, &other) == EPAS_NOT_INITIALISED, "what was refused has no model");
     check((other.faults == EPAS_FAULT_CALL) && (other.friction_torque == 0.0f), "no torque, flagged");
     check(epas_memory_between(&next_remembering, 0u, &other) == EPAS_NOT_INITIALISED, "between, of zeros");
@@ -257,7 +265,7 @@ static void memory(void)
           "friction stays, flagged");
 
     /* A larger breakaway angle: friction builds up later. */
-    soft.breakaway_angle = 0.1f;
+    soft.slip_angle = 0.1f;
     check(epas_memory_init(&next_remembering, &soft, NULL) == EPAS_OK, "a breakaway angle as measured");
     (void)turned(&next_remembering, 1000u, 4000u, 0u);
     (void)turned(&remembering, 1000u, 4000u, 0u);
@@ -271,8 +279,8 @@ static void memory(void)
     check(epas_memory_set_coefficient(&remembering, &law, &failure) == EPAS_OUT_OF_RANGE, "a law without friction");
     check(failure.field == EPAS_FIELD_FULL_FILM, "and which field");
     check(epas_memory_set_coefficient(&remembering, NULL, NULL) == EPAS_NULL_POINTER, "no law");
-    check(epas_memory_swap(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a swap without a load");
-    check(failure.field == EPAS_FIELD_REFERENCE_LOAD, "and which field");
+    check(epas_memory_swap(&remembering, &wrong, &failure) == EPAS_OUT_OF_RANGE, "a swap without a reference torque");
+    check(failure.field == EPAS_FIELD_REFERENCE_TORQUE, "and which field");
 
     check(epas_memory_export(&remembering, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
     check(epas_memory_export(&remembering, block, sizeof block) == EPAS_OK, "export");

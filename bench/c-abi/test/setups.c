@@ -49,10 +49,6 @@ const epas_closed_form_configuration_t test_closed_form_configuration = {
 /* The same gear with a memory, behind an encoder of 14 bits on its motor and a belt of ratio 2.5. */
 const epas_memory_configuration_t test_memory_configuration = {
     .block = BLOCK(LIN_3_6_RANGE_BLOCK),
-    .design = DESIGN,
-    .clearance = OVERSIZE,
-    .hysteresis_loss = 0.01f,
-    .lubricant_drag = 0.0f,
     .encoder = {.period = 16384u, .turn_per_count = 1.533981e-4f, .largest_turn = 1.2f, .play = 1e-4f},
     .coefficient = {
         .boundary = 0.12f,
@@ -69,8 +65,11 @@ const epas_memory_configuration_t test_memory_configuration = {
             .pour_point = 233.15f,
         },
     },
-    .reference_load = 5000.0f,
-    .breakaway_angle = 0.0f, /* by the design */
+    /* By the design, under 5 kN. */
+    .reference_torque = 0.6083f,
+    .slip_share = 0.3717f,
+    .slip_angle = 23.5e-3f,
+    .spin_angle = 0.3017e-3f,
     .load_hold = 0.01f,
     .load_fade = 0.09f,
     .fallback_temperature = 313.15f,

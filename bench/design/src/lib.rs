@@ -28,12 +28,16 @@
 //! | [`certificate`] | errors of a folded block on states that were not fitted |
 //! | [`output`] | a block as Rust, C, TOML and bytes |
 //! | [`drawing`] | a design of the crate as one of the reference |
+//! | [`breakaway`] | initial stiffness and breakaway angle from a design: parts for the elements of a memory |
+//! | [`efficiency`] | contact angle of least loss, design procedure, inertia of the balls |
 //! | [`gears`] | the gear of the project's own firmware |
 
+pub mod breakaway;
 pub mod caged;
 pub mod certificate;
 pub mod curve;
 pub mod drawing;
+pub mod efficiency;
 mod failure;
 pub mod gears;
 pub mod output;

@@ -18,10 +18,10 @@
 
 use core::f32::consts::TAU;
 
+use epas_design::breakaway::ScrewContacts;
 use epas_design::drawing::drawing;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
-use epas_friction::law::breakaway::ScrewContacts;
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, Material, Range,
 };

@@ -2,7 +2,8 @@
 
 use std::f32::consts::TAU;
 
-use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
+use epas_design::efficiency::DynamicCorrection;
+use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::ranges::FRICTION_OR_NONE;
 use epas_reference::ReferenceError;
 use epas_reference::steady_state::BallScrewState;

@@ -1,6 +1,6 @@
 //! Friction that remembers, for every scene of a simulation: elements by the design, at the trace's mean load.
 
-use epas_friction::law::breakaway::{
+use epas_design::breakaway::{
     BearingBreakaway, Breakaway, BreakawayConfiguration, BreakawayPart, Mechanism, ScrewContacts,
     Tables,
 };
@@ -81,10 +81,10 @@ impl Screw<'_> {
         let mut lines = Lines::default();
         tell(
             &mut lines,
-            &elements,
+            (&elements, breakaway.torque),
             &breakaway.parts(),
             &format!("{:.1} N a contact", contact_load.max(LEAST_LOAD)),
-            ("N m/rad", "mrad"),
+            ("N m/rad", "mrad", "N m"),
         );
         Ok(Remembered {
             elements,
@@ -121,10 +121,10 @@ pub fn of_bearing(
     let mut lines = Lines::default();
     tell(
         &mut lines,
-        &elements,
+        (&elements, breakaway.force),
         &breakaway.parts(),
         &format!("{load:.1} N a contact"),
-        ("N/m", "mm"),
+        ("N/m", "mm", "N"),
     );
     Ok(Remembered {
         elements,
@@ -136,15 +136,15 @@ pub fn of_bearing(
 /// Lines on initial stiffness and breakaway.
 fn tell(
     lines: &mut Lines,
-    elements: &Elements,
+    (elements, sliding): (&Elements, f32),
     parts: &[BreakawayPart],
     at: &str,
-    (stiffness, motion): (&str, &str),
+    (stiffness, motion, unit): (&str, &str, &str),
 ) {
     lines.add(
         "memory",
         format!(
-            "{ELEMENTS} elements, initial stiffness {:.4} {stiffness}, full sliding after {:.4} {motion}, at {at}",
+            "{ELEMENTS} elements, initial stiffness {:.4} {stiffness}, full sliding after {:.4} {motion} with {sliding:.4} {unit}, at {at}",
             elements.initial_stiffness(),
             1e3 * elements.breakaway(),
         ),

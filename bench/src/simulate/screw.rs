@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use epas_design::breakaway::ScrewContacts;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
-use epas_friction::law::breakaway::ScrewContacts;
 use epas_friction::{Clearance, Outputs};
 
 use super::reference::Friction;

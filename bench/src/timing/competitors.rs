@@ -3,15 +3,16 @@
 use std::f32::consts::{PI, TAU};
 use std::hint::black_box;
 
+use epas_design::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
 use epas_design::caged::Block;
+use epas_design::efficiency::DynamicCorrection;
 use epas_design::{CagedDesign, CagedFold};
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
-use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
+use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
-use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
 use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::law::memory::{ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};

@@ -10,7 +10,7 @@ use std::hint::black_box;
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
-use epas_friction::efficiency::{Drive, DynamicCorrection, EfficiencyGeometry};
+use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{
     BallBearing, BallBearingParameters, ContactAngle, Groove, HelixPath,
 };
@@ -36,7 +36,6 @@ struct SetUp {
     circular: [CircularGrooveCurvature; 2],
     literature: [LiteratureCurvature; 2],
     efficiency: EfficiencyGeometry,
-    correction: DynamicCorrection,
     torques: [f32; 4],
     loads: [f32; 2],
 }
@@ -71,7 +70,6 @@ impl SetUp {
                 LiteratureCurvature::of(&design, Groove::Nut),
             ],
             efficiency,
-            correction: DynamicCorrection::new(&efficiency, friction),
             torques: [
                 efficiency.rolling_torque_per_load(
                     Drive::Driving,

@@ -3,10 +3,10 @@
 
 use crate::kit::designs::SCREW_TRACK;
 use crate::kit::measured;
-use epas_friction::efficiency::{
-    DesignRequest, Drive, Duty, DynamicCorrection, EfficiencyGeometry, optimum_contact_angle,
-    optimum_efficiency,
+use epas_design::efficiency::{
+    DesignRequest, Duty, DynamicCorrection, optimum_contact_angle, optimum_efficiency,
 };
+use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::{CATALOGUE, Material};
 use epas_reference::efficiency::{self as reference, Screw};
 use proptest::prelude::*;

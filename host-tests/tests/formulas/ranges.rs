@@ -5,10 +5,8 @@
 
 use core::f32::consts::FRAC_PI_4;
 
-use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
-use epas_friction::efficiency::{
-    DesignRequest, Drive, Duty, DynamicCorrection, EfficiencyGeometry, optimum_contact_angle,
-    optimum_efficiency,
+use epas_design::efficiency::{
+    DesignRequest, Duty, DynamicCorrection, optimum_contact_angle, optimum_efficiency,
 };
 use epas_friction::kinematics::{ContactKinematics, FrictionPower, KinematicsParameters};
 use epas_friction::ranges::{FRICTION, FRICTION_OF_A_ROW, FRICTION_OR_NONE, LOAD};

@@ -1,15 +1,15 @@
 //! Every object that is made from plain numbers: refused, or its answers are finite.
 
+use epas_design::efficiency::{
+    DesignRequest, Duty, DynamicCorrection, optimum_contact_angle, optimum_efficiency,
+};
 use epas_friction::ball::{
     AnalyticLinearBall, GrooveFit, LinearBallParameters, ScrewRow, ScrewTick, ScrewTickBall,
     SpeedDeviation,
 };
 use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{FittedCurvature, GothicArch};
-use epas_friction::efficiency::{
-    DesignRequest, Duty, DynamicCorrection, EfficiencyGeometry, optimum_contact_angle,
-    optimum_efficiency,
-};
+use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{

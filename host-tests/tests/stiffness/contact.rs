@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
+use epas_design::breakaway::ContactStiffness;
 use epas_friction::Material;
 use epas_friction::curvature::RelativeCurvatures;
 use epas_friction::hertz::HertzContact;
-use epas_friction::law::breakaway::ContactStiffness;
 use epas_friction::material::contact_modulus;
 use epas_reference::hertz::{Hertz, complete_integrals};
 use epas_reference::material::Elastic;

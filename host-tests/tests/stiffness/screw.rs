@@ -2,14 +2,14 @@
 
 use std::f64::consts::PI;
 
+use epas_design::breakaway::{
+    BearingBreakaway, BearingContacts, Breakaway, BreakawayConfiguration, ContactStiffness,
+    Mechanism, Rolling, ScrewContacts, Seat, Tables,
+};
 use epas_friction::contact::RollingResistance;
 use epas_friction::curvature::RelativeCurvatures;
 use epas_friction::geometry::{CATALOGUE, Groove, NamedDesign};
 use epas_friction::hertz::HertzContact;
-use epas_friction::law::breakaway::{
-    BearingBreakaway, BearingContacts, Breakaway, BreakawayConfiguration, ContactStiffness,
-    Mechanism, Rolling, ScrewContacts, Seat, Tables,
-};
 use epas_friction::law::memory::{
     MemoryState, ProportionalElements, SLIP_4, SLIP_8, SPIN_8, SeatElement, Together,
 };
@@ -463,15 +463,14 @@ fn parts_make_the_whole() {
 fn powers_of_the_load() {
     let design = CATALOGUE[15].design().unwrap();
     let contacts = ScrewContacts::of(&design);
-    let ratios =
-        |mechanism: fn(&ScrewContacts, f32) -> epas_friction::law::breakaway::Resistance| {
-            let (one, eight) = (mechanism(&contacts, 10.0), mechanism(&contacts, 80.0));
-            [
-                eight.limit / one.limit,
-                eight.stiffness / one.stiffness,
-                eight.breakaway() / one.breakaway(),
-            ]
-        };
+    let ratios = |mechanism: fn(&ScrewContacts, f32) -> epas_design::breakaway::Resistance| {
+        let (one, eight) = (mechanism(&contacts, 10.0), mechanism(&contacts, 80.0));
+        [
+            eight.limit / one.limit,
+            eight.stiffness / one.stiffness,
+            eight.breakaway() / one.breakaway(),
+        ]
+    };
     let slip = ratios(|contacts, load| contacts.slip(0.1, load));
     let spin = ratios(|contacts, load| contacts.spin(0.1, load, Rolling::TwoPoint));
     for (found, truth) in slip.into_iter().zip([8.0, 2.0, 4.0]) {

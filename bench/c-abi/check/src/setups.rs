@@ -1,10 +1,9 @@
 //! The scenes of the stored cases, set up in Rust; `test/setups.c` sets the same up in C, as a user would.
 
-use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, OilData, TemperatureFade, Viscosity,
 };
-use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4};
+use epas_friction::law::memory::{Hysteresis, Part, ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, FoldedBall, Freshness, Scene, UncagedConstants,
@@ -14,8 +13,7 @@ use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
     DeviationMap, Error, FrictionBranch, FrictionModel, GrooveSize, Harmonic, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearLimits, LoadShare, LoadShares, Material, RollingResistance, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    LinearLimits, LoadShare, LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 use crate::gears;
@@ -112,26 +110,26 @@ pub fn swapped() -> Result<<Remembering as Scene>::Constants, Error> {
     Remembering::constants(&remembering(gears::LIN_4_1_RANGE)?)
 }
 
+/// Friction of the gear under 5 kN, N m, the share of slip in it, and the breakaway angles of slip and spin, rad.
+const REFERENCE_TORQUE: f32 = 0.6083;
+const SLIP_SHARE: f32 = 0.3717;
+const SLIP_ANGLE: f32 = 23.5e-3;
+const SPIN_ANGLE: f32 = 0.3017e-3;
+
 /// A gear with a memory, of this block.
 fn remembering(block: &[u32]) -> Result<RememberingConfiguration, Error> {
     let scene = CagedBallScrewConfiguration::read(block)?;
-    let (design, clearance) = (design()?, Clearance::new(OVERSIZE)?);
-    let loaded_balls = scene.loaded_balls;
-    let breakaway = Breakaway::of(
-        &design,
-        &BreakawayConfiguration {
-            friction: scene.friction,
-            clearance,
-            rolling_resistance: RollingResistance::STEEL,
-            loaded_balls,
-            contact_load: ScrewContacts::of(&design).preloaded(5_000.0, loaded_balls, clearance),
-        },
-    )?;
-    let elements: ProportionalElements<8> = breakaway.elements(&Tables {
-        slip: &SLIP_4.elements,
-        spin: &SPIN_4.elements,
-        rolling_resistance: &[],
-    })?;
+    let slip = Part {
+        backbone: &SLIP_4.elements,
+        share: SLIP_SHARE,
+        breakaway_angle: SLIP_ANGLE,
+    };
+    let spin = Part {
+        backbone: &SPIN_4.elements,
+        share: 1.0 - SLIP_SHARE,
+        breakaway_angle: SPIN_ANGLE,
+    };
+    let elements = ProportionalElements::<8>::new(REFERENCE_TORQUE, &[slip, spin])?;
     let counts = CountSensor::new(CountSensorParameters {
         period: 16_384,
         turn_per_count: TURN_PER_COUNT,

@@ -3,9 +3,9 @@
 //! By default it is what the trace can tell: each quantity has a condition on what the trace excites. A request names quantities
 //! itself, or sets some of them.
 
+use epas_design::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts};
 use epas_friction::Clearance;
 use epas_friction::defaults;
-use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts};
 
 use super::evidence::Evidence;
 use super::friction::{ElementsKind, Screw};

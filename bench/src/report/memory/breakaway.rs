@@ -1,6 +1,6 @@
 //! Stiffness and breakaway of built-in designs.
 
-use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, Mechanism, ScrewContacts};
+use epas_design::breakaway::{Breakaway, BreakawayConfiguration, Mechanism, ScrewContacts};
 use epas_friction::{BallScrew, Clearance, DISSERTATION_DESIGNS, defaults};
 
 use crate::document::{Block, Cell, Table};

@@ -7,7 +7,6 @@ const NO_PART: f32 = 1e-3;
 
 /// How friction of a contact comes about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Mechanism {
     /// Slip across the ball path. Backbone of Mindlin: `1 - (1 - z)^(3/2)`, with the motion `z` over the breakaway angle.
     Slip,
@@ -19,7 +18,6 @@ pub enum Mechanism {
 
 /// One mechanism of a screw or a bearing: elements with its backbone, scaled by its share and its breakaway angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BreakawayPart {
     /// The mechanism, which decides on the backbone.
     pub mechanism: Mechanism,
@@ -34,7 +32,7 @@ pub struct BreakawayPart {
 
 impl BreakawayPart {
     /// The part that a mechanism has in the friction `whole` of all, N m or N.
-    pub(super) const fn of(mechanism: Mechanism, resistance: Resistance, whole: f32) -> Self {
+    pub(super) fn of(mechanism: Mechanism, resistance: Resistance, whole: f32) -> Self {
         let none = Self {
             mechanism,
             share: 0.0,
@@ -54,7 +52,7 @@ impl BreakawayPart {
     }
 
     /// The same with another breakaway angle above 0; a part without a share stays as it is.
-    pub(super) const fn within(self, breakaway_angle: f32, whole: f32) -> Self {
+    pub(super) fn within(self, breakaway_angle: f32, whole: f32) -> Self {
         if self.share > 0.0 && breakaway_angle > 0.0 {
             Self {
                 breakaway_angle,

@@ -1,7 +1,7 @@
 //! Correction of the full-sliding efficiency for the inertia of the balls.
 
-use super::closed_form::EfficiencyGeometry;
-use crate::math::constant;
+use epas_friction::efficiency::EfficiencyGeometry;
+use epas_friction::math;
 
 /// Correction of the full-sliding efficiency for the centripetal force on the ball:
 /// `eta = eta14 (1 + k1 Pi)` with `Pi = m r_m Omega² / Fa`, `m` the mass of a ball, `Omega` the
@@ -20,26 +20,25 @@ use crate::math::constant;
 /// off by 5.8e-6.
 ///
 /// ```
-/// use epas_friction::efficiency::{DynamicCorrection, EfficiencyGeometry};
+/// use epas_design::efficiency::DynamicCorrection;
+/// use epas_friction::efficiency::EfficiencyGeometry;
 /// let screw = EfficiencyGeometry::new(10f32.to_radians(), 45f32.to_radians(), 0.17984)?;
 /// let correction = DynamicCorrection::new(&screw, 0.075);
 /// assert!((correction.coefficient() + 4.03e-3).abs() < 1e-5);
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DynamicCorrection {
     efficiency: f32,
     coefficient: f32,
 }
 
 impl DynamicCorrection {
-    /// Folds `eta14` and `k1` for one geometry and friction coefficient. Set-up only; a constant can
-    /// take them.
+    /// `eta14` and `k1` for one geometry and friction coefficient.
     ///
     /// Where driving locks (`f R >= Sb`) there is no steady motion to correct: the coefficient is 0.
     #[must_use]
-    pub const fn new(geometry: &EfficiencyGeometry, friction: f32) -> Self {
+    pub fn new(geometry: &EfficiencyGeometry, friction: f32) -> Self {
         let sb = geometry.sin_contact_angle();
         let cb = geometry.cos_contact_angle();
         let ta = geometry.tan_lead_angle();
@@ -58,7 +57,7 @@ impl DynamicCorrection {
         let bracket = s0 + g * c0
             - (sb - f * ta) / grip
             - f * g * (cb / ca_squared - a * r * r) / (2.0 * r * sb * (r + f * sb));
-        let coefficient = w0 * w0 / share * constant::sqrt(ca_squared) * grip * bracket;
+        let coefficient = w0 * w0 / share * math::sqrt(ca_squared) * grip * bracket;
         Self {
             efficiency,
             coefficient: if grip > 0.0 && coefficient.is_finite() {
@@ -72,14 +71,14 @@ impl DynamicCorrection {
     /// The coefficient `k1`.
     #[inline]
     #[must_use]
-    pub const fn coefficient(&self) -> f32 {
+    pub fn coefficient(&self) -> f32 {
         self.coefficient
     }
 
-    /// Efficiency at the dynamic number `Pi = m r_m Omega² / Fa`, at least 0. Cost: 3 operations.
+    /// Efficiency at the dynamic number `Pi = m r_m Omega² / Fa`, at least 0.
     #[inline]
     #[must_use]
-    pub const fn efficiency(&self, dynamic_number: f32) -> f32 {
+    pub fn efficiency(&self, dynamic_number: f32) -> f32 {
         self.efficiency + self.efficiency * (self.coefficient * dynamic_number)
     }
 }

@@ -1,9 +1,9 @@
 //! What holds a ball across its path.
 
 use super::pair::ScrewContacts;
-use crate::ball::Clearance;
-use crate::geometry::{BallScrew, Groove};
-use crate::math::constant;
+use epas_friction::ball::Clearance;
+use epas_friction::geometry::{BallScrew, Groove};
+use epas_friction::math::constant;
 
 /// Halvings of the drift's interval: 24 for the digits of an f32, and 16 for drifts that are small beside what the slope alone allows.
 const HALVINGS: u8 = 40;
@@ -30,7 +30,6 @@ const HALVINGS: u8 = 40;
 ///
 /// Cost: 40 halvings with up to two square roots ([`constant::sqrt`]) each, for a drift; set-up only.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Seat {
     /// Gap `g` of the third contact where no friction acts, m; below 0 it carries.
     gap: f32,
@@ -51,7 +50,7 @@ impl Seat {
     /// unchecked, for numbers that
     /// [`BreakawayConfiguration::checked`](super::BreakawayConfiguration::checked) would pass.
     #[must_use]
-    pub const fn of(
+    pub fn of(
         design: &BallScrew,
         contacts: &ScrewContacts,
         clearance: Clearance,
@@ -65,7 +64,7 @@ impl Seat {
 
     /// The same with the gap that is left to the third contact, m.
     #[must_use]
-    pub const fn with_gap(
+    pub fn with_gap(
         design: &BallScrew,
         contacts: &ScrewContacts,
         gap: f32,
@@ -87,19 +86,19 @@ impl Seat {
 
     /// Gap of the third contact where no friction acts, m; below 0 it carries.
     #[must_use]
-    pub const fn gap(&self) -> f32 {
+    pub fn gap(&self) -> f32 {
         self.gap
     }
 
     /// Deflection of the third contact over its load to the power of 2/3, m/N^(2/3).
     #[must_use]
-    pub const fn deflection_coefficient(&self) -> f32 {
+    pub fn deflection_coefficient(&self) -> f32 {
         self.deflection
     }
 
     /// Drift `x`, m, where slip has so much of its gross friction, 0 to 1; beyond as at its end, NaN as 0.
     #[must_use]
-    pub const fn drift(&self, share: f32) -> f32 {
+    pub fn drift(&self, share: f32) -> f32 {
         let share = if share >= 1.0 {
             1.0
         } else if share > 0.0 {
@@ -125,7 +124,7 @@ impl Seat {
 
     /// Nut angle in which the ball drifts that far, rad; 0 without lead.
     #[must_use]
-    pub const fn drift_angle(&self, share: f32) -> f32 {
+    pub fn drift_angle(&self, share: f32) -> f32 {
         if self.per_angle > 0.0 {
             self.drift(share) / self.per_angle
         } else {
@@ -137,7 +136,7 @@ impl Seat {
     ///
     /// `angle(0.9)` and `angle(1.0)` say how soon a screw breaks away.
     #[must_use]
-    pub const fn angle(&self, share: f32) -> f32 {
+    pub fn angle(&self, share: f32) -> f32 {
         let left = if share >= 1.0 {
             0.0
         } else if share > 0.0 {
@@ -151,7 +150,7 @@ impl Seat {
     /// Loads of the third contact and of the fourth one, N, where slip has so much of its gross friction, 0 to 1; the fourth one
     /// carries in preloaded balls only.
     #[must_use]
-    pub const fn side_contacts(&self, share: f32) -> [f32; 2] {
+    pub fn side_contacts(&self, share: f32) -> [f32; 2] {
         let drift = self.drift(share);
         [
             self.pressed(drift - self.gap),
@@ -162,7 +161,7 @@ impl Seat {
     /// Nut angle in which a ball goes from the middle of its drift to the third contact, with nothing but the grooves' slope to hold
     /// it, rad; 0 where that contact carries from the beginning.
     #[must_use]
-    pub const fn free_play(&self) -> f32 {
+    pub fn free_play(&self) -> f32 {
         if self.gap > 0.0 && self.per_angle > 0.0 {
             self.gap / self.per_angle
         } else {
@@ -171,12 +170,12 @@ impl Seat {
     }
 
     /// Force that holds the ball at a drift, N; 0 in the middle, rising.
-    const fn holding(&self, drift: f32) -> f32 {
+    fn holding(&self, drift: f32) -> f32 {
         self.slope * drift + self.pressed(drift - self.gap) - self.pressed(-drift - self.gap)
     }
 
     /// Load of a contact that is pressed in so far, m.
-    const fn pressed(&self, approach: f32) -> f32 {
+    fn pressed(&self, approach: f32) -> f32 {
         if approach > 0.0 {
             let ratio = approach / self.deflection;
             ratio * constant::sqrt(ratio)

@@ -3,8 +3,8 @@
 use super::bearing::BearingBreakaway;
 use super::parts::{BreakawayPart, Mechanism};
 use super::screw::Breakaway;
-use crate::error::Error;
-use crate::law::memory::{BackboneElement, Part, ProportionalElements, SeatElement};
+use epas_friction::error::Error;
+use epas_friction::law::memory::{BackboneElement, Part, ProportionalElements, SeatElement};
 
 /// Least share of a part with a table: that of [`ProportionalElements::new`].
 const LEAST_SHARE: f32 = 1e-6;
@@ -12,16 +12,16 @@ const LEAST_SHARE: f32 = 1e-6;
 /// Tables of elements, one for each mechanism; an empty one leaves its mechanism out, whose share goes to the others.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tables<'a> {
-    /// Slip across the path, as [`SLIP_6`](crate::law::memory::SLIP_6)`.elements`; empty for a linear bearing.
+    /// Slip across the path, as [`SLIP_6`](epas_friction::law::memory::SLIP_6)`.elements`; empty for a linear bearing.
     pub slip: &'a [BackboneElement],
-    /// Spin, as [`SPIN_4`](crate::law::memory::SPIN_4)`.elements`.
+    /// Spin, as [`SPIN_4`](epas_friction::law::memory::SPIN_4)`.elements`.
     pub spin: &'a [BackboneElement],
     /// Rolling resistance: a table of slip, by analogy. About one per cent of the friction; empty costs nothing.
     pub rolling_resistance: &'a [BackboneElement],
 }
 
 impl<'a> Tables<'a> {
-    const fn of(&self, mechanism: Mechanism) -> &'a [BackboneElement] {
+    fn of(&self, mechanism: Mechanism) -> &'a [BackboneElement] {
         match mechanism {
             Mechanism::Slip => self.slip,
             Mechanism::Spin => self.spin,
@@ -30,7 +30,7 @@ impl<'a> Tables<'a> {
     }
 
     /// Elements of the parts that have a table, `N` together, with a friction of gross sliding `whole`, N m or N.
-    const fn elements<const N: usize>(
+    fn elements<const N: usize>(
         &self,
         parts: [BreakawayPart; 3],
         whole: f32,
@@ -75,7 +75,7 @@ impl Breakaway {
     /// `N` elements in these tables, for [`Self::parts`].
     ///
     /// ```
-    /// use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
+    /// use epas_design::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
     /// use epas_friction::law::memory::{ProportionalElements, SLIP_4, SPIN_4};
     /// use epas_friction::{CATALOGUE, defaults};
     /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
@@ -96,7 +96,7 @@ impl Breakaway {
     ///
     /// # Errors
     /// As [`ProportionalElements::new`]: `parts` where the tables have not `N` elements together.
-    pub const fn elements<const N: usize>(
+    pub fn elements<const N: usize>(
         &self,
         tables: &Tables<'_>,
     ) -> Result<ProportionalElements<N>, Error> {
@@ -104,12 +104,12 @@ impl Breakaway {
     }
 
     /// The seat as an element of its own, with the share of slip: for a screw with play, in
-    /// [`Together`](crate::law::memory::Together) with [`Self::elements_beside_seat`].
+    /// [`Together`](epas_friction::law::memory::Together) with [`Self::elements_beside_seat`].
     ///
     /// # Errors
     /// As [`SeatElement::new`]: `reference_limit` where nothing slips, `breakaway_angle` where the grooves' slope holds the ball
     /// before it comes to its seat.
-    pub const fn seat_element(&self) -> Result<SeatElement, Error> {
+    pub fn seat_element(&self) -> Result<SeatElement, Error> {
         let slip = self.part(Mechanism::Slip);
         let play = self.seat.free_play();
         SeatElement::new(slip.share * self.torque, play, slip.breakaway_angle - play)
@@ -119,7 +119,7 @@ impl Breakaway {
     ///
     /// # Errors
     /// As [`ProportionalElements::new`].
-    pub const fn elements_beside_seat<const N: usize>(
+    pub fn elements_beside_seat<const N: usize>(
         &self,
         tables: &Tables<'_>,
     ) -> Result<ProportionalElements<N>, Error> {
@@ -137,7 +137,7 @@ impl BearingBreakaway {
     ///
     /// # Errors
     /// As [`ProportionalElements::new`].
-    pub const fn elements<const N: usize>(
+    pub fn elements<const N: usize>(
         &self,
         tables: &Tables<'_>,
     ) -> Result<ProportionalElements<N>, Error> {

@@ -1,21 +1,20 @@
 //! The paper's ten-step design procedure.
 
-use core::f32::consts::TAU;
+use std::f32::consts::TAU;
 
 use super::optimum::optimum_contact_angle;
-use crate::efficiency::closed_form::{Drive, EfficiencyGeometry};
-use crate::error::{Error, in_range};
-use crate::geometry::{
+use epas_friction::efficiency::{Drive, EfficiencyGeometry};
+use epas_friction::error::{Error, Range};
+use epas_friction::geometry::{
     BallScrew, BallScrewParameters, Groove, GrooveSize, LARGEST_CONTACT_ANGLE, PITCH_RADIUS,
 };
-use crate::hertz::HertzContact;
-use crate::material::Material;
-use crate::math;
-use crate::ranges;
+use epas_friction::hertz::HertzContact;
+use epas_friction::material::Material;
+use epas_friction::math;
+use epas_friction::ranges;
 
 /// What the screw has to do.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Duty {
     /// Rotation moves an axial load, N, 0 to 1e7.
     MoveAxialLoad(f32),
@@ -25,7 +24,6 @@ pub enum Duty {
 
 /// The choices that the procedure leaves to the designer; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DesignRequest {
     /// What the screw has to do.
     pub duty: Duty,
@@ -51,7 +49,6 @@ pub struct DesignRequest {
 
 /// Every step's figure.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DesignFigures {
     /// Step 1: lead angle, rad.
     pub lead_angle: f32,
@@ -92,11 +89,11 @@ impl DesignRequest {
     /// The ten steps of Lin, Velinsky, Ravani 1994, "Design Procedure", in their order.
     ///
     /// The paper iterates by hand: where a figure does not please (pressure too high, travel wrong),
-    /// change a choice and call again. Set-up only.
+    /// change a choice and call again.
     ///
     /// ```
     /// use epas_friction::Material;
-    /// use epas_friction::efficiency::{DesignRequest, Duty};
+    /// use epas_design::efficiency::{DesignRequest, Duty};
     /// let figures = DesignRequest {
     ///     duty: Duty::MoveAxialLoad(14_500.0),
     ///     lead_angle: 5f32.to_radians(),
@@ -169,27 +166,24 @@ impl DesignRequest {
             Duty::MoveAxialLoad(load) => {
                 (Drive::Driving, ranges::LOAD.checked("axial_load", load)?)
             }
-            Duty::DeliverTorque(torque) => {
-                (Drive::BackDriving, in_range("torque", torque, 0.0, 1e6)?)
-            }
+            Duty::DeliverTorque(torque) => (
+                Drive::BackDriving,
+                Range::new(0.0, 1e6).checked("torque", torque)?,
+            ),
         })
     }
 
     /// Number of balls, with every other choice but the duty checked before it.
     fn checked_balls(&self) -> Result<f32, Error> {
-        in_range("lead_angle", self.lead_angle, 0.001, 1.5)?;
+        Range::new(0.001, 1.5).checked("lead_angle", self.lead_angle)?;
         ranges::FRICTION_OR_NONE.checked("friction", self.friction)?;
-        in_range("screw_length", self.screw_length, 0.06, 30.0)?;
-        in_range(
-            "pitch_radius",
-            self.pitch_radius,
-            self.screw_length / 60.0,
-            PITCH_RADIUS.maximum,
-        )?;
-        in_range("ball_ratio", self.ball_ratio, 0.07, 0.2)?;
-        in_range("osculation", self.osculation, 0.95, 0.97)?;
-        let balls = in_range("loaded_balls", f32::from(self.loaded_balls), 1.0, 1e4)?;
-        in_range("rotation", self.rotation, -1e6, 1e6)?;
+        Range::new(0.06, 30.0).checked("screw_length", self.screw_length)?;
+        Range::new(self.screw_length / 60.0, PITCH_RADIUS.maximum)
+            .checked("pitch_radius", self.pitch_radius)?;
+        Range::new(0.07, 0.2).checked("ball_ratio", self.ball_ratio)?;
+        Range::new(0.95, 0.97).checked("osculation", self.osculation)?;
+        let balls = Range::new(1.0, 1e4).checked("loaded_balls", f32::from(self.loaded_balls))?;
+        Range::new(-1e6, 1e6).checked("rotation", self.rotation)?;
         Ok(balls)
     }
 

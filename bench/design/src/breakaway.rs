@@ -1,6 +1,7 @@
 //! Initial stiffness and breakaway angle from a design.
 //!
-//! Runs at set-up; every function can be taken by a constant.
+//! Runs on a host, in f32: firmware takes shares and breakaway angles as numbers, in
+//! [`ProportionalElements::new`](epas_friction::law::memory::ProportionalElements::new).
 //!
 //! Before a contact slides it yields: across the ball path by Mindlin's theory, about its normal by the torsion of an
 //! ellipse. [`ContactStiffness`] has both for one contact, [`ScrewContacts`] and [`BearingContacts`] what they come to

@@ -3,10 +3,10 @@
 use super::contact::ContactStiffness;
 use super::parts::{BreakawayPart, Mechanism};
 use super::resistance::Resistance;
-use crate::contact::{RollingContact, RollingResistance};
-use crate::error::{Error, Range, attempt};
-use crate::geometry::LinearBearing;
-use crate::ranges;
+use epas_friction::contact::{RollingContact, RollingResistance};
+use epas_friction::error::{Error, Range};
+use epas_friction::geometry::LinearBearing;
+use epas_friction::ranges;
 
 /// Load of a contact, N.
 const CONTACT_LOAD: Range = Range::new(0.0, 1e6);
@@ -19,7 +19,6 @@ const LOADED_BALLS: Range = Range::new(1.0, 65_535.0);
 /// For a travel of one metre each contact spins by `tan(beta)/(2 r_b)` about its normal and rolls along half a metre of the
 /// track; none slips.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BearingContacts {
     contact: ContactStiffness,
     /// Spin over the travel, 1/m.
@@ -32,7 +31,7 @@ const PATH: f32 = 0.5;
 impl BearingContacts {
     /// The contacts of a validated design.
     #[must_use]
-    pub const fn of(design: &LinearBearing) -> Self {
+    pub fn of(design: &LinearBearing) -> Self {
         let angle = design.contact_angle();
         Self {
             contact: ContactStiffness::of_linear(design),
@@ -42,19 +41,19 @@ impl BearingContacts {
 
     /// The contact, which is the same on all four points.
     #[must_use]
-    pub const fn contact(&self) -> &ContactStiffness {
+    pub fn contact(&self) -> &ContactStiffness {
         &self.contact
     }
 
     /// Spin of each contact over the travel, rad/m.
     #[must_use]
-    pub const fn spin_per_travel(&self) -> f32 {
+    pub fn spin_per_travel(&self) -> f32 {
         self.spin
     }
 
     /// Spin of one contact under a load, N: limit in N, stiffness in N/m.
     #[must_use]
-    pub const fn spin(&self, friction: f32, load: f32) -> Resistance {
+    pub fn spin(&self, friction: f32, load: f32) -> Resistance {
         self.contact.spin(friction, load, self.spin)
     }
 }
@@ -67,7 +66,7 @@ impl BearingContacts {
 ///
 /// ```
 /// use epas_friction::contact::RollingResistance;
-/// use epas_friction::law::breakaway::{BearingBreakaway, Mechanism};
+/// use epas_design::breakaway::{BearingBreakaway, Mechanism};
 /// use epas_friction::{GrooveSize, LinearBearing, LinearBearingParameters, Material};
 /// let bearing = LinearBearing::new(LinearBearingParameters {
 ///     ball_radius: 5e-3,
@@ -82,7 +81,6 @@ impl BearingContacts {
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BearingBreakaway {
     /// Friction force of the whole bearing at these loads, N.
     pub force: f32,
@@ -96,24 +94,24 @@ impl BearingBreakaway {
     ///
     /// # Errors
     /// [`Error`] naming `friction`, `hysteresis_loss`, `lubricant_drag`, `loaded_balls` or `contact_load`.
-    pub const fn of(
+    pub fn of(
         design: &LinearBearing,
         friction: f32,
         rolling_resistance: RollingResistance,
         loaded_balls: u16,
         contact_loads: [f32; 2],
     ) -> Result<Self, Error> {
-        attempt!(ranges::FRICTION.checked("friction", friction));
-        let balls = attempt!(LOADED_BALLS.checked("loaded_balls", loaded_balls as f32));
+        ranges::FRICTION.checked("friction", friction)?;
+        let balls = LOADED_BALLS.checked("loaded_balls", loaded_balls as f32)?;
         let [up, down] = contact_loads;
-        attempt!(CONTACT_LOAD.checked("contact_load", up));
-        attempt!(CONTACT_LOAD.checked("contact_load", down));
+        CONTACT_LOAD.checked("contact_load", up)?;
+        CONTACT_LOAD.checked("contact_load", down)?;
         let contacts = BearingContacts::of(design);
-        let rolling_contact = attempt!(RollingContact::new(
+        let rolling_contact = RollingContact::new(
             rolling_resistance,
             contacts.contact.contact().semi_minor_coefficient(),
             1.0 / design.ball_radius(),
-        ));
+        )?;
         let spin = contacts
             .spin(friction, up)
             .beside(contacts.spin(friction, down))
@@ -131,13 +129,13 @@ impl BearingBreakaway {
 
     /// Slip, of which there is none, spin and rolling resistance; breakaway angles are travels, m.
     #[must_use]
-    pub const fn parts(&self) -> [BreakawayPart; 3] {
+    pub fn parts(&self) -> [BreakawayPart; 3] {
         [self.part(Mechanism::Slip), self.spin, self.resistance]
     }
 
     /// One of [`Self::parts`].
     #[must_use]
-    pub const fn part(&self, mechanism: Mechanism) -> BreakawayPart {
+    pub fn part(&self, mechanism: Mechanism) -> BreakawayPart {
         match mechanism {
             Mechanism::Slip => BreakawayPart::of(Mechanism::Slip, Resistance::NONE, self.force),
             Mechanism::Spin => self.spin,
@@ -147,13 +145,13 @@ impl BearingBreakaway {
 
     /// Initial stiffness of the parts together, N/m.
     #[must_use]
-    pub const fn stiffness(&self) -> f32 {
+    pub fn stiffness(&self) -> f32 {
         self.spin.stiffness + self.resistance.stiffness
     }
 }
 
 /// Rolling resistance of one contact; none under no load.
-const fn rolled(contacts: &BearingContacts, resistance: &RollingContact, load: f32) -> Resistance {
+fn rolled(contacts: &BearingContacts, resistance: &RollingContact, load: f32) -> Resistance {
     if load > 0.0 {
         contacts.contact.rolling(resistance, load, PATH)
     } else {

@@ -3,12 +3,12 @@
 use core::f32::consts::PI;
 
 use super::resistance::{Resistance, SLOPE};
-use crate::contact::RollingContact;
-use crate::geometry::{BallScrew, Groove, LinearBearing};
-use crate::hertz::HertzContact;
-use crate::material::Material;
-use crate::math::constant;
-use crate::math::elliptic::{Complete, complete};
+use epas_friction::contact::RollingContact;
+use epas_friction::geometry::{BallScrew, Groove, LinearBearing};
+use epas_friction::hertz::HertzContact;
+use epas_friction::material::Material;
+use epas_friction::math::constant;
+use epas_friction::math::elliptic::{Complete, complete};
 
 /// Stiffness of a Hertzian contact against slip and spin, while friction holds it.
 ///
@@ -37,7 +37,7 @@ use crate::math::elliptic::{Complete, complete};
 /// ([`constant::sqrt`]), ten divisions; set-up only.
 ///
 /// ```
-/// use epas_friction::law::breakaway::ContactStiffness;
+/// use epas_design::breakaway::ContactStiffness;
 /// use epas_friction::geometry::Groove;
 /// use epas_friction::CATALOGUE;
 /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
@@ -48,7 +48,6 @@ use crate::math::elliptic::{Complete, complete};
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactStiffness {
     contact: HertzContact,
     /// Compliance along the major axis times the cube root of the load, m/N^(2/3).
@@ -69,7 +68,7 @@ struct Shear {
 }
 
 impl Shear {
-    const fn of(first: &Material, second: &Material) -> Self {
+    fn of(first: &Material, second: &Material) -> Self {
         let (one, other) = (shear_compliance(first), shear_compliance(second));
         let both = one + other;
         Self {
@@ -80,7 +79,7 @@ impl Shear {
 }
 
 /// `1/G`, 1/Pa.
-const fn shear_compliance(material: &Material) -> f32 {
+fn shear_compliance(material: &Material) -> f32 {
     2.0 * (1.0 + material.poisson_ratio) / material.youngs_modulus
 }
 
@@ -94,7 +93,7 @@ struct Unit {
 
 impl Unit {
     /// `q = K (1/2 + e^2 t)`, `k^2 p = K (1/2 - e^2 t)` and `j = 2 K t` with the tail `t` of [`Complete`].
-    const fn of(k: f32, nu: f32) -> Self {
+    fn of(k: f32, nu: f32) -> Self {
         let Complete {
             first,
             second,
@@ -117,7 +116,7 @@ impl Unit {
 impl ContactStiffness {
     /// Stiffness of a contact of two bodies, unchecked: for materials that [`Material::checked`] has passed.
     #[must_use]
-    pub const fn new(contact: &HertzContact, first: &Material, second: &Material) -> Self {
+    pub fn new(contact: &HertzContact, first: &Material, second: &Material) -> Self {
         let shear = Shear::of(first, second);
         let unit = Unit::of(contact.axis_ratio(), shear.poisson_ratio);
         let semi_major = contact.semi_major_coefficient();
@@ -133,7 +132,7 @@ impl ContactStiffness {
 
     /// The contact of ball and one groove of a validated ball screw, at its nominal contact angle.
     #[must_use]
-    pub const fn of(design: &BallScrew, groove: Groove) -> Self {
+    pub fn of(design: &BallScrew, groove: Groove) -> Self {
         let parameters = design.parameters();
         Self::new(
             &HertzContact::of(design, groove),
@@ -144,7 +143,7 @@ impl ContactStiffness {
 
     /// The contact of ball and groove of a validated linear bearing.
     #[must_use]
-    pub const fn of_linear(design: &LinearBearing) -> Self {
+    pub fn of_linear(design: &LinearBearing) -> Self {
         let parameters = design.parameters();
         Self::new(
             &HertzContact::of_linear(design),
@@ -155,37 +154,37 @@ impl ContactStiffness {
 
     /// The contact ellipse and its constants.
     #[must_use]
-    pub const fn contact(&self) -> &HertzContact {
+    pub fn contact(&self) -> &HertzContact {
         &self.contact
     }
 
     /// Slip across the ball path over the force that makes it, m/N, both bodies, under a load above 0, N.
     #[must_use]
-    pub const fn compliance_across(&self, load: f32) -> f32 {
+    pub fn compliance_across(&self, load: f32) -> f32 {
         self.across / constant::cbrt(load)
     }
 
     /// Slip along the ball path over the force that makes it, m/N, both bodies, under a load above 0, N.
     #[must_use]
-    pub const fn compliance_along(&self, load: f32) -> f32 {
+    pub fn compliance_along(&self, load: f32) -> f32 {
         self.along / constant::cbrt(load)
     }
 
     /// Moment over the angle of spin, N m/rad, both bodies, under a load, N.
     #[must_use]
-    pub const fn torsion_stiffness(&self, load: f32) -> f32 {
+    pub fn torsion_stiffness(&self, load: f32) -> f32 {
         self.torsion * load
     }
 
     /// Moment of gross spin, N m, under a load, N.
     #[must_use]
-    pub const fn spin_moment(&self, friction: f32, load: f32) -> f32 {
+    pub fn spin_moment(&self, friction: f32, load: f32) -> f32 {
         self.spin_arm * friction * (load * constant::cbrt(load))
     }
 
     /// Spin by `per_motion` rad for each unit of the motion, and nothing beside it.
     #[must_use]
-    pub const fn spin(&self, friction: f32, load: f32, per_motion: f32) -> Resistance {
+    pub fn spin(&self, friction: f32, load: f32, per_motion: f32) -> Resistance {
         Resistance {
             limit: self.spin_moment(friction, load) * per_motion,
             stiffness: self.torsion_stiffness(load) * (per_motion * per_motion),
@@ -195,12 +194,7 @@ impl ContactStiffness {
     /// Rolling by `per_motion` m along the track for each unit of the motion, under a load above 0, N: the resistance builds up
     /// over a path of `2 b`, the length of the contact.
     #[must_use]
-    pub const fn rolling(
-        &self,
-        resistance: &RollingContact,
-        load: f32,
-        per_motion: f32,
-    ) -> Resistance {
+    pub fn rolling(&self, resistance: &RollingContact, load: f32, per_motion: f32) -> Resistance {
         let root = constant::cbrt(load);
         let (hysteresis, lubricant) = resistance.coefficients();
         let force = hysteresis * (load * root) + lubricant * constant::sqrt(load);

@@ -2,11 +2,11 @@
 
 use super::contact::ContactStiffness;
 use super::resistance::Resistance;
-use crate::ball::Clearance;
-use crate::contact::{RollingContact, RollingResistance, slip_and_spin};
-use crate::error::{Error, Range, attempt};
-use crate::geometry::{BallScrew, Groove};
-use crate::math::constant;
+use epas_friction::ball::Clearance;
+use epas_friction::contact::{RollingContact, RollingResistance, slip_and_spin};
+use epas_friction::error::{Error, Range};
+use epas_friction::geometry::{BallScrew, Groove};
+use epas_friction::math::constant;
 
 /// Halvings with which a load is found: 24 for the digits of an f32, and 16 for loads that are small beside the interval.
 const HALVINGS: u8 = 40;
@@ -16,7 +16,6 @@ const AXIS_RATIO: Range = Range::new(0.02, 0.95);
 
 /// On how many points a ball rolls.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Rolling {
     /// On the two contacts of the loaded diagonal: they spin with `sin(beta) cos(alpha)/2` of the nut's angle, and a third one
     /// slides.
@@ -38,7 +37,6 @@ pub enum Rolling {
 ///
 /// Every resistance is that of one ball, both contacts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewContacts {
     screw: ContactStiffness,
     nut: ContactStiffness,
@@ -55,7 +53,7 @@ pub struct ScrewContacts {
 impl ScrewContacts {
     /// The contacts of a validated design.
     #[must_use]
-    pub const fn of(design: &BallScrew) -> Self {
+    pub fn of(design: &BallScrew) -> Self {
         Self::with(
             design,
             ContactStiffness::of(design, Groove::Screw),
@@ -65,7 +63,7 @@ impl ScrewContacts {
 
     /// The same with contacts that are known otherwise: from other curvatures or materials.
     #[must_use]
-    pub const fn with(design: &BallScrew, screw: ContactStiffness, nut: ContactStiffness) -> Self {
+    pub fn with(design: &BallScrew, screw: ContactStiffness, nut: ContactStiffness) -> Self {
         let ball_radius = design.ball_radius();
         let cos_lead = design.cos_lead_angle();
         let angle = design.contact_angle();
@@ -85,7 +83,7 @@ impl ScrewContacts {
 
     /// The contact of ball and one groove.
     #[must_use]
-    pub const fn contact(&self, groove: Groove) -> &ContactStiffness {
+    pub fn contact(&self, groove: Groove) -> &ContactStiffness {
         match groove {
             Groove::Screw => &self.screw,
             Groove::Nut => &self.nut,
@@ -95,7 +93,7 @@ impl ScrewContacts {
     /// Load of each of the two loaded contacts of a ball, N, under an axial load, N, that so many balls share evenly, without
     /// preload.
     #[must_use]
-    pub const fn contact_load(&self, axial_load: f32, loaded_balls: u16) -> f32 {
+    pub fn contact_load(&self, axial_load: f32, loaded_balls: u16) -> f32 {
         self.per_axial_load * axial_load / loaded_balls as f32
     }
 
@@ -105,7 +103,7 @@ impl ScrewContacts {
     ///
     /// Cost: 40 halvings; set-up only. An axial load that is not above zero is none.
     #[must_use]
-    pub const fn preloaded(&self, axial_load: f32, loaded_balls: u16, clearance: Clearance) -> f32 {
+    pub fn preloaded(&self, axial_load: f32, loaded_balls: u16, clearance: Clearance) -> f32 {
         let load = self.contact_load(axial_load, loaded_balls);
         let load = if load > 0.0 { load } else { 0.0 };
         let deflection = self.mean_deflection();
@@ -136,20 +134,20 @@ impl ScrewContacts {
 
     /// Mean deflection of both contacts over the load to the power of 2/3, m/N^(2/3).
     #[must_use]
-    pub const fn mean_deflection(&self) -> f32 {
+    pub fn mean_deflection(&self) -> f32 {
         let (screw, nut) = (self.screw.contact(), self.nut.contact());
         0.5 * (screw.deflection_coefficient() + nut.deflection_coefficient())
     }
 
     /// Slip of both contacts across the path, together, over the nut's angle, m: `l_1`.
     #[must_use]
-    pub const fn slip_per_angle(&self) -> f32 {
+    pub fn slip_per_angle(&self) -> f32 {
         self.slip
     }
 
     /// Spin of each contact over the nut's angle, 1: see the table of [`ScrewContacts`].
     #[must_use]
-    pub const fn spin_per_angle(&self, rolling: Rolling) -> f32 {
+    pub fn spin_per_angle(&self, rolling: Rolling) -> f32 {
         let [two_point, three_point] = self.spin;
         match rolling {
             Rolling::TwoPoint => two_point,
@@ -159,7 +157,7 @@ impl ScrewContacts {
 
     /// Path that each contact rolls over the nut's angle, m: `r_m/(2 cos(alpha))`.
     #[must_use]
-    pub const fn path_per_angle(&self) -> f32 {
+    pub fn path_per_angle(&self) -> f32 {
         self.path
     }
 
@@ -167,7 +165,7 @@ impl ScrewContacts {
     /// load `F` of both contacts above 0, N: limit `mu F l_1`, N m, stiffness `l_1^2/(C_S + C_N)`, N m/rad, both contacts being in
     /// series. Set-up: two cube roots.
     #[must_use]
-    pub const fn slip(&self, friction: f32, load: f32) -> Resistance {
+    pub fn slip(&self, friction: f32, load: f32) -> Resistance {
         let compliance = self.screw.compliance_across(load) + self.nut.compliance_across(load);
         Resistance {
             limit: friction * load * self.slip,
@@ -178,7 +176,7 @@ impl ScrewContacts {
     /// Spin of both contacts of a ball that does not slip, with `mu` and `F` as in [`Self::slip`]: of each the limit `M_0 s`, N m,
     /// and the stiffness `k_tor s^2`, N m/rad, with the spin `s` over the nut's angle ([`Self::spin_per_angle`]). Set-up.
     #[must_use]
-    pub const fn spin(&self, friction: f32, load: f32, rolling: Rolling) -> Resistance {
+    pub fn spin(&self, friction: f32, load: f32, rolling: Rolling) -> Resistance {
         let per_angle = self.spin_per_angle(rolling);
         let screw = self.screw.spin(friction, load, per_angle);
         screw.beside(self.nut.spin(friction, load, per_angle))
@@ -192,7 +190,7 @@ impl ScrewContacts {
     /// by the integrals of `contact/integrals.rs` at an axis ratio of 0.02 to 0.95. Exact for gross sliding; before it
     /// within 5 %. Set-up: elliptic integrals for each contact.
     #[must_use]
-    pub const fn slip_and_spin(
+    pub fn slip_and_spin(
         &self,
         friction: f32,
         load: f32,
@@ -202,12 +200,7 @@ impl ScrewContacts {
     }
 
     /// The same with any spin of both contacts over the nut's angle, above 0.
-    pub(super) const fn spinning(
-        &self,
-        friction: f32,
-        load: f32,
-        spin: f32,
-    ) -> (Resistance, Resistance) {
+    pub(super) fn spinning(&self, friction: f32, load: f32, spin: f32) -> (Resistance, Resistance) {
         let screw = self.limits(&self.screw, friction, load, spin);
         let nut = self.limits(&self.nut, friction, load, spin);
         let slip = Resistance {
@@ -223,7 +216,7 @@ impl ScrewContacts {
     }
 
     /// Friction of gross slip and of gross spin of one contact that does both, N m.
-    const fn limits(
+    fn limits(
         &self,
         contact: &ContactStiffness,
         friction: f32,
@@ -250,14 +243,14 @@ impl ScrewContacts {
     ///
     /// # Errors
     /// [`Error`] naming `hysteresis_loss` or `lubricant_drag`.
-    pub const fn rolling(
+    pub fn rolling(
         &self,
         design: &BallScrew,
         resistance: RollingResistance,
         load: f32,
     ) -> Result<Resistance, Error> {
-        let screw = attempt!(RollingContact::of(design, Groove::Screw, resistance));
-        let nut = attempt!(RollingContact::of(design, Groove::Nut, resistance));
+        let screw = RollingContact::of(design, Groove::Screw, resistance)?;
+        let nut = RollingContact::of(design, Groove::Nut, resistance)?;
         let screw = self.screw.rolling(&screw, load, self.path);
         Ok(screw.beside(self.nut.rolling(&nut, load, self.path)))
     }

@@ -4,11 +4,11 @@ use super::pair::{Rolling, ScrewContacts};
 use super::parts::{BreakawayPart, Mechanism};
 use super::resistance::Resistance;
 use super::seat::Seat;
-use crate::ball::Clearance;
-use crate::contact::RollingResistance;
-use crate::error::{Error, Range, attempt};
-use crate::geometry::{BallScrew, Groove};
-use crate::ranges;
+use epas_friction::ball::Clearance;
+use epas_friction::contact::RollingResistance;
+use epas_friction::error::{Error, Range};
+use epas_friction::geometry::{BallScrew, Groove};
+use epas_friction::ranges;
 
 /// Load of a contact, N, for which a breakaway angle is found.
 const CONTACT_LOAD: Range = Range::new(1e-3, 1e6);
@@ -21,7 +21,6 @@ const LOADED_BALLS: Range = Range::new(1.0, 65_535.0);
 
 /// What the breakaway of a screw follows from, beside its design; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BreakawayConfiguration {
     /// Coulomb friction coefficient of ball and groove, 1e-6 to 0.5.
     pub friction: f32,
@@ -55,7 +54,7 @@ struct Gross {
 }
 
 impl Gross {
-    const fn of(contacts: &ScrewContacts, seat: &Seat, friction: f32, load: f32) -> Self {
+    fn of(contacts: &ScrewContacts, seat: &Seat, friction: f32, load: f32) -> Self {
         let full = contacts.spin_per_angle(Rolling::ThreePoint);
         let held = Held::at(contacts, seat, friction, load, full);
         if held.sliding >= held.spin.limit {
@@ -110,13 +109,7 @@ struct Held {
 }
 
 impl Held {
-    const fn at(
-        contacts: &ScrewContacts,
-        seat: &Seat,
-        friction: f32,
-        load: f32,
-        spin: f32,
-    ) -> Self {
+    fn at(contacts: &ScrewContacts, seat: &Seat, friction: f32, load: f32, spin: f32) -> Self {
         let (slip, spin) = contacts.spinning(friction, load, spin);
         let side = seat.side_contacts(slip.limit / contacts.slip(friction, load).limit);
         Self {
@@ -150,7 +143,7 @@ impl Held {
 /// and friction of their own.
 ///
 /// ```
-/// use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, Mechanism, ScrewContacts};
+/// use epas_design::breakaway::{Breakaway, BreakawayConfiguration, Mechanism, ScrewContacts};
 /// use epas_friction::{CATALOGUE, defaults};
 /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
 /// let loaded_balls = 37;
@@ -169,7 +162,6 @@ impl Held {
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Breakaway {
     /// Friction of gross sliding of the whole screw at this load, half the sum of both directions, N m.
     pub torque: f32,
@@ -189,12 +181,12 @@ impl BreakawayConfiguration {
     ///
     /// # Errors
     /// [`Error`] naming `friction`, `clearance`, `hysteresis_loss`, `lubricant_drag`, `loaded_balls` or `contact_load`.
-    pub const fn checked(&self, design: &BallScrew) -> Result<Self, Error> {
-        attempt!(ranges::FRICTION_OF_A_ROW.checked("friction", self.friction));
-        attempt!(self.clearance.checked(design));
-        attempt!(self.rolling_resistance.checked());
-        attempt!(LOADED_BALLS.checked("loaded_balls", self.loaded_balls as f32));
-        attempt!(CONTACT_LOAD.checked("contact_load", self.contact_load));
+    pub fn checked(&self, design: &BallScrew) -> Result<Self, Error> {
+        ranges::FRICTION_OF_A_ROW.checked("friction", self.friction)?;
+        self.clearance.checked(design)?;
+        self.rolling_resistance.checked()?;
+        LOADED_BALLS.checked("loaded_balls", self.loaded_balls as f32)?;
+        CONTACT_LOAD.checked("contact_load", self.contact_load)?;
         Ok(*self)
     }
 }
@@ -204,17 +196,14 @@ impl Breakaway {
     ///
     /// # Errors
     /// As [`BreakawayConfiguration::checked`].
-    pub const fn of(
-        design: &BallScrew,
-        configuration: &BreakawayConfiguration,
-    ) -> Result<Self, Error> {
+    pub fn of(design: &BallScrew, configuration: &BreakawayConfiguration) -> Result<Self, Error> {
         let BreakawayConfiguration {
             friction,
             clearance,
             rolling_resistance,
             loaded_balls,
             contact_load: load,
-        } = attempt!(configuration.checked(design));
+        } = configuration.checked(design)?;
         let contacts = ScrewContacts::of(design);
         let seat = Seat::of(design, &contacts, clearance, friction, load);
         let balls = loaded_balls as f32;
@@ -223,7 +212,7 @@ impl Breakaway {
             slip,
             spin,
         } = Gross::of(&contacts, &seat, friction, load);
-        let resistance = attempt!(contacts.rolling(design, rolling_resistance, load));
+        let resistance = contacts.rolling(design, rolling_resistance, load)?;
         let (slip, spin) = (slip.times(balls), spin.times(balls));
         let resistance = resistance.times(balls);
         let torque = slip.limit + spin.limit + resistance.limit;
@@ -244,19 +233,19 @@ impl Breakaway {
 
     /// Slip, spin and rolling resistance, for elements alone: slip reaches its limit with the ball on its seat.
     #[must_use]
-    pub const fn parts(&self) -> [BreakawayPart; 3] {
+    pub fn parts(&self) -> [BreakawayPart; 3] {
         [self.slip, self.spin, self.resistance]
     }
 
     /// The parts with slip in the contacts alone, by Mindlin: for a memory that has an element for the seat.
     #[must_use]
-    pub const fn contact_parts(&self) -> [BreakawayPart; 3] {
+    pub fn contact_parts(&self) -> [BreakawayPart; 3] {
         self.slipping_within(self.contact_angle).parts()
     }
 
     /// One of [`Self::parts`].
     #[must_use]
-    pub const fn part(&self, mechanism: Mechanism) -> BreakawayPart {
+    pub fn part(&self, mechanism: Mechanism) -> BreakawayPart {
         match mechanism {
             Mechanism::Slip => self.slip,
             Mechanism::Spin => self.spin,
@@ -266,7 +255,7 @@ impl Breakaway {
 
     /// Initial stiffness of the parts together, N m/rad.
     #[must_use]
-    pub const fn stiffness(&self) -> f32 {
+    pub fn stiffness(&self) -> f32 {
         self.slip.stiffness + self.spin.stiffness + self.resistance.stiffness
     }
 
@@ -274,12 +263,12 @@ impl Breakaway {
     ///
     /// # Errors
     /// [`Error`] naming `breakaway_angle`.
-    pub const fn with_slip_angle(self, breakaway_angle: f32) -> Result<Self, Error> {
+    pub fn with_slip_angle(self, breakaway_angle: f32) -> Result<Self, Error> {
         const ANGLE: Range = Range::new(1e-6, 10.0);
-        Ok(self.slipping_within(attempt!(ANGLE.checked("breakaway_angle", breakaway_angle))))
+        Ok(self.slipping_within(ANGLE.checked("breakaway_angle", breakaway_angle)?))
     }
 
-    const fn slipping_within(self, breakaway_angle: f32) -> Self {
+    fn slipping_within(self, breakaway_angle: f32) -> Self {
         Self {
             slip: self.slip.within(breakaway_angle, self.torque),
             ..self

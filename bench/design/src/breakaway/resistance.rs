@@ -8,7 +8,6 @@ pub(super) const SLOPE: f32 = 1.5;
 /// Largest friction and initial stiffness of one mechanism; its motion is an angle of the nut, rad, or a travel of the
 /// carriage, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Resistance {
     /// Friction of gross sliding, N m or N.
     pub limit: f32,
@@ -26,7 +25,7 @@ impl Resistance {
 
     /// `number` of it side by side: the balls of a screw.
     #[must_use]
-    pub const fn times(self, number: f32) -> Self {
+    pub fn times(self, number: f32) -> Self {
         Self {
             limit: number * self.limit,
             stiffness: number * self.stiffness,
@@ -35,7 +34,7 @@ impl Resistance {
 
     /// This one and another side by side.
     #[must_use]
-    pub const fn beside(self, other: Self) -> Self {
+    pub fn beside(self, other: Self) -> Self {
         Self {
             limit: self.limit + other.limit,
             stiffness: self.stiffness + other.stiffness,
@@ -45,7 +44,7 @@ impl Resistance {
     /// Breakaway angle, rad, or travel, m: `1.5 limit / stiffness`, in which the curve of Mindlin's slip reaches the limit.
     /// The curve of spin has 83 % of its limit there. 0 where nothing resists.
     #[must_use]
-    pub const fn breakaway(self) -> f32 {
+    pub fn breakaway(self) -> f32 {
         if self.stiffness > 0.0 {
             SLOPE * self.limit / self.stiffness
         } else {
