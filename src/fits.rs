@@ -51,26 +51,10 @@ pub mod sagitta {
     pub const LARGEST_ELLIPSE: f32 = crate::kinematics::path::LARGEST_ELLIPSE;
 }
 
-/// Friction power of a contact: `kinematics`.
-pub mod friction_power {
-    /// Nodes and weights.
-    pub const LINES: [(f32, f32); 4] = crate::kinematics::friction_power::LINES;
-    /// Square of the mean of `|x|` under a semicircle.
-    pub const KINK: f32 = crate::kinematics::friction_power::KINK;
-    /// Share of the spin in the blend.
-    pub const BLEND: f32 = crate::kinematics::friction_power::BLEND;
-}
-
 /// Fitted curvature of a groove: `curvature`.
 pub mod curvature {
     /// Nodes of interpolation.
     pub const CHEBYSHEV: [f32; 5] = crate::curvature::fitted::CHEBYSHEV;
-}
-
-/// Search for the pitch angle of least power: `kinematics`.
-pub mod pitch_angle {
-    /// The golden section.
-    pub const SECTION: f32 = crate::kinematics::pitch_angle::SECTION;
 }
 
 /// Preloaded springs: `ball::preload`.

@@ -1,4 +1,4 @@
-//! Validated designs with their derived constants: [`BallScrew`], [`LinearBearing`], [`BallBearing`].
+//! Validated designs with their derived constants: [`BallScrew`], [`LinearBearing`].
 //!
 //! Set-up of every scene.
 //!
@@ -8,7 +8,6 @@
 //! trigonometry and stays well conditioned at any lead.
 
 mod angle;
-mod ball_bearing;
 mod ball_screw;
 mod catalogue;
 mod limits;
@@ -16,7 +15,6 @@ mod linear_bearing;
 mod profile;
 
 pub use angle::ContactAngle;
-pub use ball_bearing::{BallBearing, BallBearingParameters};
 pub use ball_screw::{BallScrew, BallScrewParameters};
 pub use catalogue::{
     CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, FINE_LEAD_SIZES, NamedDesign, STEERING_SIZES,

@@ -7,7 +7,7 @@
 
 use crate::curvature::{GothicArch, RelativeCurvatures};
 use crate::error::{Error, attempt, in_range};
-use crate::geometry::{BallScrew, ContactAngle, Groove, LinearBearing};
+use crate::geometry::{BallScrew, Groove, LinearBearing};
 use crate::material::contact_modulus;
 use crate::math::elliptic::{Complete, complete};
 use crate::math::{self, constant};
@@ -129,16 +129,10 @@ impl HertzContact {
     /// The contact of ball and one groove of a validated ball screw, at its nominal contact angle.
     #[must_use]
     pub const fn of(design: &BallScrew, groove: Groove) -> Self {
-        Self::of_at(design, groove, design.contact_angle())
-    }
-
-    /// The contact of ball and one groove of a validated ball screw, at any contact angle.
-    #[must_use]
-    pub const fn of_at(design: &BallScrew, groove: Groove, contact_angle: ContactAngle) -> Self {
         let arch = GothicArch::of(design, groove);
         let parameters = design.parameters();
         Self::new(
-            arch.relative(contact_angle, design.clearance(groove)),
+            arch.relative(design.contact_angle(), design.clearance(groove)),
             contact_modulus(&parameters.ball_material, &parameters.groove_material),
         )
     }

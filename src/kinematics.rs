@@ -14,7 +14,6 @@
 //! | [`ContactKinematics::update`] | contact angles or loads changed | one division, two square roots, two sines and cosines: 450 cycles |
 //! | [`ContactKinematics::tick`] | every interrupt | ten multiplications: 60 cycles |
 //! | [`ContactCoefficients::ratios`] | after an update, if wanted | the speed-free ratios, with arc tangents: 430 cycles a contact |
-//! | [`FrictionPower::new`] | after an update, if wanted | pressure-weighted mean slip of both contacts: 1900 cycles |
 //!
 //! Cycles are modelled for a Cortex-M4F (Arm's cycle table, no wait states, own scalar kernels).
 //!
@@ -29,9 +28,9 @@
 //! # The ball's rotation
 //! Pitch angle (beta) and yaw angle (beta') point the axis about which the ball turns *relative to
 //! the frame that orbits with it*; the rolling radius (r') of a contact is the distance from the
-//! ball's centre at which rolling slip vanishes. They are inputs: [`PitchMethod`] offers the
-//! published ways to choose a pitch angle; the customary yaw angle is 0 and the customary rolling
-//! radius is the ball's radius.
+//! ball's centre at which rolling slip vanishes. They are inputs: customary are a pitch angle
+//! equal to the contact angle, a yaw angle of 0 and a rolling radius equal to the ball's radius. The published ways to choose a pitch
+//! angle, and the friction power that follows from the slip, are in the reference (`host-tests/src/kinematics`).
 //!
 //! Source: Alberdi, Arana, Oyanguren, Larrañaga, Ulacia, "A revised framework for ball-screw
 //! contact kinematics" ("Alberdi et al." below).
@@ -39,15 +38,11 @@
 mod ball;
 mod coefficients;
 mod direction;
-pub(crate) mod friction_power;
 mod parameters;
 pub(crate) mod path;
-pub(crate) mod pitch_angle;
 mod slip;
 
 pub use ball::ContactKinematics;
 pub use coefficients::{ContactCoefficients, SlipRatios, SlipVector};
-pub use friction_power::{BallFrictionPower, FrictionPower, SlipParts};
 pub use parameters::{EllipticContact, KinematicsParameters};
-pub use pitch_angle::PitchMethod;
 pub use slip::{BallKinematics, ContactSlip};

@@ -175,21 +175,6 @@ impl ContactKinematics {
     pub const fn nut(&self) -> &ContactCoefficients {
         &self.nut
     }
-
-    /// Least mean slip of both contacts together that any rotation of the ball can reach, m per rad:
-    /// `S sin psi`.
-    ///
-    /// Whatever pitch angle, yaw angle and rolling radii are,
-    /// `side_slip_i / S_i + side_slip_o / S_o = -omega sin psi`: side slip can vanish at one contact,
-    /// never at both ("no slip cannot be attained", Lin et al.). By Jensen's inequality the mean
-    /// sliding speed is not less than the speed of the mean, so friction `mu` under equal loads `W`
-    /// costs at least `mu W S sin psi |omega|` per ball. `S` is the smaller mean of
-    /// `S_i`, `S_o` over their ellipses.
-    #[inline]
-    #[must_use]
-    pub fn least_mean_slip(&self) -> f32 {
-        self.screw.mean_distance().min(self.nut.mean_distance()) * self.path.sin_lead.abs()
-    }
 }
 
 impl ContactKinematics {

@@ -218,19 +218,4 @@ impl ContactCoefficients {
     fn side_gradient(&self) -> f32 {
         self.slip.side_slip / self.distance
     }
-
-    /// Coefficients of `y^2` in rolling and side slip, 1/m: the parabola of the deformed surface.
-    #[inline]
-    pub(super) fn parabolas(&self) -> (f32, f32) {
-        (
-            self.rolling_gradient * self.half_curvature,
-            -self.side_gradient() * self.half_curvature,
-        )
-    }
-
-    /// Mean of `S_k` over the ellipse, weighted by pressure, m: `<y^2> = a^2 / 5`.
-    #[inline]
-    pub(super) fn mean_distance(&self) -> f32 {
-        self.distance - 0.2 * self.half_curvature * self.semi_major * self.semi_major
-    }
 }

@@ -17,7 +17,7 @@ pub struct KinematicsParameters {
     /// Radius of the helix of ball centres (`r_m`), m; 1e-4 to 10.
     pub pitch_radius: f32,
     /// Lead angle of that helix (`psi`), rad; -1.2 to 1.2. Positive for a right-hand thread, 0 for a
-    /// ball bearing. For a given lead see [`lead_angle_of`](Self::lead_angle_of).
+    /// ball bearing.
     pub lead_angle: f32,
     /// Radius of the groove's profile on the screw (`r_i`), m; 0.5 to 2 ball diameters.
     pub groove_radius_screw: f32,
@@ -52,7 +52,7 @@ impl KinematicsParameters {
     /// nominal contact angle. For set-up; a constant can take them.
     ///
     /// Ellipses are those of [`HertzContact`] under these forces. The ball's rotation is the customary one: pitch angle
-    /// equal to the contact angle ([`PitchMethod::Mean`](super::PitchMethod::Mean)), no yaw, rolling radii equal to the
+    /// equal to the contact angle, no yaw, rolling radii equal to the
     /// ball's radius. Any field may be changed afterwards.
     ///
     /// ```
@@ -92,13 +92,6 @@ impl KinematicsParameters {
             semi_major_nut: nut.semi_major_coefficient() * root_nut,
             semi_minor_nut: nut.semi_minor_coefficient() * root_nut,
         })
-    }
-
-    /// Lead angle (rad) of a helix: `tan psi = lead / (2 pi r_m)`, any finite lead and a positive
-    /// pitch radius, both m.
-    #[must_use]
-    pub fn lead_angle_of(lead: f32, pitch_radius: f32) -> f32 {
-        libm::atan2f(lead, core::f32::consts::TAU * pitch_radius)
     }
 
     pub(super) const fn screw(&self) -> EllipticContact {

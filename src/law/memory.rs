@@ -45,6 +45,5 @@ pub use preloaded::PreloadedElements;
 pub use proportional::{Part, ProportionalElements};
 pub use ranges::{BREAKAWAY, REFERENCE_LIMIT};
 pub use seat::{SeatElement, SeatState};
-pub use slider::sticking_share;
 pub use state::MemoryState;
 pub use together::{Together, TogetherState};

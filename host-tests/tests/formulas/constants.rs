@@ -11,9 +11,7 @@ use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
-use epas_friction::geometry::{
-    BallBearing, BallBearingParameters, ContactAngle, Groove, HelixPath,
-};
+use epas_friction::geometry::{ContactAngle, Groove, HelixPath};
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{ContactKinematics, EllipticContact, KinematicsParameters};
 use epas_friction::material::contact_modulus;
@@ -184,23 +182,12 @@ const LINEAR: LinearBearingParameters = LinearBearingParameters {
     ball_material: Material::SILICON_NITRIDE,
     groove_material: Material::STEEL,
 };
-const ROTARY: BallBearingParameters = BallBearingParameters {
-    pitch_radius: 20e-3,
-    ball_radius: 3e-3,
-    inner_groove: GrooveSize::Conformity(0.515),
-    outer_groove: GrooveSize::Radius(3.18e-3),
-    contact_angle: 0.6,
-    ball_material: Material::STEEL,
-    groove_material: Material::STEEL,
-};
 
 #[derive(Debug)]
 #[allow(dead_code)] // Read through `Debug`.
 struct Bearings {
     linear: LinearBearing,
     linear_contact: HertzContact,
-    rotary: BallBearing,
-    rotary_contact: HertzContact,
     by_radii: HertzContact,
     angled: EfficiencyGeometry,
     angle: ContactAngle,
@@ -210,15 +197,10 @@ struct Bearings {
 
 const fn bearings(
     linear: LinearBearingParameters,
-    rotary: BallBearingParameters,
     angle: f32,
 ) -> Result<Bearings, epas_friction::Error> {
     // A match in the place of `?`, as in firmware.
     let linear = match LinearBearing::new(linear) {
-        Ok(bearing) => bearing,
-        Err(error) => return Err(error),
-    };
-    let rotary = match BallBearing::new(rotary) {
         Ok(bearing) => bearing,
         Err(error) => return Err(error),
     };
@@ -242,8 +224,6 @@ const fn bearings(
     Ok(Bearings {
         linear,
         linear_contact: HertzContact::of_linear(&linear),
-        rotary,
-        rotary_contact: HertzContact::of_at(rotary.as_ball_screw(), Groove::Nut, contact_angle),
         by_radii,
         angled,
         angle: contact_angle,
@@ -254,8 +234,8 @@ const fn bearings(
 
 #[test]
 fn folded_bearings_have_the_bits_of_those_made_at_run_time() {
-    const FOLDED: Result<Bearings, epas_friction::Error> = bearings(LINEAR, ROTARY, 0.17);
-    let computed = bearings(black_box(LINEAR), black_box(ROTARY), black_box(0.17));
+    const FOLDED: Result<Bearings, epas_friction::Error> = bearings(LINEAR, 0.17);
+    let computed = bearings(black_box(LINEAR), black_box(0.17));
     assert!(FOLDED.is_ok());
     same_bits(&FOLDED, &computed);
 }
@@ -312,10 +292,10 @@ fn folded_kinematics_have_the_bits_of_those_made_at_run_time() {
 /// The error of a refused constant is a value like any other: the field, what was found, what is allowed.
 #[test]
 fn a_refused_constant_names_its_field() {
-    const PRINTED: BallBearingParameters = BallBearingParameters {
-        outer_groove: GrooveSize::Radius(f32::NAN),
-        ..ROTARY
+    const PRINTED: LinearBearingParameters = LinearBearingParameters {
+        groove: GrooveSize::Radius(f32::NAN),
+        ..LINEAR
     };
-    const REFUSED: Result<BallBearing, epas_friction::Error> = BallBearing::new(PRINTED);
+    const REFUSED: Result<LinearBearing, epas_friction::Error> = LinearBearing::new(PRINTED);
     assert_eq!(REFUSED.unwrap_err().field(), "groove_radius");
 }

@@ -6,14 +6,10 @@ use crate::kit::random::Random;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{
-    ContactKinematics, ContactSlip, EllipticContact, FrictionPower, KinematicsParameters,
-    PitchMethod, SlipParts,
+    ContactKinematics, ContactSlip, EllipticContact, KinematicsParameters,
 };
 use epas_friction::{BallScrew, CATALOGUE, Error, GrooveSize};
-use epas_reference::kinematics::{
-    self as reference, HertzMean, KinematicsInput, MeanSlip, Raceway, Revised, operating,
-    pitch_angle,
-};
+use epas_reference::kinematics::{self as reference, KinematicsInput, Raceway, Revised, operating};
 use epas_reference::promises;
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
@@ -111,28 +107,6 @@ fn parameters(input: &KinematicsInput) -> KinematicsParameters {
         semi_minor_screw: input.semi_minor_screw as f32,
         semi_major_nut: input.semi_major_nut as f32,
         semi_minor_nut: input.semi_minor_nut as f32,
-    }
-}
-
-/// What the crate was given, as the reference takes it.
-fn rounded(given: &KinematicsParameters, speed: f64) -> KinematicsInput {
-    KinematicsInput {
-        ball_diameter: given.ball_diameter.into(),
-        pitch_radius: given.pitch_radius.into(),
-        lead_angle: given.lead_angle.into(),
-        groove_radius_screw: given.groove_radius_screw.into(),
-        groove_radius_nut: given.groove_radius_nut.into(),
-        contact_angle_screw: given.contact_angle_screw.into(),
-        contact_angle_nut: given.contact_angle_nut.into(),
-        pitch_angle: given.pitch_angle.into(),
-        yaw_angle: given.yaw_angle.into(),
-        rolling_radius_screw: given.rolling_radius_screw.into(),
-        rolling_radius_nut: given.rolling_radius_nut.into(),
-        speed,
-        semi_major_screw: given.semi_major_screw.into(),
-        semi_minor_screw: given.semi_minor_screw.into(),
-        semi_major_nut: given.semi_major_nut.into(),
-        semi_minor_nut: given.semi_minor_nut.into(),
     }
 }
 
@@ -374,296 +348,6 @@ fn published_values() {
     }
 }
 
-/// Every method against the reference: closed forms to a few roundings of 6e-8 on angles near 1, least power to the
-/// flatness of its minimum.
-#[test]
-fn pitch_angles() {
-    let mut random = Random(0x5EED_1002);
-    let inputs = std::iter::once((operating::table_two().unwrap(), [151.0, 151.0]))
-        .chain((0..500).map(|_| {
-            (
-                random.input(),
-                [random.between(10.0, 500.0), random.between(10.0, 500.0)],
-            )
-        }))
-        .collect::<Vec<_>>();
-    for (input, [load_screw, load_nut]) in inputs {
-        let given = parameters(&input);
-        let pairs = [
-            (
-                PitchMethod::InnerRacewayControl,
-                pitch_angle::inner_raceway_control(&input),
-            ),
-            (
-                PitchMethod::OuterRacewayControl,
-                pitch_angle::outer_raceway_control(&input),
-            ),
-            (
-                PitchMethod::Mean,
-                Some(pitch_angle::mean_contact_angle(&input)),
-            ),
-            (
-                PitchMethod::DAlembert,
-                pitch_angle::d_alembert(&input, load_screw, load_nut),
-            ),
-            (
-                PitchMethod::BalancedSpin,
-                pitch_angle::balanced_spin(&input, load_screw, load_nut),
-            ),
-        ];
-        for (method, wanted) in pairs {
-            let found = method.angle(&given, load_screw as f32, load_nut as f32);
-            match (found, wanted) {
-                (Ok(found), Some(wanted)) => {
-                    let error = (f64::from(found) - wanted).abs();
-                    // Weights by an elliptic integral of 4e-4 cost what they are of the range between
-                    // the raceway controls, 0.3 rad at most.
-                    let name = match method {
-                        PitchMethod::DAlembert | PitchMethod::BalancedSpin => "weighted",
-                        _ => "closed form",
-                    };
-                    measured::assert_at(
-                        &format!("pitch angle, {name}, in rad"),
-                        error,
-                        format_args!("{method:?} {found} {wanted} {input:?}"),
-                    );
-                }
-                // An angle past a right angle is refused by both.
-                (Err(error), None) => assert_eq!(error.field(), "pitch_angle"),
-                (Err(error), Some(wanted)) => {
-                    assert!(wanted > 0.99 * PI / 2.0, "{method:?} {error} {wanted}");
-                }
-                (Ok(found), None) => assert!(found > 1.4, "{method:?} {found} {input:?}"),
-            }
-        }
-    }
-    let input = operating::table_two().unwrap();
-    let rule = HertzMean::new(24, 48);
-    let given = parameters(&input);
-    let exact = pitch_angle::least_power(&input, &rule, 151.0, 151.0).unwrap();
-    let found = f64::from(PitchMethod::LeastPower.angle(&given, 151.0, 151.0).unwrap());
-    println!("least power: {} deg for {}", found / DEGREE, exact / DEGREE);
-    measured::assert("pitch angle of least power in rad", found - exact);
-    let power = |angle: f64| -> f64 {
-        let revised = Revised::new(&KinematicsInput {
-            pitch_angle: angle,
-            ..input
-        })
-        .unwrap();
-        reference::friction_power(&revised, &rule, 0.1, 151.0, 151.0)
-            .iter()
-            .map(|p| p.total)
-            .sum()
-    };
-    measured::assert("least power", power(found) / power(exact) - 1.0);
-
-    let constant = PitchMethod::Constant(0.698).angle(&given, 1.0, 1.0);
-    assert_eq!(constant, Ok(0.698));
-    for (method, loads, field) in [
-        (PitchMethod::Constant(f32::NAN), [1.0, 1.0], "pitch_angle"),
-        (
-            PitchMethod::Constant(-0.8),
-            [1.0, 1.0],
-            "contact_angle_screw",
-        ),
-        (PitchMethod::BalancedSpin, [0.0, 0.0], "load_screw"),
-        (PitchMethod::BalancedSpin, [-1.0, 2.0], "load_screw"),
-        (PitchMethod::LeastPower, [1.0, f32::INFINITY], "load_nut"),
-    ] {
-        assert_eq!(
-            method
-                .angle(&given, loads[0], loads[1])
-                .unwrap_err()
-                .field(),
-            field
-        );
-    }
-}
-
-fn parts(parts: &SlipParts) -> [f64; 4] {
-    [parts.total(), parts.rolling, parts.side, parts.spin].map(f64::from)
-}
-
-fn reference_parts(mean: &MeanSlip) -> [f64; 4] {
-    [mean.total, mean.rolling, mean.side, mean.spin]
-}
-
-/// The paper's cases: Table 2, and Table 4's grid of selected constraints, against quadrature of the full field.
-#[test]
-fn friction_power_of_the_published_cases() {
-    let rule = HertzMean::new(96, 192);
-    let input = operating::table_two().unwrap();
-    let mut worst = 0.0_f64;
-    let mut worst_share = 0.0_f64;
-    for rolling_radius in [3.95e-3, 3.97e-3, 3.99e-3] {
-        for yaw in [0.0, 1.0, 2.0] {
-            for pitch in [34.3, 40.0, 44.0, 50.1] {
-                let input = KinematicsInput {
-                    rolling_radius_screw: rolling_radius,
-                    rolling_radius_nut: rolling_radius,
-                    yaw_angle: yaw * DEGREE,
-                    pitch_angle: pitch * DEGREE,
-                    ..input
-                };
-                let revised = Revised::new(&input).unwrap();
-                let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
-                let power = FrictionPower::new(&kinematics).of_ball(
-                    0.075,
-                    151.0,
-                    151.0,
-                    input.speed as f32,
-                );
-                let exact = reference::friction_power(&revised, &rule, 0.075, 151.0, 151.0);
-                for (found, wanted) in [power.screw, power.nut].iter().zip(&exact) {
-                    let (found, wanted) = (parts(found), reference_parts(wanted));
-                    let error = (found[0] / wanted[0] - 1.0).abs();
-                    worst = worst.max(error);
-                    for (found, wanted_part) in found.iter().zip(&wanted).skip(1) {
-                        worst_share = worst_share.max((found - wanted_part).abs() / wanted[0]);
-                    }
-                    measured::assert_at(
-                        "friction power, published cases",
-                        error,
-                        format_args!("r' {rolling_radius} yaw {yaw} pitch {pitch}: {error:e}"),
-                    );
-                }
-            }
-        }
-    }
-    println!("published cases: power {worst:.2e}, share {worst_share:.2e} of the total");
-    measured::assert("friction power, published cases, shares", worst_share);
-}
-
-/// Power over random geometries (full field with both parabolas): distribution, not only the largest. The
-/// worst are those whose slip nearly vanishes somewhere near the centre; they also have the least power.
-#[test]
-fn friction_power_of_random_geometries() {
-    let rule = HertzMean::new(32, 64);
-    let mut random = Random(0x5EED_1004);
-    let mut errors = Vec::new();
-    for _ in 0..3000 {
-        let input = random.input();
-        let revised = Revised::new(&KinematicsInput {
-            speed: 1.0,
-            ..input
-        })
-        .unwrap();
-        let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
-        let power = FrictionPower::new(&kinematics);
-        for (raceway, found) in [(Raceway::Screw, power.screw()), (Raceway::Nut, power.nut())] {
-            let wanted = reference::mean_slip(&revised, &rule, raceway);
-            let error = f64::from(found.total()) / wanted.total - 1.0;
-            assert!(error.is_finite(), "{input:?}");
-            errors.push((error.abs(), error, input));
-        }
-    }
-    errors.sort_by(|left, right| left.0.total_cmp(&right.0));
-    let at = |share: f64| errors[((errors.len() - 1) as f64 * share) as usize].0;
-    let mean = errors.iter().map(|error| error.1).sum::<f64>() / errors.len() as f64;
-    let (median, ninety_five, largest) = (at(0.5), at(0.95), at(1.0));
-    println!(
-        "power, random geometries: median {median:.1e}, 95 % {ninety_five:.1e}, largest {largest:.1e}, mean {mean:.1e}"
-    );
-    measured::assert_at(
-        "friction power, median",
-        median,
-        format_args!("{:?}", errors.last()),
-    );
-    measured::assert_at(
-        "friction power, 95 of 100",
-        ninety_five,
-        format_args!("{:?}", errors.last()),
-    );
-    measured::assert_at(
-        "friction power, largest",
-        largest,
-        format_args!("{:?}", errors.last()),
-    );
-    measured::assert("friction power, mean", mean);
-}
-
-/// The lower bound holds for what the crate computes, at any axis of rotation: the mean distance is in
-/// it, so the cubature's own error (5e-4 where side slip rules) is all that can cross it.
-#[test]
-fn friction_power_keeps_above_its_bound() {
-    let mut random = Random(0x5EED_1005);
-    for _ in 0..20_000 {
-        let input = random.input();
-        let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
-        let power = FrictionPower::new(&kinematics).of_ball(1.0, 1.0, 1.0, 1.0);
-        let bound = kinematics.least_mean_slip();
-        assert!(
-            power.total() >= bound * (1.0 - 5e-4),
-            "{} {bound} {input:?}",
-            power.total()
-        );
-        // Parts add up, over kinds of slip and over contacts, to a few roundings.
-        let kinds = power.by_slip();
-        // To seven roundings of 2^-24.
-        assert!((kinds.total() - power.total()).abs() <= 4e-7 * power.total());
-        let nut = power.of_nut(37);
-        assert!((nut.total() / (37.0 * power.total()) - 1.0).abs() < 4e-7);
-    }
-}
-
-/// `v_S / S + v_S' / S' = -omega sin(psi)` at the centres of both contacts, at two yaw angles, tells `S` and `S'`; over an ellipse that
-/// is deformed to the rolling radius their mean is less by about `a^2 / (10 r')`, up to some per cent.
-#[test]
-fn least_mean_slip_is_that_of_the_nearer_contact() {
-    let mut random = Random(0x5EED_1008);
-    let (mut seen, mut worst) = (0, 0.0_f64);
-    for _ in 0..2000 {
-        let mut given = parameters(&random.input());
-        given.yaw_angle = 0.08;
-        let (yaw, sine) = (given.yaw_angle, f64::from(given.lead_angle).sin());
-        if sine < 0.1 {
-            continue;
-        }
-        let side = |yaw_angle| {
-            let other = KinematicsParameters { yaw_angle, ..given };
-            let ball = ContactKinematics::new(&other).ok()?.tick(1.0);
-            Some([ball.screw.side_slip, ball.nut.side_slip].map(f64::from))
-        };
-        let (Some([a, b]), Some([c, d])) = (side(yaw), side(-yaw)) else {
-            continue;
-        };
-        let determinant = a * d - b * c;
-        if determinant.abs() < 0.05 * (a * d).abs().max((b * c).abs()) {
-            continue;
-        }
-        seen += 1;
-        let distances = [(b - d) * sine, (c - a) * sine].map(|part| determinant / part);
-        let ellipses = [
-            (given.semi_major_screw, given.rolling_radius_screw),
-            (given.semi_major_nut, given.rolling_radius_nut),
-        ];
-        let mut means = [0.0; 2];
-        for ((mean, distance), (major, radius)) in means.iter_mut().zip(distances).zip(ellipses) {
-            *mean = distance.abs() - f64::from(major).powi(2) / (10.0 * f64::from(radius));
-        }
-        let wanted = means[0].min(means[1]) * sine;
-        let found = ContactKinematics::new(&given).unwrap().least_mean_slip();
-        worst = worst.max((f64::from(found) / wanted - 1.0).abs());
-    }
-    measured::assert("least mean slip, from side slips", worst);
-    assert!(seen > 300, "{seen}");
-}
-
-/// One load may be zero.
-#[test]
-fn a_pitch_angle_takes_the_load_of_one_contact() {
-    let given = parameters(&Random(0x5EED_1009).input());
-    for loads in [(0.0, 5.0), (5.0, 0.0)] {
-        assert!(
-            PitchMethod::Constant(given.pitch_angle)
-                .angle(&given, loads.0, loads.1)
-                .is_ok()
-        );
-    }
-    let error = PitchMethod::Constant(given.pitch_angle).angle(&given, 0.0, 0.0);
-    assert_eq!(error.unwrap_err().field(), "load_screw");
-}
-
 /// Zeros of either sign are a point.
 #[test]
 fn a_contact_may_be_a_point() {
@@ -685,54 +369,6 @@ fn a_contact_may_be_a_point() {
     ] {
         assert_eq!(kinematics.update(contact, whole), is_taken, "{contact:?}");
     }
-}
-
-/// Fields of any direction, offset and spin on any ellipse, set by rolling radius and yaw angle. On an
-/// ellipse of a fiftieth of the ball the parabola of rolling slip is a hundredth of the spin's slip: as
-/// good as linear.
-#[test]
-fn friction_power_of_linear_fields_within_3_1_percent() {
-    let rule = HertzMean::new(64, 128);
-    let mut random = Random(0x5EED_1006);
-    let mut worst = 0.0_f64;
-    let mut count = 0;
-    for _ in 0..6000 {
-        let mut input = random.input();
-        let half = 0.5 * input.ball_diameter;
-        // A small ellipse is a linear field: the parabola is a / D of the spin's share.
-        input.semi_major_screw = half * 0.02;
-        input.semi_minor_screw = input.semi_major_screw * random.between(0.03, 1.0);
-        // Slip of the size of spin times semi-axis, in any direction.
-        let moment = random.between(0.0, 3.0) * 0.02;
-        let direction = random.between(0.0, TAU);
-        let revised = Revised::new(&input).unwrap();
-        let spin = revised.spin(Raceway::Screw).abs();
-        input.rolling_radius_screw = half
-            + half * moment * direction.cos() * spin
-                / revised.rolling_gradient(Raceway::Screw).abs();
-        if let Ok(yaw) = reference::yaw_without_side_slip(&input, Raceway::Screw) {
-            input.yaw_angle = yaw + moment * direction.sin() * spin / revised.spin_ratio();
-        }
-        // Little spin on a small ellipse is slip of the size of f32's rounding: no test of a mean.
-        if input.yaw_angle.abs() > 0.5 || spin < 0.1 {
-            continue;
-        }
-        count += 1;
-        let given = parameters(&input);
-        let revised = Revised::new(&rounded(&given, 1.0)).unwrap();
-        let kinematics = ContactKinematics::new(&given).unwrap();
-        let found = f64::from(FrictionPower::new(&kinematics).screw().total());
-        let wanted = reference::mean_slip(&revised, &rule, Raceway::Screw).total;
-        let error = (found / wanted - 1.0).abs();
-        worst = worst.max(error);
-        measured::assert_at(
-            "friction power of linear fields",
-            error,
-            format_args!("{error} {input:?}"),
-        );
-    }
-    assert!(count > 2000, "{count}");
-    println!("linear fields: power within {:.2} %", 100.0 * worst);
 }
 
 type Setter = fn(&mut KinematicsParameters, f32);
@@ -796,11 +432,6 @@ fn all_finite(kinematics: &ContactKinematics) -> bool {
             numbers.extend([v.rolling, v.side]);
         }
     }
-    let power = FrictionPower::new(kinematics);
-    for parts in [power.screw(), power.nut()] {
-        numbers.extend([parts.rolling, parts.side, parts.spin]);
-    }
-    numbers.push(kinematics.least_mean_slip());
     numbers.iter().all(|number| number.is_finite())
 }
 
@@ -1018,7 +649,7 @@ fn update_is_set_up_again() {
     }
 }
 
-/// In the loop a wrong speed, friction or load counts as none.
+/// In the loop a wrong speed counts as none.
 #[test]
 fn wrong_numbers_in_the_loop_count_as_zero() {
     let kinematics = ContactKinematics::new(&parameters(&operating::table_two().unwrap())).unwrap();
@@ -1031,13 +662,6 @@ fn wrong_numbers_in_the_loop_count_as_zero() {
         kinematics.tick(1e6).screw.entrainment_speed,
         1e6 * kinematics.per_speed().screw.entrainment_speed
     );
-    let power = FrictionPower::new(&kinematics);
-    for wrong in [f32::NAN, f32::INFINITY, -1.0, 1e30] {
-        assert_eq!(power.of_ball(wrong, 1.0, 1.0, 100.0).total(), 0.0);
-        assert_eq!(power.of_ball(0.1, wrong, 1.0, 100.0).screw.total(), 0.0);
-        assert!(power.of_ball(0.1, wrong, 1.0, 100.0).nut.total() > 0.0);
-        assert_eq!(power.of_ball(0.1, 1.0, wrong, 100.0).nut.total(), 0.0);
-    }
     // Points off the ellipse touch nothing.
     let screw = kinematics.screw();
     for (x, y) in [
@@ -1062,10 +686,6 @@ fn unloaded_contact() {
     let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
     assert_eq!(kinematics.per_speed().screw.rolling_slip, 0.0);
     assert_eq!(kinematics.screw().ratios().spin_to_roll, 0.0);
-    let power = FrictionPower::new(&kinematics);
-    let side = kinematics.per_speed().screw.side_slip.abs();
-    // Five roundings of 2^-24.
-    assert!((power.screw().total() / side - 1.0).abs() < 3e-7);
     assert!(all_finite(&kinematics));
 }
 
@@ -1095,7 +715,7 @@ fn parameters_of_a_design_are_those_typed_in() {
         let typed = KinematicsParameters {
             ball_diameter: 2.0 * given.ball_radius,
             pitch_radius: given.pitch_radius,
-            lead_angle: KinematicsParameters::lead_angle_of(given.lead, given.pitch_radius),
+            lead_angle: given.lead.atan2(TAU as f32 * given.pitch_radius),
             groove_radius_screw: conformity(given.screw_groove) * 2.0 * given.ball_radius,
             groove_radius_nut: conformity(given.nut_groove) * 2.0 * given.ball_radius,
             contact_angle_screw: given.contact_angle,
@@ -1114,8 +734,6 @@ fn parameters_of_a_design_are_those_typed_in() {
             let bound = 2e-7 * typed.abs() + if name == "lead_angle" { 1.5e-7 } else { 0.0 };
             assert!((found - typed).abs() <= bound, "{name} {found} {typed}");
         }
-        let pitch_angle = PitchMethod::Mean.angle(&found, 120.0, 110.0).unwrap();
-        assert_eq!(pitch_angle, found.pitch_angle);
         assert!(all_finite(&ContactKinematics::new(&found).unwrap()));
 
         for load in [-1.0, 1.01e7, f32::NAN] {

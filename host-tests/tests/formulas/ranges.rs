@@ -8,19 +8,16 @@ use core::f32::consts::FRAC_PI_4;
 use epas_design::efficiency::{
     DesignRequest, Duty, DynamicCorrection, optimum_contact_angle, optimum_efficiency,
 };
-use epas_friction::kinematics::{ContactKinematics, FrictionPower, KinematicsParameters};
-use epas_friction::ranges::{FRICTION, FRICTION_OF_A_ROW, FRICTION_OR_NONE, LOAD};
-use epas_friction::{BallScrew, CATALOGUE, Error, Material, Range};
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
+use epas_friction::efficiency::{Drive, EfficiencyGeometry};
+use epas_friction::ranges::{FRICTION, FRICTION_OF_A_ROW, FRICTION_OR_NONE};
+use epas_friction::{Error, Material, Range};
 
 /// The value whose figures those at both ends are compared with.
 const USUAL: f32 = 0.1;
 
 /// Nominal contact angle, rad.
 const NOMINAL: f32 = FRAC_PI_4;
-
-fn screw() -> BallScrew {
-    CATALOGUE[15].design().unwrap()
-}
 
 fn linear(friction: f32) -> LinearBallParameters {
     LinearBallParameters {
@@ -155,17 +152,4 @@ fn efficiency_at_both_ends() {
         assert!(figures.max_pressure_screw.is_finite() && figures.max_pressure_nut.is_finite());
         assert_eq!(figures.locked, figures.sliding_efficiency <= 0.0);
     }
-}
-
-#[test]
-fn friction_power_at_both_ends() {
-    let parameters = KinematicsParameters::of(&screw(), 100.0, 100.0).unwrap();
-    let power = FrictionPower::new(&ContactKinematics::new(&parameters).unwrap());
-    let of = |friction, load| power.of_ball(friction, load, load, 100.0).total();
-    assert_eq!(of(0.0, 100.0), 0.0);
-    close(of(1.0, 100.0), 10.0 * of(0.1, 100.0), "friction power");
-    assert_eq!(of(1.0_f32.next_up(), 100.0), 0.0);
-    assert_eq!(of(0.1, LOAD.minimum), 0.0);
-    assert!(of(0.1, LOAD.maximum).is_finite() && of(0.1, LOAD.maximum) > 0.0);
-    assert_eq!(of(0.1, LOAD.maximum.next_up()), 0.0);
 }

@@ -9,7 +9,6 @@
 //! | `cube_roots` | `math::own`, `math::powers` |
 //! | `sine` | `math::own` |
 //! | `nodes` | nodes of interpolation and quadrature, tables of sines, numbers with a name |
-//! | `lines` | `kinematics::friction_power` |
 //! | `sagitta` | `kinematics::path` |
 //! | `preload` | `ball::preload` |
 
@@ -19,7 +18,6 @@ mod kit;
 mod axis_ratio;
 mod backbones;
 mod cube_roots;
-mod lines;
 mod nodes;
 mod preload;
 mod remez;

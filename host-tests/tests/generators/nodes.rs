@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use epas_friction::fits::{curvature, elliptic, friction_power, pitch_angle, scene};
-use gauss_quad::{GaussJacobi, GaussLegendre};
+use epas_friction::fits::{curvature, elliptic, scene};
+use gauss_quad::GaussLegendre;
 
 /// Rounded to nearest from a number that is itself within some ulp of float64.
 fn is_rounded(stored: f32, exact: f64) {
@@ -26,30 +26,7 @@ fn the_curvature_is_fitted_at_chebyshev_nodes() {
 }
 
 #[test]
-fn friction_power_is_summed_over_the_lines_of_gauss() {
-    let number = |value: f64| value.try_into().unwrap();
-    // The weight (1 - y)(1 + y), whose integral is 4/3.
-    let rule = GaussJacobi::new(8.try_into().unwrap(), number(1.0), number(1.0));
-    let positive = rule
-        .as_node_weight_pairs()
-        .iter()
-        .filter(|line| line.0 > 0.0);
-    let mut lines: Vec<_> = positive.collect();
-    lines.sort_by(|first, second| first.0.total_cmp(&second.0));
-    assert_eq!(lines.len(), friction_power::LINES.len());
-    for (&(node, weight), (stored_node, stored_weight)) in
-        lines.into_iter().zip(friction_power::LINES)
-    {
-        // The rule's own eigenvalues are good to some 1e-15.
-        is_rounded(stored_node, node);
-        is_rounded(stored_weight, 0.75 * weight);
-    }
-}
-
-#[test]
 fn numbers_with_a_name() {
-    is_rounded(friction_power::KINK, (4.0 / (3.0 * PI)).powi(2));
-    is_rounded(pitch_angle::SECTION, 0.5 * (5.0_f64.sqrt() - 1.0));
     is_rounded(scene::HALF_TO_FOUR_THIRDS, 0.5_f64.powf(4.0 / 3.0));
 }
 

@@ -290,18 +290,6 @@ const KINEMATICS: &[Measured] = &[
     largest("published entrainment angle of the nut in degrees", 0.01, 7.7e-3),
     largest("published slide-to-roll ratio in per cent", 0.011, 7.7e-3),
     largest("published yaw angles, side slip", 5e-6, 3.3e-6),
-    largest("pitch angle of least power in rad", 2.5e-4, 1.6e-4),
-    largest("least power", 2.5e-8, 1.5e-8),
-    largest("friction power, published cases", 7e-4, 4.4e-4),
-    largest("friction power, published cases, shares", 0.01, 6.2e-3),
-    largest("friction power, median", 1.5e-5, 8.9e-6),
-    largest("friction power, 95 of 100", 3e-3, 1.8e-3),
-    largest("friction power, largest", 0.05, 0.028),
-    largest("friction power, mean", 2e-4, 1.3e-4),
-    largest("least mean slip, from side slips", 1e-3, 6.94e-4),
-    largest("friction power of linear fields", 0.031, 0.021),
-    largest("pitch angle, weighted, in rad", 6e-6, 4e-6),
-    largest("pitch angle, closed form, in rad", 2.5e-7, 1.4e-7),
 ];
 
 /// `scenes/caged.rs`, `faults.rs`, `linear_scene.rs`, `stiff.rs`: forces of rows over the largest one.

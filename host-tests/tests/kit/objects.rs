@@ -12,9 +12,7 @@ use epas_friction::curvature::{FittedCurvature, GothicArch};
 use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_friction::hertz::HertzContact;
-use epas_friction::kinematics::{
-    ContactKinematics, EllipticContact, FrictionPower, KinematicsParameters,
-};
+use epas_friction::kinematics::{ContactKinematics, EllipticContact, KinematicsParameters};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, LoadShare, Material,
@@ -363,16 +361,10 @@ fn kinematics(numbers: &mut Numbers) -> Result<(), String> {
         Ok(kinematics) => kinematics,
         Err(error) => return refused("ContactKinematics", &error),
     };
-    let [speed, x, y, friction, load] = numbers.several();
+    let [speed, x, y] = numbers.several();
     let answers = |kinematics: &ContactKinematics| {
         let tick = kinematics.tick(speed);
-        let power = FrictionPower::new(kinematics).of_ball(friction, load, load, speed);
-        let mut values = vec![
-            tick.orbital_speed,
-            tick.spin_speed,
-            power.total(),
-            kinematics.least_mean_slip(),
-        ];
+        let mut values = vec![tick.orbital_speed, tick.spin_speed];
         for (contact, slip) in [
             (kinematics.screw(), tick.screw),
             (kinematics.nut(), tick.nut),

@@ -4,7 +4,6 @@ use epas_friction::Error;
 use epas_friction::law::memory::{
     Backbone, BackboneElement, Hysteresis, LoadExactElements, MemoryState, Part, PreloadedElements,
     ProportionalElements, SLIP_4, SLIP_6, SLIP_8, SLIP_10, SPIN_4, SPIN_6, SPIN_8, SPIN_10,
-    sticking_share,
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_reference::promises;
@@ -92,7 +91,6 @@ fn steady_sliding_has_the_friction_of_gross_sliding() {
             };
             assert_eq!(friction, limit, "{limits:?}");
             assert_eq!(elements.hold(&mut state, &limits), limit);
-            assert_eq!(sticking_share(friction, &limits), 0.0);
         }
     }
     each!(check);

@@ -2,7 +2,7 @@
 
 use epas_friction::law::memory::{
     Backbone, BackboneElement, Hysteresis, SLIP_6, SLIP_8, SPIN_4, SPIN_8, SeatElement, SeatState,
-    Together, sticking_share,
+    Together,
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_reference::promises;
@@ -87,9 +87,6 @@ fn play_is_free_and_sliding_is_full() {
         }
         assert_eq!(seat.follow(&mut state, 1e3, &limits), 0.04);
     }
-    assert_eq!(sticking_share(0.01, &limits), 0.75);
-    assert_eq!(sticking_share(-0.03, &limits), 0.0);
-    assert_eq!(sticking_share(f32::NAN, &limits), 0.0);
 }
 
 fn exact<const N: usize>(backbone: &Backbone<N>) -> transcription::Elements {

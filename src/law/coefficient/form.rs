@@ -313,28 +313,6 @@ impl CoefficientAtTemperature {
         -difference / self.half_share_speed
     }
 
-    /// Largest negative damping of a friction torque that is `torque`, N m, at standstill, N m s/rad, not below 0: a loop with
-    /// less damping than this may hum.
-    ///
-    /// ```text
-    /// torque (1 - mu_f/mu_b)/w_m
-    /// ```
-    ///
-    /// It is there at standstill, and `1/(1 + |omega_N|/w_m)^2` of it at a speed; friction that rises has none. Churning adds damping
-    /// of its own.
-    #[must_use]
-    pub const fn largest_negative_damping(&self, torque: f32) -> f32 {
-        let Sides {
-            full_film,
-            difference,
-        } = self.forward;
-        if difference > 0.0 && torque > 0.0 {
-            torque * (difference / ((full_film + difference) * self.half_share_speed))
-        } else {
-            0.0
-        }
-    }
-
     /// What is left of the difference at a speed: 1 at standstill, one half at the half-share speed.
     #[inline(always)]
     const fn share(&self, speed: f32) -> f32 {

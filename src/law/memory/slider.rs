@@ -3,8 +3,6 @@
 //! Comparisons in an order that leaves a finite number finite, whatever the limits are: what is no number never stays in
 //! a state.
 
-use crate::law::SlidingLimits;
-
 /// Turns below this size, rad (m), are turns: `2^20`, 1.05e6, far beyond any sensor's.
 const TURN_BEYOND: f32 = 1_048_576.0;
 
@@ -44,22 +42,4 @@ pub(super) fn held_pair([f, g]: [f32; 2], low: [f32; 2], high: [f32; 2]) -> [f32
 #[inline(always)]
 pub(super) fn not_negative(value: f32) -> f32 {
     if value < 0.0 { 0.0 } else { value }
-}
-
-/// How much of the limit `friction` leaves: 1 at no friction, 0 in full sliding, and 0 without a limit.
-///
-/// `1 - |T| / T±`, of 0 to 1. A mechanism stands as long as some share sticks, whatever its speed.
-#[inline]
-#[must_use]
-pub fn sticking_share(friction: f32, limits: &SlidingLimits) -> f32 {
-    let (size, limit) = if friction < 0.0 {
-        (-friction, limits.backward)
-    } else {
-        (friction, limits.forward)
-    };
-    if size < limit {
-        1.0 - size / limit
-    } else {
-        0.0
-    }
 }
