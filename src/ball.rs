@@ -24,7 +24,5 @@ pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, Spee
 pub use loads::{LoadShare, LoadShares};
 pub(crate) use preload::PreloadSum;
 pub(crate) use screw::largest_deviation;
-pub use screw::{
-    GrooveFit, LoopBall, LoopSums, RowContacts, ScrewLoop, ScrewRow, ScrewTick, ScrewTickBall,
-};
+pub use screw::{GrooveFit, RowContacts, ScrewRow, ScrewTick, ScrewTickBall};
 pub(crate) use two_point::{BorderParameters, GrooveFriction, spin_loss};

@@ -8,7 +8,7 @@
 //! | `contacts` | loads of the main, third and fourth contact | `ScrewRow::at` |
 //! | `speeds` | how speeds follow deviations of the contact angles | set-up |
 //! | `row` | the row under a load ([`ScrewRow::at`]) | `ScrewRow::at` |
-//! | `tick` | one ball of the row ([`ScrewLoop::ball`]) | `ScrewLoop::ball` |
+//! | `tick` | one ball of the row ([`ScrewTick::ball`]) | `ScrewTick::ball` |
 
 mod contacts;
 mod fit;
@@ -20,4 +20,4 @@ mod tick;
 pub use fit::GrooveFit;
 pub use row::{RowContacts, ScrewRow};
 pub(crate) use speeds::largest_deviation;
-pub use tick::{LoopBall, LoopSums, ScrewLoop, ScrewTick, ScrewTickBall};
+pub use tick::{ScrewTick, ScrewTickBall};

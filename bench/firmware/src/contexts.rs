@@ -4,7 +4,7 @@ use core::hint::black_box;
 
 use epas_friction::adaptation::{Adaptation, AdaptationConfiguration};
 use epas_friction::ball::{
-    AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewLoop, ScrewRow,
+    AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow, ScrewTick,
 };
 use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{
@@ -92,8 +92,8 @@ pub struct Contexts {
     pub deviation: &'static DeviationMap,
     /// Balls of a ball screw in closed form.
     pub screw_row: ScrewRow,
-    /// The same at a tick, for deviations in radians.
-    pub screw_loop: ScrewLoop,
+    /// The same under a load.
+    pub screw_tick: ScrewTick,
     /// Forces between balls.
     pub press: Press<BALLS>,
     /// Forces between balls and their positions.
@@ -239,7 +239,7 @@ impl Contexts {
             caged_law: FrictionModel::of(black_box(CAGED_BY_LAW)),
             caged_law_started: FrictionModel::of(black_box(&CAGED_BY_LAW)),
             deviation: &SCREW_DEVIATION,
-            screw_loop: screw_row.at(10.0, 100.0).per_speed(0.5, 2.0, (1.0, 1.0)),
+            screw_tick: screw_row.at(10.0, 100.0),
             screw_row,
             press: Press::new(),
             train: Train::evenly_spaced(0.2248, 0.00594)?,

@@ -7,9 +7,7 @@
 #![allow(improper_ctypes_definitions)]
 
 use epas_friction::adaptation::{Adaptation, AdaptationInputs, Adapted};
-use epas_friction::ball::{
-    AnalyticLinearBall, LoopBall, LoopSums, ScrewLoop, ScrewRow, ScrewTick, SpeedDeviation,
-};
+use epas_friction::ball::{AnalyticLinearBall, ScrewRow, ScrewTick, ScrewTickBall, SpeedDeviation};
 use epas_friction::contact::{FrictionMap, NormalizedFriction};
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature, PrincipalCurvatures,
@@ -352,11 +350,11 @@ counted! {
         row.at(nut_speed, load)
     }
 
-    /// One ball of a row, as a step finds it.
+    /// One ball of a row.
     fn count_ball_screw_ball(
-        row: &ScrewLoop, screw: f32, nut: f32, share: &LoadShare, sums: &mut LoopSums
-    ) -> LoopBall {
-        row.ball(screw, nut, share, sums)
+        row: &ScrewTick, screw: f32, nut: f32, share: &LoadShare
+    ) -> ScrewTickBall {
+        row.ball(screw, nut, share)
     }
 
     /// Forces between balls that all touch, from given speeds and impedances.

@@ -3,7 +3,6 @@
 use core::hint::black_box;
 
 use epas_friction::adaptation::AdaptationInputs;
-use epas_friction::ball::LoopSums;
 use epas_friction::kinematics::EllipticContact;
 use epas_friction::law::{FrictionLevel, SlidingLimits};
 use epas_friction::scene::WithMemoryInputs;
@@ -388,15 +387,14 @@ subjects! {
     ball_screw_row: |spread| -> [2] [spread.between(-60.0, 60.0), spread.between(-400.0, 400.0)],
         |c, [nut_speed, load]| -> [5] {
             let row = timed!(c, count_ball_screw_row(black_box(&c.screw_row), nut_speed, load));
-            c.screw_loop = row.per_speed(0.5, 2.0, (1.0, 1.0));
+            c.screw_tick = row;
             screw_ball(&row.ball(0.03, -0.02, &LoadShare::MEAN), row.nominal_speed())
         };
     ball_screw_ball: |spread| -> [2] [spread.between(-0.2, 0.2), spread.between(-0.2, 0.2)],
-        |c, [screw, nut]| -> [3] {
-            let mut sums = LoopSums::NONE;
-            let row = black_box(&c.screw_loop);
-            let ball = timed!(c, count_ball_screw_ball(row, screw, nut, &LoadShare::MEAN, &mut sums));
-            [ball.speed, ball.impedance, c.screw_loop.groove_torque(&sums)]
+        |c, [screw, nut]| -> [4] {
+            let row = black_box(&c.screw_tick);
+            let ball = timed!(c, count_ball_screw_ball(row, screw, nut, &LoadShare::MEAN));
+            [ball.speed_deviation, ball.compliance, ball.groove_torque, ball.rubbing]
         };
     press_37: |spread| -> [3] train(spread),
         |c, input| -> [37] {

@@ -5,7 +5,7 @@ use crate::kit::errors::Errors;
 use crate::kit::given;
 use crate::kit::measured;
 use crate::kit::random::Random;
-use epas_friction::ball::{GrooveFit, LoopSums, RowContacts, ScrewRow};
+use epas_friction::ball::{GrooveFit, RowContacts, ScrewRow};
 use epas_friction::{BallScrew, BallScrewParameters, LoadShare};
 use epas_reference::curvature;
 use epas_reference::friction::ball_screw_ball::Groove as Flank;
@@ -220,37 +220,6 @@ fn contacts_of_a_preloaded_ball_only_press() {
         let tick = slippery.at(1.0, load);
         let part = tick.third_load() / tick.main_load();
         assert!((0.99e-6..2e-6).contains(&part), "{load} N: {part:e}");
-    }
-}
-
-/// A ball is the same in other units: of speed, of force over it, and of the deviations.
-#[test]
-fn units_of_a_row_do_not_matter() {
-    let row = ScrewRow::new(&design(), 0.1, GrooveFit::Zero).unwrap();
-    // With the third contact on the screw and on the nut.
-    for (speed, load) in [(-0.02_f32, -80.0), (3.0, -80.0), (3.0, 80.0)] {
-        let tick = row.at(1.0, load);
-        let share = LoadShare::new(1.2).unwrap();
-        let (screw, nut) = (0.03, -0.02);
-        let known = tick.ball(screw, nut, &share);
-        assert_eq!(
-            known.rubbing,
-            tick.rubbing() + tick.rubbing_slope() * known.speed_deviation
-        );
-        let balls = tick.per_speed(speed, 1.0 / speed, (1e-3, 4e-3));
-        let mut sums = LoopSums::NONE;
-        let found = balls.ball(screw / 1e-3, nut / 4e-3, &share, &mut sums);
-        // Some ten roundings of 6e-8 each. Measured: 1.2e-7.
-        for (found, known) in [
-            (found.speed * speed, known.speed_deviation),
-            (speed.abs() / found.impedance, known.compliance),
-            (balls.groove_torque(&sums), known.groove_torque),
-        ] {
-            assert!(
-                (found / known - 1.0).abs() < 3.6e-7,
-                "{speed}: {found} {known}"
-            );
-        }
     }
 }
 

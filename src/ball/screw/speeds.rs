@@ -41,7 +41,7 @@ pub(super) struct Branch {
     pub(super) spin: f32,
 }
 
-/// Signs and weights with which the deviations of both grooves count in `u` and `v` of [`ScrewLoop::ball`](super::ScrewLoop::ball).
+/// Signs and weights with which the deviations of both grooves count in `u` and `v` of [`ScrewTick::ball`](super::ScrewTick::ball).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Weights {

@@ -1,5 +1,5 @@
-//! A row of balls under one load, and one ball of it, in closed form: called directly, and at the set-up of
-//! [`UncagedBallScrew`](crate::UncagedBallScrew) for the range of speeds. No step runs it.
+//! A row of balls under one load, and one ball of it, in closed form: at the set-up of a
+//! [`FoldedBall`](crate::scene::FoldedBall) from catalogue numbers. No step runs it.
 
 use super::speeds::{Branch, Speeds, Weights};
 use crate::ball::loads::LoadShare;
@@ -14,7 +14,7 @@ use crate::ball::loads::LoadShare;
 pub struct ScrewTick {
     /// Largest deviation of a contact angle that counts, rad.
     largest_deviation: f32,
-    /// Coefficients of `t(u)`, 1/rad to 1/rad^5, and of `o(v)`, 1/rad to 1/rad^3: see [`ScrewLoop::ball`].
+    /// Coefficients of `t(u)`, 1/rad to 1/rad^5, and of `o(v)`, 1/rad to 1/rad^3: see [`ScrewTick::ball`].
     turn: [f32; 5],
     tilt: [f32; 3],
     weights: Weights,
@@ -69,56 +69,6 @@ pub(super) struct Mean {
     /// Load of each main contact and of the third one, N.
     pub(super) main_load: f32,
     pub(super) third_load: f32,
-}
-
-/// The row under one load, folded for a loop over balls whose deviations are within their limits: speeds over a speed of
-/// reference, deviations in units of their maps. Made by [`ScrewTick::per_speed`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ScrewLoop {
-    /// Coefficients of `t(u)`, times `scale`, and of `o(v)`, in powers of 1/rad.
-    turn: [f32; 5],
-    tilt: [f32; 3],
-    /// Weights of the deviations' units at screw and nut in `u`, which turns the ball, rad.
-    turn_weights: (f32, f32),
-    /// The same in `v`, which tilts its contact, rad.
-    tilt_weights: (f32, f32),
-    /// Speed that the relative deviation multiplies, over the speed of reference.
-    scale: f32,
-    /// Speed lost per newton, over the speed of reference, 1/N: the parts of [`ScrewTick`], and the rolling one's change with the speed.
-    compliance_rolling: f32,
-    compliance_sliding: f32,
-    compliance_spin: f32,
-    /// Power loss in the grooves, N m, in the same three parts.
-    torque_rolling: f32,
-    torque_sliding: f32,
-    torque_spin: f32,
-}
-
-/// One ball in that loop.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LoopBall {
-    /// Speed along the track when no neighbour presses, less the nominal one, over the speed of reference.
-    pub speed: f32,
-    /// Force along the track, N, that takes the speed of reference from the ball.
-    pub impedance: f32,
-}
-
-/// Sums over the balls of that loop, from which the power loss in the grooves follows.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LoopSums {
-    /// Shares `q` of the load, their powers 4/3, and these times the balls' speeds.
-    share: f32,
-    four_thirds: f32,
-    four_thirds_speed: f32,
-}
-
-impl LoopSums {
-    /// Of no ball.
-    pub const NONE: Self = Self {
-        share: 0.0,
-        four_thirds: 0.0,
-        four_thirds_speed: 0.0,
-    };
 }
 
 impl ScrewTick {
@@ -182,8 +132,17 @@ impl ScrewTick {
         self.rubbing_slope
     }
 
-    /// One ball, by [`ScrewLoop::ball`]; a deviation beyond [`ScrewRow::largest_deviation`](super::ScrewRow::largest_deviation)
-    /// is taken at it, NaN is none.
+    /// One ball with these deviations of its contact angles on screw and nut, rad, and its share of the load.
+    ///
+    /// ```text
+    /// u = w (d_S + d_N)      v = w_S d_S + w_N d_N
+    /// speed_deviation = t(u) + o(v) (scale + t(u))            (t and o are series of five and three terms)
+    /// compliance      = (y_sliding + q^(1/3) y_rolling (1 + s speed_deviation)) / q
+    /// groove_torque   = T_sliding q + T_rolling q^(4/3) (1 + s speed_deviation)
+    /// ```
+    ///
+    /// with the share `q` of the load and the change `s` of the contacts' spin with the speed. A deviation beyond
+    /// [`ScrewRow::largest_deviation`](super::ScrewRow::largest_deviation) is taken at it, NaN is none.
     #[inline]
     #[must_use]
     pub const fn ball(
@@ -192,111 +151,27 @@ impl ScrewTick {
         nut_deviation: f32,
         share: &LoadShare,
     ) -> ScrewTickBall {
-        let balls = self.per_speed(1.0, 1.0, (1.0, 1.0));
-        let mut sums = LoopSums::NONE;
-        let ball = balls.ball(
-            limited(screw_deviation, self.largest_deviation),
-            limited(nut_deviation, self.largest_deviation),
-            share,
-            &mut sums,
-        );
-        ScrewTickBall {
-            speed_deviation: ball.speed,
-            compliance: 1.0 / ball.impedance,
-            groove_torque: balls.groove_torque(&sums),
-            rubbing: self.rubbing + self.rubbing_slope * ball.speed,
-        }
-    }
-
-    /// The row for speeds over a speed of reference, m per unit of nut speed, given with its inverse, and
-    /// deviations at screw and nut in these `units`, rad: once for all balls of the row.
-    #[inline(always)]
-    #[must_use]
-    pub const fn per_speed(&self, speed: f32, per_speed: f32, units: (f32, f32)) -> ScrewLoop {
-        let (screw, nut) = units;
-        let size = per_speed.abs();
-        let scale = self.scale * per_speed;
-        let spin = self.spin * speed;
-        let compliance_rolling = self.compliance_rolling * size;
-        let [t1, t2, t3, t4, t5] = self.turn;
-        ScrewLoop {
-            turn: [t1 * scale, t2 * scale, t3 * scale, t4 * scale, t5 * scale],
-            tilt: self.tilt,
-            turn_weights: (self.weights.both * screw, self.weights.both * nut),
-            tilt_weights: (self.weights.screw * screw, self.weights.nut * nut),
-            scale,
-            compliance_rolling,
-            compliance_sliding: self.compliance_sliding * size,
-            compliance_spin: compliance_rolling * spin,
-            torque_rolling: self.torque_rolling,
-            torque_sliding: self.torque_sliding,
-            torque_spin: self.torque_rolling * spin,
-        }
-    }
-}
-
-impl ScrewLoop {
-    /// One ball with deviations of the screw's and the nut's groove, in units, and its share of the load; adds what its
-    /// losses follow from to `sums`.
-    ///
-    /// ```text
-    /// u = w (d_S + d_N)      v = w_S d_S + w_N d_N
-    /// speed     = t(u) + o(v) (1 + t(u))            (relative; t and o are series of five and three terms)
-    /// impedance = q / (y_sliding + q^(1/3) y_rolling (1 + s speed))
-    /// ```
-    ///
-    /// with the share `q` of the load and the change `s` of the contacts' spin with the speed. [`ScrewTick::ball`] is the
-    /// same in SI units. Cost: 116 modelled cycles on a Cortex-M4F.
-    ///
-    /// Independent operations stand side by side: a core without reordering waits a cycle where an operation needs the
-    /// result of the one before.
-    #[inline(always)]
-    pub const fn ball(
-        &self,
-        screw: f32,
-        nut: f32,
-        share: &LoadShare,
-        sums: &mut LoopSums,
-    ) -> LoopBall {
         let LoadShare { share, root } = *share;
+        let screw = limited(screw_deviation, self.largest_deviation);
+        let nut = limited(nut_deviation, self.largest_deviation);
         let [t1, t2, t3, t4, t5] = self.turn;
         let [o1, o2, o3] = self.tilt;
-        let (u, v) = (self.turn_weights.0 * screw, self.tilt_weights.0 * screw);
-        let (x, y) = (self.turn_weights.1 * nut, self.tilt_weights.1 * nut);
-        let (u, v) = (u + x, v + y);
+        let u = self.weights.both * screw + self.weights.both * nut;
+        let v = self.weights.screw * screw + self.weights.nut * nut;
         let (square, other) = (u * u, v * v);
-        let (low, series) = (t2 * u, o2 * v);
-        let (high, compliance) = (t4 * u, self.compliance_rolling * root);
-        let (low, series) = (t1 + low, o1 + series);
-        let (high, top) = (t3 + high, t5 * square);
-        let (cubic, spin) = (o3 * other, self.compliance_spin * root);
-        let (high, power) = (high + top, share * root);
-        let (series, compliance) = (series + cubic, compliance + self.compliance_sliding);
-        let high = high * square;
-        let series = series * v;
-        let turn = (low + high) * u;
-        // The coefficients t1 to t5 hold the scale, so that `turn` is a speed.
-        let (all, shares) = (self.scale + turn, sums.share + share);
-        let (tilt, powers) = (series * all, sums.four_thirds + power);
+        let scale = self.scale;
+        let low = t1 * scale + t2 * scale * u;
+        let high = (t3 * scale + t4 * scale * u) + t5 * scale * square;
+        let turn = (low + high * square) * u;
+        let tilt = ((o1 + o2 * v) + o3 * other) * v * (scale + turn);
         let speed = turn + tilt;
-        *sums = LoopSums {
-            share: shares,
-            four_thirds: powers,
-            four_thirds_speed: sums.four_thirds_speed + power * speed,
-        };
-        LoopBall {
-            speed,
-            impedance: share / (compliance + spin * speed),
+        let spin = 1.0 + self.spin * speed;
+        ScrewTickBall {
+            speed_deviation: speed,
+            compliance: (self.compliance_sliding + self.compliance_rolling * root * spin) / share,
+            groove_torque: share * (self.torque_sliding + self.torque_rolling * root * spin),
+            rubbing: self.rubbing + self.rubbing_slope * speed,
         }
-    }
-
-    /// Power loss of these balls in the grooves, N m.
-    #[inline(always)]
-    #[must_use]
-    pub const fn groove_torque(&self, sums: &LoopSums) -> f32 {
-        self.torque_sliding * sums.share
-            + self.torque_rolling * sums.four_thirds
-            + self.torque_spin * sums.four_thirds_speed
     }
 }
 

@@ -4,7 +4,7 @@
 //! contact angles deviate in either groove. Both are read off the given contacts, and how far those are from
 //! the contacts that it then finds stands beside the answer.
 
-use epas_friction::ball::{LoopSums, RowContacts, ScrewRow};
+use epas_friction::ball::{RowContacts, ScrewRow};
 use epas_friction::train::Press;
 use epas_friction::{BallScrew, LoadShare};
 use serde::Serialize;
@@ -123,20 +123,16 @@ fn run(
     let path = design.pitch_radius() / design.cos_lead_angle();
     // Speeds over that of a nominal ball against the nut.
     let speed = path - tick.nominal_speed();
-    let balls = tick.per_speed(speed, 1.0 / speed, (1.0, 1.0));
     let (mut free, mut impedance) = ([0.0; LARGEST_TRAIN], [1.0; LARGEST_TRAIN]);
-    let mut sums = LoopSums::NONE;
+    let mut groove_torque = 0.0;
     let mut orbital_speed = Vec::with_capacity(count);
     for ((state, free), impedance) in states.iter().zip(&mut free).zip(&mut impedance) {
         let share = LoadShare::new(state.axial_load / mean).ok()?;
-        let ball = balls.ball(
-            state.screw_deviation,
-            state.nut_deviation,
-            &share,
-            &mut sums,
-        );
-        (*free, *impedance) = (ball.speed, ball.impedance);
-        let along = tick.nominal_speed() + speed * ball.speed;
+        let ball = tick.ball(state.screw_deviation, state.nut_deviation, &share);
+        *free = ball.speed_deviation / speed;
+        *impedance = speed.abs() / ball.compliance;
+        groove_torque += ball.groove_torque;
+        let along = tick.nominal_speed() + ball.speed_deviation;
         orbital_speed.push(f64::from(nut_speed) * f64::from(along / path));
     }
     let mut press = Press::new();
@@ -151,7 +147,7 @@ fn run(
         .map(|(force, speed)| force * speed)
         .sum();
     let rubbing = tick.rubbing() * force + tick.rubbing_slope() * speed * power;
-    let torque = balls.groove_torque(&sums) + 2.0 * friction * rubbing;
+    let torque = groove_torque + 2.0 * friction * rubbing;
     let pressing = forces.iter().take(count - 1);
     Some(Found {
         orbital_speed: Some(orbital_speed),
