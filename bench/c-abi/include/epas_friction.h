@@ -435,14 +435,14 @@ extern "C" {
 #define EPAS_FIELD_GIVEN 51u
 
 /**
- * `hysteresis_loss`
+ * `slip_share`
  */
-#define EPAS_FIELD_HYSTERESIS_LOSS 52u
+#define EPAS_FIELD_SLIP_SHARE 52u
 
 /**
- * `lubricant_drag`
+ * `spin_angle`
  */
-#define EPAS_FIELD_LUBRICANT_DRAG 53u
+#define EPAS_FIELD_SPIN_ANGLE 53u
 
 /**
  * `forgetting_time`
@@ -625,14 +625,14 @@ extern "C" {
 #define EPAS_FIELD_COEFFICIENT 89u
 
 /**
- * `reference_load`
+ * `reference_torque`
  */
-#define EPAS_FIELD_REFERENCE_LOAD 90u
+#define EPAS_FIELD_REFERENCE_TORQUE 90u
 
 /**
- * `breakaway_angle`
+ * `slip_angle`
  */
-#define EPAS_FIELD_BREAKAWAY_ANGLE 91u
+#define EPAS_FIELD_SLIP_ANGLE 91u
 
 /**
  * `load_hold`
@@ -890,9 +890,10 @@ extern "C" {
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
- * whenever a structure, a function or what a place holds changes. From version 9 on `epas_screw_t` is set up of a folded block.
+ * whenever a structure, a function or what a place holds changes. From version 10 on `epas_memory_t` is
+ * set up of shares and breakaway angles.
  */
-#define EPAS_ABI_VERSION 9u
+#define EPAS_ABI_VERSION 10u
 
 /**
  * Place for the constants and the state of an adaptation; as `epas_caged_t`.
@@ -1134,63 +1135,6 @@ typedef struct epas_block_t {
 } epas_block_t;
 
 /**
- * An isotropic elastic material.
- */
-typedef struct epas_material_t {
-    /**
-     * Young's modulus, Pa, 1e6 to 1e13; steel 210e9.
-     */
-    float youngs_modulus;
-    /**
-     * Poisson's ratio, 0 to 0.5; steel 0.28.
-     */
-    float poisson_ratio;
-    /**
-     * Density, kg/m^3, 1 to 1e5; steel 7800.
-     */
-    float density;
-} epas_material_t;
-
-/**
- * A ball screw by its catalogue numbers.
- */
-typedef struct epas_ball_screw_t {
-    /**
-     * Radius of the cylinder on which the ball centres run, m, 1e-3 to 0.5; half the nominal diameter
-     * where a catalogue prints no pitch circle.
-     */
-    float pitch_radius;
-    /**
-     * Axial travel of the nut in one turn, m, 0 to 0.2.
-     */
-    float lead;
-    /**
-     * Ball radius, m, 1e-4 to 0.05, up to 0.9 of the pitch radius.
-     */
-    float ball_radius;
-    /**
-     * Radius of the screw's groove over the ball's diameter, 0.5005 to 1.
-     */
-    float screw_conformity;
-    /**
-     * Radius of the nut's groove over the ball's diameter, 0.5005 to 1.
-     */
-    float nut_conformity;
-    /**
-     * Nominal contact angle, rad, 0.01 to 1.5533.
-     */
-    float contact_angle;
-    /**
-     * Material of the balls.
-     */
-    struct epas_material_t ball_material;
-    /**
-     * Material of screw and nut.
-     */
-    struct epas_material_t groove_material;
-} epas_ball_screw_t;
-
-/**
  * An encoder that counts turns of the nut.
  */
 typedef struct epas_encoder_t {
@@ -1280,26 +1224,10 @@ typedef struct epas_coefficient_t {
  */
 typedef struct epas_memory_configuration_t {
     /**
-     * The screw: a block for a range of friction coefficients, which holds those of the law. Its own coefficient is that of which the first
-     * motion after a reversal is computed, best the boundary coefficient; its reversal speed has no meaning here.
+     * The screw: a block for a range of friction coefficients, which holds those of the law. Its own coefficient and
+     * its reversal speed have no meaning here.
      */
     struct epas_block_t block;
-    /**
-     * The design that was folded, from which the first motion after a reversal follows.
-     */
-    struct epas_ball_screw_t design;
-    /**
-     * Radial gap that was folded, m, play above zero, oversize below; -0.02 to 0.05 ball radii.
-     */
-    float clearance;
-    /**
-     * Share of the elastic energy that is lost while a contact passes, as folded, 0 to 0.2.
-     */
-    float hysteresis_loss;
-    /**
-     * Drag of the lubricant on one contact under 100 N, as folded, N, 0 to 10.
-     */
-    float lubricant_drag;
     /**
      * The nut's angle.
      */
@@ -1309,14 +1237,22 @@ typedef struct epas_memory_configuration_t {
      */
     struct epas_coefficient_t coefficient;
     /**
-     * Axial load for which the first motion after a reversal is computed, N, 0 to 1e7: the usual one.
+     * Friction of gross sliding for which the two breakaway angles hold, N m, 1e-9 to 1e9. This number and the next three follow from the
+     * design: `epas-bench simulate --memory` prints them, at the mean load of its trace.
      */
-    float reference_load;
+    float reference_torque;
     /**
-     * Turn of the nut after a reversal within which slip of the balls builds up, rad, 1e-6 to 10, as measured; 0 for what
-     * follows from the design.
+     * Share of slip across the ball path in the friction, 1e-6 to 0.999999; the rest is spin of the contacts.
      */
-    float breakaway_angle;
+    float slip_share;
+    /**
+     * Turn of the nut after a reversal within which slip builds up, rad, 1e-9 to 1e3, of the design or as measured.
+     */
+    float slip_angle;
+    /**
+     * The same of spin, rad, 1e-9 to 1e3.
+     */
+    float spin_angle;
     /**
      * Age up to which a load counts as it is, s, 0 to 1e3.
      */
@@ -1443,6 +1379,63 @@ typedef struct epas_closed_form_t {
      */
     uint64_t words[EPAS_CLOSED_FORM_WORDS];
 } epas_closed_form_t;
+
+/**
+ * An isotropic elastic material.
+ */
+typedef struct epas_material_t {
+    /**
+     * Young's modulus, Pa, 1e6 to 1e13; steel 210e9.
+     */
+    float youngs_modulus;
+    /**
+     * Poisson's ratio, 0 to 0.5; steel 0.28.
+     */
+    float poisson_ratio;
+    /**
+     * Density, kg/m^3, 1 to 1e5; steel 7800.
+     */
+    float density;
+} epas_material_t;
+
+/**
+ * A ball screw by its catalogue numbers.
+ */
+typedef struct epas_ball_screw_t {
+    /**
+     * Radius of the cylinder on which the ball centres run, m, 1e-3 to 0.5; half the nominal diameter
+     * where a catalogue prints no pitch circle.
+     */
+    float pitch_radius;
+    /**
+     * Axial travel of the nut in one turn, m, 0 to 0.2.
+     */
+    float lead;
+    /**
+     * Ball radius, m, 1e-4 to 0.05, up to 0.9 of the pitch radius.
+     */
+    float ball_radius;
+    /**
+     * Radius of the screw's groove over the ball's diameter, 0.5005 to 1.
+     */
+    float screw_conformity;
+    /**
+     * Radius of the nut's groove over the ball's diameter, 0.5005 to 1.
+     */
+    float nut_conformity;
+    /**
+     * Nominal contact angle, rad, 0.01 to 1.5533.
+     */
+    float contact_angle;
+    /**
+     * Material of the balls.
+     */
+    struct epas_material_t ball_material;
+    /**
+     * Material of screw and nut.
+     */
+    struct epas_material_t groove_material;
+} epas_ball_screw_t;
 
 /**
  * Bounds that a model keeps whatever comes in.

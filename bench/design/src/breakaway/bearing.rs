@@ -102,7 +102,7 @@ impl BearingBreakaway {
         contact_loads: [f32; 2],
     ) -> Result<Self, Error> {
         ranges::FRICTION.checked("friction", friction)?;
-        let balls = LOADED_BALLS.checked("loaded_balls", loaded_balls as f32)?;
+        let balls = LOADED_BALLS.checked("loaded_balls", f32::from(loaded_balls))?;
         let [up, down] = contact_loads;
         CONTACT_LOAD.checked("contact_load", up)?;
         CONTACT_LOAD.checked("contact_load", down)?;

@@ -94,7 +94,7 @@ impl ScrewContacts {
     /// preload.
     #[must_use]
     pub fn contact_load(&self, axial_load: f32, loaded_balls: u16) -> f32 {
-        self.per_axial_load * axial_load / loaded_balls as f32
+        self.per_axial_load * axial_load / f32::from(loaded_balls)
     }
 
     /// The same for balls of any clearance, N. An oversized ball presses on the other diagonal as well, and the loaded one has to bear
@@ -225,14 +225,9 @@ impl ScrewContacts {
     ) -> (f32, f32) {
         let ellipse = contact.contact();
         let end_speed = ellipse.semi_major_coefficient() * constant::cbrt(load) * spin;
-        let axis_ratio = ellipse.axis_ratio();
-        let axis_ratio = if axis_ratio < AXIS_RATIO.minimum {
-            AXIS_RATIO.minimum
-        } else if axis_ratio > AXIS_RATIO.maximum {
-            AXIS_RATIO.maximum
-        } else {
-            axis_ratio
-        };
+        let axis_ratio = ellipse
+            .axis_ratio()
+            .clamp(AXIS_RATIO.minimum, AXIS_RATIO.maximum);
         let (power, moment) = slip_and_spin(axis_ratio, 0.5 * self.slip / end_speed);
         let whole = friction * load * end_speed;
         (whole * (power - moment), whole * moment)

@@ -185,7 +185,7 @@ impl BreakawayConfiguration {
         ranges::FRICTION_OF_A_ROW.checked("friction", self.friction)?;
         self.clearance.checked(design)?;
         self.rolling_resistance.checked()?;
-        LOADED_BALLS.checked("loaded_balls", self.loaded_balls as f32)?;
+        LOADED_BALLS.checked("loaded_balls", f32::from(self.loaded_balls))?;
         CONTACT_LOAD.checked("contact_load", self.contact_load)?;
         Ok(*self)
     }
@@ -206,7 +206,7 @@ impl Breakaway {
         } = configuration.checked(design)?;
         let contacts = ScrewContacts::of(design);
         let seat = Seat::of(design, &contacts, clearance, friction, load);
-        let balls = loaded_balls as f32;
+        let balls = f32::from(loaded_balls);
         let Gross {
             rolling,
             slip,
