@@ -42,7 +42,7 @@
 //! | [`law`] | friction that remembers; friction coefficient by speed and temperature | step of scenes with memory; direct |
 //! | [`defaults`] | friction coefficient, clearance, rolling resistance and lubricant where nothing is measured | set-up |
 //! | [`scene`] | what a mechanism needs and what it leaves out | step |
-//! | [`model`] | [`FrictionModel`]: admit, compute, limit, count | step |
+//! | [`model`] | [`FrictionModel`]: check inputs, compute, limit, count | step |
 //! | [`adaptation`] | level of the friction, drag and sensor errors, found while the vehicle runs; health | beside the step |
 //! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle | beside the step |
 //! | `fits` | stored coefficients of fits, for the tests that make them again; not documented | nowhere: constants |

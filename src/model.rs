@@ -134,20 +134,20 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
 
     /// One tick: bounded time, no panic, finite outputs whatever the inputs are.
     ///
-    /// The one place where faults are handled, for every scene: inputs are admitted within their limits
-    /// ([`Scene::admit`]), the mechanism is computed from them ([`Scene::outputs`]), its friction is limited, and steps
+    /// The one place where faults are handled, for every scene: inputs are checked against their limits
+    /// ([`Scene::check_inputs`]), the mechanism is computed from them ([`Scene::outputs`]), its friction is limited, and steps
     /// with a fault are counted ([`Self::faulted_ticks`]). Where an input is NaN or infinite, nothing is computed: the output is the safe one and
     /// the state stays as it is. Not so [`WithMemory`](crate::scene::WithMemory): it goes on with the last sound inputs of its
     /// scene, its memory follows every sound reading of the angle, and the output is that friction, flagged.
     #[inline]
     pub fn step(&mut self, inputs: S::Inputs) -> S::Outputs {
         let constants = self.constants.borrow();
-        let admitted = S::admit(constants, inputs);
-        let outputs = match admitted.inputs {
+        let checked = S::check_inputs(constants, inputs);
+        let outputs = match checked.inputs {
             Some(known) => S::outputs(constants, &mut self.state, known),
             None => S::Outputs::SAFE,
         };
-        let outputs = Self::limited(constants, outputs, admitted.faults);
+        let outputs = Self::limited(constants, outputs, checked.faults);
         self.faulted_ticks = if outputs.faults().faulty() {
             self.faulted_ticks.saturating_add(1)
         } else {

@@ -40,7 +40,7 @@ pub use closed_form::{
     ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, ClosedFormScrewState,
     FrictionBranch,
 };
-pub use contract::{Admitted, Inputs, Limits, Regime, Scene, SceneOutputs};
+pub use contract::{CheckedInputs, Inputs, Limits, Regime, Scene, SceneOutputs};
 pub use faults::Faults;
 pub use full::CagedFull;
 pub use linear::{

@@ -113,7 +113,7 @@ impl AdaptationConstants {
 
     /// True where an adaptation with these constants may have found the estimates: within their bounds, and one that is held where
     /// it starts.
-    pub(super) fn admits(&self, estimates: &[f32; ESTIMATES]) -> bool {
+    pub(super) fn allows(&self, estimates: &[f32; ESTIMATES]) -> bool {
         let bounds = self.least.iter().zip(&self.largest);
         let starts = START.iter().zip(&self.deviations);
         let mut all = estimates.iter().zip(bounds).zip(starts);

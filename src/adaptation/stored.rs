@@ -106,7 +106,7 @@ impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
         let mut state = self.state;
         self.block().open(&mut state, block)?;
         let constants = self.constants.borrow();
-        if !constants.admits(&state.estimates) {
+        if !constants.allows(&state.estimates) {
             return Err(Refusal::OutOfRange { field: "estimates" });
         }
         state.at_bound = constants.binds(&state.estimates);

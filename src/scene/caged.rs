@@ -5,7 +5,7 @@ mod configuration;
 mod stored;
 
 use super::changing::ChangingFriction;
-use super::contract::{Admitted, Inputs, Limits, Regime, Scene};
+use super::contract::{CheckedInputs, Inputs, Limits, Regime, Scene};
 use super::faults::Faults;
 use super::full::CagedFull;
 use super::outputs::{Outputs, efficiency};
@@ -199,8 +199,8 @@ impl<const NODES: usize> Scene for CagedBallScrew<NODES> {
     }
 
     #[inline(always)]
-    fn admit(constants: &CagedConstants<NODES>, inputs: Inputs) -> Admitted<Inputs> {
-        constants.limits.admit(inputs)
+    fn check_inputs(constants: &CagedConstants<NODES>, inputs: Inputs) -> CheckedInputs<Inputs> {
+        constants.limits.check_inputs(inputs)
     }
 
     #[inline(always)]

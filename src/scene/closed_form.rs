@@ -4,7 +4,7 @@ mod configuration;
 mod stored;
 mod torque;
 
-use super::contract::{Admitted, Inputs, Limits, Scene};
+use super::contract::{CheckedInputs, Inputs, Limits, Scene};
 use super::full::CagedFull;
 use super::outputs::Outputs;
 use super::passage::{Passage, Reversal};
@@ -83,8 +83,8 @@ impl Scene for ClosedFormScrew {
     }
 
     #[inline(always)]
-    fn admit(constants: &ClosedFormScrewConstants, inputs: Inputs) -> Admitted<Inputs> {
-        constants.limits.admit(inputs)
+    fn check_inputs(constants: &ClosedFormScrewConstants, inputs: Inputs) -> CheckedInputs<Inputs> {
+        constants.limits.check_inputs(inputs)
     }
 
     #[inline(always)]

@@ -7,7 +7,7 @@ use crate::error::{Error, attempt, in_range};
 /// A mechanism with its configuration, its constants, its state and its outputs.
 ///
 /// Constants are folded once and never change; the state is small and is all that a tick changes. A scene gives its
-/// checks ([`Scene::admit`]) and its physics ([`Scene::outputs`]) as plain functions; what happens to faults stands in
+/// checks ([`Scene::check_inputs`]) and its physics ([`Scene::outputs`]) as plain functions; what happens to faults stands in
 /// one place, [`FrictionModel::step`](crate::FrictionModel::step).
 pub trait Scene {
     /// What the engineer sets.
@@ -44,9 +44,12 @@ pub trait Scene {
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error>;
 
     /// The inputs within their limits, with what was wrong with them.
-    fn admit(constants: &Self::Constants, inputs: Self::Inputs) -> Admitted<Self::Known>;
+    fn check_inputs(
+        constants: &Self::Constants,
+        inputs: Self::Inputs,
+    ) -> CheckedInputs<Self::Known>;
 
-    /// What the mechanism does under admitted inputs, before its friction is limited: bounded time, no panic.
+    /// What the mechanism does under checked inputs, before its friction is limited: bounded time, no panic.
     fn outputs(
         constants: &Self::Constants,
         state: &mut Self::State,
@@ -95,7 +98,7 @@ const fn cut(friction: f32, largest: f32) -> f32 {
 
 /// Inputs within their limits, with what was wrong with them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Admitted<I> {
+pub struct CheckedInputs<I> {
     /// The inputs; `None` where no number can stand in for one that is NaN or infinite.
     pub inputs: Option<I>,
     /// What was wrong.
@@ -159,20 +162,20 @@ impl Limits {
 
     /// The inputs within these limits, with what was wrong.
     #[inline(always)]
-    pub(super) fn admit(&self, inputs: Inputs) -> Admitted<Inputs> {
+    pub(super) fn check_inputs(&self, inputs: Inputs) -> CheckedInputs<Inputs> {
         let Inputs {
             nut_speed,
             axial_load,
         } = inputs;
         // Limits are finite: what is within them is a number, and needs nothing else.
         if nut_speed.abs() <= self.nut_speed && axial_load.abs() <= self.axial_load {
-            return Admitted {
+            return CheckedInputs {
                 inputs: Some(inputs),
                 faults: Faults::NONE,
             };
         }
         if nut_speed.is_finite() && axial_load.is_finite() {
-            Admitted {
+            CheckedInputs {
                 inputs: Some(Inputs {
                     nut_speed: bounded(nut_speed, self.nut_speed),
                     axial_load: bounded(axial_load, self.axial_load),
@@ -183,7 +186,7 @@ impl Limits {
                 ),
             }
         } else {
-            Admitted {
+            CheckedInputs {
                 inputs: None,
                 faults: Faults::not_finite(!nut_speed.is_finite(), !axial_load.is_finite()),
             }

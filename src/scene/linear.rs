@@ -6,7 +6,7 @@ mod stored;
 
 use super::changing::ChangingFriction;
 use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
-use super::contract::{Admitted, Regime, Scene};
+use super::contract::{CheckedInputs, Regime, Scene};
 use super::faults::{Faults, bounded};
 use super::outputs::LinearOutputs;
 use super::passage::{Passage, Reversal, way};
@@ -110,8 +110,11 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
     }
 
     #[inline(always)]
-    fn admit(constants: &LinearConstants<N>, inputs: LinearInputs) -> Admitted<LinearInputs> {
-        constants.limits.admit(inputs)
+    fn check_inputs(
+        constants: &LinearConstants<N>,
+        inputs: LinearInputs,
+    ) -> CheckedInputs<LinearInputs> {
+        constants.limits.check_inputs(inputs)
     }
 
     #[inline(always)]

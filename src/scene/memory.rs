@@ -9,7 +9,7 @@ mod stored;
 
 use core::marker::PhantomData;
 
-use super::contract::{Admitted, Scene, SceneOutputs};
+use super::contract::{CheckedInputs, Scene, SceneOutputs};
 use super::faults::Faults;
 use super::passage::{Motion, Passage, way};
 use super::sliding::Sliding;
@@ -138,7 +138,10 @@ where
 
     /// Inputs of the scene that are no numbers leave the others as they are.
     #[inline(always)]
-    fn admit(constants: &Self::Constants, inputs: Self::Inputs) -> Admitted<Self::Known> {
+    fn check_inputs(
+        constants: &Self::Constants,
+        inputs: Self::Inputs,
+    ) -> CheckedInputs<Self::Known> {
         let WithMemoryInputs {
             scene,
             reading,
@@ -146,11 +149,11 @@ where
             temperature,
             temperature_age,
         } = inputs;
-        let Admitted {
+        let CheckedInputs {
             inputs: scene,
             faults,
-        } = S::admit(&constants.scene, scene);
-        Admitted {
+        } = S::check_inputs(&constants.scene, scene);
+        CheckedInputs {
             inputs: Some(WithMemoryKnown {
                 scene,
                 reading,

@@ -13,7 +13,7 @@ use core::f32::consts::TAU;
 
 use super::changing::ChangingFriction;
 use super::circuit::{Circuit, CircuitState, per_loaded_ball};
-use super::contract::{Admitted, Inputs, Limits, Scene};
+use super::contract::{CheckedInputs, Inputs, Limits, Scene};
 use super::outputs::UncagedOutputs;
 use super::passage::Reversal;
 use crate::ball::LoadShare;
@@ -118,8 +118,11 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
     }
 
     #[inline(always)]
-    fn admit(constants: &UncagedConstants<N, NODES>, inputs: Inputs) -> Admitted<Inputs> {
-        constants.limits.admit(inputs)
+    fn check_inputs(
+        constants: &UncagedConstants<N, NODES>,
+        inputs: Inputs,
+    ) -> CheckedInputs<Inputs> {
+        constants.limits.check_inputs(inputs)
     }
 
     #[inline(always)]

@@ -5,7 +5,7 @@ use crate::kit::measured;
 use crate::kit::random::Random;
 use crate::kit::{gears, recorded};
 use epas_friction::ball::pressed::BallNode;
-use epas_friction::scene::{Admitted, FoldedBall, SceneOutputs};
+use epas_friction::scene::{CheckedInputs, FoldedBall, SceneOutputs};
 use epas_friction::{
     BallScrew, Clearance, ClosedFormScrew, DeviationMap, Error, Faults, FrictionBranch,
     FrictionModel, Inputs, LinearBearing, LinearBearingTrain, LinearInputs, Outputs, Scene,
@@ -536,8 +536,8 @@ impl Scene for Anything {
         Ok(())
     }
 
-    fn admit(&(): &(), inputs: f32) -> Admitted<f32> {
-        Admitted {
+    fn check_inputs(&(): &(), inputs: f32) -> CheckedInputs<f32> {
+        CheckedInputs {
             inputs: Some(inputs),
             faults: Faults::NONE,
         }

@@ -1,7 +1,7 @@
 //! What the control interrupt knows of a linear bearing, and its bounds.
 
 use crate::error::{Error, attempt, in_range};
-use crate::scene::contract::Admitted;
+use crate::scene::contract::CheckedInputs;
 use crate::scene::faults::{Faults, bounded};
 use crate::scene::passage::Motion;
 
@@ -44,7 +44,7 @@ impl LinearLimits {
 
     /// The inputs within these limits, with what was wrong.
     #[inline(always)]
-    pub(super) fn admit(&self, inputs: LinearInputs) -> Admitted<LinearInputs> {
+    pub(super) fn check_inputs(&self, inputs: LinearInputs) -> CheckedInputs<LinearInputs> {
         let LinearInputs {
             speed,
             normal_load,
@@ -52,7 +52,7 @@ impl LinearLimits {
         } = inputs;
         let loads_are_finite = normal_load.is_finite() && side_load.is_finite();
         if speed.is_finite() && loads_are_finite {
-            Admitted {
+            CheckedInputs {
                 inputs: Some(LinearInputs {
                     speed: bounded(speed, self.speed),
                     normal_load: bounded(normal_load, self.load),
@@ -64,7 +64,7 @@ impl LinearLimits {
                 ),
             }
         } else {
-            Admitted {
+            CheckedInputs {
                 inputs: None,
                 faults: Faults::not_finite(!speed.is_finite(), !loads_are_finite),
             }

@@ -47,7 +47,10 @@ where
         if !constants.play.holds(&remembered.play) {
             return Err(Refusal::OutOfRange { field: "play" });
         }
-        if S::admit(&constants.scene, remembered.inputs).faults.any() {
+        if S::check_inputs(&constants.scene, remembered.inputs)
+            .faults
+            .any()
+        {
             return Err(Refusal::OutOfRange { field: "inputs" });
         }
         remembered.at_temperature = remembered

@@ -15,7 +15,8 @@ use epas_design::CagedDesign;
 use epas_design::drawing::drawing;
 use epas_friction::law::coefficient::DirectionalCoefficient;
 use epas_friction::scene::{
-    Admitted, Inputs, Outputs, Passage, Regime, Scene, SceneOutputs as _, Sliding, SlidingFriction,
+    CheckedInputs, Inputs, Outputs, Passage, Regime, Scene, SceneOutputs as _, Sliding,
+    SlidingFriction,
 };
 use epas_friction::{Error, Faults, Range, ranges};
 use epas_reference::ReferenceError;
@@ -546,9 +547,9 @@ impl<'a> Scene for ExactScrew<'a> {
         Ok(())
     }
 
-    fn admit(_: &&'a ExactLaw, inputs: Inputs) -> Admitted<Inputs> {
+    fn check_inputs(_: &&'a ExactLaw, inputs: Inputs) -> CheckedInputs<Inputs> {
         let sound = inputs.nut_speed.is_finite() && inputs.axial_load.is_finite();
-        Admitted {
+        CheckedInputs {
             inputs: sound.then_some(inputs),
             faults: if sound {
                 Faults::NONE
