@@ -58,4 +58,4 @@ pub const LUBRICANT_DRAG: Range = Range::new(0.0, 10.0);
 pub const STORED_FRICTION: Range = Range::new(0.0, 1e9);
 
 /// A friction coefficient over any other in a stored state: 0 to 1e9.
-pub const STORED_WAYS: Range = Range::new(0.0, 1e9);
+pub const STORED_RATIOS: Range = Range::new(0.0, 1e9);

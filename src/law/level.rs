@@ -39,8 +39,8 @@ impl FrictionLevel {
     /// Level of the direction that a sign stands for; 0 counts as forward.
     #[inline(always)]
     #[must_use]
-    pub const fn of(&self, way: f32) -> f32 {
-        if way < 0.0 {
+    pub const fn of(&self, direction: f32) -> f32 {
+        if direction < 0.0 {
             self.backward
         } else {
             self.forward

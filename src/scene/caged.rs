@@ -147,7 +147,7 @@ impl<const NODES: usize> CagedConstants<NODES> {
         faults: Faults,
     ) -> Outputs {
         let load_torque = axial_load * self.reduced_lead;
-        let opposing = passage.way * load_torque;
+        let opposing = passage.direction * load_torque;
         // Both follow from the same comparison of the load's sign.
         let (efficiency, moving) = if opposing > 0.0 {
             (efficiency(true, opposing, full), Regime::Driving)
@@ -211,7 +211,7 @@ impl<const NODES: usize> Scene for CagedBallScrew<NODES> {
     ) -> Outputs {
         let passage = constants.reversal.passage(inputs.nut_speed);
         let loaded = constants.loaded(inputs.axial_load);
-        let opposing = passage.way * inputs.axial_load;
+        let opposing = passage.direction * inputs.axial_load;
         let full = constants.torque(&loaded, opposing, state.friction);
         let faults = Faults::NONE.with(loaded.beyond, Faults::BEYOND_MODEL);
         constants.put_out(inputs.axial_load, [full, full], passage, faults)
@@ -262,7 +262,7 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
         full: &CagedFull,
         passage: Passage,
     ) -> Outputs {
-        let torques = [full.of(passage.way), full.of(passage.share)];
+        let torques = [full.of(passage.direction), full.of(passage.share)];
         constants.put_out(inputs.axial_load, torques, passage, full.faults)
     }
 

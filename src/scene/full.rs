@@ -20,8 +20,8 @@ pub struct CagedFull {
 impl CagedFull {
     /// Friction torque in the direction of a sign.
     #[inline(always)]
-    pub(super) const fn of(&self, way: f32) -> f32 {
-        if way < 0.0 {
+    pub(super) const fn of(&self, direction: f32) -> f32 {
+        if direction < 0.0 {
             self.backward
         } else {
             self.forward

@@ -9,7 +9,7 @@ use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
 use super::contract::{CheckedInputs, Regime, Scene};
 use super::faults::{Faults, bounded};
 use super::outputs::LinearOutputs;
-use super::passage::{Passage, Reversal, way};
+use super::passage::{Passage, Reversal, direction};
 use super::row::RowFull;
 use super::sliding::{Sliding, SlidingFriction};
 use crate::ball::{AnalyticLinearBall, GrooveFriction};
@@ -158,7 +158,7 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     ) -> LinearFull {
         let ratio = friction.of(inputs.speed).0 / constants.friction;
         let mut full = constants.full(&mut state.circuit, inputs, ratio);
-        full.row.ways = friction.over_own(inputs.speed);
+        full.row.ratios = friction.over_own(inputs.speed);
         full
     }
 
@@ -240,7 +240,7 @@ impl<const N: usize> LinearConstants<N> {
         // Speed deviation for one radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear.
         let diagonals = [up_squared, down_squared];
         let mean = self.ball.closed_form(diagonals, [1.0, -1.0]);
-        let turn = way(speed) * mean.speed_deviation;
+        let turn = direction(speed) * mean.speed_deviation;
         let impedance = self.ball.impedance(diagonals);
         let spins = [up * up_root, down * down_root];
         let loss = self.grooves.at([up, down], spins, normal - side.abs());
@@ -275,7 +275,7 @@ impl<const N: usize> LinearConstants<N> {
             row: RowFull {
                 groove: friction * (loss.friction * shares),
                 ball: friction * (self.rubbing * pressing.force),
-                ways: [1.0; 2],
+                ratios: [1.0; 2],
                 load: (up + down) / (2.0 * self.normal),
                 contacts: pressing.contacts,
                 largest_contact_force: friction * pressing.largest,

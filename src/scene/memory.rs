@@ -11,7 +11,7 @@ use core::marker::PhantomData;
 
 use super::contract::{CheckedInputs, Scene, SceneOutputs};
 use super::faults::Faults;
-use super::passage::{Motion, Passage, way};
+use super::passage::{Motion, Passage, direction};
 use super::sliding::Sliding;
 use crate::error::{Error, attempt, in_range};
 use crate::law::Elements;
@@ -179,18 +179,18 @@ where
         faults = faults.with(factor < 1.0, Faults::LOAD_STALE);
         let (turn, angle_faults) = constants.turn(remembered, known.reading);
 
-        let way = remembered.way();
+        let direction = remembered.direction();
         let measured = inputs.speed();
         let (turn_now, speed) = S::in_a_tick(&constants.scene, remembered.moved, measured);
         // What balls could not follow, and the nut has turned back since, they need not make.
-        let goes = turn_now * way >= 0.0;
+        let goes = turn_now * direction >= 0.0;
         if goes {
             remembered.moved -= turn_now;
         }
-        let speed = if goes && speed * way > CREEP {
+        let speed = if goes && speed * direction > CREEP {
             speed
         } else {
-            way * CREEP
+            direction * CREEP
         };
         let full = S::full(
             &constants.scene,
@@ -318,10 +318,10 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         let share = if limit > 0.0 { friction / limit } else { 0.0 };
         let passage = Passage {
             share: share * remembered.level.of(friction),
-            way: if remembered.play.way() == 0.0 {
-                way(friction)
+            direction: if remembered.play.direction() == 0.0 {
+                direction(friction)
             } else {
-                remembered.play.way()
+                remembered.play.direction()
             },
             standing: if limit > 0.0 {
                 share.abs() < SLIDES

@@ -11,7 +11,7 @@ pub struct Passage {
     /// [level](crate::law::FrictionLevel) of that direction where one is set.
     pub share: f32,
     /// -1 where the motion goes, or went last, in the negative direction, else 1.
-    pub way: f32,
+    pub direction: f32,
     /// Whether the mechanism stands: friction is between its two directions.
     pub standing: bool,
 }
@@ -57,7 +57,7 @@ impl Reversal {
 
     /// Part of full friction at a speed, -1 to 1, with the speed's sign.
     #[inline(always)]
-    pub(super) fn direction(&self, speed: f32) -> f32 {
+    pub(super) fn share(&self, speed: f32) -> f32 {
         speed / math::sqrt(speed * speed + self.squared)
     }
 
@@ -65,8 +65,8 @@ impl Reversal {
     #[inline(always)]
     pub(super) fn passage(&self, speed: f32) -> Passage {
         Passage {
-            share: self.direction(speed),
-            way: way(speed),
+            share: self.share(speed),
+            direction: direction(speed),
             standing: self.stands(speed),
         }
     }
@@ -80,6 +80,6 @@ impl Reversal {
 
 /// -1 where a speed is negative, else 1.
 #[inline(always)]
-pub(super) const fn way(speed: f32) -> f32 {
+pub(super) const fn direction(speed: f32) -> f32 {
     if speed < 0.0 { -1.0 } else { 1.0 }
 }

@@ -13,7 +13,7 @@ pub(super) struct RowFull {
     pub(super) groove: f32,
     pub(super) ball: f32,
     /// Groove friction forward and backward, each over `groove`.
-    pub(super) ways: [f32; 2],
+    pub(super) ratios: [f32; 2],
     /// Load, preload counted, N.
     pub(super) load: f32,
     /// Pairs of balls that press on each other.
@@ -26,7 +26,7 @@ impl RowFull {
     /// Limits of both directions: groove friction times each direction's ratio, plus ball friction.
     #[inline(always)]
     pub(super) fn friction(&self) -> SlidingFriction {
-        let [forward, backward] = self.ways;
+        let [forward, backward] = self.ratios;
         SlidingFriction {
             forward: forward * self.groove + self.ball,
             backward: backward * self.groove + self.ball,
@@ -36,22 +36,22 @@ impl RowFull {
 
     /// Full friction in the direction of a sign.
     #[inline(always)]
-    pub(super) const fn of(&self, way: f32) -> f32 {
-        self.way(way) * self.groove + self.ball
+    pub(super) const fn of(&self, direction: f32) -> f32 {
+        self.ratio(direction) * self.groove + self.ball
     }
 
     /// Groove friction in the direction of a sign, over `groove`.
     #[inline(always)]
-    const fn way(&self, way: f32) -> f32 {
-        let [forward, backward] = self.ways;
-        if way < 0.0 { backward } else { forward }
+    const fn ratio(&self, direction: f32) -> f32 {
+        let [forward, backward] = self.ratios;
+        if direction < 0.0 { backward } else { forward }
     }
 
     /// Friction of the grooves and of the balls at a passage, with the sign of its share.
     #[inline(always)]
     pub(super) fn passed(&self, passage: Passage) -> (f32, f32) {
         (
-            passage.share * (self.way(passage.share) * self.groove),
+            passage.share * (self.ratio(passage.share) * self.groove),
             passage.share * self.ball,
         )
     }
@@ -63,7 +63,7 @@ impl Stored for RowFull {
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         port.number("groove", &mut self.groove, ranges::STORED_FRICTION)?;
         port.number("ball", &mut self.ball, ranges::STORED_FRICTION)?;
-        port.numbers("ways", &mut self.ways, ranges::STORED_WAYS)?;
+        port.numbers("ratios", &mut self.ratios, ranges::STORED_RATIOS)?;
         port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
         port.count("contacts", &mut self.contacts, u8::MAX)?;
         port.number(

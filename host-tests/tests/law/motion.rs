@@ -212,7 +212,7 @@ fn a_play_lets_through_what_it_does_not_take() {
     let mut state = PlayState::FRESH;
     let mut moved = |turn| {
         let moved = play.follow(&mut state, turn);
-        (moved.turn, moved.way)
+        (moved.turn, moved.direction)
     };
     // Measured: 5.8e-11, half an ulp of 1e-3.
     let near = |found: (f32, f32), turn: f32, way: f32| {
@@ -261,7 +261,7 @@ fn a_play_keeps_noise_away() {
         let noise = if tick % 2 == 0 { 0.9 } else { -0.9 };
         let moved = play.follow(&mut state, noise + 0.01);
         assert!(tick < 400 || moved.turn >= 0.0);
-        way = moved.way;
+        way = moved.direction;
     }
     assert_eq!(way, 1.0);
     let none = Play::new(0.0).unwrap();

@@ -15,8 +15,8 @@ impl DirectionalCoefficient {
     /// arithmetic.
     #[inline(always)]
     #[must_use]
-    pub const fn of(&self, way: f32) -> (f32, f32) {
-        if way < 0.0 {
+    pub const fn of(&self, direction: f32) -> (f32, f32) {
+        if direction < 0.0 {
             (self.backward, self.forward)
         } else {
             (self.forward, self.backward)
@@ -45,10 +45,10 @@ impl DirectionalCoefficient {
     /// division.
     #[inline(always)]
     #[must_use]
-    pub const fn over_own(&self, way: f32) -> [f32; 2] {
-        let (own, opposite) = self.of(way);
+    pub const fn over_own(&self, direction: f32) -> [f32; 2] {
+        let (own, opposite) = self.of(direction);
         let ratio = opposite / own;
-        if way < 0.0 {
+        if direction < 0.0 {
             [ratio, 1.0]
         } else {
             [1.0, ratio]

@@ -18,7 +18,7 @@ pub struct Play {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlayState {
     pub(super) place: f32,
-    pub(super) way: f32,
+    pub(super) direction: f32,
 }
 
 /// What the output does.
@@ -28,14 +28,14 @@ pub struct Moved {
     /// How far it moves, rad (m).
     pub turn: f32,
     /// Which way it moved last: 1 or -1; 0 before it moved at all.
-    pub way: f32,
+    pub direction: f32,
 }
 
 impl PlayState {
     /// In the middle of the play, and not moved yet.
     pub const FRESH: Self = Self {
         place: 0.0,
-        way: 0.0,
+        direction: 0.0,
     };
 
     /// Turn from the middle of the play, rad (m), within its half width.
@@ -46,8 +46,8 @@ impl PlayState {
 
     /// Which way the output moved last: 1 or -1; 0 before it moved at all.
     #[must_use]
-    pub const fn way(&self) -> f32 {
-        self.way
+    pub const fn direction(&self) -> f32 {
+        self.direction
     }
 }
 
@@ -74,11 +74,11 @@ impl Play {
         let place = state.place + turn;
         let turn = if place > self.half_width {
             state.place = self.half_width;
-            state.way = 1.0;
+            state.direction = 1.0;
             place - self.half_width
         } else if place < -self.half_width {
             state.place = -self.half_width;
-            state.way = -1.0;
+            state.direction = -1.0;
             place + self.half_width
         } else {
             // A turn that is no number stays outside.
@@ -89,7 +89,7 @@ impl Play {
         };
         Moved {
             turn,
-            way: state.way,
+            direction: state.direction,
         }
     }
 }

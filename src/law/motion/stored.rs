@@ -81,14 +81,14 @@ impl Stored for PlayState {
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         port.number("place", &mut self.place, Range::new(-1e3, 1e3))?;
-        port.number("way", &mut self.way, Range::new(-1.0, 1.0))
+        port.number("direction", &mut self.direction, Range::new(-1.0, 1.0))
     }
 }
 
 impl Play {
     /// Whether a state is one of this play.
     pub(crate) fn holds(&self, state: &PlayState) -> bool {
-        state.place.abs() <= self.half_width && [-1.0, 0.0, 1.0].contains(&state.way)
+        state.place.abs() <= self.half_width && [-1.0, 0.0, 1.0].contains(&state.direction)
     }
 
     /// Its width.

@@ -118,8 +118,8 @@ impl ClosedForm {
     #[inline(always)]
     pub(super) fn passed(&self, load: f32, found: &CagedFull, passage: Passage) -> Outputs {
         let friction_torque = passage.share * found.of(passage.share);
-        let opposing_load = passage.way * load;
-        let full = found.of(passage.way);
+        let opposing_load = passage.direction * load;
+        let full = found.of(passage.direction);
         self.put_out(load, opposing_load, full, friction_torque, passage.standing)
     }
 

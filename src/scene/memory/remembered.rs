@@ -4,7 +4,7 @@ use crate::error::{Error, attempt};
 use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::{NutAngle, PlayState};
 use crate::law::{Elements, FrictionLevel, SlidingLimits};
-use crate::scene::passage::{Motion, way};
+use crate::scene::passage::{Motion, direction};
 use crate::scene::sliding::Sliding;
 
 /// What a scene with memory keeps from tick to tick beside the state of the scene without.
@@ -85,7 +85,7 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> Remembered<S, E,
 
     /// -1 where the balls went backward last, else 1.
     #[inline(always)]
-    pub(super) const fn way(&self) -> f32 {
-        way(self.play.way())
+    pub(super) const fn direction(&self) -> f32 {
+        direction(self.play.direction())
     }
 }

@@ -28,8 +28,8 @@ impl UncagedFull {
             largest_contact_force: self.row.largest_contact_force,
             regime: Regime::under(
                 passage.standing,
-                passage.way * load_torque,
-                self.row.of(passage.way),
+                passage.direction * load_torque,
+                self.row.of(passage.direction),
             ),
             faults: self.faults,
         }

@@ -26,7 +26,7 @@ impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> 
     ) -> UncagedFull {
         state.friction = constants.place(friction.of(inputs.nut_speed).0);
         let mut full = constants.full(state, inputs);
-        full.row.ways = friction.over_own(inputs.nut_speed);
+        full.row.ratios = friction.over_own(inputs.nut_speed);
         full
     }
 

@@ -5,7 +5,7 @@ use crate::ball::pressed::{BallNumbers, FreeMotion};
 use crate::scene::circuit::UNLOADED;
 use crate::scene::contract::Inputs;
 use crate::scene::faults::Faults;
-use crate::scene::passage::way;
+use crate::scene::passage::direction;
 use crate::scene::row::RowFull;
 use crate::train::{Grip, Intake};
 
@@ -18,7 +18,7 @@ struct Common {
     /// 0 where the load opposes the motion, else 1.
     branch: usize,
     /// -1 where the nut turns backward, else 1.
-    way: f32,
+    direction: f32,
     /// What a ball does under the mean load, with the impedance that the train takes in.
     numbers: BallNumbers,
     grip: Grip<true>,
@@ -70,9 +70,11 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             && self.law.holds(friction.friction());
         UncagedFull {
             row: RowFull {
-                groove: not_negative(torque + numbers.slope * common.way * pressing.change + work),
+                groove: not_negative(
+                    torque + numbers.slope * common.direction * pressing.change + work,
+                ),
                 ball: rubbing,
-                ways: [1.0; 2],
+                ratios: [1.0; 2],
                 load: common.load * self.balls,
                 contacts: pressing.contacts,
                 largest_contact_force: pressing.largest,
@@ -83,18 +85,18 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
 
     #[inline(always)]
     fn common(&self, state: &UncagedState<N>, inputs: Inputs) -> Common {
-        let way = way(inputs.nut_speed);
+        let direction = direction(inputs.nut_speed);
         let mean = inputs.axial_load * self.per_ball;
-        let branch = usize::from(way * mean < 0.0);
+        let branch = usize::from(direction * mean < 0.0);
         let load = self.law.load_of(mean);
         let mut numbers = self.law.numbers(load, branch, state.friction);
-        let grip = Grip::new(way * (self.ball_friction * numbers.grip));
+        let grip = Grip::new(direction * (self.ball_friction * numbers.grip));
         numbers.impedance = numbers.impedance.map(|z| z * grip.of_impedance());
         Common {
             mean,
             load,
             branch,
-            way,
+            direction,
             numbers,
             grip,
         }
@@ -111,10 +113,12 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         common: &Common,
         motion: impl Fn(f32, [f32; 2]) -> FreeMotion,
     ) -> f32 {
-        let Common { way, numbers, .. } = common;
+        let Common {
+            direction, numbers, ..
+        } = common;
         let shares = self.shares(axial_load);
-        let units = self.units.map(|unit| way * unit);
-        let idle = way * numbers.free[0];
+        let units = self.units.map(|unit| direction * unit);
+        let idle = direction * numbers.free[0];
         let mut torque = 0.0;
         while let Some(ball) = balls.next_ball() {
             let Some(place) = self.circuit.place(ball.position(), phase, shares) else {
@@ -124,7 +128,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             let deviations = [units[0] * place.passing, units[1] * place.recirculating];
             let motion = motion(place.share.share(), deviations);
             torque += motion.torque;
-            ball.put_rubbing(way * motion.speed, motion.impedance, true);
+            ball.put_rubbing(direction * motion.speed, motion.impedance, true);
         }
         torque
     }

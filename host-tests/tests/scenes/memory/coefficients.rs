@@ -131,15 +131,15 @@ fn full_friction_is_what_passes_in_its_direction() {
         };
         let mut pressing = 0;
         for tick in 0..4000 {
-            let way = if tick < 2000 { 1.0 } else { -1.0 };
-            let inputs = load.with(way * speed, 1.0);
+            let direction = if tick < 2000 { 1.0 } else { -1.0 };
+            let inputs = load.with(direction * speed, 1.0);
             let full = S::full(&constants, &mut state, inputs, coefficients);
             let friction = S::friction(&full);
             let [[groove, ball], [groove_back, ball_back]] = [1.0, -1.0].map(|share| {
                 let standing = false;
                 let passage = Passage {
                     share,
-                    way,
+                    direction,
                     standing,
                 };
                 parts(&S::passed(&constants, inputs, &full, passage))
