@@ -1,6 +1,6 @@
-//! The friction coefficient by a rational form.
+//! The friction coefficient by a rational form: its parameters, and the law that they fold into.
 
-use super::both::DirectionalCoefficient;
+use super::at_temperature::{CoefficientAtTemperature, Sides};
 use super::viscosity::{TEMPERATURE, Viscosity, fifth_root};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::ranges;
@@ -14,9 +14,6 @@ const DIRECTION: Range = Range::new(0.1, 10.0);
 
 /// Churning torque over viscosity and speed, m³: none, up to a cube of one metre, far beyond any screw.
 const CHURNING: Range = Range::new(0.0, 1.0);
-
-/// Largest speed that churns, rad/s: that of a scene's limits. It keeps the torque finite.
-const LARGEST_SPEED: f32 = 1e6;
 
 /// What a friction coefficient follows from; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,27 +82,6 @@ pub struct CoefficientLaw {
     churning: f32,
 }
 
-/// Coefficients of one direction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-struct Sides {
-    full_film: f32,
-    /// Boundary less full film.
-    difference: f32,
-}
-
-/// Friction coefficient by speed and direction at one temperature.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct CoefficientAtTemperature {
-    forward: Sides,
-    backward: Sides,
-    /// `w_m`, rad/s.
-    half_share_speed: f32,
-    /// Churning torque over the speed, N m s.
-    churning: f32,
-}
-
 impl CoefficientParameters {
     /// One coefficient at every speed and temperature, in both directions, without churning.
     #[must_use]
@@ -120,33 +96,6 @@ impl CoefficientParameters {
             backward: 1.0,
             churning: 0.0,
         }
-    }
-}
-
-impl Sides {
-    const fn new(parameters: &CoefficientParameters, factor: f32) -> Result<Self, Error> {
-        let boundary = attempt!(ranges::FRICTION.checked("boundary", factor * parameters.boundary));
-        let full_film =
-            attempt!(ranges::FRICTION.checked("full_film", factor * parameters.full_film));
-        Ok(Self {
-            full_film,
-            difference: boundary - full_film,
-        })
-    }
-
-    /// The lesser one and the larger one.
-    const fn ends(&self) -> (f32, f32) {
-        let boundary = self.full_film + self.difference;
-        if self.difference < 0.0 {
-            (boundary, self.full_film)
-        } else {
-            (self.full_film, boundary)
-        }
-    }
-
-    #[inline(always)]
-    const fn at(&self, share: f32) -> f32 {
-        self.full_film + self.difference * share
     }
 }
 
@@ -248,76 +197,5 @@ impl CoefficientLaw {
             half_share_speed,
             churning: self.churning / half_share_speed,
         }
-    }
-}
-
-impl CoefficientAtTemperature {
-    /// Friction coefficient at a speed of the nut, rad/s, in its direction; standstill counts as forward.
-    ///
-    /// NaN counts as standstill, infinity as a full film. Monotone in the speed's size, also in f32. Cost: one division, 43 modelled
-    /// cycles; 70 with [`CoefficientLaw::at_temperature`] in the same tick.
-    #[inline(always)]
-    #[must_use]
-    pub const fn at(&self, speed: f32) -> f32 {
-        let sides = if speed < 0.0 {
-            &self.backward
-        } else {
-            &self.forward
-        };
-        sides.at(self.share(speed))
-    }
-
-    /// Friction coefficients that either direction would have at a speed of this size.
-    #[inline(always)]
-    #[must_use]
-    pub const fn both(&self, speed: f32) -> DirectionalCoefficient {
-        let share = self.share(speed);
-        DirectionalCoefficient {
-            forward: self.forward.at(share),
-            backward: self.backward.at(share),
-        }
-    }
-
-    /// Torque of churned lubricant, N m, with the sign of the speed that it opposes, rad/s: viscosity times speed. Speeds beyond
-    /// 1e6 rad/s as that; NaN gives 0.
-    #[inline]
-    #[must_use]
-    pub const fn churning_torque(&self, speed: f32) -> f32 {
-        let speed = if speed >= LARGEST_SPEED {
-            LARGEST_SPEED
-        } else if speed <= -LARGEST_SPEED {
-            -LARGEST_SPEED
-        } else if speed >= 0.0 || speed < 0.0 {
-            speed
-        } else {
-            0.0
-        };
-        self.churning * speed
-    }
-
-    /// Speed at which half of the difference is gone, rad/s.
-    #[inline]
-    #[must_use]
-    pub const fn half_share_speed(&self) -> f32 {
-        self.half_share_speed
-    }
-
-    /// Steepest change of the coefficient with the speed, s/rad, at standstill; above 0 where friction rises.
-    #[must_use]
-    pub const fn steepest(&self) -> f32 {
-        let difference = if self.forward.difference.abs() > self.backward.difference.abs() {
-            self.forward.difference
-        } else {
-            self.backward.difference
-        };
-        -difference / self.half_share_speed
-    }
-
-    /// What is left of the difference at a speed: 1 at standstill, one half at the half-share speed.
-    #[inline(always)]
-    const fn share(&self, speed: f32) -> f32 {
-        let half = self.half_share_speed;
-        let sum = half + speed.abs();
-        half / if speed.is_nan() { half } else { sum }
     }
 }

@@ -2,8 +2,9 @@
 
 use core::fmt::Debug;
 
+use super::at_temperature::CoefficientAtTemperature;
 use super::both::DirectionalCoefficient;
-use super::form::{CoefficientAtTemperature, CoefficientLaw};
+use super::form::CoefficientLaw;
 use crate::error::{Error, attempt};
 use crate::ranges;
 
