@@ -2,21 +2,23 @@
 
 mod design;
 mod exact;
+mod nodes;
 
 use std::time::Instant;
 
 use epas_friction::Range;
-use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves, shifted_part};
+use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves};
 use epas_friction::scene::CagedBallScrewConfiguration;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
 use crate::Failure;
 use crate::certificate::Certificate;
-use crate::curve::{Sample, fitted};
+use crate::curve::fitted;
 pub use design::CagedDesign;
 pub(crate) use design::{FRICTION, in_range};
 pub(crate) use exact::Exact;
+use nodes::{Nodes, aligned};
 
 /// Loads of one ball for which a law holds where nothing else is asked, N.
 pub const AXIAL_LOAD: [f32; 2] = [5.0, 300.0];
@@ -28,13 +30,13 @@ pub const NODES: usize = 5;
 const LOADS: usize = 400;
 const LOADS_BELOW: usize = 80;
 
-/// One in so many loads is solved between two nodes, to align them.
+/// One in so many loads is solved to place nodes, and between two of them to align them.
 const SPARSE: usize = 4;
 
 /// How far below the least load a curve is fitted, as a factor.
 const BELOW: f64 = 100.0;
 
-/// How far above the largest load a node among several is fitted, octaves: as far as its regimes are shifted.
+/// How far above the largest load an even node is fitted, octaves: as far as its regimes are shifted.
 const SHIFT: f64 = 1.5;
 
 /// A largest error of the torque from which on a domain is not held.
@@ -151,14 +153,15 @@ impl CagedFold {
 
     fn block_of(&self, exact: &Exact) -> Result<Block, Failure> {
         Ok(match self.friction {
-            None => Block::One(self.configured(self.law(exact, [self.gear.friction])?)),
-            Some([least, largest]) => {
-                let ratio = f64::from(largest) / f64::from(least);
-                let nodes = std::array::from_fn(|node| {
-                    let share = node as f64 / (NODES - 1) as f64;
-                    (f64::from(least) * ratio.powf(share)) as f32
-                });
-                Block::Range(self.configured(self.law::<NODES>(exact, nodes)?))
+            None => {
+                let nodes = Nodes::aligned_later([self.gear.friction]);
+                Block::One(self.configured(self.law(exact, &nodes)?))
+            }
+            Some(range) => {
+                let loads = self.axial_load.map(f64::from);
+                let from = shifted_from(exact).into();
+                let nodes = Nodes::placed(exact, range, loads, from);
+                Block::Range(self.configured(self.law(exact, &nodes)?))
             }
         })
     }
@@ -200,14 +203,10 @@ impl CagedFold {
         }
     }
 
-    fn law<const N: usize>(
-        &self,
-        exact: &Exact,
-        frictions: [f32; N],
-    ) -> Result<LoadLaw<N>, Failure> {
+    fn law<const N: usize>(&self, exact: &Exact, of: &Nodes<N>) -> Result<LoadLaw<N>, Failure> {
         let [least, most] = self.axial_load.map(f64::from);
-        let top = if N == 1 { most } else { most * SHIFT.exp2() };
-        let loads = loads(least, top);
+        let frictions = of.frictions;
+        let loads = loads(least, most * of.reach.exp2());
         let solved = frictions
             .par_iter()
             .flat_map(|&friction| [(friction, 1.0), (friction, -1.0)])
@@ -218,11 +217,7 @@ impl CagedFold {
             .map(|samples| Ok(fitted(samples)?.0))
             .collect::<Result<Vec<_>, Failure>>()?;
         let end = |load: f64| octaves((load + exact.lift_off) as f32);
-        let shifted_from = if exact.lift_off > 0.0 {
-            end(exact.lift_off)
-        } else {
-            1.0
-        };
+        let shifted_from = shifted_from(exact);
         let mut nodes: [FrictionNode; N] = std::array::from_fn(|node| FrictionNode {
             friction: frictions[node],
             curves: [curves[2 * node], curves[2 * node + 1]],
@@ -230,6 +225,10 @@ impl CagedFold {
         });
         let sparse: Vec<f64> = loads.iter().copied().step_by(SPARSE).collect();
         for node in 1..N {
+            if let Some(shifts) = of.shifts {
+                nodes[node - 1].shift = shifts[node - 1].map(|shift| shift as f32);
+                continue;
+            }
             for (branch, side) in [1.0, -1.0].into_iter().enumerate() {
                 let [low, high] = [node - 1, node].map(|node| &solved[2 * node + branch][..]);
                 let friction = (f64::from(frictions[node - 1]) * f64::from(frictions[node])).sqrt();
@@ -258,6 +257,15 @@ impl CagedFold {
     }
 }
 
+/// Octaves from which on loads are shifted between nodes.
+fn shifted_from(exact: &Exact) -> f32 {
+    if exact.lift_off > 0.0 {
+        octaves((exact.lift_off + exact.lift_off) as f32)
+    } else {
+        1.0
+    }
+}
+
 /// Loads from the largest to a [`BELOW`]th of the least.
 fn loads(least: f64, most: f64) -> Vec<f64> {
     let part = |from: f64, to: f64, count: usize| {
@@ -267,35 +275,4 @@ fn loads(least: f64, most: f64) -> Vec<f64> {
         .chain(part(least, least / BELOW, LOADS_BELOW))
         .chain([least / BELOW])
         .collect()
-}
-
-/// The shift in octaves with which the middle of two nodes is best met by the nodes moved towards each other by half of it.
-fn aligned(low: &[Sample], middle: &[Sample], high: &[Sample], from: f64) -> f64 {
-    let at = |samples: &[Sample], place: f64| {
-        let above = samples.partition_point(|sample| sample.at < place);
-        let [below, above] =
-            [above.saturating_sub(1), above.min(samples.len() - 1)].map(|number| samples[number]);
-        if above.at > below.at {
-            let share = ((place - below.at) / (above.at - below.at)).clamp(0.0, 1.0);
-            below.value + share * (above.value - below.value)
-        } else {
-            below.value
-        }
-    };
-    let error = |shift: f64| -> f64 {
-        middle
-            .iter()
-            .filter(|sample| sample.weight == 1.0)
-            .map(|sample| {
-                let half = 0.5 * shift * f64::from(shifted_part((sample.at - from) as f32));
-                let blended = 0.5 * (at(low, sample.at - half) + at(high, sample.at + half));
-                (blended / sample.value - 1.0).powi(2)
-            })
-            .sum()
-    };
-    let steps = 240;
-    (-steps..=steps)
-        .map(|step| 2.0 * SHIFT * f64::from(step) / f64::from(steps))
-        .min_by(|a, b| error(*a).total_cmp(&error(*b)))
-        .unwrap_or(0.0)
 }
