@@ -7,9 +7,10 @@
 //! |---|---|---|
 //! | [`CagedBallScrew`] | a ball screw whose balls do not touch, by a block of constants from a host | torque, efficiency |
 //! | [`ClosedFormScrew`] | the same by the closed forms of the papers | torque, efficiency |
+//! | [`LoadProportionalScrew`] | any drive, by the friction and the losses that a trace without a design identifies | torque, efficiency |
 //! | [`UncagedBallScrew`] | a ball screw whose balls press on each other, by a block of constants from a host | torques of grooves and balls, forces between balls |
 //! | [`LinearBearingTrain`] | a linear bearing whose balls press on each other | forces |
-//! | [`scene::WithMemory`] | any of them, with friction that remembers | the same, and between two steps |
+//! | [`scene::WithMemory`] | any of them but `LoadProportionalScrew`, with friction that remembers | the same, and between two steps |
 //!
 //! # Conventions
 //!
@@ -101,7 +102,8 @@ pub use scene::{
     CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState, ClosedFormScrew,
     ClosedFormScrewConfiguration, ClosedFormScrewConstants, DeviationMap, Faults, FrictionBranch,
     Harmonic, Inputs, Limits, LinearBearingConfiguration, LinearBearingTrain, LinearConstants,
-    LinearInputs, LinearLimits, LinearOutputs, Outputs, Regime, Scene, UncagedBallScrew,
+    LinearInputs, LinearLimits, LinearOutputs, LoadProportionalConfiguration,
+    LoadProportionalConstants, LoadProportionalScrew, Outputs, Regime, Scene, UncagedBallScrew,
     UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
 };
 pub use stored::Refusal;

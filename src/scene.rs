@@ -8,9 +8,10 @@
 //! |---|---|---|
 //! | [`CagedBallScrew`] | balls that do not touch, by a law that was solved on a host | [`ball::folded`](crate::ball::folded) |
 //! | [`ClosedFormScrew`] | the same by a closed form, without a host | [`efficiency`](crate::efficiency) at set-up |
+//! | [`LoadProportionalScrew`] | any drive by four numbers of a trace: losses of driving and back-driving in proportion to the load | nothing else |
 //! | [`UncagedBallScrew`] | balls that press on each other, by a law that was solved on a host | [`ball::pressed`](crate::ball::pressed), [`train`](crate::train) |
 //! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train); [`contact`](crate::contact) and [`hertz`](crate::hertz) at set-up |
-//! | [`WithMemory`] | any of them, with friction that remembers | [`law`](crate::law) beside it |
+//! | [`WithMemory`] | any of them but `LoadProportionalScrew`, with friction that remembers | [`law`](crate::law) beside it |
 //!
 //! Below them stand the [`Scene`] contract with inputs, limits and regimes, the faults, the outputs (torques of a
 //! screw, forces of a bearing), and the circuit that both trains share: loaded zone, phase of the passing groove,
@@ -24,6 +25,7 @@ mod contract;
 mod faults;
 mod full;
 pub(crate) mod linear;
+mod load_proportional;
 mod memory;
 mod outputs;
 mod passage;
@@ -46,6 +48,10 @@ pub use full::CagedFull;
 pub use linear::{
     LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFull, LinearInputs,
     LinearLimits, LinearState,
+};
+pub use load_proportional::{
+    LoadProportionalConfiguration, LoadProportionalConstants, LoadProportionalScrew,
+    LoadProportionalState,
 };
 pub use memory::{
     CoefficientFor, Freshness, Remembered, WithMemory, WithMemoryConfiguration,

@@ -35,6 +35,12 @@ pub enum Quantity {
     MotorTorque,
     /// Axial load.
     Load,
+    /// The load as its torque.
+    LoadTorque,
+    /// A force along the travel that is known and is not the motor's.
+    KnownForce,
+    /// A torque that is known and is not the motor's.
+    KnownTorque,
     /// Load that presses a carriage on its rail.
     NormalLoad,
     /// Load across a rail.
@@ -186,7 +192,10 @@ const NAMES: &[(&str, Quantity)] = &[
     ("reference_position", Quantity::ReferencePosition),
     ("motor_force", Quantity::MotorForce),
     ("motor_torque", Quantity::MotorTorque),
+    ("known_force", Quantity::KnownForce),
+    ("known_torque", Quantity::KnownTorque),
     ("axial_load", Quantity::Load),
+    ("load_torque", Quantity::LoadTorque),
     ("normal_load", Quantity::NormalLoad),
     ("side_load", Quantity::SideLoad),
     ("rack_force", Quantity::Load),
@@ -200,8 +209,12 @@ impl Quantity {
             Self::Time => TIME,
             Self::Position(_) | Self::ReferencePosition => POSITION,
             Self::Speed(_) => SPEED,
-            Self::MotorForce | Self::Load | Self::NormalLoad | Self::SideLoad => FORCE,
-            Self::MotorTorque => TORQUE,
+            Self::MotorForce
+            | Self::Load
+            | Self::NormalLoad
+            | Self::SideLoad
+            | Self::KnownForce => FORCE,
+            Self::MotorTorque | Self::LoadTorque | Self::KnownTorque => TORQUE,
             Self::Temperature => TEMPERATURE,
         }
     }

@@ -117,6 +117,10 @@ fn finite(trace: &Trace) -> Result<(), String> {
         ("effort", Some(&trace.effort)),
         ("reference position", trace.reference_position.as_ref()),
         ("load", trace.load.as_ref()),
+        (
+            "known effort",
+            trace.known.as_ref().map(|known| &known.values),
+        ),
         ("temperature", trace.temperature.as_ref()),
     ];
     for (name, channel) in channels {

@@ -26,7 +26,8 @@ use crate::source::Source;
 /// Fits a model to a measured trace, and says how sure it is and what the trace cannot tell.
 ///
 /// The trace is a CSV file, or a measurement file (MDF 4, .mf4), with the columns or channels time; position or speed (of the nut, or of motor_ or carriage_);
-/// motor_torque or motor_force; and where there are any reference_position, axial_load, temperature. Units are SI (rad, m, N, N m, K);
+/// motor_torque or motor_force; and where there are any reference_position, axial_load or load_torque, temperature, and known_torque or
+/// known_force (an effort that is known and that the controller did not command). Units are SI (rad, m, N, N m, K);
 /// others stand in the column's name: nut_position_deg, motor_speed_rpm, axial_load_kN, temperature_C, or in brackets behind it: Nut position [deg].
 /// A measurement file says the units itself; --channels names its channels where they have other names. All channels are put on the raster of
 /// the position, or of the speed where there is none.
@@ -34,7 +35,8 @@ use crate::source::Source;
 /// With a design the model is the one that firmware runs: friction coefficient by speed and temperature, preload, pre-sliding. Each
 /// parameter is estimated where the trace can tell it.
 ///
-/// Without a design a mass or an inertia with load-free friction is fitted, in the trace's own coordinate, and models of
+/// Without a design a mass or an inertia with Coulomb and viscous friction is fitted, in the trace's own coordinate, with losses in
+/// proportion to the load for driving and back-driving where one is measured, and models of
 /// friction are compared on what was not fitted: another trace (--validate), or the last third of this one; with a design that is every
 /// third twelfth. With --controller they are compared by the simulated closed loop.
 ///
@@ -280,6 +282,7 @@ fn with_design(
         picture: &found.picture,
         design: Some(text),
         screw: Some(&found.screw),
+        drive: None,
     })
 }
 
@@ -301,6 +304,7 @@ fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Resul
         picture: &told.picture,
         design: None,
         screw: None,
+        drive: Some(&told.drive),
     })
 }
 

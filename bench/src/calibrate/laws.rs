@@ -1,6 +1,7 @@
 //! Laws of friction over a motion, each with unit friction at its highest level: what one linear parameter multiplies.
 
 pub mod cost;
+pub mod turns;
 
 use epas_friction::Error;
 use epas_friction::law::coefficient::{
@@ -26,7 +27,8 @@ pub enum Level {
 /// How friction passes from one direction to the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Passage {
-    /// At once: a bristle as short as a step of the sensor.
+    /// At once: where a motion is known, at its turning points; where it comes sample by sample, a bristle as short as a step of the
+    /// sensor.
     AtOnce,
     /// By the speed: `v/sqrt(v^2 + v_r^2)`, as in the crate's scenes without memory.
     Speed,
@@ -156,7 +158,7 @@ impl Law {
             Level::LoadShare => load_share(next(), next())?,
         };
         let memory = match self.passage {
-            Passage::AtOnce => Memory::Bristle {
+            Passage::AtOnce => Memory::AtOnce {
                 way: (2.0 * scales.resolution).max(1e-7 * scales.way),
                 held: 0.0,
             },
@@ -231,6 +233,10 @@ impl LevelAt {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Memory {
     Speed(f64),
+    AtOnce {
+        way: f64,
+        held: f64,
+    },
     Bristle {
         way: f64,
         held: f64,
@@ -261,6 +267,15 @@ impl Friction {
     /// sample to sample alone would let friction turn round half a sample late. Friction that is late pushes where the acceleration
     /// is largest, and counts as inertia (1.5 % of it in a drive with half of its effort in friction, sampled at 500 Hz).
     pub fn along(mut self, position: &[f64], speed: &[f64], tick: f64) -> Vec<f64> {
+        if let Memory::AtOnce { way, .. } = self.memory {
+            let directions = turns::directions(position, speed, way);
+            let levels = speed.iter().map(|speed| self.level.at(*speed));
+            return directions
+                .iter()
+                .zip(levels)
+                .map(|(direction, level)| direction * level)
+                .collect();
+        }
         let mut before = None;
         let samples = position.iter().zip(speed);
         samples
@@ -294,7 +309,7 @@ impl Friction {
                 let speed = step.end_speed;
                 level * speed / speed.hypot(*reversal)
             }
-            Memory::Bristle { way, held } => {
+            Memory::AtOnce { way, held } | Memory::Bristle { way, held } => {
                 let (found, _) = bristle(*held, step.turn, *way, level);
                 *held = found;
                 found

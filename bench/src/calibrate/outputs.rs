@@ -5,9 +5,11 @@
 //! | [`design_file`] | the user's design file with the calibrated numbers |
 //! | [`firmware`] | what firmware takes of a calibrated design, as plain numbers |
 //! | [`constants`] | the same as Rust constants |
+//! | [`drive`] | Rust constants of a drive without a drawing |
 
 pub mod constants;
 pub mod design_file;
+pub mod drive;
 pub mod firmware;
 
 use std::io::{self, Write as _};
@@ -19,6 +21,7 @@ use crate::calibrate::page;
 use crate::calibrate::page::picture::Picture;
 use crate::calibrate::page::shown;
 use crate::calibrate::screw::friction::Screw;
+use crate::calibrate::without_design::drive::Drive;
 use crate::failure::Failure;
 use crate::files::{self, Existing, refuse_ending, refuse_same};
 use crate::folder;
@@ -33,8 +36,8 @@ pub struct OutputArguments {
     /// Where the design file with the calibrated numbers goes
     #[arg(long, value_name = "OUT.toml", requires = "design")]
     pub design_out: Option<PathBuf>,
-    /// Where Rust constants for firmware go
-    #[arg(long, value_name = "OUT.rs", requires = "design")]
+    /// Where Rust constants for firmware go: of the screw with a design, else of a drive with losses in proportion to the load
+    #[arg(long, value_name = "OUT.rs")]
     pub constants: Option<PathBuf>,
     /// Replace a design file or constants that exist, and write to a folder that holds other files
     #[arg(long)]
@@ -55,6 +58,8 @@ pub struct Outcome<'a> {
     pub design: Option<&'a str>,
     /// The screw that was fitted, where there is a design.
     pub screw: Option<&'a Screw>,
+    /// The drive, where there is none.
+    pub drive: Option<&'a Drive>,
 }
 
 impl OutputArguments {
@@ -122,11 +127,19 @@ impl OutputArguments {
             design,
             ..
         } = outcome;
+        let drive = match (outcome.drive, &self.constants) {
+            (Some(drive), Some(path)) => Some((path, drive::text(drive, &picture.name)?)),
+            _ => None,
+        };
         let folder = self.folder(&picture.name);
         let document = page::document(calibration, picture);
         folder::mark(&folder)?;
         document.write(&folder)?;
         let mut told = Vec::new();
+        if let Some((path, text)) = drive {
+            files::write(path, &text, self.existing())?;
+            told.push(format!("wrote {}", path.display()));
+        }
         if let (Some(text), true) = (design, self.files().next().is_some()) {
             let written = calibrated(text, outcome)?;
             if let Some(path) = &self.design_out {

@@ -36,6 +36,8 @@ pub mod systematic;
 mod tests;
 pub mod waves;
 
+use std::ops::Range;
+
 use self::choice::{Start, Wanted};
 use self::evidence::Evidence;
 use self::exact::Spacing;
@@ -51,11 +53,14 @@ use crate::calibrate::fit::problem::Separable;
 use crate::calibrate::fit::profile::profile;
 use crate::calibrate::fit::separable::checks::FitError;
 use crate::calibrate::fit::separable::{self, Fit, FitSettings, Fixed};
-use crate::calibrate::fit::telling::tell;
+use crate::calibrate::fit::telling::{Reason, Told, tell};
 use crate::calibrate::fit::uncertainty::{Interval, Uncertainty, uncertainty};
+use crate::calibrate::laws::turns::{directions, near_turns};
 use crate::calibrate::page::picture;
 use crate::calibrate::signals::filter::ZeroPhase;
 use crate::calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
+use crate::calibrate::trace::known::placed;
+use crate::calibrate::trace::rests::rests;
 use crate::calibrate::trace::{Coordinate, Trace};
 use crate::designs::Design;
 use crate::failure::Failure;
@@ -147,6 +152,66 @@ pub fn calibrate(
     design: &Design,
     request: &Request,
 ) -> Result<ScrewCalibration, Failure> {
+    attempt(trace, design, request, None)
+}
+
+/// What the position's sensor is too coarse for: the breakaway, and so what happens before sliding.
+#[derive(Clone, Debug)]
+struct TooCoarse {
+    /// What is said of the breakaway angle.
+    sentence: String,
+}
+
+/// Steps of the position behind a turn within which a motion may not slide yet, where the sensor is too coarse for its breakaway: the angle
+/// is below two of them.
+const BEFORE_SLIDING: f64 = 4.0;
+/// Least share of the samples that slide.
+const SLIDES: f64 = 0.2;
+
+/// The rows of a trace; where the sensor is too coarse for the breakaway, those that slide: friction before that would count as less
+/// friction, drag or a turn that is late. `None` where hardly anything slides.
+fn sliding_rows(rows: Rows, trace: &Trace, motion: &Motion) -> Option<Rows> {
+    let steps = trace.resolution;
+    let ways = directions(&motion.position, &motion.speed, 2.0 * steps);
+    let near = near_turns(&ways, &motion.position, BEFORE_SLIDING * steps);
+    let left_out = [near, rests(trace)].concat();
+    let slides = trace.len()
+        - left_out
+            .iter()
+            .map(Range::len)
+            .sum::<usize>()
+            .min(trace.len());
+    (slides as f64 > SLIDES * trace.len() as f64).then(|| rows.without(&left_out, trace.len()))
+}
+
+/// A request with the breakaway angle set, because the position's sensor is too coarse for it.
+fn without_breakaway(request: &Request, told: &Told) -> Option<(Request, TooCoarse)> {
+    let mut untold = told.untold.iter();
+    let unseen = untold.find(|untold| {
+        untold.reason == Reason::Unseen && untold.names.contains(&BREAKAWAY_ANGLE)
+    })?;
+    let (_, value) = unseen.fixed?;
+    let mut request = request.clone();
+    let wanted = &mut request.wanted;
+    if let Some(estimate) = &mut wanted.estimate {
+        estimate.retain(|name| name != BREAKAWAY_ANGLE);
+    }
+    wanted.fix.push((BREAKAWAY_ANGLE.into(), value));
+    request.profiles.retain(|name| name != BREAKAWAY_ANGLE);
+    let sentence = format!(
+        "{} What moved by less than {BEFORE_SLIDING} steps since it turned round may not slide yet, and is left out.",
+        unseen.sentence
+    );
+    Some((request, TooCoarse { sentence }))
+}
+
+/// Calibrates a trace; anew where its sensor turns out too coarse for the breakaway.
+fn attempt(
+    trace: &Trace,
+    design: &Design,
+    request: &Request,
+    too_coarse: Option<TooCoarse>,
+) -> Result<ScrewCalibration, Failure> {
     request.check()?;
     for trace in std::iter::once(trace).chain(&request.unseen) {
         if trace.coordinate != Coordinate::Rotation {
@@ -155,15 +220,26 @@ pub fn calibrate(
             ));
         }
     }
-    let unseen = request
+    let unseen_trace = request
         .unseen
         .as_ref()
+        .map(|unseen| {
+            let motion = Motion::of(unseen, &request.smoothing)?;
+            Ok::<_, Failure>(placed(unseen, &motion))
+        })
+        .transpose()?;
+    let unseen = unseen_trace
+        .as_deref()
         .map(|unseen| Unseen::new(unseen, trace, request))
         .transpose()?;
     let motion = Motion::of(trace, &request.smoothing)?;
+    let trace = &*placed(trace, &motion);
     let findings = examine(trace, &motion)?;
     load_gain(trace, &motion, reduced_lead(design), request.ratio_unsaid)?;
-    let rows = Rows::of_trace(trace, &request.rows)?;
+    let mut rows = Rows::of_trace(trace, &request.rows)?;
+    if too_coarse.is_some() {
+        rows = sliding_rows(rows.clone(), trace, &motion).unwrap_or(rows);
+    }
     let smoothing = request.smoothing.filter(trace.step)?;
     let evidence = Evidence::of(trace, &motion);
     plausible(design, &evidence)?;
@@ -184,6 +260,11 @@ pub fn calibrate(
         step: trace.resolution,
     };
     let told = tell(&problem, &request.fit, &hints)?;
+    if too_coarse.is_none()
+        && let Some((request, too_coarse)) = without_breakaway(request, &told)
+    {
+        return attempt(trace, design, &request, Some(too_coarse));
+    }
     if let Some(refusal) = told.fit.refusal() {
         return Err(Failure::Data(refusal));
     }
@@ -207,7 +288,12 @@ pub fn calibrate(
         .collect();
     let left_out = hints.left_out(&fixed);
     let untold = told.untold.into_iter().map(|untold| untold.sentence);
-    answer.cannot_tell = untold.chain(left_out).chain(spoiled(findings)).collect();
+    let too_coarse = too_coarse.into_iter().map(|coarse| coarse.sentence);
+    answer.cannot_tell = too_coarse
+        .chain(untold)
+        .chain(left_out)
+        .chain(spoiled(findings))
+        .collect();
     // What the trace does not tell has no profile, and a sentence above.
     let told_apart = |name: &&String| {
         let mut intervals = by_residual.intervals.iter();
@@ -294,6 +380,9 @@ impl<'a> Unseen<'a> {
         )
     }
 }
+
+/// Name of the angle before sliding.
+const BREAKAWAY_ANGLE: &str = "breakaway_angle";
 
 /// Fastest balls about the screw's axis, m/s: twice what catalogues allow (150,000 mm/min of pitch diameter times revolutions).
 const FASTEST: f64 = 16.0;

@@ -5,19 +5,26 @@
 //! | [`columns`] | reads a trace from a CSV file |
 //! | [`table`] | the file's numbers in SI units |
 //! | [`clock`] | one sample clock: tick, gaps, jitter |
+//! | [`acting`] | loads and known efforts of a table |
 //! | [`channels`] | angles without jumps, the step of a sensor |
 //! | [`outliers`] | samples that no mechanism makes |
 //! | [`rests`] | where a trace stands still |
 //! | [`free_load`] | a load that never leaves its noise |
+//! | [`known`] | an effort beside the motor's that is known |
 
+pub mod acting;
 pub mod channels;
 pub mod clock;
 pub mod columns;
 pub mod free_load;
+pub mod known;
 pub mod outliers;
 pub mod rests;
 pub mod table;
 
+use std::borrow::Cow;
+
+use self::known::KnownEffort;
 use self::outliers::LeftOut;
 
 /// What position, speed and effort are.
@@ -69,8 +76,13 @@ pub struct Trace {
     pub effort: Vec<f64>,
     /// Wanted position, rad or m.
     pub reference_position: Option<Vec<f64>>,
-    /// Axial load, N, positive where it opposes the travel that a positive motion makes.
+    /// Axial load, N, positive where it opposes the travel that a positive motion makes; its torque, N m, where `load_is_effort` beside a
+    /// torque.
     pub load: Option<Vec<f64>>,
+    /// Whether the load is in the effort's own unit, so that its gain is known to be 1.
+    pub load_is_effort: bool,
+    /// An effort beside the motor's that is known.
+    pub known: Option<KnownEffort>,
     /// Temperature, K.
     pub temperature: Option<Vec<f64>>,
     /// What was repaired.
@@ -83,6 +95,17 @@ impl Trace {
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.effort.len()
+    }
+
+    /// Effort that acts on the mechanism, N m or N, in the direction of positive motion: the motor's, and what is known beside it.
+    pub fn acting(&self) -> Cow<'_, [f64]> {
+        match self.known.as_ref().and_then(KnownEffort::beside) {
+            Some(known) => {
+                let both = self.effort.iter().zip(known);
+                Cow::Owned(both.map(|(effort, known)| effort + known).collect())
+            }
+            None => Cow::Borrowed(&self.effort),
+        }
     }
 
     /// Whether there is none.

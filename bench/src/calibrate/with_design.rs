@@ -9,6 +9,7 @@ use crate::calibrate::screw::{Request, ScrewCalibration, calibrate};
 use crate::calibrate::signals::{Motion, Rows};
 use crate::calibrate::sums::{Reference, Sums, SumsError};
 use crate::calibrate::trace::Trace;
+use crate::calibrate::trace::known::placed;
 use crate::designs::Design;
 use crate::failure::Failure;
 
@@ -78,11 +79,12 @@ pub fn sums(found: &ScrewCalibration) -> Result<Sums, SumsError> {
 /// What the page draws.
 fn picture(trace: &Trace, request: &Request, found: &ScrewCalibration) -> Result<Picture, Failure> {
     let motion = Motion::of(trace, &request.smoothing)?;
+    let trace = &*placed(trace, &motion);
     let rows = Rows::of_trace(trace, &request.rows)?;
     let samples: Vec<usize> = rows.samples(trace.len()).collect();
     let at =
         |signal: &[f64]| -> Vec<f64> { samples.iter().map(|sample| signal[*sample]).collect() };
-    let measured = rows.of(&trace.effort);
+    let measured = rows.of(&trace.acting());
     let model = measured
         .iter()
         .zip(&found.fit.residual)

@@ -4,6 +4,10 @@
 //! |---|---|
 //! | [`choice`] | models of friction on a trace without a design |
 //! | [`slide`] | such a trace as a separable problem |
+//! | [`terms`] | what stands beside the law of friction in it |
+//! | [`resistance`] | the same as what opposes a motion |
+//! | [`losses`] | which losses in proportion to the load it tells |
+//! | [`drive`] | what firmware takes of it |
 //! | [`period`] | the period of a wave over the travel |
 //! | [`closed_loop`] | the motion that a controller makes of a model |
 //! | [`controller`] | the controller that is seen in a trace |
@@ -11,8 +15,14 @@
 pub mod choice;
 pub mod closed_loop;
 pub mod controller;
+pub mod drive;
+pub mod losses;
 pub mod period;
+pub mod resistance;
 pub mod slide;
+pub mod terms;
+
+use std::borrow::Cow;
 
 use crate::calibrate::answer::{Calibration, ModelScore};
 use crate::calibrate::checks::examine;
@@ -26,15 +36,18 @@ use crate::calibrate::page::picture::{Correlations, Picture};
 use crate::calibrate::page::shown::digits;
 use crate::calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
 use crate::calibrate::sums::{Reference, Sums, SumsError};
+use crate::calibrate::trace::known::placed;
 use crate::calibrate::trace::rests::rests;
 use crate::calibrate::trace::{Coordinate, Trace};
 use crate::calibrate::without_design::choice::{
-    LAWS, PLAIN, Prepared, estimates, left_out, model, terms,
+    LAWS, LOAD_PROPORTIONAL, PLAIN, Prepared, estimates, left_out, model, terms,
 };
+use crate::calibrate::without_design::drive::Drive;
 
 use crate::calibrate::without_design::closed_loop::size;
 use crate::calibrate::without_design::controller::SeenController;
-use crate::calibrate::without_design::slide::{AT_ONE_SPEED, Slide, Terms};
+use crate::calibrate::without_design::slide::{AT_ONE_SPEED, LOSSES, Slide};
+use crate::calibrate::without_design::terms::{LoadTerm, Terms};
 use crate::controller::Controller;
 use crate::failure::Failure;
 
@@ -66,6 +79,8 @@ pub struct Told {
     pub findings: Vec<Finding>,
     /// The controller as the trace shows it.
     pub controller: Option<SeenController>,
+    /// What firmware takes of it.
+    pub drive: Drive,
 }
 
 /// A trace with its motion and its rows.
@@ -94,18 +109,80 @@ impl<'a> Filtered<'a> {
         Slide::new(self.trace, &self.motion, &self.rows, LAWS[0], terms)
     }
 
-    /// The speed of a trace that moves at one, and the terms that it can tell.
-    fn one_speed(&self) -> (Option<f64>, Terms) {
+    /// The speed of a trace that moves at one, and the terms that it may tell, with what it may not.
+    fn possible(&self) -> (Option<f64>, Terms, Vec<String>) {
         let speed = one_speed(self.trace, &self.motion, &rests(self.trace));
+        let (load, untold) = losses::possible(self.trace, &self.motion);
         let terms = Terms {
             one_speed: speed.is_some(),
+            load,
             ..Terms::default()
         };
-        (speed, terms)
+        (speed, terms, untold)
+    }
+
+    /// The plain model with what the trace tells of it.
+    fn plainly(&self) -> Result<Plainly, Failure> {
+        let (speed, mut terms, mut untold) = self.possible();
+        let mut fit = literature(&self.plain(terms))?;
+        let mut sure = uncertainty(&self.plain(terms), &fit);
+        let (load, too_wide) = losses::told(terms.load, &sure);
+        if load != terms.load {
+            terms.load = load;
+            fit = literature(&self.plain(terms))?;
+            sure = uncertainty(&self.plain(terms), &fit);
+        }
+        untold.extend(too_wide);
+        untold.extend(losses::alike(terms.load, &sure));
+        Ok(Plainly {
+            speed,
+            terms,
+            fit,
+            sure,
+            untold,
+        })
     }
 
     fn prepared(&self, controller: Option<Controller>) -> Prepared<'_> {
         Prepared::new(self.trace, &self.motion, &self.rows, controller)
+    }
+}
+
+/// The plain model of a trace.
+struct Plainly {
+    /// Its speed, where it moves at one.
+    speed: Option<f64>,
+    terms: Terms,
+    fit: Fit,
+    sure: Uncertainty,
+    /// What of the losses is not told.
+    untold: Vec<String>,
+}
+
+impl Plainly {
+    fn answer(
+        self,
+        filtered: &Filtered<'_>,
+        findings: &[Finding],
+        rest: Vec<String>,
+    ) -> Calibration {
+        let trace = filtered.trace;
+        Calibration {
+            parameters: estimates(&self.sure),
+            residual_rms: self.fit.residual_rms(),
+            relative_error: size(&self.fit.residual) / size(&filtered.rows.of(&trace.effort)),
+            effective_rows: self.sure.effective_rows,
+            cannot_tell: [
+                one_number(&self.sure, self.speed, trace.coordinate),
+                ended_at_bound(&self.sure),
+                self.untold,
+                cannot_tell(trace, &filtered.motion, findings),
+                rest,
+            ]
+            .concat(),
+            models: Vec::new(),
+            winner: None,
+        }
     }
 }
 
@@ -131,8 +208,33 @@ fn motion(trace: &Trace, wanted: Option<f64>) -> Result<Motion, Failure> {
     smoothed(SMOOTHING[SMOOTHING.len() - 1].min(highest))
 }
 
-/// Fits what a trace can tell without a design: a mass or an inertia with friction that knows no load, and models of friction beside each
-/// other.
+/// A trace with what is found of its known effort.
+fn with_known<'a>(trace: &'a Trace, filters: &Filters) -> Result<Cow<'a, Trace>, Failure> {
+    if trace.known.is_none() {
+        return Ok(Cow::Borrowed(trace));
+    }
+    Ok(placed(trace, &motion(trace, filters.smoothing)?))
+}
+
+/// Refuses a trace that cannot score what was fitted to the other.
+fn comparable(trace: &Trace, other: &Trace) -> Result<(), Failure> {
+    let (one, two) = (&trace.name, &other.name);
+    if other.coordinate != trace.coordinate {
+        return Err(Failure::Data(format!(
+            "{one} and {two} are not of one coordinate: one is of an angle and a torque, one of a travel and a force"
+        )));
+    }
+    let load = |trace: &Trace| (trace.load.is_some(), trace.load_is_effort);
+    if load(other) != load(trace) {
+        return Err(Failure::Data(format!(
+            "{one} and {two} have not the same load's channel: one cannot score the other's models; an effort that only one of them has is given as known_torque or known_force"
+        )));
+    }
+    Ok(())
+}
+
+/// Fits what a trace can tell without a design: a mass or an inertia with friction, losses in proportion to a load where one is measured,
+/// and models of friction beside each other.
 ///
 /// # Errors
 /// A trace from which nothing can be told.
@@ -142,43 +244,64 @@ pub fn calibrate(
     controller: Option<Controller>,
     filters: &Filters,
 ) -> Result<Told, Failure> {
+    let trace = &*with_known(trace, filters)?;
     let filtered = Filtered::new(trace, filters)?;
     let findings = examine(trace, &filtered.motion)?;
     let prepared = filtered.prepared(controller);
-    if let Some(other) = unseen.filter(|other| other.coordinate != trace.coordinate) {
-        return Err(Failure::Data(format!(
-            "{} and {} are not of one coordinate: one is of an angle and a torque, one of a travel and a force",
-            trace.name, other.name
-        )));
-    }
     let other = unseen
+        .map(|other| comparable(trace, other).and_then(|()| with_known(other, filters)))
+        .transpose()?;
+    let other = other
+        .as_deref()
         .map(|other| Filtered::new(other, filters))
         .transpose()?;
     let other = other.as_ref().map(|other| other.prepared(controller));
 
-    let (speed, plain) = filtered.one_speed();
-    let slide = filtered.plain(plain);
-    let whole = literature(&slide)?;
-    let sure = uncertainty(&slide, &whole);
-
-    let all = if plain.one_speed {
-        plain
+    let plainly = filtered.plainly()?;
+    let terms_of_laws = if plainly.terms.one_speed {
+        plainly.terms
     } else {
-        terms(&prepared)
+        terms(&prepared, plainly.terms.load)
     };
+    let (models, mut rest) = compared(&prepared, other.as_ref(), plainly.terms, terms_of_laws);
+    rest.extend(prepared.controller.as_ref().and_then(SeenController::doubt));
+    let picture = picture(&prepared, terms_of_laws, &plainly.sure)?;
+    let drive = Drive::of(&prepared, plainly.terms, &plainly.sure);
+    let controller = prepared.controller.clone();
+    let mut answer = plainly.answer(&filtered, &findings, rest);
+    answer.models = models;
+    answer.winner = rank(&mut answer.models);
+    Ok(Told {
+        answer,
+        picture,
+        findings,
+        controller,
+        drive,
+    })
+}
+
+/// Models beside each other, and what is said of those that could not be fitted.
+fn compared(
+    prepared: &Prepared<'_>,
+    other: Option<&Prepared<'_>>,
+    plain: Terms,
+    all: Terms,
+) -> (Vec<ModelScore>, Vec<String>) {
     let (mut models, mut untold) = (Vec::new(), Vec::new());
-    let mut add = |law: Law, terms: Terms, name: &str| match model(
-        &prepared,
-        other.as_ref(),
-        law,
-        terms,
-        name,
-    ) {
-        Ok(fitted) => models.push(fitted.score),
-        Err(Failure::Data(why)) => untold.push(left_out(name, &why)),
-        Err(_) => {}
+    let mut add =
+        |law: Law, terms: Terms, name: &str| match model(prepared, other, law, terms, name) {
+            Ok(fitted) => models.push(fitted.score),
+            Err(Failure::Data(why)) => untold.push(left_out(name, &why)),
+            Err(_) => {}
+        };
+    let without_losses = Terms {
+        load: plain.load.without_losses(),
+        ..plain
     };
-    add(LAWS[0], plain, PLAIN);
+    add(LAWS[0], without_losses, PLAIN);
+    if plain.load.loses() && !plain.one_speed {
+        add(LOAD_PROPORTIONAL, plain, LOAD_PROPORTIONAL.name);
+    }
     // At one speed there is nothing to be compared.
     for law in LAWS.into_iter().filter(|_| !plain.one_speed) {
         let name = if law.name == PLAIN {
@@ -198,31 +321,7 @@ pub fn calibrate(
         let name = format!("{}, without terms of the position", ours.name);
         add(ours, without, &name);
     }
-    let winner = rank(&mut models);
-    untold.extend(prepared.controller.as_ref().and_then(SeenController::doubt));
-    let answer = Calibration {
-        parameters: estimates(&sure),
-        residual_rms: whole.residual_rms(),
-        relative_error: size(&whole.residual) / size(slide.target()),
-        effective_rows: sure.effective_rows,
-        cannot_tell: [
-            one_number(&sure, speed, trace.coordinate),
-            ended_at_bound(&sure),
-            cannot_tell(trace, &filtered.motion, &findings),
-            untold,
-        ]
-        .concat(),
-        models,
-        winner,
-    };
-    let picture = picture(&prepared, all, &sure)?;
-    let controller = prepared.controller.clone();
-    Ok(Told {
-        answer,
-        picture,
-        findings,
-        controller,
-    })
+    (models, untold)
 }
 
 /// The fit of the plain model as the literature has it: by least squares, without weights.
@@ -239,39 +338,33 @@ fn literature(slide: &Slide<'_>) -> Result<Fit, Failure> {
 /// # Errors
 /// A trace from which nothing can be told.
 pub fn plain(trace: &Trace, filters: &Filters) -> Result<(Calibration, Sums), Failure> {
+    let trace = &*with_known(trace, filters)?;
     let filtered = Filtered::new(trace, filters)?;
     let findings = examine(trace, &filtered.motion)?;
-    // Traces at several speeds tell together what each of them cannot.
-    let slide = filtered.plain(Terms::default());
+    let plainly = filtered.plainly()?;
+    // Traces at several speeds tell together what each of them cannot. What an axial load does to a torque the sums leave out: its gain
+    // is no number of the friction.
+    let load = match plainly.terms.load {
+        LoadTerm::Losses { .. } => plainly.terms.load,
+        LoadTerm::None | LoadTerm::Gain | LoadTerm::LossAlike => LoadTerm::None,
+    };
+    let slide = filtered.plain(Terms {
+        load,
+        ..Terms::default()
+    });
     let whole = literature(&slide)?;
     let sure = uncertainty(&slide, &whole);
-    let references = slide.linear().iter().map(|parameter| Reference {
-        name: parameter.name.into(),
+    let alone = filtered.plain(Terms::default());
+    let names = alone.linear().iter().map(|parameter| parameter.name);
+    let references = names.chain(LOSSES).map(|name| Reference {
+        name: name.into(),
         logarithmic: false,
         value: 0.0,
     });
     let refused = |error: SumsError| Failure::Data(error.to_string());
     let mut sums = Sums::new(references.collect()).map_err(refused)?;
     sums.add(&whole, &sure).map_err(refused)?;
-    let (speed, terms) = filtered.one_speed();
-    let slide = filtered.plain(terms);
-    let whole = literature(&slide)?;
-    let sure = uncertainty(&slide, &whole);
-    let answer = Calibration {
-        parameters: estimates(&sure),
-        residual_rms: whole.residual_rms(),
-        relative_error: size(&whole.residual) / size(slide.target()),
-        effective_rows: sure.effective_rows,
-        cannot_tell: [
-            one_number(&sure, speed, trace.coordinate),
-            ended_at_bound(&sure),
-            cannot_tell(trace, &filtered.motion, &findings),
-        ]
-        .concat(),
-        models: Vec::new(),
-        winner: None,
-    };
-    Ok((answer, sums))
+    Ok((plainly.answer(&filtered, &findings, Vec::new()), sums))
 }
 
 /// Sets the least information criterion to zero; the name of the model that does best on what was not fitted.
@@ -340,7 +433,7 @@ fn cannot_tell(trace: &Trace, motion: &Motion, findings: &[Finding]) -> Vec<Stri
         .collect();
     if trace.load.is_none() {
         sentences.push(
-            "friction coefficient, preload and rolling resistance: no load is measured; measure the axial load, at two loads or more, and give the screw's design".into(),
+            "friction coefficient, preload and rolling resistance: no load is measured; measure the axial load, at two loads or more, and give the screw's design; without a design its torque (load_torque) or force tells the losses in proportion to it".into(),
         );
     }
     if trace.temperature.is_none() {

@@ -12,6 +12,7 @@ mod faults;
 mod hal;
 mod laws;
 mod linear_scene;
+mod load_proportional;
 mod memory;
 mod noise;
 mod phases;

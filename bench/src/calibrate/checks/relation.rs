@@ -7,6 +7,7 @@
 use nalgebra::{DMatrix, DVector, SVector};
 
 use crate::calibrate::signals::Motion;
+use crate::calibrate::trace::known::KnownEffort;
 use crate::calibrate::trace::rests::rests;
 use crate::calibrate::trace::{Coordinate, Trace};
 
@@ -35,6 +36,8 @@ const SLIDING: f64 = 0.1;
 pub struct Relation {
     /// Root mean square of what is left, over the effort's deviation from its mean.
     pub left: f64,
+    /// Root mean square of what is left, N m or N.
+    pub left_size: f64,
     /// Effort of a unit of load.
     pub gain: f64,
     /// The same over its standard deviation; 0 without a load.
@@ -141,6 +144,7 @@ struct Sums {
 
 /// Sums over some samples; the effort and the load are taken so many samples later.
 fn sums(trace: &Trace, motion: &Motion, samples: &[usize], later: [isize; 2]) -> Option<Sums> {
+    let known = trace.known.as_ref().and_then(KnownEffort::beside);
     let mut made = Sums {
         terms: DMatrix::zeros(TERMS, TERMS),
         effort: SVector::zeros(),
@@ -152,7 +156,10 @@ fn sums(trace: &Trace, motion: &Motion, samples: &[usize], later: [isize; 2]) ->
     let mut products = [[0.0; TERMS]; TERMS];
     for sample in samples {
         let [effort_at, load_at] = later.map(|ticks| sample.checked_add_signed(ticks));
-        let effort = *trace.effort.get(effort_at?)?;
+        let mut effort = *trace.effort.get(effort_at?)?;
+        if let Some(known) = known {
+            effort += known.get(*sample)?;
+        }
         let load = match &trace.load {
             Some(load) => *load.get(load_at?)?,
             None => 0.0,
@@ -217,6 +224,7 @@ pub fn relation(trace: &Trace, motion: &Motion) -> Option<Relation> {
     let only = |term: usize| DVector::from_fn(TERMS, |row, _| f64::from(u8::from(row == term)));
     Some(Relation {
         left: all.left_over(),
+        left_size: (all.left / all.sums.count).sqrt(),
         gain: all.best[GAIN],
         gain_certainty: all.certainty(&only(GAIN)),
         sliding: Solved::of(trace, motion, &samples).map(|sliding| Sliding {

@@ -98,6 +98,8 @@ fn trace(path: Path) -> Trace {
         effort,
         reference_position: None,
         load: Some((0..SAMPLES).map(|sample| load(time(sample))).collect()),
+        load_is_effort: false,
+        known: None,
         temperature: Some((0..SAMPLES).map(|sample| 293.0 + time(sample)).collect()),
         repairs: Repairs::default(),
         ignored: Vec::new(),

@@ -62,6 +62,8 @@ fn trace(manoeuvre: Manoeuvre, reach: &Reach) -> Trace {
         speed: None,
         reference_position: None,
         load: Some(course.load),
+        load_is_effort: false,
+        known: None,
         temperature: Some(course.temperature),
         repairs: Repairs::default(),
         ignored: Vec::new(),

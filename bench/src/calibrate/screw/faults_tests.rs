@@ -1,18 +1,21 @@
 //! The rig's trace with what real traces have: each parameter within its interval, or a word instead of it.
 
+use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::io::Cursor;
 
+use epas_friction::law::coefficient::DirectionalCoefficient;
 use epas_reference::rig::course::Course;
 use epas_reference::rig::parameters::Parameters;
 use epas_reference::rig::{self, Rig, Sensors};
 
+use super::exact::{Grid, Spacing};
 use super::{Request, calibrate};
-use crate::calibrate::answer::Calibration;
+use crate::calibrate::answer::{Calibration, Estimate};
 use crate::calibrate::fit::separable::FitSettings;
 use crate::calibrate::fit::toys::noise;
 use crate::calibrate::trace::columns::{Frame, from_reader};
-use crate::designs::DesignSource;
+use crate::designs::{DesignSource, read};
 
 /// What the rig was made with, of what does not need a minute to be told.
 const TRUTH: [(&str, f64); 5] = [
@@ -200,4 +203,69 @@ fn a_clock_that_runs_free_is_interpolated() {
     let answer = said(&slow).unwrap();
     holds(&answer, &[]);
     word(&answer, "a logger that runs free");
+}
+
+/// A drag run of preloaded screws whose load cell reads noise of 4 N: the gain stays 1 and friction the same both ways, with a word, and
+/// nothing that ended at a bound is an estimate. Preloads lift off at 40 to 3000 N a ball.
+#[test]
+fn a_drag_run_with_a_load_cell_of_noise() {
+    const SAMPLES: usize = 15_000;
+    const INERTIA: f64 = 4e-4;
+    let [rough, rough_load] = [21, 22].map(|seed| noise(seed, SAMPLES, 0.0));
+    for preload in [20, 300, 1500] {
+        let text = format!(
+            "pitch_radius = 0.0145\nlead = 0.007\nball_radius = 0.002\nconformity = 0.52\n\
+             contact_angle = 0.7853981633974483\nfriction = 0.1\npreload = {preload}\nloaded_balls = 71\n"
+        );
+        let design = read(&text, "preloaded").unwrap();
+        let grid = Grid::of(&design.caged, 0.0, Spacing::FINE).unwrap();
+        let law = grid.law(&design.caged, (0.1, 0.1)).unwrap();
+        let both = DirectionalCoefficient {
+            forward: 0.1,
+            backward: 0.1,
+        };
+        let drag = f64::from(law.friction(0.0, both).forward);
+        let mut csv = String::from("time,nut_position,motor_torque,axial_load\n");
+        for (sample, (noise, load)) in rough.iter().zip(&rough_load).enumerate() {
+            let time = 1e-3 * sample as f64;
+            let [mut angle, mut speed, mut acceleration] = [0.0; 3];
+            for (frequency, size) in [(0.23, 8.0), (0.71, 1.1), (1.9, 0.17)] {
+                let turn = TAU * frequency;
+                let (sine, cosine) = (turn * time).sin_cos();
+                angle += size * sine;
+                speed += size * turn * cosine;
+                acceleration -= size * turn * turn * sine;
+            }
+            let angle = (angle / 1.5e-4).round() * 1.5e-4;
+            let torque = drag * speed.signum() + INERTIA * acceleration + 0.01 * drag * noise;
+            writeln!(csv, "{time:.4},{angle:.9},{torque:.7},{:.3}", 4.0 * load).unwrap();
+        }
+        let frame = Frame {
+            lead: 0.007,
+            ratio: 1.0,
+        };
+        let trace = from_reader(Cursor::new(csv), "trace", Some(&frame)).unwrap();
+        let mut request = Request {
+            without_models: true,
+            ..Request::default()
+        };
+        request.wanted.fix = [("full_film_ratio", 1.0), ("half_share_speed", 6.0)]
+            .map(|(name, value)| (name.into(), value))
+            .into();
+        let answer = calibrate(&trace, &design, &request).unwrap().answer;
+        for (name, value) in [("gain", 1.0), ("direction_asymmetry", 0.0)] {
+            let found = answer.parameter(name).unwrap();
+            assert!(found.fixed && found.value == value, "{preload}: {found:?}");
+        }
+        for (name, truth) in [("friction", 0.1), ("inertia", INERTIA)] {
+            let found = answer.parameter(name).unwrap();
+            let off = (found.value - truth).abs();
+            // The grid's own error is some parts in a thousand of the friction.
+            let allowed = 2.0 * found.half_width() + 5e-3 * truth;
+            assert!(!found.fixed && off < allowed, "{preload}: {found:?}");
+        }
+        let at_bound = |found: &&Estimate| found.at_bound && !found.fixed;
+        assert_eq!(answer.parameters.iter().find(at_bound), None);
+        word(&answer, "it never leaves its own noise");
+    }
 }

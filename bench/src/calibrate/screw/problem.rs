@@ -101,7 +101,7 @@ impl<'a> ScrewProblem<'a> {
             linear: Vec::new(),
             linear_parameters: choice.linear.iter().map(|of| of.parameter()).collect(),
             set: Vec::new(),
-            target: rows.of(&trace.effort),
+            target: rows.of(&trace.acting()),
             waves: Waves::default(),
             search: Arc::clone(&grid),
             grid,

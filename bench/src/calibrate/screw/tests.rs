@@ -47,6 +47,8 @@ fn trace(rig: &Rig, course: &Course, seed: u64) -> Trace {
         effort: measured.motor_torque,
         reference_position: None,
         load: Some(measured.axial_load),
+        load_is_effort: false,
+        known: None,
         temperature: Some(measured.temperature),
         repairs: Repairs::default(),
         ignored: Vec::new(),

@@ -45,6 +45,8 @@ fn trace(samples: usize, resolution: f64) -> Trace {
         effort: vec![0.0; samples],
         reference_position: None,
         load: None,
+        load_is_effort: false,
+        known: None,
         temperature: None,
         repairs: Repairs::default(),
         ignored: Vec::new(),

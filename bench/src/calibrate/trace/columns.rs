@@ -1,8 +1,9 @@
 //! Reads a trace from the columns of a CSV file.
 //!
 //! Needed are `time`; a position or a speed, plain or of the motor, nut or carriage; `motor_force` or `motor_torque`.
-//! Taken where there are any: a reference position, `axial_load` (or `rack_force`) and `temperature`. A name may end in
-//! its unit (`nut_position_deg`); without, it is SI. Other columns are named and left aside.
+//! Taken where there are any: a reference position, `axial_load` (or `rack_force`, or the torque `load_torque`), `known_force` or
+//! `known_torque`, and `temperature`. A name may end in its unit (`nut_position_deg`); without, it is SI. Other columns are named and
+//! left aside.
 //!
 //! Without a design the trace stays in its own coordinate: with a torque what turns, with a force what travels, and a
 //! plain position or speed is that of what the effort acts on. With a design everything is referred to the nut: there, a
@@ -20,9 +21,11 @@ use crate::failure::Failure;
 use crate::mdf4::{self, Mapping};
 use crate::source::Source;
 
+use crate::calibrate::trace::acting;
 use crate::calibrate::trace::channels::{range, resolution, unwrap};
 use crate::calibrate::trace::clock::Clock;
 use crate::calibrate::trace::free_load::{self, LoadKind};
+use crate::calibrate::trace::known::KnownEffort;
 use crate::calibrate::trace::outliers;
 use crate::calibrate::trace::table::{self, Column, Table};
 use crate::calibrate::trace::{Coordinate, Repairs, Trace};
@@ -141,8 +144,9 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
         ));
     };
     let reference = take(&mut table, Quantity::ReferencePosition).map(|column| (column, *part));
-    let [load, temperature] =
-        [Quantity::Load, Quantity::Temperature].map(|quantity| take(&mut table, quantity));
+    let (load, load_is_effort) = acting::load(&mut table, torque, frame)?;
+    let known = acting::known(&mut table, torque)?;
+    let temperature = take(&mut table, Quantity::Temperature);
     if let Some(column) = &temperature {
         check_temperature(column)?;
     }
@@ -190,7 +194,10 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
         notes: table.notes,
         ..clock.repairs.clone()
     };
-    let load = load.and_then(|column| measured_load(column, &effort, clock.step, &mut repairs));
+    let unit = if load_is_effort && torque { "N m" } else { "N" };
+    let load =
+        load.and_then(|column| measured_load(column, unit, &effort, clock.step, &mut repairs));
+    let known = known.map(|column| scaled(column.values, effort_gain(torque, frame)));
     Ok(Trace {
         name: name.into(),
         coordinate: if rotates {
@@ -207,6 +214,11 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
         effort: clock.resample(effort),
         reference_position,
         load: load.map(|values| clock.resample(values)),
+        load_is_effort,
+        known: known.map(|values| KnownEffort {
+            values: clock.resample(values),
+            in_effort: false,
+        }),
         temperature: temperature.map(|column| clock.resample(column.values)),
         repairs,
         ignored: table.ignored,
@@ -229,6 +241,7 @@ fn measured_only<'a>(values: &'a [f64], filled: &[usize]) -> Cow<'a, [f64]> {
 /// The load, unless its channel holds noise alone: none then, or the load that stays.
 fn measured_load(
     column: Column,
+    unit: &str,
     effort: &[f64],
     step: f64,
     repairs: &mut Repairs,
@@ -237,14 +250,14 @@ fn measured_load(
         LoadKind::Changes => Some(column.values),
         LoadKind::Noise(mean, deviation) => {
             repairs.notes.push(format!(
-                "column {}: it never leaves its own noise of {deviation:.3} N (rms) about {mean:.3} N, which is no load: it is not used; the load's gain stays 1, and friction is taken to be the same both ways",
+                "column {}: it never leaves its own noise of {deviation:.3} {unit} (rms) about {mean:.3} {unit}, which is no load: it is not used; the load's gain stays 1, and friction is taken to be the same both ways",
                 column.name
             ));
             None
         }
         LoadKind::Constant(mean, deviation) => {
             repairs.notes.push(format!(
-                "column {}: it stays at {mean:.4} N within its own noise of {deviation:.3} N (rms), and is taken as that load throughout",
+                "column {}: it stays at {mean:.4} {unit} within its own noise of {deviation:.3} {unit} (rms), and is taken as that load throughout",
                 column.name
             ));
             Some(vec![mean; column.values.len()])
@@ -270,7 +283,7 @@ fn angle(column: Column, reference: Reference) -> Result<Vec<f64>, String> {
 }
 
 /// Takes the column of a quantity out of the table.
-fn take(table: &mut Table, quantity: Quantity) -> Option<Column> {
+pub(super) fn take(table: &mut Table, quantity: Quantity) -> Option<Column> {
     let place = table
         .columns
         .iter()

@@ -125,9 +125,12 @@ const fn rank(quantity: Quantity) -> u8 {
     }
 }
 
-/// Whether a column is measured: what is wanted may jump.
+/// Whether a column is measured: what is wanted, or known, may jump.
 const fn judged(quantity: Quantity) -> bool {
-    !matches!(quantity, Quantity::Time | Quantity::ReferencePosition)
+    !matches!(
+        quantity,
+        Quantity::Time | Quantity::ReferencePosition | Quantity::KnownForce | Quantity::KnownTorque
+    )
 }
 
 fn check_share(channel: &Channel<'_>, rows: &[usize]) -> Result<(), String> {

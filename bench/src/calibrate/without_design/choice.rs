@@ -12,7 +12,8 @@ use crate::calibrate::trace::Trace;
 use crate::calibrate::without_design::closed_loop::{Course, Loop, size};
 use crate::calibrate::without_design::controller::SeenController;
 use crate::calibrate::without_design::period::period;
-use crate::calibrate::without_design::slide::{Slide, Terms};
+use crate::calibrate::without_design::slide::Slide;
+use crate::calibrate::without_design::terms::{LoadTerm, Terms};
 use crate::controller::Controller;
 use crate::failure::Failure;
 
@@ -62,6 +63,14 @@ pub const LAWS: [Law; 6] = [
     },
 ];
 
+/// The friction of the crate's scene for a drive without a drawing: constant, in proportion to the load, passing with the speed.
+pub const LOAD_PROPORTIONAL: Law = Law {
+    name: "this crate, load-proportional losses",
+    level: Level::Constant,
+    passage: Passage::Speed,
+    cost: Cost::Estimated(110),
+};
+
 /// A trace, ready to be fitted.
 pub struct Prepared<'a> {
     /// The trace.
@@ -91,17 +100,13 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    fn slide(&self, law: Law, terms: Terms) -> Slide<'_> {
+    /// The model of the trace by a law.
+    pub fn slide(&self, law: Law, terms: Terms) -> Slide<'_> {
         Slide::new(self.trace, self.motion, self.rows, law, terms)
     }
 
     /// The loop closed with a fit.
-    fn course(
-        &self,
-        slide: &Slide<'_>,
-        fit: &Fit,
-        load_factor: f64,
-    ) -> Result<Option<Course>, Failure> {
+    fn course(&self, slide: &Slide<'_>, fit: &Fit) -> Result<Option<Course>, Failure> {
         let Some(controller) = &self.controller else {
             return Ok(None);
         };
@@ -112,7 +117,6 @@ impl<'a> Prepared<'a> {
             trace: self.trace,
             motion: self.motion,
             controller,
-            load_factor,
         };
         let inertia = fit.linear.first().copied().unwrap_or(0.0);
         if !(inertia > 0.0) {
@@ -142,13 +146,13 @@ pub struct Fitted {
     pub course: Option<Course>,
 }
 
-/// What every model but the plain one has beside its law: with a deviation along the way where the trace shows one.
-pub fn terms(prepared: &Prepared<'_>) -> Terms {
+/// What every model but the plain one has beside its law, with this of the load: with a deviation along the way where the trace shows one.
+pub fn terms(prepared: &Prepared<'_>, load: LoadTerm) -> Terms {
     let without = Terms {
         drag_of_each_direction: true,
         position: true,
         period: None,
-        load: true,
+        load,
         delay: true,
         one_speed: false,
     };
@@ -211,21 +215,21 @@ pub fn model(
     let plain = terms
         == Terms {
             one_speed: terms.one_speed,
+            load: terms.load,
             ..Terms::default()
         };
     let share = if unseen.is_some() { 1.0 } else { FITTED };
     let seen = Part::before(&slide, share);
     let fit = fitted(&seen, plain)?;
     let uncertainty = uncertainty(&seen, &fit);
-    let course = prepared.course(&slide, &fit, 0.0)?;
+    let course = prepared.course(&slide, &fit)?;
     let relative = |rows: &[f64], target: &[f64]| size(rows) / size(target);
     let seen_error = relative(&fit.residual, seen.target());
     let (unseen_rows, unseen_error, closed_unseen) = if let Some(other) = unseen {
         let slide = other.slide(law, terms);
-        let factor = load_factor(other, prepared, &slide, &fit);
         let rows = residual(&slide, &fit.nonlinear, &fit.linear);
         let error = relative(&rows, slide.target());
-        let course = other.course(&slide, &fit, factor)?;
+        let course = other.course(&slide, &fit)?;
         (rows, error, course.map(|course| course.relative_error))
     } else {
         let rest = Part::after(&slide, share);
@@ -262,28 +266,6 @@ pub fn model(
         score,
         course,
     })
-}
-
-/// A load that the fitted trace did not have acts on the unseen one with a factor of one against positive motion; none where the effort
-/// holds it already, minus one where it is written down the other way: whichever leaves least.
-fn load_factor(other: &Prepared<'_>, fitted: &Prepared<'_>, slide: &Slide<'_>, fit: &Fit) -> f64 {
-    let (Some(load), None) = (&other.trace.load, &fitted.trace.load) else {
-        return 0.0;
-    };
-    let rows = residual(slide, &fit.nonlinear, &fit.linear);
-    let load = other.rows.of(load);
-    [0.0, 1.0, -1.0]
-        .into_iter()
-        .map(|factor| {
-            let rest: Vec<f64> = rows
-                .iter()
-                .zip(&load)
-                .map(|(row, load)| row - factor * load)
-                .collect();
-            (size(&rest), factor)
-        })
-        .min_by(|one, other| one.0.total_cmp(&other.0))
-        .map_or(0.0, |(_, factor)| factor)
 }
 
 /// What is said of a model that could not be fitted.

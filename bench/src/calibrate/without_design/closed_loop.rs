@@ -4,8 +4,9 @@ use std::collections::VecDeque;
 
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::Trace;
+use crate::calibrate::trace::known::KnownEffort;
 use crate::calibrate::without_design::controller::SeenController;
-use crate::calibrate::without_design::slide::SlideResistance;
+use crate::calibrate::without_design::resistance::SlideResistance;
 use crate::mechanism::Mechanism;
 
 /// Steps of the mechanism in a tick: a quarter of a millisecond at 1 kHz.
@@ -20,8 +21,6 @@ pub struct Loop<'a> {
     pub motion: &'a Motion,
     /// The controller.
     pub controller: &'a SeenController,
-    /// Factor of the trace's load, where the model has no gain for it.
-    pub load_factor: f64,
 }
 
 /// What a simulated loop did, and how far it is from the trace.
@@ -85,6 +84,7 @@ impl Loop<'_> {
             .reference_position
             .as_deref()
             .unwrap_or(&trace.position);
+        let known = trace.known.as_ref().and_then(KnownEffort::beside);
         let mut course = Course {
             effort: Vec::with_capacity(trace.len()),
             position: Vec::with_capacity(trace.len()),
@@ -105,9 +105,10 @@ impl Loop<'_> {
             }
             let load = trace.load.as_ref().map_or(0.0, |load| load[sample]);
             mechanism.resistance.load = load;
+            let known = known.map_or(0.0, |known| known[sample]);
             let step = tick / STEPS as f64;
             for _ in 0..STEPS {
-                let acting = lag.mean(effort, step) - self.load_factor * load;
+                let acting = lag.mean(effort, step) + known;
                 mechanism.advance(acting, step);
             }
         }

@@ -3,6 +3,7 @@
 use crate::calibrate::checks::relation::root_mean_square as size;
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::Trace;
+use crate::calibrate::trace::known::KnownEffort;
 use crate::controller::Controller;
 
 /// Where a controller has its speed from.
@@ -50,7 +51,8 @@ pub struct SeenController {
     pub controller: Controller,
     /// Where it has its speed from: what explains the measured effort best.
     pub source: SpeedSource,
-    /// Effort that is not the controller's, at every sample, N or N m: nothing where it is below the noise of the position's steps.
+    /// Effort that is not the controller's, at every sample, N or N m: what is known of it, and what is beyond the noise of the position's
+    /// steps.
     pub added: Vec<f64>,
     /// Residual of the measured effort, rms, N or N m.
     pub residual: f64,
@@ -98,7 +100,8 @@ impl SeenController {
                     .effort
                     .iter()
                     .zip(&efforts)
-                    .map(|(measured, wanted)| measured - wanted)
+                    .enumerate()
+                    .map(|(sample, (measured, wanted))| measured - wanted - within(trace, sample))
                     .collect();
                 (source, robust_spread(&rest), rest)
             })
@@ -119,7 +122,11 @@ impl SeenController {
         let noise = (6.0 * spread).max(2.0 * steps);
         let added = rest
             .iter()
-            .map(|rest| if rest.abs() > noise { *rest } else { 0.0 })
+            .enumerate()
+            .map(|(sample, rest)| {
+                let beyond = if rest.abs() > noise { *rest } else { 0.0 };
+                beyond + within(trace, sample)
+            })
             .collect();
         let residual = size(rest);
         Self {
@@ -144,6 +151,15 @@ impl SeenController {
             )
         })
     }
+}
+
+/// What the effort holds at a sample that the controller did not command, as far as it is known.
+fn within(trace: &Trace, sample: usize) -> f64 {
+    let known = trace.known.as_ref().and_then(KnownEffort::within);
+    known
+        .and_then(|known| known.get(sample))
+        .copied()
+        .unwrap_or(0.0)
 }
 
 /// Standard deviation of most of the values, by the median of their sizes.

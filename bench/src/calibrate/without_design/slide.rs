@@ -1,40 +1,25 @@
-//! A trace without a design: a mass or an inertia with friction that knows no load, in the trace's own coordinate.
+//! A trace without a design: a mass or an inertia with friction and a load, in the trace's own coordinate.
 //!
-//! `effort(t - delay) = I a + viscous drag of each direction + level T(motion) + offset + stiffness x + slope x T + deviation(x)`,
-//! with a law of friction `T` of unit level ([`crate::calibrate::laws`]).
+//! `effort(t - delay) + known = I a + viscous drag of each direction + level T(motion) + offset + stiffness x + slope x T + deviation(x)
+//! + load + loss |load| T(motion)`, with a law of friction `T` of unit level ([`crate::calibrate::laws`]) and a loss of its own for
+//! driving (`load T > 0`: motor power flows to the load) and back-driving (`load T < 0`: the load drives the motor).
 
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
-use crate::calibrate::laws::{Friction, Law, Scales};
+use crate::calibrate::laws::{Law, Scales};
 use crate::calibrate::signals::{Motion, Rows};
+use crate::calibrate::trace::known::KnownEffort;
 use crate::calibrate::trace::{Coordinate, Trace};
-use crate::mechanism::{Resistance, Step};
-
-/// What stands beside the law of friction.
-// Each is a term that may be left out.
-#[allow(clippy::struct_excessive_bools)]
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Terms {
-    /// Drag that differs between the directions.
-    pub drag_of_each_direction: bool,
-    /// Effort that grows with the position, as of a cable chain, and friction that does.
-    pub position: bool,
-    /// Period of a deviation along the way, rad or m.
-    pub period: Option<f64>,
-    /// Axial load, as an effort with a gain.
-    pub load: bool,
-    /// Delay between the effort as it is written down and as it acts.
-    pub delay: bool,
-    /// Whether the trace moves at one speed: drag and level are one number.
-    pub one_speed: bool,
-}
+use crate::calibrate::without_design::resistance::{Numbers, SlideResistance};
+use crate::calibrate::without_design::terms::{LoadTerm, Terms};
 
 /// A model of a trace without a design.
 pub struct Slide<'a> {
     motion: &'a Motion,
     load: Option<&'a [f64]>,
+    known: Option<&'a [f64]>,
     rows: &'a Rows,
     law: Law,
     terms: Terms,
@@ -43,30 +28,42 @@ pub struct Slide<'a> {
     nonlinear: Vec<Parameter>,
     linear: Vec<LinearParameter>,
     target: Vec<f64>,
-    /// Columns that the law does not change, by the delay.
-    kept: Mutex<Vec<(f64, Columns)>>,
+    /// What the law does not change, by the delay.
+    kept: Mutex<Vec<(f64, Arc<Steady>)>>,
 }
 
-/// Columns of rows, shared.
-type Columns = Arc<Vec<Vec<f64>>>;
+/// Rows that the law does not change.
+struct Steady {
+    /// What has no parameter: a load that is given, less what is known beside the effort.
+    fixed: Vec<f64>,
+    columns: Vec<Vec<f64>>,
+}
 
 /// Delays whose columns are kept: that of a point, and those of its slope.
 const KEPT: usize = 3;
 
-/// Names of the linear parameters, in the order of their columns.
-const INERTIA: [&str; 2] = ["inertia", "mass"];
-const DRAG: &str = "viscous_friction";
+/// Names of what is accelerated.
+pub const INERTIA: [&str; 2] = ["inertia", "mass"];
+/// Name of the drag over the speed.
+pub const DRAG: &str = "viscous_friction";
 const FORWARD: &str = "viscous_friction_forward";
 const BACKWARD: &str = "viscous_friction_backward";
-const LEVEL: &str = "coulomb_friction";
+/// Name of the friction without a load.
+pub const LEVEL: &str = "coulomb_friction";
 /// Name of the level and the drag together.
 pub const AT_ONE_SPEED: &str = "friction_at_one_speed";
-const OFFSET: &str = "offset";
+/// Name of the effort that is always there.
+pub const OFFSET: &str = "offset";
 const STIFFNESS: &str = "position_stiffness";
 const SLOPE: &str = "friction_slope";
 const COSINE: &str = "deviation_cosine";
 const SINE: &str = "deviation_sine";
-const GAIN: &str = "load_gain";
+/// Name of the effort of a unit of load.
+pub const GAIN: &str = "load_gain";
+/// Name of the loss of both directions of power, of a unit of load.
+pub const LOSS: &str = "load_loss";
+/// Names of the losses of driving and back-driving, over the load's effort.
+pub const LOSSES: [&str; 2] = ["driving_loss", "back_driving_loss"];
 const DELAY: &str = "effort_delay";
 
 /// Units by coordinate: rotation, translation.
@@ -141,17 +138,21 @@ impl<'a> Slide<'a> {
                 scale: Scale::Linear,
             });
         }
-        let load = trace.load.as_deref().filter(|_| terms.load);
+        let load = trace
+            .load
+            .as_deref()
+            .filter(|_| terms.load != LoadTerm::None);
         Self {
             motion,
             load,
+            known: trace.known.as_ref().and_then(KnownEffort::beside),
             rows,
             law,
             terms,
             scales,
             middle: middle(&motion.position),
             nonlinear,
-            linear: linear(trace.coordinate, terms, load.is_some()),
+            linear: linear(trace.coordinate, terms),
             target: rows.of(&trace.effort),
             kept: Mutex::default(),
         }
@@ -165,21 +166,42 @@ impl<'a> Slide<'a> {
         friction.along(&self.motion.position, &self.motion.speed, self.scales.tick)
     }
 
-    /// Columns that do not depend on the law, in the order of [`Separable::linear`] without those of the friction, as rows so many ticks
-    /// later. Most evaluations differ by the law alone: the last ones are kept.
-    fn steady(&self, ticks: f64) -> Columns {
+    /// What does not depend on the law, as rows so many ticks later: columns in the order of [`Separable::linear`] without those of the
+    /// friction. Most evaluations differ by the law alone: the last ones are kept.
+    fn steady(&self, ticks: f64) -> Arc<Steady> {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, columns)) = kept.iter().find(|(at, _)| *at == ticks) {
-            return Arc::clone(columns);
+        if let Some((_, steady)) = kept.iter().find(|(at, _)| *at == ticks) {
+            return Arc::clone(steady);
         }
         let signals = self.signals();
-        let rows = signals.iter().map(|signal| self.row(signal, ticks));
-        let columns = Arc::new(rows.collect::<Vec<_>>());
+        let steady = Arc::new(Steady {
+            fixed: self.fixed(ticks),
+            columns: signals
+                .iter()
+                .map(|signal| self.row(signal, ticks))
+                .collect(),
+        });
         if kept.len() == KEPT {
             kept.remove(0);
         }
-        kept.push((ticks, Arc::clone(&columns)));
-        columns
+        kept.push((ticks, Arc::clone(&steady)));
+        steady
+    }
+
+    /// Rows of what has no parameter.
+    fn fixed(&self, ticks: f64) -> Vec<f64> {
+        let mut fixed = vec![0.0; self.target.len()];
+        let given = self.load.filter(|_| !self.terms.load.has_gain());
+        for (signal, sign) in given
+            .map(|load| (load, 1.0))
+            .into_iter()
+            .chain(self.known.map(|known| (known, -1.0)))
+        {
+            for (sum, row) in fixed.iter_mut().zip(self.row(signal, ticks)) {
+                *sum += sign * row;
+            }
+        }
+        fixed
     }
 
     /// A signal as rows, so many ticks later.
@@ -213,13 +235,13 @@ impl<'a> Slide<'a> {
             columns.push(position.iter().map(|place| angle(place).cos()).collect());
             columns.push(position.iter().map(|place| angle(place).sin()).collect());
         }
-        if let Some(load) = self.load {
+        if let Some(load) = self.load.filter(|_| self.terms.load.has_gain()) {
             columns.push(load.to_vec());
         }
         columns
     }
 
-    /// Columns of the friction: of its level, and of its slope over the position where it is wanted.
+    /// Columns of the friction: of its level, of its slope over the position where it is wanted, and of the load's losses.
     fn frictional(&self, friction: &[f64], ticks: f64) -> Vec<Vec<f64>> {
         let mut columns = vec![self.row(friction, ticks)];
         if self.terms.position {
@@ -232,7 +254,39 @@ impl<'a> Slide<'a> {
                 .collect();
             columns.push(self.row(&sloped, ticks));
         }
+        let losses = self.losses(friction);
+        columns.extend(losses.iter().map(|loss| self.row(loss, ticks)));
         columns
+    }
+
+    /// Unit losses of the load: `|load| T` where the motor drives the load, where the load drives the motor, or throughout.
+    fn losses(&self, friction: &[f64]) -> Vec<Vec<f64>> {
+        let Some(load) = self.load else {
+            return Vec::new();
+        };
+        let of = |counts: fn(f64) -> bool| -> Vec<f64> {
+            let both = load.iter().zip(friction);
+            both.map(|(load, friction)| {
+                if counts(load * friction) {
+                    load.abs() * friction
+                } else {
+                    0.0
+                }
+            })
+            .collect()
+        };
+        if self.terms.load == LoadTerm::LossAlike {
+            return vec![of(|_| true)];
+        }
+        let [driving, back_driving] = self.terms.load.losses();
+        let mut losses = Vec::new();
+        if driving {
+            losses.push(of(|power| power > 0.0));
+        }
+        if back_driving {
+            losses.push(of(|power| power < 0.0));
+        }
+        losses
     }
 
     /// What opposes the motion at a fit's parameters.
@@ -252,19 +306,25 @@ impl<'a> Slide<'a> {
                 .sum::<f64>()
         };
         let both = value(DRAG);
-        Ok(SlideResistance {
-            friction: self.law.friction(&self.scales, nonlinear)?,
-            level: value(LEVEL) + value(AT_ONE_SPEED),
-            drag: [value(FORWARD) + both, value(BACKWARD) + both],
-            offset: value(OFFSET),
-            middle: self.middle,
-            stiffness: value(STIFFNESS),
-            slope: value(SLOPE),
-            deviation: [value(COSINE), value(SINE)],
-            wavenumber: self.terms.period.map_or(0.0, |period| TAU / period),
-            gain: value(GAIN),
-            load: 0.0,
-        })
+        let alike = value(LOSS);
+        Ok(SlideResistance::new(
+            self.law.friction(&self.scales, nonlinear)?,
+            Numbers {
+                level: value(LEVEL) + value(AT_ONE_SPEED),
+                drag: [value(FORWARD) + both, value(BACKWARD) + both],
+                offset: value(OFFSET),
+                middle: self.middle,
+                stiffness: value(STIFFNESS),
+                slope: value(SLOPE),
+                deviation: [value(COSINE), value(SINE)],
+                wavenumber: self.terms.period.map_or(0.0, |period| TAU / period),
+                gain: match self.terms.load {
+                    LoadTerm::Losses { .. } if self.load.is_some() => 1.0,
+                    _ => value(GAIN),
+                },
+                losses: LOSSES.map(|name| value(name) + alike),
+            },
+        ))
     }
 
     /// Delay of the effort at a fit's parameters, s.
@@ -306,7 +366,7 @@ fn middle(position: &[f64]) -> f64 {
     0.5 * (low + high)
 }
 
-fn linear(coordinate: Coordinate, terms: Terms, load: bool) -> Vec<LinearParameter> {
+fn linear(coordinate: Coordinate, terms: Terms) -> Vec<LinearParameter> {
     let units = units(coordinate);
     let inertia = match coordinate {
         Coordinate::Rotation => INERTIA[0],
@@ -327,13 +387,21 @@ fn linear(coordinate: Coordinate, terms: Terms, load: bool) -> Vec<LinearParamet
     if terms.period.is_some() {
         linear.extend([COSINE, SINE].map(|name| free(name, units.effort)));
     }
-    if load {
+    if terms.load.has_gain() {
         linear.push(free(GAIN, units.gain));
     }
     let level = if terms.one_speed { AT_ONE_SPEED } else { LEVEL };
     linear.push(positive(level, units.effort));
     if terms.position {
         linear.push(free(SLOPE, units.stiffness));
+    }
+    if terms.load == LoadTerm::LossAlike {
+        linear.push(positive(LOSS, units.gain));
+    }
+    for (name, told) in LOSSES.into_iter().zip(terms.load.losses()) {
+        if told {
+            linear.push(positive(name, ""));
+        }
     }
     linear
 }
@@ -357,10 +425,11 @@ impl Separable for Slide<'_> {
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
         let ticks = self.delay(nonlinear) / self.scales.tick;
-        let mut columns = self.steady(ticks).to_vec();
+        let steady = self.steady(ticks);
+        let mut columns = steady.columns.clone();
         columns.extend(self.frictional(&self.friction(nonlinear), ticks));
         Evaluation {
-            fixed: vec![0.0; self.target.len()],
+            fixed: steady.fixed.clone(),
             columns,
         }
     }
@@ -381,52 +450,4 @@ fn advanced(signal: &[f64], ticks: f64) -> Vec<f64> {
             signal[before] + part * (signal[after] - signal[before])
         })
         .collect()
-}
-
-/// What opposes the motion of a slide.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SlideResistance {
-    friction: Friction,
-    level: f64,
-    drag: [f64; 2],
-    offset: f64,
-    middle: f64,
-    stiffness: f64,
-    slope: f64,
-    deviation: [f64; 2],
-    wavenumber: f64,
-    gain: f64,
-    /// Axial load, N.
-    pub load: f64,
-}
-
-impl SlideResistance {
-    fn with(&self, friction: f64, step: &Step) -> f64 {
-        let place = step.position - self.middle;
-        let (sine, cosine) = (self.wavenumber * step.position).sin_cos();
-        let [forward, backward] = self.drag;
-        let speed = step.end_speed;
-        let drag = if speed > 0.0 { forward } else { backward };
-        // Friction never drives, however steep its slope.
-        let level = (self.level + self.slope * place).max(0.0);
-        level * friction
-            + drag.max(0.0) * speed
-            + self.offset
-            + self.stiffness * place
-            + self.deviation[0] * cosine
-            + self.deviation[1] * sine
-            + self.gain * self.load
-    }
-}
-
-impl Resistance for SlideResistance {
-    fn against(&self, step: &Step) -> f64 {
-        let mut friction = self.friction;
-        self.with(friction.follow(step), step)
-    }
-
-    fn follow(&mut self, step: &Step) -> f64 {
-        let friction = self.friction.follow(step);
-        self.with(friction, step)
-    }
 }

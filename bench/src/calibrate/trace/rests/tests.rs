@@ -21,6 +21,8 @@ fn trace(position: Vec<f64>, resolution: f64, speed: Option<Vec<f64>>, step: f64
         speed,
         reference_position: None,
         load: None,
+        load_is_effort: false,
+        known: None,
         temperature: None,
         repairs: Repairs::default(),
         ignored: Vec::new(),

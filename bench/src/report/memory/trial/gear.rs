@@ -108,6 +108,8 @@ fn measured(trace: &rig::Trace) -> Trace {
         effort: trace.motor_torque.clone(),
         reference_position: None,
         load: Some(trace.axial_load.clone()),
+        load_is_effort: false,
+        known: None,
         temperature: Some(trace.temperature.clone()),
         repairs: Repairs::default(),
         ignored: Vec::new(),

@@ -1,0 +1,167 @@
+//! A drive without a drawing: Coulomb and viscous friction, and a loss in proportion to the transmitted load.
+
+mod configuration;
+
+use super::contract::{Admitted, Inputs, Limits, Regime, Scene};
+use super::faults::Faults;
+use super::outputs::{Outputs, efficiency};
+use super::passage::{Passage, Reversal};
+use crate::error::{Error, attempt, in_range};
+pub use configuration::LoadProportionalConfiguration;
+
+/// A drive whose geometry is not known, by four numbers that `epas-bench calibrate` identifies from a trace without a design.
+///
+/// `T = s (T_C + eta |tau|) + b w`, with the torque `tau` of the load, `eta` the loss of driving (`w tau > 0`: motor power flows to the
+/// load) or of back-driving (`w tau < 0`: the load drives the motor), and `s = w / sqrt(w^2 + w_s^2)` at the speed `w`. Friction never
+/// drives: the product of `T` and `w` is not negative. Not in it: how the friction coefficient follows speed and temperature, and friction
+/// that remembers; both need a design ([`CagedBallScrew`](crate::scene::CagedBallScrew) in [`WithMemory`](crate::scene::WithMemory)).
+///
+/// ```
+/// use epas_friction::{FrictionModel, Inputs, Limits, LoadProportionalConfiguration, LoadProportionalScrew, Regime};
+///
+/// let mut model = FrictionModel::<LoadProportionalScrew>::new(&LoadProportionalConfiguration {
+///     load_lever: 1.0, // the load is given as its torque
+///     coulomb_friction: 0.05,
+///     viscous_friction: 1e-3,
+///     driving_loss: 0.10,
+///     back_driving_loss: 0.13,
+///     reversal_speed: 0.05,
+///     limits: Limits { nut_speed: 100.0, axial_load: 20.0, friction_torque: 5.0 },
+/// })?;
+/// let driving = model.step(Inputs { nut_speed: 10.0, axial_load: 2.0 });
+/// assert!((driving.friction_torque - (0.05 + 0.10 * 2.0 + 1e-3 * 10.0)).abs() < 1e-5);
+/// let driven = model.step(Inputs { nut_speed: -10.0, axial_load: 2.0 });
+/// assert!((driven.friction_torque + (0.05 + 0.13 * 2.0 + 1e-3 * 10.0)).abs() < 1e-5);
+/// assert_eq!(driven.regime, Regime::BackDriving);
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadProportionalScrew;
+
+/// Constants of a drive without a drawing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadProportionalConstants {
+    load_lever: f32,
+    coulomb_friction: f32,
+    viscous_friction: f32,
+    driving_loss: f32,
+    back_driving_loss: f32,
+    reversal: Reversal,
+    limits: Limits,
+}
+
+/// What a tick changes in a drive without a drawing: nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadProportionalState;
+
+impl LoadProportionalConstants {
+    /// Checks a configuration: at set-up, or in a constant when firmware is compiled.
+    ///
+    /// # Errors
+    /// [`Error`] naming the field out of range.
+    pub const fn new(configuration: &LoadProportionalConfiguration) -> Result<Self, Error> {
+        let LoadProportionalConfiguration {
+            load_lever,
+            coulomb_friction,
+            viscous_friction,
+            driving_loss,
+            back_driving_loss,
+            reversal_speed,
+            limits,
+        } = *configuration;
+        attempt!(in_range("load_lever", load_lever, 1e-6, 1e3));
+        attempt!(in_range("coulomb_friction", coulomb_friction, 0.0, 1e6));
+        attempt!(in_range("viscous_friction", viscous_friction, 0.0, 1e6));
+        attempt!(in_range("driving_loss", driving_loss, 0.0, 10.0));
+        attempt!(in_range("back_driving_loss", back_driving_loss, 0.0, 10.0));
+        Ok(Self {
+            load_lever,
+            coulomb_friction,
+            viscous_friction,
+            driving_loss,
+            back_driving_loss,
+            reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
+            limits: attempt!(limits.checked()),
+        })
+    }
+
+    /// Size of the friction torque without its viscous part, away from the reversal, N m, under a torque of the load that opposes
+    /// the motion by `opposing_torque`, N m.
+    #[inline(always)]
+    fn sliding(&self, opposing_torque: f32) -> f32 {
+        let loss = if opposing_torque < 0.0 {
+            self.back_driving_loss
+        } else {
+            self.driving_loss
+        };
+        self.coulomb_friction + loss * opposing_torque.abs()
+    }
+}
+
+impl Scene for LoadProportionalScrew {
+    type Configuration = LoadProportionalConfiguration;
+    type Constants = LoadProportionalConstants;
+    type State = LoadProportionalState;
+    type Inputs = Inputs;
+    type Known = Inputs;
+    type Outputs = Outputs;
+
+    fn constants(
+        configuration: &LoadProportionalConfiguration,
+    ) -> Result<LoadProportionalConstants, Error> {
+        LoadProportionalConstants::new(configuration)
+    }
+
+    fn initial_state(_: &LoadProportionalConstants) -> LoadProportionalState {
+        LoadProportionalState
+    }
+
+    fn take_over(
+        _: &LoadProportionalConstants,
+        _: &mut LoadProportionalState,
+    ) -> Result<(), Error> {
+        Ok(())
+    }
+
+    #[inline(always)]
+    fn admit(constants: &LoadProportionalConstants, inputs: Inputs) -> Admitted<Inputs> {
+        constants.limits.admit(inputs)
+    }
+
+    #[inline(always)]
+    fn outputs(
+        constants: &LoadProportionalConstants,
+        _: &mut LoadProportionalState,
+        inputs: Inputs,
+    ) -> Outputs {
+        let Inputs {
+            nut_speed,
+            axial_load,
+        } = inputs;
+        let Passage {
+            share,
+            way,
+            standing,
+        } = constants.reversal.passage(nut_speed);
+        let load_torque = constants.load_lever * axial_load;
+        let opposing_torque = way * load_torque;
+        let sliding = constants.sliding(opposing_torque);
+        let viscous = constants.viscous_friction * nut_speed;
+        let full = sliding + way * viscous;
+        Outputs {
+            friction_torque: share * sliding + viscous,
+            load_torque,
+            efficiency: efficiency(opposing_torque > 0.0, opposing_torque, full),
+            regime: Regime::under(standing, opposing_torque, full),
+            faults: Faults::NONE,
+        }
+    }
+
+    #[inline(always)]
+    fn largest_friction(constants: &LoadProportionalConstants) -> f32 {
+        constants.limits.friction_torque
+    }
+}
