@@ -18,6 +18,7 @@ use crate::calibrate::outputs::design_file::Written;
 use crate::calibrate::page;
 use crate::calibrate::page::picture::Picture;
 use crate::calibrate::page::shown;
+use crate::calibrate::page::truth::Truth;
 use crate::calibrate::screw::friction::Screw;
 use crate::failure::Failure;
 use crate::files::{self, Existing, refuse_ending, refuse_same};
@@ -55,6 +56,8 @@ pub struct Outcome<'a> {
     pub design: Option<&'a str>,
     /// The screw that was fitted, where there is a design.
     pub screw: Option<&'a Screw>,
+    /// What the trace was made with, where its file says it.
+    pub truth: &'a Truth,
 }
 
 impl OutputArguments {
@@ -123,7 +126,7 @@ impl OutputArguments {
             ..
         } = outcome;
         let folder = self.folder(&picture.name);
-        let document = page::document(calibration, picture);
+        let document = page::document(calibration, picture, outcome.truth, design.is_some());
         folder::mark(&folder)?;
         document.write(&folder)?;
         let mut told = Vec::new();
