@@ -39,7 +39,7 @@ impl Signals {
             return Ok(());
         }
         self.due = now + BETWEEN;
-        Python::attach(|py| py.check_signals())
+        Python::attach(Python::check_signals)
     }
 }
 
@@ -78,7 +78,7 @@ pub fn interruptible<T: Send + 'static>(
             match receiver.recv_timeout(BETWEEN) {
                 Ok(made) => return Ok(made),
                 Err(RecvTimeoutError::Timeout) => {
-                    if let Err(raised) = Python::attach(|py| py.check_signals()) {
+                    if let Err(raised) = Python::attach(Python::check_signals) {
                         stop.0.store(true, Ordering::Relaxed);
                         return Err(raised);
                     }

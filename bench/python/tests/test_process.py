@@ -78,7 +78,7 @@ else:
         ("trace = ef.reference.measured_trace('whole')", "ef.calibrate(trace, ef.Design.built_in('lin-4.1'))", ""),
         ("numbers = np.linspace(0.5, 0.6, 10_000_000)",
          "ef.design_figures(0.0145, 0.007, 0.002, numbers)", ""),
-        ("numbers = np.linspace(0.01, 0.3, 500_000_000, dtype=np.float32)", "ef.efficiency(0.1, 0.7, numbers, 0.1)", ""),
+        ("angles = np.linspace(0.01, 0.3, 30_000_000, dtype=np.float32)", "ef.efficiency(angles, 0.7, 0.1, 0.1)", ""),
     ],
 )  # fmt: skip
 def test_ctrl_c_ends_a_long_call(setup: str, call: str, check: str) -> None:

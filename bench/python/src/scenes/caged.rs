@@ -279,17 +279,16 @@ pub fn restored_caged(
     friction: Option<f32>,
     state: &[u8],
 ) -> PyResult<CagedBallScrew> {
-    let mut screw = match block {
-        Some(block) => CagedBallScrew::from_block(py, block)?,
-        None => {
-            let text = text.unwrap_or_default();
-            let design = bindings::read_design(text, "design");
-            let design = design.map_err(|error| refused(py, error))?;
-            let closed = design.closed_form();
-            let closed = closed.ok_or_else(|| refused(py, Refused::message("no closed form")))?;
-            let origin = Origin::ClosedForm(text.into());
-            CagedBallScrew::of(py, &CagedScene::ClosedForm(closed), origin)?
-        }
+    let mut screw = if let Some(block) = block {
+        CagedBallScrew::from_block(py, block)?
+    } else {
+        let text = text.unwrap_or_default();
+        let design = bindings::read_design(text, "design");
+        let design = design.map_err(|error| refused(py, error))?;
+        let closed = design.closed_form();
+        let closed = closed.ok_or_else(|| refused(py, Refused::message("no closed form")))?;
+        let origin = Origin::ClosedForm(text.into());
+        CagedBallScrew::of(py, &CagedScene::ClosedForm(closed), origin)?
     };
     if let Some(friction) = friction {
         screw.set_friction(py, friction.into())?;
