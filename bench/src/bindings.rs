@@ -6,9 +6,10 @@ pub use crate::designs::{Design, DesignSource, built_in, read as read_design, te
 pub use crate::eval::fit_range;
 pub use crate::failure::Failure;
 pub use crate::simulate::bindings::{
-    Balls, Built, Caged, CagedRow, Friction, Linear, LinearRow, LinearSample, Lines, MOST_BALLS,
-    Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewConfiguration, ScrewSample,
-    Trace, TrainRow, Uncaged, UncagedRow, Use, angle, regime_name, remembering, wrapped,
+    Balls, Built, Caged, CagedRow, Folded, Friction, Linear, LinearRow, LinearSample, Lines,
+    MOST_BALLS, Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewConfiguration,
+    ScrewSample, Trace, TrainRow, Uncaged, UncagedRow, Use, angle, coefficients, regime_name,
+    remembering, wrapped,
 };
 
 /// The answer of `eval` to one line, as one line without its end.

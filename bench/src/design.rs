@@ -3,7 +3,7 @@
 mod made;
 
 use std::io::{self, IsTerminal as _, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::ValueEnum as _;
 use clap::error::ErrorKind;
@@ -11,7 +11,7 @@ use clap::error::ErrorKind;
 use crate::designs::train::no_row;
 use crate::designs::{Design, DesignSource};
 use crate::failure::Failure;
-use crate::files::{Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
+use crate::files::{self, Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
 use crate::{caged, uncaged};
 use made::Made;
 
@@ -27,23 +27,34 @@ use made::Made;
 /// .bin (each word with its least significant byte first, for a calibration page). --format without --output prints the block, and the
 /// certificate to standard error.
 ///
-/// A design file (`simulate --help` names its keys) may say the domain in a table [fold]: friction (a number, or [least, most] for
-/// coefficients that change while firmware runs; the design's without), axial_load ([least, most] of a ball, N; [5, 300] without), seed
-/// (of the certificate's states; 1 without); and for --scene uncaged screw_deviation and nut_deviation (largest, rad; without, what the maps of
-/// [uncaged] reach, at least 1e-4).
+/// --new gear.toml writes a design file to start from. A design file may say the domain in a table [fold]: friction (a number, or [least, most]
+/// for coefficients that change while firmware runs; the design's without), axial_load ([least, most] of a ball, N; [5, 300] without),
+/// seed (of the certificate's states; 1 without).
+///
+/// For --scene uncaged it may also have screw_deviation and nut_deviation (largest, rad; without, what the maps of [uncaged] reach, at
+/// least 1e-4).
 ///
 /// A closed form (branch = "rolling" or "sliding") is refused, because it needs no fold. So is a domain over which the torque is not held to
 /// 3 %: the exit code is 1, and the message says where.
 ///
 /// --json prints one object: version (of the layout), digest (of the inputs), bytes, domain (axial_load of a ball, N, friction, and without
-/// cage screw_deviation and nut_deviation, rad, each [least, most]), certificate (a list of quantity, largest, rms, mean, states, flagged (share),
-/// unit; caged_torque of one ball, or ring_torque and ring_force of rows of balls), seed, two_answers (with a cage: share of the states with two
+/// cage screw_deviation and nut_deviation, rad, each [least, most]), certificate, seed, two_answers (with a cage: share of the states with two
 /// exact answers), unsolved (states without one), seconds.
+///
+/// The certificate is a list of quantity (caged_torque of one ball, or ring_torque and ring_force of rows of balls), largest, rms, mean,
+/// states, flagged (share), unit.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Built-in design (`simulate --list` prints all), or design file ending in .toml; - for standard input
-    #[arg(value_name = "NAME|GEAR.toml")]
-    design: DesignSource,
+    #[arg(value_name = "NAME|GEAR.toml", required_unless_present = "new")]
+    design: Option<DesignSource>,
+    /// Write a design file to start from, every key with its unit, its range and where it stands on a drawing
+    #[arg(
+        long,
+        value_name = "GEAR.toml",
+        conflicts_with_all = ["design", "scene", "format", "output", "json"]
+    )]
+    new: Option<PathBuf>,
     /// Whose ball is folded [default: uncaged where the table [fold] gives a deviation, else caged]
     #[arg(long, value_enum)]
     scene: Option<Scene>,
@@ -57,7 +68,7 @@ pub struct Arguments {
     #[arg(long)]
     json: bool,
     /// Replace a file that exists
-    #[arg(long, requires = "output")]
+    #[arg(long)]
     force: bool,
 }
 
@@ -108,11 +119,23 @@ fn usage(kind: ErrorKind, message: &str) -> ! {
 }
 
 impl Arguments {
+    const fn existing(&self) -> Existing {
+        if self.force {
+            Existing::Replace
+        } else {
+            Existing::Keep
+        }
+    }
+
     /// Where the block goes, if anywhere.
     fn target(&self) -> Result<Option<Target>, Failure> {
         let path = match (&self.output, self.format) {
             (Some(path), _) => path.clone(),
             (None, Some(_)) => "-".into(),
+            (None, None) if self.force => usage(
+                ErrorKind::MissingRequiredArgument,
+                "--force replaces a file, and none is written: --output names one",
+            ),
             (None, None) => return Ok(None),
         };
         let named = || {
@@ -139,13 +162,12 @@ impl Arguments {
                 "a terminal shows no binary block; --output names a file for it",
             );
         }
-        let existing = if self.force {
-            Existing::Replace
-        } else {
-            Existing::Keep
-        };
+        let existing = self.existing();
         existing.check(&path)?;
-        refuse_same([self.design.file()], std::iter::once(&path))?;
+        refuse_same(
+            [self.design.as_ref().and_then(DesignSource::file)],
+            std::iter::once(&path),
+        )?;
         Ok(Some(Target {
             format,
             path,
@@ -156,8 +178,14 @@ impl Arguments {
 
 /// Folds the design, writes its block and prints its certificate.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if let Some(path) = &arguments.new {
+        return start(path, arguments.existing());
+    }
     let target = arguments.target()?;
-    let design = arguments.design.load()?;
+    let Some(source) = &arguments.design else {
+        usage(ErrorKind::MissingRequiredArgument, "the design is missing");
+    };
+    let design = source.load()?;
     let made = made(&design, arguments.scene)?;
     let words = made.words()?.len();
     if let Some(target) = &target {
@@ -177,6 +205,30 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     made.print(&mut out, &design, words)?;
     next(&mut out, target.as_ref(), &made, words)?;
+    Ok(())
+}
+
+/// The design file that users start from.
+pub const START: &str = include_str!("../designs/rack-29x7.toml");
+
+/// Writes a design file to start from.
+fn start(path: &Path, existing: Existing) -> Result<(), Failure> {
+    refuse_ending("a design file", Some(path), &["toml"])?;
+    if !standard(path) && !ends(path, &["toml"]) {
+        return Err(Failure::Data(format!(
+            "{}: a design file ends in .toml",
+            path.display()
+        )));
+    }
+    existing.check(path)?;
+    files::write(path, START, existing)?;
+    if !standard(path) {
+        let path = path.display();
+        writeln!(
+            io::stdout(),
+            "wrote {path}, a rack-assist gear; put your drawing's numbers in, then: design {path}"
+        )?;
+    }
     Ok(())
 }
 

@@ -1,6 +1,8 @@
 //! Designs by name or from a file.
 
 pub mod calibration;
+pub(crate) mod capacity;
+mod fits;
 pub mod fold;
 pub mod loads;
 mod plausible;
@@ -26,11 +28,11 @@ pub use plausible::SOURCES;
 use crate::failure::Failure;
 use crate::files::{ends, standard};
 use calibration::Calibrated;
+use fits::Fits;
 use fold::FoldTable;
 use loads::{LoadCase, LoadsTable};
 use tables::{
-    MaterialTable, clearance, from_text, groove_size, mark, material, parsed, radius, replace,
-    text_of,
+    MaterialTable, from_text, groove_size, mark, material, parsed, radius, replace, text_of,
 };
 use train::{LinearDesign, UncagedDesign, UncagedTable};
 
@@ -316,7 +318,9 @@ struct DesignFile {
     branch: Option<BranchName>,
     clearance: Option<f32>,
     preload: Option<f32>,
-    /// What [`clearance`] has replaced.
+    axial_play: Option<f32>,
+    axial_preload: Option<f32>,
+    /// What `clearance` has replaced.
     fit: Option<toml::Value>,
     reversal_speed: Option<f32>,
     loaded_balls: Option<u16>,
@@ -403,15 +407,13 @@ impl DesignFile {
             return Err("loaded_balls = 0 is out of range; allowed: 1 to 1000".into());
         }
         train::refuse_fit(self.fit.as_ref())?;
-        let given = [self.clearance, self.preload];
-        let fits = given.iter().any(Option::is_some);
-        let clearance = clearance(&screw, self.clearance, self.preload)?;
-        if fits && clearance.gap() < 0.0 && self.loaded_balls.is_none() {
-            return Err(
-                "loaded_balls is missing: all of them press on the flanks of a preloaded nut"
-                    .into(),
-            );
-        }
+        let fits = Fits {
+            clearance: self.clearance,
+            preload: self.preload,
+            axial_play: self.axial_play,
+            axial_preload: self.axial_preload,
+        };
+        let clearance = fits.of(&screw, self.loaded_balls)?;
 
         let mut design = Design::built_in(
             self.name.as_deref().unwrap_or(stem),
@@ -421,7 +423,7 @@ impl DesignFile {
         let rows = self.uncaged.as_ref();
         design.defaulted = [
             ("friction", self.friction.is_some()),
-            ("clearance", fits),
+            ("clearance", fits.any()),
             ("reversal_speed", self.reversal_speed.is_some()),
             ("loaded_balls", self.loaded_balls.is_some()),
             (

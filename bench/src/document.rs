@@ -35,7 +35,9 @@ impl Document {
             for block in &section.blocks {
                 match block {
                     Block::Text(text) => writeln!(output, "\n{}", inline::wrapped(text))?,
-                    Block::Table(table) => write!(output, "\n{}", table.text())?,
+                    Block::Table(table) | Block::Answer(table) => {
+                        write!(output, "\n{}", table.text())?;
+                    }
                     Block::Annex(_) | Block::Figure(_) => {}
                 }
             }
@@ -51,6 +53,7 @@ impl Document {
 
     /// Writes every form into a folder.
     pub fn write(&self, folder: &Path) -> Result<(), Failure> {
+        std::fs::create_dir_all(folder).map_err(|error| Failure::file("write", folder, &error))?;
         let save = |name: &str, ending: &str, text: &str| {
             write(
                 &folder.join(format!("{name}.{ending}")),
@@ -62,7 +65,7 @@ impl Document {
         for block in self.blocks() {
             match block {
                 Block::Text(_) => {}
-                Block::Table(table) | Block::Annex(table) => {
+                Block::Table(table) | Block::Annex(table) | Block::Answer(table) => {
                     save(table.name, "csv", &table.csv()?)?;
                     figures.insert(table.name.into(), table.json());
                 }
@@ -90,7 +93,7 @@ impl Document {
             for block in &section.blocks {
                 let _ = match block {
                     Block::Text(lines) => write!(text, "\n{}\n", inline::markdown(lines)),
-                    Block::Table(table) | Block::Annex(table) => {
+                    Block::Table(table) | Block::Annex(table) | Block::Answer(table) => {
                         write!(text, "\n{}", table.markdown())
                     }
                     Block::Figure(Figure { caption, name, .. }) => {

@@ -33,11 +33,11 @@ use lines::{Line, Lines};
 
 /// Evaluates one model per line: JSON objects in, JSON objects out, in order.
 ///
-/// A request is {"id": ANY, "model": NAME, ...fields}; its answer is {"id": ANY, "in_loop": {...},
-/// "reference": {...}} with the values of the f32 crate and of the float64 reference, or {"id": ANY,
-/// "error": {"field": "...", "message": "..."}}. A quantity that does not exist is null. Blank lines
-/// are skipped. A line that is no JSON object answers with a null id and the field "request". The
-/// exit code is 1 where any request was bad.
+/// A request is {"id": ANY, "model": NAME, ...fields}; its answer is {"id": ANY, "in_loop": {...}, "reference": {...}} with the
+/// values of the f32 crate and of the float64 reference, or {"id": ANY, "error": {"field": "...", "message": "..."}}. A quantity
+/// that does not exist is null. Blank lines are skipped.
+///
+/// A line that is no JSON object answers with a null id and the field "request". The exit code is 1 where any request was bad.
 ///
 /// Models and fields (SI units, radians; those in brackets may be left out):
 ///
@@ -58,73 +58,96 @@ use lines::{Line, Lines};
 ///
 /// friction_map: axis_ratio, offset
 ///
-/// linear_train: ball_radius, conformity, nominal_contact_angle, youngs_modulus, poisson_ratio,
-/// friction, [ball_friction], speed, balls: a list, rear to front, of 1 to 64 {"contact_angles": [BL, BR,
-/// TR, TL], "contact_forces": [BL, BR, TR, TL]}; a force of 0 is a lost contact. Answers with actual
-/// speeds, under the forces between the balls; at standstill the reference has none of them. `in_loop` has
-/// them twice: `scene` by the closed form that the scene of a linear bearing runs, and `analytic` by the same with the
-/// printed slope 1.38 in the place of the exact one of the contact.
+/// linear_train: ball_radius, conformity, nominal_contact_angle, youngs_modulus, poisson_ratio, friction, [ball_friction], speed,
+/// balls: a list, rear to front, of 1 to 64 {"contact_angles": [BL, BR, TR, TL], "contact_forces": [BL, BR, TR, TL]}; a force of
+/// 0 is a lost contact. Answers with actual speeds, under the forces between the balls; at standstill the reference has none of
+/// them.
 ///
-/// static_load: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus,
-/// poisson_ratio, screw_length, screw_diameter (outer), balls (their number), ball_spacing (angle),
-/// nut_position (axial centre of the balls), axial_load, [ball_oversize (of the radius; a number, or a list
-/// with one for each ball)], [end_offset (x displacement forced on the right end)]. The load acts on the
-/// left end, which moves only along the axis; the nut is rigid; the first ball stands at azimuth 0. No
+/// `in_loop` has them twice: `scene` by the closed form that the scene of a linear bearing runs, and `analytic` by the same with
+/// the printed slope 1.38 in the place of the exact one of the contact.
+///
+/// static_load: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus, poisson_ratio, screw_length,
+/// screw_diameter (outer), balls (their number), ball_spacing (angle), nut_position (axial centre of the balls), axial_load,
+/// [ball_oversize (of the radius; a number, or a list with one for each ball)], [end_offset (x displacement forced on the right
+/// end)].
+///
+/// The load acts on the left end, which moves only along the axis; the nut is rigid; the first ball stands at azimuth 0. No
 /// in_loop: it is null.
 ///
-/// ball_screw_train: pitch_radius, lead, ball_radius, groove_radius, youngs_modulus, poisson_ratio, friction,
-/// nut_speed, balls: a list, rear to front in the direction of orbiting, of 1 to 64 {"contacts": {"SL":
-/// {"load", "contact_angle"}, ...}} with two to four of SL, SR, NL, NR (screw or nut, left or right); a load of
-/// 0 is a lost contact. Answers with the speeds of free balls, the forces between touching ones (none at
-/// standstill), and the power lost in grooves and between balls; nothing where a ball is not loaded on both
-/// screw and nut. `in_loop` finds the contacts itself, from the axial load of each ball and the deviations of its
-/// contact angles in either groove, which are read off the given contacts; it has them by the closed form of a row,
-/// which no step runs. load_mismatch (over the largest load of a ball) and angle_mismatch say how far the
-/// given contacts are from those found. Largest errors of the closed form over the stored balls and pairs: speeds 3e-3
-/// of the nut's, force 1.6 %, power 5.0 %; in rows of up to 64 of these balls 5 % of the largest force, and 17 %
-/// (power 9.3 %) where balls push each other until their third contacts slide. Such forces are up to a factor of two too
-/// large at 100 N a ball. All of it is null where a ball has four loaded contacts, where numbers of contacts
-/// differ from ball to ball, where balls are loaded in different directions, and where a load is further than 0.1 of the
-/// largest one, or an angle further than 0.01, from those found (so are contacts of a nut that turns the other way). At
-/// standstill the closed form has speeds and power (0) alone.
+/// ball_screw_train: pitch_radius, lead, ball_radius, groove_radius, youngs_modulus, poisson_ratio, friction, nut_speed, balls: a
+/// list, rear to front in the direction of orbiting, of 1 to 64 {"contacts": {"SL": {"load", "contact_angle"}, ...}} with two to
+/// four of SL, SR, NL, NR (screw or nut, left or right); a load of 0 is a lost contact.
 ///
-/// ball_screw_pair: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus, poisson_ratio,
-/// friction, [ball_friction (0)], clearance (radial gap of every contact at the centred ball and the unloaded
-/// screw: play above 0, oversize below), nut_speed, balls: a list, rear to front in the direction of orbiting, of
-/// 2 to 64 {"screw_deviation", "nut_deviation", "axial_load"}; contact angles are SL = contact_angle -
-/// screw_deviation, SR = contact_angle + screw_deviation, NL and NR likewise by nut_deviation; a positive axial
-/// load is carried by SL and NR, a negative one by SR and NL. Answers with free_speed (list, orbital over nut
-/// speed, no neighbour pressing), contact_force (list), groove_torque and groove_torque_free (on the nut, all
-/// balls, pressing and none pressing) and loads (list of [SL, SR, NL, NR], none pressing). The reference has balls
-/// in elastic grooves with exact friction, by contact integrals of 32 nodes; its quantities are null at standstill,
-/// for a ball without load and where no answer was found that meets every balance. `in_loop` is what the law finds that
-/// the scene of a ball screw without cage evaluates, folded for the request: for deviations up to the largest one in each groove,
-/// of either sign, and for 5 to 300 N a ball, or down and up to the next power of two where the request needs more; without
-/// loads, and with flagged: whether a step says that the law does not hold the forces under these loads. It is null where the
-/// reference is for lack of speed or load, for loads of both signs, for a clearance outside -0.02 to 0.05 ball radii, for
-/// deviations above 0.1, and where no law holds these deviations and loads. A law takes some seconds; requests with the same screw,
-/// friction, clearance and largest deviations share one. Its object `closed_form` has the same by a closed form that no scene
-/// runs: it knows no play, preload and two-point contact, and takes of them what is nearest to the clearance; with
-/// it balls that press do not change the torque.
+/// Answers with the speeds of free balls, the forces between touching ones (none at standstill), and the power lost in grooves
+/// and between balls; nothing where a ball is not loaded on both screw and nut.
 ///
-/// presliding: form ("proportional" or "load_exact"), table (proportional: "slip4", "slip6", "slip8", "slip10", "spin4",
-/// "spin6", "spin8" or "spin10") or largest_load (load_exact, eight elements), angle (list, over the breakaway angle, the
-/// first one the start, where nothing is remembered), [load (list as long, over the reference load; 1)], limit_ratio
-/// ([forward, backward], over the load). Answers with torque, over the limit at the reference load, one for each angle,
-/// the first one 0. The reference also has exact: what the elements stand for; null for proportional with a load.
+/// `in_loop` finds the contacts itself, from the axial load of each ball and the deviations of its contact angles in either
+/// groove, which are read off the given contacts.
 ///
-/// caged_torque: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus, poisson_ratio, friction, clearance (as of
-/// ball_screw_pair), axial_load (list of up to 1000, N a ball; a positive one opposes the travel of a nut that turns forward), direction
-/// (1 forward or -1). Answers with torque, one for each load: the friction torque of one ball on the nut that has to be overcome, N m,
-/// positive in either direction, without rolling resistance.
+/// It has them by the closed form of a row, which no step runs. load_mismatch (over the largest load of a ball) and
+/// angle_mismatch say how far the given contacts are from those found.
+///
+/// Largest errors of the closed form over the stored balls and pairs: speeds 3e-3 of the nut's, force 1.6 %, power 5.0 %; in rows
+/// of up to 64 of these balls 5 % of the largest force, and 17 % (power 9.3 %) where balls push each other until their third
+/// contacts slide. Such forces are up to a factor of two too large at 100 N a ball.
+///
+/// All of it is null where a ball has four loaded contacts, where numbers of contacts differ from ball to ball, where balls are
+/// loaded in different directions, and where a load or an angle is too far from those found.
+///
+/// Too far is 0.1 of the largest load, and 0.01 rad; contacts of a nut that turns the other way are. At standstill the closed form has
+/// speeds and power (0) alone.
+///
+/// ball_screw_pair: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus, poisson_ratio, friction,
+/// [ball_friction (0)], clearance (radial gap of every contact at the centred ball and the unloaded screw: play above 0, oversize
+/// below), nut_speed, balls: a list, rear to front in the direction of orbiting, of 2 to 64 {"screw_deviation", "nut_deviation",
+/// "axial_load"}.
+///
+/// Contact angles are SL = contact_angle - screw_deviation, SR = contact_angle + screw_deviation, NL and NR likewise by
+/// nut_deviation; a positive axial load is carried by SL and NR, a negative one by SR and NL.
+///
+/// Answers with free_speed (list, orbital over nut speed, no neighbour pressing), contact_force (list), groove_torque and
+/// groove_torque_free (on the nut, all balls, pressing and none pressing) and loads (list of [SL, SR, NL, NR], none pressing).
+///
+/// The reference has balls in elastic grooves with exact friction, by contact integrals of 32 nodes; its quantities are null at
+/// standstill, for a ball without load and where no answer was found that meets every balance.
+///
+/// `in_loop` is what the law finds that the scene of a ball screw without cage evaluates, folded for the request: for deviations
+/// up to the largest one in each groove, of either sign, and for 5 to 300 N a ball, or down and up to the next power of two where
+/// the request needs more.
+///
+/// It has no loads, and flagged beside the rest: whether a step says that the law does not hold the forces under these loads.
+///
+/// It is null where the reference is for lack of speed or load, for loads of both signs, for a clearance outside -0.02 to 0.05
+/// ball radii, for deviations above 0.1, and where no law holds these deviations and loads. A law takes some seconds; requests
+/// with the same screw, friction, clearance and largest deviations share one.
+///
+/// Its object `closed_form` has the same by a closed form that no scene runs: it knows no play, preload and two-point contact,
+/// and takes of them what is nearest to the clearance; with it balls that press do not change the torque.
+///
+/// presliding: form ("proportional" or "load_exact"), table (proportional: "slip4", "slip6", "slip8", "slip10", "spin4", "spin6",
+/// "spin8" or "spin10") or largest_load (load_exact, eight elements), angle (list, over the breakaway angle, the first one the
+/// start, where nothing is remembered), [load (list as long, over the reference load; 1)], limit_ratio ([forward, backward], over
+/// the load).
+///
+/// Answers with torque, over the limit at the reference load, one for each angle, the first one 0. The reference also has exact:
+/// what the elements stand for; null for proportional with a load.
+///
+/// caged_torque: pitch_radius, lead, ball_radius, groove_radius, contact_angle, youngs_modulus, poisson_ratio, friction,
+/// clearance (as of ball_screw_pair), axial_load (list of up to 1000, N a ball; a positive one opposes the travel of a nut that
+/// turns forward), direction (1 forward or -1).
+///
+/// Answers with torque, one for each load: the friction torque of one ball on the nut that has to be overcome, N m, positive in
+/// either direction, without rolling resistance.
 ///
 /// Of caged_torque the reference solves the elastic balance of the ball with exact friction, from the largest load down; where it finds no
 /// answer, the list holds null. Where two torques are exact, because a contact opens later than it closes, it is that under a falling load.
 /// Under no load the torque is 0, or that of the preload.
 ///
-/// in_loop of caged_torque is what a step of the scene CagedBallScrew puts out, with a block folded for the request: over 5 to 300 N a ball,
-/// or the range of the list where that is wider (from 0.01 N). It is null for a clearance outside -0.02 to 0.05 ball radii, and for a
-/// design that cannot be folded. A request takes about a second.
+/// in_loop of caged_torque is what a step of the scene CagedBallScrew puts out, with a block folded for the request: over 5 to
+/// 300 N a ball, or the range of the list where that is wider (from 0.01 N).
+///
+/// It is null for a clearance outside -0.02 to 0.05 ball radii, and for a design that cannot be folded. A request takes about a
+/// second.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -

@@ -18,11 +18,17 @@ pub enum Existing {
 }
 
 impl Existing {
-    /// Fails before any work is done where something would be in the way: any file, or with
+    /// Fails before any work is done where a folder is missing, or something would be in the way: any file, or with
     /// [`Existing::Replace`] what is none, such as a device or a pipe.
     pub fn check(self, path: &Path) -> Result<(), Failure> {
         if standard(path) {
             return Ok(());
+        }
+        let folder = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
+        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+            return Err(no_folder(path, folder));
         }
         // A link counts as its target, or as itself where the target is missing.
         let Ok(there) = fs::metadata(path).or_else(|_| fs::symlink_metadata(path)) else {
@@ -39,6 +45,14 @@ impl Existing {
     }
 }
 
+fn no_folder(path: &Path, folder: &Path) -> Failure {
+    Failure::Data(format!(
+        "cannot write {}: the folder {} is missing; mkdir -p makes it",
+        path.display(),
+        folder.display()
+    ))
+}
+
 fn in_the_way(path: &Path) -> Failure {
     Failure::Data(format!("{} exists; --force replaces it", path.display()))
 }
@@ -52,7 +66,7 @@ pub struct Pending {
 }
 
 impl Pending {
-    /// A file that will stand at `path`; folders on the way are made.
+    /// A file that will stand at `path`, in a folder that is there.
     pub fn new(path: &Path, existing: Existing) -> Result<Self, Failure> {
         let failure = |error: io::Error| Failure::file("write", path, &error);
         let waiting = std::env::temp_dir();
@@ -61,7 +75,9 @@ impl Pending {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
-        fs::create_dir_all(folder).map_err(failure)?;
+        if !folder.is_dir() {
+            return Err(no_folder(path, folder));
+        }
         let mut builder = Builder::new();
         builder.prefix(".epas-bench-");
         // A temporary file is private by default; this one is to become an ordinary file.

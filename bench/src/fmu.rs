@@ -27,6 +27,7 @@ use zip::write::SimpleFileOptions;
 use crate::designs::DesignSource;
 use crate::failure::Failure;
 use crate::files::{Existing, Pending, refuse_ending, refuse_same, told};
+use crate::flags::FLAGS;
 use description::{Version, description};
 pub use library::mark;
 pub use running::{Moment, Running};
@@ -39,21 +40,11 @@ pub const ACCURACY: u32 = Faults::BEYOND_MODEL.bits() as u32;
 
 /// What flags mean, in words.
 pub fn fault_words(faults: u32) -> String {
-    let words: Vec<_> = [
-        (Faults::SPEED_NOT_FINITE, "the speed is no finite number"),
-        (Faults::LOAD_NOT_FINITE, "a load is no finite number"),
-        (Faults::SPEED_RANGE, "the speed is beyond its limit"),
-        (Faults::LOAD_RANGE, "a load is beyond its limit"),
-        (Faults::FRICTION_LIMIT, "friction was cut to its limit"),
-        (Faults::BEYOND_MODEL, "beyond the model's accuracy"),
-        (Faults::ANGLE_NOT_VALID, "the angle cannot be right"),
-        (Faults::TEMPERATURE_RANGE, "the temperature is out of range"),
-    ]
-    .into_iter()
-    .filter(|(flag, _)| faults & u32::from(flag.bits()) != 0)
-    .map(|(_, words)| words)
-    .collect();
-    words.join(", ")
+    let words = FLAGS
+        .iter()
+        .filter(|flag| faults & u32::from(flag.fault.bits()) != 0)
+        .map(|flag| flag.meaning);
+    words.collect::<Vec<_>>().join(", ")
 }
 
 /// Where a unit's design stands in its file.
@@ -62,8 +53,10 @@ pub const RESOURCE: &str = "unit.toml";
 /// Writes a co-simulation unit (FMU) of a scene and a design.
 ///
 /// The unit has the inputs, outputs and parameters of the scene: parameters start with the numbers of the design, and may be set before
-/// the unit is initialised. Its outputs are those of `simulate`, bit for bit. The shared library is built from bench/fmu with cargo, for
-/// this machine's platform.
+/// the unit is initialised. Its outputs are those of `simulate`, bit for bit.
+///
+/// The shared library is built with cargo, for this machine's platform, from bench/fmu of the checkout that you are in, or of the one that this
+/// program was built from. A program that stands alone takes a library that was built before: --library.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Print the scenes
@@ -81,6 +74,9 @@ pub struct Arguments {
     /// Where the unit goes
     #[arg(long, value_name = "OUT.fmu", required_unless_present = "list")]
     output: Option<PathBuf>,
+    /// Shared library that was built before, in place of building one: EPAS_FMU_BALLS=BALLS cargo build --release --package epas-fmu
+    #[arg(long, value_name = "LIBRARY")]
+    library: Option<PathBuf>,
     /// Replace a file that exists
     #[arg(long)]
     force: bool,
@@ -112,10 +108,17 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     refuse_ending("a unit", Some(output), &["fmu"])?;
     existing.check(output)?;
-    refuse_same([design.file()], std::iter::once(output))?;
+    refuse_same(
+        [design.file(), arguments.library.as_deref()],
+        std::iter::once(output),
+    )?;
     let unit = Unit::new(scene, design)?;
     let place = library::place(arguments.fmi)?;
-    let library = library::build(unit.stored.balls)?;
+    let balls = unit.stored.balls;
+    let (library, from) = match &arguments.library {
+        Some(path) => (library::read(path, balls)?, path.clone()),
+        None => library::build(balls)?,
+    };
     let file = packed(&unit, arguments.fmi, &place, &library)?;
     let mut pending = Pending::new(output, existing)?;
     pending
@@ -125,11 +128,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     pending.finish()?;
     writeln!(
         told(std::iter::once(output)),
-        "wrote {}: {} of {}, {} variables",
+        "wrote {}: {} of {}, {} variables; library of {}",
         output.display(),
         scene.name(),
         unit.stored.design,
-        unit.variables.len()
+        unit.variables.len(),
+        from.display()
     )?;
     Ok(())
 }

@@ -29,6 +29,7 @@ pub fn check(folder: &Path, force: bool) -> Result<(), Failure> {
             return Err(Failure::Data(format!("{} is no folder", there.display())));
         }
     }
+    refuse_way(folder)?;
     tempfile::tempfile_in(there).map_err(failure)?;
     let ours = force || folder.starts_with("target") || folder.join(MARK).is_file();
     if ours || !folder.is_dir() {
@@ -42,6 +43,25 @@ pub fn check(folder: &Path, force: bool) -> Result<(), Failure> {
             entry.file_name().display()
         ))),
         None => Ok(()),
+    }
+}
+
+/// Fails where a folder would stand in one that is missing: the folder itself is what is asked for, one above it is a mistyped path. Below
+/// `target/` every folder is this program's own.
+///
+/// # Errors
+/// The missing folder.
+pub fn refuse_way(folder: &Path) -> Result<(), Failure> {
+    let above = folder
+        .parent()
+        .filter(|above| !above.as_os_str().is_empty() && !above.is_dir());
+    match above {
+        Some(above) if !folder.starts_with("target") => Err(Failure::Data(format!(
+            "cannot write {}: the folder {} is missing; mkdir -p makes it",
+            folder.display(),
+            above.display()
+        ))),
+        _ => Ok(()),
     }
 }
 
@@ -67,6 +87,9 @@ mod tests {
     fn a_users_files_stay_and_ours_are_replaced() {
         let place = tempfile::tempdir().unwrap();
         let own = place.path().join("a/b");
+        let message = format!("{:?}", check(&own, false).unwrap_err());
+        assert!(message.contains("is missing"), "{message}");
+        fs::create_dir(place.path().join("a")).unwrap();
         check(&own, false).unwrap();
         mark(&own).unwrap();
         fs::write(own.join("report.md"), "").unwrap();

@@ -30,6 +30,7 @@ mod eval;
 pub mod exact_ring;
 mod failure;
 mod files;
+mod flags;
 #[doc(hidden)]
 pub mod fmu;
 mod folder;

@@ -57,64 +57,81 @@ use trace::Temperature;
 
 /// Runs the in-loop friction model over a trace.
 ///
-/// The trace is a CSV file with the columns time (s), nut_speed (rad/s) and axial_load (N; positive
-/// where it opposes the travel that a positive nut speed makes), in any order, a measurement file (MDF 4,
-/// .mf4) with channels of these names, or one of the built-in manoeuvres. Other units stand in the
-/// column's name, nut_speed_rpm or Nut speed [rpm]; a measurement file says them itself. Channels of
-/// several rasters are put on that of the speed: interpolated linearly, held for one tick of their own
-/// at the ends. Written are a CSV file with the model's outputs at every sample and an SVG plot; a trace
-/// that is refused leaves neither.
+/// The trace is a CSV file with the columns time (s), nut_speed (rad/s) and axial_load (N; positive where it opposes the travel
+/// that a positive nut speed makes), in any order, a measurement file (MDF 4, .mf4) with channels of these names, or one of the
+/// built-in manoeuvres.
 ///
-/// A design file in TOML holds, in m and rad: pitch_radius or nominal_diameter, lead, ball_radius or
-/// ball_diameter, conformity or groove_radius (for both grooves, or each in a table [screw_groove],
-/// [nut_groove]), contact_angle; and if wanted name, youngs_modulus, poisson_ratio, density (for both
-/// bodies, or each in a table [ball_material], [groove_material]; steel without), friction (0.1 without),
-/// hysteresis_loss (0.01 without), lubricant_drag (N a contact under 100 N; 0 without), branch ("contacts", or a paper's closed
-/// form "rolling" or "sliding"), rolling_tangent (closed forms), clearance (radial gap of every contact, m; play above 0,
-/// oversize below) or preload (force of each contact without a load, N; without both 1 um of oversize, clearance = -1e-6),
-/// reversal_speed (2 rad/s without), loaded_balls (needed with an oversize that is given; without, those of 2.5 turns), a table
-/// [limits] with nut_speed (2000 rad/s without), axial_load (100000 N), friction_torque (100 N m); and for --scene
-/// uncaged a table [uncaged] with balls (1 to 64), turns, and if wanted ball_friction (0.1 without), return_length (0 without),
-/// screw_deviation and nut_deviation (lists of { order, cosine, sine }, over deviation_turns turns),
-/// load_shares (a list along the loaded track) and negative_load_shares (as long a list, for loads below
-/// zero; load_shares serves both signs without it).
+/// For --scene linear the columns are time, speed (m/s), normal_load and side_load (N).
 ///
-/// A screw with a cage is solved first, within two seconds, and what runs is the block that `design` writes for it: a table [fold]
-/// (`design --help` names its keys) says its loads of a ball, 5 to 300 N without, above which outputs are flagged; where [calibration] makes
-/// the friction coefficient change, the block is one for its range, or the range is refused with the reason. A screw without cage is solved
-/// likewise, in some seconds, for the deviations of its maps, or those of [fold], and where [fold] gives no loads, for as many as the trace needs:
-/// 5 to 300 N a ball, or up to the next power of two.
+/// Other units stand in the column's name, nut_speed_rpm or Nut speed [rpm]; a measurement file says them itself. Channels of several
+/// rasters are put on that of the speed: interpolated linearly, held for one tick of their own at the ends. Scenes with a train need a trace
+/// of equal steps of time.
 ///
-/// A table [calibration] holds what `calibrate` has told of the screw beyond these; for --scene caged with --memory it gives
-/// full_film_ratio and half_share_speed (rad/s) with reference_temperature and viscosity_pole (K), direction_asymmetry,
-/// breakaway_angle (rad) at reference_load (N), elements ("proportional", or with largest_load, N, "load_exact" or "preloaded"), backlash
-/// (rad), churning; there a column temperature (K; temperature_C in degrees Celsius) of the trace is followed; and for --mechanism inertia, drag, offset, gain. harmonics (a list of { order, cosine, sine }) stand there too.
+/// Written are a CSV file with the model's outputs at every sample and an SVG plot; a trace that is refused leaves neither. The summary says
+/// which settings are defaults.
 ///
-/// For --scene linear a trace has the columns time, speed (m/s), normal_load and side_load (N), and a
-/// design file ball_radius or ball_diameter, conformity or groove_radius, contact_angle, balls,
-/// loaded_length, and if wanted return_length, wavelength, rail_deviation, carriage_deviation,
-/// load_shares, friction and ball_friction (0.1 without), materials as above, reversal_speed (0.001 m/s without), and a table
-/// [limits] with speed, load, friction_force. The summary says which settings are defaults. Scenes with a train need a trace of equal steps of time.
+/// A design file is TOML, in m and rad. `design --new gear.toml` writes one that says of every key its unit, its range and where it stands
+/// on a drawing; the folder bench/designs has more.
 ///
-/// With --loads no friction is computed: the static model of the float64 reference finds the share of each
-/// ball in the axial load, for load_shares. Shares change with the size of the load, because contacts get
-/// stiffer, and with its sign, because the other flank carries. So the program says which loads a table
-/// serves: those where friction of the grooves is within 1 % of that with the load's own table, and each
-/// ball's load within 5 % of the largest one. Loads of 5 to 300 N a ball of both signs are tried in steps of
-/// a tenth; with --input or --manoeuvre, those from 5 N a ball to the largest load of the trace. One
-/// table is written where it serves all loads of the trace, else one for each sign. Where that does
-/// not serve either, the program says so, by how much it errs, and how many tables it would take.
+/// Geometry: pitch_radius or nominal_diameter, lead, ball_radius or ball_diameter, conformity or groove_radius (for both grooves, or each in a
+/// table [screw_groove], [nut_groove]), contact_angle; and if wanted name, youngs_modulus, poisson_ratio, density (for both bodies, or each in a
+/// table [ball_material], [groove_material]; steel without).
 ///
-/// A design file says in a table [loads] what this needs beside loaded_balls: screw_length, screw_diameter
-/// (outer), nut_position (axial centre of the balls), axial_load (on the end that moves only along the axis;
-/// the other end is free and the nut rigid; positive towards the right), turns (of the loaded balls) or
-/// ball_spacing; and if wanted loaded_end ("left", where the loaded track starts, or "right"; left without),
-/// ball_oversize (of the radius; a number, or a list with one for each ball), end_offset (x displacement
-/// forced on the other end), pitch_error and roundness_error (amplitudes of the screw's groove, once and
-/// twice a turn).
+/// Friction: friction (0.1 without), hysteresis_loss (0.01 without), lubricant_drag (N a contact under 100 N; 0 without), branch ("contacts", or a
+/// paper's closed form "rolling" or "sliding"), rolling_tangent (closed forms), reversal_speed (2 rad/s without).
+///
+/// Fit of the balls, one of: clearance (radial gap of every contact, m; play above 0, oversize below), axial_play (of the nut, m), preload (force
+/// of one contact without a load, N), axial_preload (of the nut, N). Without, 1 um of oversize (clearance = -1e-6). loaded_balls is
+/// needed with an oversize that is given; without, those of 2.5 turns.
+///
+/// Table [limits]: nut_speed (2000 rad/s without), axial_load (100000 N), friction_torque (100 N m).
+///
+/// Table [uncaged], for --scene uncaged: balls (1 to 64), turns, and if wanted ball_friction (0.1 without), return_length (0 without),
+/// screw_deviation and nut_deviation (lists of { order, cosine, sine }, over deviation_turns turns), load_shares (a list along the loaded
+/// track) and negative_load_shares (as long a list, for loads below zero; load_shares serves both signs without it).
+///
+/// Table [fold] (`design --help` names its keys): the loads of a ball for which a screw is solved before it runs, 5 to 300 N without, above
+/// which outputs are flagged. A screw with a cage is solved within two seconds, and what runs is the block that `design` writes for it.
+///
+/// A screw without cage is solved in some seconds, for the deviations of its maps or those of [fold]; where [fold] gives no loads, for as
+/// many as the trace needs. Where [calibration] makes the friction coefficient change, the block is one for its range, or the range is
+/// refused with the reason.
+///
+/// Table [calibration], what `calibrate` writes: for --scene caged with --memory full_film_ratio and half_share_speed (rad/s) with
+/// reference_temperature and viscosity_pole (K), direction_asymmetry, breakaway_angle (rad) at reference_load (N), elements ("proportional", or
+/// with largest_load, N, "load_exact" or "preloaded"), backlash (rad), churning; there a column temperature (K; temperature_C in degrees
+/// Celsius) of the trace is followed.
+///
+/// For --mechanism that table has inertia, drag, offset, gain. harmonics (a list of { order, cosine, sine }) stand there too.
+///
+/// A linear bearing's file has ball_radius or ball_diameter, conformity or groove_radius, contact_angle, balls, loaded_length, and if wanted
+/// return_length, wavelength, rail_deviation, carriage_deviation, load_shares, friction and ball_friction (0.1 without), materials as above,
+/// reversal_speed (0.001 m/s without), and a table [limits] with speed, load, friction_force.
+///
+/// With --loads no friction is computed: the static model of the float64 reference finds the share of each ball in the axial load, for
+/// load_shares. Shares change with the size of the load, because contacts get stiffer, and with its sign, because the other flank
+/// carries.
+///
+/// So the program says which loads a table serves: those where friction of the grooves is within 1 % of that with the load's own
+/// table, and each ball's load within 5 % of the largest one.
+///
+/// Loads of 5 to 300 N a ball of both signs are tried in steps of a tenth; with --input or --manoeuvre, those from 5 N a ball to
+/// the largest load of the trace.
+///
+/// One table is written where it serves all loads of the trace, else one for each sign. Where that does not serve either, the program
+/// says so, by how much it errs, and how many tables it would take.
+///
+/// Table [loads], for --loads, beside loaded_balls: screw_length, screw_diameter (outer), nut_position (axial centre of the balls), axial_load (on
+/// the end that moves only along the axis; the other end is free and the nut rigid; positive towards the right), turns (of the loaded balls)
+/// or ball_spacing.
+///
+/// If wanted it has loaded_end ("left", where the loaded track starts, or "right"; left without), ball_oversize (of the radius; a number, or a
+/// list with one for each ball), end_offset (x displacement forced on the other end), pitch_error and roundness_error (amplitudes of the
+/// screw's groove, once and twice a turn).
 // Each is a flag of the command line.
 #[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, clap::Args)]
+#[command(after_long_help = crate::flags::table())]
 pub struct Arguments {
     /// Print the names of the built-in designs
     #[arg(long, exclusive = true)]
@@ -124,16 +141,11 @@ pub struct Arguments {
     scene: Option<SceneName>,
     /// Built-in design, or design file ending in .toml [default for a manoeuvre: lin-4.1 caged, lin-3.6
     /// uncaged, lin-3.3 linear]
-    #[arg(long, value_name = "NAME|FILE.toml", required_unless_present_any = ["list", "manoeuvre"])]
+    #[arg(long, value_name = "NAME|FILE.toml")]
     design: Option<DesignSource>,
     /// Trace with the columns or channels time, nut_speed, axial_load (linear: time, speed, normal_load, side_load), and if wanted
     /// temperature (K); - for standard input
-    #[arg(
-        long,
-        value_name = "TRACE.csv|TRACE.mf4",
-        required_unless_present_any = ["list", "manoeuvre", "loads"],
-        conflicts_with = "manoeuvre"
-    )]
+    #[arg(long, value_name = "TRACE.csv|TRACE.mf4", conflicts_with = "manoeuvre")]
     input: Option<PathBuf>,
     /// Which channel of a measurement file is which column, in TOML: nut_speed = "NAME", or with group, source and unit
     /// nut_speed = { channel = "NAME", group = "GROUP", source = "SOURCE", unit = "rpm" }; - for standard input
@@ -183,11 +195,35 @@ pub struct Arguments {
     force: bool,
 }
 
+/// Every way to say what is simulated.
+const WAYS: &str = "  simulate --manoeuvre parking                      a built-in trace: parking, weave, kerb, turns, stroke; --design as you like
+  simulate --design NAME --input TRACE.csv          your trace: columns time, nut_speed, axial_load; or a measurement file .mf4
+  simulate --design NAME --mechanism --input TRACE  the nut moves under motor_torque and axial_load
+  simulate --design FILE.toml --loads               how balls share the load
+  simulate --list                                   every built-in design
+NAME is a built-in design, FILE.toml a design file: `design --new FILE.toml` writes one to start from.
+";
+
+impl Arguments {
+    /// Ends the program, with exit code 2, where it is not said what is simulated.
+    fn complete(&self) {
+        let trace = self.input.is_some() || self.manoeuvre.is_some() || self.loads.wanted();
+        let missing = match (trace, self.design.is_some() || self.manoeuvre.is_some()) {
+            (true, true) => return,
+            (false, _) => "a trace is missing: --input or --manoeuvre",
+            (true, false) => "the design is missing: --design",
+        };
+        let message = format!("{missing}\n\n{WAYS}");
+        clap::Error::raw(ErrorKind::MissingRequiredArgument, message).exit();
+    }
+}
+
 /// Runs the simulation, or lists the designs.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.list {
         return list();
     }
+    arguments.complete();
     let inputs = [
         arguments.design.as_ref().and_then(DesignSource::file),
         arguments.input.as_deref(),

@@ -25,10 +25,11 @@ use crate::failure::Failure;
 
 /// Cost of every function and scene on a Cortex-M4F: builds the firmware and runs it in QEMU.
 ///
-/// Instructions are counted call by call; cycles are those of Arm's table for the Cortex-M4F, a model and
-/// no measurement in silicon. Flash, RAM and stack are those of one image for each scene. The same run
-/// compares the results of every function with the host's, bit for bit. Needs qemu-system-arm and the
-/// target thumbv7em-none-eabihf, and says which command adds them.
+/// Instructions are counted call by call; cycles are those of Arm's table for the Cortex-M4F, a model and no measurement in
+/// silicon. Flash, RAM and stack are those of one image for each scene. The same run compares the results of every function with
+/// the host's, bit for bit.
+///
+/// Needs qemu-system-arm and the target thumbv7em-none-eabihf, and says which command adds them.
 // Each is a switch of the command line.
 #[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, clap::Args)]

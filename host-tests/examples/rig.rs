@@ -1,10 +1,11 @@
-//! Writes a synthetic trace of a steering gear's screw (lin-4.1) as CSV: something to try `calibrate` on.
+//! Writes a synthetic trace of a steering gear's screw (lin-4.1) as CSV: something to try `calibrate` on. Lines above the headings say what it was
+//! made with; readers of traces skip them, and the page of a calibration shows it beside what was found.
 //!
 //! ```text
 //! cargo run --release -p epas-reference --example rig -- [whole|vehicle|rig] [SEED] [other-physics] > trace.csv
 //! ```
 
-use std::io::stdout;
+use std::io::{Write as _, stdout};
 use std::process::ExitCode;
 
 use epas_reference::rig::course::Course;
@@ -36,9 +37,11 @@ fn run() -> Result<(), String> {
             }
         }
     }
+    let truth = parameters.header();
     let rig = Rig::new(parameters, Sensors::default()).map_err(|error| error.to_string())?;
     let trace = rig.run(&course, seed).map_err(|error| error.to_string())?;
-    trace
-        .write_csv(stdout().lock())
-        .map_err(|error| error.to_string())
+    let mut out = stdout().lock();
+    out.write_all(truth.as_bytes())
+        .map_err(|error| error.to_string())?;
+    trace.write_csv(out).map_err(|error| error.to_string())
 }

@@ -1,10 +1,11 @@
 //! One argument: a number, or an array that is not copied where it fits.
 
 use numpy::{Element, PyArrayDyn, PyArrayMethods, PyReadonlyArrayDyn, PyUntypedArrayMethods};
+use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyFloat, PyInt, PyString};
 
-use crate::blocks::{BLOCK, Column, Real};
+use crate::blocks::Column;
 use crate::errors::{Refused, refused};
 
 /// An argument that holds numbers.
@@ -66,28 +67,27 @@ impl<'py> Argument<'py> {
     }
 
     /// Its values.
-    pub fn column<T: Real>(&self) -> Column<'_, T> {
+    pub fn column(&self) -> Column<'_> {
         match &self.source {
-            Source::Number(number) => Column::Constant([T::of_double(*number); BLOCK]),
-            Source::Single(array) => column(array, T::of_single, Column::Single),
-            Source::Double(array) => column(array, T::of_double, Column::Double),
+            Source::Number(number) => Column::Constant(*number),
+            Source::Single(array) => column(array, Column::Single),
+            Source::Double(array) => column(array, Column::Double),
         }
     }
 }
 
 /// Values of an array: as they lie in memory where that is their order, else by strides.
-fn column<'a, S: Element + Copy + Sync, T: Real>(
+fn column<'a, S: Element + Copy + Sync + Into<f64>>(
     array: &'a PyReadonlyArrayDyn<'_, S>,
-    convert: fn(S) -> T,
-    plain: fn(&'a [S]) -> Column<'a, T>,
-) -> Column<'a, T> {
+    plain: fn(&'a [S]) -> Column<'a>,
+) -> Column<'a> {
     // A slice is there for arrays in the order of Fortran too, whose values lie in another order.
     match array.as_slice() {
-        Ok([value]) => Column::Constant([convert(*value); BLOCK]),
+        Ok([value]) => Column::Constant((*value).into()),
         Ok(values) if array.is_c_contiguous() => plain(values),
         _ => {
             let values = array.as_array().into_iter();
-            Column::Strided(Box::new(values.map(move |value| convert(*value))))
+            Column::Strided(Box::new(values.map(|value| (*value).into())))
         }
     }
 }
@@ -113,9 +113,12 @@ fn array<'py>(name: &'static str, value: &Bound<'py, PyAny>) -> PyResult<Source<
     if value.is_instance(&numpy.getattr("ma")?.getattr("MaskedArray")?)? {
         return Err(no_number("a masked array: fill the gaps first"));
     }
-    let array = numpy
-        .call_method1("asarray", (value,))
-        .map_err(|error| no_number(&format!("{}", error.value(py))))?;
+    let array = numpy.call_method1("asarray", (value,)).map_err(|error| {
+        if error.is_instance_of::<PyMemoryError>(py) {
+            return error;
+        }
+        no_number(&format!("{}", error.value(py)))
+    })?;
     if let Some(source) = taken(&array) {
         return Ok(source);
     }

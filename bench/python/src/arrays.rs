@@ -5,8 +5,12 @@ use numpy::{Element, PyArray, PyArray1, PyArrayMethods};
 use pyo3::prelude::*;
 
 use crate::argument::Argument;
-use crate::blocks::{Kernel, One, Real, compute};
+use crate::blocks::{Ended, Inputs, Kernel, One, Real, compute};
 use crate::errors::{Refused, refused};
+use crate::memory;
+
+/// Largest number of a trace: that of single precision.
+const LARGEST: f64 = f32::MAX as f64;
 
 /// Arguments with the shape that numpy broadcasts them to.
 pub struct Arguments<'py, const I: usize> {
@@ -32,6 +36,7 @@ impl<'py, const I: usize> Arguments<'py, I> {
                 return Err(refused(py, Refused::shape(argument.name, message)));
             }
         }
+        memory::length(&shape)?;
         let mut this = Self { arguments, shape };
         for argument in &mut this.arguments {
             argument.broadcast(py, &this.shape)?;
@@ -64,22 +69,37 @@ impl<'py, const I: usize> Arguments<'py, I> {
         T: Real,
         K: Kernel<T, I, O> + Send,
     {
-        let length = self.shape.iter().product();
-        let columns = self.arguments.each_ref().map(Argument::column);
-        let values = py.detach(move || compute(length, columns, kernel));
-        match values {
+        let inputs = self.inputs(true);
+        match py.detach(move || compute(inputs, kernel)) {
             Ok(values) => Ok(Results {
                 values,
                 shape: self.shape,
             }),
-            Err((place, error)) => Err(refused(py, error.at(&self.shape, place))),
+            Err(ended) => Err(self.exception(py, ended)),
         }
     }
 
-    /// The same, where it is one number or more along a trace.
+    /// Names and values for a kernel; where `strict`, it refuses numbers that its precision loses.
+    fn inputs(&self, strict: bool) -> Inputs<'_, I> {
+        Inputs {
+            length: self.len(),
+            names: self.arguments.each_ref().map(|argument| argument.name),
+            columns: self.arguments.each_ref().map(Argument::column),
+            strict,
+        }
+    }
+
+    fn exception(&self, py: Python<'py>, ended: Ended) -> PyErr {
+        match ended {
+            Ended::Refused(place, error) => refused(py, error.at(&self.shape, place)),
+            Ended::Raised(raised) => raised,
+        }
+    }
+
+    /// The same, where it is one number or more along a trace. What is below single precision is at rest or without a load: 0.
     ///
     /// # Errors
-    /// Arrays of more than one dimension; numbers that are not finite, where they are not allowed.
+    /// Arrays of more than one dimension; numbers that are not finite, or not in single precision, where they are not allowed.
     pub fn trace(mut self, py: Python<'py>, allow_faults: bool) -> PyResult<Self> {
         if self.shape.len() > 1 {
             let message = format!("a trace has one dimension; the shape is {:?}", self.shape);
@@ -92,8 +112,12 @@ impl<'py, const I: usize> Arguments<'py, I> {
         if !allow_faults {
             let names = self.arguments.each_ref().map(|argument| argument.name);
             self.each(py, |values: [f64; I]| {
-                match values.iter().position(|value| !value.is_finite()) {
+                // False for NaN.
+                match values.iter().position(|value| !(value.abs() <= LARGEST)) {
                     None => Ok(()),
+                    Some(bad) if values[bad].is_finite() => {
+                        Err(Refused::lost(names[bad], values[bad]))
+                    }
                     Some(bad) => Err(Refused::no_number(names[bad], values[bad])),
                 }
             })?;
@@ -120,13 +144,11 @@ impl<'py, const I: usize> Arguments<'py, I> {
         T: Real,
         F: FnMut([T; I]) -> Result<(), Refused> + Send,
     {
-        let length = self.len();
-        let columns = self.arguments.each_ref().map(Argument::column);
-        let done = py
-            .detach(move || compute(length, columns, One(|values| function(values).map(|()| []))));
+        let inputs = self.inputs(false);
+        let done = py.detach(move || compute(inputs, One(|values| function(values).map(|()| []))));
         match done {
             Ok([]) => Ok(()),
-            Err((place, error)) => Err(refused(py, error.at(&self.shape, place))),
+            Err(ended) => Err(self.exception(py, ended)),
         }
     }
 }

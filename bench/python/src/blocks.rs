@@ -1,8 +1,11 @@
 //! Kernels over columns of numbers, block by block.
 
 use numpy::Element;
+use pyo3::prelude::*;
 
 use crate::errors::Refused;
+use crate::interrupt::Signals;
+use crate::memory::room;
 
 /// Values that are computed at once: their conversions stay in the processor's nearest memory.
 pub const BLOCK: usize = 256;
@@ -13,6 +16,8 @@ pub trait Real: Element + Copy + Send + Sync + Default + 'static {
     fn of_single(value: f32) -> Self;
     /// From double precision.
     fn of_double(value: f64) -> Self;
+    /// Whether a number in double precision becomes infinite, or 0 without being 0.
+    fn loses(value: f64) -> bool;
     /// Its bits.
     fn bits(self) -> u64;
 }
@@ -25,6 +30,12 @@ impl Real for f32 {
     /// Rounded, as `eval` does.
     fn of_double(value: f64) -> Self {
         value as Self
+    }
+
+    #[inline]
+    fn loses(value: f64) -> bool {
+        let rounded = value as Self;
+        (rounded.is_infinite() && value.is_finite()) || (rounded == 0.0 && value != 0.0)
     }
 
     #[inline]
@@ -43,27 +54,44 @@ impl Real for f64 {
     }
 
     #[inline]
+    fn loses(_: f64) -> bool {
+        false
+    }
+
+    #[inline]
     fn bits(self) -> u64 {
         self.to_bits()
     }
 }
 
 /// Values of one argument, as many as the result has, in the order of the result.
-pub enum Column<'a, T> {
+pub enum Column<'a> {
     /// One number.
-    Constant([T; BLOCK]),
+    Constant(f64),
     /// As they lie in memory.
     Single(&'a [f32]),
     /// As they lie in memory.
     Double(&'a [f64]),
     /// By the array's strides.
-    Strided(Box<dyn Iterator<Item = T> + Send + 'a>),
+    Strided(Box<dyn Iterator<Item = f64> + Send + 'a>),
 }
 
-impl<T: Real> Column<'_, T> {
-    /// Puts the values of a block into its buffer.
-    fn fill(&mut self, start: usize, buffer: &mut [T]) {
+impl Column<'_> {
+    /// Puts the values of a block into its buffer; where `strict`, the first number that the precision of `T` loses, with its place.
+    fn fill<T: Real>(
+        &mut self,
+        start: usize,
+        buffer: &mut [T],
+        strict: bool,
+    ) -> Result<(), (usize, f64)> {
+        let lost = |value: &f64| strict && T::loses(*value);
         match self {
+            Self::Constant(value) if start == 0 => {
+                if lost(value) {
+                    return Err((0, *value));
+                }
+                buffer.fill(T::of_double(*value));
+            }
             // Put there once.
             Self::Constant(_) => {}
             Self::Single(values) => {
@@ -72,16 +100,26 @@ impl<T: Real> Column<'_, T> {
                 }
             }
             Self::Double(values) => {
-                for (to, from) in buffer.iter_mut().zip(&values[start..]) {
+                let values = &values[start..start + buffer.len()];
+                for (to, from) in buffer.iter_mut().zip(values) {
                     *to = T::of_double(*from);
+                }
+                // Without a branch for each value.
+                if values.iter().fold(false, |any, value| any | lost(value)) {
+                    let place = values.iter().position(lost).unwrap_or(0);
+                    return Err((place, values[place]));
                 }
             }
             Self::Strided(values) => {
-                for (to, from) in buffer.iter_mut().zip(values) {
-                    *to = from;
+                for (place, (to, from)) in buffer.iter_mut().zip(values).enumerate() {
+                    if lost(&from) {
+                        return Err((place, from));
+                    }
+                    *to = T::of_double(from);
                 }
             }
         }
+        Ok(())
     }
 }
 
@@ -123,29 +161,69 @@ where
     }
 }
 
+/// Why a kernel did not run over all values.
+pub enum Ended {
+    /// It refused the values at this place.
+    Refused(usize, Refused),
+    /// An exception: no memory, or an interrupt.
+    Raised(PyErr),
+}
+
+impl From<PyErr> for Ended {
+    fn from(raised: PyErr) -> Self {
+        Self::Raised(raised)
+    }
+}
+
+/// What a kernel runs over.
+pub struct Inputs<'a, const I: usize> {
+    /// Number of values.
+    pub length: usize,
+    /// Arguments' names.
+    pub names: [&'static str; I],
+    /// Arguments' values.
+    pub columns: [Column<'a>; I],
+    /// Whether numbers that the kernel's precision loses are refused.
+    pub strict: bool,
+}
+
+/// Values between two looks at the clock where a kernel takes them one by one: some of them take ten milliseconds each.
+const GLANCE: usize = 16;
+
 /// Runs a kernel over all values, block by block.
 ///
 /// # Errors
-/// What the kernel refuses, with its place.
+/// What the kernel refuses, with its place; no memory for the results, or an interrupt.
 pub fn compute<T: Real, const I: usize, const O: usize>(
-    length: usize,
-    mut columns: [Column<'_, T>; I],
+    inputs: Inputs<'_, I>,
     mut kernel: impl Kernel<T, I, O>,
-) -> Result<[Vec<T>; O], (usize, Refused)> {
-    let mut results: [Vec<T>; O] = std::array::from_fn(|_| vec![T::default(); length]);
+) -> Result<[Vec<T>; O], Ended> {
+    let Inputs {
+        length,
+        names,
+        mut columns,
+        strict,
+    } = inputs;
+    let mut results: [Vec<T>; O] = std::array::from_fn(|_| Vec::new());
+    for result in &mut results {
+        *result = room(length)?;
+    }
+    let mut signals = Signals::new();
     let mut buffers = [[T::default(); BLOCK]; I];
     let constant = columns
         .each_ref()
         .map(|column| matches!(column, Column::Constant(_)));
-    for (column, buffer) in columns.iter_mut().zip(&mut buffers) {
-        if let Column::Constant(values) = column {
-            *buffer = *values;
-        }
-    }
     for start in (0..length).step_by(BLOCK) {
+        signals.check()?;
         let size = BLOCK.min(length - start);
-        for (column, buffer) in columns.iter_mut().zip(&mut buffers) {
-            column.fill(start, &mut buffer[..size]);
+        for ((column, buffer), name) in columns.iter_mut().zip(&mut buffers).zip(names) {
+            let filled = column.fill(start, &mut buffer[..size], strict);
+            filled.map_err(|(place, value)| {
+                Ended::Refused(start + place, Refused::lost(name, value))
+            })?;
+        }
+        for result in &mut results {
+            result.resize(start + size, T::default());
         }
         let mut block = Block {
             inputs: buffers.each_ref().map(|buffer| &buffer[..size]),
@@ -158,8 +236,13 @@ pub fn compute<T: Real, const I: usize, const O: usize>(
             continue;
         }
         for place in 0..size {
+            if place % GLANCE == GLANCE - 1 {
+                signals.check()?;
+            }
             let inputs = block.inputs.map(|values| values[place]);
-            let outputs = kernel.one(inputs).map_err(|error| (start + place, error))?;
+            let outputs = kernel
+                .one(inputs)
+                .map_err(|error| Ended::Refused(start + place, error))?;
             for (result, output) in block.outputs.iter_mut().zip(outputs) {
                 result[place] = output;
             }

@@ -20,6 +20,8 @@ use crate::argument::Argument;
 use crate::arrays::{Arguments, shaped};
 use crate::design::Design;
 use crate::errors::{Refused, refused};
+use crate::interrupt::interruptible;
+use crate::memory::room;
 use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
@@ -47,7 +49,7 @@ pub fn text(py: Python<'_>, trace: &Bound<'_, PyAny>) -> PyResult<String> {
         }
         let argument = Argument::new("column", &values).map_err(|_| no_numbers(py, &name))?;
         let arguments = Arguments::new(py, [argument])?;
-        let mut column = Vec::with_capacity(arguments.len());
+        let mut column = room(arguments.len())?;
         arguments.each(py, |[value]: [f64; 1]| {
             if !value.is_finite() {
                 return Err(Refused::no_number(&name, value));
@@ -183,31 +185,32 @@ pub fn calibrate<'py>(
         lead: design.inner.screw().lead().into(),
         ratio: ratio.unwrap_or(1.0),
     });
-    let told = if let Some(design) = design {
+    let found = if let Some(design) = design {
         let fix = match &fix {
             Some(fix) => dict("fix", fix)?.extract::<BTreeMap<String, f64>>()?,
             None => BTreeMap::new(),
         };
         let request = request(estimate, fix, models, [smoothing, rows]);
-        py.detach(|| {
+        let design = design.inner.clone();
+        interruptible(py, move |_| {
             let trace = read(text, frame.as_ref())?;
-            let told = with_design::told(&trace, &design.inner, &request)?;
+            let told = with_design::told(&trace, &design, &request)?;
             Ok((told.answer, told.picture))
-        })
+        })?
     } else {
         let unseen = validate.map(|trace| self::text(py, &trace)).transpose()?;
         let controller = controller
             .map(|gains| self::controller(py, gains))
             .transpose()?;
         let filters = Filters { smoothing, rows };
-        py.detach(|| {
+        interruptible(py, move |_| {
             let trace = read(text, None)?;
             let unseen = unseen.map(|text| read(text, None)).transpose()?;
             let told = without_design::calibrate(&trace, unseen.as_ref(), controller, &filters)?;
             Ok((told.answer, told.picture))
-        })
+        })?
     };
-    let (answer, picture) = told.map_err(|failure| refused(py, self::told(failure)))?;
+    let (answer, picture) = found.map_err(|failure| refused(py, self::told(failure)))?;
     answered(py, &answer, picture)
 }
 
@@ -264,9 +267,14 @@ fn request(
 
 /// Gains of a controller.
 fn controller(py: Python<'_>, (gain_position, gain_speed): (f64, f64)) -> PyResult<Controller> {
-    let range = (f64::MIN_POSITIVE, f64::MAX);
-    within(py, "gain_position", Some(gain_position), range)?;
-    within(py, "gain_speed", Some(gain_speed), range)?;
+    for (field, gain) in [("gain_position", gain_position), ("gain_speed", gain_speed)] {
+        if !gain.is_finite() {
+            return Err(refused(py, Refused::no_number(field, gain)));
+        }
+        if gain <= 0.0 {
+            return Err(refused(py, Refused::not_above_zero(field, gain)));
+        }
+    }
     Ok(Controller {
         gain_position,
         gain_speed,

@@ -1,6 +1,6 @@
 //! Designs: built in, from a file, from numbers.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use epas_bench::bindings::{self, DesignSource, LinearDesign as Linear};
@@ -13,9 +13,11 @@ use toml::{Table, Value};
 
 use crate::argument::Argument;
 use crate::arrays::Arguments;
+use crate::blocks::Real as _;
 use crate::contacts::ellipse_at;
 use crate::errors::{Refused, refused};
 use crate::numbers::{groove, within};
+use crate::restored::{Recipe, Reduced, reduced};
 use crate::results::result;
 
 /// Names of the built-in ball screws: nominal diameter x lead x ball diameter in mm, and those of the dissertation.
@@ -46,6 +48,8 @@ pub fn design_names() -> Vec<&'static str> {
 pub struct Design {
     /// What the program makes of it.
     pub inner: Arc<bindings::Design>,
+    /// Where it comes from.
+    pub recipe: Recipe,
 }
 
 #[pymethods]
@@ -54,8 +58,7 @@ impl Design {
     #[pyo3(signature = (**keys))]
     fn new(py: Python<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let text = text_of(py, keys)?;
-        let design = bindings::read_design(&text, "design").map_err(|error| said(py, error))?;
-        Ok(Self::of(design))
+        Self::of_text(text, "design".into()).map_err(|error| said(py, error))
     }
 
     /// A built-in design by its name: see :func:`design_names`.
@@ -76,7 +79,10 @@ impl Design {
             loaded_balls,
         };
         let design = source.load().map_err(|failure| refused(py, failure))?;
-        Ok(Self::of(design))
+        Ok(Self {
+            inner: Arc::new(design),
+            recipe: Recipe::BuiltIn(name.into()),
+        })
     }
 
     /// A design from a TOML file.
@@ -88,10 +94,12 @@ impl Design {
     ///     Error: a file that cannot be read, or a key that is missing, unknown, or out of its range.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let design = py
-            .detach(|| DesignSource::File(path).load())
-            .map_err(|failure| refused(py, failure))?;
-        Ok(Self::of(design))
+        let (text, name) = (contents(py, &path)?, stem(&path));
+        let design = DesignSource::File(path).load_from(Some(&text));
+        Ok(Self {
+            inner: Arc::new(design.map_err(|failure| refused(py, failure))?),
+            recipe: Recipe::Text { text, name },
+        })
     }
 
     /// Name, for headings.
@@ -187,6 +195,20 @@ impl Design {
         result(py, "Ellipse", (ratio, major, minor, deflection, pressure))
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced(py, "design", self.recipe.arguments())
+    }
+
+    /// A design does not change: its copy is the design.
+    const fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    /// As [`Self::__copy__`].
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
     fn __repr__(&self) -> String {
         format!(
             "Design(name={:?}, pitch_radius={}, lead={}, ball_radius={})",
@@ -199,11 +221,39 @@ impl Design {
 }
 
 impl Design {
-    fn of(design: bindings::Design) -> Self {
-        Self {
-            inner: Arc::new(design),
-        }
+    fn of_text(text: String, name: String) -> Result<Self, String> {
+        Ok(Self {
+            inner: Arc::new(bindings::read_design(&text, &name)?),
+            recipe: Recipe::Text { text, name },
+        })
     }
+}
+
+/// A design as pickle has it: see [`Recipe::arguments`].
+#[pyfunction]
+#[pyo3(name = "_restored_design")]
+pub fn restored_design(py: Python<'_>, name: String, text: Option<String>) -> PyResult<Design> {
+    match text {
+        None => Design::built_in(py, &name),
+        Some(text) => Design::of_text(text, name).map_err(|error| said(py, error)),
+    }
+}
+
+/// The text of a design file; that of standard input can be read once.
+fn contents(py: Python<'_>, path: &Path) -> PyResult<String> {
+    let source = DesignSource::File(path.into());
+    let text = py.detach(|| source.text());
+    Ok(text
+        .map_err(|failure| refused(py, failure))?
+        .unwrap_or_default())
+}
+
+/// The name that a design has by its file.
+fn stem(path: &Path) -> String {
+    path.file_stem()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
 }
 
 /// A linear bearing with its circuit of balls.
@@ -220,6 +270,8 @@ impl Design {
 pub struct LinearDesign {
     /// What the program makes of it.
     pub inner: Arc<Linear>,
+    /// Where it comes from.
+    pub recipe: Recipe,
 }
 
 #[pymethods]
@@ -228,15 +280,18 @@ impl LinearDesign {
     #[pyo3(signature = (**keys))]
     fn new(py: Python<'_>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let text = text_of(py, keys)?;
-        let design = Linear::parse(&text, "design").map_err(|error| said(py, error))?;
-        Ok(Self::of(design))
+        Self::of_text(text, "design".into()).map_err(|error| said(py, error))
     }
 
     /// The bearing of Lin 2019, Table 3.3.
     #[staticmethod]
     fn built_in(py: Python<'_>) -> PyResult<Self> {
         let design = Linear::built_in().map_err(|failure| refused(py, failure))?;
-        Ok(Self::of(design))
+        let recipe = Recipe::BuiltIn(design.name.clone());
+        Ok(Self {
+            inner: Arc::new(design),
+            recipe,
+        })
     }
 
     /// A design from a TOML file.
@@ -248,10 +303,12 @@ impl LinearDesign {
     ///     Error: a file that cannot be read, or a key that is missing, unknown, or out of its range.
     #[staticmethod]
     fn read(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        let design = py
-            .detach(|| DesignSource::File(path).load_bearing())
-            .map_err(|failure| refused(py, failure))?;
-        Ok(Self::of(design))
+        let (text, name) = (contents(py, &path)?, stem(&path));
+        let design = DesignSource::File(path).load_bearing_from(Some(&text));
+        Ok(Self {
+            inner: Arc::new(design.map_err(|failure| refused(py, failure))?),
+            recipe: Recipe::Text { text, name },
+        })
     }
 
     /// Name, for headings.
@@ -278,6 +335,20 @@ impl LinearDesign {
         self.inner.configuration.friction
     }
 
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        reduced(py, "linear_design", self.recipe.arguments())
+    }
+
+    /// A design does not change: its copy is the design.
+    const fn __copy__(slf: Py<Self>) -> Py<Self> {
+        slf
+    }
+
+    /// As [`Self::__copy__`].
+    fn __deepcopy__(slf: Py<Self>, _memo: &Bound<'_, PyAny>) -> Py<Self> {
+        slf
+    }
+
     fn __repr__(&self) -> String {
         format!(
             "LinearDesign(name={:?}, balls={})",
@@ -287,10 +358,25 @@ impl LinearDesign {
 }
 
 impl LinearDesign {
-    fn of(design: Linear) -> Self {
-        Self {
-            inner: Arc::new(design),
-        }
+    fn of_text(text: String, name: String) -> Result<Self, String> {
+        Ok(Self {
+            inner: Arc::new(Linear::parse(&text, &name)?),
+            recipe: Recipe::Text { text, name },
+        })
+    }
+}
+
+/// A linear bearing as pickle has it: see [`Recipe::arguments`].
+#[pyfunction]
+#[pyo3(name = "_restored_linear_design")]
+pub fn restored_linear_design(
+    py: Python<'_>,
+    name: String,
+    text: Option<String>,
+) -> PyResult<LinearDesign> {
+    match text {
+        None => LinearDesign::built_in(py),
+        Some(text) => LinearDesign::of_text(text, name).map_err(|error| said(py, error)),
     }
 }
 
@@ -333,11 +419,17 @@ fn value_of(key: &str, value: &Bound<'_, PyAny>) -> PyResult<Value> {
     if value.is_instance_of::<PyBool>() {
         return Ok(Value::Boolean(value.extract()?));
     }
-    if value.is_instance_of::<PyInt>() {
-        return Ok(Value::Integer(value.extract()?));
+    if value.is_instance_of::<PyInt>()
+        && let Ok(integer) = value.extract()
+    {
+        return Ok(Value::Integer(integer));
     }
-    if value.is_instance_of::<PyFloat>() {
-        return Ok(Value::Float(value.extract()?));
+    if value.is_instance_of::<PyInt>() || value.is_instance_of::<PyFloat>() {
+        let number = value.extract().unwrap_or(f64::MAX);
+        if f32::loses(number) {
+            return Err(refused(value.py(), Refused::lost(key, number)));
+        }
+        return Ok(Value::Float(number));
     }
     if value.is_instance_of::<PyString>() {
         return Ok(Value::String(value.extract()?));

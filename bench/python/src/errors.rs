@@ -62,6 +62,52 @@ impl Refused {
         })
     }
 
+    /// A finite value that single precision takes for infinite, or for 0.
+    pub fn lost(field: &str, value: f64) -> Self {
+        let (least, largest) = (f64::from(f32::from_bits(1)), f64::from(f32::MAX));
+        if value.abs() > largest {
+            let mut this = Self::range(field, value, -largest, largest);
+            this.0.message.push_str(" (single precision)");
+            return this;
+        }
+        let message = format!(
+            "{field} = {value:e} is 0 in single precision; allowed: 0, or {least:e} to {largest:e} in size"
+        );
+        let mut this = Self::value(field, message);
+        this.0.value = Some(value);
+        this.0.range = Some((least, largest));
+        this
+    }
+
+    /// A value that is not above 0.
+    pub fn not_above_zero(field: &str, value: f64) -> Self {
+        let message = format!("{field} = {value} is out of range; allowed: above 0");
+        let mut this = Self::value(field, message);
+        this.0.value = Some(value);
+        this.0.range = Some((0.0, f64::MAX));
+        this
+    }
+
+    /// A tick that is too long for the largest speed of a design, whose field is named.
+    #[must_use]
+    pub fn tick_of(mut self, limit: &str, value: f32) -> Self {
+        const LEAST: f64 = 1e-6;
+        let Some((least, largest)) = self.0.range else {
+            return self;
+        };
+        let tick = self.0.value.unwrap_or(f64::NAN);
+        // The circuit's own range begins at 0; that of the scene at a microsecond.
+        if self.0.field.as_deref() == Some("tick") && least < LEAST && tick > largest {
+            self.0.range = Some((LEAST, largest));
+            let (tick, largest) = (tick as f32, largest as f32);
+            self.0.message = format!(
+                "tick = {tick} is out of range; allowed: {LEAST} to {largest} s: {limit} = {value} of the design decides how far balls travel \
+                 in a tick; lower it for a longer tick"
+            );
+        }
+        self
+    }
+
     /// A value of a trace that is NaN or infinite.
     pub fn no_number(field: &str, value: f64) -> Self {
         let message = format!("{field} = {value} is not a finite number");
@@ -169,8 +215,20 @@ fn told(message: &str) -> Option<Told> {
 impl From<epas_friction::Error> for Refused {
     fn from(error: epas_friction::Error) -> Self {
         let allowed = error.allowed();
+        let mut message = error.to_string();
+        // The end itself is refused: the range is open there.
+        let ends = [(allowed.minimum, "above"), (allowed.maximum, "below")];
+        if let Some((end, word)) = ends.into_iter().find(|(end, _)| *end == error.value()) {
+            let closed = format!("allowed: {} to {}", allowed.minimum, allowed.maximum);
+            let open = if word == "above" {
+                format!("allowed: above {end}, to {}", allowed.maximum)
+            } else {
+                format!("allowed: {} to below {end}", allowed.minimum)
+            };
+            message = message.replace(&closed, &open);
+        }
         Self::of(Reason {
-            message: error.to_string(),
+            message,
             field: Some(error.field().into()),
             value: Some(error.value().into()),
             range: Some((allowed.minimum.into(), allowed.maximum.into())),

@@ -9,11 +9,14 @@ mod curvature;
 mod design;
 mod efficiency;
 mod errors;
+mod interrupt;
 mod kept;
 mod kinematics;
+mod memory;
 mod numbers;
 mod press;
 mod reference;
+mod restored;
 mod results;
 mod runs;
 mod scenes;
@@ -25,6 +28,9 @@ use pyo3::prelude::*;
 #[pymodule]
 mod _native {
     #[pymodule_export]
+    #[allow(non_upper_case_globals, reason = "its name in Python")]
+    const __version__: &str = env!("CARGO_PKG_VERSION");
+    #[pymodule_export]
     use crate::calibration::calibrate;
     #[pymodule_export]
     use crate::contacts::{ellipse, friction_map};
@@ -33,7 +39,9 @@ mod _native {
         circular_groove_curvature, fitted_curvature, groove_curvature, literature_curvature,
     };
     #[pymodule_export]
-    use crate::design::{Design, LinearDesign, design_names};
+    use crate::design::{
+        Design, LinearDesign, design_names, restored_design, restored_linear_design,
+    };
     #[pymodule_export]
     use crate::efficiency::efficiency;
     #[pymodule_export]
@@ -50,11 +58,13 @@ mod _native {
         reference_simulate_uncaged, simulate_caged, simulate_linear, simulate_uncaged,
     };
     #[pymodule_export]
-    use crate::scenes::caged::{CagedBallScrew, fold_design};
+    use crate::scenes::caged::{CagedBallScrew, fold_design, restored_caged};
     #[pymodule_export]
-    use crate::scenes::remembering::CagedBallScrewWithMemory;
+    use crate::scenes::remembering::{CagedBallScrewWithMemory, restored_remembering};
     #[pymodule_export]
-    use crate::scenes::trains::{LinearBearingTrain, UncagedBallScrew};
+    use crate::scenes::trains::{
+        LinearBearingTrain, UncagedBallScrew, restored_bearing, restored_uncaged,
+    };
     #[pymodule_export]
     use crate::studies::{design_figures, merge_sums, population, trace_sums};
 }

@@ -5,6 +5,7 @@ use pyo3::prelude::*;
 
 use crate::argument::Argument;
 use crate::arrays::Arguments;
+use crate::blocks::Real as _;
 use crate::errors::{Refused, refused};
 
 /// A groove by its name.
@@ -32,6 +33,41 @@ pub fn within(field: &str, value: f64, minimum: f64, maximum: f64) -> Result<(),
     } else {
         Err(Refused::range(field, value, minimum, maximum))
     }
+}
+
+/// A number in single precision.
+///
+/// # Errors
+/// A number that single precision takes for infinite, or for 0.
+pub fn single(py: Python<'_>, field: &str, value: f64) -> PyResult<f32> {
+    if f32::loses(value) {
+        return Err(refused(py, Refused::lost(field, value)));
+    }
+    Ok(value as f32)
+}
+
+/// The same of a number that may be left out.
+///
+/// # Errors
+/// As of [`single`].
+pub fn single_or(py: Python<'_>, field: &str, value: Option<f64>, usual: f32) -> PyResult<f32> {
+    value.map_or(Ok(usual), |value| single(py, field, value))
+}
+
+/// Both ends of a range in single precision, or the same number twice where it is left out.
+///
+/// # Errors
+/// As of [`single`].
+pub fn range_or(
+    py: Python<'_>,
+    field: &str,
+    range: Option<(f64, f64)>,
+    usual: f32,
+) -> PyResult<(f32, f32)> {
+    let Some((least, largest)) = range else {
+        return Ok((usual, usual));
+    };
+    Ok((single(py, field, least)?, single(py, field, largest)?))
 }
 
 /// Names and values of arguments, in order.

@@ -6,6 +6,7 @@ use pyo3::prelude::*;
 use crate::arrays::shaped;
 use crate::blocks::{Block, Kernel};
 use crate::errors::{Refused, refused};
+use crate::memory::room;
 use crate::numbers::{arguments, within};
 
 /// Most balls of a row.
@@ -44,7 +45,7 @@ pub fn contact_forces<'py>(
             return Err(refused(py, Refused::shape("free_speed", message)));
         }
     };
-    let mut forces = Vec::with_capacity(arguments.len() / balls * (balls - 1));
+    let mut forces = room(arguments.len() / balls * (balls - 1))?;
     let rows = Rows {
         row: row(balls),
         forces: &mut forces,

@@ -14,6 +14,8 @@ use pyo3::types::PyDict;
 use crate::arrays::shaped;
 use crate::design::{Design, LinearDesign};
 use crate::errors::{Refused, refused};
+use crate::interrupt::{Stop, interruptible};
+use crate::memory::room;
 use crate::numbers::arguments;
 use crate::results::result;
 use crate::scenes::columns::{Columns, LinearColumns, ScrewColumns, UncagedColumns};
@@ -34,7 +36,7 @@ where
     S: Send,
 {
     let arguments = arguments(py, names, values)?.trace(py, false)?;
-    let mut samples = Vec::with_capacity(arguments.len());
+    let mut samples = room(arguments.len())?;
     let mut last = f64::NEG_INFINITY;
     arguments.each(py, |values: [f64; I]| {
         if values[0] < last {
@@ -75,12 +77,29 @@ fn screw_trace<'py>(py: Python<'py>, values: [&Any<'py>; 3]) -> PyResult<Trace<S
     })
 }
 
+/// What a scene makes of a trace; an interrupt ends it.
+fn rows<S>(
+    py: Python<'_>,
+    scene: S,
+    trace: Trace<S::Sample>,
+    reference: Option<ReferenceModel>,
+) -> PyResult<Vec<S::Row>>
+where
+    S: Scene<Sample: Send + 'static, Row: Send + 'static> + Send + 'static,
+{
+    let made = interruptible(py, move |stop| {
+        scene.rows(&trace, reference, &|| stop.check())
+    })?;
+    let (rows, _) = made.map_err(|failure| refused(py, failure))?;
+    Ok(rows)
+}
+
 /// Outputs of a scene over a trace, as arrays.
 fn columns<C: Columns>(
     py: Python<'_>,
     outputs: impl ExactSizeIterator<Item = C::Outputs>,
 ) -> PyResult<Bound<'_, PyAny>> {
-    let mut columns = C::with_capacity(outputs.len());
+    let mut columns = C::with_capacity(outputs.len())?;
     for outputs in outputs {
         columns.push(&outputs);
     }
@@ -131,9 +150,7 @@ pub fn simulate_caged<'py>(
         design: (*design.inner).clone(),
         memory,
     };
-    let (rows, _) = py
-        .detach(|| scene.rows(&trace, None, &|| ()))
-        .map_err(|failure| refused(py, failure))?;
+    let rows = rows(py, scene, trace, None)?;
     columns::<ScrewColumns>(py, rows.iter().map(|row| row.outputs))
 }
 
@@ -166,9 +183,7 @@ pub fn simulate_uncaged<'py>(
 ) -> PyResult<Any<'py>> {
     let trace = screw_trace(py, [&time, &nut_speed, &axial_load])?;
     let scene = uncaged(py, design, memory)?;
-    let (rows, _) = py
-        .detach(|| scene.rows(&trace, None, &|| ()))
-        .map_err(|failure| refused(py, failure))?;
+    let rows = rows(py, scene, trace, None)?;
     columns::<UncagedColumns>(py, rows.iter().map(|row| row.train.outputs))
 }
 
@@ -218,9 +233,7 @@ pub fn simulate_linear<'py>(
         design: (*design.inner).clone(),
         memory,
     };
-    let (rows, _) = py
-        .detach(|| scene.rows(&trace, None, &|| ()))
-        .map_err(|failure| refused(py, failure))?;
+    let rows = rows(py, scene, trace, None)?;
     columns::<LinearColumns>(py, rows.iter().map(|row| row.train.outputs))
 }
 
@@ -269,9 +282,7 @@ pub fn reference_simulate_caged<'py>(
         design: (*design.inner).clone(),
         memory: false,
     };
-    let (rows, _) = py
-        .detach(|| scene.rows(&trace, Some(ReferenceModel::Exact), &|| ()))
-        .map_err(|failure| refused(py, failure))?;
+    let rows = rows(py, scene, trace, Some(ReferenceModel::Exact))?;
     reference_run(py, rows.iter().map(|row| row.reference))
 }
 
@@ -301,9 +312,7 @@ pub fn reference_simulate_uncaged<'py>(
 ) -> PyResult<Any<'py>> {
     let trace = screw_trace(py, [&time, &nut_speed, &axial_load])?;
     let scene = uncaged(py, design, false)?;
-    let (rows, _) = py
-        .detach(|| scene.rows(&trace, Some(ReferenceModel::Exact), &|| ()))
-        .map_err(|failure| refused(py, failure))?;
+    let rows = rows(py, scene, trace, Some(ReferenceModel::Exact))?;
     reference_run(py, rows.iter().map(|row| row.reference))
 }
 
@@ -376,9 +385,9 @@ pub fn reference_measured_trace<'py>(
             return Err(refused(py, Refused::value("course", message)));
         }
     };
-    let trace = py
-        .detach(|| Rig::new(Parameters::default(), Sensors::default())?.run(&course, seed))
-        .map_err(|error| refused(py, error))?;
+    let run =
+        move |_: &Stop| Rig::new(Parameters::default(), Sensors::default())?.run(&course, seed);
+    let trace = interruptible(py, run)?.map_err(|error| refused(py, error))?;
     let dict = PyDict::new(py);
     for (name, values) in [
         ("time", trace.time),
@@ -400,6 +409,6 @@ pub fn reference_measured_trace<'py>(
 /// Returns:
 ///     str: one JSON object.
 #[pyfunction]
-pub fn eval_json(py: Python<'_>, request: String) -> String {
-    py.detach(|| bindings::eval(&request))
+pub fn eval_json(py: Python<'_>, request: String) -> PyResult<String> {
+    interruptible(py, move |_| bindings::eval(&request))
 }

@@ -12,7 +12,8 @@ use pyo3::types::{PyDict, PyList};
 use crate::calibration::{geared, options, read, text, told};
 use crate::design::Design;
 use crate::errors::{Refused, refused};
-use crate::numbers::arguments;
+use crate::interrupt::interruptible;
+use crate::numbers::{arguments, single_or};
 use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
@@ -56,11 +57,11 @@ pub fn design_figures<'py>(
     conformity: Option<Any<'py>>,
     contact_angle: Option<Any<'py>>,
     preload: Option<Any<'py>>,
-    axial_load: Option<f32>,
-    turns: Option<f32>,
-    friction: Option<f32>,
-    ball_friction: Option<f32>,
-    deviation: Option<f32>,
+    axial_load: Option<f64>,
+    turns: Option<f64>,
+    friction: Option<f64>,
+    ball_friction: Option<f64>,
+    deviation: Option<f64>,
     strict: bool,
 ) -> PyResult<Any<'py>> {
     let or = |given: Option<Any<'py>>, usual: f64| -> PyResult<Any<'py>> {
@@ -71,11 +72,11 @@ pub fn design_figures<'py>(
     let preload = or(preload, 0.0)?;
     let usual = Duty::DEFAULT;
     let duty = Duty {
-        axial_load: axial_load.unwrap_or(usual.axial_load),
-        turns: turns.unwrap_or(usual.turns),
-        friction: friction.unwrap_or(usual.friction),
-        ball_friction: ball_friction.unwrap_or(usual.ball_friction),
-        deviation: deviation.unwrap_or(usual.deviation),
+        axial_load: single_or(py, "axial_load", axial_load, usual.axial_load)?,
+        turns: single_or(py, "turns", turns, usual.turns)?,
+        friction: single_or(py, "friction", friction, usual.friction)?,
+        ball_friction: single_or(py, "ball_friction", ball_friction, usual.ball_friction)?,
+        deviation: single_or(py, "deviation", deviation, usual.deviation)?,
     };
     let names = [
         "pitch_radius",
@@ -165,17 +166,18 @@ pub fn trace_sums(
     geared(py, ratio)?;
     options(py, design.is_some(), &[("ratio", ratio.is_some())], &[])?;
     let text = text(py, trace)?;
-    let summed = py.detach(|| match design {
+    let design = design.map(|design| design.inner.clone());
+    let summed = interruptible(py, move |_| match design {
         None => without_design::plain(&read(text, None)?, &Filters::default()),
         Some(design) => {
             let frame = Frame {
-                lead: design.inner.screw().lead().into(),
+                lead: design.screw().lead().into(),
                 ratio: ratio.unwrap_or(1.0),
             };
             let request = Request::default();
-            with_design::summed(&read(text, Some(&frame))?, &design.inner, &request)
+            with_design::summed(&read(text, Some(&frame))?, &design, &request)
         }
-    });
+    })?;
     let (_, sums) = summed.map_err(|failure| refused(py, told(failure)))?;
     written(py, &sums)
 }

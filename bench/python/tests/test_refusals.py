@@ -160,3 +160,60 @@ def test_errors_go_from_process_to_process() -> None:
     error = refusal(lambda: ef.ellipse(1e-3, 2e-3, [1.0, -1.0], 1e11))
     again = pickle.loads(pickle.dumps(error))
     assert type(again) is type(error) and str(again) == str(error) and vars(again) == vars(error)
+
+
+@pytest.mark.parametrize("value", [1e300, -1e300, 1e-60])
+def test_numbers_that_single_precision_does_not_hold(value: float) -> None:
+    contact = {"contact_modulus": 1e11, "relative_radius_1": 1e-3, "relative_radius_2": 2e-3, "load": 1.0}
+    screw = ef.CagedBallScrew(ef.Design(**DESIGN), branch="sliding")
+    pressing, bearing = ef.Design.built_in("lin-3.6"), ef.LinearDesign.built_in()
+    calls: list[tuple[str, Callable[[], Any]]] = [
+        ("load", lambda: ef.ellipse(**{**contact, "load": value})),
+        ("load", lambda: ef.ellipse(**{**contact, "load": [1.0, value]})),
+        ("contact_modulus", lambda: ef.ellipse(**{**contact, "contact_modulus": value})),
+        ("friction", lambda: ef.efficiency(0.1, 0.7, np.full((3, 5), value)[:, ::2], 0.1)),
+        ("rolling_tangent", lambda: ef.efficiency(0.1, 0.7, 0.1, 0.1, value)),
+        ("friction", lambda: ef.Design(**DESIGN, friction=value)),
+        ("friction", lambda: screw.set_friction(value)),
+        ("friction", lambda: ef.CagedBallScrew(ef.Design(**DESIGN), friction=value)),
+        ("reversal_speed", lambda: ef.CagedBallScrew(ef.Design(**DESIGN), reversal_speed=value)),
+        ("tick", lambda: ef.UncagedBallScrew(pressing, tick=value)),
+        ("ball_friction", lambda: ef.LinearBearingTrain(bearing, ball_friction=value)),
+        ("axial_load", lambda: ef.design_figures(0.0145, 0.007, 0.002, axial_load=value)),
+    ]
+    for field, call in calls:
+        error = refusal(call)
+        assert error.field == field and error.value == pytest.approx(value), (field, error)
+        assert error.range is not None and "single precision" in str(error), (field, error)
+
+
+def test_traces_beyond_single_precision() -> None:
+    screw = ef.CagedBallScrew(ef.Design(**DESIGN), branch="sliding")
+    error = refusal(lambda: screw.run([1.0, 1e300], 100.0))
+    assert (error.field, error.value, error.index) == ("nut_speed", 1e300, (1,)) and error.range is not None
+    assert refusal(lambda: ef.simulate_caged(ef.Design(**DESIGN), [0.0, 1.0], 1.0, -1e300)).field == "axial_load"
+    # What decays below it is at rest.
+    decaying = 10.0 * np.exp(-np.arange(300.0))
+    assert np.all(screw.run(decaying, 100.0).faults == 0)
+    assert screw.run([1e300], 100.0, allow_faults=True).fault_words[0] == "SPEED_NOT_FINITE"
+
+
+def test_a_bound_names_the_field_that_decides_it() -> None:
+    for model, design, limit in [
+        (ef.UncagedBallScrew, ef.Design.built_in("lin-3.6"), "limits.nut_speed = 2000"),
+        (ef.LinearBearingTrain, ef.LinearDesign.built_in(), "limits.speed = 2"),
+    ]:
+        error = refusal(lambda: model(design, tick=0.5))
+        assert limit in str(error) and error.range is not None and error.range[0] > 0.0
+        # Both ends are allowed.
+        for tick in error.range:
+            assert model(design, tick=tick).tick == np.float32(tick)
+        assert "allowed: 0 to" not in str(refusal(lambda: model(design, tick=0.0)))
+
+
+def test_an_end_that_is_refused_is_not_said_to_be_allowed() -> None:
+    trace = {"time": np.arange(1000) * 1e-3, "position": np.zeros(1000), "motor_force": np.zeros(1000)}
+    error = refusal(lambda: ef.calibrate(trace, controller=(0.0, 1.0)))
+    assert (error.field, error.value) == ("gain_position", 0.0) and "allowed: above 0" in str(error)
+    lengths = {**DESIGN, "ball_radius": 0.0}
+    assert "allowed: 0 to" not in str(refusal(lambda: ef.Design(**lengths)))

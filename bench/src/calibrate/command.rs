@@ -7,6 +7,7 @@ use crate::calibrate::answer::Calibration;
 use crate::calibrate::experiment::wanted;
 use crate::calibrate::folder::{self, Folder, FolderArguments};
 use crate::calibrate::outputs::{Outcome, OutputArguments, folder_name};
+use crate::calibrate::page::truth;
 use crate::calibrate::screw::Request;
 use crate::calibrate::screw::choice::Wanted;
 use crate::calibrate::signals::{RowSettings, SmoothingSettings};
@@ -25,12 +26,15 @@ use crate::source::Source;
 
 /// Fits a model to a measured trace, and says how sure it is and what the trace cannot tell.
 ///
-/// The trace is a CSV file, or a measurement file (MDF 4, .mf4), with the columns or channels time; position or speed (of the nut, or of motor_ or carriage_);
-/// motor_torque or motor_force; and where there are any reference_position, axial_load or load_torque, temperature, and known_torque or
-/// known_force (an effort that is known and that the controller did not command). Units are SI (rad, m, N, N m, K);
-/// others stand in the column's name: nut_position_deg, motor_speed_rpm, axial_load_kN, temperature_C, or in brackets behind it: Nut position [deg].
-/// A measurement file says the units itself; --channels names its channels where they have other names. All channels are put on the raster of
-/// the position, or of the speed where there is none.
+/// The trace is a CSV file, or a measurement file (MDF 4, .mf4), with the columns or channels time; position or speed (of the
+/// nut, or of motor_ or carriage_); motor_torque or motor_force; and where there are any reference_position, axial_load or
+/// load_torque, temperature, and known_torque or known_force (an effort that is known and that the controller did not command).
+///
+/// Units are SI (rad, m, N, N m, K); others stand in the column's name: nut_position_deg, motor_speed_rpm, axial_load_kN,
+/// temperature_C, or in brackets behind it: Nut position [deg]. A measurement file says the units itself; --channels names its
+/// channels where they have other names.
+///
+/// All channels are put on the raster of the position, or of the speed where there is none.
 ///
 /// With a design the model is the one that firmware runs: friction coefficient by speed and temperature, preload, pre-sliding. Each
 /// parameter is estimated where the trace can tell it.
@@ -271,6 +275,7 @@ fn with_design(
     mapping: Option<&Mapping>,
 ) -> Result<(), Failure> {
     let frame = arguments.frame(design);
+    let truth = truth::of(trace);
     let trace = columns::read(&Source(trace), Some(&frame), mapping)?;
     let request = Request {
         unseen: arguments.unseen(Some(&frame), mapping)?,
@@ -283,11 +288,13 @@ fn with_design(
         design: Some(text),
         screw: Some(&found.screw),
         drive: None,
+        truth: &truth,
     })
 }
 
 /// A trace without a design.
 fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Result<(), Failure> {
+    let truth = truth::of(trace);
     let trace = columns::read(&Source(trace), None, mapping)?;
     let unseen = arguments.unseen(None, mapping)?;
     let told = without_design::calibrate(
@@ -305,6 +312,7 @@ fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Resul
         design: None,
         screw: None,
         drive: Some(&told.drive),
+        truth: &truth,
     })
 }
 

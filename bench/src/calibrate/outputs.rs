@@ -20,6 +20,7 @@ use crate::calibrate::outputs::design_file::Written;
 use crate::calibrate::page;
 use crate::calibrate::page::picture::Picture;
 use crate::calibrate::page::shown;
+use crate::calibrate::page::truth::Truth;
 use crate::calibrate::screw::friction::Screw;
 use crate::calibrate::without_design::drive::Drive;
 use crate::failure::Failure;
@@ -60,6 +61,8 @@ pub struct Outcome<'a> {
     pub screw: Option<&'a Screw>,
     /// The drive, where there is none.
     pub drive: Option<&'a Drive>,
+    /// What the trace was made with, where its file says it.
+    pub truth: &'a Truth,
 }
 
 impl OutputArguments {
@@ -132,7 +135,7 @@ impl OutputArguments {
             _ => None,
         };
         let folder = self.folder(&picture.name);
-        let document = page::document(calibration, picture);
+        let document = page::document(calibration, picture, outcome.truth, design.is_some());
         folder::mark(&folder)?;
         document.write(&folder)?;
         let mut told = Vec::new();

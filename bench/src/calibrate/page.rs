@@ -5,15 +5,20 @@
 //! |---|---|
 //! | [`picture`] | what the page draws, as plain data |
 //! | [`shown`] | numbers as they are shown |
+//! | [`truth`] | what a synthetic trace was made with |
+//! | [`table`] | parameters, and manoeuvres that identify them |
 
 pub mod picture;
 pub mod shown;
+pub mod table;
+pub mod truth;
 
 use std::f64::consts::TAU;
 
-use crate::calibrate::answer::{Calibration, Estimate, ModelScore};
+use crate::calibrate::answer::{Calibration, ModelScore};
 use crate::calibrate::page::picture::{Picture, Profile};
 use crate::calibrate::page::shown::digits;
+use crate::calibrate::page::truth::Truth;
 use crate::calibrate::signals::spectrum::welch;
 use crate::calibrate::trace::Coordinate;
 use crate::document::{Block, Cell, Document, Figure, Section, Table};
@@ -63,9 +68,14 @@ impl Words {
 }
 
 /// The page.
-pub fn document(calibration: &Calibration, picture: &Picture) -> Document {
+pub fn document(
+    calibration: &Calibration,
+    picture: &Picture,
+    truth: &Truth,
+    with_design: bool,
+) -> Document {
     let words = Words::of(picture.coordinate);
-    let mut sections = vec![told(calibration, &words)];
+    let mut sections = vec![told(calibration, truth, &words)];
     if !calibration.models.is_empty() {
         sections.push(models(calibration));
     }
@@ -80,12 +90,16 @@ pub fn document(calibration: &Calibration, picture: &Picture) -> Document {
     if !picture.correlations.names.is_empty() {
         sections.push(correlations(picture));
     }
+    if with_design {
+        sections.push(table::manoeuvres());
+    }
     Document::of(format!("Calibration: {}", picture.name), sections)
 }
 
 /// Parameters, and what the trace cannot tell.
-fn told(calibration: &Calibration, words: &Words) -> Section {
+fn told(calibration: &Calibration, truth: &Truth, words: &Words) -> Section {
     let mut blocks = vec![
+        Block::Answer(table::parameters(&calibration.parameters, truth)),
         Block::Text(format!(
             "The model leaves a residual of {} {} rms, {} % of the effort's. {} rows count, with the correlation of the residual.",
             digits(calibration.residual_rms, 3),
@@ -93,7 +107,6 @@ fn told(calibration: &Calibration, words: &Words) -> Section {
             digits(100.0 * calibration.relative_error, 3),
             digits(calibration.effective_rows.round(), 4),
         )),
-        Block::Table(parameters(&calibration.parameters)),
     ];
     if !calibration.cannot_tell.is_empty() {
         blocks.push(Block::Text("What this trace cannot tell:".into()));
@@ -102,34 +115,6 @@ fn told(calibration: &Calibration, words: &Words) -> Section {
     Section {
         title: "What the trace tells",
         blocks,
-    }
-}
-
-fn parameters(estimates: &[Estimate]) -> Table {
-    let number = |value: f64| Cell::Number(value, digits(value, 4));
-    let rows = estimates.iter().map(|estimate| {
-        let mut row = vec![Cell::from(estimate.name.as_str()), number(estimate.value)];
-        row.extend(if estimate.fixed {
-            [Cell::from(""), Cell::from("")]
-        } else {
-            [number(estimate.low), number(estimate.high)]
-        });
-        row.push(estimate.unit.into());
-        let origin = match (estimate.fixed, estimate.at_bound) {
-            (true, _) => "set",
-            (false, true) => "at its bound",
-            (false, false) => "estimated",
-        };
-        row.push(origin.into());
-        row
-    });
-    Table {
-        name: "parameters",
-        caption: "Parameters with their 95 % intervals".into(),
-        columns: ["parameter", "value", "low", "high", "unit", "origin"]
-            .map(String::from)
-            .into(),
-        rows: rows.collect(),
     }
 }
 

@@ -8,7 +8,7 @@ use epas_design::{Certificate, Figure, Folded, FoldedUncaged};
 use serde::Serialize;
 
 use super::Format;
-use crate::designs::Design;
+use crate::designs::{Design, capacity};
 use crate::failure::Failure;
 
 /// A folded design.
@@ -188,6 +188,22 @@ impl Made {
             out,
             "domain: friction coefficient {friction}; axial load {from} to {to} N a ball, both signs"
         )?;
+        let screw = design.screw();
+        let preload = capacity::Preload::of(screw, design.caged.clearance);
+        if preload.force > 0.0 {
+            let axial = design
+                .caged
+                .clearance
+                .axial_preload(screw, design.caged.loaded_balls);
+            writeln!(
+                out,
+                "preload: {} a contact, {axial:.0} N of the nut",
+                preload.words()
+            )?;
+        }
+        if let Some(words) = capacity::beyond(screw, to) {
+            writeln!(out, "beyond the static limit: {words}")?;
+        }
         writeln!(
             out,
             "block: {} bytes, digest {digest:016x}; folded in {seconds:.1} s\n",

@@ -92,8 +92,14 @@ impl Given {
                 BALLS[0], BALLS[1]
             ));
         }
-        // Without a lead it is a bearing. Within a rounding, balls may fill the lead.
-        if lead > 0.0 && 2.0 * ball_radius > 1.001 * lead {
+        if lead == 0.0 {
+            return Err(
+                "lead = 0 is a bearing's: it moves nothing along the axis; allowed: above 0, to 0.2 m. Lengths are in metres: 7 mm is 0.007"
+                    .into(),
+            );
+        }
+        // Within a rounding, balls may fill the lead.
+        if 2.0 * ball_radius > 1.001 * lead {
             return Err(format!(
                 "lead = {lead} with {ball}: the groove's turns would cross; a lead is at least the ball's diameter. Lengths are in metres: 7 mm is 0.007"
             ));
@@ -201,6 +207,10 @@ mod tests {
             (
                 "nominal_diameter = 29e-3\nlead = 7e-4\nball_diameter = 4e-3\n",
                 "turns would cross",
+            ),
+            (
+                "nominal_diameter = 29e-3\nlead = 0\nball_diameter = 4e-3\n",
+                "lead = 0 is a bearing's",
             ),
         ] {
             let message = read(&format!("{text}{REST}"), "x").unwrap_err();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use epas_friction::{BallScrew, Clearance, GrooveSize, Material, defaults};
+use epas_friction::{GrooveSize, Material};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
@@ -122,26 +122,5 @@ pub fn material(own: Option<&MaterialTable>, common: &MaterialTable) -> Material
             common.density,
             Material::STEEL.density,
         ),
-    }
-}
-
-/// How balls fit between the grooves: the gap, m, or the preload of a contact, N, whichever a file gives, or the default.
-pub fn clearance(
-    design: &BallScrew,
-    gap: Option<f32>,
-    preload: Option<f32>,
-) -> Result<Clearance, String> {
-    match (gap, preload) {
-        (None, None) => defaults::CLEARANCE
-            .checked(design)
-            .map_err(|error| error.to_string()),
-        (None, Some(0.0)) => Ok(Clearance::ZERO),
-        (Some(gap), None) => Clearance::new(gap)
-            .and_then(|clearance| clearance.checked(design))
-            .map_err(|error| error.to_string()),
-        (None, Some(force)) => {
-            Clearance::of_preload(design, force).map_err(|error| format!("preload: {error}"))
-        }
-        (Some(_), Some(_)) => Err("clearance and preload say the same; give one of them".into()),
     }
 }

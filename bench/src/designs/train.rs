@@ -117,8 +117,8 @@ pub struct UncagedTable {
 pub fn refuse_fit(fit: Option<&toml::Value>) -> Result<(), String> {
     match fit {
         None => Ok(()),
-        Some(_) => Err("fit is no key; a design has clearance (m; play above 0, oversize below), or preload (force of \
-                        each contact without a load, N)"
+        Some(_) => Err("fit is no key; a design has clearance (m; play above 0, oversize below), axial_play (of the nut, m), preload (of \
+                        one contact, N) or axial_preload (of the nut, N)"
             .into()),
     }
 }

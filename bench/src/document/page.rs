@@ -99,7 +99,10 @@ impl Page {
                 Block::Text(text) => {
                     let _ = writeln!(self.text, "<p>{}</p>", html(text));
                 }
-                Block::Table(table) | Block::Annex(table) => self.table(table),
+                Block::Table(table) | Block::Annex(table) => {
+                    self.table(table, table.rows.len() > ROWS);
+                }
+                Block::Answer(table) => self.table(table, false),
                 Block::Figure(figure) => self.figure(figure)?,
             }
         }
@@ -107,12 +110,11 @@ impl Page {
         Ok(())
     }
 
-    fn table(&mut self, table: &Table) {
+    fn table(&mut self, table: &Table, folds: bool) {
         self.tables += 1;
         let number = self.tables;
         let caption = html(&table.caption);
         let file = format!("<a href=\"{0}.csv\">{0}.csv</a>", table.name);
-        let folds = table.rows.len() > ROWS;
         let _ = write!(self.text, "<figure id=\"table-{}\">", table.name);
         let _ = if folds {
             write!(

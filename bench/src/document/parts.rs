@@ -9,6 +9,8 @@ pub enum Block {
     Text(String),
     /// A table.
     Table(Table),
+    /// A table that a page is made for: never folded.
+    Answer(Table),
     /// A table too long for the screen: in the files only.
     Annex(Table),
     /// A figure.

@@ -6,6 +6,8 @@ use mdf4_rs::blocks::{DataType, FileHistoryBlock};
 use mdf4_rs::writer::{MdfWrite, MdfWriter};
 use mdf4_rs::{DecodedValue, Error};
 
+use crate::flags::every_set;
+
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -15,6 +17,8 @@ pub enum Kind {
     Count,
     /// One of these words, as its place with a conversion to text.
     Words(&'static [&'static str]),
+    /// Names of flags, as their bits with a conversion to text.
+    Flags,
 }
 
 /// A column of the table; the first is the time.
@@ -115,7 +119,7 @@ fn head<W: MdfWrite>(
     for column in columns {
         let (form, bits) = match column.kind {
             Kind::Number => (DataType::FloatLE, 64),
-            Kind::Count | Kind::Words(_) => (DataType::UnsignedIntegerLE, 32),
+            Kind::Count | Kind::Words(_) | Kind::Flags => (DataType::UnsignedIntegerLE, 32),
         };
         let channel = writer.add_channel(&id, last.as_deref(), |block| {
             block.name = Some(column.name.into());
@@ -127,8 +131,15 @@ fn head<W: MdfWrite>(
         }
         writer.set_channel_unit(&channel, column.unit)?;
         writer.set_channel_comment(&channel, column.comment)?;
-        if let Kind::Words(words) = column.kind {
-            let words: Vec<(i64, &str)> = (0..).zip(words.iter().copied()).collect();
+        let words: Vec<(i64, &str)> = match column.kind {
+            Kind::Words(words) => (0..).zip(words.iter().copied()).collect(),
+            Kind::Flags => every_set()
+                .iter()
+                .map(|(bits, words)| (i64::from(*bits), words.as_str()))
+                .collect(),
+            Kind::Number | Kind::Count => Vec::new(),
+        };
+        if !words.is_empty() {
             writer.add_value_to_text_conversion(&words, "", Some(&channel))?;
         }
         last = Some(channel);
@@ -147,6 +158,10 @@ fn value(column: &Described, text: &str) -> Result<DecodedValue, String> {
         Kind::Words(words) => {
             let place = words.iter().position(|word| *word == text);
             place.map(|place| DecodedValue::UnsignedInteger(place as u64))
+        }
+        Kind::Flags => {
+            let set = every_set().iter().find(|(_, words)| words == text);
+            set.map(|(bits, _)| DecodedValue::UnsignedInteger((*bits).into()))
         }
     };
     known.ok_or_else(|| {

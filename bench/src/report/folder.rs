@@ -6,12 +6,14 @@ use std::path::Path;
 use tempfile::tempfile_in;
 
 use crate::failure::Failure;
+use crate::folder::refuse_way;
 
 /// First letters of a report as Markdown.
 const OURS: &str = "# epas-friction: ";
 
 /// Fails where the folder cannot be made or written to, or where another's `report.md` stands. Leaves nothing.
 pub fn check(folder: &Path, force: bool) -> Result<(), Failure> {
+    refuse_way(folder)?;
     let refused = |error: std::io::Error| Failure::file("write", folder, &error);
     // What is there of the way to the folder has to take a file.
     let there = folder
@@ -43,7 +45,8 @@ mod tests {
     fn a_report_of_another_stays() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path();
-        assert!(check(&path.join("new/one"), false).is_ok());
+        assert!(check(&path.join("new"), false).is_ok());
+        assert!(check(&path.join("new/one"), false).is_err());
         fs::write(path.join("report.md"), "# Minutes of Monday\n").unwrap();
         assert!(check(path, false).is_err());
         assert!(check(path, true).is_ok());

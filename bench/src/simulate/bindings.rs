@@ -1,13 +1,13 @@
 //! What bindings to other languages take of a simulation: traces, scenes with their models and rows.
 
-pub use epas_trains::{Balls, Built, MOST_BALLS, ScrewConfiguration};
+pub use epas_trains::{Balls, Built, Folded, MOST_BALLS, ScrewConfiguration};
 
 pub use super::caged::{Caged, CagedRow, wrapped};
 pub use super::linear::{Linear, LinearRow};
 pub use super::manoeuvre::Manoeuvre;
 pub use super::memory::{Remembered, angle};
 pub use super::reference::{Friction, ReferenceModel};
-pub use super::remembering::{Remembers, Use, remembering};
+pub use super::remembering::{Remembers, Use, coefficients, remembering};
 pub use super::samples::{LinearSample, ScrewSample};
 pub use super::scene::Scene;
 pub use super::summary::{Lines, regime_name};

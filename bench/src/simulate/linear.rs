@@ -16,6 +16,7 @@ use super::train::{Train, TrainRow};
 use super::train_picture::{TrainPoint, draw};
 use crate::designs::train::LinearDesign;
 use crate::failure::Failure;
+use crate::flags;
 
 /// The scene.
 pub struct Linear {
@@ -139,6 +140,7 @@ impl Scene for Linear {
             "friction_force",
             "regime",
             "faults",
+            "fault_words",
             "travel",
             "groove_friction",
             "ball_friction",
@@ -157,6 +159,7 @@ impl Scene for Linear {
             outputs.friction_force.to_string(),
             regime_name(outputs.regime).into(),
             outputs.faults.bits().to_string(),
+            flags::words(outputs.faults),
             motion.to_string(),
             outputs.groove_force.to_string(),
             outputs.ball_force.to_string(),

@@ -60,6 +60,12 @@ const COLUMNS: &[Described] = &[
         kind: Kind::Words(REGIMES),
     },
     count("faults", "bits of the faults that were counted"),
+    Described {
+        name: "fault_words",
+        unit: "",
+        comment: "names of the faults that were counted",
+        kind: Kind::Flags,
+    },
     number("nut_angle", "rad", "angle of the nut, summed up"),
     number("travel", "m", "travel of the carriage, summed up"),
     number("friction_force", "N", "friction of the carriage"),

@@ -25,6 +25,7 @@ use crate::designs::Design;
 use crate::designs::calibration::Calibrated;
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending, refuse_same};
+use crate::flags;
 use crate::mdf4::Mapping;
 use crate::mechanism::Mechanism;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
@@ -341,7 +342,7 @@ fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
 }
 
 /// Columns of the table.
-pub const COLUMNS: [&str; 8] = [
+pub const COLUMNS: [&str; 9] = [
     "time",
     "motor_torque",
     "axial_load",
@@ -350,6 +351,7 @@ pub const COLUMNS: [&str; 8] = [
     "friction_torque",
     "load_torque",
     "faults",
+    "fault_words",
 ];
 
 /// The values of [`COLUMNS`].
@@ -365,6 +367,7 @@ fn record(row: &Row) -> Vec<String> {
     ];
     let mut record: Vec<String> = numbers.map(|number| number.to_string()).to_vec();
     record.push(row.outputs.faults.bits().to_string());
+    record.push(flags::words(row.outputs.faults));
     record
 }
 

@@ -11,7 +11,8 @@ use super::reference::Friction;
 use super::samples::ScrewSample;
 use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
 use super::trace::{Sample, Trace};
-use crate::designs::Design;
+use crate::designs::{Design, capacity};
+use crate::flags;
 
 /// Settings that decide the friction of a scene, with what a design file leaves to the defaults.
 pub fn settings(design: &Design, friction: f32, clearance: Clearance) -> Lines {
@@ -20,11 +21,8 @@ pub fn settings(design: &Design, friction: f32, clearance: Clearance) -> Lines {
         "friction coefficient",
         format!("{friction}{}", design.mark("friction")),
     );
-    let gap = 1e6 * clearance.gap();
-    lines.add(
-        "clearance",
-        format!("{gap:.1} um{}", design.mark("clearance")),
-    );
+    let words = capacity::clearance_words(design.screw(), clearance);
+    lines.add("clearance", format!("{words}{}", design.mark("clearance")));
     lines
 }
 
@@ -51,6 +49,7 @@ pub fn columns() -> Vec<&'static str> {
         "efficiency",
         "regime",
         "faults",
+        "fault_words",
     ]);
     columns
 }
@@ -70,6 +69,7 @@ pub fn record(sample: &ScrewSample, outputs: &Outputs) -> Vec<String> {
         outputs.efficiency.to_string(),
         regime_name(outputs.regime).into(),
         outputs.faults.bits().to_string(),
+        flags::words(outputs.faults),
     ]);
     record
 }
@@ -187,6 +187,11 @@ impl ScrewSummary {
                 "peak contact pressure",
                 format!("{pressure:.2} GPa at the screw, {balls} loaded balls"),
             );
+        }
+        // The preload stands with the clearance; an axial load adds to it at most itself.
+        let ball_load = self.course.peak_load() as f32 / f32::from(design.caged.loaded_balls);
+        if let Some(words) = capacity::beyond(design.screw(), ball_load) {
+            lines.add("beyond the static limit", words);
         }
         self.course.flags(&mut lines);
         if let Some(difference) = self.reference {

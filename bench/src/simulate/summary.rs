@@ -5,6 +5,7 @@ use std::io::{self, Write};
 use epas_friction::{Faults, Regime};
 
 use super::trace::{Sample, Trace};
+use crate::flags::FLAGS;
 
 /// Lines of a summary: a name and a text each.
 #[derive(Clone, Debug, Default)]
@@ -94,21 +95,8 @@ pub struct Course {
 #[derive(Clone, Debug, Default)]
 pub struct Flags {
     faulted: usize,
-    faults: [usize; FAULTS.len()],
+    faults: [usize; FLAGS.len()],
 }
-
-const FAULTS: [(Faults, &str); 10] = [
-    (Faults::SPEED_NOT_FINITE, "speed not finite"),
-    (Faults::LOAD_NOT_FINITE, "load not finite"),
-    (Faults::SPEED_RANGE, "speed limit"),
-    (Faults::LOAD_RANGE, "load limit"),
-    (Faults::FRICTION_LIMIT, "torque limit"),
-    (Faults::BEYOND_MODEL, "beyond the model"),
-    (Faults::ANGLE_NOT_VALID, "angle not valid"),
-    (Faults::TEMPERATURE_RANGE, "temperature range"),
-    (Faults::LOAD_STALE, "load too old"),
-    (Faults::TEMPERATURE_STALE, "temperature too old"),
-];
 
 const REGIMES: [Regime; 4] = [
     Regime::Driving,
@@ -240,18 +228,18 @@ impl Flags {
     /// One sample more.
     pub fn add(&mut self, faults: Faults) {
         self.faulted += usize::from(faults.any());
-        for (count, (fault, _)) in self.faults.iter_mut().zip(FAULTS) {
-            *count += usize::from(faults.contains(fault));
+        for (count, flag) in self.faults.iter_mut().zip(FLAGS) {
+            *count += usize::from(faults.contains(flag.fault));
         }
     }
 
     /// Their line.
     pub fn lines(&self, lines: &mut Lines) {
-        let faults: Vec<_> = FAULTS
+        let faults: Vec<_> = FLAGS
             .iter()
             .zip(self.faults)
             .filter(|(_, count)| *count > 0)
-            .map(|((_, name), count)| format!("{name} {count}"))
+            .map(|(flag, count)| format!("{} {count}", flag.short))
             .collect();
         lines.add(
             "flagged samples",

@@ -1,6 +1,10 @@
 //! Which files a run writes.
 
+use std::fs;
 use std::path::{Path, PathBuf};
+
+/// Where outputs go that are not asked for by name: a folder of this program's own.
+const FOLDER: &str = "target/simulate";
 
 /// The table and the picture: those asked for, or both under their default names where none is.
 pub fn targets(
@@ -22,6 +26,8 @@ pub fn targets(
             }
         })
         .collect();
-    let folder = Path::new("target").join("simulate");
+    let folder = Path::new(FOLDER);
+    // Where it cannot be made, writing says so.
+    let _ = fs::create_dir_all(folder);
     ["csv", "svg"].map(|ending| Some(folder.join(format!("{stem}.{ending}"))))
 }

@@ -57,7 +57,7 @@ fn every_format_is_the_same_block() {
     .unwrap();
     let asked = [
         ("screw.toml --output gear.rs", "gear.rs"),
-        ("screw.toml --output c/gear.h", "c/gear.h"),
+        ("screw.toml --output gear.h", "gear.h"),
         ("screw.toml --output block.toml", "block.toml"),
         ("screw.toml --output page.dat --format binary", "page.dat"),
     ];

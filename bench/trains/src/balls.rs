@@ -1,6 +1,6 @@
 //! A row of balls as a program holds it, whatever its number.
 
-use epas_friction::Error;
+use epas_friction::{Error, Refusal};
 
 use crate::memory::RememberingConfiguration;
 
@@ -22,6 +22,16 @@ pub trait Balls<Inputs, Outputs>: Send + Sync {
     /// Sets where the grooves' deviations are counted from: angle of the nut, rad, or place of the carriage, m. False where
     /// the scene does not take it.
     fn set_place(&mut self, place: f32) -> bool;
+    /// Its state as a block.
+    ///
+    /// # Errors
+    /// What the crate refuses.
+    fn export(&self) -> Result<Vec<u8>, Refusal>;
+    /// Takes the state of a block over, with the last reading of its sensor.
+    ///
+    /// # Errors
+    /// What the crate refuses; the state is as it was.
+    fn import(&mut self, block: &[u8]) -> Result<(), Refusal>;
     /// The same model in the same state.
     fn copied(&self) -> Box<dyn Balls<Inputs, Outputs>>;
 }

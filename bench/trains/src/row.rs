@@ -1,15 +1,21 @@
 //! What both rows of balls have in common as models.
 
 use epas_friction::law::coefficient::OneCoefficient;
-use epas_friction::scene::{ChangingFriction, Motion, Sliding};
+use epas_friction::scene::{ChangingFriction, Motion, Sliding, StoredScene};
+use epas_friction::stored::Stored;
 use epas_friction::train::Train;
-use epas_friction::{Error, FrictionModel};
+use epas_friction::{Error, FrictionModel, Refusal};
 
 use crate::balls::Balls;
 use crate::memory::{Remembering, fresh};
 
 /// A scene with a row of balls.
-pub trait Row: Sliding<Constants: Copy> + ChangingFriction + Sized {
+pub trait Row:
+    StoredScene
+    + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default>
+    + ChangingFriction
+    + Copy
+{
     /// Balls that press on the one in front, one bit each.
     fn pressing(state: &Self::State) -> u64;
 
@@ -26,6 +32,12 @@ pub fn pressing<const N: usize>(train: &Train<N>) -> u64 {
         .contacts()
         .iter()
         .fold(0, |bits, contact| bits | 1 << contact.ball)
+}
+
+fn exported<S: StoredScene>(model: &FrictionModel<S>) -> Result<Vec<u8>, Refusal> {
+    let mut block = vec![0; FrictionModel::<S>::STATE_BYTES];
+    model.export(&mut block)?;
+    Ok(block)
 }
 
 impl<S: Row> Balls<S::Inputs, S::Outputs> for FrictionModel<S>
@@ -54,6 +66,14 @@ where
 
     fn set_place(&mut self, place: f32) -> bool {
         S::set_place(self, place)
+    }
+
+    fn export(&self) -> Result<Vec<u8>, Refusal> {
+        exported(self)
+    }
+
+    fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
+        Self::import(self, block)
     }
 
     fn copied(&self) -> Box<dyn Balls<S::Inputs, S::Outputs>> {
@@ -87,6 +107,14 @@ where
 
     fn set_place(&mut self, place: f32) -> bool {
         S::set_remembered_place(self, place)
+    }
+
+    fn export(&self) -> Result<Vec<u8>, Refusal> {
+        exported(self)
+    }
+
+    fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
+        self.import_with_reading(block)
     }
 
     fn copied(&self) -> Box<dyn Balls<S::Inputs, S::Outputs>> {

@@ -23,6 +23,7 @@ pub mod friction;
 pub mod parameters;
 pub mod sliding;
 pub mod spoiled;
+pub mod truth;
 
 use std::io::Write;
 use std::ops::Range;

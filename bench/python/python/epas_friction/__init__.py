@@ -20,6 +20,7 @@ from typing import Any, Mapping
 
 from . import reference
 from ._native import (
+    __version__,
     CagedBallScrew,
     CagedBallScrewWithMemory,
     Design,
@@ -102,6 +103,7 @@ __all__ = [
     "UncagedBallScrew",
     "UncagedOutputs",
     "UncagedRun",
+    "__version__",
     "calibrate",
     "circular_groove_curvature",
     "contact_forces",

@@ -41,6 +41,31 @@ class Faults(IntFlag):
     TEMPERATURE_STALE = 1 << 10
 
 
+def words(faults: npt.ArrayLike) -> npt.NDArray[np.str_]:
+    """Names of the bits that are set, joined by ``|``; empty where none is.
+
+    Args:
+        faults: bits of :class:`Faults`, of any shape.
+
+    Returns:
+        ndarray: texts, of the same shape.
+    """
+    bits, places = np.unique(np.asarray(faults, dtype=np.uint16), return_inverse=True)
+    names = ["|".join(str(fault.name) for fault in Faults if fault and fault & int(one)) for one in bits]
+    return np.array(names, dtype=np.str_)[places].reshape(np.shape(faults))
+
+
+class _Flagged:
+    """A run with faults."""
+
+    faults: npt.NDArray[np.uint16]
+
+    @property
+    def fault_words(self) -> npt.NDArray[np.str_]:
+        """Names of the faults of each sample, joined by ``|``; empty where there is none."""
+        return words(self.faults)
+
+
 @dataclass(frozen=True)
 class PrincipalCurvature:
     """Principal curvatures of a groove at the contact point, 1/m; the normal points into the metal.
@@ -197,7 +222,7 @@ class Outputs(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Run:
+class Run(_Flagged):
     """What a ball screw puts out over a trace of ``n`` samples; every array has the shape ``(n,)``.
 
     Attributes:
@@ -240,7 +265,7 @@ class UncagedOutputs(NamedTuple):
 
 
 @dataclass(frozen=True)
-class UncagedRun:
+class UncagedRun(_Flagged):
     """What a ball screw whose balls press on each other puts out over a trace; every array has the shape ``(n,)``.
 
     Attributes:
@@ -287,7 +312,7 @@ class LinearOutputs(NamedTuple):
 
 
 @dataclass(frozen=True)
-class LinearRun:
+class LinearRun(_Flagged):
     """What a linear bearing puts out over a trace; every array has the shape ``(n,)``.
 
     Attributes:

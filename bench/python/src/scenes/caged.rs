@@ -1,7 +1,9 @@
 //! A ball screw whose balls do not touch.
 
-use epas_bench::bindings::{Design as Inner, Failure};
-use epas_bench::caged::{CagedModel, CagedScene, fold_for};
+use std::sync::Arc;
+
+use epas_bench::bindings::{self, Design as Inner, Failure};
+use epas_bench::caged::{self, CagedModel, CagedScene, fold_for};
 use epas_friction::{FrictionBranch, Inputs};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -9,7 +11,9 @@ use pyo3::types::PyBytes;
 use super::columns::{Columns, ScrewColumns};
 use crate::design::Design;
 use crate::errors::{Refused, refused};
-use crate::numbers::arguments;
+use crate::interrupt::interruptible;
+use crate::numbers::{arguments, range_or, single, single_or};
+use crate::restored::{self, Reduced, reduced};
 use crate::results::result;
 
 /// A ball screw whose balls do not touch: friction of the grooves alone.
@@ -29,8 +33,21 @@ use crate::results::result;
 /// Raises:
 ///     Error: a value out of its range, or a range that one block does not hold.
 #[pyclass(module = "epas_friction")]
+#[derive(Clone)]
 pub struct CagedBallScrew {
     model: CagedModel,
+    origin: Origin,
+    /// The friction coefficient that was set last.
+    friction: Option<f32>,
+}
+
+/// What a screw is made again from.
+#[derive(Clone)]
+enum Origin {
+    /// The words of its block.
+    Block(Arc<[u32]>),
+    /// The text of the design of a closed form.
+    ClosedForm(Arc<str>),
 }
 
 /// A branch by its name; none for the contacts.
@@ -69,30 +86,38 @@ impl CagedBallScrew {
     fn new(
         py: Python<'_>,
         design: &Design,
-        friction: Option<f32>,
-        friction_range: Option<(f32, f32)>,
+        friction: Option<f64>,
+        friction_range: Option<(f64, f64)>,
         branch: Option<&str>,
         loaded_balls: Option<u16>,
-        reversal_speed: Option<f32>,
+        reversal_speed: Option<f64>,
     ) -> PyResult<Self> {
         let mut design: Inner = (*design.inner).clone();
         let caged = &mut design.caged;
-        caged.friction = friction.unwrap_or(caged.friction);
+        caged.friction = single_or(py, "friction", friction, caged.friction)?;
         caged.loaded_balls = loaded_balls.unwrap_or(caged.loaded_balls);
-        caged.reversal_speed = reversal_speed.unwrap_or(caged.reversal_speed);
+        let usual = caged.reversal_speed;
+        caged.reversal_speed = single_or(py, "reversal_speed", reversal_speed, usual)?;
         let own = caged.friction;
         if let Some(name) = branch {
             design.branch = branch_of(py, name)?;
         }
         design.check().map_err(|error| refused(py, error))?;
-        let (least, largest) = friction_range.unwrap_or((own, own));
+        let (least, largest) = range_or(py, "friction_range", friction_range, own)?;
         if !(least <= own && own <= largest) {
             let error = Refused::range("friction", own.into(), least.into(), largest.into());
             return Err(refused(py, error));
         }
-        let scene = py.detach(|| CagedScene::with_coefficients(&design, (least, largest)));
-        let scene = scene.map_err(|failure| refused(py, failure))?;
-        Self::of(py, &scene)
+        if let Some(closed) = design.closed_form() {
+            let origin = Origin::ClosedForm(bindings::text::text(&design).into());
+            return Self::of(py, &CagedScene::ClosedForm(closed), origin);
+        }
+        let words = interruptible(py, move |_| {
+            let words = caged::words(&design, (least, largest));
+            words.map_err(|failure| failure.of(&design.name))
+        })?;
+        let words = words.map_err(|failure| refused(py, failure))?;
+        Self::of_words(py, words.unwrap_or_default())
     }
 
     /// A screw by a block that was folded before, of :func:`fold_design` or the command ``design``.
@@ -104,8 +129,7 @@ impl CagedBallScrew {
     ///     Error: bytes that are no block, a block of another version, or a damaged one.
     #[staticmethod]
     fn from_block(py: Python<'_>, block: &[u8]) -> PyResult<Self> {
-        let scene = CagedScene::read(&words(py, block)?);
-        Self::of(py, &scene.map_err(|error| refused(py, error))?)
+        Self::of_words(py, words(py, block)?)
     }
 
     /// Goes on with another block, as firmware swaps constants: worn, warm, or of another clearance. It has as many friction
@@ -115,7 +139,11 @@ impl CagedBallScrew {
     ///     Error: bytes that are no such block; the model stays as it was.
     fn swap_block(&mut self, py: Python<'_>, block: &[u8]) -> PyResult<()> {
         let words = words(py, block)?;
-        self.model.swap(&words).map_err(|error| refused(py, error))
+        let done = self.model.swap(&words);
+        done.map_err(|error| refused(py, error))?;
+        self.origin = Origin::Block(words.into());
+        self.friction = None;
+        Ok(())
     }
 
     /// One tick, as in the control interrupt: never an exception, faults are flagged.
@@ -163,8 +191,8 @@ impl CagedBallScrew {
     ) -> PyResult<Bound<'py, PyAny>> {
         let names = ["nut_speed", "axial_load"];
         let trace = arguments(py, names, [&nut_speed, &axial_load])?.trace(py, allow_faults)?;
-        let mut columns = ScrewColumns::with_capacity(trace.len());
-        let model = &mut self.model;
+        let mut columns = ScrewColumns::with_capacity(trace.len())?;
+        let mut model = self.model;
         trace.each(py, |[nut_speed, axial_load]| {
             columns.push(&model.step(Inputs {
                 nut_speed,
@@ -172,6 +200,7 @@ impl CagedBallScrew {
             }));
             Ok(())
         })?;
+        self.model = model;
         columns.run(py)
     }
 
@@ -184,9 +213,12 @@ impl CagedBallScrew {
     ///
     /// Raises:
     ///     Error: a value out of its range; the model stays as it was.
-    fn set_friction(&mut self, py: Python<'_>, friction: f32) -> PyResult<()> {
+    fn set_friction(&mut self, py: Python<'_>, friction: f64) -> PyResult<()> {
+        let friction = single(py, "friction", friction)?;
         let done = self.model.set_friction(friction);
-        done.map_err(|error| refused(py, error))
+        done.map_err(|error| refused(py, error))?;
+        self.friction = Some(friction);
+        Ok(())
     }
 
     /// Consecutive ticks with a fault; 0 after a sound tick.
@@ -195,17 +227,75 @@ impl CagedBallScrew {
         self.model.faulted_ticks()
     }
 
+    fn __copy__(&self) -> Self {
+        self.copy()
+    }
+
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        self.copy()
+    }
+
+    /// Faulted ticks are counted anew.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let state = self.model.export();
+        let state = state.map_err(|error| refused(py, error.to_string()))?;
+        let (block, text) = match &self.origin {
+            Origin::Block(words) => (Some(restored::bytes(py, words)), None),
+            Origin::ClosedForm(text) => (None, Some(text.to_string())),
+        };
+        let state = PyBytes::new(py, &state);
+        reduced(py, "caged", (block, text, self.friction, state))
+    }
+
     /// The same model in the same state.
     fn copy(&self) -> Self {
-        Self { model: self.model }
+        self.clone()
     }
 }
 
 impl CagedBallScrew {
-    fn of(py: Python<'_>, scene: &CagedScene) -> PyResult<Self> {
+    fn of(py: Python<'_>, scene: &CagedScene, origin: Origin) -> PyResult<Self> {
         let model = scene.model().map_err(|error| refused(py, error))?;
-        Ok(Self { model })
+        Ok(Self {
+            model,
+            origin,
+            friction: None,
+        })
     }
+
+    fn of_words(py: Python<'_>, words: Vec<u32>) -> PyResult<Self> {
+        let scene = CagedScene::read(&words).map_err(|error| refused(py, error))?;
+        Self::of(py, &scene, Origin::Block(words.into()))
+    }
+}
+
+/// A screw as pickle has it: its block or the text of its design, the friction coefficient that was set, its state.
+#[pyfunction]
+#[pyo3(name = "_restored_caged")]
+pub fn restored_caged(
+    py: Python<'_>,
+    block: Option<&[u8]>,
+    text: Option<&str>,
+    friction: Option<f32>,
+    state: &[u8],
+) -> PyResult<CagedBallScrew> {
+    let mut screw = if let Some(block) = block {
+        CagedBallScrew::from_block(py, block)?
+    } else {
+        let text = text.unwrap_or_default();
+        let design = bindings::read_design(text, "design");
+        let design = design.map_err(|error| refused(py, error))?;
+        let closed = design.closed_form();
+        let closed = closed.ok_or_else(|| refused(py, Refused::message("no closed form")))?;
+        let origin = Origin::ClosedForm(text.into());
+        CagedBallScrew::of(py, &CagedScene::ClosedForm(closed), origin)?
+    };
+    if let Some(friction) = friction {
+        screw.set_friction(py, friction.into())?;
+    }
+    let done = screw.model.import(state);
+    done.map_err(|error| refused(py, error.to_string()))?;
+    Ok(screw)
 }
 
 /// Solves a ball screw and folds what follows from its design into a block of constants, with a certificate: the errors of its friction
@@ -228,25 +318,25 @@ impl CagedBallScrew {
 pub fn fold_design<'py>(
     py: Python<'py>,
     design: &Design,
-    friction_range: Option<(f32, f32)>,
-    axial_load: Option<(f32, f32)>,
+    friction_range: Option<(f64, f64)>,
+    axial_load: Option<(f64, f64)>,
     seed: Option<u64>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let friction = design.inner.caged.friction;
-    let coefficients = friction_range.unwrap_or((friction, friction));
+    let coefficients = range_or(py, "friction_range", friction_range, friction)?;
     let fold = fold_for(&design.inner, coefficients);
     let mut fold = fold.map_err(|message| refused(py, message))?;
-    if let Some((least, largest)) = axial_load {
+    if axial_load.is_some() {
+        let (least, largest) = range_or(py, "axial_load", axial_load, 0.0)?;
         fold.axial_load = [least, largest];
     }
     fold.seed = seed.unwrap_or(fold.seed);
-    let (folded, bytes) = py
-        .detach(|| {
-            let folded = fold.folded()?;
-            let bytes = folded.bytes()?;
-            Ok::<_, Failure>((folded, bytes))
-        })
-        .map_err(|failure| refused(py, failure))?;
+    let made = interruptible(py, move |stop| {
+        let folded = fold.folded_with(&|_| stop.check())?;
+        let bytes = folded.bytes()?;
+        Ok::<_, Failure>((folded, bytes))
+    })?;
+    let (folded, bytes) = made.map_err(|failure| refused(py, failure))?;
     let (least, largest) = folded.block.friction_range();
     let [from, to] = folded.fold.axial_load;
     let [torque] = &folded.certificate.figures;

@@ -4,6 +4,7 @@ use epas_friction::{LinearOutputs, Outputs, Regime, UncagedOutputs};
 use pyo3::prelude::*;
 
 use crate::arrays::shaped;
+use crate::memory::room;
 use crate::results::result;
 
 /// A regime as a number of `results.Regime`.
@@ -22,7 +23,10 @@ pub trait Columns: Send + Sized {
     type Outputs: Copy + Send;
 
     /// Room for so many ticks.
-    fn with_capacity(ticks: usize) -> Self;
+    ///
+    /// # Errors
+    /// `MemoryError` where there is none.
+    fn with_capacity(ticks: usize) -> PyResult<Self>;
 
     /// A tick more.
     fn push(&mut self, outputs: &Self::Outputs);
@@ -66,12 +70,12 @@ macro_rules! columns {
         impl Columns for $name {
             type Outputs = $outputs;
 
-            fn with_capacity(ticks: usize) -> Self {
-                Self {
-                    $($field: Vec::with_capacity(ticks),)*
-                    regime: Vec::with_capacity(ticks),
-                    faults: Vec::with_capacity(ticks),
-                }
+            fn with_capacity(ticks: usize) -> PyResult<Self> {
+                Ok(Self {
+                    $($field: room(ticks)?,)*
+                    regime: room(ticks)?,
+                    faults: room(ticks)?,
+                })
             }
 
             fn push(&mut self, outputs: &$outputs) {

@@ -1,13 +1,23 @@
 //! A caged ball screw whose friction remembers.
 
-use epas_bench::bindings::{self, Remembers, Use, remembering, wrapped};
-use epas_friction::{Inputs, Outputs};
-use pyo3::prelude::*;
+use std::sync::Arc;
 
+use epas_bench::bindings::{self, Failure, Remembers, Use, coefficients, remembering, wrapped};
+use epas_bench::caged;
+use epas_friction::{Inputs, Outputs, Refusal};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use super::caged::words;
 use super::columns::{Columns, ScrewColumns};
-use crate::design::Design;
+use crate::design::{Design, restored_design};
 use crate::errors::{Refused, refused};
-use crate::numbers::arguments;
+use crate::interrupt::interruptible;
+use crate::numbers::{arguments, single};
+use crate::restored::{self, Recipe, Reduced, reduced};
+
+/// Largest load at which elements are designed, N.
+const LARGEST_LOAD: f64 = 1e6;
 
 /// A screw that remembers, whatever its elements and its friction coefficient are.
 trait Memory: Send + Sync {
@@ -15,6 +25,8 @@ trait Memory: Send + Sync {
     fn between(&mut self, angle: f32) -> Outputs;
     fn reset(&mut self);
     fn faulted_ticks(&self) -> u32;
+    fn export(&self) -> Result<Vec<u8>, Refusal>;
+    fn import(&mut self, block: &[u8]) -> Result<(), Refusal>;
     fn copied(&self) -> Box<dyn Memory>;
 }
 
@@ -33,6 +45,14 @@ impl<R: Remembers + 'static> Memory for R {
 
     fn faulted_ticks(&self) -> u32 {
         Remembers::faulted_ticks(self)
+    }
+
+    fn export(&self) -> Result<Vec<u8>, Refusal> {
+        Remembers::export(self)
+    }
+
+    fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
+        Remembers::import(self, block)
     }
 
     fn copied(&self) -> Box<dyn Memory> {
@@ -65,22 +85,37 @@ impl Use for Boxed {
 #[pyclass(module = "epas_friction")]
 pub struct CagedBallScrewWithMemory {
     model: Box<dyn Memory>,
+    recipe: Recipe,
+    reference_load: f32,
+    /// The words of its block; none of a closed form.
+    words: Arc<[u32]>,
 }
 
 #[pymethods]
 impl CagedBallScrewWithMemory {
     #[new]
     #[pyo3(signature = (design, *, reference_load))]
-    fn new(py: Python<'_>, design: &Design, reference_load: f32) -> PyResult<Self> {
-        if !(reference_load.is_finite() && reference_load >= 0.0) {
-            let error = Refused::range("reference_load", reference_load.into(), 0.0, 1e6);
+    fn new(py: Python<'_>, design: &Design, reference_load: f64) -> PyResult<Self> {
+        if !(0.0..=LARGEST_LOAD).contains(&reference_load) {
+            let error = Refused::range("reference_load", reference_load, 0.0, LARGEST_LOAD);
             return Err(refused(py, error));
         }
+        let reference_load = single(py, "reference_load", reference_load)?;
         let angle = bindings::angle().map_err(|error| refused(py, error))?;
-        let (model, _) = py
-            .detach(|| remembering(&design.inner, reference_load, angle, Boxed))
-            .map_err(|failure| refused(py, failure))?;
-        Ok(Self { model })
+        let inner = design.inner.clone();
+        let made = interruptible(py, move |_| {
+            let (model, _) = remembering(&inner, reference_load, angle, Boxed)?;
+            // Solved before: its words are at hand.
+            let words = caged::words(&inner, coefficients(&inner)?)?;
+            Ok::<_, Failure>((model, words.unwrap_or_default()))
+        })?;
+        let (model, words) = made.map_err(|failure| refused(py, failure))?;
+        Ok(Self {
+            model,
+            recipe: design.recipe.clone(),
+            reference_load,
+            words: words.into(),
+        })
     }
 
     /// One tick, as in the control interrupt: never an exception, faults are flagged.
@@ -144,16 +179,18 @@ impl CagedBallScrewWithMemory {
         let names = ["nut_speed", "axial_load", "nut_angle"];
         let trace =
             arguments(py, names, [&nut_speed, &axial_load, &nut_angle])?.trace(py, allow_faults)?;
-        let mut columns = ScrewColumns::with_capacity(trace.len());
-        let model = &mut self.model;
+        let mut columns = ScrewColumns::with_capacity(trace.len())?;
+        let mut model = self.model.copied();
+        let next = &mut model;
         trace.each(py, |[nut_speed, axial_load, angle]: [f64; 3]| {
             let inputs = Inputs {
                 nut_speed: nut_speed as f32,
                 axial_load: axial_load as f32,
             };
-            columns.push(&model.step(inputs, wrapped(angle)));
+            columns.push(&next.step(inputs, wrapped(angle)));
             Ok(())
         })?;
+        self.model = model;
         columns.run(py)
     }
 
@@ -168,10 +205,53 @@ impl CagedBallScrewWithMemory {
         self.model.faulted_ticks()
     }
 
+    fn __copy__(&self) -> Self {
+        self.copy()
+    }
+
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        self.copy()
+    }
+
+    /// Faulted ticks are counted anew.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let state = self.model.export();
+        let state = state.map_err(|error| refused(py, error.to_string()))?;
+        let (name, text) = self.recipe.arguments();
+        let block = restored::bytes(py, &self.words);
+        let state = PyBytes::new(py, &state);
+        let arguments = (name, text, self.reference_load, block, state);
+        reduced(py, "remembering", arguments)
+    }
+
     /// The same model in the same state.
     fn copy(&self) -> Self {
         Self {
             model: self.model.copied(),
+            recipe: self.recipe.clone(),
+            reference_load: self.reference_load,
+            words: self.words.clone(),
         }
     }
+}
+
+/// A screw as pickle has it: its design, load and block, its state.
+#[pyfunction]
+#[pyo3(name = "_restored_remembering")]
+pub fn restored_remembering(
+    py: Python<'_>,
+    name: String,
+    text: Option<String>,
+    reference_load: f64,
+    block: &[u8],
+    state: &[u8],
+) -> PyResult<CagedBallScrewWithMemory> {
+    let design = restored_design(py, name, text)?;
+    if !block.is_empty() {
+        caged::keep_words(&words(py, block)?).map_err(|error| refused(py, error))?;
+    }
+    let mut screw = CagedBallScrewWithMemory::new(py, &design, reference_load)?;
+    let done = screw.model.import(state);
+    done.map_err(|error| refused(py, error.to_string()))?;
+    Ok(screw)
 }

@@ -1,26 +1,98 @@
 //! Rows of balls that press on each other: a ball screw without cage, a linear bearing.
 
-use epas_bench::bindings::{Balls, Built, Linear, MOST_BALLS, ScrewConfiguration, Uncaged};
-use epas_bench::uncaged::{configuration, configuration_with, read};
-use epas_friction::{Inputs, LinearInputs, LinearOutputs, UncagedOutputs};
+use std::sync::Arc;
+
+use epas_bench::bindings::{
+    self, Balls, Built, Failure, Folded, Linear, MOST_BALLS, ScrewConfiguration, Uncaged,
+    UncagedDesign,
+};
+use epas_bench::uncaged::{configuration_with, fold_for, folded, read};
+use epas_design::uncaged::UncagedBlock;
+use epas_friction::{Error, Inputs, LinearInputs, LinearOutputs, UncagedOutputs};
 use pyo3::prelude::*;
+use pyo3::types::PyBytes;
 
 use super::caged::words;
 use super::columns::{Columns, LinearColumns, UncagedColumns};
-use crate::design::{Design, LinearDesign};
+use crate::design::{Design, LinearDesign, restored_design, restored_linear_design};
 use crate::errors::{Refused, refused};
-use crate::numbers::arguments;
+use crate::interrupt::interruptible;
+use crate::numbers::{arguments, range_or, single};
+use crate::restored::{self, Recipe, Reduced, reduced};
 
-/// A model as it was built.
-fn model<I, O>(py: Python<'_>, built: Built<I, O>) -> PyResult<Box<dyn Balls<I, O>>> {
+/// A model as it was built; `limit` is the field of the design that decides the longest tick, with its value.
+fn model<I, O>(
+    py: Python<'_>,
+    built: Built<I, O>,
+    limit: (&str, f32),
+) -> PyResult<Box<dyn Balls<I, O>>> {
     match built {
         Ok(Some(model)) => Ok(model),
         Ok(None) => {
             let message = format!("balls is out of range; allowed: 1 to {MOST_BALLS}");
             Err(refused(py, Refused::value("balls", message)))
         }
-        Err(error) => Err(refused(py, error)),
+        Err(error) => {
+            let (limit, value) = limit;
+            Err(refused(py, Refused::from(error).tick_of(limit, value)))
+        }
     }
+}
+
+/// What a row of balls is made from, beside its design's own numbers.
+#[derive(Clone)]
+struct Made {
+    recipe: Recipe,
+    tick: f32,
+    friction: Option<f32>,
+    ball_friction: Option<f32>,
+    memory_load: Option<f32>,
+    /// The coefficient that was set last.
+    set_friction: Option<f32>,
+}
+
+/// The same as arguments of Python.
+type MadeArguments = (
+    (String, Option<String>),
+    f32,
+    Option<f32>,
+    Option<f32>,
+    Option<f32>,
+    Option<f32>,
+);
+
+impl Made {
+    fn arguments(&self) -> MadeArguments {
+        (
+            self.recipe.arguments(),
+            self.tick,
+            self.friction,
+            self.ball_friction,
+            self.memory_load,
+            self.set_friction,
+        )
+    }
+}
+
+/// A state as bytes.
+fn state<'py, I, O>(py: Python<'py>, model: &dyn Balls<I, O>) -> PyResult<Bound<'py, PyBytes>> {
+    let state = model.export();
+    let state = state.map_err(|error| refused(py, error.to_string()))?;
+    Ok(PyBytes::new(py, &state))
+}
+
+/// Puts a model back into a state, after the coefficient that was set.
+fn resumed<I, O>(
+    py: Python<'_>,
+    model: &mut dyn Balls<I, O>,
+    friction: Option<f32>,
+    state: &[u8],
+) -> PyResult<()> {
+    let friction = friction.map(|friction| model.set_friction(friction));
+    let done: Result<(), Error> = friction.unwrap_or(Ok(()));
+    done.map_err(|error| refused(py, error))?;
+    let done = model.import(state);
+    done.map_err(|error| refused(py, error.to_string()))
 }
 
 /// A ball screw without cage: friction of the grooves, and between balls that press on each other.
@@ -44,7 +116,9 @@ fn model<I, O>(py: Python<'_>, built: Built<I, O>) -> PyResult<Box<dyn Balls<I, 
 pub struct UncagedBallScrew {
     model: Box<dyn Balls<Inputs, UncagedOutputs>>,
     balls: u8,
-    tick: f32,
+    made: Made,
+    /// The words of its ball's block.
+    words: Arc<[u32]>,
 }
 
 /// Inputs of a tick.
@@ -62,27 +136,32 @@ impl UncagedBallScrew {
     fn new(
         py: Python<'_>,
         design: &Design,
-        tick: f32,
-        friction: Option<f32>,
-        friction_range: Option<(f32, f32)>,
-        ball_friction: Option<f32>,
-        memory_load: Option<f32>,
+        tick: f64,
+        friction: Option<f64>,
+        friction_range: Option<(f64, f64)>,
+        ball_friction: Option<f64>,
+        memory_load: Option<f64>,
     ) -> PyResult<Self> {
-        let mut scene = scene(py, design, memory_load)?;
+        let made = made(
+            py,
+            &design.recipe,
+            tick,
+            [friction, ball_friction, memory_load],
+        )?;
+        let mut scene = scene(py, design, made.memory_load)?;
         let gear = &mut scene.balls.gear;
-        gear.friction = friction.unwrap_or(gear.friction);
+        gear.friction = made.friction.unwrap_or(gear.friction);
         gear.checked().map_err(|error| refused(py, error))?;
         let own = gear.friction;
-        let (least, largest) = friction_range.unwrap_or((own, own));
+        let (least, largest) = range_or(py, "friction_range", friction_range, own)?;
         if !(least <= own && own <= largest) {
             let error = Refused::range("friction", own.into(), least.into(), largest.into());
             return Err(refused(py, error));
         }
-        let own = scene.balls.ball_friction;
-        scene.balls.ball_friction = ball_friction.unwrap_or(own);
-        let made = py.detach(|| configuration(&scene.design, &scene.balls, (least, largest), 0.0));
-        let made = made.map_err(|failure| refused(py, failure))?;
-        Self::of(py, &scene, &made, tick, memory_load)
+        let (design, balls) = (scene.design.clone(), scene.balls);
+        let words = interruptible(py, move |_| words_of(&design, &balls, (least, largest)))?;
+        let words = words.map_err(|failure| refused(py, failure))?;
+        Self::of(py, scene, made, words)
     }
 
     /// A screw by a block of its ball that was folded before, of the command ``design``.
@@ -101,15 +180,12 @@ impl UncagedBallScrew {
         py: Python<'_>,
         design: &Design,
         block: &[u8],
-        tick: f32,
-        ball_friction: Option<f32>,
+        tick: f64,
+        ball_friction: Option<f64>,
     ) -> PyResult<Self> {
-        let mut scene = scene(py, design, None)?;
-        let own = scene.balls.ball_friction;
-        scene.balls.ball_friction = ball_friction.unwrap_or(own);
-        let folded = read(&words(py, block)?).map_err(|error| refused(py, error))?;
-        let made = configuration_with(&scene.balls, folded);
-        Self::of(py, &scene, &made, tick, None)
+        let made = made(py, &design.recipe, tick, [None, ball_friction, None])?;
+        let scene = scene(py, design, None)?;
+        Self::of(py, scene, made, words(py, block)?)
     }
 
     /// One tick, as in the control interrupt: never an exception, faults are flagged.
@@ -154,12 +230,14 @@ impl UncagedBallScrew {
     ) -> PyResult<Bound<'py, PyAny>> {
         let names = ["nut_speed", "axial_load"];
         let trace = arguments(py, names, [&nut_speed, &axial_load])?.trace(py, allow_faults)?;
-        let mut columns = UncagedColumns::with_capacity(trace.len());
-        let model = &mut self.model;
+        let mut columns = UncagedColumns::with_capacity(trace.len())?;
+        let mut model = self.model.copied();
+        let next = &mut model;
         trace.each(py, |values| {
-            columns.push(&model.step(screw_inputs(values)));
+            columns.push(&next.step(screw_inputs(values)));
             Ok(())
         })?;
+        self.model = model;
         columns.run(py)
     }
 
@@ -172,14 +250,22 @@ impl UncagedBallScrew {
     ///
     /// Raises:
     ///     Error: a value out of its range; the model stays as it was.
-    fn set_friction(&mut self, py: Python<'_>, friction: f32) -> PyResult<()> {
+    fn set_friction(&mut self, py: Python<'_>, friction: f64) -> PyResult<()> {
+        let friction = single(py, "friction", friction)?;
         let done = self.model.set_friction(friction);
-        done.map_err(|error| refused(py, error))
+        done.map_err(|error| refused(py, error))?;
+        self.made.set_friction = Some(friction);
+        Ok(())
     }
 
     /// Sets the angle of the nut against the screw, rad, from which the grooves' deviations are counted.
-    fn set_nut_angle(&mut self, angle: f32) {
+    ///
+    /// Raises:
+    ///     Error: an angle that is none.
+    fn set_nut_angle(&mut self, py: Python<'_>, angle: f64) -> PyResult<()> {
+        let angle = place(py, "angle", angle)?;
         self.model.set_place(angle);
+        Ok(())
     }
 
     /// Balls that press on the one in front, by their numbers.
@@ -199,7 +285,7 @@ impl UncagedBallScrew {
     /// Time between two steps, s.
     #[getter]
     fn tick(&self) -> f32 {
-        self.tick
+        self.made.tick
     }
 
     /// Consecutive ticks with a fault; 0 after a sound tick.
@@ -208,34 +294,125 @@ impl UncagedBallScrew {
         self.model.faulted_ticks()
     }
 
+    fn __copy__(&self) -> Self {
+        self.copy()
+    }
+
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        self.copy()
+    }
+
+    /// Faulted ticks are counted anew.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let block = restored::bytes(py, &self.words);
+        let state = state(py, &*self.model)?;
+        reduced(py, "uncaged", (self.made.arguments(), block, state))
+    }
+
     /// The same model in the same state.
     fn copy(&self) -> Self {
         Self {
             model: self.model.copied(),
             balls: self.balls,
-            tick: self.tick,
+            made: self.made.clone(),
+            words: self.words.clone(),
         }
     }
 }
 
 impl UncagedBallScrew {
-    fn of(
-        py: Python<'_>,
-        scene: &Uncaged,
-        configuration: &ScrewConfiguration,
-        tick: f32,
-        memory_load: Option<f32>,
-    ) -> PyResult<Self> {
-        let remembered = memory_load
+    fn of(py: Python<'_>, mut scene: Uncaged, made: Made, words: Vec<u32>) -> PyResult<Self> {
+        let balls = &mut scene.balls;
+        balls.gear.friction = made.friction.unwrap_or(balls.gear.friction);
+        balls.ball_friction = made.ball_friction.unwrap_or(balls.ball_friction);
+        let folded = read(&words).map_err(|error| refused(py, error))?;
+        let configuration: ScrewConfiguration = configuration_with(&scene.balls, folded);
+        let remembered = made
+            .memory_load
             .map(|load| scene.remembered_at(load))
             .transpose()
             .map_err(|error| refused(py, error))?;
+        let built = scene.model(&configuration, made.tick, remembered.as_ref());
+        let limit = ("limits.nut_speed", scene.balls.gear.limits.nut_speed);
         Ok(Self {
-            model: model(py, scene.model(configuration, tick, remembered.as_ref()))?,
+            model: model(py, built, limit)?,
             balls: scene.balls.balls,
-            tick,
+            made,
+            words: words.into(),
         })
     }
+}
+
+/// A screw as pickle has it: what it was made from, its ball's block, its state.
+#[pyfunction]
+#[pyo3(name = "_restored_uncaged")]
+pub fn restored_uncaged(
+    py: Python<'_>,
+    made: MadeArguments,
+    block: &[u8],
+    state: &[u8],
+) -> PyResult<UncagedBallScrew> {
+    let ((name, text), tick, friction, ball_friction, memory_load, set_friction) = made;
+    let design = restored_design(py, name, text)?;
+    let made = Made {
+        recipe: design.recipe.clone(),
+        tick,
+        friction,
+        ball_friction,
+        memory_load,
+        set_friction,
+    };
+    let scene = scene(py, &design, memory_load)?;
+    let mut screw = UncagedBallScrew::of(py, scene, made, words(py, block)?)?;
+    resumed(py, &mut *screw.model, set_friction, state)?;
+    Ok(screw)
+}
+
+/// Numbers of a row of balls in single precision: friction, friction between balls, load of the memory.
+fn made(
+    py: Python<'_>,
+    recipe: &Recipe,
+    tick: f64,
+    [friction, ball_friction, memory_load]: [Option<f64>; 3],
+) -> PyResult<Made> {
+    let given =
+        |field: &str, value: Option<f64>| value.map(|value| single(py, field, value)).transpose();
+    Ok(Made {
+        recipe: recipe.clone(),
+        tick: single(py, "tick", tick)?,
+        friction: given("friction", friction)?,
+        ball_friction: given("ball_friction", ball_friction)?,
+        memory_load: given("memory_load", memory_load)?,
+        set_friction: None,
+    })
+}
+
+/// A place in single precision; what is below it is 0.
+fn place(py: Python<'_>, field: &str, value: f64) -> PyResult<f32> {
+    if !value.is_finite() {
+        return Err(refused(py, Refused::no_number(field, value)));
+    }
+    if value.abs() < f64::from(f32::MIN_POSITIVE) {
+        return Ok(0.0);
+    }
+    single(py, field, value)
+}
+
+/// The words of the block of a design's ball, for friction coefficients between two.
+fn words_of(
+    design: &bindings::Design,
+    row: &UncagedDesign,
+    coefficients: (f32, f32),
+) -> Result<Vec<u32>, Failure> {
+    let fold = fold_for(design, row, coefficients, 0.0).map_err(Failure::Data);
+    let words = fold.and_then(|fold| {
+        let block = match folded(&fold)? {
+            Folded::One(block) => UncagedBlock::One(*block),
+            Folded::Range(block) => UncagedBlock::Range(*block),
+        };
+        Ok(block.words(fold.digest())?)
+    });
+    words.map_err(|failure| failure.of(&design.name))
 }
 
 /// The scene of a design.
@@ -272,7 +449,7 @@ fn bits(set: u64) -> Vec<u8> {
 pub struct LinearBearingTrain {
     model: Box<dyn Balls<LinearInputs, LinearOutputs>>,
     balls: u8,
-    tick: f32,
+    made: Made,
 }
 
 /// Inputs of a tick.
@@ -291,29 +468,18 @@ impl LinearBearingTrain {
     fn new(
         py: Python<'_>,
         design: &LinearDesign,
-        tick: f32,
-        friction: Option<f32>,
-        ball_friction: Option<f32>,
-        memory_load: Option<f32>,
+        tick: f64,
+        friction: Option<f64>,
+        ball_friction: Option<f64>,
+        memory_load: Option<f64>,
     ) -> PyResult<Self> {
-        let mut linear = (*design.inner).clone();
-        let configuration = &mut linear.configuration;
-        configuration.friction = friction.unwrap_or(configuration.friction);
-        configuration.ball_friction = ball_friction.unwrap_or(configuration.ball_friction);
-        let balls = linear.balls;
-        let scene = Linear {
-            design: linear,
-            memory: memory_load.is_some(),
-        };
-        let remembered = memory_load
-            .map(|load| scene.remembered_at(load))
-            .transpose()
-            .map_err(|error| refused(py, error))?;
-        Ok(Self {
-            model: model(py, scene.model(tick, remembered.as_ref()))?,
-            balls,
+        let made = made(
+            py,
+            &design.recipe,
             tick,
-        })
+            [friction, ball_friction, memory_load],
+        )?;
+        Self::of(py, design, made)
     }
 
     /// One tick, as in the control interrupt: never an exception, faults are flagged.
@@ -365,12 +531,14 @@ impl LinearBearingTrain {
         let side_load = side_load.unwrap_or_else(|| crate::numbers::zero(py));
         let trace =
             arguments(py, names, [&speed, &normal_load, &side_load])?.trace(py, allow_faults)?;
-        let mut columns = LinearColumns::with_capacity(trace.len());
-        let model = &mut self.model;
+        let mut columns = LinearColumns::with_capacity(trace.len())?;
+        let mut model = self.model.copied();
+        let next = &mut model;
         trace.each(py, |values| {
-            columns.push(&model.step(linear_inputs(values)));
+            columns.push(&next.step(linear_inputs(values)));
             Ok(())
         })?;
+        self.model = model;
         columns.run(py)
     }
 
@@ -383,16 +551,20 @@ impl LinearBearingTrain {
     ///
     /// Raises:
     ///     Error: a value out of its range; the model stays as it was.
-    fn set_friction(&mut self, py: Python<'_>, friction: f32) -> PyResult<()> {
+    fn set_friction(&mut self, py: Python<'_>, friction: f64) -> PyResult<()> {
+        let friction = single(py, "friction", friction)?;
         let done = self.model.set_friction(friction);
-        done.map_err(|error| refused(py, error))
+        done.map_err(|error| refused(py, error))?;
+        self.made.set_friction = Some(friction);
+        Ok(())
     }
 
     /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted.
     ///
     /// Raises:
     ///     Error: with memory, where the place is that of the first tick.
-    fn set_carriage_position(&mut self, py: Python<'_>, position: f32) -> PyResult<()> {
+    fn set_carriage_position(&mut self, py: Python<'_>, position: f64) -> PyResult<()> {
+        let position = place(py, "position", position)?;
         if self.model.set_place(position) {
             return Ok(());
         }
@@ -417,7 +589,7 @@ impl LinearBearingTrain {
     /// Time between two steps, s.
     #[getter]
     fn tick(&self) -> f32 {
-        self.tick
+        self.made.tick
     }
 
     /// Consecutive ticks with a fault; 0 after a sound tick.
@@ -426,12 +598,74 @@ impl LinearBearingTrain {
         self.model.faulted_ticks()
     }
 
+    fn __copy__(&self) -> Self {
+        self.copy()
+    }
+
+    fn __deepcopy__(&self, _memo: &Bound<'_, PyAny>) -> Self {
+        self.copy()
+    }
+
+    /// Faulted ticks are counted anew.
+    fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
+        let state = state(py, &*self.model)?;
+        reduced(py, "bearing", (self.made.arguments(), state))
+    }
+
     /// The same model in the same state.
     fn copy(&self) -> Self {
         Self {
             model: self.model.copied(),
             balls: self.balls,
-            tick: self.tick,
+            made: self.made.clone(),
         }
     }
+}
+
+impl LinearBearingTrain {
+    fn of(py: Python<'_>, design: &LinearDesign, made: Made) -> PyResult<Self> {
+        let mut linear = (*design.inner).clone();
+        let configuration = &mut linear.configuration;
+        configuration.friction = made.friction.unwrap_or(configuration.friction);
+        configuration.ball_friction = made.ball_friction.unwrap_or(configuration.ball_friction);
+        let (balls, limits) = (linear.balls, configuration.limits);
+        let scene = Linear {
+            design: linear,
+            memory: made.memory_load.is_some(),
+        };
+        let remembered = made
+            .memory_load
+            .map(|load| scene.remembered_at(load))
+            .transpose()
+            .map_err(|error| refused(py, error))?;
+        let built = scene.model(made.tick, remembered.as_ref());
+        Ok(Self {
+            model: model(py, built, ("limits.speed", limits.speed))?,
+            balls,
+            made,
+        })
+    }
+}
+
+/// A bearing as pickle has it: what it was made from, its state.
+#[pyfunction]
+#[pyo3(name = "_restored_bearing")]
+pub fn restored_bearing(
+    py: Python<'_>,
+    made: MadeArguments,
+    state: &[u8],
+) -> PyResult<LinearBearingTrain> {
+    let ((name, text), tick, friction, ball_friction, memory_load, set_friction) = made;
+    let design = restored_linear_design(py, name, text)?;
+    let made = Made {
+        recipe: design.recipe.clone(),
+        tick,
+        friction,
+        ball_friction,
+        memory_load,
+        set_friction,
+    };
+    let mut bearing = LinearBearingTrain::of(py, &design, made)?;
+    resumed(py, &mut *bearing.model, set_friction, state)?;
+    Ok(bearing)
 }

@@ -128,6 +128,48 @@ impl Manoeuvre {
         }
     }
 
+    /// How to drive it, in a few words.
+    pub fn how(self) -> &'static str {
+        match self {
+            Self::Weave => "small slow reversals, 0.2 to 1.5 Hz, the load follows the angle",
+            Self::Parking => "fast sweeps from lock to lock under high load",
+            Self::MicroReversals => "reversals at rest, of the size of the pre-sliding travel",
+            Self::LoadSteps => "even turning to and fro, the load stepped through 0 and both signs",
+            Self::WarmUp => "one sweep again and again while the screw warms up",
+            Self::SpinDown => "the unloaded nut is let go at speed and stops of itself",
+            Self::WholeTurns => "whole turns at constant load and low speed, there and back",
+        }
+    }
+
+    /// Parameters that it identifies: of `calibrate --wanted` for the built-in `lin-4.1` one of the two narrowest intervals is its; for
+    /// spin-down and whole turns, what they still identify without a load and at one speed.
+    pub fn identifies(self) -> &'static [&'static str] {
+        match self {
+            Self::Weave => &["breakaway_angle", "gain"],
+            Self::Parking => &[
+                "friction",
+                "full_film_ratio",
+                "half_share_speed",
+                "preload",
+                "drag",
+                "offset",
+                "direction_asymmetry",
+            ],
+            Self::MicroReversals => &["breakaway_angle", "backlash", "offset"],
+            Self::LoadSteps => &["preload", "gain", "direction_asymmetry", "inertia"],
+            Self::WarmUp => &[
+                "friction",
+                "full_film_ratio",
+                "half_share_speed",
+                "viscosity_pole",
+                "drag",
+                "inertia",
+            ],
+            Self::SpinDown => &["drag"],
+            Self::WholeTurns => &["harmonics"],
+        }
+    }
+
     /// Duration, s.
     pub fn duration(self) -> f64 {
         match self {

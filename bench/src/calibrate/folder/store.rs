@@ -192,6 +192,10 @@ pub fn read(path: &Path) -> Result<Stored, Failure> {
 /// A file that cannot be written.
 pub fn write(output: &Path, stored: &Stored) -> Result<(), Failure> {
     let path = place(output, &stored.trace);
+    // Within the folder that a run fills.
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder).map_err(|error| Failure::file("write", &path, &error))?;
+    }
     let text =
         serde_json::to_string(stored).map_err(|error| Failure::file("write", &path, &error))?;
     files::write(&path, &text, Existing::Replace)

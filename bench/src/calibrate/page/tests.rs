@@ -3,6 +3,7 @@ use std::fs;
 use tempfile::tempdir;
 
 use super::*;
+use crate::calibrate::answer::Estimate;
 use crate::calibrate::page::picture::Correlations;
 
 /// A trace of so many rows that the model explains but for a wave over the turn.
@@ -78,11 +79,16 @@ fn calibration() -> Calibration {
 fn a_page_stands_by_itself() {
     let folder = tempdir().unwrap();
     let picture = picture(6000, Coordinate::Rotation);
-    document(&calibration(), &picture)
+    document(&calibration(), &picture, &Truth::new(), true)
         .write(folder.path())
         .unwrap();
     let read = |name: &str| fs::read_to_string(folder.path().join(name)).unwrap();
     let html = read("report.html");
+    // The parameters come first, and are open.
+    let place = |text: &str| html.find(text).unwrap();
+    assert!(place("table-parameters") < place("The model leaves a residual"));
+    assert!(!html[..place("The model leaves a residual")].contains("class=\"long\""));
+    assert!(html.contains("micro reversals") && html.contains("breakaway_angle"));
     // Nothing is loaded from elsewhere: links go to places of the page and to its files, the one address is the name of the
     // SVG format.
     let without_name = html.replace("http://www.w3.org/2000/svg", "");
@@ -134,7 +140,7 @@ fn what_is_left_shows_against_its_cause() {
 fn long_traces_are_thinned() {
     let folder = tempdir().unwrap();
     let long = picture(300_000, Coordinate::Translation);
-    document(&calibration(), &long)
+    document(&calibration(), &long, &Truth::new(), false)
         .write(folder.path())
         .unwrap();
     let size = fs::metadata(folder.path().join("report.html"))
@@ -151,7 +157,7 @@ fn very_little_still_makes_a_page() {
         let mut little = picture(rows, Coordinate::Translation);
         little.correlations = Correlations::default();
         little.profiles.clear();
-        document(&calibration(), &little)
+        document(&calibration(), &little, &Truth::new(), false)
             .write(folder.path())
             .unwrap();
     }

@@ -1,0 +1,181 @@
+//! Design files that users start from: each is solved or run, and the page's commands are what they say.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::{Run, run_in};
+
+/// Folder of the files, in the tree.
+fn designs() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("designs")
+}
+
+/// A place with the files where the page has them.
+fn place() -> tempfile::TempDir {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path().join("bench/designs");
+    fs::create_dir_all(&folder).unwrap();
+    for entry in fs::read_dir(designs()).unwrap() {
+        let entry = entry.unwrap();
+        fs::copy(entry.path(), folder.join(entry.file_name())).unwrap();
+    }
+    place
+}
+
+fn said(folder: &Path, arguments: &str) -> Run {
+    let all: Vec<_> = arguments.split(' ').collect();
+    run_in(folder, &all, "")
+}
+
+/// Every command of the page runs, in its order, without a flag or a default that the file should have said; every file is in one of them.
+#[test]
+fn the_commands_of_the_page_run() {
+    let place = place();
+    let page = fs::read_to_string(designs().join("README.md")).unwrap();
+    let commands = page
+        .lines()
+        .filter_map(|line| line.strip_prefix("epas-bench "));
+    let mut used = BTreeSet::new();
+    for command in commands {
+        let command = command.split('#').next().unwrap().trim_end();
+        let run = said(place.path(), command);
+        assert_eq!(run.code, 0, "{command}: {}", run.stderr);
+        assert!(
+            !run.stdout.contains("beyond the static limit"),
+            "{command}: {}",
+            run.stdout
+        );
+        let flagged = run.stdout.lines().find(|line| line.starts_with("flagged"));
+        assert!(
+            flagged.is_none_or(|line| line.ends_with(" 0")),
+            "{command}: {flagged:?}"
+        );
+        used.extend(
+            command
+                .split(' ')
+                .filter(|word| word.starts_with("bench/designs"))
+                .map(|path| Path::new(path).file_name().unwrap().to_owned()),
+        );
+    }
+    for entry in fs::read_dir(designs()).unwrap() {
+        let name = entry.unwrap().file_name();
+        assert!(
+            name == "README.md" || used.contains(&name),
+            "{}",
+            name.display()
+        );
+    }
+    for word in [
+        "conformity",
+        "contact angle",
+        "PCD",
+        "lead",
+        "ball diameter",
+        "C0a",
+    ] {
+        assert!(page.contains(word), "{word}");
+    }
+}
+
+/// `--new` writes the explained file, asks nothing, and leaves a file that is there.
+#[test]
+fn a_new_file_is_there_to_start_from() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let run = said(folder, "design --new gear.toml");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let text = fs::read_to_string(folder.join("gear.toml")).unwrap();
+    assert_eq!(
+        text,
+        fs::read_to_string(designs().join("rack-29x7.toml")).unwrap()
+    );
+    // Every key that is set has a comment.
+    let keys = text.lines().filter(|line| line.contains(" = "));
+    for line in keys.filter(|line| !line.trim_start().starts_with('#')) {
+        assert!(line.contains(" # "), "{line}");
+    }
+    fs::write(folder.join("gear.toml"), "mine").unwrap();
+    for (arguments, code, word) in [
+        ("design --new gear.toml", 1, "--force"),
+        ("design --new gear.txt", 1, ".toml"),
+        ("design --new absent/gear.toml", 1, "absent is missing"),
+        ("design --new other.toml --json", 2, "--json"),
+        ("design --new other.toml lin-4.1", 2, "--new"),
+    ] {
+        let run = said(folder, arguments);
+        assert_eq!(run.code, code, "{arguments}: {}", run.stderr);
+        assert!(run.stderr.contains(word), "{arguments}: {}", run.stderr);
+    }
+    assert_eq!(
+        fs::read_to_string(folder.join("gear.toml")).unwrap(),
+        "mine"
+    );
+    assert!(!folder.join("absent").exists());
+    assert_eq!(said(folder, "design --new gear.toml --force").code, 0);
+    assert_eq!(fs::read_to_string(folder.join("gear.toml")).unwrap(), text);
+}
+
+/// What a preload is, is said: in N and GPa, of a contact and of the nut.
+#[test]
+fn a_preload_is_said_in_newtons_and_pascals() {
+    let place = place();
+    let run = said(place.path(), "design bench/designs/preloaded-25x5.toml");
+    let line = run
+        .stdout
+        .lines()
+        .find(|line| line.starts_with("preload: "));
+    let line = line.unwrap_or_else(|| panic!("{}", run.stdout));
+    assert!(line.contains("GPa a contact, 800 N of the nut"), "{line}");
+}
+
+/// A catalogue's preload of the nut is none of a contact, two keys are refused, and so is a clearance that crushes the balls.
+#[test]
+fn absurd_fits_are_refused_with_a_word() {
+    let place = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(designs().join("rack-29x7.toml")).unwrap();
+    for (key, words) in [
+        ("clearance = -20e-6", "GPa"),
+        ("preload = 1500", "axial_preload = 1500"),
+        ("axial_preload = 1e6", "axial_preload"),
+        (
+            "axial_play = 1e-5\nclearance = 0",
+            "clearance and axial_play say the same",
+        ),
+        ("axial_play = -1e-5", "axial_play"),
+    ] {
+        let file = place.path().join("gear.toml");
+        fs::write(
+            &file,
+            text.replace("clearance = -1e-6 ", &format!("{key}\n")),
+        )
+        .unwrap();
+        let run = said(place.path(), "design gear.toml");
+        assert_eq!(run.code, 1, "{key}: {}", run.stdout);
+        assert!(run.stderr.contains(words), "{key}: {}", run.stderr);
+    }
+}
+
+/// A load beyond what a ball bears at rest gets a word, in `design` and in `simulate`.
+#[test]
+fn a_load_beyond_the_static_limit_gets_a_word() {
+    let place = tempfile::tempdir().unwrap();
+    let text = fs::read_to_string(designs().join("rack-29x7.toml")).unwrap();
+    let text = text.replace("axial_load = [5, 300] ", "axial_load = [5, 3000] ");
+    let text = text.replace("axial_load = 20000.0", "axial_load = 200000.0");
+    fs::write(place.path().join("gear.toml"), text).unwrap();
+    let trace = "time,nut_speed,axial_load\n0,10,100000\n0.001,10,100000\n";
+    fs::write(place.path().join("trace.csv"), trace).unwrap();
+    for arguments in [
+        "design gear.toml",
+        "simulate --design gear.toml --input trace.csv --output out.csv",
+    ] {
+        let run = said(place.path(), arguments);
+        let line = run
+            .stdout
+            .lines()
+            .find(|line| line.starts_with("beyond the static limit"));
+        let line = line.unwrap_or_else(|| panic!("{arguments}: {} {}", run.stdout, run.stderr));
+        assert!(line.contains("4.2 GPa"), "{line}");
+    }
+}
