@@ -458,3 +458,6 @@ fn drawn(trace: &str, design: &str, rows: &[Row], form: Form) -> Result<String, 
     ];
     form.draw(&title, &panels)
 }
+
+#[cfg(test)]
+mod tests;
