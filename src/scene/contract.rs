@@ -79,6 +79,13 @@ pub trait SceneOutputs: Copy {
         if !within {
             *friction = cut(*friction, largest);
         }
+        self.concluded()
+    }
+
+    /// These outputs with what follows from the friction that is put out.
+    #[must_use]
+    #[inline(always)]
+    fn concluded(self) -> Self {
         self
     }
 }

@@ -103,6 +103,8 @@ struct Difference {
     torque: f64,
     largest_torque: f64,
     efficiency: f64,
+    /// Samples without a reference.
+    open: usize,
 }
 
 impl ScrewSummary {
@@ -154,6 +156,7 @@ impl ScrewSummary {
             difference.efficiency = difference
                 .efficiency
                 .max((f64::from(outputs.efficiency) - reference.efficiency).abs());
+            difference.open += usize::from(reference.friction_torque.is_nan());
         }
         rotation
     }
@@ -190,10 +193,14 @@ impl ScrewSummary {
         }
         self.course.flags(&mut lines);
         if let Some(difference) = self.reference {
+            let open = match difference.open {
+                0 => String::new(),
+                open => format!(" ({open} samples left open)"),
+            };
             lines.add(
                 DIFFERENCE,
                 format!(
-                    "torque {:.1e} N m of {:.3} N m, efficiency {:.1e}",
+                    "torque {:.1e} N m of {:.3} N m, efficiency {:.1e}{open}",
                     difference.torque, difference.largest_torque, difference.efficiency
                 ),
             );
