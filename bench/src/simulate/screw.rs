@@ -28,9 +28,14 @@ pub fn settings(design: &Design, friction: f32, clearance: Clearance) -> Lines {
     lines
 }
 
-/// The speed over which friction turns round without memory.
+/// The speed over which friction turns round without memory, and what that costs at steering speeds on centre, 1 rad/s of the nut.
 pub fn reversal_speed(design: &Design, speed: f32) -> String {
-    format!("{speed} rad/s{}", design.mark("reversal_speed"))
+    let whole = 1.0 / 1_f32.hypot(speed);
+    format!(
+        "{speed} rad/s{}: without --memory friction is {:.0} % of its full size at 1 rad/s, 71 % at {speed}",
+        design.mark("reversal_speed"),
+        100.0 * whole
+    )
 }
 
 /// What a ball screw's quantities are called.
