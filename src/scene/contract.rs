@@ -144,6 +144,11 @@ impl Motion for Inputs {
     }
 
     #[inline(always)]
+    fn load(&self) -> f32 {
+        self.axial_load
+    }
+
+    #[inline(always)]
     fn with(self, speed: f32, load_factor: f32) -> Self {
         Self {
             nut_speed: speed,

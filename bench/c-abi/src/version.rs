@@ -1,8 +1,8 @@
 //! The version of what the header shows, and the marks that tell it in memory.
 
 /// Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
-/// whenever a structure, a function or what a place holds changes. From version 9 on `epas_screw_t` is set up of a folded block.
-pub const EPAS_ABI_VERSION: u32 = 9u32;
+/// whenever a structure, a function or what a place holds changes. From version 9 on `epas_screw_t` is set up of a folded block; from 10 on the coefficient has a drag.
+pub const EPAS_ABI_VERSION: u32 = 10u32;
 
 /// Mark of an initialised place: it tells what the place holds, and by which version of the library.
 pub(crate) const fn mark(kind: u8) -> u32 {

@@ -2,7 +2,7 @@
 
 use epas_friction::law::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
 use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, OilData, TemperatureFade, Viscosity,
+    CoefficientLaw, CoefficientParameters, OilData, RollingDrag, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::{Hysteresis, ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
@@ -99,6 +99,10 @@ pub fn law(boundary: f32) -> Result<CoefficientLaw, Error> {
         forward: 1.0,
         backward: 1.1,
         churning: 1e-6,
+        drag: RollingDrag {
+            torque: 0.001_3,
+            heating: 0.000_5,
+        },
     })
 }
 
