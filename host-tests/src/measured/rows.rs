@@ -569,11 +569,7 @@ fn cold(usual: &Usual) -> Result<Measured, ReferenceError> {
             range([slow_idle, slow])[1],
             STEERING.name
         ),
-        standing: if steering[0] > 1.0 {
-            Standing::InKind
-        } else {
-            Standing::Apart
-        },
+        standing: Standing::of(steering, widened([2.0, 3.0])),
         needed: "seals, yoke and the grease's yield stress are in the figure and not in the model; viscosity of the base oil and speed decide".into(),
     })
 }
