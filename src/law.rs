@@ -8,7 +8,7 @@
 //! |---|---|
 //! | [`memory`] | elements that stick and slip: friction as a hysteresis in angle |
 //! | [`motion`] | the turn between two readings of a nut angle, exactly |
-//! | [`coefficient`] | friction coefficient by speed, temperature and direction; churning drag |
+//! | [`coefficient`] | friction coefficient by speed, temperature and direction; lubricant drag |
 //! | [`compensation`] | how much of a friction that remembers may be compensated |
 
 pub mod coefficient;

@@ -3,6 +3,9 @@
 //! A step of time `h` is implicit in the speed: `I (v - v0)/h = effort - R(h v)`, with the resistance `R` at the end of the step. `R` does not
 //! fall with the motion, so the speed is the one root between rest and the speed without a change of resistance. A mass that sticks
 //! stays on its friction's spring: nothing chatters at any step. Euler's backward rule: the error of a motion falls with the step.
+//!
+//! A friction in single precision does not feel a way whose force is below its last digit: a body on its spring would creep on without end.
+//! Where it cannot come nearer to the effort, it holds the body at rest.
 
 use roots::{SimpleConvergency, find_root_brent};
 
@@ -53,6 +56,12 @@ pub trait Resistance {
 
     /// The same, remembered: the step was made.
     fn follow(&mut self, step: &Step) -> f64;
+
+    /// Whether it holds the body at rest through this step: it does not feel the step's way, and no way that it feels brings it nearer to
+    /// the effort. A resistance that feels every way never does.
+    fn holds(&self, _: &Step, _effort: f64) -> bool {
+        false
+    }
 }
 
 /// A mass or an inertia with what opposes its motion.
@@ -90,6 +99,11 @@ impl<R: Resistance> Mechanism<R> {
             free
         } else {
             root(&excess, free)
+        };
+        let end_speed = if self.resistance.holds(&step(end_speed), effort) {
+            0.0
+        } else {
+            end_speed
         };
         let step = step(end_speed);
         let resistance = self.resistance.follow(&step);

@@ -100,7 +100,7 @@ use trace::Temperature;
 /// Table [calibration], what `calibrate` writes: for --scene caged with --memory full_film_ratio and half_share_speed (rad/s) with
 /// reference_temperature and viscosity_pole (K), direction_asymmetry, breakaway_angle (rad) at reference_load (N), elements ("proportional", or
 /// with largest_load, N, "load_exact" or "preloaded"), backlash (rad), churning; there a column temperature (K; temperature_C in degrees
-/// Celsius) of the trace is followed.
+/// Celsius) of the trace is followed. rolling_drag is the drag of the lubricant over that of the default grease (1 for that; none without).
 ///
 /// For --mechanism that table has inertia, drag, offset, gain. harmonics (a list of { order, cosine, sine }) stand there too.
 ///
@@ -181,9 +181,12 @@ pub struct Arguments {
     )]
     reference: Option<ReferenceModel>,
     /// Friction that remembers: it passes through a reversal with the angle, by elements of the design at the trace's mean
-    /// load, in place of the reversal speed
+    /// load, in place of the reversal speed [default for a manoeuvre with reversals without --reference]
     #[arg(long)]
     memory: bool,
+    /// Friction that passes through a reversal with the speed, also in a manoeuvre: too low below some reversal speeds
+    #[arg(long, conflicts_with = "memory")]
+    no_memory: bool,
     /// Time between two steps of the model, s, as of firmware at that rate, whatever the trace's is: between its samples the trace is
     /// interpolated linearly
     #[arg(long, value_name = "SECONDS", value_parser = tick::tick, conflicts_with_all = ["mechanism", "loads"])]
@@ -270,12 +273,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         arguments.scene,
         arguments.design.as_ref(),
         arguments.manoeuvre,
-        arguments.memory,
+        remembers(arguments),
     )? {
         Chosen::Caged(scene) => simulate(&*scene, arguments, existing),
         Chosen::Uncaged(scene) => simulate(&*scene, arguments, existing),
         Chosen::Linear(scene) => simulate(&scene, arguments, existing),
     }
+}
+
+/// Whether friction remembers: where that is asked for, and in a manoeuvre with reversals, but for a comparison with the reference, which
+/// has no memory.
+fn remembers(arguments: &Arguments) -> bool {
+    let reverses = arguments.manoeuvre.is_some_and(Manoeuvre::reverses);
+    arguments.memory || reverses && !arguments.no_memory && arguments.reference.is_none()
 }
 
 /// Runs one scene over its trace, and writes what is asked for.

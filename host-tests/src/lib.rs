@@ -11,6 +11,7 @@ pub mod closed_loop;
 pub mod coefficient;
 pub mod curvature;
 pub mod design;
+pub mod drag;
 pub mod efficiency;
 pub mod error;
 pub mod friction;

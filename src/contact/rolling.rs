@@ -27,8 +27,8 @@ pub struct RollingResistance {
     pub hysteresis_loss: f32,
     /// Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 where there is none.
     ///
-    /// It grows with viscosity and speed to the power 0.66 (Houpert 2002): by that formula a ball of 5.6 mm in a screw
-    /// of 33 mm, a viscosity of 0.1 Pa s and 1 turn a second give 0.006 N.
+    /// At one viscosity and speed: by [`RollingDrag`](crate::law::coefficient::RollingDrag), which follows both and takes its place
+    /// in a scene with memory, a ball of 5.6 mm in a screw of 33 mm, 0.1 Pa s and 1 turn a second have 0.014 N.
     pub lubricant_drag: f32,
 }
 

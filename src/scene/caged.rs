@@ -8,7 +8,7 @@ use super::changing::ChangingFriction;
 use super::contract::{CheckedInputs, Inputs, Limits, Regime, Scene};
 use super::faults::Faults;
 use super::full::CagedFull;
-use super::outputs::{Outputs, efficiency};
+use super::outputs::Outputs;
 use super::passage::{Passage, Reversal};
 use super::sliding::{Sliding, SlidingFriction};
 use crate::ball::folded::{FrictionPlace, LoadLaw, octaves};
@@ -148,20 +148,17 @@ impl<const NODES: usize> CagedConstants<NODES> {
     ) -> Outputs {
         let load_torque = axial_load * self.reduced_lead;
         let opposing = passage.direction * load_torque;
-        // Both follow from the same comparison of the load's sign.
-        let (efficiency, moving) = if opposing > 0.0 {
-            (efficiency(true, opposing, full), Regime::Driving)
+        let moving = if opposing >= 0.0 {
+            Regime::Driving
         } else if full < -opposing {
-            (efficiency(false, opposing, full), Regime::BackDriving)
-        } else if opposing < 0.0 {
-            (efficiency(false, opposing, full), Regime::Locked)
+            Regime::BackDriving
         } else {
-            (0.0, Regime::Driving)
+            Regime::Locked
         };
         Outputs {
             friction_torque: passage.share * shared,
             load_torque,
-            efficiency,
+            efficiency: 0.0,
             regime: if passage.standing {
                 Regime::Standing
             } else {

@@ -82,6 +82,13 @@ pub trait SceneOutputs: Copy {
         if !within {
             *friction = cut(*friction, largest);
         }
+        self.concluded()
+    }
+
+    /// These outputs with what follows from the friction that is put out.
+    #[must_use]
+    #[inline(always)]
+    fn concluded(self) -> Self {
         self
     }
 }
@@ -137,6 +144,11 @@ impl Motion for Inputs {
     #[inline(always)]
     fn speed(&self) -> f32 {
         self.nut_speed
+    }
+
+    #[inline(always)]
+    fn load(&self) -> f32 {
+        self.axial_load
     }
 
     #[inline(always)]

@@ -192,15 +192,23 @@ where
         } else {
             direction * CREEP
         };
+        let moving = inputs.with(speed, factor);
         let full = S::full(
             &constants.scene,
             &mut state.scene,
-            inputs.with(speed, factor),
+            moving,
             L::both(&remembered.at_temperature, measured).within(S::FRICTION.maximum),
         );
-        remembered.limits = S::friction(&full).limits(constants.per_reference_load);
+        let sliding = S::friction(&full);
+        remembered.limits = sliding.limits(constants.per_reference_load);
         remembered.full = Some(full);
-        remembered.churning = L::churning_torque(&remembered.at_temperature, measured);
+        let load = moving.load().abs();
+        remembered.drag = L::drag_torque(
+            &remembered.at_temperature,
+            measured,
+            load,
+            sliding.load - load,
+        );
         constants.follow(remembered, turn, inputs, faults | angle_faults)
     }
 
@@ -331,7 +339,7 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         };
         let mut outputs = S::passed(&self.scene, inputs, full, passage);
         let (torque, flags) = outputs.friction_and_faults();
-        *torque += remembered.churning;
+        *torque += remembered.drag;
         *flags |= faults;
         outputs
     }

@@ -17,9 +17,9 @@ pub struct Outputs {
     /// Torque about the nut's axis that holds the load without friction, N m: `axial_load lead / 2
     /// pi`. The motor's torque at constant speed is the sum of the two.
     pub load_torque: f32,
-    /// Efficiency of motion in the present direction under the present load, away from the reversal:
-    /// work out over work in. 0 without load, negative where the direction is locked (not below -1e6),
-    /// 0 in a fault.
+    /// Work out over work in of the two torques above: `load/(load + friction)` where the motor drives, `1 + friction/load` where
+    /// the load does, with their signs. 0 without a load, while standing and in a fault; negative where the motor has to help the
+    /// load along (not below -1e6).
     pub efficiency: f32,
     /// What the mechanism does.
     pub regime: Regime,
@@ -32,8 +32,8 @@ pub struct Outputs {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedOutputs {
     /// Torque about the nut's axis that the motor has to add to overcome friction, N m, within its limit: the sum of the
-    /// next two, and of the torque of churned lubricant where a memory's law of the friction coefficient has one
-    /// ([`CoefficientAtTemperature::churning_torque`](crate::law::coefficient::CoefficientAtTemperature::churning_torque)),
+    /// next two, and of the lubricant's drag where a memory's law of the friction coefficient has one
+    /// ([`CoefficientAtTemperature::drag_torque`](crate::law::coefficient::CoefficientAtTemperature::drag_torque)),
     /// which neither of them holds. It has the sign of the nut speed; friction itself acts on the nut with the opposite sign.
     pub friction_torque: f32,
     /// Its part from the grooves, N m.
@@ -91,6 +91,12 @@ impl SceneOutputs for Outputs {
     fn faults(&self) -> Faults {
         self.faults
     }
+
+    #[inline(always)]
+    fn concluded(mut self) -> Self {
+        self.efficiency = self.efficiency_of_torques();
+        self
+    }
 }
 
 impl SceneOutputs for UncagedOutputs {
@@ -138,26 +144,35 @@ impl SceneOutputs for LinearOutputs {
     }
 }
 
-/// Work out over work in, from the torques of load and friction with their signs; 0 without load.
-#[inline(always)]
-pub(super) fn efficiency(driving: bool, load_torque: f32, friction_torque: f32) -> f32 {
-    if load_torque == 0.0 {
-        0.0
-    } else if driving {
-        load_torque / (load_torque + friction_torque)
-    } else {
-        let efficiency = 1.0 + friction_torque / load_torque;
-        if efficiency > LEAST_EFFICIENCY {
-            efficiency
+impl Outputs {
+    /// Work out over work in of the torques that are put out: `load/(load + friction)` where the motor drives, `1 + friction/load`
+    /// where the load does; 0 without a load and while standing.
+    #[inline(always)]
+    fn efficiency_of_torques(&self) -> f32 {
+        let Self {
+            friction_torque,
+            load_torque,
+            ..
+        } = *self;
+        if load_torque == 0.0 || matches!(self.regime, Regime::Standing) {
+            return 0.0;
+        }
+        // Signs, because the product of two small torques would vanish.
+        if (load_torque < 0.0) == (friction_torque < 0.0) {
+            load_torque / (load_torque + friction_torque)
         } else {
-            LEAST_EFFICIENCY
+            let efficiency = 1.0 + friction_torque / load_torque;
+            if efficiency > LEAST_EFFICIENCY {
+                efficiency
+            } else {
+                LEAST_EFFICIENCY
+            }
         }
     }
 }
 
 impl From<UncagedOutputs> for Outputs {
-    /// The outputs that every scene of a ball screw has: torques from torques. The efficiency is that of the friction that is put
-    /// out, after its passage, its level and its limit.
+    /// The outputs that every scene of a ball screw has.
     fn from(outputs: UncagedOutputs) -> Self {
         let UncagedOutputs {
             friction_torque,
@@ -166,20 +181,14 @@ impl From<UncagedOutputs> for Outputs {
             faults,
             ..
         } = outputs;
-        let efficiency = if matches!(regime, Regime::Standing) {
-            0.0
-        } else {
-            // Signs, because the product of two small torques would vanish.
-            let driving = (load_torque < 0.0) == (friction_torque < 0.0);
-            efficiency(driving, load_torque, friction_torque)
-        };
         Self {
             friction_torque,
             load_torque,
-            efficiency,
+            efficiency: 0.0,
             regime,
             faults,
         }
+        .concluded()
     }
 }
 

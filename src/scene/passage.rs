@@ -24,6 +24,9 @@ pub trait Motion: Copy + core::fmt::Debug + PartialEq {
     /// Speed of the nut, rad/s, or of the carriage, m/s.
     fn speed(&self) -> f32;
 
+    /// Axial load of a screw, normal load of a bearing, N.
+    fn load(&self) -> f32;
+
     /// These inputs with another speed, and with their loads times a factor.
     #[must_use]
     fn with(self, speed: f32, load_factor: f32) -> Self;

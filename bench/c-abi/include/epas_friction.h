@@ -670,6 +670,16 @@ extern "C" {
 #define EPAS_FIELD_FOLDED 98u
 
 /**
+ * `coefficient.drag_torque`
+ */
+#define EPAS_FIELD_DRAG_TORQUE 99u
+
+/**
+ * `coefficient.drag_heating`
+ */
+#define EPAS_FIELD_DRAG_HEATING 100u
+
+/**
  * Samples in a period of a deviation.
  */
 #define EPAS_DEVIATION_SAMPLES 64
@@ -839,7 +849,7 @@ extern "C" {
 /**
  * Size of `epas_memory_t` in words of eight bytes.
  */
-#define EPAS_MEMORY_WORDS 261
+#define EPAS_MEMORY_WORDS 265
 
 /**
  * Balls in the circuit of `epas_screw_t` and `epas_screw_range_t`, return included. A screw with another number needs the library
@@ -891,7 +901,7 @@ extern "C" {
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
  * whenever a structure, a function or what a place holds changes. From version 10 on `epas_memory_t` is
- * set up of shares and breakaway angles.
+ * set up of shares and breakaway angles, and the coefficient has a drag.
  */
 #define EPAS_ABI_VERSION 10u
 
@@ -1213,6 +1223,15 @@ typedef struct epas_coefficient_t {
      * Torque of churned lubricant over its viscosity and the nut speed, m^3, 0 to 1; 0 for none.
      */
     float churning;
+    /**
+     * Lubricant drag of the rolling contacts at 1 Pa s, 1 rad/s and 1 N, N m, 0 to 1e3: 0.0013 for the screw of a steering gear (29x7, 71
+     * balls); 0 for none. `calibrate` writes it, and the Rust crate computes it for a design (`RollingDrag::of`).
+     */
+    float drag_torque;
+    /**
+     * Inlet shear heating, by which that drag is smaller at 1 Pa s and 1 rad/s, 0 to 1e3: 0.0005 for that screw.
+     */
+    float drag_heating;
     /**
      * The lubricant.
      */

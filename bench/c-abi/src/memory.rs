@@ -3,7 +3,7 @@
 use epas_friction::Range;
 use epas_friction::law::FrictionLevel;
 use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, OilData, TemperatureFade, Viscosity,
+    CoefficientLaw, CoefficientParameters, OilData, RollingDrag, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::{Hysteresis, Part, ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
@@ -73,6 +73,11 @@ pub struct Coefficient {
     pub backward: f32,
     /// Torque of churned lubricant over its viscosity and the nut speed, m^3, 0 to 1; 0 for none.
     pub churning: f32,
+    /// Lubricant drag of the rolling contacts at 1 Pa s, 1 rad/s and 1 N, N m, 0 to 1e3: 0.0013 for the screw of a steering gear (29x7, 71
+    /// balls); 0 for none. `calibrate` writes it, and the Rust crate computes it for a design (`RollingDrag::of`).
+    pub drag_torque: f32,
+    /// Inlet shear heating, by which that drag is smaller at 1 Pa s and 1 rad/s, 0 to 1e3: 0.0005 for that screw.
+    pub drag_heating: f32,
     /// The lubricant.
     pub oil: Oil,
 }
@@ -289,6 +294,10 @@ pub(crate) fn coefficient(coefficient: &Coefficient) -> Result<CoefficientLaw, F
         forward: coefficient.forward,
         backward: coefficient.backward,
         churning: coefficient.churning,
+        drag: RollingDrag {
+            torque: coefficient.drag_torque,
+            heating: coefficient.drag_heating,
+        },
     })
     .map_err(Failure::of)
 }

@@ -240,10 +240,14 @@ pub const EPAS_FIELD_TEMPERATURE_FADE: u32 = 96u32;
 pub const EPAS_FIELD_BLOCK: u32 = 97u32;
 /// `folded`, or a number in it.
 pub const EPAS_FIELD_FOLDED: u32 = 98u32;
+/// `coefficient.drag_torque`
+pub const EPAS_FIELD_DRAG_TORQUE: u32 = 99u32;
+/// `coefficient.drag_heating`
+pub const EPAS_FIELD_DRAG_HEATING: u32 = 100u32;
 
 /// Number, name in C, and the crate's name: empty where only this layer names the field. A field to which the crate
 /// gives a name of its own in each scene has a row for each.
-const FIELDS: [(u32, &CStr, &str); 100] = [
+const FIELDS: [(u32, &CStr, &str); 102] = [
     (EPAS_FIELD_PITCH_RADIUS, c"pitch_radius", "pitch_radius"),
     (EPAS_FIELD_LEAD, c"lead", "lead"),
     (EPAS_FIELD_BALL_RADIUS, c"ball_radius", "ball_radius"),
@@ -438,6 +442,16 @@ const FIELDS: [(u32, &CStr, &str); 100] = [
     (EPAS_FIELD_FORWARD, c"forward", "forward"),
     (EPAS_FIELD_BACKWARD, c"backward", "backward"),
     (EPAS_FIELD_CHURNING, c"coefficient.churning", "churning"),
+    (
+        EPAS_FIELD_DRAG_TORQUE,
+        c"coefficient.drag_torque",
+        "drag_torque",
+    ),
+    (
+        EPAS_FIELD_DRAG_HEATING,
+        c"coefficient.drag_heating",
+        "drag_heating",
+    ),
     (
         EPAS_FIELD_KINEMATIC_VISCOSITY_40,
         c"oil.kinematic_viscosity_40",

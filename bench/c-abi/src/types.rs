@@ -210,7 +210,7 @@ pub struct ClosedFormPlace {
 pub const EPAS_MEMORY_STATE_BYTES: u32 = 124u32;
 
 /// Size of `epas_memory_t` in words of eight bytes.
-pub const EPAS_MEMORY_WORDS: usize = 261;
+pub const EPAS_MEMORY_WORDS: usize = 265;
 
 /// Balls in the circuit of `epas_screw_t` and `epas_screw_range_t`, return included. A screw with another number needs the library
 /// built with that number.

@@ -32,6 +32,8 @@ pub struct Calibrated {
     pub drag: Option<f32>,
     /// Torque of churned lubricant over its viscosity and the nut's speed, m³, 0 to 1.
     pub churning: Option<f32>,
+    /// Lubricant drag of the rolling contacts over that of the default grease, 0 to 100; none where it is not there.
+    pub rolling_drag: Option<f32>,
     /// Torque that the motor's channel shows without any, N m, -1e3 to 1e3.
     pub offset: Option<f32>,
     /// Torque of the load over that of a screw without friction, -10 to 10.
@@ -113,6 +115,7 @@ impl Calibrated {
             ("inertia", self.inertia, (0.0, 1e3)),
             ("drag", self.drag, TORQUE),
             ("churning", self.churning, (0.0, 1.0)),
+            ("rolling_drag", self.rolling_drag, (0.0, 100.0)),
             ("offset", self.offset, TORQUE),
             ("gain", self.gain, (-10.0, 10.0)),
         ];
@@ -171,6 +174,7 @@ impl Calibrated {
             ("breakaway_angle", self.breakaway_angle.is_some()),
             ("backlash", self.backlash.is_some()),
             ("churning", self.churning.is_some()),
+            ("rolling_drag", self.rolling_drag.is_some()),
         ]
         .into_iter()
         .filter_map(|(key, there)| there.then_some(key))
@@ -179,12 +183,16 @@ impl Calibrated {
 
     /// Whether friction follows the temperature.
     pub fn follows_temperature(&self) -> bool {
+        let drags = |of: Option<f32>| of.is_some_and(|of| of > 0.0);
         self.full_film_ratio.is_some()
-            || (self.has_law() && self.churning.is_some_and(|churning| churning > 0.0))
+            || drags(self.rolling_drag)
+            || (self.has_law() && drags(self.churning))
     }
 
-    /// Whether the friction coefficient follows speed or direction.
+    /// Whether friction follows speed or direction.
     pub const fn has_law(&self) -> bool {
-        self.full_film_ratio.is_some() || self.direction_asymmetry.is_some()
+        self.full_film_ratio.is_some()
+            || self.direction_asymmetry.is_some()
+            || self.rolling_drag.is_some()
     }
 }

@@ -97,6 +97,7 @@ fn every_wrong_field_is_named() {
         ("[calibration]\ngain = 11", "gain"),
         ("[calibration]\nbacklash = -1", "backlash"),
         ("[calibration]\nchurning = -1", "churning"),
+        ("[calibration]\nrolling_drag = -1", "rolling_drag"),
         ("[calibration]\nharmonics = [{ order = 0 }]", "order"),
         (
             "[calibration]\nharmonics = [{ order = 1, sine = nan }]",

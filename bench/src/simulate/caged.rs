@@ -1,7 +1,5 @@
 //! A ball screw whose balls do not touch.
 
-use std::f64::consts::TAU;
-
 use epas_design::CagedDesign;
 use epas_friction::{Error, FrictionBranch, Inputs, Outputs, RollingResistance};
 use epas_reference::promises::{self, Promise};
@@ -105,10 +103,13 @@ impl Caged {
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Result<(Vec<CagedRow>, Lines), Failure> {
-        let (mut model, lines) = self.model(trace)?;
+        let (mut model, mut lines) = self.model(trace)?;
         let reference = reference
             .map(|model| Reference::new(model, &self.design, trace))
             .transpose()?;
+        if let Some(Reference::Exact(exact)) = &reference {
+            lines.append(exact.told());
+        }
         let mut angle = 0.0;
         let mut last = trace.samples.first().copied();
         let rows = trace
@@ -311,7 +312,6 @@ impl Caged {
             })
             .transpose()?;
         let promise = self.promise();
-        let reduced_lead = f64::from(self.design.screw().lead()) / TAU;
         let largest_load = LARGEST_BALL_LOAD * f64::from(caged.loaded_balls);
         let moment = |(index, row): (usize, &CagedRow)| {
             let friction = f64::from(row.outputs.friction_torque);
@@ -322,7 +322,7 @@ impl Caged {
                 load,
                 side: None,
                 speed: row.sample.nut_speed,
-                motor: Some(load * reduced_lead + friction),
+                motor: Some(f64::from(row.outputs.load_torque) + friction),
                 friction,
                 parts: slip.map(|slip| {
                     let slip = f64::from(slip.outputs.friction_torque);

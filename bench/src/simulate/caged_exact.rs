@@ -7,8 +7,9 @@ use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 use std::f64::consts::TAU;
 
-use super::reference::{Friction, efficiency};
+use super::reference::{Friction, Moving};
 use super::samples::ScrewSample;
+use super::summary::Lines;
 use super::trace::Trace;
 use crate::failure::Failure;
 
@@ -17,9 +18,10 @@ const LOADS: u32 = 160;
 const SPAN: f64 = 1e4;
 
 /// Friction torque over the load, between loads for which one ball is solved exactly: within 2e-4 where no contact opens
-/// between two of them.
+/// between two of them. Where a load has no solution, friction is no number from the load below it to the one above.
 pub struct ExactCaged {
-    /// Loads, N, from the smallest, with the friction torque, N m, of one that opposes the motion and of one that assists it.
+    /// Loads, N, from the smallest, with the friction torque, N m, of one that opposes the motion and of one that assists it; no number
+    /// where the solver does not converge.
     laws: [Vec<(f64, f64)>; 2],
     preloaded: bool,
     reduced_lead: f64,
@@ -57,14 +59,19 @@ impl ExactCaged {
                 .into_iter()
                 .zip(&screws)
                 .map(|(friction, screw)| {
-                    let friction =
-                        friction.map_err(|error| Failure::Data(format!("--reference: {error}")))?;
-                    Ok((screw.axial_load.abs(), friction.torque()))
+                    let torque = friction.map_or(f64::NAN, |friction| friction.torque());
+                    (screw.axial_load.abs(), torque)
                 })
-                .collect::<Result<Vec<_>, Failure>>()
+                .collect::<Vec<_>>()
         };
+        let laws = [law(1.0), law(-1.0)];
+        if laws.iter().flatten().all(|(_, torque)| torque.is_nan()) {
+            return Err(Failure::Data(
+                "--reference: no load of this trace has a solution".into(),
+            ));
+        }
         Ok(Self {
-            laws: [law(1.0)?, law(-1.0)?],
+            laws,
             preloaded: caged.clearance.gap() < 0.0,
             reduced_lead: f64::from(caged.design.lead()) / TAU,
             reversal_speed: caged.reversal_speed.into(),
@@ -80,10 +87,33 @@ impl ExactCaged {
         let opposing = if speed < 0.0 { -load } else { load };
         let full = self.torque(opposing);
         let largest = self.limits.friction_torque;
-        Friction {
-            friction_torque: within(speed / speed.hypot(self.reversal_speed) * full, largest),
-            efficiency: efficiency(opposing * self.reduced_lead, full),
+        let torque = speed / speed.hypot(self.reversal_speed) * full;
+        let moving = Moving {
+            load_torque: load * self.reduced_lead,
+            stands: speed.abs() < self.reversal_speed,
+        };
+        moving.friction(if torque.is_nan() {
+            torque
+        } else {
+            within(torque, largest)
+        })
+    }
+
+    /// How many loads have no solution, if any.
+    pub fn told(&self) -> Lines {
+        let mut lines = Lines::default();
+        let solved = self.laws.iter().flatten();
+        let failed = solved.clone().filter(|(_, torque)| torque.is_nan()).count();
+        if failed > 0 {
+            lines.add(
+                "reference",
+                format!(
+                    "{failed} of {} loads without a solution; samples beside them are left open",
+                    solved.count()
+                ),
+            );
         }
+        lines
     }
 
     /// Friction torque away from the reversal, N m.

@@ -14,7 +14,7 @@ use epas_reference::friction::ball_screw_ring::{
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::{RollingResistance, relative_radii};
 
-use super::reference::{Friction, efficiency};
+use super::reference::{Friction, Moving};
 use super::samples::ScrewSample;
 use super::summary::Lines;
 use super::trace::Trace;
@@ -273,14 +273,15 @@ fn friction(
             };
             let direction = speed / speed.hypot(reversal_speed);
             let torque = direction * at;
-            Friction {
-                friction_torque: if torque.is_nan() {
-                    torque
-                } else {
-                    torque.clamp(-largest, largest)
-                },
-                efficiency: efficiency(way(speed) * sample.axial_load * reduced_lead, at),
-            }
+            let moving = Moving {
+                load_torque: sample.axial_load * reduced_lead,
+                stands: speed.abs() < reversal_speed,
+            };
+            moving.friction(if torque.is_nan() {
+                torque
+            } else {
+                torque.clamp(-largest, largest)
+            })
         })
         .collect()
 }

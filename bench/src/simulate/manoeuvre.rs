@@ -73,6 +73,11 @@ impl Manoeuvre {
         }
     }
 
+    /// Whether its motion turns round.
+    pub fn reverses(self) -> bool {
+        self != Self::Turns
+    }
+
     /// Duration, s, and samples per second.
     fn duration(self) -> (f64, f64) {
         match self {

@@ -461,3 +461,6 @@ fn drawn(trace: &str, design: &str, rows: &[Row], form: Form) -> Result<String, 
     ];
     form.draw(&title, &panels)
 }
+
+#[cfg(test)]
+mod tests;

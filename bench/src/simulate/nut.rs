@@ -62,6 +62,38 @@ impl<M: Remembers> Nut<M> {
     }
 }
 
+/// Part of the torques within which friction and effort are near each other: far more than a step of single precision, so that it
+/// decides nothing but whether it is worth looking.
+const NEAR: f64 = 1e-3;
+
+/// Speed from which on a reading is looked for that friction feels, rad/s: far below any that it does.
+const LEAST: f64 = 1e-12;
+
+impl<M: Remembers> Nut<M> {
+    /// Torque that the nut holds at rest after a reading of its speed, N m: without what a speed adds.
+    fn at_rest(&self, reading: f64) -> f64 {
+        let mut model = self.model.clone();
+        let inputs = Inputs {
+            nut_speed: 0.0,
+            axial_load: self.axial_load as f32,
+        };
+        let outputs = model.step_at(inputs, reading as f32, self.temperature);
+        self.gain * f64::from(outputs.load_torque)
+            + f64::from(outputs.friction_torque)
+            + self.offset
+    }
+
+    /// The same after the first of the readings `from`, twice that, and so on, that makes a difference to `rest`.
+    fn first_felt(&self, from: f64, rest: f64) -> f64 {
+        let readings = std::iter::successors(Some(from), |reading| Some(2.0 * reading));
+        readings
+            .take_while(|reading| reading.abs() < 1e3)
+            .map(|reading| self.at_rest(reading))
+            .find(|torque| *torque != rest)
+            .unwrap_or(rest)
+    }
+}
+
 impl<M: Remembers> Resistance for Nut<M> {
     fn against(&self, step: &Step) -> f64 {
         self.clone().step(step)
@@ -69,5 +101,17 @@ impl<M: Remembers> Resistance for Nut<M> {
 
     fn follow(&mut self, step: &Step) -> f64 {
         self.step(step)
+    }
+
+    fn holds(&self, step: &Step, effort: f64) -> bool {
+        let rest = self.at_rest(0.0);
+        if (effort - rest).abs() > NEAR * (effort.abs() + rest.abs())
+            || self.at_rest(step.end_speed) != rest
+        {
+            return false;
+        }
+        let least = step.end_speed.abs().max(LEAST);
+        let (back, on) = (self.first_felt(-least, rest), self.first_felt(least, rest));
+        back < rest && rest < on && (back..=on).contains(&effort)
     }
 }

@@ -100,11 +100,11 @@ pub fn whole_screw(
         .iter()
         .map(|state| {
             let size = state.groove_torque().abs() + state.ball_torque.abs();
-            let opposing = load_torque * first.nut_speed.signum();
-            Friction {
-                friction_torque: size * first.nut_speed.signum(),
-                efficiency: efficiency(opposing, size),
-            }
+            let moving = Moving {
+                load_torque,
+                stands: false,
+            };
+            moving.friction(size * first.nut_speed.signum())
         })
         .collect())
 }
@@ -114,19 +114,39 @@ pub fn whole_screw(
 pub struct Friction {
     /// Torque that overcomes friction, N m.
     pub friction_torque: f64,
-    /// Efficiency in the present direction.
+    /// Work out over work in.
     pub efficiency: f64,
 }
 
-/// Efficiency in the present direction, from the torque of the load, positive where it opposes the motion, and
-/// that of friction; 0 without a load.
-pub fn efficiency(load_torque: f64, friction_torque: f64) -> f64 {
-    if load_torque > 0.0 {
-        load_torque / (load_torque + friction_torque)
-    } else if load_torque < 0.0 {
-        1.0 + friction_torque / load_torque
-    } else {
-        0.0
+/// Least efficiency, as in the loop.
+const LEAST_EFFICIENCY: f64 = -1e6;
+
+/// What moves under a load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Moving {
+    /// Torque that holds the load without friction, N m, with its sign.
+    pub load_torque: f64,
+    /// Whether it stands, or is slower than the reversal speed.
+    pub stands: bool,
+}
+
+impl Moving {
+    /// Friction with this torque, N m, with the sign of the motion: its efficiency is that of the two torques, as in the loop.
+    pub fn friction(&self, friction_torque: f64) -> Friction {
+        let load = self.load_torque;
+        let efficiency = if load == 0.0 || self.stands {
+            0.0
+        } else if (load < 0.0) == (friction_torque < 0.0) {
+            load / (load + friction_torque)
+        } else if friction_torque.is_nan() {
+            friction_torque
+        } else {
+            (1.0 + friction_torque / load).max(LEAST_EFFICIENCY)
+        };
+        Friction {
+            friction_torque,
+            efficiency,
+        }
     }
 }
 
@@ -207,29 +227,23 @@ impl CagedReference {
         let load = within(sample.axial_load, self.limits.axial_load);
         let direction = speed / speed.hypot(self.reversal_speed);
         let opposing = if speed < 0.0 { -load } else { load };
-        let load_work = opposing * self.reduced_lead;
+        let moving = Moving {
+            load_torque: load * self.reduced_lead,
+            stands: speed.abs() < self.reversal_speed,
+        };
         let largest = f64::from(self.limits.friction_torque);
 
         let drive = match self.drive {
             Some(drive) => drive,
             // Nothing moves a load that is driven, and no load leaves nothing to be locked.
-            None if opposing > 0.0 => {
-                return Friction {
-                    friction_torque: direction * largest,
-                    efficiency: 0.0,
-                };
-            }
+            None if opposing > 0.0 => return moving.friction(direction * largest),
             None => self.backdrive,
         };
         let sum = self.flank_sum(load);
         let torque = |difference: f64| {
             0.5 * (drive * (sum + difference) + self.backdrive * (sum - difference))
         };
-        let full = torque(opposing);
-        Friction {
-            friction_torque: (direction * torque(direction * load)).clamp(-largest, largest),
-            efficiency: efficiency(load_work, full),
-        }
+        moving.friction((direction * torque(direction * load)).clamp(-largest, largest))
     }
 
     /// Sum of the two flanks' loads, whose difference is the load: Hertzian flanks that share one

@@ -189,7 +189,7 @@ pub fn coefficients(design: &Design) -> Result<(f32, f32), Failure> {
     let law = design.calibrated.as_ref().and_then(|calibrated| {
         calibrated
             .has_law()
-            .then(|| LawNumbers::of(friction, calibrated).law())
+            .then(|| LawNumbers::of(&design.caged, calibrated)?.law())
     });
     match law {
         Some(law) => Ok(law.map_err(|error| refused(design, &error))?.extremes()),

@@ -4,7 +4,7 @@
 // stops the compiler.
 
 use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, TemperatureFade, Viscosity,
+    CoefficientLaw, CoefficientParameters, RollingDrag, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::scene::{
@@ -115,6 +115,7 @@ pub const COEFFICIENT: CoefficientLaw = sound(CoefficientLaw::new(&CoefficientPa
     forward: 1.02,
     backward: 0.98,
     churning: 0.0,
+    drag: RollingDrag { torque: 0.0, heating: 0.0 },
 }));
 
 /// Friction after a reversal: 0.13413055 N m of sliding after 0.002 rad.

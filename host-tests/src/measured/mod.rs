@@ -6,6 +6,7 @@
 //! is fitted but where a row says so.
 
 pub mod catalogue;
+pub mod cold;
 mod figure;
 mod rows;
 pub mod studies;

@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use super::catalogue;
+use super::cold::{self as over_temperature, STEERING};
 use super::figure::{Measured, Size, Source, Standing, Usual};
 use super::studies::{FIT_LOAD, SCREWS};
 use crate::curvature::Groove;
@@ -15,7 +16,7 @@ use crate::material::Elastic;
 type Row = fn(&Usual) -> Result<Measured, ReferenceError>;
 
 /// Every figure.
-pub(super) const ROWS: [Row; 18] = [
+pub(super) const ROWS: [Row; 19] = [
     drag_new,
     drag_worn,
     drag_over_preload,
@@ -34,6 +35,7 @@ pub(super) const ROWS: [Row; 18] = [
     geometry_without_torque,
     rack,
     slide,
+    cold,
 ];
 
 const DATA_SET: Source = Source::Seen("XJTU degradation data set of ball screws");
@@ -52,16 +54,6 @@ const PRELOADED: Size = Size {
     ball: 4.762,
     conformity: 0.528,
     balls: 60.0,
-};
-
-/// The screw of Table 4.1 of Lin 2019, of a steering gear's size.
-const STEERING: Size = Size {
-    name: "29x7, 71 balls",
-    diameter: 29.0,
-    lead: 7.0,
-    ball: 4.0,
-    conformity: 0.54,
-    balls: 71.0,
 };
 
 fn widened(band: [f64; 2]) -> [f64; 2] {
@@ -543,5 +535,41 @@ fn slide(_: &Usual) -> Result<Measured, ReferenceError> {
         computed: String::new(),
         standing: Standing::NotComputed,
         needed: "missing: geometry and preload of the screw, friction of guide and seals; laws of speed and of pre-rolling".into(),
+    })
+}
+
+fn cold(usual: &Usual) -> Result<Measured, ReferenceError> {
+    let at = |celsius: f64, speed: f64, load: f64| {
+        let state = (celsius, speed, load);
+        Ok::<f64, ReferenceError>(
+            over_temperature::friction(usual, &over_temperature::GREASE, state)?.torque(),
+        )
+    };
+    let mut growths = Vec::new();
+    for speed in over_temperature::SPEEDS {
+        for load in over_temperature::LOADS {
+            growths.push(at(-40.0, speed, load)? / at(20.0, speed, load)?);
+        }
+    }
+    let [slow_idle, slow, centre_idle, centre, fast_idle, fast] = growths[..] else {
+        return Err(ReferenceError::input("speed", "three speeds and two loads"));
+    };
+    let steering = range([centre_idle, centre]);
+    Ok(Measured {
+        what: "friction of a steering gear at -40 degrees Celsius over that at 20",
+        figure: "2 to 3, of the whole gear with greases made for it",
+        source: Source::Recalled("makers of greases and steering gears"),
+        computed: format!(
+            "{:.1} to {:.1} at 5 rad/s of the nut, {:.1} to {:.1} at 20, {:.1} to {:.1} at 1 (without load to 5 kN; assumed: {}, grease with a base oil of 48 mm2/s at 40 degrees)",
+            steering[0],
+            steering[1],
+            range([fast_idle, fast])[0],
+            range([fast_idle, fast])[1],
+            range([slow_idle, slow])[0],
+            range([slow_idle, slow])[1],
+            STEERING.name
+        ),
+        standing: Standing::of(steering, widened([2.0, 3.0])),
+        needed: "seals, yoke and the grease's yield stress are in the figure and not in the model; viscosity of the base oil and speed decide".into(),
     })
 }

@@ -7,6 +7,7 @@ use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::friction::rolling_resistance::{
     DRAG_LOAD, LubricatedContact, RollingResistance,
 };
+use epas_reference::measured::cold;
 use epas_reference::measured::studies::{self, SCREWS};
 use epas_reference::measured::{self, Standing, Usual, catalogue};
 use gauss_quad::GaussLegendre;
@@ -318,7 +319,8 @@ fn every_figure_stands_somewhere() {
         // Nothing that was sought was missed.
         assert!(!record.needed.contains("none t") && !record.computed.contains("NaN"));
     }
-    assert_eq!(count(Standing::Apart), 0);
+    // Friction in the cold, which rises too much without load at speed, and falls under load when slow.
+    assert_eq!(count(Standing::Apart), 1);
     assert_eq!(count(Standing::NotComputed), 4);
 }
 
@@ -346,5 +348,35 @@ fn friction_falls_with_clearance_and_rises_with_its_coefficient() {
                 .zip(&pair[1].torques)
                 .all(|(less, more)| less < more)
         );
+    }
+}
+
+/// Without load friction of a steering gear rises in the cold at every steering speed (measured: 1.3 at 1 rad/s of the nut, 4.3 at 5, 12 at 20).
+/// Under 5 kN it falls at 1 rad/s (0.41): friction under load goes with the square of the coefficient, which the film halves, and the drag
+/// grows with the speed.
+#[test]
+fn friction_rises_in_the_cold() {
+    let rows = cold::over_temperature(&usual(), &cold::GREASE).unwrap();
+    let at = |celsius: f64, speed: f64, load: f64| {
+        let found = rows
+            .iter()
+            .find(|row| row.celsius == celsius && row.speed == speed && row.load == load);
+        found.unwrap().torque()
+    };
+    for load in cold::LOADS {
+        for speed in cold::SPEEDS {
+            let row: Vec<String> = cold::TEMPERATURES
+                .iter()
+                .map(|celsius| format!("{:.3}", at(*celsius, speed, load)))
+                .collect();
+            let growth = at(-40.0, speed, load) / at(20.0, speed, load);
+            println!("{load} N {speed} rad/s: {} ({growth:.2})", row.join(" "));
+            let least = match (load > 0.0, speed < 2.0, speed < 10.0) {
+                (true, true, _) => 0.35,
+                (true, _, true) => 0.6,
+                _ => 1.2,
+            };
+            assert!(growth > least, "{load} {speed}: {growth}");
+        }
     }
 }

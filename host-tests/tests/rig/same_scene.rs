@@ -4,7 +4,7 @@
 use epas_design::caged::{Block, NODES};
 use epas_design::{CagedDesign, CagedFold};
 use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, TemperatureFade, Viscosity,
+    CoefficientLaw, CoefficientParameters, RollingDrag, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::LoadExactElements;
 use epas_friction::law::motion::SpeedOverTick;
@@ -185,6 +185,7 @@ fn remembering(
         forward: parameters.directions[0] as f32,
         backward: parameters.directions[1] as f32,
         churning: 0.0,
+        drag: RollingDrag::NONE,
     })
     .unwrap();
     let [forward, backward] = parameters.directions;

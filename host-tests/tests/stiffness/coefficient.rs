@@ -19,6 +19,12 @@ const OIL: Vogel = Vogel {
 /// Zero of the Celsius scale, K.
 const ZERO: f64 = 273.15;
 
+/// The default with a mineral oil, for which the coefficients are tabulated.
+const MINERAL: CoefficientParameters = CoefficientParameters {
+    viscosity: defaults::VISCOSITY,
+    ..defaults::COEFFICIENT
+};
+
 /// The screw of Lin 2019, Table 4.1, under 1 kN: 71 balls at 45 degrees, contact with the screw.
 fn film() -> FilmContact {
     let (pitch, lead, ball) = (14.5e-3_f64, 7e-3, 2e-3);
@@ -83,7 +89,7 @@ fn the_reference_has_the_tabulated_coefficients() {
 /// speed of the law, then with the default's formula of the viscosity over -20 to 120 degrees.
 #[test]
 fn the_rational_form_is_near_the_full_law() {
-    let law = CoefficientLaw::new(&defaults::COEFFICIENT).unwrap();
+    let law = CoefficientLaw::new(&MINERAL).unwrap();
     let speeds = || (0..=80).map(|step| 0.1 * 5000_f64.powf(f64::from(step) / 80.0));
     let mut alone = Errors::of("rational form of the coefficient, 20 C");
     for speed in speeds() {
@@ -215,7 +221,7 @@ fn sweeps_are_monotone() {
         let law = CoefficientLaw::new(&CoefficientParameters {
             boundary,
             full_film,
-            ..defaults::COEFFICIENT
+            ..MINERAL
         })
         .unwrap();
         let sign = (boundary - full_film).signum() * f32::from(boundary != full_film);
@@ -280,12 +286,46 @@ fn equal_coefficients_are_constant() {
     }
 }
 
+/// The default's lubricant: 48 and 8.0 mm²/s at 40 and 100 degrees and 19,000 at -40, density 833 kg/m³ at 15 less 0.65 a degree. Its film
+/// is `sqrt(2) - 1` of a roughness of 0.08 um at the default's speed.
+#[test]
+fn default_grease_is_a_poly_alpha_olefin() {
+    let grease = defaults::STEERING_GREASE;
+    let printed = [
+        (-40.0, 19_000.0, 0.02),
+        (40.0, 48.0, 0.01),
+        (100.0, 8.0, 0.26),
+    ];
+    for (celsius, kinematic, most) in printed {
+        let exact = kinematic * 1e-6 * (833.0 - 0.65 * (celsius - 15.0));
+        let found = f64::from(grease.at(kelvin(celsius)));
+        assert!(
+            (found / exact - 1.0).abs() < most,
+            "{celsius} C: {found} {exact}"
+        );
+    }
+    let walther = Walther {
+        viscosity_40: 48.0,
+        viscosity_100: 8.0,
+    };
+    let exact = walther.at(20.0) * 1e-6 * 830.0;
+    let found = f64::from(grease.at(kelvin(20.0)));
+    assert!((found / exact - 1.0).abs() < 0.03, "{found} {exact}");
+    let film = FilmContact {
+        roughness: 0.08e-6,
+        ..film()
+    };
+    let speed = film.half_share_speed(found) / ENTRAINMENT;
+    println!("half-share speed {speed:.2} rad/s");
+    assert!((speed / 4.9 - 1.0).abs() < 0.05);
+}
+
 /// NaN is standstill, or the warmest temperature; what lies beyond counts as the end. The half-share speed keeps its range.
 #[test]
 fn faulty_inputs() {
     let law = CoefficientLaw::new(&CoefficientParameters {
         churning: 1e-3,
-        ..defaults::COEFFICIENT
+        ..MINERAL
     })
     .unwrap();
     let now = law.at_temperature(293.15);
@@ -300,7 +340,7 @@ fn faulty_inputs() {
     for half_share_speed in [1e-3, 1e4] {
         let law = CoefficientLaw::new(&CoefficientParameters {
             half_share_speed,
-            ..defaults::COEFFICIENT
+            ..MINERAL
         })
         .unwrap();
         for temperature in [0.0, 250.0, 293.15, 400.0, 1e3] {
@@ -329,10 +369,10 @@ fn directions_differ() {
     let law = CoefficientLaw::new(&CoefficientParameters {
         forward: 1.25,
         backward: 0.5,
-        ..defaults::COEFFICIENT
+        ..MINERAL
     })
     .unwrap();
-    let plain = CoefficientLaw::new(&defaults::COEFFICIENT).unwrap();
+    let plain = CoefficientLaw::new(&MINERAL).unwrap();
     for speed in [0.0, 0.1, 3.0, 70.0] {
         let (now, alike) = (
             law.at_temperature(300.0),
@@ -354,7 +394,7 @@ fn the_slope_is_bounded() {
         boundary: 0.1,
         full_film: 0.05,
         half_share_speed: 5.0,
-        ..defaults::COEFFICIENT
+        ..MINERAL
     })
     .unwrap();
     let now = law.at_temperature(293.15);
@@ -370,7 +410,7 @@ fn the_slope_is_bounded() {
     let rising = CoefficientLaw::new(&CoefficientParameters {
         boundary: 0.05,
         full_film: 0.1,
-        ..defaults::COEFFICIENT
+        ..MINERAL
     })
     .unwrap()
     .at_temperature(293.15);
@@ -379,7 +419,7 @@ fn the_slope_is_bounded() {
 
 #[test]
 fn errors_name_the_field() {
-    let good = defaults::COEFFICIENT;
+    let good = MINERAL;
     let field = |parameters| CoefficientLaw::new(&parameters).unwrap_err().field();
     for bad in [f32::NAN, -1.0, 0.0, 2e5, f32::INFINITY] {
         assert_eq!(

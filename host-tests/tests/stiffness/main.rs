@@ -6,4 +6,5 @@ mod kit;
 
 mod coefficient;
 mod contact;
+mod drag;
 mod screw;

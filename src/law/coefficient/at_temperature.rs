@@ -1,6 +1,7 @@
 //! The friction coefficient at one temperature: what a step evaluates.
 
 use super::both::DirectionalCoefficient;
+use super::drag::RollingDrag;
 use super::form::CoefficientParameters;
 use crate::error::{Error, attempt};
 use crate::ranges;
@@ -27,6 +28,9 @@ pub struct CoefficientAtTemperature {
     pub(super) half_share_speed: f32,
     /// Churning torque over the speed, N m s.
     pub(super) churning: f32,
+    pub(super) drag: RollingDrag,
+    /// `eta^-0.8` with the viscosity in Pa s.
+    pub(super) fluidity: f32,
 }
 
 impl Sides {
@@ -91,16 +95,26 @@ impl CoefficientAtTemperature {
     #[inline]
     #[must_use]
     pub const fn churning_torque(&self, speed: f32) -> f32 {
-        let speed = if speed >= LARGEST_SPEED {
-            LARGEST_SPEED
-        } else if speed <= -LARGEST_SPEED {
-            -LARGEST_SPEED
-        } else if speed >= 0.0 || speed < 0.0 {
-            speed
-        } else {
-            0.0
-        };
-        self.churning * speed
+        self.churning * within_speeds(speed)
+    }
+
+    /// Torque of viscous drag, N m, with the sign of the speed that it opposes, rad/s: of churned lubricant
+    /// ([`Self::churning_torque`]) and of rolling contacts ([`RollingDrag`]) under an axial load and a preload whose flank lifts off
+    /// at a load, N, both not negative.
+    ///
+    /// Cost: two square roots, one division, 9 other operations.
+    #[inline]
+    #[must_use]
+    pub fn drag_torque(&self, speed: f32, load: f32, lift_off: f32) -> f32 {
+        let speed = within_speeds(speed);
+        let rolling = self.drag.at(self.fluidity, speed.abs(), [load, lift_off]);
+        self.churning * speed + rolling.copysign(speed)
+    }
+
+    /// Drag of the rolling contacts, without a temperature.
+    #[must_use]
+    pub const fn drag(&self) -> RollingDrag {
+        self.drag
     }
 
     /// Speed at which half of the difference is gone, rad/s.
@@ -127,5 +141,19 @@ impl CoefficientAtTemperature {
         let half = self.half_share_speed;
         let sum = half + speed.abs();
         half / if speed.is_nan() { half } else { sum }
+    }
+}
+
+/// A speed within 1e6 rad/s; NaN gives 0.
+#[inline(always)]
+const fn within_speeds(speed: f32) -> f32 {
+    if speed >= LARGEST_SPEED {
+        LARGEST_SPEED
+    } else if speed <= -LARGEST_SPEED {
+        -LARGEST_SPEED
+    } else if speed >= 0.0 || speed < 0.0 {
+        speed
+    } else {
+        0.0
     }
 }

@@ -1,6 +1,7 @@
 //! The friction coefficient by a rational form: its parameters, and the law that they fold into.
 
 use super::at_temperature::{CoefficientAtTemperature, Sides};
+use super::drag::RollingDrag;
 use super::viscosity::{TEMPERATURE, Viscosity, fifth_root};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::ranges;
@@ -38,6 +39,8 @@ pub struct CoefficientParameters {
     /// Torque of churned lubricant over its viscosity and the nut's speed, m³, 0 to 1. Not Coulomb friction: it is to be added
     /// by itself.
     pub churning: f32,
+    /// Lubricant drag of the rolling contacts, beside the coefficient.
+    pub drag: RollingDrag,
 }
 
 /// Friction coefficient by speed, temperature and direction: constants.
@@ -63,8 +66,9 @@ pub struct CoefficientParameters {
 /// use epas_friction::law::coefficient::CoefficientLaw;
 /// let law = CoefficientLaw::new(&defaults::COEFFICIENT)?;
 /// let (cold, warm) = (law.at_temperature(253.15), law.at_temperature(353.15));
-/// // At 5 rad/s a cold film carries, a warm one does not.
-/// assert!(cold.at(5.0) < 0.055 && warm.at(5.0) > 0.11);
+/// // At 5 rad/s a cold film carries, a warm one does not; cold grease resists rolling.
+/// assert!(cold.at(5.0) < 0.06 && warm.at(5.0) > 0.105);
+/// assert!(cold.drag_torque(5.0, 5e3, 0.0) > 20.0 * warm.drag_torque(5.0, 5e3, 0.0));
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -80,10 +84,13 @@ pub struct CoefficientLaw {
     ends: [f32; 2],
     /// Churning torque over the speed, times the half-share speed, N m.
     churning: f32,
+    drag: RollingDrag,
+    /// `(eta_ref w_ref)^(-4/5)`: times the fourth power of the scaled distance from the pole it is `eta^-0.8`.
+    fluidity: f32,
 }
 
 impl CoefficientParameters {
-    /// One coefficient at every speed and temperature, in both directions, without churning.
+    /// One coefficient at every speed and temperature, in both directions, without churning and drag.
     #[must_use]
     pub const fn constant(friction: f32, viscosity: Viscosity) -> Self {
         Self {
@@ -95,6 +102,7 @@ impl CoefficientParameters {
             forward: 1.0,
             backward: 1.0,
             churning: 0.0,
+            drag: RollingDrag::NONE,
         }
     }
 }
@@ -103,8 +111,8 @@ impl CoefficientLaw {
     /// Checks and folds a law. At set-up, or in a constant.
     ///
     /// # Errors
-    /// [`Error`] naming `boundary`, `full_film`, `half_share_speed`, `reference_temperature`, `forward`, `backward` or
-    /// `churning`.
+    /// [`Error`] naming `boundary`, `full_film`, `half_share_speed`, `reference_temperature`, `forward`, `backward`,
+    /// `churning`, `drag_torque` or `drag_heating`.
     pub const fn new(parameters: &CoefficientParameters) -> Result<Self, Error> {
         let CoefficientParameters {
             boundary,
@@ -115,6 +123,7 @@ impl CoefficientLaw {
             forward,
             backward,
             churning,
+            drag,
         } = *parameters;
         attempt!(ranges::FRICTION.checked("boundary", boundary));
         attempt!(ranges::FRICTION.checked("full_film", full_film));
@@ -128,6 +137,7 @@ impl CoefficientLaw {
         attempt!(DIRECTION.checked("forward", forward));
         attempt!(DIRECTION.checked("backward", backward));
         let churning = attempt!(CHURNING.checked("churning", churning));
+        let drag = attempt!(drag.checked());
         let pole = viscosity.pole();
         let scale = fifth_root(speed) / (reference - pole);
         let coldest = pole + fifth_root(HALF_SHARE_SPEED.minimum) / scale;
@@ -142,13 +152,17 @@ impl CoefficientLaw {
         } else {
             TEMPERATURE.maximum
         };
+        let stiffness = viscosity.at(reference) * speed;
+        let root = fifth_root(stiffness);
         Ok(Self {
             forward: attempt!(Sides::new(parameters, forward)),
             backward: attempt!(Sides::new(parameters, backward)),
             scale,
             pole,
             ends: [scale * (coldest - pole), scale * (warmest - pole)],
-            churning: churning * viscosity.at(reference) * speed,
+            churning: churning * stiffness,
+            drag,
+            fluidity: 1.0 / (root * root * (root * root)),
         })
     }
 
@@ -180,7 +194,7 @@ impl CoefficientLaw {
     /// The law at a temperature, K: where a new one comes in, a few times a second.
     ///
     /// Below [`Viscosity::floor`] and above 500 K as there, and beyond where the half-share speed comes to 1e-3 or 1e4 rad/s; NaN is
-    /// the warmest. Cost: 4 multiplications, and 1 division where there is churning.
+    /// the warmest. Cost: 5 multiplications and 1 division.
     #[inline]
     #[must_use]
     pub const fn at_temperature(&self, temperature: f32) -> CoefficientAtTemperature {
@@ -196,6 +210,8 @@ impl CoefficientLaw {
             backward: self.backward,
             half_share_speed,
             churning: self.churning / half_share_speed,
+            drag: self.drag,
+            fluidity: self.fluidity * (square * square),
         }
     }
 }

@@ -23,11 +23,12 @@ pub trait CoefficientModel: Copy + Debug + PartialEq {
     /// Friction coefficients of both directions at a speed of this size.
     fn both(at: &Self::At, speed: f32) -> DirectionalCoefficient;
 
-    /// Torque of churned lubricant, N m, at a speed, rad/s.
-    fn churning_torque(at: &Self::At, speed: f32) -> f32;
+    /// Torque of viscous drag, N m, with the sign of the speed, rad/s, under an axial load and a preload whose flank lifts off at a
+    /// load, N.
+    fn drag_torque(at: &Self::At, speed: f32, load: f32, lift_off: f32) -> f32;
 }
 
-/// One friction coefficient at every speed and temperature, in both directions; no churning.
+/// One friction coefficient at every speed and temperature, in both directions; no drag.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct OneCoefficient {
@@ -66,7 +67,7 @@ impl CoefficientModel for OneCoefficient {
     }
 
     #[inline(always)]
-    fn churning_torque(_: &Self, _: f32) -> f32 {
+    fn drag_torque(_: &Self, _: f32, _: f32, _: f32) -> f32 {
         0.0
     }
 }
@@ -89,7 +90,7 @@ impl CoefficientModel for CoefficientLaw {
     }
 
     #[inline(always)]
-    fn churning_torque(at: &CoefficientAtTemperature, speed: f32) -> f32 {
-        at.churning_torque(speed)
+    fn drag_torque(at: &CoefficientAtTemperature, speed: f32, load: f32, lift_off: f32) -> f32 {
+        at.drag_torque(speed, load, lift_off)
     }
 }

@@ -9,7 +9,7 @@ use crate::ranges;
 use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
 use crate::scene::full::CagedFull;
-use crate::scene::outputs::{Outputs, efficiency};
+use crate::scene::outputs::Outputs;
 use crate::scene::passage::{Passage, Reversal};
 
 /// Friction torque over load and pitch radius from which on a direction counts as locked: no motor of a steering gear
@@ -141,21 +141,16 @@ impl ClosedForm {
     ) -> Outputs {
         let opposing_torque = opposing_load * self.reduced_lead;
         let locks_driving = self.locks(opposing_load);
-        let efficiency = if locks_driving {
-            0.0
-        } else {
-            efficiency(opposing_torque > 0.0, opposing_torque, full)
-        };
         let load_opposes = !(opposing_torque < 0.0);
         let moves = if load_opposes {
             !locks_driving
         } else {
-            efficiency > 0.0
+            full < -opposing_torque
         };
         Outputs {
             friction_torque,
             load_torque: load * self.reduced_lead,
-            efficiency,
+            efficiency: 0.0,
             regime: Regime::of(standing, load_opposes, moves),
             faults: Faults::NONE.with(
                 locks_driving && friction_torque != 0.0,

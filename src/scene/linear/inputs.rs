@@ -85,6 +85,11 @@ impl Motion for LinearInputs {
     }
 
     #[inline(always)]
+    fn load(&self) -> f32 {
+        self.normal_load
+    }
+
+    #[inline(always)]
     fn with(self, speed: f32, load_factor: f32) -> Self {
         Self {
             speed,

@@ -7,7 +7,7 @@ use crate::scene::contract::Inputs;
 /// to the friction is of the scene's unit.
 ///
 /// [`OneCoefficient`] reads no speed and adds nothing: it goes with every scene. [`CoefficientLaw`] reads the speed of a nut,
-/// rad/s, and adds the torque of churned lubricant, N m: it goes with ball screws alone. Around a linear bearing, whose speed is
+/// rad/s, and adds the lubricant's drag torque, N m: it goes with ball screws alone. Around a linear bearing, whose speed is
 /// in m/s and whose friction is a force, it does not compile:
 ///
 /// ```compile_fail,E0277

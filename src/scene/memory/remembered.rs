@@ -21,11 +21,11 @@ pub struct Remembered<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel>
     /// Temperature of the last step, K, 150 to 500, and the law at it.
     pub(super) temperature: f32,
     pub(super) at_temperature: L::At,
-    /// The last sound inputs, and the last full friction with its limits and the churning drag beside it.
+    /// The last sound inputs, and the last full friction with its limits and the viscous drag beside it.
     pub(super) inputs: S::Inputs,
     pub(super) full: Option<S::Full>,
     pub(super) limits: SlidingLimits,
-    pub(super) churning: f32,
+    pub(super) drag: f32,
     /// Levels that scale the limits.
     pub(super) level: FrictionLevel,
 }
@@ -60,7 +60,7 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> Remembered<S, E,
             inputs: S::Inputs::STILL,
             full: None,
             limits: NONE,
-            churning: 0.0,
+            drag: 0.0,
             level: FrictionLevel::ONE,
         }
     }

@@ -103,7 +103,7 @@ where
         self.limits.exchange(port)?;
         port.number("temperature", &mut self.temperature, TEMPERATURE)?;
         port.number("moved", &mut self.moved, Range::new(-1e9, 1e9))?;
-        port.number("churning", &mut self.churning, Range::new(-1e9, 1e9))?;
+        port.number("drag", &mut self.drag, Range::new(-1e9, 1e9))?;
         self.full.exchange(port)
     }
 }

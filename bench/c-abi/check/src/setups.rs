@@ -1,7 +1,7 @@
 //! The scenes of the stored cases, set up in Rust; `test/setups.c` sets the same up in C, as a user would.
 
 use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, OilData, TemperatureFade, Viscosity,
+    CoefficientLaw, CoefficientParameters, OilData, RollingDrag, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::{Hysteresis, Part, ProportionalElements, SLIP_4, SPIN_4};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
@@ -97,6 +97,10 @@ pub fn law(boundary: f32) -> Result<CoefficientLaw, Error> {
         forward: 1.0,
         backward: 1.1,
         churning: 1e-6,
+        drag: RollingDrag {
+            torque: 0.001_3,
+            heating: 0.000_5,
+        },
     })
 }
 

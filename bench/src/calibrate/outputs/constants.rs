@@ -43,7 +43,7 @@ pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
              pub const COEFFICIENT: CoefficientLaw = sound(CoefficientLaw::new(&CoefficientParameters {{\n    \
              boundary: {:?},\n    full_film: {:?},\n    half_share_speed: {:?},\n    reference_temperature: {:?},\n    \
              viscosity: sound(Viscosity::through({:?}, {:?}, {:?})),\n    forward: {:?},\n    backward: {:?},\n    \
-             churning: {:?},\n}}));\n",
+             churning: {:?},\n    drag: RollingDrag {{ torque: {:?}, heating: {:?} }},\n}}));\n",
             law.boundary,
             law.full_film,
             law.half_share_speed,
@@ -54,6 +54,8 @@ pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
             law.forward,
             law.backward,
             law.churning,
+            law.drag.torque,
+            law.drag.heating,
         );
     } else if numbers.elements.is_some() {
         let _ = write!(
@@ -83,10 +85,10 @@ fn imports(numbers: &Numbers) -> String {
     let memory = numbers.elements.is_some();
     match (&numbers.law, memory) {
         (Some(_), true) => {
-            text += "use epas_friction::law::coefficient::{\n    CoefficientLaw, CoefficientParameters, TemperatureFade, Viscosity,\n};\n";
+            text += "use epas_friction::law::coefficient::{\n    CoefficientLaw, CoefficientParameters, RollingDrag, TemperatureFade, Viscosity,\n};\n";
         }
         (Some(_), false) => {
-            text += "use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, Viscosity};\n";
+            text += "use epas_friction::law::coefficient::{\n    CoefficientLaw, CoefficientParameters, RollingDrag, Viscosity,\n};\n";
         }
         (None, true) => {
             text += "use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};\n";

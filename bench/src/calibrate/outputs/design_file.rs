@@ -33,7 +33,14 @@ const FRICTION_KEYS: [&str; 9] = [
 ];
 
 /// Keys of the table for what is no friction of the screw: only where they were estimated.
-const OTHER_KEYS: [&str; 5] = ["inertia", "drag", "churning", "offset", "gain"];
+const OTHER_KEYS: [&str; 6] = [
+    "inertia",
+    "drag",
+    "churning",
+    "rolling_drag",
+    "offset",
+    "gain",
+];
 
 /// Keys that a design file has together or not at all.
 const TOGETHER: [[&str; 2]; 2] = [

@@ -1,7 +1,9 @@
 //! What firmware takes of a calibrated design, as plain numbers: the law of the friction coefficient and the elements.
 
 use epas_design::CagedDesign;
-use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, Viscosity};
+use epas_friction::law::coefficient::{
+    CoefficientLaw, CoefficientParameters, RollingDrag, Viscosity,
+};
 use epas_friction::law::memory::{
     Hysteresis, LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
 };
@@ -16,8 +18,8 @@ use crate::failure::Failure;
 /// Elements of every calibrated memory.
 pub const ELEMENTS: usize = 8;
 
-/// Viscosity at the reference temperature, Pa s, and the coldest temperature, K, down to which it holds: only ratios of viscosities
-/// have an effect.
+/// Viscosity at the reference temperature, Pa s, and the coldest temperature, K, down to which it holds: that of the default grease at 20
+/// degrees Celsius, which the factor of the lubricant drag stands for; the coefficient follows ratios of viscosities alone.
 const VISCOSITY: (f32, f32) = (0.1, 150.0);
 
 /// Distance of the second point of the viscosity, K.
@@ -38,6 +40,7 @@ const NOTHING: Values = Values {
     inertia: 0.0,
     drag: 0.0,
     churning: 0.0,
+    rolling_drag: 0.0,
     offset: 0.0,
     gain: 1.0,
     harmonics: [0.0; 4],
@@ -75,6 +78,8 @@ pub struct LawNumbers {
     pub backward: f32,
     /// Torque of churned lubricant over its viscosity and the speed, m³.
     pub churning: f32,
+    /// Lubricant drag of the rolling contacts.
+    pub drag: RollingDrag,
 }
 
 /// What elements are made from.
@@ -106,7 +111,9 @@ impl Numbers {
         let calibrated = design.calibrated.clone().unwrap_or_default();
         let law = calibrated
             .has_law()
-            .then(|| LawNumbers::of(caged.friction, &calibrated));
+            .then(|| LawNumbers::of(caged, &calibrated))
+            .transpose()
+            .map_err(refused)?;
         if let Some(law) = &law {
             law.law().map_err(refused)?;
         }
@@ -126,8 +133,17 @@ impl Numbers {
 }
 
 impl LawNumbers {
-    /// Those of a calibration, with the friction coefficient at standstill.
-    pub fn of(friction: f32, calibrated: &Calibrated) -> Self {
+    /// Those of a calibration of a screw, whose friction coefficient is that at standstill.
+    ///
+    /// # Errors
+    /// [`Error`] naming `loaded_balls`.
+    pub fn of(caged: &CagedDesign, calibrated: &Calibrated) -> Result<Self, Error> {
+        let friction = caged.friction;
+        let drag = match calibrated.rolling_drag {
+            Some(factor) => RollingDrag::of(&caged.design, caged.loaded_balls, defaults::FLOODING)?
+                .times(factor),
+            None => RollingDrag::NONE,
+        };
         let reference = calibrated
             .reference_temperature
             .unwrap_or(REFERENCE_TEMPERATURE);
@@ -138,7 +154,7 @@ impl LawNumbers {
         let ratio = (reference - pole) / (reference + SECOND - pole);
         let (viscosity, pour_point) = VISCOSITY;
         let warm = (reference + SECOND, viscosity * ratio.powi(5));
-        Self {
+        Ok(Self {
             boundary: friction,
             full_film: friction * calibrated.full_film_ratio.unwrap_or(1.0),
             half_share_speed: calibrated.half_share_speed.unwrap_or(1.0),
@@ -148,7 +164,8 @@ impl LawNumbers {
             forward: 1.0 + asymmetry,
             backward: 1.0 - asymmetry,
             churning: calibrated.churning.unwrap_or(0.0),
-        }
+            drag,
+        })
     }
 
     /// The law.
@@ -166,6 +183,7 @@ impl LawNumbers {
             forward: self.forward,
             backward: self.backward,
             churning: self.churning,
+            drag: self.drag,
         })
     }
 }

@@ -242,6 +242,7 @@ fn begin(
         inertia: 0.0,
         drag: 0.0,
         churning: 0.0,
+        rolling_drag: 0.0,
         offset: 0.0,
         gain: 1.0,
         harmonics: [0.0; 4],
@@ -290,6 +291,10 @@ fn tells_linear(factor: Factor, evidence: &Evidence) -> bool {
         Factor::Load => varies(evidence),
         Factor::Cosine(_) | Factor::Sine(_) => evidence.range >= needs::TURN,
         Factor::Viscosity => false,
+        // At one temperature it cannot be told from the drag and the film.
+        Factor::RollingDrag => {
+            fast > 2.0 * slow && evidence.temperature_range() >= needs::TEMPERATURE
+        }
     }
 }
 

@@ -10,7 +10,7 @@ use epas_design::CagedDesign;
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::DirectionalCoefficient;
 use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, TemperatureFade, Viscosity,
+    CoefficientLaw, CoefficientParameters, RollingDrag, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::{
     Hysteresis, LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
@@ -124,6 +124,7 @@ impl Screw {
             forward: (1.0 + values.direction_asymmetry) as f32,
             backward: (1.0 - values.direction_asymmetry) as f32,
             churning: 0.0,
+            drag: RollingDrag::NONE,
         }
     }
 

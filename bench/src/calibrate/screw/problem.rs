@@ -1,15 +1,19 @@
 //! A screw on a rig as a separable least-squares problem.
 //!
 //! ```text
-//! tau = inertia dw/dt + drag w + churning eta(T) w + offset + gain lead/(2 pi) F
+//! tau = inertia dw/dt + drag w + churning eta(T) w + rolling_drag D(w, F, T) + offset + gain lead/(2 pi) F
 //!       + friction(angle, w, F, T; q) + (S/S_ref) sum_k (c_k cos k theta + s_k sin k theta)
 //! ```
 //!
 //! Both sides pass through the same filter; so does every column, and the friction at every sample of the
-//! trace. `S` is the sum of both flanks' loads.
+//! trace. `S` is the sum of both flanks' loads, `D` the lubricant drag of the crate's default.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
+
+use epas_design::CagedDesign;
+use epas_friction::defaults;
+use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, RollingDrag};
 
 use super::exact::{Grid, Spacing};
 use super::friction::{Course, Screw};
@@ -109,6 +113,7 @@ impl<'a> ScrewProblem<'a> {
         let free = |name: &str| problem.nonlinear.iter().any(|(p, _)| p.name == name);
         let moves = |factor: Factor| match factor {
             Factor::Viscosity => free("viscosity_pole"),
+            Factor::RollingDrag => free("viscosity_pole") || free("preload"),
             Factor::Cosine(_) | Factor::Sine(_) => free("preload"),
             _ => false,
         };
@@ -244,6 +249,7 @@ impl<'a> ScrewProblem<'a> {
             Factor::Acceleration => acceleration.clone(),
             Factor::Speed => speed.clone(),
             Factor::Viscosity => self.viscous(values),
+            Factor::RollingDrag => self.dragged(values),
             Factor::One => vec![1.0; position.len()],
             Factor::Load => {
                 let reduced_lead = f64::from(self.screw.caged.design.lead()) / TAU;
@@ -329,6 +335,36 @@ impl<'a> ScrewProblem<'a> {
         speeds
             .map(|(speed, temperature)| speed * at(temperature))
             .collect()
+    }
+
+    /// Lubricant drag of the rolling contacts at every sample, N m; none where the crate refuses the values.
+    fn dragged(&self, values: &Values) -> Vec<f64> {
+        let CagedDesign {
+            design,
+            loaded_balls,
+            ..
+        } = &self.screw.caged;
+        let law = RollingDrag::of(design, *loaded_balls, defaults::FLOODING).and_then(|drag| {
+            CoefficientLaw::new(&CoefficientParameters {
+                drag,
+                ..self.screw.coefficient(values)
+            })
+        });
+        let Ok(law) = law else {
+            return vec![0.0; self.motion.speed.len()];
+        };
+        let lift_off = 8_f64.sqrt() * self.screw.axial_preload(values);
+        let sample = |(index, speed): (usize, &f64)| {
+            let at = |channel: &Option<Vec<f64>>, without: f64| {
+                let value = channel.as_ref().and_then(|channel| channel.get(index));
+                value.map_or(without, |value| *value)
+            };
+            let load = at(&self.trace.load, 0.0).abs();
+            let temperature = at(&self.trace.temperature, self.screw.reference_temperature);
+            let now = law.at_temperature(temperature as f32);
+            f64::from(now.drag_torque(*speed as f32, load as f32, lift_off as f32))
+        };
+        self.motion.speed.iter().enumerate().map(sample).collect()
     }
 
     /// Sum of both flanks' loads over that at the reference load, at every sample.

@@ -31,6 +31,8 @@ pub struct Values {
     pub drag: f64,
     /// Torque of churned lubricant over its viscosity and the nut's speed, m³.
     pub churning: f64,
+    /// Lubricant drag of the rolling contacts over that of the default grease.
+    pub rolling_drag: f64,
     /// Torque that the motor's channel shows without any, N m.
     pub offset: f64,
     /// Torque of the load over `lead/2 pi` times the measured load.
@@ -76,6 +78,8 @@ pub enum Factor {
     Speed,
     /// Speed times viscosity.
     Viscosity,
+    /// Lubricant drag of rolling contacts under the default grease.
+    RollingDrag,
     /// One.
     One,
     /// Torque of the load without friction.
@@ -115,8 +119,8 @@ pub const NONLINEAR: [Nonlinear; 10] = [
 ];
 
 /// The linear ones, in the order in which they are told.
-pub const LINEAR: [Linear; 9] = {
-    use Factor::{Acceleration, Cosine, Load, One, Sine, Speed, Viscosity};
+pub const LINEAR: [Linear; 10] = {
+    use Factor::{Acceleration, Cosine, Load, One, RollingDrag, Sine, Speed, Viscosity};
     const FREE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
     const POSITIVE: (f64, f64) = (0.0, f64::INFINITY);
     [
@@ -125,6 +129,9 @@ pub const LINEAR: [Linear; 9] = {
         }),
         linear("drag", "N m s/rad", FREE, Speed, |v| &mut v.drag),
         linear("churning", "m^3", POSITIVE, Viscosity, |v| &mut v.churning),
+        linear("rolling_drag", "", POSITIVE, RollingDrag, |v| {
+            &mut v.rolling_drag
+        }),
         linear("offset", "N m", FREE, One, |v| &mut v.offset),
         linear("gain", "", FREE, Load, |v| &mut v.gain),
         linear("cosine_1", "N m", FREE, Cosine(1), |v| {

@@ -2,7 +2,7 @@
 //! memory, which in steady sliding has the friction of the scene.
 
 use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, OneCoefficient, Viscosity,
+    CoefficientLaw, CoefficientParameters, OneCoefficient, RollingDrag, Viscosity,
 };
 use epas_friction::{Clearance, Inputs, UncagedBallScrew};
 use epas_reference::friction::ball_screw_ring::{RingState, steady_samples};
@@ -69,6 +69,7 @@ fn law_through(friction: f32, speed: f32) -> CoefficientLaw {
         forward: 1.0,
         backward: 1.0,
         churning: 0.0,
+        drag: RollingDrag::NONE,
     })
     .unwrap()
 }
