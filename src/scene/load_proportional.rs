@@ -2,9 +2,9 @@
 
 mod configuration;
 
-use super::contract::{Admitted, Inputs, Limits, Regime, Scene};
+use super::contract::{CheckedInputs, Inputs, Limits, Regime, Scene};
 use super::faults::Faults;
-use super::outputs::{Outputs, efficiency};
+use super::outputs::Outputs;
 use super::passage::{Passage, Reversal};
 use crate::error::{Error, attempt, in_range};
 pub use configuration::LoadProportionalConfiguration;
@@ -127,8 +127,11 @@ impl Scene for LoadProportionalScrew {
     }
 
     #[inline(always)]
-    fn admit(constants: &LoadProportionalConstants, inputs: Inputs) -> Admitted<Inputs> {
-        constants.limits.admit(inputs)
+    fn check_inputs(
+        constants: &LoadProportionalConstants,
+        inputs: Inputs,
+    ) -> CheckedInputs<Inputs> {
+        constants.limits.check_inputs(inputs)
     }
 
     #[inline(always)]
@@ -143,18 +146,18 @@ impl Scene for LoadProportionalScrew {
         } = inputs;
         let Passage {
             share,
-            way,
+            direction,
             standing,
         } = constants.reversal.passage(nut_speed);
         let load_torque = constants.load_lever * axial_load;
-        let opposing_torque = way * load_torque;
+        let opposing_torque = direction * load_torque;
         let sliding = constants.sliding(opposing_torque);
         let viscous = constants.viscous_friction * nut_speed;
-        let full = sliding + way * viscous;
+        let full = sliding + direction * viscous;
         Outputs {
             friction_torque: share * sliding + viscous,
             load_torque,
-            efficiency: efficiency(opposing_torque > 0.0, opposing_torque, full),
+            efficiency: 0.0,
             regime: Regime::under(standing, opposing_torque, full),
             faults: Faults::NONE,
         }
