@@ -39,8 +39,17 @@ impl Signals {
             return Ok(());
         }
         self.due = now + BETWEEN;
-        Python::attach(Python::check_signals)
+        handle_signals()
     }
+}
+
+/// Runs Python's signal handlers.
+#[allow(
+    clippy::redundant_closure_for_method_calls,
+    reason = "the method alone is for one lifetime"
+)]
+fn handle_signals() -> PyResult<()> {
+    Python::attach(|py| py.check_signals())
 }
 
 /// Whether a caller no longer waits.
@@ -78,7 +87,7 @@ pub fn interruptible<T: Send + 'static>(
             match receiver.recv_timeout(BETWEEN) {
                 Ok(made) => return Ok(made),
                 Err(RecvTimeoutError::Timeout) => {
-                    if let Err(raised) = Python::attach(Python::check_signals) {
+                    if let Err(raised) = handle_signals() {
                         stop.0.store(true, Ordering::Relaxed);
                         return Err(raised);
                     }
