@@ -88,7 +88,7 @@ fn a_field_out_of_range_and_a_bad_input_are_named() {
         ("load_lever", |drive| drive.load_lever = 0.0),
         ("coulomb_friction", |drive| drive.coulomb_friction = -1e-3),
         ("viscous_friction", |drive| {
-            drive.viscous_friction = f32::NAN
+            drive.viscous_friction = f32::NAN;
         }),
         ("driving_loss", |drive| drive.driving_loss = -0.01),
         ("back_driving_loss", |drive| drive.back_driving_loss = 11.0),

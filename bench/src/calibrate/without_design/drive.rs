@@ -83,21 +83,18 @@ impl Drive {
             LoadTerm::None | LoadTerm::Losses { .. } => 1.0,
             LoadTerm::Gain | LoadTerm::LossAlike => self.value(GAIN)?,
         };
-        let (losses, told) = match self.load {
-            LoadTerm::LossAlike => {
-                let loss = self.value(LOSS)? / load_lever;
-                ([loss; 2], [true; 2])
-            }
-            _ => {
-                let told = self.load.losses();
-                let mut losses = [0.0; 2];
-                for ((loss, name), told) in losses.iter_mut().zip(LOSSES).zip(told) {
-                    if told {
-                        *loss = self.value(name)?;
-                    }
+        let (losses, told) = if self.load == LoadTerm::LossAlike {
+            let loss = self.value(LOSS)? / load_lever;
+            ([loss; 2], [true; 2])
+        } else {
+            let told = self.load.losses();
+            let mut losses = [0.0; 2];
+            for ((loss, name), told) in losses.iter_mut().zip(LOSSES).zip(told) {
+                if told {
+                    *loss = self.value(name)?;
                 }
-                (losses, told)
             }
+            (losses, told)
         };
         let [speed, load] = self.largest.map(|largest| ROOM * largest);
         // A trace without a load has no limit of one.
