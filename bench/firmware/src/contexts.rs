@@ -28,7 +28,7 @@ use epas_friction::scene::{CagedBallScrew, CagedConstants, UncagedBallScrew, Unc
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, CATALOGUE, ClosedFormScrew, DeviationMap, Error, FrictionModel, Inputs,
-    LinearBearingTrain, defaults,
+    LinearBearingTrain, LoadProportionalScrew, defaults,
 };
 
 use crate::gears::{LIN_3_6, LIN_3_6_RANGE};
@@ -37,7 +37,8 @@ use crate::remembering::{self, Carriage, Gear, GearByLaw};
 use crate::scenes::{
     BALLS, CAGED_BY_LAW, CAGED_WITH_MEMORY, CagedByLaw, CagedLawConstants, CagedMemory, ROW,
     SCREW_DEVIATION, TICK, UNCAGED, closed_form_configuration, linear_configuration,
-    uncaged_configuration, uncaged_range_configuration, uncaged_shares_configuration,
+    load_proportional_configuration, uncaged_configuration, uncaged_range_configuration,
+    uncaged_shares_configuration,
 };
 
 /// Everything that is set up once.
@@ -72,6 +73,8 @@ pub struct Contexts {
     pub analytic: AnalyticLinearBall,
     /// Ball screw by a closed form.
     pub closed_form: FrictionModel<ClosedFormScrew>,
+    /// Drive without a drawing.
+    pub load_proportional: FrictionModel<LoadProportionalScrew>,
     /// Caged ball screw.
     pub caged: FrictionModel<CagedBallScrew>,
     /// The same with a friction coefficient between two nodes.
@@ -230,6 +233,7 @@ impl Contexts {
             adaptation: Adaptation::new(&black_box(adaptation_configuration()))?,
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
             closed_form: FrictionModel::new(&black_box(closed_form_configuration()?))?,
+            load_proportional: FrictionModel::new(&black_box(load_proportional_configuration()))?,
             caged: FrictionModel::of(black_box(LIN_3_6)),
             caged_range: between_nodes(FrictionModel::of(black_box(LIN_3_6_RANGE)))?,
             caged_set: FrictionModel::of(black_box(&LIN_3_6_RANGE)),

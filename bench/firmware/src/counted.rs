@@ -32,7 +32,7 @@ use epas_friction::scene::{
 use epas_friction::train::{Press, Train};
 use epas_friction::{
     ClosedFormScrew, DeviationMap, FrictionModel, Inputs, LinearBearingTrain, LinearInputs,
-    LinearOutputs, LoadShare, Outputs, UncagedOutputs, math,
+    LinearOutputs, LoadProportionalScrew, LoadShare, Outputs, UncagedOutputs, math,
 };
 
 use crate::peers::{LuGre, Stribeck};
@@ -194,6 +194,13 @@ counted! {
     /// One tick of a ball screw by a closed form.
     fn count_step_closed_form(
         model: &mut FrictionModel<ClosedFormScrew>, nut_speed: f32, axial_load: f32
+    ) -> Outputs {
+        model.step(Inputs { nut_speed, axial_load })
+    }
+
+    /// One tick of a drive without a drawing.
+    fn count_step_load_proportional(
+        model: &mut FrictionModel<LoadProportionalScrew>, nut_speed: f32, axial_load: f32
     ) -> Outputs {
         model.step(Inputs { nut_speed, axial_load })
     }

@@ -18,7 +18,7 @@ use epas_friction::{
     BallScrew, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS, DeviationMap, Error,
     FrictionBranch, FrictionModel, GrooveSize, Harmonic, Inputs, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain, LinearConstants,
-    LinearInputs, LinearLimits, LoadShare, LoadShares, Material,
+    LinearInputs, LinearLimits, LoadProportionalConfiguration, LoadShare, LoadShares, Material,
 };
 
 use crate::gears::{LIN_3_6, LIN_3_6_BALL, LIN_3_6_BALL_RANGE, LIN_3_6_RANGE};
@@ -389,6 +389,20 @@ pub const fn closed_form_configuration() -> Result<ClosedFormScrewConfiguration,
         reversal_speed: 0.5,
         limits: LIMITS,
     })
+}
+
+/// A drive of its lead without a drawing.
+#[must_use]
+pub const fn load_proportional_configuration() -> LoadProportionalConfiguration {
+    LoadProportionalConfiguration {
+        load_lever: DESIGN.reduced_lead(),
+        coulomb_friction: 0.05,
+        viscous_friction: 1e-3,
+        driving_loss: 0.1,
+        back_driving_loss: 0.13,
+        reversal_speed: 0.5,
+        limits: LIMITS,
+    }
 }
 
 /// Its form without a cage: all 37 balls under load, as in the dissertation; this takes the most cycles.

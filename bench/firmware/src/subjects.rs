@@ -25,11 +25,11 @@ use crate::counted::{
     count_set_friction_caged, count_sin_cos, count_sqrt, count_start_37, count_start_caged,
     count_start_caged_law, count_step_caged, count_step_caged_law, count_step_caged_memory,
     count_step_caged_range, count_step_closed_form, count_step_efficiency, count_step_linear,
-    count_step_linear_memory, count_step_train_37, count_step_train_37_law,
-    count_step_train_37_memory, count_step_train_37_memory_pressing, count_step_train_37_pressing,
-    count_step_train_37_range, count_step_train_37_shares, count_stribeck_curve, count_swap_caged,
-    count_train_37, count_turn_of_angles, count_turn_of_counts, count_turn_of_speed,
-    count_turn_steady,
+    count_step_linear_memory, count_step_load_proportional, count_step_train_37,
+    count_step_train_37_law, count_step_train_37_memory, count_step_train_37_memory_pressing,
+    count_step_train_37_pressing, count_step_train_37_range, count_step_train_37_shares,
+    count_stribeck_curve, count_swap_caged, count_train_37, count_turn_of_angles,
+    count_turn_of_counts, count_turn_of_speed, count_turn_steady,
 };
 use crate::gears::{LIN_3_6, LIN_3_6_RANGE, LIN_3_6_WORN};
 use crate::inputs::{
@@ -236,6 +236,11 @@ subjects! {
         |c, [nut_speed, axial_load]| -> [4] {
             let model = black_box(&mut c.closed_form);
             outputs(&timed!(c, count_step_closed_form(model, nut_speed, axial_load)))
+        };
+    step_load_proportional: |spread| -> [2] tick(spread),
+        |c, [nut_speed, axial_load]| -> [4] {
+            let model = black_box(&mut c.load_proportional);
+            outputs(&timed!(c, count_step_load_proportional(model, nut_speed, axial_load)))
         };
     step_caged: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [4] outputs(
