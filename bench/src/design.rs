@@ -12,7 +12,7 @@ use crate::designs::train::no_row;
 use crate::designs::{Design, DesignSource};
 use crate::failure::Failure;
 use crate::files::{Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
-use crate::{caged, uncaged};
+use crate::{caged, folds, uncaged};
 use made::Made;
 
 /// Folds a design: solves it once, here, into the constants that firmware evaluates.
@@ -35,15 +35,17 @@ use made::Made;
 /// A closed form (branch = "rolling" or "sliding") is refused, because it needs no fold. So is a domain over which the torque is not held to
 /// 3 %: the exit code is 1, and the message says where.
 ///
-/// --json prints one object: version (of the layout), digest (of the inputs), bytes, domain (axial_load of a ball, N, friction, and without
+/// --json prints one object: version (of the layout), digest (of the inputs and of the version of the fold), bytes, domain (axial_load of a ball, N, friction, and without
 /// cage screw_deviation and nut_deviation, rad, each [least, most]), certificate (a list of quantity, largest, rms, mean, states, flagged (share),
 /// unit; caged_torque of one ball, or ring_torque and ring_force of rows of balls), seed, two_answers (with a cage: share of the states with two
 /// exact answers), unsolved (states without one), seconds.
+// Each is a switch of the command line.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Built-in design (`simulate --list` prints all), or design file ending in .toml; - for standard input
-    #[arg(value_name = "NAME|GEAR.toml")]
-    design: DesignSource,
+    #[arg(value_name = "NAME|GEAR.toml", required_unless_present_any = ["store", "gate"])]
+    design: Option<DesignSource>,
     /// Whose ball is folded [default: uncaged where the table [fold] gives a deviation, else caged]
     #[arg(long, value_enum)]
     scene: Option<Scene>,
@@ -59,6 +61,12 @@ pub struct Arguments {
     /// Replace a file that exists
     #[arg(long, requires = "output")]
     force: bool,
+    /// Fold every built-in design anew and store the blocks that the program brings with it, and do nothing else
+    #[arg(long, exclusive = true)]
+    store: bool,
+    /// Fold every built-in design anew and fail where a block that the program brings with it has other bits, and do nothing else
+    #[arg(long, exclusive = true)]
+    gate: bool,
 }
 
 /// Scenes whose blocks are folded.
@@ -145,7 +153,8 @@ impl Arguments {
             Existing::Keep
         };
         existing.check(&path)?;
-        refuse_same([self.design.file()], std::iter::once(&path))?;
+        let file = self.design.as_ref().and_then(DesignSource::file);
+        refuse_same([file], std::iter::once(&path))?;
         Ok(Some(Target {
             format,
             path,
@@ -156,8 +165,12 @@ impl Arguments {
 
 /// Folds the design, writes its block and prints its certificate.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    // Without a design the parser asks for one of these.
+    let Some(source) = &arguments.design else {
+        return built_in(arguments.store);
+    };
     let target = arguments.target()?;
-    let design = arguments.design.load()?;
+    let design = source.load()?;
     let made = made(&design, arguments.scene)?;
     let words = made.words()?.len();
     if let Some(target) = &target {
@@ -177,6 +190,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     made.print(&mut out, &design, words)?;
     next(&mut out, target.as_ref(), &made, words)?;
+    Ok(())
+}
+
+/// Stores the blocks of the built-in designs, or compares the stored ones with a new fold.
+fn built_in(store: bool) -> Result<(), Failure> {
+    if store {
+        return folds::store();
+    }
+    let blocks = folds::gate()?;
+    writeln!(
+        io::stdout(),
+        "{blocks} blocks of built-in designs have the bits of a new fold"
+    )?;
     Ok(())
 }
 

@@ -33,6 +33,7 @@ mod files;
 #[doc(hidden)]
 pub mod fmu;
 mod folder;
+mod folds;
 mod front;
 mod headings;
 #[doc(hidden)]

@@ -33,6 +33,7 @@
 pub mod caged;
 pub mod certificate;
 pub mod curve;
+mod digest;
 pub mod drawing;
 mod failure;
 pub mod gears;
