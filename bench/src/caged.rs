@@ -1,10 +1,9 @@
 //! A caged screw that runs on this machine: by a block that is folded from its design, or by a closed form.
 //!
-//! Folding takes half a second for one friction coefficient and two for a range of them. A block is folded once and kept by what it was folded
-//! from, so that a program that runs a design twice waits once.
+//! Folding takes half a second for one friction coefficient and two for a range of them. A block is folded once, and that of a built-in design never:
+//! [`folds`](crate::folds).
 
-use std::collections::HashMap;
-use std::sync::{LazyLock, Mutex, PoisonError};
+use std::sync::Mutex;
 
 use epas_design::caged::{Block, NODES};
 use epas_design::certificate::one_ball;
@@ -18,13 +17,11 @@ use rayon::prelude::*;
 
 use crate::designs::Design;
 use crate::failure::Failure;
+use crate::folds::{Folds, digest_of};
 use crate::progress::Progress;
 
-/// Blocks that were folded, by the digest of their inputs.
-static FOLDED: LazyLock<Mutex<HashMap<u64, Block>>> = LazyLock::new(Mutex::default);
-
-/// Most blocks that are kept: a study folds thousands of designs once.
-const KEPT: usize = 256;
+/// Blocks that need no fold; of those that were folded 256 are kept.
+static FOLDS: Folds<Block> = Folds::new(256, read);
 
 /// Ratio of two friction coefficients that count as one, and the least ratio of the ends of a range.
 const ONE: f32 = 1.001;
@@ -42,17 +39,25 @@ const PARTS: usize = 1_000;
 /// # Errors
 /// What cannot be folded, with the reason.
 pub fn block(fold: &CagedFold) -> Result<Block, Failure> {
-    let digest = fold.digest();
-    let kept = || FOLDED.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(block) = kept().get(&digest) {
-        return Ok(*block);
+    FOLDS.get_or(fold.digest(), || {
+        let block = fold.block()?;
+        if let Block::Range(range) = &block {
+            check_range(fold, range)?;
+        }
+        Ok(block)
+    })
+}
+
+/// The block of a design, folded where it is not kept; a range may be far off between its nodes.
+///
+/// # Errors
+/// Why it is not folded, as the fold says it.
+pub fn unchecked(fold: &CagedFold) -> Result<Block, epas_design::Failure> {
+    if let Some(Ok(block)) = FOLDS.get(fold.digest()) {
+        return Ok(block);
     }
-    // Not locked: others go on meanwhile.
     let block = fold.block()?;
-    if let Block::Range(range) = &block {
-        check_range(fold, range)?;
-    }
-    keep(digest, block);
+    FOLDS.keep(fold.digest(), block);
     Ok(block)
 }
 
@@ -62,7 +67,7 @@ pub fn block(fold: &CagedFold) -> Result<Block, Failure> {
 /// What cannot be folded, with the reason.
 pub fn certified(fold: &CagedFold) -> Result<Folded, Failure> {
     let folded = shown(|progress| fold.folded_with(progress))?;
-    keep(folded.digest, folded.block);
+    FOLDS.keep(folded.digest, folded.block);
     Ok(folded)
 }
 
@@ -84,13 +89,14 @@ pub(crate) fn shown<T>(
     })?)
 }
 
-/// Keeps a block that was folded before from inputs with this digest.
-pub fn keep(digest: u64, block: Block) {
-    let mut kept = FOLDED.lock().unwrap_or_else(PoisonError::into_inner);
-    if kept.len() >= KEPT {
-        kept.clear();
+/// The block of these words.
+fn read(words: &[u32]) -> Result<Block, Error> {
+    const RANGE: u32 = NODES as u32;
+    match words.get(3) {
+        Some(&RANGE) => Ok(Block::Range(CagedBallScrewConfiguration::read(words)?)),
+        // One that says another number of nodes is refused as this one.
+        _ => Ok(Block::One(CagedBallScrewConfiguration::read(words)?)),
     }
-    kept.insert(digest, block);
 }
 
 /// Refuses a range that is far from the exact ball midway between two of its nodes.
@@ -199,12 +205,7 @@ impl CagedScene {
     /// # Errors
     /// [`Error`] naming what is wrong with the block.
     pub fn read(words: &[u32]) -> Result<Self, Error> {
-        const RANGE: u32 = NODES as u32;
-        match words.get(3) {
-            Some(&RANGE) => Ok(Self::Range(CagedBallScrewConfiguration::read(words)?)),
-            // One that says another number of nodes is refused as this one.
-            _ => Ok(Self::One(CagedBallScrewConfiguration::read(words)?)),
-        }
+        read(words).map(Self::from)
     }
 
     /// A model of it.
@@ -237,14 +238,7 @@ pub fn words(design: &Design, coefficients: (f32, f32)) -> Result<Option<Vec<u32
 /// # Errors
 /// [`Error`] naming what is wrong with the block.
 pub fn keep_words(words: &[u32]) -> Result<(), Error> {
-    let block = match CagedScene::read(words)? {
-        CagedScene::One(block) => Block::One(block),
-        CagedScene::Range(block) => Block::Range(block),
-        CagedScene::ClosedForm(_) => return Ok(()),
-    };
-    if let [_, _, _, _, low, high, ..] = words {
-        keep(u64::from(*high) << 32 | u64::from(*low), block);
-    }
+    FOLDS.keep(digest_of(words), read(words)?);
     Ok(())
 }
 

@@ -12,7 +12,7 @@ use crate::designs::train::no_row;
 use crate::designs::{Design, DesignSource};
 use crate::failure::Failure;
 use crate::files::{self, Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
-use crate::{caged, uncaged};
+use crate::{caged, folds, uncaged};
 use made::Made;
 
 /// Folds a design: solves it once, here, into the constants that firmware evaluates.
@@ -37,16 +37,18 @@ use made::Made;
 /// A closed form (branch = "rolling" or "sliding") is refused, because it needs no fold. So is a domain over which the torque is not held to
 /// 3 %: the exit code is 1, and the message says where.
 ///
-/// --json prints one object: version (of the layout), digest (of the inputs), bytes, domain (axial_load of a ball, N, friction, and without
+/// --json prints one object: version (of the layout), digest (of the inputs and of the version of the fold), bytes, domain (axial_load of a ball, N, friction, and without
 /// cage screw_deviation and nut_deviation, rad, each [least, most]), certificate, seed, two_answers (with a cage: share of the states with two
 /// exact answers), unsolved (states without one), seconds.
 ///
 /// The certificate is a list of quantity (caged_torque of one ball, or ring_torque and ring_force of rows of balls), largest, rms, mean,
 /// states, flagged (share), unit.
+// Each is a switch of the command line.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Built-in design (`simulate --list` prints all), or design file ending in .toml; - for standard input
-    #[arg(value_name = "NAME|GEAR.toml", required_unless_present = "new")]
+    #[arg(value_name = "NAME|GEAR.toml", required_unless_present_any = ["new", "store", "gate"])]
     design: Option<DesignSource>,
     /// Write a design file to start from, every key with its unit, its range and where it stands on a drawing
     #[arg(
@@ -70,6 +72,12 @@ pub struct Arguments {
     /// Replace a file that exists
     #[arg(long)]
     force: bool,
+    /// Fold every built-in design anew and store the blocks that the program brings with it, and do nothing else
+    #[arg(long, exclusive = true)]
+    store: bool,
+    /// Fold every built-in design anew and fail where a block that the program brings with it has other bits, and do nothing else
+    #[arg(long, exclusive = true)]
+    gate: bool,
 }
 
 /// Scenes whose blocks are folded.
@@ -164,10 +172,8 @@ impl Arguments {
         }
         let existing = self.existing();
         existing.check(&path)?;
-        refuse_same(
-            [self.design.as_ref().and_then(DesignSource::file)],
-            std::iter::once(&path),
-        )?;
+        let file = self.design.as_ref().and_then(DesignSource::file);
+        refuse_same([file], std::iter::once(&path))?;
         Ok(Some(Target {
             format,
             path,
@@ -181,10 +187,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.new {
         return start(path, arguments.existing());
     }
-    let target = arguments.target()?;
+    // Without a design the parser asks for one of these.
     let Some(source) = &arguments.design else {
-        usage(ErrorKind::MissingRequiredArgument, "the design is missing");
+        return built_in(arguments.store);
     };
+    let target = arguments.target()?;
     let design = source.load()?;
     let made = made(&design, arguments.scene)?;
     let words = made.words()?.len();
@@ -229,6 +236,19 @@ fn start(path: &Path, existing: Existing) -> Result<(), Failure> {
             "wrote {path}, a rack-assist gear; put your drawing's numbers in, then: design {path}"
         )?;
     }
+    Ok(())
+}
+
+/// Stores the blocks of the built-in designs, or compares the stored ones with a new fold.
+fn built_in(store: bool) -> Result<(), Failure> {
+    if store {
+        return folds::store();
+    }
+    let blocks = folds::gate()?;
+    writeln!(
+        io::stdout(),
+        "{blocks} blocks of built-in designs have the bits of a new fold"
+    )?;
     Ok(())
 }
 

@@ -21,7 +21,7 @@ use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
 use epas_trains::Folded;
 
-use crate::uncaged::{LEAST_DEVIATION, MARGIN, folded};
+use crate::uncaged::{LEAST_DEVIATION, MARGIN, folded, loads_holding};
 
 /// Part of the track that the balls fill, where a case does not say its length.
 const OCCUPATION: f64 = 0.978;
@@ -296,8 +296,8 @@ impl<const N: usize> Followed<N> {
 }
 
 impl Case {
-    /// The law that firmware would have, folded once for all cases that share it: for 5 to 300 N a ball, or up to [`MARGIN`] times the case's load
-    /// where that is more, and for its deviations.
+    /// The law that firmware would have, folded once for all cases that share it: for 5 to 300 N a ball, or up to the power of two above
+    /// [`MARGIN`] times the case's load where that is more, and for its deviations.
     ///
     /// # Errors
     /// What is out of range; why the design is not folded.
@@ -337,8 +337,9 @@ impl Case {
             deviations: [self.screw.0, self.nut.0]
                 .map(|amplitude| (1.0001 * amplitude.abs() as f32).max(LEAST_DEVIATION)),
         });
-        let [_, most] = &mut fold.axial_load;
-        *most = most.max(MARGIN * self.load_per_ball.abs() as f32);
+        let [least, _] = fold.axial_load;
+        let largest = MARGIN * self.load_per_ball.abs() as f32;
+        fold.axial_load = loads_holding(fold.axial_load, [least, largest]);
         match folded(&fold) {
             Ok(Folded::One(folded)) => Ok(folded),
             Ok(Folded::Range(_)) => Err("one friction coefficient is one node".into()),

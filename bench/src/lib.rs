@@ -34,6 +34,7 @@ mod flags;
 #[doc(hidden)]
 pub mod fmu;
 mod folder;
+mod folds;
 mod front;
 mod headings;
 #[doc(hidden)]

@@ -1,6 +1,7 @@
 //! `report`: the error of every formula beside its run time, as tables on the screen and as Markdown,
 //! one HTML page, SVG, CSV and JSON in a folder.
 
+mod accuracy;
 mod applications;
 mod bearings;
 mod context;
@@ -49,6 +50,8 @@ const QUICK_ROUNDS: usize = 40;
 ///
 /// Prints tables and writes them, with plots, to a folder: report.md, report.html (one page that
 /// needs nothing else), and every figure as SVG, CSV and JSON.
+// Each is a switch of the command line.
+#[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, PartialEq, Eq, clap::Args)]
 pub struct Arguments {
     /// Folder to write to; a report written there before is replaced
@@ -60,6 +63,12 @@ pub struct Arguments {
     /// Few timing rounds, coarser sweeps, stored figures of the target: a look, not a measurement
     #[arg(long, conflicts_with = "rounds")]
     quick: bool,
+    /// Store the errors that README and bench/accuracy.md print, and do nothing else
+    #[arg(long, exclusive = true)]
+    store: bool,
+    /// Fail where an error differs from the stored one
+    #[arg(long, conflicts_with = "quick")]
+    gate: bool,
     /// Replace files of the same names that no report wrote
     #[arg(long)]
     force: bool,
@@ -79,6 +88,8 @@ impl Default for Arguments {
             output: "target/report".into(),
             rounds: ROUNDS,
             quick: false,
+            store: false,
+            gate: false,
             force: false,
         }
     }
@@ -177,6 +188,9 @@ const PARTS: [Plan; 4] = [
 
 /// Makes the report.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if arguments.store {
+        return accuracy::store(&accuracy::measured(&Flagship::new(false))?);
+    }
     let rounds = if arguments.quick {
         QUICK_ROUNDS
     } else {
@@ -185,17 +199,25 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     // A folder that cannot be written to is found before anything is computed.
     folder::check(&arguments.output, arguments.force)?;
     let sections: usize = PARTS.iter().map(|(_, _, sections)| sections.len()).sum();
-    let stages = Stages::new(sections + 3);
+    let stages = Stages::new(sections + 4);
     stages.next("times on this machine");
     let competition = compete(rounds)?;
     stages.next("counts on the target");
     let target = TargetFigures::new(arguments.quick)?;
     stages.next("37 balls beside the exact whole screw");
+    let flagship = Flagship::new(arguments.quick);
+    stages.next("errors that README prints");
+    let accuracy = if arguments.quick {
+        accuracy::stored()?
+    } else {
+        accuracy::measured(&flagship)?
+    };
     let context = Context {
         quick: arguments.quick,
         competition,
         target,
-        flagship: Flagship::new(arguments.quick),
+        flagship,
+        accuracy,
     };
     let document = Document {
         title: "epas-friction: friction of a ball screw, its error and its cost".into(),
@@ -204,7 +226,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     // Files first: a reader that closes the output early still gets the whole report in files.
     document.write(&arguments.output)?;
-    document.print(&arguments.output)
+    document.print(&arguments.output)?;
+    if arguments.gate {
+        accuracy::gate(&context.accuracy)?;
+    }
+    Ok(())
 }
 
 /// Makes every part, saying which section it is at.

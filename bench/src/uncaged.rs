@@ -1,11 +1,7 @@
 //! A screw without cage that runs on this machine: the law of one ball, folded from its design.
 //!
-//! Folding takes some seconds. A law is folded once and kept by what it was folded from, so that a program that runs a design twice waits
-//! once; so is the reason why a design is not folded. It is kept as long as the program runs, because models refer to it: five kilobytes for one
-//! friction coefficient, fifteen for a range.
-
-use std::collections::HashMap;
-use std::sync::{LazyLock, Mutex, PoisonError};
+//! Folding takes some seconds. A law is folded once, and that of a built-in design never: [`folds`](crate::folds). It is kept as long as the program
+//! runs, because models refer to it: five kilobytes for one friction coefficient, fifteen for a range.
 
 use epas_design::uncaged::{NODES, UncagedBlock};
 use epas_design::{FoldedUncaged, UncagedFold};
@@ -17,10 +13,10 @@ use crate::caged::{range_for, shown};
 use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
+use crate::folds::{Folds, digest_of};
 
-/// Laws that were folded, and reasons why they were not, by the digest of their inputs.
-static FOLDED: LazyLock<Mutex<HashMap<u64, Result<Folded, String>>>> =
-    LazyLock::new(Mutex::default);
+/// Laws that need no fold.
+static FOLDS: Folds<Folded> = Folds::new(usize::MAX, |words| Ok(leaked(&block_of(words)?)));
 
 /// By how much the loads that are folded for pass the largest one that is asked for, at least: a model counts loaded balls by their places.
 pub const MARGIN: f32 = 1.1;
@@ -31,20 +27,23 @@ pub const LEAST_DEVIATION: f32 = 1e-4;
 /// Largest axial load of a ball that can be folded for, N.
 const LARGEST_LOAD: f32 = 1e5;
 
+/// Least and largest load of a ball, N, that a law is folded for which has to hold loads between two: to the next powers of two where these are
+/// beyond, so that requests that are much alike share a law.
+pub fn loads_holding([least, most]: [f32; 2], [from, to]: [f32; 2]) -> [f32; 2] {
+    let below = |load: f32| load.log2().floor().exp2();
+    let above = |load: f32| load.log2().ceil().exp2();
+    [
+        if from < least { below(from) } else { least },
+        if to > most { above(to) } else { most },
+    ]
+}
+
 /// The law of a fold, folded where it is not kept.
 ///
 /// # Errors
 /// What cannot be folded, with the reason.
 pub fn folded(fold: &UncagedFold) -> Result<Folded, Failure> {
-    let digest = fold.digest();
-    if let Some(folded) = kept(digest) {
-        return folded.map_err(Failure::Data);
-    }
-    // Not locked: others go on meanwhile.
-    match fold.block() {
-        Ok(block) => Ok(keep(digest, &block)),
-        Err(failure) => Err(Failure::Data(refuse(digest, failure.to_string()))),
-    }
+    FOLDS.get_or(fold.digest(), || Ok(leaked(&fold.block()?)))
 }
 
 /// The law of a fold with its certificate, told while it is made; kept as any other law.
@@ -57,37 +56,37 @@ pub fn certified(fold: &UncagedFold) -> Result<FoldedUncaged, Failure> {
     Ok(folded)
 }
 
-fn kept(digest: u64) -> Option<Result<Folded, String>> {
-    let folded = FOLDED.lock().unwrap_or_else(PoisonError::into_inner);
-    folded.get(&digest).cloned()
-}
-
-/// Keeps the reason why inputs with this digest are not folded, and gives it back.
-fn refuse(digest: u64, reason: String) -> String {
-    let mut folded = FOLDED.lock().unwrap_or_else(PoisonError::into_inner);
-    let _ = folded.entry(digest).or_insert_with(|| Err(reason.clone()));
-    reason
-}
-
-/// Keeps a law that was folded from inputs with this digest.
+/// Keeps a law that was folded from inputs with this digest: one that is there already stays where it is.
 fn keep(digest: u64, block: &UncagedBlock) -> Folded {
-    let mut folded = FOLDED.lock().unwrap_or_else(PoisonError::into_inner);
     let same = |kept: &Folded| match (kept, block) {
         (Folded::One(kept), UncagedBlock::One(block)) => *kept == block,
         (Folded::Range(kept), UncagedBlock::Range(block)) => *kept == block,
         _ => false,
     };
-    match folded.get(&digest) {
-        Some(Ok(kept)) if same(kept) => *kept,
-        _ => {
-            let kept = match block {
-                UncagedBlock::One(block) => Folded::One(Box::leak(Box::new(*block))),
-                UncagedBlock::Range(block) => Folded::Range(Box::leak(Box::new(*block))),
-            };
-            folded.insert(digest, Ok(kept));
-            kept
-        }
+    let law = match FOLDS.get(digest) {
+        Some(Ok(kept)) if same(&kept) => kept,
+        _ => leaked(block),
+    };
+    FOLDS.keep(digest, law);
+    law
+}
+
+/// A law for as long as the program runs.
+fn leaked(block: &UncagedBlock) -> Folded {
+    match block {
+        UncagedBlock::One(block) => Folded::One(Box::leak(Box::new(*block))),
+        UncagedBlock::Range(block) => Folded::Range(Box::leak(Box::new(*block))),
     }
+}
+
+/// The block of these words.
+fn block_of(words: &[u32]) -> Result<UncagedBlock, Error> {
+    const RANGE: u32 = NODES as u32;
+    Ok(match words.get(3) {
+        Some(&RANGE) => UncagedBlock::Range(FoldedBall::read(words)?),
+        // One that says another number of nodes is refused as this one.
+        _ => UncagedBlock::One(FoldedBall::read(words)?),
+    })
 }
 
 /// The law of a block's words, kept by the digest that they hold.
@@ -95,17 +94,7 @@ fn keep(digest: u64, block: &UncagedBlock) -> Folded {
 /// # Errors
 /// [`Error`] naming what is wrong with the block.
 pub fn read(words: &[u32]) -> Result<Folded, Error> {
-    const RANGE: u32 = NODES as u32;
-    let block = match words.get(3) {
-        Some(&RANGE) => UncagedBlock::Range(FoldedBall::read(words)?),
-        // One that says another number of nodes is refused as this one.
-        _ => UncagedBlock::One(FoldedBall::read(words)?),
-    };
-    let digest = match words {
-        [_, _, _, _, low, high, ..] => u64::from(*high) << 32 | u64::from(*low),
-        _ => 0,
-    };
-    Ok(keep(digest, &block))
+    Ok(keep(digest_of(words), &block_of(words)?))
 }
 
 /// The words of a design's block for its own friction coefficient, with the digest of its inputs.
@@ -139,10 +128,11 @@ pub fn fold_for(
         .map_err(|message| format!("fold: {message}"))?;
     fold.gear.gear.friction = row.gear.friction;
     fold.friction = range_for(fold.friction, coefficients)?;
-    let [_, most] = &mut fold.axial_load;
     let load = MARGIN * row.ball_load(axial_load.abs().min(row.gear.limits.axial_load));
-    if !table.says_axial_load() && load > *most {
-        *most = load.log2().ceil().exp2().min(LARGEST_LOAD);
+    if !table.says_axial_load() {
+        let [least, _] = fold.axial_load;
+        let held = loads_holding(fold.axial_load, [least, load]);
+        fold.axial_load = held.map(|load| load.min(LARGEST_LOAD));
     }
     Ok(fold)
 }
@@ -218,6 +208,15 @@ mod tests {
         assert!(refused.contains("screw_deviation = 0.005"), "{refused}");
     }
 
+    /// Loads within the domain leave it as it is; others widen it to powers of two.
+    #[test]
+    fn loads_are_held_by_powers_of_two() {
+        let usual = [5.0, 300.0];
+        assert_eq!(loads_holding(usual, [5.0, 300.0]), usual);
+        assert_eq!(loads_holding(usual, [4.9, 301.0]), [4.0, 512.0]);
+        assert_eq!(loads_holding(usual, [2.0, 512.0]), [2.0, 512.0]);
+    }
+
     /// A design that is not folded is not tried again, and its reason stays the same.
     #[test]
     fn a_reason_is_kept() {
@@ -229,9 +228,8 @@ mod tests {
             "{}",
             refused.message()
         );
-        let kept = kept(wrong.digest()).unwrap().unwrap_err();
-        assert_eq!(kept, refused.message());
-        assert_eq!(folded(&wrong).unwrap_err().message(), kept);
+        let kept = FOLDS.get(wrong.digest()).unwrap().unwrap_err();
+        assert_eq!(kept.message(), refused.message());
     }
 
     /// Words are the law, one that is kept is not folded again, and a model goes on with it.

@@ -10,11 +10,11 @@ use epas_friction::Range;
 use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves};
 use epas_friction::scene::CagedBallScrewConfiguration;
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 
 use crate::Failure;
 use crate::certificate::Certificate;
 use crate::curve::fitted;
+use crate::digest::digest;
 pub use design::CagedDesign;
 pub(crate) use design::{FRICTION, in_range};
 pub(crate) use exact::Exact;
@@ -22,6 +22,9 @@ use nodes::{Nodes, aligned};
 
 /// Loads of one ball for which a law holds where nothing else is asked, N.
 pub const AXIAL_LOAD: [f32; 2] = [5.0, 300.0];
+
+/// Version of the way from a design to a block, which the digest of a block covers: raised by every change that gives the same design other bits.
+pub const ALGORITHM: u32 = 1;
 
 /// Nodes of a range of friction coefficients.
 pub const NODES: usize = 5;
@@ -68,7 +71,7 @@ pub struct Folded {
     pub block: Block,
     /// Its errors.
     pub certificate: Certificate,
-    /// Digest of all inputs: the first eight bytes of their SHA-256.
+    /// [`CagedFold::digest`].
     pub digest: u64,
     /// Time that it took, s.
     pub seconds: f64,
@@ -245,15 +248,10 @@ impl CagedFold {
         })
     }
 
-    /// The first eight bytes of the SHA-256 of all inputs.
+    /// The first eight bytes of the SHA-256 of [`ALGORITHM`] and all inputs.
     #[must_use]
     pub fn digest(&self) -> u64 {
-        let text = format!("{self:?}");
-        let bytes = Sha256::digest(text.as_bytes());
-        bytes
-            .iter()
-            .take(8)
-            .fold(0, |digest, &byte| digest << 8 | u64::from(byte))
+        digest(ALGORITHM, self)
     }
 }
 

@@ -36,6 +36,7 @@ pub mod breakaway;
 pub mod caged;
 pub mod certificate;
 pub mod curve;
+mod digest;
 pub mod drawing;
 pub mod efficiency;
 mod failure;

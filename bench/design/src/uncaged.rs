@@ -12,13 +12,16 @@ use epas_friction::Range;
 use epas_friction::ball::pressed::{BallKnot, BallLaw, BallNode, BallNumbers, KNOTS};
 use epas_friction::scene::FoldedBall;
 use rayon::prelude::*;
-use sha2::{Digest, Sha256};
 
 use crate::Failure;
 use crate::caged::{APART, CagedDesign, Exact, FRICTION, LARGEST_LOAD, in_range};
+use crate::digest::digest;
 use ball::{Balls, Speeds, exact_ball};
 pub use certificate::{RowFigures, UncagedCertificate, UncagedFigure};
 use fit::{Branch, Fit, Numbers};
+
+/// Version of the way from a design to a block, which the digest of a block covers: raised by every change that gives the same design other bits.
+pub const ALGORITHM: u32 = 1;
 
 /// Nodes of a range of friction coefficients.
 pub const NODES: usize = 3;
@@ -74,7 +77,7 @@ pub struct FoldedUncaged {
     pub block: UncagedBlock,
     /// Its errors.
     pub certificate: UncagedCertificate,
-    /// Digest of all inputs: the first eight bytes of their SHA-256.
+    /// [`UncagedFold::digest`].
     pub digest: u64,
     /// Time that it took, s.
     pub seconds: f64,
@@ -280,15 +283,10 @@ impl UncagedFold {
         Ok(Fit::new(&samples, &weights, speeds.against_nut).branch())
     }
 
-    /// The first eight bytes of the SHA-256 of all inputs.
+    /// The first eight bytes of the SHA-256 of [`ALGORITHM`] and all inputs.
     #[must_use]
     pub fn digest(&self) -> u64 {
-        let text = format!("{self:?}");
-        let bytes = Sha256::digest(text.as_bytes());
-        bytes
-            .iter()
-            .take(8)
-            .fold(0, |digest, &byte| digest << 8 | u64::from(byte))
+        digest(ALGORITHM, self)
     }
 }
 

@@ -15,6 +15,7 @@ use serde::Serialize;
 use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
 use super::train::ScrewNumbers;
+use crate::caged::unchecked;
 
 /// Most loads of a request.
 const LONGEST: usize = 1_000;
@@ -167,7 +168,7 @@ impl Request {
             sizes().fold(least, f32::min).max(LEAST_FOLDED),
             sizes().fold(most, f32::max),
         ];
-        let block = match fold.block() {
+        let block = match unchecked(&fold) {
             Ok(Block::One(block)) => block,
             Ok(Block::Range(_)) | Err(Failure::Domain(_) | Failure::Reference(_)) => {
                 return Ok(NONE);

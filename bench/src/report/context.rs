@@ -1,5 +1,6 @@
 //! What every section of the report works with.
 
+use super::accuracy::Accuracy;
 use super::flagship::Flagship;
 use crate::failure::Failure;
 use crate::target::TargetFigures;
@@ -15,6 +16,8 @@ pub struct Context {
     pub target: TargetFigures,
     /// The ball screw without cage beside the exact one.
     pub flagship: Flagship,
+    /// Errors that README and the page of accuracy print: of this run, or stored ones of a quick look.
+    pub accuracy: Vec<Accuracy>,
 }
 
 impl Context {

@@ -7,6 +7,8 @@ mod two_point;
 
 use epas_reference::promises::PROMISES;
 
+pub use recorded::errors as recorded_errors;
+
 use super::context::Context;
 use super::statistics::Errors;
 use crate::document::{Block, Cell, Figure, Section, Table};

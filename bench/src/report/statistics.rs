@@ -22,6 +22,11 @@ impl Errors {
         self.squares += error * error;
     }
 
+    /// How many were added.
+    pub const fn count(&self) -> f64 {
+        self.count
+    }
+
     /// Mean: the bias.
     pub fn mean(&self) -> f64 {
         self.sum / self.count

@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::statistics::Errors;
 use super::times::{quartiles, ratio, time};
-use super::{curvature, efficiency, hertz};
+use super::{accuracy, curvature, efficiency, hertz};
 use crate::document::{Block, Cell, Figure, Section, Table};
 use crate::failure::Failure;
 use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
@@ -89,6 +89,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                     .into(),
             ),
             Block::Table(errors_and_times(context, errors)?),
+            Block::Table(accuracy::table(&context.accuracy, context.quick)),
             Block::Table(ratios(context)?),
             Block::Text(
                 "Why the exact form costs a few times the literature formula and not the paper's 71 times: the \

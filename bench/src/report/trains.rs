@@ -4,6 +4,8 @@ mod cost;
 mod linear;
 mod screw;
 
+pub use linear::closed_form_errors;
+
 use super::context::Context;
 use crate::document::{Block, Section};
 use crate::failure::Failure;

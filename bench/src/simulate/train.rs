@@ -96,7 +96,7 @@ impl<S: SceneSample, Outputs> Train<S, Outputs> {
 }
 
 /// The time between two samples, s, where it is the same all along: positions of balls are integrated.
-fn equal_step<S: Sample>(trace: &Trace<S>) -> Result<f64, Failure> {
+pub fn equal_step<S: Sample>(trace: &Trace<S>) -> Result<f64, Failure> {
     let [first, second, ..] = trace.samples.as_slice() else {
         return Err(Failure::Data(
             "a scene with a train needs a trace of two samples or more".into(),

@@ -16,7 +16,7 @@ use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
 use super::summary::{Lines, Pressing};
 use super::trace::{Sample, Trace};
-use super::train::{Train, TrainRow};
+use super::train::{Train, TrainRow, equal_step};
 use super::train_picture::{TrainPoint, draw};
 use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
@@ -49,6 +49,8 @@ impl Uncaged {
         trace: &Trace<ScrewSample>,
         remembered: Option<&Remembered>,
     ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
+        // Told before the screw is folded.
+        equal_step(trace).map_err(|failure| failure.of(self.name()))?;
         let loads = trace.samples.iter().map(|sample| sample.load().abs());
         let configuration = {
             let _working = Working::new("folding the screw");

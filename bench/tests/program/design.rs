@@ -292,3 +292,29 @@ fn outputs_of_a_block_are_safe() {
     let block = words(&fs::read_to_string(folder.join("gear.rs")).unwrap());
     CagedConstants::<1>::from_block(&block).unwrap();
 }
+
+/// Each block that the program brings with it has the bits of a new fold.
+#[test]
+#[ignore = "folds every built-in design, which takes a minute"]
+fn built_in_designs_are_stored_as_they_are_folded() {
+    let run = design(Path::new("."), "--gate");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(
+        run.stdout.contains("the bits of a new fold"),
+        "{}",
+        run.stdout
+    );
+}
+
+#[test]
+fn storing_and_comparing_take_no_design() {
+    for arguments in [
+        "lin-4.1 --gate",
+        "lin-4.1 --store",
+        "--store --gate",
+        "--json",
+    ] {
+        let run = design(Path::new("."), arguments);
+        assert_eq!(run.code, 2, "{arguments}: {}", run.stderr);
+    }
+}

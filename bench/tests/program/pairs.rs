@@ -145,7 +145,10 @@ fn odd_rows_have_answers() {
 #[test]
 fn bad_fields_of_pairs_are_named() {
     let all = golden("ballscrew_exact.json");
-    let good = request(&all, &all["cases"][0]);
+    let mut good = request(&all, &all["cases"][0]);
+    // Loads of both signs have no law, which nothing is folded for.
+    good["balls"][0]["axial_load"] = json!(-30.0);
+    good["balls"][1]["axial_load"] = json!(30.0);
     let mut requests = Vec::new();
     let mut fields = Vec::new();
     for (field, value) in [

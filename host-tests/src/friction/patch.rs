@@ -65,21 +65,110 @@ pub struct PatchFriction {
 /// from their limits by less than one part in 1e12.
 const FARTHEST: f64 = 1e12;
 
+/// Nodes that are evaluated at once, so that the compiler uses the lanes of the processor.
+const LANES: usize = 4;
+
 /// Sine and cosine of the nodes' `t`, and their weights.
-fn nodes(integration: Integration) -> &'static [[f64; 3]] {
-    static FULL: OnceLock<Vec<[f64; 3]>> = OnceLock::new();
-    static COARSE: OnceLock<Vec<[f64; 3]>> = OnceLock::new();
+type Nodes = [[f64; LANES]; 3];
+
+/// Nodes beyond the last have no weight.
+fn nodes(integration: Integration) -> &'static [Nodes] {
+    static FULL: OnceLock<Vec<Nodes>> = OnceLock::new();
+    static COARSE: OnceLock<Vec<Nodes>> = OnceLock::new();
     let of = |rule: &[(f64, f64)]| {
-        rule.iter()
-            .map(|&(node, weight)| {
+        let lanes = |nodes: &[(f64, f64)]| {
+            let mut lanes = [[0.0; LANES], [1.0; LANES], [0.0; LANES]];
+            for (lane, &(node, of_node)) in nodes.iter().enumerate() {
                 let (sin, cos) = (std::f64::consts::FRAC_PI_2 * node).sin_cos();
-                [sin, cos, weight]
-            })
-            .collect()
+                for (row, value) in lanes.iter_mut().zip([sin, cos, of_node]) {
+                    row[lane] = value;
+                }
+            }
+            lanes
+        };
+        rule.chunks(LANES).map(lanes).collect()
     };
     match integration {
         Integration::Full => FULL.get_or_init(|| of(gauss_rule())),
         Integration::Coarse => COARSE.get_or_init(|| of(coarse_rule())),
+    }
+}
+
+/// Power, gradient and Hessian by rows, as they are summed over the nodes.
+const TERMS: usize = 13;
+
+/// What the terms of a node depend on beside the node: axes, and the velocity centre in the plane scaled to the unit disc.
+struct Centre {
+    semi_major: f64,
+    semi_minor: f64,
+    /// Distance from the contact centre, and the direction to it.
+    distance: f64,
+    cos: f64,
+    sin: f64,
+    /// The distance and its inverse, each at most one.
+    reach: f64,
+    inverse: f64,
+}
+
+impl Centre {
+    /// Terms of one node.
+    #[inline(always)]
+    fn terms(&self, [sin_t, cos_t, weight]: [f64; 3]) -> [f64; TERMS] {
+        let (a, b) = (self.semi_major, self.semi_minor);
+        let s = self.reach * sin_t;
+        let h2 = 1.0 - s * s;
+        // Angle between the line and the direction to the contact centre: sin = s/e.
+        let sin_a = self.inverse * sin_t;
+        let outside = ((1.0 - sin_a) * (1.0 + sin_a)).sqrt();
+        let cos_a = if self.distance > 1.0 { outside } else { cos_t };
+        let k = self.distance * cos_a;
+        // Step of the line's angle, d theta = min(e, 1) cos t / k dt.
+        let turn = weight * self.inverse * cos_t / cos_a;
+        let along = (
+            -(self.cos * cos_a - self.sin * sin_a),
+            -(self.sin * cos_a + self.cos * sin_a),
+        );
+        let (u1, u2) = (a * along.0, b * along.1);
+        // Axes of a contact are far from where squares overflow or vanish.
+        let g = (u1 * u1 + u2 * u2).sqrt();
+        let normal = -s * a * b;
+        let scale = turn * h2 / (g * g * g);
+        let [s1, s2, s3] = [u1, u2, normal].map(|part| scale * part);
+        [
+            turn * h2 * (k * k + 0.25 * h2) * g,
+            -(turn * h2 * k * u2 / g),
+            turn * h2 * k * u1 / g,
+            // Moment about the contact centre: of the resultant at the middle of the chord, and of its spread.
+            turn * h2 * (0.25 * h2 * g - k * s * (a - b) * (a + b) * along.0 * along.1 / g),
+            s1 * u1,
+            s1 * u2,
+            s1 * normal,
+            s2 * u1,
+            s2 * u2,
+            s2 * normal,
+            s3 * u1,
+            s3 * u2,
+            s3 * normal,
+        ]
+    }
+
+    /// Terms summed over the nodes, in their order.
+    fn summed(&self, nodes: &[Nodes]) -> [f64; TERMS] {
+        let mut sums = [0.0; TERMS];
+        for [sin, cos, weight] in nodes {
+            let mut terms = [[0.0; LANES]; TERMS];
+            for (lane, ((&sin, &cos), &weight)) in sin.iter().zip(cos).zip(weight).enumerate() {
+                for (row, term) in terms.iter_mut().zip(self.terms([sin, cos, weight])) {
+                    row[lane] = term;
+                }
+            }
+            for (sum, row) in sums.iter_mut().zip(&terms) {
+                for term in row {
+                    *sum += term;
+                }
+            }
+        }
+        sums
     }
 }
 
@@ -123,51 +212,23 @@ impl Patch {
         } else {
             (1.0, 0.0)
         };
-        let reach = e.min(1.0);
-        let inverse = if e > 1.0 { 1.0 / e } else { 1.0 };
-
-        let mut power = 0.0;
-        let mut gradient = [0.0; 3];
-        let mut hessian = [[0.0; 3]; 3];
-        for &[sin_t, cos_t, weight] in nodes(integration) {
-            let s = reach * sin_t;
-            let h2 = 1.0 - s * s;
-            // Angle between the line and the direction to the contact centre: sin = s/e.
-            let sin_a = inverse * sin_t;
-            let cos_a = if e > 1.0 {
-                ((1.0 - sin_a) * (1.0 + sin_a)).sqrt()
-            } else {
-                cos_t
-            };
-            let k = e * cos_a;
-            // Step of the line's angle, d theta = min(e, 1) cos t / k dt.
-            let turn = weight * inverse * cos_t / cos_a;
-            let along = (
-                -(cos_p * cos_a - sin_p * sin_a),
-                -(sin_p * cos_a + cos_p * sin_a),
-            );
-            let (u1, u2) = (a * along.0, b * along.1);
-            // Axes of a contact are far from where squares overflow or vanish.
-            let g = (u1 * u1 + u2 * u2).sqrt();
-            power += turn * h2 * (k * k + 0.25 * h2) * g;
-            gradient[0] -= turn * h2 * k * u2 / g;
-            gradient[1] += turn * h2 * k * u1 / g;
-            // Moment about the contact centre: of the resultant at the middle of the chord, and of its spread.
-            gradient[2] +=
-                turn * h2 * (0.25 * h2 * g - k * s * (a - b) * (a + b) * along.0 * along.1 / g);
-            let normal = [u1, u2, -s * a * b];
-            let scale = turn * h2 / (g * g * g);
-            for (row, n_i) in hessian.iter_mut().zip(normal) {
-                for (entry, n_j) in row.iter_mut().zip(normal) {
-                    *entry += scale * n_i * n_j;
-                }
-            }
-        }
+        let centre = Centre {
+            semi_major: a,
+            semi_minor: b,
+            distance: e,
+            cos: cos_p,
+            sin: sin_p,
+            reach: e.min(1.0),
+            inverse: if e > 1.0 { 1.0 / e } else { 1.0 },
+        };
+        let [power, g0, g1, g2, hessian @ ..] = centre.summed(nodes(integration));
         let limit = 0.75 * std::f64::consts::FRAC_PI_2 * self.friction_limit;
         PatchFriction {
             power: limit * w * power,
-            gradient: gradient.map(|x| sign * limit * x),
-            hessian: hessian.map(|row| row.map(|x| limit * x / w)),
+            gradient: [g0, g1, g2].map(|x| sign * limit * x),
+            hessian: std::array::from_fn(|row| {
+                std::array::from_fn(|column| limit * hessian[3 * row + column] / w)
+            }),
         }
     }
 }

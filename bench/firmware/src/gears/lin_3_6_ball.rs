@@ -1,5 +1,5 @@
 // Folded by epas-design; not to be edited.
-// digest of the inputs: bf46a967942918eb
+// digest of the inputs: 38795d6ef6a191df
 // pitch radius 0.0165 m, lead 0.02 m, ball radius 0.002778 m, contact angle 0.7853982 rad, clearance -0.0000004068737 m
 // holds for friction coefficients 0.075 to 0.075 and axial loads of 5 to 300 N a ball, both signs
 // and for deviations of the contact angles to 0.01745 rad on the screw and 0.00873 rad in the nut
@@ -15,7 +15,7 @@ pub static LIN_3_6_BALL: epas_friction::scene::FoldedBall<1> =
 
 #[rustfmt::skip]
 const LIN_3_6_BALL_BLOCK: [u32; 1238] = [
-    0x55415045, 0x00000001, 0x000004d6, 0x00000001, 0x942918eb, 0xbf46a967,
+    0x55415045, 0x00000001, 0x000004d6, 0x00000001, 0xf6a191df, 0x38795d6e,
     0x3d99999a, 0x3ca3d70a, 0x3b360f1b, 0x3c89a906, 0x3bf3b828, 0x3f000000,
     0x42c80000, 0x469c4000, 0x41a00000, 0x3c8ef34d, 0x3c0f0846, 0x40fb6aa0,
     0x3d99999a, 0x4105b550, 0x38998bca, 0x3a80b740, 0x39cc0bf5, 0x38fb2d4d,
@@ -221,5 +221,5 @@ const LIN_3_6_BALL_BLOCK: [u32; 1238] = [
     0xbb024c4c, 0x39060004, 0xb9abf129, 0xb98eebed, 0xb8805dd3, 0x425fb3db,
     0xc044d935, 0xbeb1435e, 0x3ad55252, 0x38d1e8ed, 0x38771088, 0xb71a1278,
     0xb6de93a3, 0xb59f9d6f, 0xbb2caf24, 0xbe41819a, 0x3c8df416, 0x40000000,
-    0x00000000, 0x9f594a1d,
+    0x00000000, 0x8546595c,
 ];

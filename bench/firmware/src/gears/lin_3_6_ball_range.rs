@@ -1,5 +1,5 @@
 // Folded by epas-design; not to be edited.
-// digest of the inputs: 83095706ad2ac9c7
+// digest of the inputs: c1c3e5a436ca151a
 // pitch radius 0.0165 m, lead 0.02 m, ball radius 0.002778 m, contact angle 0.7853982 rad, clearance -0.0000004068737 m
 // holds for friction coefficients 0.05 to 0.15 and axial loads of 5 to 300 N a ball, both signs
 // and for deviations of the contact angles to 0.01745 rad on the screw and 0.00873 rad in the nut
@@ -15,7 +15,7 @@ pub static LIN_3_6_BALL_RANGE: epas_friction::scene::FoldedBall<3> =
 
 #[rustfmt::skip]
 const LIN_3_6_BALL_RANGE_BLOCK: [u32; 3676] = [
-    0x55415045, 0x00000001, 0x00000e5c, 0x00000003, 0xad2ac9c7, 0x83095706,
+    0x55415045, 0x00000001, 0x00000e5c, 0x00000003, 0x36ca151a, 0xc1c3e5a4,
     0x3d99999a, 0x3ca3d70a, 0x3b360f1b, 0x3c89a906, 0x3bf3b828, 0x3f000000,
     0x42c80000, 0x469c4000, 0x41a00000, 0x3c8ef34d, 0x3c0f0846, 0x40fb6aa0,
     0x3d4ccccd, 0x4105b550, 0x3898b47f, 0x3a760c4c, 0x39c313cf, 0x38ee745c,
@@ -627,5 +627,5 @@ const LIN_3_6_BALL_RANGE_BLOCK: [u32; 3676] = [
     0x4399edaa, 0x3c08443a, 0xbb93a932, 0xba871cb8, 0xba1b25f8, 0xb9fd17d7,
     0xb8d5f0e3, 0x41f34422, 0xc031a207, 0xbf24c3a0, 0x3b0b6b30, 0xb75a8e22,
     0x379a4f15, 0xb6532223, 0xb659577e, 0xb510c8f7, 0xbb4f3531, 0x3f3c3a73,
-    0x3caab0b9, 0x00000000, 0x00000000, 0x443128c2,
+    0x3caab0b9, 0x00000000, 0x00000000, 0xff5a476a,
 ];

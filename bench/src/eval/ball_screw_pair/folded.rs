@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use super::super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};
 use super::request::{Request, Row};
-use crate::uncaged::{LEAST_DEVIATION, folded};
+use crate::uncaged::{LEAST_DEVIATION, folded, loads_holding};
 
 /// Limits that no request meets.
 const LIMITS: Limits = Limits {
@@ -69,19 +69,17 @@ fn law(request: &Request, design: &BallScrew) -> Option<&'static FoldedBall> {
         ]
         .map(|deviation| deviation.max(LEAST_DEVIATION)),
     });
-    let loads = request
-        .balls
-        .iter()
-        .map(|ball| ball.axial_load.abs() as f32);
-    let [least, most] = &mut fold.axial_load;
-    for load in loads {
-        if load < *least {
-            *least = load.log2().floor().exp2();
-        }
-        if load > *most {
-            *most = load.log2().ceil().exp2();
-        }
-    }
+    let loads = || {
+        request
+            .balls
+            .iter()
+            .map(|ball| ball.axial_load.abs() as f32)
+    };
+    let ends = [
+        loads().fold(f32::MAX, f32::min),
+        loads().fold(0.0, f32::max),
+    ];
+    fold.axial_load = loads_holding(fold.axial_load, ends);
     match folded(&fold).ok()? {
         Folded::One(law) => Some(law),
         Folded::Range(_) => None,

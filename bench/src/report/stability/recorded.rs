@@ -4,6 +4,7 @@ use serde::Deserialize;
 
 use crate::document::{Block, Cell, Table};
 use crate::failure::Failure;
+use crate::report::accuracy::Accuracy;
 use crate::report::statistics::Errors;
 
 /// The file.
@@ -51,6 +52,48 @@ struct Mended {
     now: String,
 }
 
+fn recorded() -> Result<Recorded, Failure> {
+    serde_json::from_str(RECORDED)
+        .map_err(|error| Failure::Data(format!("host-tests/recorded.json: {error}")))
+}
+
+/// Names of the scalar kernels, and the sweeps over every f32 whose errors are theirs.
+const KERNELS: [(&str, &[&str]); 2] = [
+    ("cbrt", &["math::cbrt, ulp"]),
+    (
+        "sin_cos",
+        &[
+            "math::sin_cos: sin, absolute",
+            "math::sin_cos: cos, absolute",
+        ],
+    ),
+];
+
+/// Errors of the scalar kernels over every f32.
+pub fn errors() -> Result<Vec<Accuracy>, Failure> {
+    let sweeps = recorded()?.sweeps;
+    let kernel = |(name, quantities): (&str, &[&str])| {
+        let of = |quantity: &&str| sweeps.iter().find(|sweep| sweep.quantity == **quantity);
+        let found: Vec<&Sweep> = quantities.iter().filter_map(of).collect();
+        if found.len() < quantities.len() {
+            return Err(Failure::Data(format!(
+                "host-tests/recorded.json has no sweep of {}",
+                quantities.join(", ")
+            )));
+        }
+        let over = |of: fn(&Sweep) -> f64| found.iter().map(|sweep| of(sweep)).fold(0.0, f64::max);
+        Ok(Accuracy {
+            name: name.into(),
+            error: format!("{}: every f32 (recorded)", quantities.join(", ")),
+            largest: over(|sweep| sweep.largest),
+            rms: over(|sweep| sweep.rms),
+            flagged: 0.0,
+            states: found.iter().map(|sweep| sweep.inputs).sum(),
+        })
+    };
+    KERNELS.into_iter().map(kernel).collect()
+}
+
 fn columns(names: &[&str]) -> Vec<String> {
     names.iter().map(|name| (*name).to_owned()).collect()
 }
@@ -70,8 +113,7 @@ fn grouped(count: u64) -> Cell {
 
 /// Tables of the file, beside what this run has swept.
 pub fn blocks(swept: &Errors, requests: u64) -> Result<Vec<Block>, Failure> {
-    let recorded: Recorded = serde_json::from_str(RECORDED)
-        .map_err(|error| Failure::Data(format!("host-tests/recorded.json: {error}")))?;
+    let recorded = recorded()?;
     let sweeps = recorded.sweeps.into_iter().map(|sweep| {
         vec![
             sweep.quantity.into(),

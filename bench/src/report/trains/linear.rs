@@ -111,10 +111,18 @@ impl Grid {
     }
 }
 
+/// Cells of a side of the map of a full report.
+const CELLS: usize = 80;
+
+/// Errors of the closed form up to a side-force ratio, on the map of a full report.
+pub fn closed_form_errors(ratio: f64) -> Result<Errors, Failure> {
+    Ok(Grid::new(&Closed::new()?, CELLS)?.up_to(ratio))
+}
+
 /// Tables and figures.
 pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
     let closed = Closed::new()?;
-    let grid = Grid::new(&closed, if context.quick { 24 } else { 80 })?;
+    let grid = Grid::new(&closed, if context.quick { 24 } else { CELLS })?;
     let forces = forces(&closed, if context.quick { 12 } else { 40 });
     Ok(vec![
         Block::Table(published(&closed)?),

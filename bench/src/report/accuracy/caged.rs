@@ -1,0 +1,69 @@
+//! Caged screws: errors over the certificates of twenty folds.
+
+use epas_design::{CagedDesign, CagedFold, Figure};
+use epas_friction::{BallScrew, BallScrewParameters, Clearance, Limits, defaults};
+use rayon::prelude::*;
+
+use super::Accuracy;
+use crate::designs::built_in;
+use crate::failure::Failure;
+
+/// Friction coefficients and clearances, m, that the designs take in turn.
+const FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
+const CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 20e-6];
+
+/// Largest pitch radius, m: diameters to 63 mm.
+const PITCH_RADIUS: f32 = 35e-3;
+
+/// Every second built-in design to a diameter of 63 mm.
+fn designs() -> impl Iterator<Item = BallScrewParameters> {
+    let all = built_in().map(|(_, parameters, _)| parameters);
+    all.filter(|parameters| parameters.pitch_radius < PITCH_RADIUS)
+        .step_by(2)
+}
+
+fn fold(parameters: BallScrewParameters, place: usize) -> Result<CagedFold, Failure> {
+    let design = BallScrew::new(parameters)?;
+    let clearance = Clearance::new(CLEARANCES[place % CLEARANCES.len()])?;
+    Ok(CagedFold::of(CagedDesign {
+        design,
+        friction: FRICTIONS[place % FRICTIONS.len()],
+        rolling_resistance: defaults::ROLLING_RESISTANCE,
+        clearance: clearance.checked(&design)?,
+        loaded_balls: 37,
+        reversal_speed: 0.5,
+        limits: Limits {
+            nut_speed: 1e3,
+            axial_load: 1e5,
+            friction_torque: 100.0,
+        },
+    }))
+}
+
+/// Friction torque of a step, over all designs.
+pub fn step() -> Result<Accuracy, Failure> {
+    let designs: Vec<_> = designs().enumerate().collect();
+    let figures = designs
+        .into_par_iter()
+        .map(|(place, parameters)| {
+            let [torque] = fold(parameters, place)?.folded()?.certificate.figures;
+            Ok(torque)
+        })
+        .collect::<Result<Vec<Figure>, Failure>>()?;
+    let states: usize = figures.iter().map(|figure| figure.states).sum();
+    let mean = |of: fn(&Figure) -> f64| {
+        let sum: f64 = figures.iter().map(|one| of(one) * one.states as f64).sum();
+        sum / states as f64
+    };
+    Ok(Accuracy {
+        name: "caged_step".into(),
+        error: format!(
+            "friction torque, relative: {} designs to 63 mm, clearance -5 to 20 um, friction 0.05 to 0.15, 5 to 300 N a ball",
+            figures.len()
+        ),
+        largest: figures.iter().fold(0.0, |most, one| one.largest.max(most)),
+        rms: mean(|figure| figure.rms.powi(2)).sqrt(),
+        flagged: mean(|figure| figure.flagged),
+        states: states as u64,
+    })
+}
