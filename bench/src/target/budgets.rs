@@ -266,6 +266,7 @@ mod tests {
             ),
             ("`LinearBearingTrain<24>`", &["step_linear"]),
             ("`ClosedFormScrew`", &["step_closed_form"]),
+            ("`LoadProportionalScrew`", &["step_load_proportional"]),
         ] {
             let row = format!("| {scene} |");
             let row = readme.lines().find(|line| line.starts_with(&row)).unwrap();

@@ -68,6 +68,7 @@ fn figures_are_one_object() {
         "train_37",
         "step_efficiency",
         "step_closed_form",
+        "step_load_proportional",
         "step_caged",
         "step_train_37",
         "libm_cosf",

@@ -20,7 +20,8 @@ use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
     DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Inputs, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShare, Material,
+    LinearInputs, LinearLimits, LoadProportionalConfiguration, LoadProportionalScrew, LoadShare,
+    Material,
 };
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
@@ -90,6 +91,60 @@ fn closed_form_step() {
     }
     // A dozen roundings of 2^-24, which add up at random.
     errors.assert_promised(promises::of("step_closed_form"));
+}
+
+/// The formula in float64, over losses, friction, speeds and loads of all signs.
+#[test]
+fn load_proportional() {
+    let mut errors = Errors::of("step of a drive without a drawing");
+    let lever = 0.02 / std::f32::consts::TAU;
+    for [driving_loss, back_driving_loss] in [[0.1_f32, 0.13], [0.0, 0.5], [0.37, 0.0]] {
+        for [coulomb_friction, viscous_friction] in [[0.0_f32, 0.0], [0.05, 1e-3], [1.0, 1e-2]] {
+            let mut model =
+                FrictionModel::<LoadProportionalScrew>::new(&LoadProportionalConfiguration {
+                    load_lever: lever,
+                    coulomb_friction,
+                    viscous_friction,
+                    driving_loss,
+                    back_driving_loss,
+                    reversal_speed: 0.5,
+                    limits: Limits {
+                        nut_speed: 500.0,
+                        axial_load: 20_000.0,
+                        friction_torque: 50.0,
+                    },
+                })
+                .unwrap();
+            for speed in [-200.0_f32, -3.0, -0.3, 0.3, 3.0, 200.0] {
+                for load in [-15_000.0_f32, -900.0, -1.0, 0.0, 1.0, 900.0, 15_000.0] {
+                    let (w, torque) = (f64::from(speed), f64::from(lever) * f64::from(load));
+                    let loss = f64::from(if w * torque < 0.0 {
+                        back_driving_loss
+                    } else {
+                        driving_loss
+                    });
+                    let exact = w / w.hypot(0.5)
+                        * (f64::from(coulomb_friction) + loss * torque.abs())
+                        + f64::from(viscous_friction) * w;
+                    let found = model.step(Inputs {
+                        nut_speed: speed,
+                        axial_load: load,
+                    });
+                    let found = f64::from(found.friction_torque);
+                    let error = if exact == 0.0 {
+                        found
+                    } else {
+                        found / exact - 1.0
+                    };
+                    errors.add_case(error, || {
+                        format!("{driving_loss} {coulomb_friction} {speed} {load}")
+                    });
+                }
+            }
+        }
+    }
+    // Seven roundings of 2^-24, which add up at random.
+    errors.assert_promised(promises::of("step_load_proportional"));
 }
 
 /// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.

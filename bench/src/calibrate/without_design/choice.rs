@@ -68,7 +68,7 @@ pub const LOAD_PROPORTIONAL: Law = Law {
     name: "this crate, load-proportional losses",
     level: Level::Constant,
     passage: Passage::Speed,
-    cost: Cost::Estimated(110),
+    cost: Cost::Counted(&["step_load_proportional"]),
 };
 
 /// A trace, ready to be fitted.
