@@ -100,7 +100,9 @@ use trace::Temperature;
 /// Table [calibration], what `calibrate` writes: for --scene caged with --memory full_film_ratio and half_share_speed (rad/s) with
 /// reference_temperature and viscosity_pole (K), direction_asymmetry, breakaway_angle (rad) at reference_load (N), elements ("proportional", or
 /// with largest_load, N, "load_exact" or "preloaded"), backlash (rad), churning; there a column temperature (K; temperature_C in degrees
-/// Celsius) of the trace is followed. rolling_drag is the drag of the lubricant over that of the default grease (1 for that; none without).
+/// Celsius) of the trace is followed.
+///
+/// Its rolling_drag is the drag of the lubricant over that of the default grease (1 for that; none without).
 ///
 /// For --mechanism that table has inertia, drag, offset, gain. harmonics (a list of { order, cosine, sine }) stand there too.
 ///

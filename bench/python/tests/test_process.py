@@ -9,6 +9,7 @@ import pickle
 import subprocess
 import sys
 import textwrap
+from concurrent.futures import ProcessPoolExecutor
 from typing import Any, Callable
 
 import numpy as np
@@ -76,7 +77,7 @@ else:
         ("", "ef.fold_design(lin, friction_range=(0.05, 0.15))", ""),
         ("", "ef.reference.simulate_uncaged(lin, time_, 20.0, 1500.0)", ""),
         ("trace = ef.reference.measured_trace('whole')", "ef.calibrate(trace, ef.Design.built_in('lin-4.1'))", ""),
-        ("numbers = np.linspace(0.5, 0.6, 10_000_000)",
+        ("numbers = np.linspace(0.51, 0.6, 10_000_000)",
          "ef.design_figures(0.0145, 0.007, 0.002, numbers)", ""),
         ("angles = np.linspace(0.01, 0.3, 30_000_000, dtype=np.float32)", "ef.efficiency(angles, 0.7, 0.1, 0.1)", ""),
     ],
@@ -91,8 +92,8 @@ def test_ctrl_c_ends_a_long_call(setup: str, call: str, check: str) -> None:
 
 def in_another_process(value: Any) -> Any:
     """The value by a process that has not seen it."""
-    with multiprocessing.get_context("spawn").Pool(1) as pool:
-        return pool.apply(copy.copy, (value,))
+    with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
+        return pool.submit(copy.copy, value).result(timeout=100)
 
 
 WAYS = [copy.copy, copy.deepcopy, lambda value: pickle.loads(pickle.dumps(value)), in_another_process]
@@ -110,7 +111,7 @@ def screws() -> list[tuple[Any, Callable[[Any], Any]]]:
     row = ef.UncagedBallScrew(pressing, friction=0.08, ball_friction=0.05)
     row.set_nut_angle(0.4)
     row_with_memory = ef.UncagedBallScrew(pressing, memory_load=1500.0)
-    row_with_memory.set_friction(0.09)
+    row_with_memory.set_friction(0.1)
     train = ef.LinearBearingTrain(bearing, friction=0.12)
     train.set_carriage_position(0.013)
     train.set_friction(0.11)

@@ -50,7 +50,7 @@ SCREW = ["time", "nut_speed", "axial_load"]
 @pytest.mark.parametrize("memory", [False, True])
 @pytest.mark.parametrize("manoeuvre", ["parking", "weave", "kerb"])
 def test_caged(program: str, tmp_path: pathlib.Path, manoeuvre: str, memory: bool) -> None:
-    flags = ["--memory"] if memory else []
+    flags = ["--memory"] if memory else ["--no-memory"]
     columns = simulated(program, tmp_path, "--design", "lin-4.1", "--manoeuvre", manoeuvre, *flags)
     design = ef.Design.built_in("lin-4.1")
     time, speed, load = numbers(columns, *SCREW)
@@ -63,7 +63,7 @@ def test_caged(program: str, tmp_path: pathlib.Path, manoeuvre: str, memory: boo
 
 @pytest.mark.parametrize("memory", [False, True])
 def test_uncaged(program: str, tmp_path: pathlib.Path, memory: bool) -> None:
-    flags = ["--memory"] if memory else []
+    flags = ["--memory"] if memory else ["--no-memory"]
     columns = simulated(program, tmp_path, "--manoeuvre", "turns", *flags)
     design = ef.Design.built_in("lin-3.6")
     assert design.circuit_balls == 37
@@ -72,7 +72,7 @@ def test_uncaged(program: str, tmp_path: pathlib.Path, memory: bool) -> None:
 
 @pytest.mark.parametrize("memory", [False, True])
 def test_linear(program: str, tmp_path: pathlib.Path, memory: bool) -> None:
-    flags = ["--memory"] if memory else []
+    flags = ["--memory"] if memory else ["--no-memory"]
     columns = simulated(program, tmp_path, "--manoeuvre", "stroke", *flags)
     trace = numbers(columns, "time", "speed", "normal_load", "side_load")
     same(ef.simulate_linear(ef.LinearDesign.built_in(), *trace, memory=memory), columns)

@@ -81,9 +81,9 @@ fn every_format_is_the_same_block() {
         .collect();
     assert_eq!(listed, block);
     assert_eq!(words(&text("gear.rs")), block);
-    assert_eq!(words(&text("c/gear.h")), block);
+    assert_eq!(words(&text("gear.h")), block);
     assert!(text("gear.rs").contains("pub static GEAR: "));
-    assert!(text("c/gear.h").contains("GEAR_BLOCK["));
+    assert!(text("gear.h").contains("GEAR_BLOCK["));
 
     let constants = CagedConstants::<1>::from_block(&listed).unwrap();
     let mut model = FrictionModel::<CagedBallScrew, _>::of(&constants);

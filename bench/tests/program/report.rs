@@ -10,6 +10,7 @@ use super::{run, run_in};
 #[test]
 fn the_report_reproduces_the_printed_tables_and_writes_every_figure() {
     let folder = tempdir().unwrap();
+    fs::create_dir(folder.path().join("out")).unwrap();
     let run = run_in(
         folder.path(),
         &["report", "--quick", "--output", "out/report"],
