@@ -1,7 +1,7 @@
 //! A caged screw that runs on this machine: by a block that is folded from its design, or by a closed form.
 //!
 //! Folding takes half a second for one friction coefficient and two for a range of them. A block is folded once, and that of a built-in design never:
-//! [`folds`](crate::folds).
+//! `folds`.
 
 use std::sync::Mutex;
 

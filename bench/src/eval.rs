@@ -87,8 +87,9 @@ use lines::{Line, Lines};
 /// It has them by the closed form of a row, which no step runs. load_mismatch (over the largest load of a ball) and
 /// angle_mismatch say how far the given contacts are from those found.
 ///
-/// Largest errors of the closed form over the stored balls and pairs: speeds 3e-3 of the nut's, force 1.6 %, power 5.0 %; in rows
-/// of up to 64 of these balls 5 % of the largest force, and 17 % (power 9.3 %) where balls push each other until their third
+/// Largest errors of the closed form over the stored balls and pairs: speeds 3e-3 of the nut's, force 1.6 %, power 5.0 %.
+///
+/// In rows of up to 64 of these balls 5 % of the largest force, and 17 % (power 9.3 %) where balls push each other until their third
 /// contacts slide. Such forces are up to a factor of two too large at 100 N a ball.
 ///
 /// All of it is null where a ball has four loaded contacts, where numbers of contacts differ from ball to ball, where balls are

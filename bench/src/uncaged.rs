@@ -1,6 +1,6 @@
 //! A screw without cage that runs on this machine: the law of one ball, folded from its design.
 //!
-//! Folding takes some seconds. A law is folded once, and that of a built-in design never: [`folds`](crate::folds). It is kept as long as the program
+//! Folding takes some seconds. A law is folded once, and that of a built-in design never: `folds`. It is kept as long as the program
 //! runs, because models refer to it: five kilobytes for one friction coefficient, fifteen for a range.
 
 use epas_design::uncaged::{NODES, UncagedBlock};

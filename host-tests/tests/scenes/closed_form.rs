@@ -75,8 +75,8 @@ fn torque_is_the_efficiency_of_the_reference() {
                     (computed / expected - 1.0).abs() < 4e-6,
                     "{parameters:?}: {computed}"
                 );
-                // Measured: 7.9e-8 driving and 4.9e-8 driven: some roundings of 6e-8.
-                assert!((f64::from(outputs.efficiency) - drive).abs() < 2e-7);
+                // Some roundings of 6e-8, and a quarter of the blending at most.
+                assert!((f64::from(outputs.efficiency) - drive).abs() < 7e-7);
                 assert_eq!(outputs.regime, Regime::Driving);
                 let outputs = step(&mut model, speed, -load);
                 let expected = 900.0 * arm * (1.0 - backdrive);
@@ -85,8 +85,11 @@ fn torque_is_the_efficiency_of_the_reference() {
                     (computed / expected - 1.0).abs() < 4e-6,
                     "{parameters:?}: {computed}"
                 );
-                // Measured: see above.
-                assert!((f64::from(outputs.efficiency) - backdrive).abs() < 2e-7);
+                // The blending's 2e-6 of friction over load.
+                assert!(
+                    (f64::from(outputs.efficiency) - backdrive).abs()
+                        < 2.2e-6 * (1.0 - backdrive).max(1.0)
+                );
                 let expected = if backdrive > 0.0 {
                     Regime::BackDriving
                 } else {
@@ -260,7 +263,12 @@ fn a_locked_drive_is_said_and_bounded() {
         "locked drive, friction torque in N m",
         driven.friction_torque - 50.0,
     );
-    assert!(driven.efficiency == 0.0);
+    // That of the torques in the row, of which one is cut.
+    let load_torque = driven.load_torque;
+    assert_eq!(
+        driven.efficiency,
+        load_torque / (load_torque + driven.friction_torque)
+    );
     let lowered = step(&mut model, -100.0, 1000.0);
     assert!(lowered.friction_torque < 0.0 && !lowered.faults.any());
     // Nothing is cut where nothing is put out.
