@@ -65,9 +65,9 @@ pub const VISCOSITY: Viscosity = match Viscosity::through((313.15, 0.088), (373.
 /// Viscosity of the base oil of a steering gear's grease: a poly-alpha-olefin of 48 mm²/s at 40 degrees Celsius and 8 at 100.
 ///
 /// Assumed, not measured on a gear. Patents on greases for the ball screws of rack-assisted steering ask for base oils of 4 to
-/// 100 mm²/s at 40 degrees (Kyodo Yushi, US 2023/0139040), most often poly-alpha-olefins. Data sheets of this class print 48, 8.0 and, at
+/// 100 mm²/s at 40 degrees (Kyodo Yushi, US 2023/0139040), most often poly-alpha-olefins. Taken for this class, and not found in print: 48, 8.0 and, at
 /// -40 degrees, 19,000 mm²/s, density 833 kg/m³. The formula is led through -40 and 40 degrees (16.4 and 0.0393 Pa s), because the cold
-/// decides the drag: 0.103 Pa s at 20 degrees, where the law of Walther has 0.105, and 0.0048 at 100, a quarter less than printed.
+/// decides the drag: 0.103 Pa s at 20 degrees, where the law of Walther has 0.105, and 0.0048 at 100, a quarter less than that.
 pub const STEERING_GREASE: Viscosity =
     match Viscosity::through((233.15, 16.4), (313.15, 0.0393), 225.15) {
         Ok(viscosity) => viscosity,
