@@ -62,6 +62,19 @@ type MadeArguments = (
 );
 
 impl Made {
+    /// From arguments of Python, whose design has become a recipe.
+    fn restored(recipe: Recipe, arguments: MadeArguments) -> Self {
+        let (_, tick, friction, ball_friction, memory_load, set_friction) = arguments;
+        Self {
+            recipe,
+            tick,
+            friction,
+            ball_friction,
+            memory_load,
+            set_friction,
+        }
+    }
+
     fn arguments(&self) -> MadeArguments {
         (
             self.recipe.arguments(),
@@ -352,17 +365,11 @@ pub fn restored_uncaged(
     block: &[u8],
     state: &[u8],
 ) -> PyResult<UncagedBallScrew> {
-    let ((name, text), tick, friction, ball_friction, memory_load, set_friction) = made;
+    let (name, text) = made.0.clone();
     let design = restored_design(py, name, text)?;
-    let made = Made {
-        recipe: design.recipe.clone(),
-        tick,
-        friction,
-        ball_friction,
-        memory_load,
-        set_friction,
-    };
-    let scene = scene(py, &design, memory_load)?;
+    let made = Made::restored(design.recipe.clone(), made);
+    let scene = scene(py, &design, made.memory_load)?;
+    let set_friction = made.set_friction;
     let mut screw = UncagedBallScrew::of(py, scene, made, words(py, block)?)?;
     resumed(py, &mut *screw.model, set_friction, state)?;
     Ok(screw)
@@ -655,16 +662,10 @@ pub fn restored_bearing(
     made: MadeArguments,
     state: &[u8],
 ) -> PyResult<LinearBearingTrain> {
-    let ((name, text), tick, friction, ball_friction, memory_load, set_friction) = made;
+    let (name, text) = made.0.clone();
     let design = restored_linear_design(py, name, text)?;
-    let made = Made {
-        recipe: design.recipe.clone(),
-        tick,
-        friction,
-        ball_friction,
-        memory_load,
-        set_friction,
-    };
+    let made = Made::restored(design.recipe.clone(), made);
+    let set_friction = made.set_friction;
     let mut bearing = LinearBearingTrain::of(py, &design, made)?;
     resumed(py, &mut *bearing.model, set_friction, state)?;
     Ok(bearing)
