@@ -51,6 +51,8 @@ lin = ef.Design.built_in("lin-3.6")
 time_ = np.arange(60_000) * 1e-3
 {setup}
 start = None
+# A shell starts what runs in its background with the signal ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 def interrupt():
     global start
