@@ -1,7 +1,7 @@
 //! What a scene owes [`FrictionModel`](crate::FrictionModel), and what scenes have in common: inputs, limits, regimes.
 
 use super::faults::{Faults, bounded};
-use super::passage::Motion;
+use super::reversal::Motion;
 use crate::error::{Error, attempt, in_range};
 
 /// A mechanism with its configuration, its constants, its state and its outputs.
@@ -19,7 +19,7 @@ pub trait Scene {
     /// What the control interrupt knows.
     type Inputs;
     /// What of it a tick may rely on: numbers within their limits.
-    type Known;
+    type ValidInputs;
     /// What a tick returns.
     type Outputs: SceneOutputs;
 
@@ -47,13 +47,13 @@ pub trait Scene {
     fn check_inputs(
         constants: &Self::Constants,
         inputs: Self::Inputs,
-    ) -> CheckedInputs<Self::Known>;
+    ) -> CheckedInputs<Self::ValidInputs>;
 
     /// What the mechanism does under checked inputs, before its friction is limited: bounded time, no panic.
     fn outputs(
         constants: &Self::Constants,
         state: &mut Self::State,
-        known: Self::Known,
+        known: Self::ValidInputs,
     ) -> Self::Outputs;
 
     /// Largest friction that is put out: N m of a screw, N of a bearing.

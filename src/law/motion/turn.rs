@@ -72,7 +72,7 @@ pub trait NutAngle {
     const FRESH: Self::State;
 
     /// Whether this sensor can have left such a state: one that was read from bytes may be that of another sensor.
-    fn gave(&self, state: &Self::State) -> bool {
+    fn is_valid_state(&self, state: &Self::State) -> bool {
         let _ = state;
         true
     }

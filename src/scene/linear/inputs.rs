@@ -3,7 +3,7 @@
 use crate::error::{Error, attempt, in_range};
 use crate::scene::contract::CheckedInputs;
 use crate::scene::faults::{Faults, bounded};
-use crate::scene::passage::Motion;
+use crate::scene::reversal::Motion;
 
 /// What the control interrupt knows of a linear bearing at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -21,7 +21,7 @@ pub struct WithMemoryInputs<I, R> {
 
 /// Inputs with the scene's own within their limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WithMemoryKnown<I, R> {
+pub struct ValidMemoryInputs<I, R> {
     /// None where one of the scene's inputs is no number.
     pub(super) scene: Option<I>,
     pub(super) reading: R,
