@@ -23,7 +23,7 @@ pub struct AdaptationState {
     /// What the last tick has seen: the error over the noise, and how the reading stands to the covariance.
     pub(super) error: f32,
     pub(super) seen: Projection<ESTIMATES>,
-    /// By how much the estimates move at the next look, in their deviations.
+    /// By how much the estimates move at the next prediction, in their deviations.
     pub(super) moves: [f32; ESTIMATES],
     /// Ticks since the last upkeep, and which variance the next one keeps up.
     pub(super) tick: u8,

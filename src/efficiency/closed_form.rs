@@ -6,7 +6,7 @@ use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, ContactAngle};
 use crate::math::constant;
 
-/// Which way power flows through the ball screw.
+/// Direction of the power flow through the ball screw.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Drive {

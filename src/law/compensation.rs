@@ -2,7 +2,7 @@
 //!
 //! Checked at set-up; nothing of it runs in the step.
 //!
-//! Near a reversal friction is a spring, so that its compensation is a negative one: the motor pushes the nut further the way it went. Three
+//! Near a reversal friction is a spring, so that its compensation is a negative one: the motor pushes the nut further in its direction of motion. Three
 //! things keep the loop of motor, delay, encoder and true friction quiet, however short or long the delay is (it
 //! damps: a spring that answers late pushes with the speed that the nut had):
 //!

@@ -29,8 +29,8 @@ use remembered::checked;
 /// Speed given to the scene when the nut has not moved, rad/s (m/s), with the sign of its last motion: at zero speed Coulomb
 /// friction has no direction. Forces between balls are then those with which motion sets in.
 ///
-/// Below what any sensor tells, and large enough that the train's travel stays a normal number. Balls creep by less than a
-/// hundredth of a radian of the nut in a hundred days of it.
+/// Below the resolution of any sensor, and large enough that the train's travel stays a normal number: 1e-9 rad/s is 0.009 rad in
+/// 100 days.
 const CREEP: f32 = 1e-9;
 
 /// A scene `S` with memory elements `E`, which follow the readings of an angle sensor `A`, and a friction coefficient by `L`.
@@ -39,12 +39,12 @@ const CREEP: f32 = 1e-9;
 /// of the same tick sets them. In steady sliding it is the friction of `S` away from its reversal; its reversal speed has no
 /// meaning here. Standing is where elements still stick.
 ///
-/// What an input that is wrong does: without a sound speed and load the last ones stand in, flagged; without a sound
-/// reading of the angle friction stays where it is, flagged, and the next reading spans the gap. A load that is too old fades
-/// away, a temperature that is too old gives way to the configuration's.
+/// Wrong inputs: without a valid speed and load the last ones are used, flagged; without a valid reading of the angle friction
+/// stays as it is, flagged, and the next reading spans the gap. A load that is too old fades to zero; a temperature that is too
+/// old is replaced by the configuration's.
 ///
-/// Balls of a train move only by what the angle turns beyond a play ([`WithMemoryConfiguration::play`]): noise of the encoder
-/// does not turn them round.
+/// Balls of a train move only by the turn beyond a play ([`WithMemoryConfiguration::play`]): noise of the encoder does not
+/// reverse them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WithMemory<S, E, A, L = CoefficientLaw>(PhantomData<(S, E, A, L)>);
@@ -60,7 +60,7 @@ pub struct WithMemoryConstants<C, E, A, L = CoefficientLaw> {
     play: Play,
     coefficient: L,
     temperature: TemperatureFade,
-    /// What is left of a load by its age.
+    /// Factor of a load by its age.
     load: Fade,
 }
 
@@ -178,7 +178,7 @@ where
         let direction = remembered.direction();
         let measured = inputs.speed();
         let (turn_now, speed) = S::limited_travel(&constants.scene, remembered.moved, measured);
-        // What balls could not follow, and the nut has turned back since, they need not make.
+        // Travel that was not yet applied and has been reversed is dropped.
         let same_direction = turn_now * direction >= 0.0;
         if same_direction {
             remembered.moved -= turn_now;

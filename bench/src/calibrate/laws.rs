@@ -10,6 +10,7 @@ use epas_friction::law::coefficient::{
 use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::{Elements, SlidingLimits};
 
+use crate::bristle::{bristle, stribeck};
 use crate::calibrate::fit::problem::{Parameter, Scale};
 use crate::mechanism::Step;
 
@@ -221,8 +222,8 @@ impl LevelAt {
             Self::Constant => 1.0,
             Self::Stribeck {
                 at_rest,
-                speed: stribeck,
-            } => 1.0 + (at_rest - 1.0) * (-(speed / stribeck).powi(2)).exp(),
+                speed: stribeck_speed,
+            } => stribeck(speed, [*at_rest, 1.0], *stribeck_speed),
             Self::LoadShare { at, speed: half } => {
                 f64::from(at.at((speed / half) as f32)) / f64::from(FULL_FILM)
             }
@@ -310,12 +311,12 @@ impl Friction {
                 level * speed / speed.hypot(*reversal)
             }
             Memory::AtOnce { way, held } | Memory::Bristle { way, held } => {
-                let (found, _) = bristle(*held, step.turn, *way, level);
-                *held = found;
-                found
+                *held = bristle(*held, step.turn / *way, level);
+                *held
             }
             Memory::Damped { way, time, held } => {
-                let (found, moved) = bristle(*held, step.turn, *way, level);
+                let found = bristle(*held, step.turn / *way, level);
+                let moved = found - *held;
                 *held = found;
                 found + *time * moved / step.time
             }
@@ -333,13 +334,6 @@ impl Friction {
             }
         }
     }
-}
-
-/// Dahl's bristle after a turn, by the implicit step, and by how much it moved: stiff as `1/way`, at most `level`.
-fn bristle(held: f64, turn: f64, way: f64, level: f64) -> (f64, f64) {
-    let pull = turn / way;
-    let found = (held + pull) / (1.0 + pull.abs() / level);
-    (found, found - held)
 }
 
 #[cfg(test)]

@@ -27,7 +27,7 @@ pub(crate) const fn node_octaves<const NODES: usize>(frictions: &[f32; NODES]) -
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FrictionPlace {
     pub(super) friction: f32,
-    /// The node below it, and its share of the way to the next, 0 to 1.
+    /// The node below it, and its share of the distance to the next node by octaves, 0 to 1.
     pub(super) node: u32,
     pub(super) share: f32,
 }
@@ -75,7 +75,7 @@ impl FrictionPlace {
         self.node as usize
     }
 
-    /// Its share of the way to the next node.
+    /// Its share of the distance to the next node.
     #[inline(always)]
     pub(crate) const fn share(&self) -> f32 {
         self.share

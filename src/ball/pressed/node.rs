@@ -53,7 +53,7 @@ pub(super) struct KnotPlace {
 }
 
 impl BallNode {
-    /// The knot below a load and its share of the way to the next, 0 to 1.
+    /// The knot below a load, and the load's share of the distance to the next knot, 0 to 1.
     #[inline(always)]
     pub(super) fn place(&self, branch: usize, load: f32) -> KnotPlace {
         let knots = &self.branches[branch & 1];

@@ -68,7 +68,7 @@ impl BallNumbers {
         rubbing: 0.0,
     };
 
-    /// These numbers, and a share of the way to others.
+    /// These numbers, interpolated towards others by a share, 0 to 1.
     #[inline(always)]
     pub(super) fn towards(&self, others: &Self, share: f32) -> Self {
         #[inline(always)]
@@ -113,7 +113,7 @@ impl BallNumbers {
         }
     }
 
-    /// Refuses numbers that some deviations make a ball of which a train knows nothing.
+    /// Refuses numbers that some deviations make a ball that a train does not accept.
     pub(super) const fn checked(self) -> Result<Self, Error> {
         attempt!(in_range(
             "free",
@@ -135,7 +135,7 @@ impl BallNumbers {
 }
 
 impl FreeMotion {
-    /// This motion, and a share of the way to another.
+    /// This motion, interpolated towards another by a share, 0 to 1.
     #[inline(always)]
     pub(super) fn towards(self, other: Self, share: f32) -> Self {
         let one = |from: f32, to: f32| from + share * (to - from);

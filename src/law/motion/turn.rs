@@ -31,7 +31,7 @@ pub enum Turn {
 }
 
 impl Turn {
-    /// The turn to go on with, rad (m): none where it is unknown.
+    /// The turn to apply, rad (m): 0 where it is unknown.
     #[inline]
     #[must_use]
     pub const fn angle(self) -> f32 {

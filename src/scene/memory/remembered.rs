@@ -14,7 +14,7 @@ pub struct SceneMemory<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel
     pub elements: E::State,
     pub(super) reading: A::State,
     pub(super) play: PlayState,
-    /// Turn beyond the play that balls have still to make, rad (m): the next steps move them by it, each within the scene's largest
+    /// Travel beyond the play that is not yet applied to the balls, rad (m): the next steps apply it, each within the scene's largest
     /// speed.
     pub(super) moved: f32,
     pub(super) coefficient: L,
@@ -78,7 +78,7 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> SceneMemory<S, E
         Ok(())
     }
 
-    /// Turn that the balls have still to make, rad (m).
+    /// Travel that is not yet applied to the balls, rad (m).
     pub(crate) const fn moved(&self) -> f32 {
         self.moved
     }

@@ -39,7 +39,7 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
             )
     }
 
-    /// The turn since the last sound reading; what of it is beyond the play is kept for the balls.
+    /// The turn since the last valid reading; its part beyond the play is added to the travel of the balls.
     #[inline(always)]
     pub(super) fn turn<S: Sliding>(
         &self,
