@@ -59,7 +59,7 @@ pub trait CagedScrew:
         Outputs = Outputs,
         Constants: Copy + Send + Sync,
         State: Send + Sync,
-        Full: Stored + Default + Send + Sync,
+        Friction: Stored + Default + Send + Sync,
     > + Copy
     + Send
     + Sync
