@@ -167,7 +167,7 @@ pub fn add(
     let changes = load(trace, &mut add);
     if let (Some(speed), false, false) = (one_speed, both_ways, changes) {
         return Err(format!(
-            "one speed ({speed:.4}) in one direction without a change of load: friction, offset and drag are one number; move both directions, at several speeds"
+            "one speed ({speed:.4}) in one direction without a change of load: friction, offset and drag are one number; move both ways, at several speeds"
         ));
     }
     if let Some(speed) = one_speed {

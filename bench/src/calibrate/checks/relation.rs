@@ -86,7 +86,7 @@ const ELASTIC: [f64; 2] = [25e-3, 0.25e-3];
 
 /// Whether a sample is beyond that way, for every one.
 fn beyond_elasticity(trace: &Trace, motion: &Motion) -> Vec<bool> {
-    let direction = match trace.coordinate {
+    let least = match trace.coordinate {
         Coordinate::Rotation => ELASTIC[0],
         Coordinate::Translation => ELASTIC[1],
     };
@@ -101,7 +101,7 @@ fn beyond_elasticity(trace: &Trace, motion: &Motion) -> Vec<bool> {
                 (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
             }
             (low, high) = (low.min(*position), high.max(*position));
-            high - low > direction
+            high - low > least
         })
         .collect()
 }

@@ -46,16 +46,14 @@ pub fn directions(position: &[f64], speed: &[f64], dead: f64) -> Vec<f64> {
 pub fn near_turns(directions: &[f64], position: &[f64], reach: f64) -> Vec<Range<usize>> {
     let mut stretches = Vec::new();
     let mut begin = 0;
-    for directions in directions.chunk_by(|one, other| one == other) {
-        let direction = position
-            .get(begin..begin + directions.len())
-            .unwrap_or_default();
-        let first = direction.first().copied().unwrap_or(0.0);
-        let near = direction
+    for same in directions.chunk_by(|one, other| one == other) {
+        let places = position.get(begin..begin + same.len()).unwrap_or_default();
+        let first = places.first().copied().unwrap_or(0.0);
+        let near = places
             .iter()
             .position(|place| (place - first).abs() > reach);
-        stretches.push(begin..begin + near.unwrap_or(directions.len()));
-        begin += directions.len();
+        stretches.push(begin..begin + near.unwrap_or(same.len()));
+        begin += same.len();
     }
     stretches
 }
