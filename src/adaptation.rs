@@ -26,12 +26,12 @@
 //!    All else leaves every number as it is, and says why ([`AdaptationFlags`]).
 //! 2. **Filter.** Observed torque and all five regressors pass the same one-pole filter in the same ticks, so that the equation holds for
 //!    the filtered ones exactly.
-//! 3. **Look**, in one tick, and **correction**, in the next, after which the numbers move with the next look: half of the readings are used,
+//! 3. **Prediction**, in one tick, and **correction**, in the next, after which the estimates move with the next prediction: half of the readings are used,
 //!    and no tick takes long. By the `U D U'` form
 //!    of the covariance (Bierman 1977): no difference of positive numbers is taken, so that it stays symmetric and positive definite in f32
 //!    whatever comes. An error beyond four of its deviations (noise and covariance) counts as noise that is as much larger: a knock moves
 //!    little. The numbers stay within their bounds.
-//! 4. **Upkeep**, every ninth tick: old data lose weight, and one of the five
+//! 4. **Forgetting**, every ninth tick: old data lose weight, and one of the five
 //!    variances gets back what it lost, as if its number had been read off with its deviation of the set-up (Kulhavy and Zarrop 1993). So no
 //!    variance ever exceeds that of the set-up: without excitation nothing winds up, and a number that the motion does not tell stays.
 //!

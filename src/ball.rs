@@ -25,4 +25,4 @@ pub use loads::{LoadShare, LoadShares};
 pub(crate) use preload::PreloadSum;
 pub(crate) use screw::largest_deviation;
 pub use screw::{GrooveFit, RowContacts, ScrewRow, ScrewTick, ScrewTickBall};
-pub(crate) use two_point::{BorderParameters, GrooveFriction, spin_loss};
+pub(crate) use two_point::{BorderParameters, GrooveFriction, GrooveLoss, spin_loss};

@@ -19,8 +19,10 @@ mod circular;
 pub(crate) mod fitted;
 mod gothic_arch;
 mod literature;
+mod shape_operator;
 
 pub use circular::CircularGrooveCurvature;
 pub use fitted::{DEFAULT_FIT_RANGE, FittedCurvature};
-pub use gothic_arch::{GothicArch, PrincipalCurvatures, RelativeCurvatures};
+pub use gothic_arch::GothicArch;
 pub use literature::LiteratureCurvature;
+pub use shape_operator::{PrincipalCurvatures, RelativeCurvatures};

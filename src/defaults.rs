@@ -3,7 +3,7 @@
 //!
 //! Set-up: numbers for a configuration. No drawing prints them, and they decide a screw's friction: at 14.5 kN the
 //! screw of 37 balls (33x20) has 0.8 to 5 N m between the friction coefficients 0.05 and 0.15, and 3.2 to 1.2 N m
-//! between 5 um of oversize and 20 um of play (friction 0.1). Whoever has a measured torque should fit the friction
+//! between 5 um of oversize and 20 um of play (friction 0.1). With a measured torque, fit the friction
 //! coefficient to it.
 //!
 //! With the first three, all of the exact model (slip, spin, every contact that carries, rolling resistance):
@@ -109,7 +109,7 @@ const fn steering_drag() -> Result<RollingDrag, Error> {
 /// Assumed, not measured. 0.12 is the middle of boundary-lubricated steel (0.1 to 0.15), 0.05 a usual traction of a rolling
 /// contact's film (0.03 to 0.07). The speed is that of a film as thick as 0.41 of a roughness of 0.08 um, by Hamrock and Dowson
 /// 1977, in the screw of Lin 2019, Table 4.1, under 1 kN, with [`STEERING_GREASE`] (0.15 um with [`VISCOSITY`]); for another one it
-/// goes with 1/(viscosity x pitch radius) and with roughness to the power of 3/2. Whoever has torques at two speeds and two
+/// goes with 1/(viscosity x pitch radius) and with roughness to the power of 3/2. With torques at two speeds and two
 /// temperatures should fit it.
 ///
 /// Cold grease makes a film at lower speeds, which lowers the coefficient, and resists rolling more, which raises the drag. Without a load

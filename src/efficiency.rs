@@ -18,5 +18,6 @@
 //! gives 0.980, the second 0.860.
 
 mod closed_form;
+mod torque;
 
 pub use closed_form::{Drive, EfficiencyGeometry};

@@ -9,13 +9,15 @@
 
 mod angle;
 mod ball_screw;
+mod ball_screw_parameters;
 mod catalogue;
 mod limits;
 mod linear_bearing;
 mod profile;
 
 pub use angle::ContactAngle;
-pub use ball_screw::{BallScrew, BallScrewParameters};
+pub use ball_screw::BallScrew;
+pub use ball_screw_parameters::BallScrewParameters;
 pub use catalogue::{
     CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, FINE_LEAD_SIZES, NamedDesign, STEERING_SIZES,
     named,

@@ -1,4 +1,4 @@
-//! The range of a quantity that several modules take: one quantity, one range, whoever asks for it.
+//! The range of a quantity that several modules take: one quantity, one range.
 //!
 //! Called at set-up, by every constructor that takes one of these quantities.
 //!

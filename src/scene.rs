@@ -18,17 +18,17 @@
 //! deviation maps, load shares.
 
 mod caged;
+mod caged_friction;
 mod changing;
 pub(crate) mod circuit;
 mod closed_form;
 mod contract;
 mod faults;
-mod full;
 pub(crate) mod linear;
 mod load_proportional;
 mod memory;
 mod outputs;
-mod passage;
+mod reversal;
 mod row;
 mod sliding;
 mod stored;
@@ -36,6 +36,7 @@ mod uncaged;
 mod words;
 
 pub use caged::{CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState};
+pub use caged_friction::CagedFriction;
 pub use changing::ChangingFriction;
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use closed_form::{
@@ -44,9 +45,8 @@ pub use closed_form::{
 };
 pub use contract::{CheckedInputs, Inputs, Limits, Regime, Scene, SceneOutputs};
 pub use faults::Faults;
-pub use full::CagedFull;
 pub use linear::{
-    LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFull, LinearInputs,
+    LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFriction, LinearInputs,
     LinearLimits, LinearState,
 };
 pub use load_proportional::{
@@ -54,14 +54,14 @@ pub use load_proportional::{
     LoadProportionalState,
 };
 pub use memory::{
-    CoefficientFor, Freshness, Remembered, WithMemory, WithMemoryConfiguration,
-    WithMemoryConstants, WithMemoryInputs, WithMemoryKnown, WithMemoryState,
+    CoefficientFor, Freshness, SceneMemory, ValidMemoryInputs, WithMemory, WithMemoryConfiguration,
+    WithMemoryConstants, WithMemoryInputs, WithMemoryState,
 };
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};
-pub use passage::{Motion, Passage};
+pub use reversal::{Motion, ReversalState};
 pub use sliding::{Sliding, SlidingFriction};
 pub use stored::StoredScene;
 pub use uncaged::{
     CatalogueBall, FoldedBall, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,
-    UncagedFull, UncagedState,
+    UncagedFriction, UncagedState,
 };

@@ -31,7 +31,7 @@
 //! | balance | `balance` | `N` balls, where rounding needs it | the net pushes on each cluster add up to zero, to 1e-6 of the largest force |
 //!
 //! What a ball holds in each phase stands in `ball`. Loops are bounded by `N`; nothing iterates to a tolerance,
-//! recurses, allocates or panics. The longest way is in [`Press::solve`] and grows in proportion to `N`.
+//! recurses, allocates or panics. The longest path is in [`Press::solve`] and grows in proportion to `N`.
 //!
 //! # Why joining is exact
 //!

@@ -13,6 +13,7 @@ mod aside;
 #[cfg(feature = "program")]
 #[doc(hidden)]
 pub mod bindings;
+mod bristle;
 #[doc(hidden)]
 pub mod caged;
 #[doc(hidden)]

@@ -69,7 +69,7 @@ pub struct AdaptationConfiguration {
     pub largest_load_error: f32,
     /// Largest torque that is believed, N m, 1e-6 to 1e6: observed, of the model, and of the load.
     pub largest_torque: f32,
-    /// Largest nut speed that is believed, rad/s, 1e-3 to 1e6.
+    /// Largest nut speed, rad/s, 1e-3 to 1e6.
     pub largest_speed: f32,
     /// Nut speed below which a tick does not count, rad/s, 0 to `largest_speed`.
     pub least_speed: f32,

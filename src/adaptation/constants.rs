@@ -13,7 +13,7 @@ use crate::scene::Regime;
 /// Ticks from one upkeep to the next: four looks with their corrections, two ticks each, and the upkeep.
 pub(super) const UPKEEP: u8 = 9;
 
-/// Ticks in which every variance is kept up once: an upkeep for each of the five.
+/// Ticks from one forgetting to the next.
 const ROUND: f32 = 45.0;
 
 /// Most that a regressor may be, times its deviation over the noise: such a reading leaves 1e-10 of a variance, ten times the

@@ -23,7 +23,7 @@ pub struct AdaptationState {
     /// What the last tick has seen: the error over the noise, and how the reading stands to the covariance.
     pub(super) error: f32,
     pub(super) seen: Projection<ESTIMATES>,
-    /// By how much the estimates move at the next look, in their deviations.
+    /// By how much the estimates move at the next prediction, in their deviations.
     pub(super) moves: [f32; ESTIMATES],
     /// Ticks since the last upkeep, and which variance the next one keeps up.
     pub(super) tick: u8,
@@ -68,12 +68,12 @@ impl AdaptationState {
         if self.tick >= UPKEEP {
             // Both sides of the equation leave this tick out of their filters, so that it stays exact.
             self.tick = 0;
-            self.keep_up(constants);
+            self.forget(constants);
         } else {
             self.filter(constants, inputs);
             if self.tick & 1 == 1 {
-                self.go(constants);
-                self.look(constants);
+                self.apply(constants);
+                self.predict(constants);
             } else {
                 cut = self.correct();
             }
@@ -109,7 +109,7 @@ impl AdaptationState {
 
     /// How far the filtered torque is from what the estimates say, and how that stands to the covariance.
     #[inline(always)]
-    fn look(&mut self, constants: &AdaptationConstants) {
+    fn predict(&mut self, constants: &AdaptationConstants) {
         let mut error = self.observed;
         for (estimate, regressor) in self.estimates.iter().zip(&self.regressors) {
             error -= estimate * regressor;
@@ -140,7 +140,7 @@ impl AdaptationState {
 
     /// Moves the estimates, within their bounds, by what the last correction has found.
     #[inline(always)]
-    fn go(&mut self, constants: &AdaptationConstants) {
+    fn apply(&mut self, constants: &AdaptationConstants) {
         let mut at_bound = false;
         let bounds = constants.least.iter().zip(&constants.largest);
         let moves = self.moves.iter().zip(&constants.deviations);
@@ -163,7 +163,7 @@ impl AdaptationState {
 
     /// Old data lose weight; one variance gets back what it lost; after a round the slow average goes on.
     #[inline(always)]
-    fn keep_up(&mut self, constants: &AdaptationConstants) {
+    fn forget(&mut self, constants: &AdaptationConstants) {
         self.covariance.forget(constants.growth);
         // The number is read off as it is: it does not move.
         let place = usize::from(self.place);

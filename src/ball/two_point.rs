@@ -18,7 +18,7 @@ pub(crate) const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 
 /// Friction of a ball with the grooves of a linear bearing, and how near the ball is to two-point rolling.
 ///
-/// Coulomb friction takes the way of rolling that loses least. With the sums `U` and `D` of the forces of both
+/// A ball under Coulomb friction rolls in the manner that loses least. With the sums `U` and `D` of the forces of both
 /// diagonals, loss over the speed of the carriage:
 ///
 /// ```text

@@ -1,29 +1,9 @@
 //! The exact principal curvatures of a gothic-arch groove.
 
+use super::shape_operator::{PrincipalCurvatures, RelativeCurvatures, ShapeOperator};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::{BallScrew, ContactAngle, Groove, GrooveProfile, HelixPath, SMALLEST_AREA};
 use crate::math::{self, constant};
-
-/// Both principal curvatures at a contact point, 1/m; normal into the metal, `kappa1 > kappa2`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct PrincipalCurvatures {
-    /// Curvature about along the ball path: positive for the screw, negative for the nut.
-    pub kappa1: f32,
-    /// Curvature about across the ball path: about `-1 / groove_radius`.
-    pub kappa2: f32,
-}
-
-/// Sums of the curvatures of ball and groove in the two principal planes, 1/m: the input of the
-/// contact ellipse.
-#[derive(Clone, Copy, Debug, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct RelativeCurvatures {
-    /// Along the ball path, `1/r_b + kappa1`.
-    pub along: f32,
-    /// Across the ball path, `1/r_b + kappa2`: about a twentieth of the other.
-    pub across: f32,
-}
 
 /// The exact principal curvatures of a gothic-arch groove swept along a helix, with all constants
 /// folded.
@@ -92,49 +72,6 @@ const LARGEST_OFFSET: f32 = 0.9;
 /// Groove radius relative to the path's radius of curvature, or to 1 / torsion, up to which the two curvatures never
 /// change places (swept: `tests/formulas/curvature`).
 const SURELY_APART: f32 = 0.5;
-
-/// The shape operator in orthonormal directions, its elements times `D³`, before the two roots that its
-/// eigenvalues need: the loop takes them by an instruction, set-up by [`constant::sqrt`], and all else is written
-/// once.
-struct ShapeOperator {
-    /// `A`.
-    area: f32,
-    /// `(tau p)²`.
-    twist_squared: f32,
-    /// `D²`.
-    scale_squared: f32,
-    h11: f32,
-    h22: f32,
-    h12_squared: f32,
-    /// `h`.
-    half_difference: f32,
-    /// `h² + h12²`.
-    radicand: f32,
-}
-
-impl ShapeOperator {
-    /// `q = h12² / (h + root)` and `1 / D³`, from `root = sqrt(radicand)` and `scale = D`.
-    #[inline]
-    const fn quotients(&self, root: f32, scale: f32) -> (f32, f32) {
-        (
-            self.h12_squared / (self.half_difference + root),
-            1.0 / (self.scale_squared * scale),
-        )
-    }
-
-    /// Both principal curvatures by one division: `kappa1 = (h22 spread + h12²)/(spread D³)` with
-    /// `spread = h + root`, and `kappa2` likewise.
-    #[inline]
-    const fn eigenvalues(&self, root: f32, scale: f32) -> PrincipalCurvatures {
-        let (cube, spread) = (self.scale_squared * scale, self.half_difference + root);
-        let inverse = 1.0 / (cube * spread);
-        let (first, second) = (self.h22 * spread, self.h11 * spread);
-        PrincipalCurvatures {
-            kappa1: (first + self.h12_squared) * inverse,
-            kappa2: (second - self.h12_squared) * inverse,
-        }
-    }
-}
 
 impl GothicArch {
     /// Constants of one groove from its path and section, unchecked: for a design that

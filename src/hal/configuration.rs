@@ -10,7 +10,7 @@ pub struct EncoderConfiguration {
     /// ratio of the pulleys with a belt between. Negative where the sensor counts down while the nut
     /// turns forward.
     pub gear_ratio: f32,
-    /// Largest nut speed that is believed, rad/s: 1e-3 up to a quarter of a turn of the rotor in one
+    /// Largest nut speed, rad/s: 1e-3 up to a quarter of a turn of the rotor in one
     /// tick, `pi / (2 gear_ratio tick)`.
     pub largest_nut_speed: f32,
     /// Time constant of the first-order smoothing of the speed, s, 0 (none) to 10.

@@ -55,7 +55,7 @@ impl NutSpeed {
         in_range("tick", tick, 1e-6, 1.0)?;
         in_range("gear_ratio", gear_ratio, -100.0, 100.0)?;
         let ratio = gear_ratio.abs();
-        // The sign says which way the sensor counts; the size may not vanish.
+        // The sign is the direction in which the sensor counts; the size may not vanish.
         in_range("gear_ratio", ratio, 0.01, 100.0)?;
         let quarter_turn_speed = FRAC_PI_2 / (ratio * tick);
         in_range(

@@ -2,11 +2,11 @@
 //!
 //! Checked at set-up; nothing of it runs in the step.
 //!
-//! Near a reversal friction is a spring, so that its compensation is a negative one: the motor pushes the nut further the way it went. Three
+//! Near a reversal friction is a spring, so that its compensation is a negative one: the motor pushes the nut further in its direction of motion. Three
 //! things keep the loop of motor, delay, encoder and true friction quiet, however short or long the delay is (it
 //! damps: a spring that answers late pushes with the speed that the nut had):
 //!
-//! 1. **Less friction than there is.** `g q <= 0.95`, `g` the share that is put out, `q` the model's full friction over
+//! 1. **Less friction than there is.** `g q <= 0.95`, `g` the share that is put out, `q` the model's sliding friction over
 //!    the true one. At 1 nothing stops the nut once it moves.
 //! 2. **Less stiffness than there is.** `g q b <= 0.97`, `b` the true breakaway angle over the model's: initial stiffness is 1.5 times
 //!    friction over breakaway angle.
@@ -17,7 +17,7 @@
 //!    0.04 breakaway angles, which the play has to cover: `g q (4 - 8 (p - 0.04) - 3.2/b) <= 0.8` and `p >= 0.04`.
 //!
 //! So: set the breakaway angle to the high end of its confidence band, and put a play of 5 % of it, beyond the noise, between sensor and
-//! elements ([`Steady`](super::motion::Steady)): that allows 0.95. Noise that passes shakes the elements, which works as an earlier
+//! elements ([`Deadband`](super::motion::Deadband)): that allows 0.95. Noise that passes shakes the elements, which works as an earlier
 //! breakaway would. Behind the play noise makes no torque at all; after a reversal friction is late by twice the play.
 //!
 //! The simulated loop in `host-tests/tests/scenes/compensation.rs` is quiet inside these bounds and hums outside.
@@ -47,7 +47,7 @@ pub struct CompensationMargin {
     pub breakaway_angle: f32,
     /// Largest breakaway angle that the true friction may have: the high end of its confidence band, rad, 1e-9 to 1e3.
     pub largest_breakaway_angle: f32,
-    /// Largest ratio of the model's full friction to the true one, 0.1 to 10: a motor that gives more than its command counts as
+    /// Largest ratio of the model's sliding friction to the true one, 0.1 to 10: a motor that gives more than its command counts as
     /// friction that is less.
     pub friction_ratio: f32,
     /// Play between sensor and elements, rad: its half width less half the width of the angle's noise; 0.04 times the largest

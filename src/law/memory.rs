@@ -4,7 +4,7 @@
 //!
 //! Friction after a reversal is a matter of angle, not of speed: contacts deflect before they slide. Parallel springs, each
 //! in series with a slider (Maxwell slip; Iwan 1966, Prandtl-Ishlinskii), have that: any number of nested loops, all
-//! of them closed, no drift, and the full friction after enough turn.
+//! of them closed, no drift, and the sliding friction after enough turn.
 //!
 //! `f_i <- clamp(f_i + k_i dtheta, -lambda_i T-, +lambda_i T+)`, `T = sum f_i`, `sum lambda_i = 1`
 //!
@@ -19,13 +19,14 @@
 //! | [`LoadExactElements`] | of the same tick's load: springs come into contact with it | any load, without a preload |
 //! | [`PreloadedElements`] | the same, at the load that both flanks share | a preloaded screw under any load |
 //! | [`SeatElement`] | one nonlinear spring with free play | a screw with clearance, whose balls go from seat to seat |
-//! | [`Together`] | of two of these | spin beside the seat |
+//! | [`ParallelElements`] | of two of these | spin beside the seat |
 //!
 //! Turn is an angle, rad, and friction a torque, N m, of a screw; of a linear bearing they are a path, m, and a force, N.
 
 pub mod backbone;
 mod hysteresis;
 mod load_exact;
+mod parallel;
 mod preloaded;
 mod proportional;
 mod quadrature;
@@ -34,16 +35,15 @@ mod seat;
 mod slider;
 mod state;
 mod stored;
-mod together;
 
 pub use backbone::{
     Backbone, BackboneElement, SLIP_4, SLIP_6, SLIP_8, SLIP_10, SPIN_4, SPIN_6, SPIN_8, SPIN_10,
 };
 pub use hysteresis::Hysteresis;
 pub use load_exact::LoadExactElements;
+pub use parallel::{ParallelElements, ParallelElementsState};
 pub use preloaded::PreloadedElements;
 pub use proportional::{Part, ProportionalElements};
 pub use ranges::{BREAKAWAY, REFERENCE_LIMIT};
 pub use seat::{SeatElement, SeatState};
 pub use state::MemoryState;
-pub use together::{Together, TogetherState};

@@ -11,20 +11,20 @@
 //! | [`CountSensor`] | counts of an encoder, wrapped | exact, in integers; one rounding to radians |
 //! | [`WrappedAngle`] | radians, wrapped | one rounding, relative to the turn |
 //! | [`SpeedOverTick`] | speed, rad/s | one rounding |
-//! | [`Steady`] | that of a sensor | what is left of it beyond the sensor's noise |
+//! | [`Deadband`] | that of a sensor | what is left of it beyond the sensor's noise |
 //! | [`Play`] | turns | what is left of them after a backlash |
 
 mod angle;
 mod counts;
+mod deadband;
 mod play;
 mod speed;
-mod steady;
 mod stored;
 mod turn;
 
 pub use angle::{AngleReading, WrappedAngle, WrappedAngleParameters};
 pub use counts::{CountReading, CountSensor, CountSensorParameters};
+pub use deadband::{Deadband, DeadbandReading};
 pub use play::{Moved, Play, PlayState};
 pub use speed::SpeedOverTick;
-pub use steady::{Steady, SteadyReading};
 pub use turn::{LARGEST_TURN, NutAngle, Turn};

@@ -24,7 +24,7 @@ where
     /// since the last one, as far as the scene's largest speed lets it, and the steps after it by the rest.
     ///
     /// For a current loop that runs faster than the balls need: a step every millisecond, this in every tick. It costs what
-    /// the elements do, and some tens of cycles. Before the first step there is no friction. Its faults stand in its outputs and are
+    /// the elements do, and some tens of cycles. Before the first step there is no friction. Its faults are reported in its outputs and are
     /// not counted ([`FrictionModel::faulted_ticks`]).
     #[inline]
     pub fn between(&mut self, reading: A::Reading) -> S::Outputs {

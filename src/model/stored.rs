@@ -126,7 +126,7 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
 
 impl<S, E, A, L, C> FrictionModel<WithMemory<S, E, A, L>, C>
 where
-    S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
+    S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Friction: Stored + Default> + Copy,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: NutAngle<State: Stored> + Fingerprinted + Copy,
     L: CoefficientFor<<S as Scene>::Inputs>,

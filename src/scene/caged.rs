@@ -4,12 +4,12 @@ mod block;
 mod configuration;
 mod stored;
 
+use super::caged_friction::CagedFriction;
 use super::changing::ChangingFriction;
 use super::contract::{CheckedInputs, Inputs, Limits, Regime, Scene};
 use super::faults::Faults;
-use super::full::CagedFull;
 use super::outputs::Outputs;
-use super::passage::{Passage, Reversal};
+use super::reversal::{Reversal, ReversalState};
 use super::sliding::{Sliding, SlidingFriction};
 use crate::ball::folded::{FrictionPlace, LoadLaw, octaves};
 use crate::error::{Error, Range, attempt, in_range};
@@ -137,29 +137,29 @@ impl<const NODES: usize> CagedConstants<NODES> {
         loaded.whole * per_load
     }
 
-    /// What a motion puts out whose full friction is `full`, in the direction of motion and in that of the share.
+    /// What a motion puts out whose sliding friction is `sliding`, in the direction of motion and in that of the share.
     #[inline(always)]
     fn put_out(
         &self,
         axial_load: f32,
-        [full, shared]: [f32; 2],
-        passage: Passage,
+        [sliding, shared]: [f32; 2],
+        reversal: ReversalState,
         faults: Faults,
     ) -> Outputs {
         let load_torque = axial_load * self.reduced_lead;
-        let opposing = passage.direction * load_torque;
+        let opposing = reversal.direction * load_torque;
         let moving = if opposing >= 0.0 {
             Regime::Driving
-        } else if full < -opposing {
+        } else if sliding < -opposing {
             Regime::BackDriving
         } else {
             Regime::Locked
         };
         Outputs {
-            friction_torque: passage.share * shared,
+            friction_torque: reversal.share * shared,
             load_torque,
             efficiency: 0.0,
-            regime: if passage.standing {
+            regime: if reversal.standing {
                 Regime::Standing
             } else {
                 moving
@@ -174,7 +174,7 @@ impl<const NODES: usize> Scene for CagedBallScrew<NODES> {
     type Constants = CagedConstants<NODES>;
     type State = CagedState;
     type Inputs = Inputs;
-    type Known = Inputs;
+    type ValidInputs = Inputs;
     type Outputs = Outputs;
 
     fn constants(
@@ -206,12 +206,12 @@ impl<const NODES: usize> Scene for CagedBallScrew<NODES> {
         state: &mut CagedState,
         inputs: Inputs,
     ) -> Outputs {
-        let passage = constants.reversal.passage(inputs.nut_speed);
+        let reversal = constants.reversal.at(inputs.nut_speed);
         let loaded = constants.loaded(inputs.axial_load);
-        let opposing = passage.direction * inputs.axial_load;
-        let full = constants.torque(&loaded, opposing, state.friction);
+        let opposing = reversal.direction * inputs.axial_load;
+        let sliding = constants.torque(&loaded, opposing, state.friction);
         let faults = Faults::NONE.with(loaded.beyond, Faults::BEYOND_MODEL);
-        constants.put_out(inputs.axial_load, [full, full], passage, faults)
+        constants.put_out(inputs.axial_load, [sliding, sliding], reversal, faults)
     }
 
     #[inline(always)]
@@ -225,21 +225,21 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
 
     const COUNTS_PRELOAD: bool = true;
 
-    type Full = CagedFull;
+    type Friction = CagedFriction;
 
     #[inline(always)]
-    fn full(
+    fn sliding_friction(
         constants: &CagedConstants<NODES>,
         _: &mut CagedState,
         inputs: Inputs,
         friction: DirectionalCoefficient,
-    ) -> CagedFull {
+    ) -> CagedFriction {
         let DirectionalCoefficient { forward, backward } = friction;
         let law = &constants.law;
         let loaded = constants.loaded(inputs.axial_load);
         let beyond = loaded.beyond || !law.holds(forward) || !law.holds(backward);
         let load = inputs.axial_load;
-        CagedFull {
+        CagedFriction {
             forward: constants.torque(&loaded, load, constants.place(forward)),
             backward: constants.torque(&loaded, -load, constants.place(backward)),
             load: loaded.whole,
@@ -248,23 +248,23 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
     }
 
     #[inline(always)]
-    fn friction(full: &CagedFull) -> SlidingFriction {
-        full.sliding()
+    fn by_direction(sliding: &CagedFriction) -> SlidingFriction {
+        sliding.by_direction()
     }
 
     #[inline(always)]
-    fn passed(
+    fn outputs_at(
         constants: &CagedConstants<NODES>,
         inputs: Inputs,
-        full: &CagedFull,
-        passage: Passage,
+        sliding: &CagedFriction,
+        reversal: ReversalState,
     ) -> Outputs {
-        let torques = [full.of(passage.direction), full.of(passage.share)];
-        constants.put_out(inputs.axial_load, torques, passage, full.faults)
+        let torques = [sliding.of(reversal.direction), sliding.of(reversal.share)];
+        constants.put_out(inputs.axial_load, torques, reversal, sliding.faults)
     }
 
     #[inline(always)]
-    fn in_a_tick(_: &CagedConstants<NODES>, turn: f32, measured: f32) -> (f32, f32) {
+    fn limited_travel(_: &CagedConstants<NODES>, turn: f32, measured: f32) -> (f32, f32) {
         (turn, measured)
     }
 }

@@ -4,10 +4,10 @@ mod configuration;
 mod stored;
 mod torque;
 
+use super::caged_friction::CagedFriction;
 use super::contract::{CheckedInputs, Inputs, Limits, Scene};
-use super::full::CagedFull;
 use super::outputs::Outputs;
-use super::passage::{Passage, Reversal};
+use super::reversal::{Reversal, ReversalState};
 use super::sliding::{Sliding, SlidingFriction};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::coefficient::DirectionalCoefficient;
@@ -65,7 +65,7 @@ impl Scene for ClosedFormScrew {
     type Constants = ClosedFormScrewConstants;
     type State = ClosedFormScrewState;
     type Inputs = Inputs;
-    type Known = Inputs;
+    type ValidInputs = Inputs;
     type Outputs = Outputs;
 
     fn constants(
@@ -107,35 +107,37 @@ impl Sliding for ClosedFormScrew {
 
     const COUNTS_PRELOAD: bool = true;
 
-    type Full = CagedFull;
+    type Friction = CagedFriction;
 
     #[inline(always)]
-    fn full(
+    fn sliding_friction(
         constants: &ClosedFormScrewConstants,
         _: &mut ClosedFormScrewState,
         inputs: Inputs,
         _: DirectionalCoefficient,
-    ) -> CagedFull {
+    ) -> CagedFriction {
         constants.form.both_ways(inputs.axial_load)
     }
 
     #[inline(always)]
-    fn friction(full: &CagedFull) -> SlidingFriction {
-        full.sliding()
+    fn by_direction(sliding: &CagedFriction) -> SlidingFriction {
+        sliding.by_direction()
     }
 
     #[inline(always)]
-    fn passed(
+    fn outputs_at(
         constants: &ClosedFormScrewConstants,
         inputs: Inputs,
-        full: &CagedFull,
-        passage: Passage,
+        sliding: &CagedFriction,
+        reversal: ReversalState,
     ) -> Outputs {
-        constants.form.passed(inputs.axial_load, full, passage)
+        constants
+            .form
+            .outputs_at(inputs.axial_load, sliding, reversal)
     }
 
     #[inline(always)]
-    fn in_a_tick(_: &ClosedFormScrewConstants, turn: f32, measured: f32) -> (f32, f32) {
+    fn limited_travel(_: &ClosedFormScrewConstants, turn: f32, measured: f32) -> (f32, f32) {
         (turn, measured)
     }
 }

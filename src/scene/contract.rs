@@ -1,7 +1,7 @@
-//! What a scene owes [`FrictionModel`](crate::FrictionModel), and what scenes have in common: inputs, limits, regimes.
+//! The trait that every mechanism implements, and what scenes have in common: inputs, limits, regimes.
 
 use super::faults::{Faults, bounded};
-use super::passage::Motion;
+use super::reversal::Motion;
 use crate::error::{Error, attempt, in_range};
 
 /// A mechanism with its configuration, its constants, its state and its outputs.
@@ -10,17 +10,17 @@ use crate::error::{Error, attempt, in_range};
 /// checks ([`Scene::check_inputs`]) and its physics ([`Scene::outputs`]) as plain functions; what happens to faults stands in
 /// one place, [`FrictionModel::step`](crate::FrictionModel::step).
 pub trait Scene {
-    /// What the engineer sets.
+    /// Set-up parameters.
     type Configuration;
-    /// What follows from it and never changes.
+    /// Constants that follow from the configuration.
     type Constants;
-    /// What a tick changes.
+    /// State that a tick changes.
     type State;
-    /// What the control interrupt knows.
+    /// Inputs of a tick.
     type Inputs;
-    /// What of it a tick may rely on: numbers within their limits.
-    type Known;
-    /// What a tick returns.
+    /// Inputs within their limits.
+    type ValidInputs;
+    /// Outputs of a tick.
     type Outputs: SceneOutputs;
 
     /// Checks the configuration and folds the constants.
@@ -37,7 +37,7 @@ pub trait Scene {
         *state = Self::initial_state(constants);
     }
 
-    /// Makes a state that other constants left go on under these: balls and memory stay.
+    /// Continues a state that other constants left under these: balls and memory stay.
     ///
     /// # Errors
     /// [`Error`] naming what does not fit to the state, which then is as it was.
@@ -47,13 +47,13 @@ pub trait Scene {
     fn check_inputs(
         constants: &Self::Constants,
         inputs: Self::Inputs,
-    ) -> CheckedInputs<Self::Known>;
+    ) -> CheckedInputs<Self::ValidInputs>;
 
     /// What the mechanism does under checked inputs, before its friction is limited: bounded time, no panic.
     fn outputs(
         constants: &Self::Constants,
         state: &mut Self::State,
-        known: Self::Known,
+        known: Self::ValidInputs,
     ) -> Self::Outputs;
 
     /// Largest friction that is put out: N m of a screw, N of a bearing.
@@ -72,7 +72,7 @@ pub trait SceneOutputs: Copy {
     fn faults(&self) -> Faults;
 
     /// These outputs with `faults` added, and with their friction within plus and minus `largest`, which is flagged where
-    /// it cuts. Friction that is no number, which no scene is known to make, is none, flagged the same.
+    /// it cuts. Friction that is no number, which no scene is known to make, becomes zero, with the same flag.
     #[must_use]
     #[inline(always)]
     fn limited(mut self, largest: f32, faults: Faults) -> Self {
@@ -93,7 +93,7 @@ pub trait SceneOutputs: Copy {
     }
 }
 
-/// What stands in for friction that is not within plus and minus `largest`.
+/// Replacement of friction that is not within plus and minus `largest`.
 #[cold]
 const fn cut(friction: f32, largest: f32) -> f32 {
     if friction.is_nan() {
@@ -106,32 +106,32 @@ const fn cut(friction: f32, largest: f32) -> f32 {
 /// Inputs within their limits, with what was wrong with them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CheckedInputs<I> {
-    /// The inputs; `None` where no number can stand in for one that is NaN or infinite.
+    /// The inputs; `None` where one is NaN or infinite.
     pub inputs: Option<I>,
     /// What was wrong.
     pub faults: Faults,
 }
 
-/// What the control interrupt knows of a ball screw at a tick.
+/// Inputs of a ball screw at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Inputs {
-    /// Angular speed of the nut relative to the screw, rad/s; within that of the [`Limits`], which stand in for more.
+    /// Angular speed of the nut relative to the screw, rad/s; limited to that of the [`Limits`].
     pub nut_speed: f32,
     /// Axial force of the load, N; positive where it opposes the travel that a positive nut speed
     /// makes. `nut_speed * axial_load > 0` is driving, `< 0` back-driving. Within that of the [`Limits`], as the speed.
     pub axial_load: f32,
 }
 
-/// Bounds that a ball screw keeps whatever comes in.
+/// Limits of the inputs and outputs of a ball screw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Limits {
-    /// Largest nut speed that is believed, rad/s, 1e-3 to 1e6.
+    /// Largest nut speed, rad/s, 1e-3 to 1e6.
     pub nut_speed: f32,
-    /// Largest axial load that is believed, N, 1e-3 to 1e7.
+    /// Largest axial load, N, 1e-3 to 1e7.
     pub axial_load: f32,
-    /// Largest friction torque that is put out, N m, 1e-6 to 1e6.
+    /// Largest friction torque of an output, N m, 1e-6 to 1e6.
     pub friction_torque: f32,
 }
 

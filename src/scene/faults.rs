@@ -19,27 +19,27 @@ impl Faults {
     /// Nothing is wrong.
     pub const NONE: Self = Self(0);
     /// The speed is NaN or infinite: the output is the safe one (no friction). In a scene with memory the last sound speed and
-    /// load stand in, and friction goes on.
+    /// load are used, and friction continues.
     pub const SPEED_NOT_FINITE: Self = Self(1);
     /// A load is NaN or infinite: as for the speed.
     pub const LOAD_NOT_FINITE: Self = Self(1 << 1);
-    /// The speed is beyond its limit: the limit stands in for it.
+    /// The speed is beyond its limit: the limit is used instead.
     pub const SPEED_RANGE: Self = Self(1 << 2);
-    /// A load is beyond its limit: the limit stands in for it.
+    /// A load is beyond its limit: the limit is used instead.
     pub const LOAD_RANGE: Self = Self(1 << 3);
     /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit; or it was no number, which no scene
-    /// is known to make, and is none.
+    /// is known to make, and zero is put out.
     pub const FRICTION_LIMIT: Self = Self(1 << 4);
     /// The mechanism is where its formulas leave the accuracy that they promise. What is put out is the best estimate, finite
     /// and continuous: not the safe output, and no reason to take the friction away. Where this begins stands with the scene.
     pub const BEYOND_MODEL: Self = Self(1 << 5);
     /// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
     pub const ANGLE_NOT_VALID: Self = Self(1 << 7);
-    /// The temperature is no number, or beyond its range: that of the configuration stands in for it.
+    /// The temperature is no number, or beyond its range: that of the configuration is used instead.
     pub const TEMPERATURE_RANGE: Self = Self(1 << 8);
     /// A load is older than it may be: its friction fades away.
     pub const LOAD_STALE: Self = Self(1 << 9);
-    /// A temperature is older than it may be: that of the configuration stands in for it.
+    /// A temperature is older than it may be: that of the configuration is used instead.
     pub const TEMPERATURE_STALE: Self = Self(1 << 10);
 
     /// True where any flag is set.

@@ -2,29 +2,24 @@
 
 mod configuration;
 mod inputs;
+mod step;
 mod stored;
 
 use super::changing::ChangingFriction;
-use super::circuit::{Circuit, CircuitState, UNLOADED, per_loaded_ball};
-use super::contract::{CheckedInputs, Regime, Scene};
-use super::faults::{Faults, bounded};
+use super::circuit::{Circuit, CircuitState, per_loaded_ball};
+use super::contract::{CheckedInputs, Scene};
+use super::faults::bounded;
 use super::outputs::LinearOutputs;
-use super::passage::{Passage, Reversal, direction};
-use super::row::RowFull;
+use super::reversal::{Reversal, ReversalState};
 use super::sliding::{Sliding, SlidingFriction};
 use crate::ball::{AnalyticLinearBall, GrooveFriction};
 use crate::error::{Error, Range, attempt};
 use crate::law::coefficient::DirectionalCoefficient;
-use crate::math;
 use crate::ranges;
 
 pub use configuration::LinearBearingConfiguration;
 pub use inputs::{LinearInputs, LinearLimits};
-
-/// Force of a diagonal below which it does not count, N: the sum of two contacts of 1e-6 N. A numerical floor, which keeps cube roots
-/// and impedances above zero. In the bearing of Lin 2019, Table 3.3, the latter stay above the least that a train takes, 1e-9 N, also
-/// with a friction coefficient of 1e-6 and a hundredth of the mean load.
-const SMALLEST_FORCE: f32 = 2e-6;
+pub use step::LinearFriction;
 
 /// A linear bearing without cage, with `N` balls in one circuit, in four-point contact: the published
 /// closed form for every ball ([`AnalyticLinearBall`]), with its corrections.
@@ -34,7 +29,7 @@ const SMALLEST_FORCE: f32 = 2e-6;
 /// on and 23 % at 10 N (too small: the closed form leaves out that a ball rubbed by its neighbours turns).
 ///
 /// Where side forces leave little on one diagonal, balls change to two-point rolling, and their speed jumps.
-/// [`Faults::BEYOND_MODEL`] stands from the tick on in which the loads and the force between balls let some ball do so,
+/// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) stands from the tick on in which the loads and the force between balls let some ball do so,
 /// at the least favourable deviations of both maps. With the ball of Lin 2019, Table 3.3, under 100 N that is a side-force
 /// ratio of 0.92 where grooves are straight, 0.87 where one deviates by 3 degrees; less with heavier balls, closer
 /// grooves, and friction between balls that press. The flag comes up to 0.03 of the ratio before a ball alone jumps, up to
@@ -89,7 +84,7 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
     type Constants = LinearConstants<N>;
     type State = LinearState<N>;
     type Inputs = LinearInputs;
-    type Known = LinearInputs;
+    type ValidInputs = LinearInputs;
     type Outputs = LinearOutputs;
 
     fn constants(configuration: &LinearBearingConfiguration) -> Result<LinearConstants<N>, Error> {
@@ -123,8 +118,8 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
         state: &mut LinearState<N>,
         inputs: LinearInputs,
     ) -> LinearOutputs {
-        let full = constants.full(&mut state.circuit, inputs, state.friction);
-        LinearConstants::<N>::passed(&full, constants.reversal.passage(inputs.speed))
+        let sliding = constants.sliding_friction(&mut state.circuit, inputs, state.friction);
+        LinearConstants::<N>::outputs_at(&sliding, constants.reversal.at(inputs.speed))
     }
 
     #[inline(always)]
@@ -133,52 +128,43 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
     }
 }
 
-/// Full friction of a linear bearing, which is the same in both directions.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct LinearFull {
-    /// Its parts. `load`: the normal load that would put the same sum of forces on both diagonals, N.
-    row: RowFull,
-    /// Whether some ball may roll on two points.
-    beyond_model: bool,
-}
-
 impl<const N: usize> Sliding for LinearBearingTrain<N> {
     const FRICTION: Range = ranges::FRICTION;
 
     const COUNTS_PRELOAD: bool = false;
 
-    type Full = LinearFull;
+    type Friction = LinearFriction;
 
     #[inline(always)]
-    fn full(
+    fn sliding_friction(
         constants: &LinearConstants<N>,
         state: &mut LinearState<N>,
         inputs: LinearInputs,
         friction: DirectionalCoefficient,
-    ) -> LinearFull {
+    ) -> LinearFriction {
         let ratio = friction.of(inputs.speed).0 / constants.friction;
-        let mut full = constants.full(&mut state.circuit, inputs, ratio);
-        full.row.ratios = friction.over_own(inputs.speed);
-        full
+        let mut sliding = constants.sliding_friction(&mut state.circuit, inputs, ratio);
+        sliding.row.ratios = friction.over_own(inputs.speed);
+        sliding
     }
 
     #[inline(always)]
-    fn friction(full: &LinearFull) -> SlidingFriction {
-        full.row.friction()
+    fn by_direction(sliding: &LinearFriction) -> SlidingFriction {
+        sliding.row.friction()
     }
 
     #[inline(always)]
-    fn passed(
+    fn outputs_at(
         _: &LinearConstants<N>,
         _: LinearInputs,
-        full: &LinearFull,
-        passage: Passage,
+        sliding: &LinearFriction,
+        reversal: ReversalState,
     ) -> LinearOutputs {
-        LinearConstants::<N>::passed(full, passage)
+        LinearConstants::<N>::outputs_at(sliding, reversal)
     }
 
     #[inline(always)]
-    fn in_a_tick(constants: &LinearConstants<N>, travel: f32, _: f32) -> (f32, f32) {
+    fn limited_travel(constants: &LinearConstants<N>, travel: f32, _: f32) -> (f32, f32) {
         let travel = bounded(travel, constants.limits.speed * constants.tick);
         (travel, travel * constants.per_tick)
     }
@@ -224,80 +210,6 @@ impl<const N: usize> LinearConstants<N> {
         })
     }
 
-    #[inline(always)]
-    fn full(&self, state: &mut CircuitState<N>, inputs: LinearInputs, friction: f32) -> LinearFull {
-        let LinearInputs {
-            speed,
-            normal_load,
-            side_load,
-        } = inputs;
-        let (normal, side) = (normal_load * self.normal, side_load * self.side);
-        let up = at_least(normal + side, SMALLEST_FORCE);
-        let down = at_least(normal - side, SMALLEST_FORCE);
-        let (up_root, up_squared) = math::cbrt_and_squared(up);
-        let (down_root, down_squared) = math::cbrt_and_squared(down);
-
-        // Speed deviation for one radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear.
-        let diagonals = [up_squared, down_squared];
-        let mean = self.ball.closed_form(diagonals, [1.0, -1.0]);
-        let turn = direction(speed) * mean.speed_deviation;
-        let impedance = self.ball.impedance(diagonals);
-        let spins = [up * up_root, down * down_root];
-        let loss = self.grooves.at([up, down], spins, normal - side.abs());
-
-        let phase = state.phase();
-        let table = self.circuit.shares(false);
-        let (passing, recirculating) = self.circuit.deviation_units();
-        let (passing, recirculating) = (turn * passing, turn * recirculating);
-        let mut shares = 0.0;
-        let mut balls = state.train.intake(self.circuit.travel(speed));
-        while let Some(next) = balls.next_ball() {
-            let (free, impedance) = match self.circuit.place(next.position(), phase, table) {
-                Some(place) => {
-                    shares += place.share.four_thirds();
-                    let free = recirculating * place.recirculating + passing * place.passing;
-                    (free, impedance * place.share.two_thirds())
-                }
-                None => (0.0, UNLOADED),
-            };
-            next.put(free, impedance);
-        }
-        let pressing = balls.press();
-        state.advance(&self.circuit, speed);
-
-        // Where the carriage is lifted off no ball rolls, and there is nothing to flag.
-        let beyond_model = normal + side.abs() > SMALLEST_FORCE
-            && self
-                .grooves
-                .leaves_four_points(&loss, pressing.largest, mean.compliance);
-        // Losses and forces are in proportion to the friction coefficient, the balls' compliances to its inverse.
-        LinearFull {
-            row: RowFull {
-                groove: friction * (loss.friction * shares),
-                ball: friction * (self.rubbing * pressing.force),
-                ratios: [1.0; 2],
-                load: (up + down) / (2.0 * self.normal),
-                contacts: pressing.contacts,
-                largest_contact_force: friction * pressing.largest,
-            },
-            beyond_model,
-        }
-    }
-
-    #[inline(always)]
-    fn passed(full: &LinearFull, passage: Passage) -> LinearOutputs {
-        let (groove_force, ball_force) = full.row.passed(passage);
-        LinearOutputs {
-            friction_force: groove_force + ball_force,
-            groove_force,
-            ball_force,
-            contacts: full.row.contacts,
-            largest_contact_force: full.row.largest_contact_force,
-            regime: Regime::of(passage.standing, true, true),
-            faults: Faults::NONE.with(full.beyond_model, Faults::BEYOND_MODEL),
-        }
-    }
-
     /// See [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position).
     pub(crate) fn set_carriage_position(&self, state: &mut LinearState<N>, position: f32) {
         state
@@ -316,9 +228,4 @@ impl<const N: usize> ChangingFriction for LinearBearingTrain<N> {
         state.friction = friction / constants.friction;
         Ok(())
     }
-}
-
-#[inline]
-fn at_least(value: f32, bound: f32) -> f32 {
-    if value > bound { value } else { bound }
 }

@@ -5,7 +5,7 @@ mod configuration;
 use super::contract::{CheckedInputs, Inputs, Limits, Regime, Scene};
 use super::faults::Faults;
 use super::outputs::Outputs;
-use super::passage::{Passage, Reversal};
+use super::reversal::{Reversal, ReversalState};
 use crate::error::{Error, attempt, in_range};
 pub use configuration::LoadProportionalConfiguration;
 
@@ -106,7 +106,7 @@ impl Scene for LoadProportionalScrew {
     type Constants = LoadProportionalConstants;
     type State = LoadProportionalState;
     type Inputs = Inputs;
-    type Known = Inputs;
+    type ValidInputs = Inputs;
     type Outputs = Outputs;
 
     fn constants(
@@ -144,11 +144,11 @@ impl Scene for LoadProportionalScrew {
             nut_speed,
             axial_load,
         } = inputs;
-        let Passage {
+        let ReversalState {
             share,
             direction,
             standing,
-        } = constants.reversal.passage(nut_speed);
+        } = constants.reversal.at(nut_speed);
         let load_torque = constants.load_lever * axial_load;
         let opposing_torque = direction * load_torque;
         let sliding = constants.sliding(opposing_torque);

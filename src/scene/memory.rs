@@ -5,13 +5,14 @@ mod coefficient;
 mod configuration;
 mod inputs;
 mod remembered;
+mod step;
 mod stored;
 
 use core::marker::PhantomData;
 
-use super::contract::{CheckedInputs, Scene, SceneOutputs};
+use super::contract::{CheckedInputs, Scene};
 use super::faults::Faults;
-use super::passage::{Motion, Passage, direction};
+use super::reversal::Motion;
 use super::sliding::Sliding;
 use crate::error::{Error, attempt, in_range};
 use crate::law::Elements;
@@ -21,34 +22,29 @@ use crate::law::motion::{NutAngle, Play};
 
 pub use coefficient::CoefficientFor;
 pub use configuration::WithMemoryConfiguration;
-pub use inputs::{Freshness, WithMemoryInputs, WithMemoryKnown};
-pub use remembered::Remembered;
+pub use inputs::{Freshness, ValidMemoryInputs, WithMemoryInputs};
+pub use remembered::SceneMemory;
 use remembered::checked;
-
-/// Part of full friction below which the mechanism counts as standing. Only [`Regime`](super::Regime) and what is read from it
-/// depend on it, not friction. A hundredth below 1, because the last elements of spin slide late: one of
-/// [`SPIN_8`](crate::law::memory::SPIN_8) carries 3.5 % and slides after seven breakaway angles.
-const SLIDES: f32 = 0.99;
 
 /// Speed given to the scene when the nut has not moved, rad/s (m/s), with the sign of its last motion: at zero speed Coulomb
 /// friction has no direction. Forces between balls are then those with which motion sets in.
 ///
-/// Below what any sensor tells, and large enough that the train's travel stays a normal number. Balls creep by less than a
-/// hundredth of a radian of the nut in a hundred days of it.
+/// Below the resolution of any sensor, and large enough that the train's travel stays a normal number: 1e-9 rad/s is 0.009 rad in
+/// 100 days.
 const CREEP: f32 = 1e-9;
 
 /// A scene `S` with memory elements `E`, which follow the readings of an angle sensor `A`, and a friction coefficient by `L`.
 ///
-/// Friction passes between its two directions with the angle: elements stick and slip under the limits that full friction
+/// Friction passes between its two directions with the angle: elements stick and slip under the limits that sliding friction
 /// of the same tick sets them. In steady sliding it is the friction of `S` away from its reversal; its reversal speed has no
 /// meaning here. Standing is where elements still stick.
 ///
-/// What an input that is wrong does: without a sound speed and load the last ones stand in, flagged; without a sound
-/// reading of the angle friction stays where it is, flagged, and the next reading spans the gap. A load that is too old fades
-/// away, a temperature that is too old gives way to the configuration's.
+/// Wrong inputs: without a valid speed and load the last ones are used, flagged; without a valid reading of the angle friction
+/// stays as it is, flagged, and the next reading spans the gap. A load that is too old fades to zero; a temperature that is too
+/// old is replaced by the configuration's.
 ///
-/// Balls of a train move only by what the angle turns beyond a play ([`WithMemoryConfiguration::play`]): noise of the encoder
-/// does not turn them round.
+/// Balls of a train move only by the turn beyond a play ([`WithMemoryConfiguration::play`]): noise of the encoder does not
+/// reverse them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WithMemory<S, E, A, L = CoefficientLaw>(PhantomData<(S, E, A, L)>);
@@ -64,7 +60,7 @@ pub struct WithMemoryConstants<C, E, A, L = CoefficientLaw> {
     play: Play,
     coefficient: L,
     temperature: TemperatureFade,
-    /// What is left of a load by its age.
+    /// Factor of a load by its age.
     load: Fade,
 }
 
@@ -79,7 +75,7 @@ pub struct WithMemoryState<
     /// State of the scene without memory.
     pub scene: S::State,
     /// What the scene keeps from tick to tick beside that.
-    pub remembered: Remembered<S, E, A, L>,
+    pub remembered: SceneMemory<S, E, A, L>,
 }
 
 impl<S, E, A, L> Scene for WithMemory<S, E, A, L>
@@ -94,7 +90,7 @@ where
     type Constants = WithMemoryConstants<S::Constants, E, A, L>;
     type State = WithMemoryState<S, E, A, L>;
     type Inputs = WithMemoryInputs<S::Inputs, A::Reading>;
-    type Known = WithMemoryKnown<S::Inputs, A::Reading>;
+    type ValidInputs = ValidMemoryInputs<S::Inputs, A::Reading>;
     type Outputs = S::Outputs;
 
     fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
@@ -112,7 +108,7 @@ where
         }
         WithMemoryState {
             scene: S::initial_state(&constants.scene),
-            remembered: Remembered::nothing(
+            remembered: SceneMemory::nothing(
                 constants.coefficient,
                 constants.temperature.fallback(),
             ),
@@ -122,7 +118,7 @@ where
     fn reset(constants: &Self::Constants, state: &mut Self::State) {
         S::reset(&constants.scene, &mut state.scene);
         state.remembered =
-            Remembered::nothing(constants.coefficient, constants.temperature.fallback());
+            SceneMemory::nothing(constants.coefficient, constants.temperature.fallback());
     }
 
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
@@ -130,7 +126,7 @@ where
         S::take_over(&constants.scene, &mut state.scene)?;
         let remembered = &mut state.remembered;
         constants.play.take_over(&mut remembered.play);
-        if !constants.angle.gave(&remembered.reading) {
+        if !constants.angle.is_valid_state(&remembered.reading) {
             remembered.reading = A::FRESH;
         }
         remembered.set_coefficient(constants.coefficient)
@@ -141,7 +137,7 @@ where
     fn check_inputs(
         constants: &Self::Constants,
         inputs: Self::Inputs,
-    ) -> CheckedInputs<Self::Known> {
+    ) -> CheckedInputs<Self::ValidInputs> {
         let WithMemoryInputs {
             scene,
             reading,
@@ -154,7 +150,7 @@ where
             faults,
         } = S::check_inputs(&constants.scene, scene);
         CheckedInputs {
-            inputs: Some(WithMemoryKnown {
+            inputs: Some(ValidMemoryInputs {
                 scene,
                 reading,
                 load_age,
@@ -169,7 +165,7 @@ where
     fn outputs(
         constants: &Self::Constants,
         state: &mut Self::State,
-        known: Self::Known,
+        known: Self::ValidInputs,
     ) -> S::Outputs {
         let remembered = &mut state.remembered;
         let mut faults = constants.take_temperature(remembered, &known);
@@ -181,33 +177,33 @@ where
 
         let direction = remembered.direction();
         let measured = inputs.speed();
-        let (turn_now, speed) = S::in_a_tick(&constants.scene, remembered.moved, measured);
-        // What balls could not follow, and the nut has turned back since, they need not make.
-        let goes = turn_now * direction >= 0.0;
-        if goes {
+        let (turn_now, speed) = S::limited_travel(&constants.scene, remembered.moved, measured);
+        // Travel that was not yet applied and has been reversed is dropped.
+        let same_direction = turn_now * direction >= 0.0;
+        if same_direction {
             remembered.moved -= turn_now;
         }
-        let speed = if goes && speed * direction > CREEP {
+        let speed = if same_direction && speed * direction > CREEP {
             speed
         } else {
             direction * CREEP
         };
         let moving = inputs.with(speed, factor);
-        let full = S::full(
+        let sliding = S::sliding_friction(
             &constants.scene,
             &mut state.scene,
             moving,
             L::both(&remembered.at_temperature, measured).within(S::FRICTION.maximum),
         );
-        let sliding = S::friction(&full);
-        remembered.limits = sliding.limits(constants.per_reference_load);
-        remembered.full = Some(full);
+        let by_direction = S::by_direction(&sliding);
+        remembered.limits = by_direction.limits(constants.per_reference_load);
+        remembered.sliding = Some(sliding);
         let load = moving.load().abs();
         remembered.drag = L::drag_torque(
             &remembered.at_temperature,
             measured,
             load,
-            sliding.load - load,
+            by_direction.load - load,
         );
         constants.follow(remembered, turn, inputs, faults | angle_faults)
     }
@@ -253,94 +249,5 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
     #[inline(always)]
     pub const fn scene(&self) -> &C {
         &self.scene
-    }
-
-    /// The friction coefficient's law at the temperature of this tick: computed anew where that changes.
-    #[inline(always)]
-    fn take_temperature<S: Sliding>(
-        &self,
-        remembered: &mut Remembered<S, E, A, L>,
-        known: &WithMemoryKnown<S::Inputs, A::Reading>,
-    ) -> Faults {
-        let fade = &self.temperature;
-        let temperature = fade.at(known.temperature, known.temperature_age);
-        if temperature != remembered.temperature {
-            remembered.temperature = temperature;
-            remembered.at_temperature = remembered.coefficient.at_temperature(temperature);
-        }
-        Faults::NONE
-            .with(
-                !fade.is_temperature(known.temperature),
-                Faults::TEMPERATURE_RANGE,
-            )
-            .with(
-                !fade.holds(known.temperature_age),
-                Faults::TEMPERATURE_STALE,
-            )
-    }
-
-    /// The turn since the last sound reading; what of it is beyond the play is kept for the balls.
-    #[inline(always)]
-    fn turn<S: Sliding>(
-        &self,
-        remembered: &mut Remembered<S, E, A, L>,
-        reading: A::Reading,
-    ) -> (f32, Faults) {
-        let turn = self.angle.turn(&mut remembered.reading, reading);
-        let faults = Faults::NONE.with(!turn.is_measured(), Faults::ANGLE_NOT_VALID);
-        let turn = turn.angle();
-        remembered.moved += self.play.follow(&mut remembered.play, turn).turn;
-        (turn, faults)
-    }
-
-    /// See [`FrictionModel::between`](crate::FrictionModel::between).
-    #[inline(always)]
-    pub(crate) fn between<S: Sliding<Constants = C>>(
-        &self,
-        remembered: &mut Remembered<S, E, A, L>,
-        reading: A::Reading,
-    ) -> S::Outputs {
-        let (turn, faults) = self.turn(remembered, reading);
-        self.follow(remembered, turn, remembered.inputs, faults)
-    }
-
-    /// Friction after a turn, between the limits of the last full friction.
-    #[inline(always)]
-    fn follow<S: Sliding<Constants = C>>(
-        &self,
-        remembered: &mut Remembered<S, E, A, L>,
-        turn: f32,
-        inputs: S::Inputs,
-        faults: Faults,
-    ) -> S::Outputs {
-        let Some(full) = &remembered.full else {
-            return S::Outputs::SAFE.limited(f32::MAX, faults);
-        };
-        let limits = &remembered.limits.times(&remembered.level);
-        let friction = self.elements.follow(&mut remembered.elements, turn, limits);
-        let limit = if friction < 0.0 {
-            limits.backward
-        } else {
-            limits.forward
-        };
-        let share = if limit > 0.0 { friction / limit } else { 0.0 };
-        let passage = Passage {
-            share: share * remembered.level.of(friction),
-            direction: if remembered.play.direction() == 0.0 {
-                direction(friction)
-            } else {
-                remembered.play.direction()
-            },
-            standing: if limit > 0.0 {
-                share.abs() < SLIDES
-            } else {
-                turn == 0.0
-            },
-        };
-        let mut outputs = S::passed(&self.scene, inputs, full, passage);
-        let (torque, flags) = outputs.friction_and_faults();
-        *torque += remembered.drag;
-        *flags |= faults;
-        outputs
     }
 }

@@ -1,14 +1,14 @@
-//! Full friction of a row of balls, whatever they run in.
+//! Sliding friction of a row of balls, whatever they run in.
 
-use super::passage::Passage;
+use super::reversal::ReversalState;
 use super::sliding::SlidingFriction;
 use crate::error::Range;
 use crate::ranges;
 use crate::stored::{Port, Refusal, Stored};
 
-/// Full friction of a row of balls, in the direction in which they go: torques of a screw, N m, or forces of a bearing, N.
+/// Sliding friction of a row of balls, in the direction in which they go: torques of a screw, N m, or forces of a bearing, N.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct RowFull {
+pub(super) struct TrainFriction {
     /// Friction of the grooves, and of balls that rub against each other, not negative.
     pub(super) groove: f32,
     pub(super) ball: f32,
@@ -22,7 +22,7 @@ pub(super) struct RowFull {
     pub(super) largest_contact_force: f32,
 }
 
-impl RowFull {
+impl TrainFriction {
     /// Limits of both directions: groove friction times each direction's ratio, plus ball friction.
     #[inline(always)]
     pub(super) fn friction(&self) -> SlidingFriction {
@@ -34,7 +34,7 @@ impl RowFull {
         }
     }
 
-    /// Full friction in the direction of a sign.
+    /// Sliding friction in the direction of a sign.
     #[inline(always)]
     pub(super) const fn of(&self, direction: f32) -> f32 {
         self.ratio(direction) * self.groove + self.ball
@@ -47,17 +47,17 @@ impl RowFull {
         if direction < 0.0 { backward } else { forward }
     }
 
-    /// Friction of the grooves and of the balls at a passage, with the sign of its share.
+    /// Friction of the grooves and of the balls at a reversal state, with the sign of its share.
     #[inline(always)]
-    pub(super) fn passed(&self, passage: Passage) -> (f32, f32) {
+    pub(super) fn outputs_at(&self, reversal: ReversalState) -> (f32, f32) {
         (
-            passage.share * (self.ratio(passage.share) * self.groove),
-            passage.share * self.ball,
+            reversal.share * (self.ratio(reversal.share) * self.groove),
+            reversal.share * self.ball,
         )
     }
 }
 
-impl Stored for RowFull {
+impl Stored for TrainFriction {
     const BYTES: usize = 6 * 4 + 1;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {

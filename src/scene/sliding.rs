@@ -1,8 +1,8 @@
-//! Full friction of a scene in both directions, apart from how friction passes between them: by the speed in a scene
+//! Sliding friction of a scene in both directions, apart from how friction passes between them: by the speed in a scene
 //! without memory, by the angle in one with it.
 
 use super::contract::Scene;
-use super::passage::{Motion, Passage};
+use super::reversal::{Motion, ReversalState};
 use crate::error::Range;
 use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
@@ -33,41 +33,41 @@ impl SlidingFriction {
     }
 }
 
-/// A scene whose full friction can be had apart from its passage through the reversal.
+/// A scene whose sliding friction can be had apart from how it passes through the reversal.
 ///
 /// What [`WithMemory`](super::WithMemory) needs of a scene.
-pub trait Sliding: Scene<Known = <Self as Scene>::Inputs, Inputs: Motion> {
+pub trait Sliding: Scene<ValidInputs = <Self as Scene>::Inputs, Inputs: Motion> {
     /// Range of the friction coefficients of ball and groove that the scene takes.
     const FRICTION: Range;
 
-    /// Full friction in a tick, in both directions, with what else the tick found.
-    type Full: Copy + core::fmt::Debug + PartialEq;
+    /// Sliding friction in a tick, in both directions, with what else the tick found.
+    type Friction: Copy + core::fmt::Debug + PartialEq;
 
-    /// Full friction under a friction coefficient of ball and groove in each direction; moves the balls on by a tick. A speed of 0 counts as
+    /// Sliding friction under a friction coefficient of ball and groove in each direction; moves the balls on by a tick. A speed of 0 counts as
     /// forward.
-    fn full(
+    fn sliding_friction(
         constants: &Self::Constants,
         state: &mut Self::State,
         inputs: Self::Inputs,
         friction: DirectionalCoefficient,
-    ) -> Self::Full;
+    ) -> Self::Friction;
 
-    /// Whether the load of [`Self::friction`] is `|F| + 2 sqrt(2) F_0` under an axial load `F` and with a preload `F_0` of each flank:
+    /// Whether the load of [`Self::by_direction`] is `|F| + 2 sqrt(2) F_0` under an axial load `F` and with a preload `F_0` of each flank:
     /// what [`PreloadedElements`](crate::law::memory::PreloadedElements) take.
     const COUNTS_PRELOAD: bool;
 
     /// Its sizes in both directions, and the load.
-    fn friction(full: &Self::Full) -> SlidingFriction;
+    fn by_direction(sliding: &Self::Friction) -> SlidingFriction;
 
-    /// What the scene puts out at this passage.
-    fn passed(
+    /// What the scene puts out at this reversal state.
+    fn outputs_at(
         constants: &Self::Constants,
         inputs: Self::Inputs,
-        full: &Self::Full,
-        passage: Passage,
+        sliding: &Self::Friction,
+        reversal: ReversalState,
     ) -> Self::Outputs;
 
     /// Turn, rad (m of a bearing), of a given one that balls can make in a tick, and the speed at which they make it; a scene that
     /// knows no tick makes all of it, at the measured speed.
-    fn in_a_tick(constants: &Self::Constants, turn: f32, measured: f32) -> (f32, f32);
+    fn limited_travel(constants: &Self::Constants, turn: f32, measured: f32) -> (f32, f32);
 }

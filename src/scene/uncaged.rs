@@ -4,10 +4,10 @@
 mod block;
 mod closed_form;
 mod configuration;
-mod full;
+mod friction;
 mod sliding;
+mod step;
 mod stored;
-mod tick;
 
 use core::f32::consts::TAU;
 
@@ -15,7 +15,7 @@ use super::changing::ChangingFriction;
 use super::circuit::{Circuit, CircuitState, per_loaded_ball};
 use super::contract::{CheckedInputs, Inputs, Limits, Scene};
 use super::outputs::UncagedOutputs;
-use super::passage::Reversal;
+use super::reversal::Reversal;
 use crate::ball::LoadShare;
 use crate::ball::folded::{FrictionPlace, node_octaves};
 use crate::ball::pressed::BallLaw;
@@ -25,7 +25,7 @@ use crate::train::LARGEST_GRIP;
 
 pub use closed_form::CatalogueBall;
 pub use configuration::{FoldedBall, UncagedBallScrewConfiguration};
-pub use full::UncagedFull;
+pub use friction::UncagedFriction;
 
 /// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls, by the folded law of one ball, for
 /// `NODES` friction coefficients.
@@ -91,7 +91,7 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
     type Constants = UncagedConstants<N, NODES>;
     type State = UncagedState<N>;
     type Inputs = Inputs;
-    type Known = Inputs;
+    type ValidInputs = Inputs;
     type Outputs = UncagedOutputs;
 
     fn constants(
@@ -131,10 +131,10 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
         state: &mut UncagedState<N>,
         inputs: Inputs,
     ) -> UncagedOutputs {
-        let full = constants.full(state, inputs);
-        full.passed(
+        let sliding = constants.sliding_friction(state, inputs);
+        sliding.outputs_at(
             inputs.axial_load * constants.reduced_lead,
-            constants.reversal.passage(inputs.nut_speed),
+            constants.reversal.at(inputs.nut_speed),
         )
     }
 
@@ -171,31 +171,24 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             ..
         } = *folded;
         attempt!(law.checked());
-        let (least, largest) = law.friction_range();
-        attempt!(in_range("friction", friction, least, largest));
+        attempt!(check_friction(law, friction, ball_friction));
         attempt!(in_range("lead", lead, 0.0, 0.2));
-        attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
-        let most = LARGEST_GRIP / law.largest_grip();
-        attempt!(in_range("ball_friction", ball_friction, 0.0, most));
         let limits = attempt!(limits.checked());
         let circuit = attempt!(configuration.circuit(&limits, N));
         let [screw, nut] = law.deviations;
         attempt!(screw_deviation.checked("screw_deviation", screw));
         attempt!(nut_deviation.checked("nut_deviation", nut));
-        let (screw_unit, nut_unit) = circuit.deviation_units();
+        let units = circuit.deviation_units();
         let per_ball = per_loaded_ball(configuration.loaded_length(), return_length, N);
-        let heaviest = load_shares.heaviest();
-        let frictions = law.frictions();
-        let node_octaves = node_octaves(&frictions);
         Ok(Self {
             law,
-            friction: FrictionPlace::among(&frictions, &node_octaves, friction),
-            node_octaves,
+            friction: law.place(friction),
+            node_octaves: node_octaves(&law.frictions()),
             circuit,
             ball_friction,
-            units: [screw_unit / screw, nut_unit / nut],
+            units: [units.0 / screw, units.1 / nut],
             half_speed: 0.5 * speed,
-            heaviest: heaviest.share(),
+            heaviest: load_shares.heaviest().share(),
             even: load_shares.are_even(),
             tick,
             per_tick: 1.0 / tick,
@@ -234,6 +227,20 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     pub(crate) fn set_nut_angle(&self, state: &mut UncagedState<N>, angle: f32) {
         state.circuit.set_turns(&self.circuit, angle / TAU);
     }
+}
+
+/// Refuses friction coefficients, of ball and groove and of ball and ball, that a law does not hold.
+const fn check_friction<const NODES: usize>(
+    law: &BallLaw<NODES>,
+    friction: f32,
+    ball_friction: f32,
+) -> Result<(), Error> {
+    let (least, largest) = law.friction_range();
+    attempt!(in_range("friction", friction, least, largest));
+    attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
+    let most = LARGEST_GRIP / law.largest_grip();
+    attempt!(in_range("ball_friction", ball_friction, 0.0, most));
+    Ok(())
 }
 
 impl<const N: usize, const NODES: usize> ChangingFriction for UncagedBallScrew<N, NODES> {

@@ -11,7 +11,7 @@ use super::settle::Pressing;
 use super::track::Rooms;
 
 /// Impedance of a ball for which the scene gave no values: the least allowed, so that it follows its neighbours.
-const UNSAID: f32 = IMPEDANCE_RANGE.0;
+const DEFAULT_IMPEDANCE: f32 = IMPEDANCE_RANGE.0;
 
 /// A tick of a train that has begun: the balls that are still to come, from the last one (the front of the row)
 /// backwards to the first.
@@ -208,7 +208,7 @@ impl FreeBall<'_> {
 impl Drop for FreeBall<'_> {
     #[inline(always)]
     fn drop(&mut self) {
-        self.ahead.take_in(self.ball, 0.0, UNSAID);
+        self.ahead.take_in(self.ball, 0.0, DEFAULT_IMPEDANCE);
     }
 }
 

@@ -6,7 +6,7 @@ use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, OilData, RollingDrag, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::{Hysteresis, Part, ProportionalElements, SLIP_4, SPIN_4};
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
     WithMemoryInputs,
@@ -162,7 +162,7 @@ impl InHeader for Memory {
 
 impl CScene for Memory {
     type Scene =
-        WithMemory<CagedBallScrew<EPAS_RANGE_NODES>, Elements, Steady<CountSensor>, CoefficientLaw>;
+        WithMemory<CagedBallScrew<EPAS_RANGE_NODES>, Elements, Deadband<CountSensor>, CoefficientLaw>;
     type Folded = NoTable;
     type Inputs = MemoryInputs;
     type Outputs = Outputs;
@@ -183,7 +183,7 @@ impl CScene for Memory {
         WithMemoryConfiguration<
             CagedBallScrewConfiguration<EPAS_RANGE_NODES>,
             Elements,
-            Steady<CountSensor>,
+            Deadband<CountSensor>,
             CoefficientLaw,
         >,
         Failure,
@@ -265,14 +265,14 @@ fn elements(configuration: &MemoryConfiguration) -> Result<Elements, Failure> {
         .map_err(|error| Failure::at(error, EPAS_FIELD_REFERENCE_TORQUE))
 }
 
-fn encoder(encoder: &Encoder) -> Result<Steady<CountSensor>, Failure> {
+fn encoder(encoder: &Encoder) -> Result<Deadband<CountSensor>, Failure> {
     let counts = CountSensor::new(CountSensorParameters {
         period: encoder.period,
         turn_per_count: encoder.turn_per_count,
         largest_turn: encoder.largest_turn,
     })
     .map_err(Failure::of)?;
-    Steady::new(counts, encoder.play).map_err(|error| Failure::at(error, EPAS_FIELD_PLAY))
+    Deadband::new(counts, encoder.play).map_err(|error| Failure::at(error, EPAS_FIELD_PLAY))
 }
 
 /// The law of a friction coefficient.

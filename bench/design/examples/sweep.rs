@@ -1,36 +1,10 @@
 //! Folds every catalogue size, steering size and published design over friction coefficients and clearances, and prints the errors of each
 //! block: `cargo run --release -p epas-design --example sweep [range] [NAME ...]`.
 
-use epas_design::{CagedDesign, CagedFold, Failure};
+use epas_design::Failure;
+use epas_design::gears::{TESTED_CLEARANCES, TESTED_FRICTIONS, tested};
 use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
-use epas_friction::{
-    BallScrew, BallScrewParameters, CATALOGUE, Clearance, DISSERTATION_DESIGNS, Error, Limits,
-    defaults,
-};
-
-const CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 20e-6];
-const FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
-
-fn fold(
-    parameters: BallScrewParameters,
-    clearance: f32,
-    friction: f32,
-) -> Result<CagedFold, Error> {
-    let design = BallScrew::new(parameters)?;
-    Ok(CagedFold::of(CagedDesign {
-        design,
-        friction,
-        rolling_resistance: defaults::ROLLING_RESISTANCE,
-        clearance: Clearance::new(clearance)?.checked(&design)?,
-        loaded_balls: 37,
-        reversal_speed: 0.5,
-        limits: Limits {
-            nut_speed: 1e3,
-            axial_load: 1e5,
-            friction_torque: 100.0,
-        },
-    }))
-}
+use epas_friction::{CATALOGUE, DISSERTATION_DESIGNS};
 
 fn main() -> Result<(), Failure> {
     let range = std::env::args().any(|argument| argument == "range");
@@ -51,13 +25,13 @@ fn main() -> Result<(), Failure> {
         if !(names.is_empty() || names.iter().any(|wanted| wanted == name)) {
             continue;
         }
-        for clearance in CLEARANCES {
+        for clearance in TESTED_CLEARANCES {
             for friction in if range {
-                &FRICTIONS[1..2]
+                &TESTED_FRICTIONS[1..2]
             } else {
-                &FRICTIONS[..]
+                &TESTED_FRICTIONS[..]
             } {
-                let mut fold = fold(parameters, clearance, *friction)?;
+                let mut fold = tested(parameters, clearance, *friction)?;
                 fold.friction = range.then_some([0.05, 0.15]);
                 match fold.folded() {
                     Ok(folded) => {

@@ -22,6 +22,7 @@
 mod bearing;
 mod contact;
 mod elements;
+mod halving;
 mod pair;
 mod parts;
 mod resistance;

@@ -1,7 +1,8 @@
-//! The gears of the project's own firmware (`bench/firmware`), folded.
+//! The gears of the project's own firmware (`bench/firmware`), folded, and the gears on which folding is tested.
 
 use epas_friction::{
-    BallScrew, Clearance, DISSERTATION_DESIGNS, Error, Limits, RollingResistance, defaults,
+    BallScrew, BallScrewParameters, Clearance, DISSERTATION_DESIGNS, Error, Limits,
+    RollingResistance, defaults,
 };
 
 use crate::{CagedDesign, CagedFold, UncagedDesign, UncagedFold};
@@ -96,4 +97,35 @@ pub fn firmware_uncaged() -> Result<[(&'static str, UncagedFold); 2], Error> {
         ..one
     };
     Ok([("LIN_3_6_BALL", one), ("LIN_3_6_BALL_RANGE", range)])
+}
+
+/// Clearances, m, of the gears on which folding is tested: from 5 um of oversize to 20 um of play.
+pub const TESTED_CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 20e-6];
+
+/// Friction coefficients of the gears on which folding is tested.
+pub const TESTED_FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
+
+/// A gear on which folding is tested: a screw of any size with 37 loaded balls, a clearance, m, and a friction coefficient.
+///
+/// # Errors
+/// [`Error`] naming a parameter of the screw or the clearance.
+pub fn tested(
+    parameters: BallScrewParameters,
+    clearance: f32,
+    friction: f32,
+) -> Result<CagedFold, Error> {
+    let design = BallScrew::new(parameters)?;
+    Ok(CagedFold::of(CagedDesign {
+        design,
+        friction,
+        rolling_resistance: defaults::ROLLING_RESISTANCE,
+        clearance: Clearance::new(clearance)?.checked(&design)?,
+        loaded_balls: 37,
+        reversal_speed: 0.5,
+        limits: Limits {
+            nut_speed: 1e3,
+            axial_load: 1e5,
+            friction_torque: 100.0,
+        },
+    }))
 }

@@ -17,12 +17,12 @@ use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
 use epas_friction::law::memory::{
-    BackboneElement, LoadExactElements, MemoryState, Part, PreloadedElements, ProportionalElements,
-    SLIP_6, SLIP_8, SPIN_4, SeatElement, SeatState, Together, TogetherState,
+    BackboneElement, LoadExactElements, MemoryState, ParallelElements, ParallelElementsState, Part,
+    PreloadedElements, ProportionalElements, SLIP_6, SLIP_8, SPIN_4, SeatElement, SeatState,
 };
 use epas_friction::law::motion::{
-    AngleReading, CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState,
-    SpeedOverTick, Steady, SteadyReading, WrappedAngle, WrappedAngleParameters,
+    AngleReading, CountReading, CountSensor, CountSensorParameters, Deadband, DeadbandReading,
+    NutAngle, Play, PlayState, SpeedOverTick, WrappedAngle, WrappedAngleParameters,
 };
 use epas_friction::scene::{CagedBallScrew, CagedConstants, UncagedBallScrew, UncagedConstants};
 use epas_friction::train::{Press, Train};
@@ -142,9 +142,9 @@ pub struct Contexts {
     /// What they remember.
     pub preloaded_state: MemoryState<10>,
     /// Four elements beside six.
-    pub together: Together<ProportionalElements<4>, ProportionalElements<6>>,
+    pub together: ParallelElements<ProportionalElements<4>, ProportionalElements<6>>,
     /// What both remember.
-    pub together_state: TogetherState<MemoryState<4>, MemoryState<6>>,
+    pub together_state: ParallelElementsState<MemoryState<4>, MemoryState<6>>,
     /// A seat with free play.
     pub seat: SeatElement,
     /// Where it is.
@@ -160,9 +160,9 @@ pub struct Contexts {
     /// Speed over a tick.
     pub speeds: SpeedOverTick,
     /// Counts of an encoder behind a play.
-    pub steady: Steady<CountSensor>,
+    pub steady: Deadband<CountSensor>,
     /// The last one.
-    pub last_steady: SteadyReading<CountReading>,
+    pub last_steady: DeadbandReading<CountReading>,
     /// A backlash.
     pub play: Play,
     /// Where it is.
@@ -275,8 +275,8 @@ impl Contexts {
             load_exact_state: LoadExactElements::VIRGIN,
             preloaded: PreloadedElements::new(LoadExactElements::new(black_box(0.04), 2e-3, 4.0)?),
             preloaded_state: LoadExactElements::VIRGIN,
-            together: Together::new(few, more, black_box(0.3))?,
-            together_state: TogetherState {
+            together: ParallelElements::new(few, more, black_box(0.3))?,
+            together_state: ParallelElementsState {
                 first: ProportionalElements::VIRGIN,
                 second: ProportionalElements::VIRGIN,
             },
@@ -291,8 +291,8 @@ impl Contexts {
             })?,
             last_angle: WrappedAngle::FRESH,
             speeds: SpeedOverTick::new(black_box(TICK), 1.0)?,
-            steady: Steady::new(counts, black_box(1e-3))?,
-            last_steady: Steady::<CountSensor>::FRESH,
+            steady: Deadband::new(counts, black_box(1e-3))?,
+            last_steady: Deadband::<CountSensor>::FRESH,
             play: Play::new(black_box(1e-3))?,
             play_state: PlayState::FRESH,
             lugre: black_box(LuGre {

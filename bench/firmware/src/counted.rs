@@ -18,12 +18,12 @@ use epas_friction::hertz::{ContactEllipse, HertzContact};
 use epas_friction::kinematics::{BallKinematics, ContactKinematics, EllipticContact, SlipRatios};
 use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
 use epas_friction::law::memory::{
-    LoadExactElements, MemoryState, PreloadedElements, ProportionalElements, SeatElement,
-    SeatState, Together, TogetherState,
+    LoadExactElements, MemoryState, ParallelElements, ParallelElementsState, PreloadedElements,
+    ProportionalElements, SeatElement, SeatState,
 };
 use epas_friction::law::motion::{
-    AngleReading, CountReading, CountSensor, NutAngle, Play, PlayState, SpeedOverTick, Steady,
-    SteadyReading, WrappedAngle,
+    AngleReading, CountReading, CountSensor, Deadband, DeadbandReading, NutAngle, Play, PlayState,
+    SpeedOverTick, WrappedAngle,
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{
@@ -307,8 +307,8 @@ counted! {
 
     /// One tick of four elements beside six.
     fn count_memory_together_10(
-        both: &Together<ProportionalElements<4>, ProportionalElements<6>>,
-        state: &mut TogetherState<MemoryState<4>, MemoryState<6>>, turn: f32, limits: &SlidingLimits
+        both: &ParallelElements<ProportionalElements<4>, ProportionalElements<6>>,
+        state: &mut ParallelElementsState<MemoryState<4>, MemoryState<6>>, turn: f32, limits: &SlidingLimits
     ) -> f32 {
         both.follow(state, turn, limits)
     }
@@ -337,7 +337,7 @@ counted! {
 
     /// Turn between two counts behind a play.
     fn count_turn_steady(
-        sensor: &Steady<CountSensor>, last: &mut SteadyReading<CountReading>, reading: u32
+        sensor: &Deadband<CountSensor>, last: &mut DeadbandReading<CountReading>, reading: u32
     ) -> f32 {
         sensor.turn(last, reading).angle()
     }

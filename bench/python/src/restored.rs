@@ -3,8 +3,11 @@
 //! An object is what it was made from, with its state as the crate exports it. What was solved goes along as words of its block: a
 //! process that gets the object does not solve it again.
 
+use epas_friction::Refusal;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyTuple};
+
+use crate::errors::refused;
 
 /// Where a design comes from.
 #[derive(Clone, Debug)]
@@ -44,6 +47,18 @@ where
 {
     let function = py.import("epas_friction._restored")?.getattr(function)?;
     Ok((function, arguments.into_pyobject(py)?))
+}
+
+/// An exported state as bytes.
+///
+/// # Errors
+/// `epas_friction.Error` where the state was refused.
+pub fn state<'py>(
+    py: Python<'py>,
+    exported: Result<Vec<u8>, Refusal>,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let state = exported.map_err(|error| refused(py, error.to_string()))?;
+    Ok(PyBytes::new(py, &state))
 }
 
 /// The words of a block as bytes, least significant first.

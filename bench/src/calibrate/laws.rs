@@ -10,6 +10,7 @@ use epas_friction::law::coefficient::{
 use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::{Elements, SlidingLimits};
 
+use crate::bristle::{bristle, stribeck};
 use crate::calibrate::fit::problem::{Parameter, Scale};
 use crate::mechanism::Step;
 
@@ -68,7 +69,7 @@ pub struct Scales {
     /// Largest speed, rad/s or m/s.
     pub speed: f64,
     /// Distance of the farthest places, rad or m.
-    pub way: f64,
+    pub travel: f64,
     /// Step of the position's sensor, rad or m.
     pub resolution: f64,
     /// Tick, s.
@@ -79,7 +80,7 @@ pub struct Scales {
 const SHARE_AT_REST: &str = "friction_share_at_rest";
 /// Speed at which half of the difference is gone, or Stribeck's.
 const HALF_SHARE_SPEED: &str = "half_share_speed";
-/// Way to full sliding.
+/// Travel to full sliding.
 const BREAKAWAY: &str = "breakaway";
 /// Speed of a reversal.
 const REVERSAL_SPEED: &str = "reversal_speed";
@@ -92,8 +93,8 @@ const ELEMENTS: usize = 8;
 impl Law {
     /// Parameters that do not enter linearly, for a motion of such a size; rad or m as `units` says.
     pub fn parameters(&self, scales: &Scales, units: [&'static str; 2]) -> Vec<Parameter> {
-        let [way, speed] = units;
-        let shortest = (2.0 * scales.resolution).max(1e-7 * scales.way);
+        let [length, speed] = units;
+        let shortest = (2.0 * scales.resolution).max(1e-7 * scales.travel);
         let speeds = |name, start: f64| Parameter {
             name,
             unit: speed,
@@ -121,10 +122,10 @@ impl Law {
                 // A motion of some hundred steps of the sensor may be all before sliding.
                 parameters.push(Parameter {
                     name: BREAKAWAY,
-                    unit: way,
-                    start: (20.0 * shortest).min((1e-3 * scales.way).max(3.0 * shortest)),
+                    unit: length,
+                    start: (20.0 * shortest).min((1e-3 * scales.travel).max(3.0 * shortest)),
                     low: shortest,
-                    high: (0.1 * scales.way).max(100.0 * shortest),
+                    high: (0.1 * scales.travel).max(100.0 * shortest),
                     scale: Scale::Logarithmic,
                 });
             }
@@ -159,16 +160,16 @@ impl Law {
         };
         let memory = match self.passage {
             Passage::AtOnce => Memory::AtOnce {
-                way: (2.0 * scales.resolution).max(1e-7 * scales.way),
+                breakaway: (2.0 * scales.resolution).max(1e-7 * scales.travel),
                 held: 0.0,
             },
             Passage::Speed => Memory::Speed(next()),
             Passage::Dahl => Memory::Bristle {
-                way: next(),
+                breakaway: next(),
                 held: 0.0,
             },
             Passage::LuGre => Memory::Damped {
-                way: next(),
+                breakaway: next(),
                 time: next(),
                 held: 0.0,
             },
@@ -181,7 +182,7 @@ impl Law {
                 Memory::Elements {
                     elements: ProportionalElements::new(1.0, &[part])?,
                     state: ProportionalElements::<ELEMENTS>::VIRGIN,
-                    way: next(),
+                    breakaway: next(),
                 }
             }
         };
@@ -221,8 +222,8 @@ impl LevelAt {
             Self::Constant => 1.0,
             Self::Stribeck {
                 at_rest,
-                speed: stribeck,
-            } => 1.0 + (at_rest - 1.0) * (-(speed / stribeck).powi(2)).exp(),
+                speed: stribeck_speed,
+            } => stribeck(speed, [*at_rest, 1.0], *stribeck_speed),
             Self::LoadShare { at, speed: half } => {
                 f64::from(at.at((speed / half) as f32)) / f64::from(FULL_FILM)
             }
@@ -234,22 +235,22 @@ impl LevelAt {
 enum Memory {
     Speed(f64),
     AtOnce {
-        way: f64,
+        breakaway: f64,
         held: f64,
     },
     Bristle {
-        way: f64,
+        breakaway: f64,
         held: f64,
     },
     Damped {
-        way: f64,
+        breakaway: f64,
         time: f64,
         held: f64,
     },
     Elements {
         elements: ProportionalElements<ELEMENTS>,
         state: MemoryState<ELEMENTS>,
-        way: f64,
+        breakaway: f64,
     },
 }
 
@@ -267,8 +268,8 @@ impl Friction {
     /// sample to sample alone would let friction turn round half a sample late. Friction that is late pushes where the acceleration
     /// is largest, and counts as inertia (1.5 % of it in a drive with half of its effort in friction, sampled at 500 Hz).
     pub fn along(mut self, position: &[f64], speed: &[f64], tick: f64) -> Vec<f64> {
-        if let Memory::AtOnce { way, .. } = self.memory {
-            let directions = turns::directions(position, speed, way);
+        if let Memory::AtOnce { breakaway, .. } = self.memory {
+            let directions = turns::directions(position, speed, breakaway);
             let levels = speed.iter().map(|speed| self.level.at(*speed));
             return directions
                 .iter()
@@ -309,37 +310,34 @@ impl Friction {
                 let speed = step.end_speed;
                 level * speed / speed.hypot(*reversal)
             }
-            Memory::AtOnce { way, held } | Memory::Bristle { way, held } => {
-                let (found, _) = bristle(*held, step.turn, *way, level);
-                *held = found;
-                found
+            Memory::AtOnce { breakaway, held } | Memory::Bristle { breakaway, held } => {
+                *held = bristle(*held, step.turn / *breakaway, level);
+                *held
             }
-            Memory::Damped { way, time, held } => {
-                let (found, moved) = bristle(*held, step.turn, *way, level);
+            Memory::Damped {
+                breakaway,
+                time,
+                held,
+            } => {
+                let found = bristle(*held, step.turn / *breakaway, level);
+                let moved = found - *held;
                 *held = found;
                 found + *time * moved / step.time
             }
             Memory::Elements {
                 elements,
                 state,
-                way,
+                breakaway,
             } => {
                 let limits = SlidingLimits {
                     forward: level as f32,
                     backward: level as f32,
                     load: 1.0,
                 };
-                f64::from(elements.follow(state, (step.turn / *way) as f32, &limits))
+                f64::from(elements.follow(state, (step.turn / *breakaway) as f32, &limits))
             }
         }
     }
-}
-
-/// Dahl's bristle after a turn, by the implicit step, and by how much it moved: stiff as `1/way`, at most `level`.
-fn bristle(held: f64, turn: f64, way: f64, level: f64) -> (f64, f64) {
-    let pull = turn / way;
-    let found = (held + pull) / (1.0 + pull.abs() / level);
-    (found, found - held)
 }
 
 #[cfg(test)]
@@ -351,7 +349,7 @@ mod tests {
         for steps in [4.0, 20.0, 500.0, 2000.0, 1e4, 1e6] {
             let scales = Scales {
                 speed: 1.0,
-                way: steps * 1e-4,
+                travel: steps * 1e-4,
                 resolution: 1e-4,
                 tick: 1e-3,
             };

@@ -475,9 +475,9 @@ fn reversals(motion: &Motion) -> Reversals {
         .iter()
         .copied()
         .fold(f64::NEG_INFINITY, f64::max);
-    let way = high - low;
+    let travel = high - low;
     // What is below a hundred-thousandth of the way is taken for noise.
-    let dead = 1e-5 * way;
+    let dead = 1e-5 * travel;
     let mut places: Vec<f64> = Vec::new();
     let (mut extreme, mut direction) = (motion.position.first().copied().unwrap_or(0.0), 0.0);
     for position in &motion.position {
@@ -497,7 +497,7 @@ fn reversals(motion: &Motion) -> Reversals {
         count: places.len(),
         loops: places
             .windows(2)
-            .filter(|pair| (pair[1] - pair[0]).abs() < 0.01 * way)
+            .filter(|pair| (pair[1] - pair[0]).abs() < 0.01 * travel)
             .count(),
     }
 }

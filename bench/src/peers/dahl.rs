@@ -3,6 +3,7 @@
 use epas_reference::presliding::answers::Tick;
 
 use super::{Law, limit};
+use crate::bristle::bristle;
 
 /// `dT/dtheta = K (1 - s T/L)^p` with the direction `s` of the motion and the limit `L` (Dahl 1968), one explicit step a tick.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,7 +39,7 @@ impl Law for Explicit {
     }
 }
 
-/// The exponent 1 by the implicit step `T <- (T + K turn) / (1 + K |turn| / L)`.
+/// The exponent 1 by implicit steps ([`bristle`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Implicit {
     stiffness: f64,
@@ -58,8 +59,7 @@ impl Implicit {
 impl Law for Implicit {
     fn follow(&mut self, tick: &Tick) -> f64 {
         if tick.turn != 0.0 {
-            let pull = self.stiffness * tick.turn;
-            self.torque = (self.torque + pull) / (1.0 + pull.abs() / limit(tick));
+            self.torque = bristle(self.torque, self.stiffness * tick.turn, limit(tick));
         }
         self.torque
     }

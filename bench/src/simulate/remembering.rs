@@ -6,7 +6,7 @@ use epas_design::caged::NODES;
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::CoefficientLaw;
 use epas_friction::law::memory::Hysteresis;
-use epas_friction::law::motion::{NutAngle, Steady};
+use epas_friction::law::motion::{Deadband, NutAngle};
 use epas_friction::scene::{
     CagedBallScrew, ClosedFormScrew, CoefficientFor, Sliding, StoredScene, WithMemory,
     WithMemoryConfiguration, WithMemoryInputs,
@@ -59,7 +59,7 @@ pub trait CagedScrew:
         Outputs = Outputs,
         Constants: Copy + Send + Sync,
         State: Send + Sync,
-        Full: Stored + Default + Send + Sync,
+        Friction: Stored + Default + Send + Sync,
     > + Copy
     + Send
     + Sync
@@ -236,7 +236,7 @@ impl<A: Sensor> Wanted<'_, A> {
         let backlash = calibrated.backlash.unwrap_or(0.0);
         let built = Built {
             scene,
-            angle: Steady::new(angle, 0.5 * backlash).map_err(refused)?,
+            angle: Deadband::new(angle, 0.5 * backlash).map_err(refused)?,
             law: law(design, &numbers).map_err(refused)?,
         };
         match &numbers.elements {

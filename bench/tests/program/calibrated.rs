@@ -6,7 +6,7 @@ use std::fs;
 
 use epas_friction::law::coefficient::CoefficientLaw;
 use epas_friction::law::memory::ProportionalElements;
-use epas_friction::law::motion::{Steady, WrappedAngle, WrappedAngleParameters};
+use epas_friction::law::motion::{Deadband, WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{
     CagedBallScrew, CagedConstants, WithMemory, WithMemoryConstants, WithMemoryInputs,
 };
@@ -42,7 +42,7 @@ direction_asymmetry = 0.02
 breakaway_angle = 2e-3
 ";
 
-type Sensor = Steady<WrappedAngle>;
+type Sensor = Deadband<WrappedAngle>;
 
 const SENSOR: Sensor = {
     let angle = WrappedAngle::new(WrappedAngleParameters {
@@ -51,7 +51,7 @@ const SENSOR: Sensor = {
         largest_turn: std::f32::consts::PI,
     });
     match angle {
-        Ok(angle) => match Steady::new(angle, 0.0) {
+        Ok(angle) => match Deadband::new(angle, 0.0) {
             Ok(sensor) => sensor,
             Err(_) => panic!(),
         },

@@ -12,7 +12,7 @@ use crate::memory::{Remembering, fresh};
 /// A scene with a row of balls.
 pub trait Row:
     StoredScene
-    + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default>
+    + Sliding<Constants: Copy, Inputs: Stored, Friction: Stored + Default>
     + ChangingFriction
     + Copy
 {

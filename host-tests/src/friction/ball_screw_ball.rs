@@ -120,14 +120,14 @@ impl ScrewTrack {
     /// Slip between two touching balls, components z4 and x4 of (3.73) over `R_B`: what the motions of the rear and of the front ball give
     /// to it, with the angular velocity relative to the orbiting frame. `way` is 1 where the balls orbit along +y, -1 where they orbit
     /// along -y.
-    pub(crate) fn slip_between(&self, way: f64) -> [SMatrix<f64, 2, 4>; 2] {
+    pub(crate) fn slip_between(&self, direction: f64) -> [SMatrix<f64, 2, 4>; 2] {
         let (sin_a, cos_a) = self.lead_angle();
         let (sin_b, cos_b) = self.ball_contact_angle();
-        let of = |way: f64| {
+        let of = |direction: f64| {
             SMatrix::<f64, 2, 4>::new(
-                -way * sin_b * sin_a,
+                -direction * sin_b * sin_a,
                 cos_b,
-                way * sin_b,
+                direction * sin_b,
                 0.0, //
                 cos_a,
                 0.0,
@@ -135,7 +135,7 @@ impl ScrewTrack {
                 -1.0,
             )
         };
-        [of(way), of(-way)]
+        [of(direction), of(-direction)]
     }
 }
 

@@ -207,13 +207,13 @@ impl Problem<'_> {
         let [fz, fx] = slip.map(|s| -self.balls.ball_friction * force * sign * s / size);
         // With the nut reversed the list is still rear to front along +y; the first ball then is the front one in motion, and
         // the pair presses with the same geometry.
-        for (ball, way) in [(0, 1.0), (1, -1.0)] {
+        for (ball, direction) in [(0, 1.0), (1, -1.0)] {
             let at = PER_BALL * ball;
-            r[at] += sin_b * force + way * cos_b * fx;
-            r[at + 1] += way * fz;
-            r[at + 2] += path * (-way * cos_b * force + sin_b * fx);
+            r[at] += sin_b * force + direction * cos_b * fx;
+            r[at + 1] += direction * fz;
+            r[at + 2] += path * (-direction * cos_b * force + sin_b * fx);
             r[at + 3] += cos_b * fz;
-            r[at + 4] += way * sin_b * fz;
+            r[at + 4] += direction * sin_b * fz;
             r[at + 5] -= fx;
         }
         let difference = Self::motion_of(0, q)[0] - Self::motion_of(1, q)[0];

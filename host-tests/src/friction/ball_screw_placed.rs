@@ -93,7 +93,7 @@ pub(crate) struct PlacedBall<'a> {
     /// Friction coefficient of the grooves.
     pub friction: f64,
     /// 1 where the nut turns forward, -1 backward.
-    pub way: f64,
+    pub direction: f64,
     /// Axial force of the screw on the ball, N; positive along z.
     pub axial_load: f64,
     /// From the neighbours.
@@ -146,8 +146,8 @@ impl PlacedBall<'_> {
             let [nx, nz] = normal(row);
             let gradient = row.local(motion, self.rest_spin).gradient;
             let (across, along) = (
-                -self.friction * self.way * gradient.x,
-                -self.friction * self.way * gradient.y,
+                -self.friction * self.direction * gradient.x,
+                -self.friction * self.direction * gradient.y,
             );
             sum += Vector3::new(across * nz, -across * nx, 0.0);
             if !row.contact.groove.on_nut() {

@@ -133,8 +133,8 @@ impl<'a> March<'a> {
         let failure = if sample.nut_speed == 0.0 {
             Some(ReferenceError::Standstill)
         } else {
-            let way = sample.nut_speed.signum();
-            self.solve(way, sample.axial_load).err()
+            let direction = sample.nut_speed.signum();
+            self.solve(direction, sample.axial_load).err()
         };
         self.result(sample, events, failure).checked()
     }
@@ -142,7 +142,7 @@ impl<'a> March<'a> {
     /// Moves the balls to the next sample.
     fn advance(&mut self, sample: &RingSample, next: &RingSample) {
         let whole = sample.nut_speed.abs() * (next.time - sample.time);
-        let way = sample.nut_speed.signum();
+        let direction = sample.nut_speed.signum();
         let same = sample.axial_load * next.axial_load > 0.0;
         let rise = if same && whole > 0.0 {
             (next.axial_load - sample.axial_load) / whole
@@ -158,12 +158,12 @@ impl<'a> March<'a> {
                 return;
             }
             let Some((travel, event)) =
-                self.next_event(way, left, SHORT * whole, endings < ENDINGS)
+                self.next_event(direction, left, SHORT * whole, endings < ENDINGS)
             else {
-                self.go(way, left);
+                self.go(direction, left);
                 return;
             };
-            self.go(way, travel);
+            self.go(direction, travel);
             done += travel;
             self.events += 1;
             match event {
@@ -172,13 +172,19 @@ impl<'a> March<'a> {
                 Event::Border => {}
             }
             // Without a solution the balls go on as they were, and the next state says what is wrong.
-            let _ = self.solve(way, sample.axial_load + rise * done);
+            let _ = self.solve(direction, sample.axial_load + rise * done);
         }
-        self.go(way, whole - done);
+        self.go(direction, whole - done);
     }
 
     /// The first event within a travel of the nut, and its travel.
-    fn next_event(&self, way: f64, left: f64, short: f64, endings: bool) -> Option<(f64, Event)> {
+    fn next_event(
+        &self,
+        direction: f64,
+        left: f64,
+        short: f64,
+        endings: bool,
+    ) -> Option<(f64, Event)> {
         let n = self.gaps.len();
         let mut found: Option<(f64, Event)> = None;
         let mut take = |travel: f64, event: Event| {
@@ -202,16 +208,16 @@ impl<'a> March<'a> {
                 continue;
             }
             let next = (pair + 1) % n;
-            let closing = way * (self.speeds[pair] - self.speeds[next]);
-            let faster = way * (self.rates.speeds[pair] - self.rates.speeds[next]);
+            let closing = direction * (self.speeds[pair] - self.speeds[next]);
+            let faster = direction * (self.rates.speeds[pair] - self.rates.speeds[next]);
             if let Some(travel) = closes(self.gaps[pair], closing, faster) {
                 take(travel.max(short * SHORT), Event::Meeting(pair));
             }
         }
         if self.ring.return_length > 0.0 {
             for (ball, place) in self.places().iter().enumerate() {
-                let speed = way * (self.speeds[ball] - 1.0);
-                let faster = way * self.rates.speeds[ball];
+                let speed = direction * (self.speeds[ball] - 1.0);
+                let faster = direction * self.rates.speeds[ball];
                 for border in [0.0, self.track.loaded] {
                     let ahead = (border - place) * speed.signum();
                     let ahead = ahead.rem_euclid(self.track.length);
@@ -226,13 +232,13 @@ impl<'a> March<'a> {
     }
 
     /// Moves all balls while the nut turns by `travel`.
-    fn go(&mut self, way: f64, travel: f64) {
+    fn go(&mut self, direction: f64, travel: f64) {
         let n = self.gaps.len();
         // Speeds of now: the solution may be a while ago where a state had none.
         let moved: Vec<f64> = (0..n)
-            .map(|j| way * travel * (self.speeds[j] + 0.5 * travel * self.rates.speeds[j]))
+            .map(|j| direction * travel * (self.speeds[j] + 0.5 * travel * self.rates.speeds[j]))
             .collect();
-        self.first = (self.first + moved[0] - way * travel).rem_euclid(self.track.length);
+        self.first = (self.first + moved[0] - direction * travel).rem_euclid(self.track.length);
         for pair in 0..n {
             let gap = self.gaps[pair] + moved[(pair + 1) % n] - moved[pair];
             self.gaps[pair] = gap.max(0.0);
@@ -246,7 +252,7 @@ impl<'a> March<'a> {
         for (speed, rate) in self.speeds.iter_mut().zip(&self.rates.speeds) {
             *speed += rate * travel;
         }
-        self.nut_angle += way * travel;
+        self.nut_angle += direction * travel;
         if let Some(last) = &mut self.last {
             last.travel += travel;
         }
@@ -294,9 +300,9 @@ impl<'a> March<'a> {
     }
 
     /// Speed of a ball that carries no load: that of one without deviation under the mean load.
-    fn idle_speed(&mut self, way: f64, axial_load: f64) -> Result<f64, ReferenceError> {
-        if let Some((speed, for_way, for_load)) = self.idle
-            && for_way == way
+    fn idle_speed(&mut self, direction: f64, axial_load: f64) -> Result<f64, ReferenceError> {
+        if let Some((speed, for_direction, for_load)) = self.idle
+            && for_direction == direction
             && for_load == axial_load
         {
             return Ok(speed);
@@ -306,23 +312,23 @@ impl<'a> March<'a> {
         let ball = PlacedBall {
             grooves: &grooves,
             friction: self.ring.friction,
-            way,
+            direction,
             axial_load: if load.abs() > NO_LOAD { load } else { 1.0 },
             rubbing: Rubbing::default(),
             integration: self.ring.integration,
             rest_spin: STICK_SPIN,
         };
         let speed = settle(&ball, Drive::Force(0.0), None)?.state.motion[0];
-        self.idle = Some((speed, way, axial_load));
+        self.idle = Some((speed, direction, axial_load));
         Ok(speed)
     }
 
-    fn solve(&mut self, way: f64, axial_load: f64) -> Result<(), ReferenceError> {
+    fn solve(&mut self, direction: f64, axial_load: f64) -> Result<(), ReferenceError> {
         let seats = self.seats(axial_load);
         let idle_speed = if seats.iter().all(Option::is_some) {
             0.5
         } else {
-            self.idle_speed(way, axial_load)?
+            self.idle_speed(direction, axial_load)?
         };
         let n = seats.len();
         let touching: Vec<bool> = self.gaps.iter().map(|gap| *gap <= TOUCHING).collect();
@@ -331,15 +337,18 @@ impl<'a> March<'a> {
             seats: &seats,
             touching: &touching,
             friction: self.ring.friction,
-            neighbours: Neighbours { balls: n, way },
-            between: BallContact::new(&track, self.ring.ball_friction, way, self.ring.chord),
+            neighbours: Neighbours {
+                balls: n,
+                direction,
+            },
+            between: BallContact::new(&track, self.ring.ball_friction, direction, self.ring.chord),
             integration: self.ring.integration,
             idle_speed,
         };
         let follows = self
             .last
             .as_ref()
-            .filter(|last| last.way == way && last.axial_load * axial_load > 0.0);
+            .filter(|last| last.direction == direction && last.axial_load * axial_load > 0.0);
         let (states, forces) = match follows {
             Some(last) => last.expected(&self.rates),
             None => (vec![None; n], vec![0.0; n]),
@@ -351,7 +360,7 @@ impl<'a> March<'a> {
                 let load = |seat: &Option<Seat>| seat.as_ref().map_or(0.0, |seat| seat.axial_load);
                 let now = Last {
                     settled,
-                    way,
+                    direction,
                     axial_load,
                     loads: seats.iter().map(load).collect(),
                     travel: 0.0,
@@ -366,7 +375,7 @@ impl<'a> March<'a> {
             Err(error) => {
                 self.rates = Rates::none(n);
                 let (speeds, forces) = match &mut self.last {
-                    Some(last) if last.way == way => {
+                    Some(last) if last.direction == direction => {
                         instant.pool(&last.settled.unforced, &last.settled.compliance)
                     }
                     _ => instant.pool(&self.speeds, &vec![1.0; n]),
@@ -386,14 +395,14 @@ impl<'a> March<'a> {
         events: usize,
         failure: Option<ReferenceError>,
     ) -> RingState {
-        let way = sample.nut_speed.signum();
+        let direction = sample.nut_speed.signum();
         let settled = match (&self.last, &failure) {
             (Some(last), None) => Some(&last.settled),
             _ => None,
         };
         let seats = self.seats(sample.axial_load);
         let track = (&self.ring.design).into();
-        let between = BallContact::new(&track, self.ring.ball_friction, way, self.ring.chord);
+        let between = BallContact::new(&track, self.ring.ball_friction, direction, self.ring.chord);
         let balls = self
             .places()
             .iter()
@@ -414,7 +423,7 @@ impl<'a> March<'a> {
             })
             .collect::<Vec<_>>();
         let of = |value: fn(&Settled) -> f64| settled.map_or(f64::NAN, value);
-        let arm = way * self.ring.design.ball_radius;
+        let arm = direction * self.ring.design.ball_radius;
         RingState {
             time: sample.time,
             nut_angle: self.nut_angle,
@@ -422,7 +431,7 @@ impl<'a> March<'a> {
             ball_torque: arm * of(|s| s.power.balls),
             residual: of(|s| s.residual),
             power_error: of(|s| s.power.error()),
-            complementarity: settled.map_or(f64::NAN, |s| self.violation(s, way, &balls)),
+            complementarity: settled.map_or(f64::NAN, |s| self.violation(s, direction, &balls)),
             balls,
             events,
             failure,
@@ -430,7 +439,7 @@ impl<'a> March<'a> {
     }
 
     /// See [`RingState::complementarity`].
-    fn violation(&self, settled: &Settled, way: f64, balls: &[RingBall]) -> f64 {
+    fn violation(&self, settled: &Settled, direction: f64, balls: &[RingBall]) -> f64 {
         let n = balls.len();
         let largest = balls
             .iter()
@@ -439,7 +448,7 @@ impl<'a> March<'a> {
         let mut worst = 0.0_f64;
         for (pair, gap) in self.gaps.iter().enumerate() {
             let force = settled.forces[pair] / largest;
-            let parting = way * (settled.speeds[(pair + 1) % n] - settled.speeds[pair]);
+            let parting = direction * (settled.speeds[(pair + 1) % n] - settled.speeds[pair]);
             let touching = *gap <= TOUCHING;
             worst = worst.max(-force);
             worst = worst.max(if touching { -parting } else { force });

@@ -87,9 +87,9 @@ impl<'a> Moving<'a> {
     /// Goes to its target; less far where the tangents do not lead there. Stays where nothing leads on.
     pub fn follow(&mut self, target: &Target) {
         let change = &target.change;
-        let way = change.fixed_rows::<3>(0).amax() / LONGEST_WAY;
+        let shift = change.fixed_rows::<3>(0).amax() / LONGEST_WAY;
         let turn = change.fixed_rows::<4>(3).amax() / LONGEST_TURN;
-        let longest = way.max(turn);
+        let longest = shift.max(turn);
         let mut fraction = if longest > 1.0 { 1.0 / longest } else { 1.0 };
         let enough = self.tangent.balance.norm().max(1e-9 * self.tangent.loads);
         for _ in 0..6 {

@@ -6,14 +6,14 @@ pub(crate) struct Neighbours {
     /// Number of balls.
     pub balls: usize,
     /// 1 where they orbit along the track's numbers, -1 against them.
-    pub way: f64,
+    pub direction: f64,
 }
 
 impl Neighbours {
     /// Balls in the order of motion, rear to front.
     pub fn order(&self) -> Vec<usize> {
         let n = self.balls;
-        if self.way > 0.0 {
+        if self.direction > 0.0 {
             (0..n).collect()
         } else {
             (0..n).rev().collect()
@@ -23,7 +23,7 @@ impl Neighbours {
     /// Index of the pair of a ball and the next one ahead.
     pub fn pair_ahead(&self, ball: usize) -> usize {
         let n = self.balls;
-        if self.way > 0.0 {
+        if self.direction > 0.0 {
             ball
         } else {
             (ball + n - 1) % n
@@ -33,7 +33,7 @@ impl Neighbours {
     /// The ball ahead of a ball.
     pub fn ahead(&self, ball: usize) -> usize {
         let n = self.balls;
-        if self.way > 0.0 {
+        if self.direction > 0.0 {
             (ball + 1) % n
         } else {
             (ball + n - 1) % n

@@ -11,7 +11,7 @@ const TELLING: f64 = 1e-7;
 /// What the last solution leaves.
 pub(crate) struct Last {
     pub settled: Settled,
-    pub way: f64,
+    pub direction: f64,
     pub axial_load: f64,
     /// Axial load of every ball, N; 0 where it carries none.
     pub loads: Vec<f64>,
@@ -62,7 +62,10 @@ impl Last {
         let n = now.loads.len();
         let mut rates = Rates::none(n);
         let sudden = |now: f64, before: f64| (now - before).abs() > SUDDEN * before.abs();
-        if self.way != now.way || sudden(now.axial_load, self.axial_load) || !(self.travel > 0.0) {
+        if self.direction != now.direction
+            || sudden(now.axial_load, self.axial_load)
+            || !(self.travel > 0.0)
+        {
             return rates;
         }
         let jumps = |ball: &usize| sudden(now.loads[*ball], self.loads[*ball]);

@@ -93,7 +93,7 @@ impl<'a> Instant<'a> {
         PlacedBall {
             grooves: &seat.grooves,
             friction: self.friction,
-            way: self.neighbours.way,
+            direction: self.neighbours.direction,
             axial_load: seat.axial_load,
             rubbing: Rubbing::default(),
             integration: self.integration,

@@ -113,14 +113,14 @@ impl ElasticRow {
     /// forces is not met: there is no answer then, and never a wrong one.
     pub fn solve(&self) -> Result<RowMotion, ReferenceError> {
         let grooves = self.grooves()?;
-        let way = self.nut_speed.signum();
+        let direction = self.nut_speed.signum();
         let mut balls: Vec<PlacedBall<'_>> = grooves
             .iter()
             .zip(&self.balls)
             .map(|(grooves, ball)| PlacedBall {
                 grooves,
                 friction: self.friction,
-                way,
+                direction,
                 axial_load: ball.axial_load,
                 rubbing: Rubbing::default(),
                 integration: self.integration,
@@ -132,7 +132,7 @@ impl ElasticRow {
             .map(|ball| settle(ball, Drive::Force(0.0), None))
             .collect::<Result<Vec<_>, _>>()?;
         let track = (&self.design).into();
-        let contact = BallContact::new(&track, self.ball_friction, way, false);
+        let contact = BallContact::new(&track, self.ball_friction, direction, false);
         // Balls that hardly hold their spin answer friction between them too much for passes.
         let pressing = press_and_rub(&mut balls, &free, &contact)
             .or_else(|_| self.at_once(&balls, &free, contact))?;
@@ -167,10 +167,10 @@ impl ElasticRow {
         free: &[Solved],
         between: BallContact,
     ) -> Result<Pressing, ReferenceError> {
-        let way = self.nut_speed.signum();
+        let direction = self.nut_speed.signum();
         // A ring counts its balls along the track.
         let along = |index: usize| {
-            if way > 0.0 {
+            if direction > 0.0 {
                 index
             } else {
                 balls.len() - 1 - index
@@ -195,7 +195,7 @@ impl ElasticRow {
             friction: self.friction,
             neighbours: Neighbours {
                 balls: balls.len(),
-                way,
+                direction,
             },
             between,
             integration: self.integration,
@@ -214,7 +214,7 @@ impl ElasticRow {
             .collect();
         let mut forces = found.forces;
         forces.truncate(balls.len() - 1);
-        if way < 0.0 {
+        if direction < 0.0 {
             forces.reverse();
         }
         Ok(Pressing {

@@ -140,10 +140,10 @@ pub(crate) struct BallContactSlope {
 
 impl BallContact {
     /// With or without the part of the force that points outward because the track is curved; `way` is that of the nut.
-    pub fn new(track: &ScrewTrack, friction: f64, way: f64, chord: bool) -> Self {
+    pub fn new(track: &ScrewTrack, friction: f64, direction: f64, chord: bool) -> Self {
         let (sin, cos) = track.ball_contact_angle();
         Self {
-            slips: track.slip_between(way),
+            slips: track.slip_between(direction),
             cos,
             path: track.path_radius() / track.ball_radius,
             outward: if chord { sin / cos } else { 0.0 },
@@ -194,11 +194,11 @@ impl BallContact {
     pub fn slope(&self, along: f64, rear: &BallState, front: &BallState) -> BallContactSlope {
         let slip: Vector2<f64> = self.slips[0] * rear.motion + self.slips[1] * front.motion;
         let size = slip.norm().max(1e-12);
-        let (way, limit) = (slip / size, self.friction * self.normal_force(1.0));
-        let turn = Matrix2::identity() - way * way.transpose();
+        let (direction, limit) = (slip / size, self.friction * self.normal_force(1.0));
+        let turn = Matrix2::identity() - direction * direction.transpose();
         let by_slip = turn * (-limit * along.max(0.0) / size);
         let pulls = [
-            -limit * way,
+            -limit * direction,
             by_slip.column(0).into(),
             by_slip.column(1).into(),
         ];

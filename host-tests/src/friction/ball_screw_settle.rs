@@ -222,7 +222,7 @@ impl<'a> Search<'a> {
     fn towards_third(&self) -> f64 {
         let third = [self.ball.axial_load.signum(), -1.0];
         let towards = self.across[0] * third[0] + self.across[1] * third[1];
-        towards.signum() * self.ball.way
+        towards.signum() * self.ball.direction
     }
 
     /// Friction that all contacts could bear, twice over: more than any push.

@@ -131,8 +131,8 @@ impl PlacedBall<'_> {
     pub fn of_contact(&self, row: &ScrewRow, load: f64, gradient: &Vector3<f64>) -> Balance {
         let (sin_a, cos_a) = self.grooves.track.lead_angle();
         let [nx, nz] = normal(row);
-        let across = -self.friction * self.way * gradient.x;
-        let along = -self.friction * self.way * gradient.y;
+        let across = -self.friction * self.direction * gradient.x;
+        let along = -self.friction * self.direction * gradient.y;
         let mut all = Balance::zeros();
         all[0] = -load * nx + across * nz;
         all[1] = -load * nz - across * nx;
@@ -154,7 +154,7 @@ impl PlacedBall<'_> {
     ) -> Balance {
         let cos_a = self.grooves.track.lead_angle().1;
         let [nx, nz] = normal(row);
-        let across = -self.friction * self.way * gradient.x;
+        let across = -self.friction * self.direction * gradient.x;
         let mut all = Balance::zeros();
         all[0] = load * nz + across * nx;
         all[1] = -load * nx + across * nz;
@@ -208,7 +208,9 @@ mod tests {
     /// Against central differences of the balance, of a ball with three contacts and of one with four, both ways of the nut, off balance.
     #[test]
     fn derivatives_are_those_of_the_balance() {
-        for (clearance, way, load) in [(0.0, 1.0, -50.0), (-3e-6, -1.0, 40.0), (2e-6, 1.0, 60.0)] {
+        for (clearance, direction, load) in
+            [(0.0, 1.0, -50.0), (-3e-6, -1.0, 40.0), (2e-6, 1.0, 60.0)]
+        {
             let law = |groove| SCREW.contact(groove).unwrap().into();
             let angle = SCREW.contact_angle;
             let grooves = ElasticGrooves {
@@ -223,7 +225,7 @@ mod tests {
             let ball = PlacedBall {
                 grooves: &grooves,
                 friction: 0.1,
-                way,
+                direction,
                 axial_load: load,
                 rubbing: Rubbing::default(),
                 integration: Integration::Full,

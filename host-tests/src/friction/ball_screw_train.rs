@@ -47,7 +47,7 @@ struct Rows<'a> {
     /// `cos b L/(2 pi R_B)`.
     ball_friction: f64,
     /// 1 where the balls orbit along +y, -1 where they orbit along -y.
-    way: f64,
+    direction: f64,
 }
 
 impl Train<4> for Rows<'_> {
@@ -70,7 +70,7 @@ impl Train<4> for Rows<'_> {
     }
 
     fn slip(&self) -> [SMatrix<f64, 2, 4>; 2] {
-        self.track.slip_between(self.way)
+        self.track.slip_between(self.direction)
     }
 
     fn ball_friction(&self) -> f64 {
@@ -126,7 +126,7 @@ pub fn solve_screw_train(
         track,
         balls: &rows,
         ball_friction: between / arm,
-        way: nut_speed.signum(),
+        direction: nut_speed.signum(),
     };
     let (solution, rest_spin) = solve_train(&train).map_err(|error| error.scaled(mu))?;
     let motions: Vec<_> = rows

@@ -64,7 +64,7 @@ impl CagedBall {
                 let ball = PlacedBall {
                     grooves: &grooves,
                     friction: self.friction,
-                    way: 1.0,
+                    direction: 1.0,
                     axial_load,
                     rubbing: Rubbing::default(),
                     integration: self.integration,

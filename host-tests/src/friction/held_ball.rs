@@ -159,7 +159,7 @@ impl DeviatingBall {
         PlacedBall {
             grooves: &self.grooves,
             friction: self.ball.friction,
-            way: 1.0,
+            direction: 1.0,
             axial_load,
             rubbing: Rubbing::default(),
             integration: self.ball.integration,
@@ -436,7 +436,7 @@ mod tests {
             let placed = PlacedBall {
                 grooves: &ball.grooves,
                 friction: smooth.friction,
-                way: 1.0,
+                direction: 1.0,
                 axial_load,
                 rubbing: {
                     let slip = ball.contact().slip(&state, &state);

@@ -146,10 +146,12 @@ impl WholeScrew {
             .collect::<Result<Vec<_>, _>>()?;
         let n = self.balls;
         let ring = std::f64::consts::TAU * self.turns;
-        let way = self.nut_speed.signum();
+        let direction = self.nut_speed.signum();
         let diameter = 2.0 * self.model.track.ball_contact_angle().0.asin();
         let step = nut_angle / (steps * substeps) as f64 / self.nut_speed.abs();
-        let mut azimuths: Vec<f64> = (0..n).map(|j| ring * j as f64 / n as f64 * way).collect();
+        let mut azimuths: Vec<f64> = (0..n)
+            .map(|j| ring * j as f64 / n as f64 * direction)
+            .collect();
         let mut states = Vec::with_capacity(steps + 1);
         for count in 0..=steps * substeps {
             let balls: Vec<_> = azimuths
@@ -166,9 +168,9 @@ impl WholeScrew {
                     let ahead = if j + 1 < n {
                         azimuths[j + 1]
                     } else {
-                        azimuths[0] + way * ring
+                        azimuths[0] + direction * ring
                     };
-                    (ahead - azimuths[j]) * way - diameter
+                    (ahead - azimuths[j]) * direction - diameter
                 })
                 .collect();
             let (speeds, forces) = self.press(&balls, &gaps, step);
@@ -213,8 +215,8 @@ impl WholeScrew {
             }
             let set: Vec<usize> = (0..n).filter(|j| active[*j]).collect();
             if !grown || set.len() == n {
-                let way = self.nut_speed.signum();
-                return (speeds.iter().map(|w| w * way).collect(), forces);
+                let direction = self.nut_speed.signum();
+                return (speeds.iter().map(|w| w * direction).collect(), forces);
             }
             let matrix = DMatrix::from_fn(set.len(), set.len(), |row, column| {
                 let (i, j) = (set[row], set[column]);

@@ -5,10 +5,11 @@ use core::f32::consts::TAU;
 use epas_friction::defaults::COEFFICIENT;
 use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{
-    LoadExactElements, Part, ProportionalElements, SLIP_8, SPIN_4, SeatElement, Together,
+    LoadExactElements, ParallelElements, Part, ProportionalElements, SLIP_8, SPIN_4, SeatElement,
 };
 use epas_friction::law::motion::{
-    CountSensor, CountSensorParameters, SpeedOverTick, Steady, WrappedAngle, WrappedAngleParameters,
+    CountSensor, CountSensorParameters, Deadband, SpeedOverTick, WrappedAngle,
+    WrappedAngleParameters,
 };
 use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{LinearBearingConfiguration, LinearBearingTrain};
@@ -19,9 +20,10 @@ use super::gears::{
 };
 
 pub type Slip = ProportionalElements<8>;
-pub type SpinAndSeat = Together<ProportionalElements<4>, SeatElement>;
+pub type SpinAndSeat = ParallelElements<ProportionalElements<4>, SeatElement>;
 pub type CagedByAngle = WithMemory<CagedScrew, Slip, WrappedAngle>;
-pub type UncagedByCounts = WithMemory<UncagedScrew<SCREW_BALLS>, SpinAndSeat, Steady<CountSensor>>;
+pub type UncagedByCounts =
+    WithMemory<UncagedScrew<SCREW_BALLS>, SpinAndSeat, Deadband<CountSensor>>;
 pub type LinearBySpeed = WithMemory<
     LinearBearingTrain<LINEAR_BALLS>,
     LoadExactElements<8>,
@@ -85,14 +87,14 @@ pub fn caged_by_angle() -> WithMemoryConfiguration<CagedConfiguration, Slip, Wra
 }
 
 pub fn uncaged_by_counts()
--> WithMemoryConfiguration<UncagedConfiguration, SpinAndSeat, Steady<CountSensor>> {
+-> WithMemoryConfiguration<UncagedConfiguration, SpinAndSeat, Deadband<CountSensor>> {
     let sensor = CountSensor::new(CountSensorParameters {
         period: COUNTS,
         turn_per_count: TAU / COUNTS as f32,
         largest_turn: 1.0,
     })
     .unwrap();
-    let sensor = Steady::new(sensor, 2e-4).unwrap();
+    let sensor = Deadband::new(sensor, 2e-4).unwrap();
     let spin = ProportionalElements::new(
         0.02,
         &[Part {
@@ -103,7 +105,7 @@ pub fn uncaged_by_counts()
     )
     .unwrap();
     let seat = SeatElement::new(0.03, 1e-3, 5e-3).unwrap();
-    let elements = Together::new(spin, seat, 0.4).unwrap();
+    let elements = ParallelElements::new(spin, seat, 0.4).unwrap();
     with_memory(uncaged(), elements, sensor)
 }
 

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use epas_friction::law::motion::{
-    CountReading, CountSensor, CountSensorParameters, NutAngle, Play, PlayState, SpeedOverTick,
-    Steady, Turn, WrappedAngle, WrappedAngleParameters,
+    CountReading, CountSensor, CountSensorParameters, Deadband, NutAngle, Play, PlayState,
+    SpeedOverTick, Turn, WrappedAngle, WrappedAngleParameters,
 };
 use epas_reference::promises;
 
@@ -153,9 +153,9 @@ fn speeds_are_turns_over_a_tick() {
 fn a_steady_sensor_turns_as_promised() {
     const COUNT: f32 = 0.0157;
     let play = Play::new(1.0).unwrap();
-    let steady = Steady::new(counter(16_384, COUNT, 4.0), 1.0).unwrap();
+    let steady = Deadband::new(counter(16_384, COUNT, 4.0), 1.0).unwrap();
     // Nobody sees a sensor's place: a play beside it is moved by the same turns.
-    let (mut place, mut reading) = (PlayState::FRESH, Steady::<CountSensor>::FRESH);
+    let (mut place, mut reading) = (PlayState::FRESH, Deadband::<CountSensor>::FRESH);
     let mut random = Random(8);
     let mut errors = Errors::default();
     let mut count = 0_i64;
@@ -275,9 +275,9 @@ fn a_play_keeps_noise_away() {
 fn a_steady_sensor_is_a_play_of_its_turns() {
     let sensor = counter(16_384, 1e-3, 0.5);
     let play = Play::new(3e-3).unwrap();
-    let steady = Steady::new(sensor, 3e-3).unwrap();
+    let steady = Deadband::new(sensor, 3e-3).unwrap();
     let (mut raw, mut place) = (CountSensor::FRESH, PlayState::FRESH);
-    let mut reading = Steady::<CountSensor>::FRESH;
+    let mut reading = Deadband::<CountSensor>::FRESH;
     let mut random = Random(5);
     let (mut count, mut moved) = (0_i64, 0);
     for _ in 0..10_000 {
@@ -296,7 +296,7 @@ fn a_steady_sensor_is_a_play_of_its_turns() {
     let far = (count + 4000).rem_euclid(16_384) as u32;
     assert!(matches!(steady.turn(&mut reading, far), Turn::Limited(turn) if turn > 0.49));
     for half_width in [-1e-9, 2e3, f32::NAN] {
-        let error = Steady::new(sensor, half_width).unwrap_err();
+        let error = Deadband::new(sensor, half_width).unwrap_err();
         assert_eq!(error.field(), "half_width");
     }
 }

@@ -4,8 +4,8 @@ use std::f64::consts::LN_10;
 
 use epas_friction::law::SlidingLimits;
 use epas_friction::law::memory::{
-    Hysteresis, LoadExactElements, MemoryState, ProportionalElements, SLIP_8, SPIN_8, SeatElement,
-    SeatState, Together, TogetherState,
+    Hysteresis, LoadExactElements, MemoryState, ParallelElements, ParallelElementsState,
+    ProportionalElements, SLIP_8, SPIN_8, SeatElement, SeatState,
 };
 
 use crate::elements::proportional;
@@ -126,8 +126,8 @@ fn every_kind(count: u64) {
     let spin = proportional(&SPIN_8, 0.3, 0.2);
     let stiffnesses = spin.stiffnesses();
     let seat = SeatElement::new(0.7, 0.5, 1.0).unwrap();
-    let both = Together::new(spin, seat, 0.3).unwrap();
-    let stored = |state: &TogetherState<MemoryState<8>, SeatState>| {
+    let both = ParallelElements::new(spin, seat, 0.3).unwrap();
+    let stored = |state: &ParallelElementsState<MemoryState<8>, SeatState>| {
         energy(&spin.torques(&state.first), &stiffnesses) + 0.7 * seated(state.second.place())
     };
     check("spin beside the seat", least(&both, stored, 5, count));

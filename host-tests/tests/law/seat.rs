@@ -1,8 +1,8 @@
 //! The seat, and kinds of elements side by side.
 
 use epas_friction::law::memory::{
-    Backbone, BackboneElement, Hysteresis, SLIP_6, SLIP_8, SPIN_4, SPIN_8, SeatElement, SeatState,
-    Together,
+    Backbone, BackboneElement, Hysteresis, ParallelElements, SLIP_6, SLIP_8, SPIN_4, SPIN_8,
+    SeatElement, SeatState,
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_reference::promises;
@@ -100,14 +100,14 @@ fn exact<const N: usize>(backbone: &Backbone<N>) -> transcription::Elements {
 #[test]
 fn together_they_are_the_sum_of_both() {
     let share = 0.3_f32;
-    let of_tables = Together::new(
+    let of_tables = ParallelElements::new(
         proportional(&SPIN_4, share, 1.0),
         proportional(&SLIP_6, 1.0 - share, 1.0),
         share,
     )
     .unwrap();
     let seat = SeatElement::new(1.0 - share, 0.5, 1.0).unwrap();
-    let seated = Together::new(proportional(&SLIP_8, share, 1.0), seat, share).unwrap();
+    let seated = ParallelElements::new(proportional(&SLIP_8, share, 1.0), seat, share).unwrap();
     let [mut four, mut six, mut eight] = [exact(&SPIN_4), exact(&SLIP_6), exact(&SLIP_8)];
     let (mut of_tables_state, mut seated_state) = (virgin(&of_tables), virgin(&seated));
     let (mut random, mut place) = (Random(11), 0.0_f64);
@@ -143,7 +143,7 @@ fn together_they_are_the_sum_of_both() {
 fn together_they_share_the_limit() {
     let spin = proportional(&SPIN_8, 0.012, 0.1e-3);
     let seat = SeatElement::new(0.028, 1e-3, 2e-3).unwrap();
-    let both = Together::new(spin, seat, 0.3).unwrap();
+    let both = ParallelElements::new(spin, seat, 0.3).unwrap();
     let limits = SlidingLimits {
         forward: 0.04,
         backward: 0.03,
@@ -160,12 +160,17 @@ fn together_they_share_the_limit() {
     }
     assert_eq!(both.breakaway(), seat.breakaway());
     assert_eq!(both.initial_stiffness(), spin.initial_stiffness());
-    assert_eq!(Together::new(spin, seat, 1.5).unwrap_err().field(), "share");
     assert_eq!(
-        Together::new(spin, seat, f32::NAN).unwrap_err().field(),
+        ParallelElements::new(spin, seat, 1.5).unwrap_err().field(),
         "share"
     );
-    let half = Together::new(
+    assert_eq!(
+        ParallelElements::new(spin, seat, f32::NAN)
+            .unwrap_err()
+            .field(),
+        "share"
+    );
+    let half = ParallelElements::new(
         proportional(&SLIP_8, 0.5, 1.0),
         proportional(&SLIP_8, 0.5, 1.0),
         0.5,

@@ -8,7 +8,7 @@ use epas_friction::law::Elements;
 use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
 use epas_friction::law::compensation::CompensationMargin;
 use epas_friction::law::memory::{LoadExactElements, Part, ProportionalElements, SLIP_8};
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
 use epas_friction::scene::{
     Freshness, SceneOutputs, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
 };
@@ -49,7 +49,7 @@ impl SetDutyCycle for Bridge {
     }
 }
 
-type Caged<E> = FrictionModel<WithMemory<CagedScrew, E, Steady<CountSensor>>>;
+type Caged<E> = FrictionModel<WithMemory<CagedScrew, E, Deadband<CountSensor>>>;
 
 /// Preload of both flanks, N, as the scene counts it.
 const PRELOAD: f64 = 2.0 * std::f64::consts::SQRT_2 * CAGED_PRELOAD as f64;
@@ -66,7 +66,7 @@ fn model<E: Elements + Copy>(elements: E, play: f64, load: f64) -> Caged<E> {
     Caged::new(&WithMemoryConfiguration {
         scene,
         elements,
-        angle: Steady::new(counts, play as f32).unwrap(),
+        angle: Deadband::new(counts, play as f32).unwrap(),
         reference_load: (PRELOAD / load) as f32,
         play: 0.0,
         coefficient: CoefficientLaw::constant(scene.friction).unwrap(),

@@ -523,7 +523,7 @@ impl Scene for Anything {
     type Constants = ();
     type State = ();
     type Inputs = f32;
-    type Known = f32;
+    type ValidInputs = f32;
     type Outputs = Outputs;
 
     fn constants(&(): &()) -> Result<(), Error> {

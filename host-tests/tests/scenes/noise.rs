@@ -2,7 +2,7 @@
 
 use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
 use epas_friction::law::memory::{Hysteresis, Part, ProportionalElements, SLIP_8};
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Steady};
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband, NutAngle};
 use epas_friction::scene::{Freshness, Sliding, WithMemory, WithMemoryConfiguration};
 use epas_friction::{FrictionModel, Inputs, Outputs, Regime, UncagedOutputs};
 use epas_reference::closed_loop::ClosedLoop;
@@ -225,7 +225,7 @@ fn friction_by_the_speed_chatters() {
 
 /// Both screws, hands off, behind a play of so many counts to either side.
 fn rests(half_width: f32, rest: Rest) -> [Restlessness; 2] {
-    let angle = Steady::new(counts(), half_width * ClosedLoop::COUNT as f32).unwrap();
+    let angle = Deadband::new(counts(), half_width * ClosedLoop::COUNT as f32).unwrap();
     [
         with_memory::<CagedScrew, _>(caged(), caged().friction, angle, rest),
         with_memory::<UncagedScrew<SCREW_BALLS>, _>(screw(), screw().folded.friction, angle, rest),

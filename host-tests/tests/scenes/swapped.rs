@@ -3,7 +3,7 @@
 
 use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
 use epas_friction::law::motion::WrappedAngle;
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
 };
@@ -54,7 +54,7 @@ fn a_caged_screw_is_that_of_its_new_constants() {
 /// Where a play becomes narrower, and a counter shorter, nothing turns.
 #[test]
 fn a_swap_turns_nothing() {
-    type Counted = FrictionModel<WithMemory<CagedScrew, Slip, Steady<CountSensor>>>;
+    type Counted = FrictionModel<WithMemory<CagedScrew, Slip, Deadband<CountSensor>>>;
     let with = |period: u32, half_width: f32, play: f32| {
         let counts = CountSensor::new(CountSensorParameters {
             period,
@@ -62,7 +62,7 @@ fn a_swap_turns_nothing() {
             largest_turn: 0.4,
         })
         .unwrap();
-        let sensor = Steady::new(counts, half_width).unwrap();
+        let sensor = Deadband::new(counts, half_width).unwrap();
         // Its friction is the same before and after.
         let whole = with_memory(caged(), slip(0.05), sensor);
         Counted::new(&WithMemoryConfiguration { play, ..whole }).unwrap()

@@ -11,7 +11,7 @@ use epas_friction::curvature::RelativeCurvatures;
 use epas_friction::geometry::{CATALOGUE, Groove, NamedDesign};
 use epas_friction::hertz::HertzContact;
 use epas_friction::law::memory::{
-    MemoryState, ProportionalElements, SLIP_4, SLIP_8, SPIN_8, SeatElement, Together,
+    MemoryState, ParallelElements, ProportionalElements, SLIP_4, SLIP_8, SPIN_8, SeatElement,
 };
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::material::contact_modulus;
@@ -760,8 +760,8 @@ fn elements_have_the_parts_stiffness() {
         })
         .unwrap();
     let share = loose.part(Mechanism::Slip).share;
-    let both = Together::new(seat, beside, share).unwrap();
-    let mut state = <Together<SeatElement, ProportionalElements<8>> as Elements>::VIRGIN;
+    let both = ParallelElements::new(seat, beside, share).unwrap();
+    let mut state = <ParallelElements<SeatElement, ProportionalElements<8>> as Elements>::VIRGIN;
     let limits = SlidingLimits {
         forward: loose.torque,
         backward: loose.torque,

@@ -1,4 +1,4 @@
-//! What stands in for a temperature whose readings have stopped.
+//! Temperature that is used where readings have stopped.
 
 use super::viscosity::TEMPERATURE;
 use crate::error::{Error, Range, attempt};

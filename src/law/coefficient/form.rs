@@ -107,6 +107,24 @@ impl CoefficientParameters {
     }
 }
 
+/// Temperatures above the viscosity's pole, times `scale`, between which the half-share speed stays within its range.
+const fn ends(viscosity: &Viscosity, scale: f32) -> [f32; 2] {
+    let pole = viscosity.pole();
+    let coldest = pole + fifth_root(HALF_SHARE_SPEED.minimum) / scale;
+    let coldest = if coldest > viscosity.floor() {
+        coldest
+    } else {
+        viscosity.floor()
+    };
+    let warmest = pole + fifth_root(HALF_SHARE_SPEED.maximum) / scale;
+    let warmest = if warmest < TEMPERATURE.maximum {
+        warmest
+    } else {
+        TEMPERATURE.maximum
+    };
+    [scale * (coldest - pole), scale * (warmest - pole)]
+}
+
 impl CoefficientLaw {
     /// Checks and folds a law. At set-up, or in a constant.
     ///
@@ -140,18 +158,6 @@ impl CoefficientLaw {
         let drag = attempt!(drag.checked());
         let pole = viscosity.pole();
         let scale = fifth_root(speed) / (reference - pole);
-        let coldest = pole + fifth_root(HALF_SHARE_SPEED.minimum) / scale;
-        let coldest = if coldest > viscosity.floor() {
-            coldest
-        } else {
-            viscosity.floor()
-        };
-        let warmest = pole + fifth_root(HALF_SHARE_SPEED.maximum) / scale;
-        let warmest = if warmest < TEMPERATURE.maximum {
-            warmest
-        } else {
-            TEMPERATURE.maximum
-        };
         let stiffness = viscosity.at(reference) * speed;
         let root = fifth_root(stiffness);
         Ok(Self {
@@ -159,7 +165,7 @@ impl CoefficientLaw {
             backward: attempt!(Sides::new(parameters, backward)),
             scale,
             pole,
-            ends: [scale * (coldest - pole), scale * (warmest - pole)],
+            ends: ends(&viscosity, scale),
             churning: churning * stiffness,
             drag,
             fluidity: 1.0 / (root * root * (root * root)),

@@ -1,11 +1,11 @@
 //! What elements remember as bytes, and what their torques are read with.
 
 use super::load_exact::LoadExactElements;
+use super::parallel::{ParallelElements, ParallelElementsState};
 use super::preloaded::PreloadedElements;
 use super::proportional::ProportionalElements;
 use super::seat::{SeatElement, SeatState};
 use super::state::{LARGEST, MemoryState};
-use super::together::{Together, TogetherState};
 use crate::error::Range;
 use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 
@@ -62,7 +62,7 @@ impl Fingerprinted for SeatElement {
     }
 }
 
-impl<A: Stored, B: Stored> Stored for TogetherState<A, B> {
+impl<A: Stored, B: Stored> Stored for ParallelElementsState<A, B> {
     const BYTES: usize = A::BYTES + B::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
@@ -71,7 +71,7 @@ impl<A: Stored, B: Stored> Stored for TogetherState<A, B> {
     }
 }
 
-impl<A: Fingerprinted, B: Fingerprinted> Fingerprinted for Together<A, B> {
+impl<A: Fingerprinted, B: Fingerprinted> Fingerprinted for ParallelElements<A, B> {
     fn fingerprint(&self, fingerprint: &mut Fingerprint) {
         fingerprint.count(TOGETHER);
         self.first.fingerprint(fingerprint);

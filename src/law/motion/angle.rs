@@ -76,7 +76,7 @@ impl NutAngle for WrappedAngle {
 
     const FRESH: Self::State = AngleReading(None);
 
-    fn gave(&self, state: &Self::State) -> bool {
+    fn is_valid_state(&self, state: &Self::State) -> bool {
         state
             .0
             .is_none_or(|last| last >= self.lowest && last <= self.highest)

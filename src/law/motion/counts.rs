@@ -109,7 +109,7 @@ impl NutAngle for CountSensor {
 
     const FRESH: Self::State = CountReading(None);
 
-    fn gave(&self, state: &Self::State) -> bool {
+    fn is_valid_state(&self, state: &Self::State) -> bool {
         state
             .0
             .is_none_or(|last| self.period == 0 || last < self.period)

@@ -13,7 +13,7 @@ pub struct Play {
     pub(super) half_width: f32,
 }
 
-/// Where the turn stands in its play, and which way the output moved last.
+/// Position of the turn within its play, and direction of the output's last motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlayState {
@@ -27,7 +27,7 @@ pub struct PlayState {
 pub struct Moved {
     /// How far it moves, rad (m).
     pub turn: f32,
-    /// Which way it moved last: 1 or -1; 0 before it moved at all.
+    /// Direction of its last motion: 1 or -1; 0 before the first.
     pub direction: f32,
 }
 
@@ -44,7 +44,7 @@ impl PlayState {
         self.place
     }
 
-    /// Which way the output moved last: 1 or -1; 0 before it moved at all.
+    /// Direction of the output's last motion: 1 or -1; 0 before the first.
     #[must_use]
     pub const fn direction(&self) -> f32 {
         self.direction

@@ -2,9 +2,9 @@
 
 use super::angle::{AngleReading, WrappedAngle};
 use super::counts::{CountReading, CountSensor};
+use super::deadband::{Deadband, DeadbandReading};
 use super::play::{Play, PlayState};
 use super::speed::SpeedOverTick;
-use super::steady::{Steady, SteadyReading};
 use crate::error::Range;
 use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 
@@ -59,7 +59,7 @@ impl Fingerprinted for SpeedOverTick {
     }
 }
 
-impl<S: Stored> Stored for SteadyReading<S> {
+impl<S: Stored> Stored for DeadbandReading<S> {
     const BYTES: usize = S::BYTES + PlayState::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
@@ -68,7 +68,7 @@ impl<S: Stored> Stored for SteadyReading<S> {
     }
 }
 
-impl<A: Fingerprinted> Fingerprinted for Steady<A> {
+impl<A: Fingerprinted> Fingerprinted for Deadband<A> {
     fn fingerprint(&self, fingerprint: &mut Fingerprint) {
         fingerprint.count(STEADY);
         self.angle.fingerprint(fingerprint);

@@ -31,7 +31,7 @@ pub enum Turn {
 }
 
 impl Turn {
-    /// The turn to go on with, rad (m): none where it is unknown.
+    /// The turn to apply, rad (m): 0 where it is unknown.
     #[inline]
     #[must_use]
     pub const fn angle(self) -> f32 {
@@ -72,7 +72,7 @@ pub trait NutAngle {
     const FRESH: Self::State;
 
     /// Whether this sensor can have left such a state: one that was read from bytes may be that of another sensor.
-    fn gave(&self, state: &Self::State) -> bool {
+    fn is_valid_state(&self, state: &Self::State) -> bool {
         let _ = state;
         true
     }

@@ -23,7 +23,7 @@ pub struct ClosedFormScrewConfiguration {
     pub loaded_balls: u16,
     /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has 71 % of its full value.
     pub reversal_speed: f32,
-    /// Bounds that are kept whatever comes in.
+    /// Limits of inputs and outputs.
     pub limits: Limits,
 }
 

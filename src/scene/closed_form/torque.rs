@@ -6,11 +6,11 @@ use crate::efficiency::{Drive, EfficiencyGeometry};
 use crate::error::{Error, attempt};
 use crate::geometry::BallScrew;
 use crate::ranges;
+use crate::scene::caged_friction::CagedFriction;
 use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
-use crate::scene::full::CagedFull;
 use crate::scene::outputs::Outputs;
-use crate::scene::passage::{Passage, Reversal};
+use crate::scene::reversal::{Reversal, ReversalState};
 
 /// Friction torque over load and pitch radius from which on a direction counts as locked: no motor of a steering gear
 /// has a thousandth of that.
@@ -81,23 +81,29 @@ impl ClosedForm {
             nut_speed: speed,
             axial_load: load,
         } = inputs;
-        let passage = reversal.passage(speed);
-        let direction = passage.share;
+        let reversal = reversal.at(speed);
+        let direction = reversal.share;
         let sum = self.flanks.under(load);
-        // Full friction in the direction of motion, for the efficiency; standstill counts as forward.
+        // Sliding friction in the direction of motion, for the efficiency; standstill counts as forward.
         let opposing_load = if speed < 0.0 { -load } else { load };
         let friction_torque = if self.locks(opposing_load) {
             direction * self.largest_torque
         } else {
             direction * self.friction_torque(sum, direction * load)
         };
-        let full = self.friction_torque(sum, opposing_load);
-        self.put_out(load, opposing_load, full, friction_torque, passage.standing)
+        let sliding = self.friction_torque(sum, opposing_load);
+        self.put_out(
+            load,
+            opposing_load,
+            sliding,
+            friction_torque,
+            reversal.standing,
+        )
     }
 
-    /// Full friction in both directions.
+    /// Sliding friction in both directions.
     #[inline(always)]
-    pub(super) fn both_ways(&self, load: f32) -> CagedFull {
+    pub(super) fn both_ways(&self, load: f32) -> CagedFriction {
         let sum = self.flanks.under(load);
         let of = |opposing_load| {
             if self.locks(opposing_load) {
@@ -106,7 +112,7 @@ impl ClosedForm {
                 self.friction_torque(sum, opposing_load)
             }
         };
-        CagedFull {
+        CagedFriction {
             forward: of(load),
             backward: of(-load),
             load: self.flanks.counted(load),
@@ -114,13 +120,24 @@ impl ClosedForm {
         }
     }
 
-    /// Full friction times its passage.
+    /// Sliding friction times its share at the reversal.
     #[inline(always)]
-    pub(super) fn passed(&self, load: f32, found: &CagedFull, passage: Passage) -> Outputs {
-        let friction_torque = passage.share * found.of(passage.share);
-        let opposing_load = passage.direction * load;
-        let full = found.of(passage.direction);
-        self.put_out(load, opposing_load, full, friction_torque, passage.standing)
+    pub(super) fn outputs_at(
+        &self,
+        load: f32,
+        found: &CagedFriction,
+        reversal: ReversalState,
+    ) -> Outputs {
+        let friction_torque = reversal.share * found.of(reversal.share);
+        let opposing_load = reversal.direction * load;
+        let sliding = found.of(reversal.direction);
+        self.put_out(
+            load,
+            opposing_load,
+            sliding,
+            friction_torque,
+            reversal.standing,
+        )
     }
 
     /// Whether no torque drives this load.
@@ -135,7 +152,7 @@ impl ClosedForm {
         &self,
         load: f32,
         opposing_load: f32,
-        full: f32,
+        sliding: f32,
         friction_torque: f32,
         standing: bool,
     ) -> Outputs {
@@ -145,7 +162,7 @@ impl ClosedForm {
         let moves = if load_opposes {
             !locks_driving
         } else {
-            full < -opposing_torque
+            sliding < -opposing_torque
         };
         Outputs {
             friction_torque,

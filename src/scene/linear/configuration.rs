@@ -41,7 +41,7 @@ pub struct LinearBearingConfiguration {
     /// Time between two ticks, s, 1e-6 to 1; at the largest speed the balls may move by 3 % of the track
     /// in it, and the rail by half a period of its deviation map.
     pub tick: f32,
-    /// Bounds that are kept whatever comes in.
+    /// Limits of inputs and outputs.
     pub limits: LinearLimits,
 }
 

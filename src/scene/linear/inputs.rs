@@ -3,13 +3,13 @@
 use crate::error::{Error, attempt, in_range};
 use crate::scene::contract::CheckedInputs;
 use crate::scene::faults::{Faults, bounded};
-use crate::scene::passage::Motion;
+use crate::scene::reversal::Motion;
 
 /// What the control interrupt knows of a linear bearing at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearInputs {
-    /// Speed of the carriage on the rail, m/s; within that of the [`LinearLimits`], which stand in for more.
+    /// Speed of the carriage on the rail, m/s; limited to that of the [`LinearLimits`].
     pub speed: f32,
     /// Force that presses the carriage on the row of balls, N, preload included; zero or less lifts it
     /// off. Within the limits, as the speed.
@@ -18,7 +18,7 @@ pub struct LinearInputs {
     pub side_load: f32,
 }
 
-/// Bounds that are kept whatever comes in.
+/// Limits of inputs and outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearLimits {

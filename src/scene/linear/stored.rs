@@ -1,10 +1,10 @@
 //! A linear bearing as bytes.
 
-use super::{LinearBearingTrain, LinearConstants, LinearFull, LinearState};
+use super::{LinearBearingTrain, LinearConstants, LinearFriction, LinearState};
 use crate::error::Range;
 use crate::ranges;
 use crate::scene::circuit::CircuitState;
-use crate::scene::row::RowFull;
+use crate::scene::row::TrainFriction;
 use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
@@ -44,8 +44,8 @@ impl<const N: usize> Stored for LinearState<N> {
     }
 }
 
-impl Stored for LinearFull {
-    const BYTES: usize = RowFull::BYTES + 1;
+impl Stored for LinearFriction {
+    const BYTES: usize = TrainFriction::BYTES + 1;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         self.row.exchange(port)?;

@@ -1,9 +1,9 @@
-//! What the control interrupt knows of a scene with memory, and how old it may be.
+//! Inputs of a scene with memory, and their largest ages.
 
 use crate::error::{Error, Range};
 use crate::law::fade::Fade;
 
-/// What the control interrupt knows of a scene with memory at a tick.
+/// Inputs of a scene with memory at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WithMemoryInputs<I, R> {
@@ -21,8 +21,8 @@ pub struct WithMemoryInputs<I, R> {
 
 /// Inputs with the scene's own within their limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WithMemoryKnown<I, R> {
-    /// None where one of the scene's inputs is no number.
+pub struct ValidMemoryInputs<I, R> {
+    /// `None` where one of the scene's inputs is NaN or infinite.
     pub(super) scene: Option<I>,
     pub(super) reading: R,
     pub(super) load_age: f32,
@@ -45,13 +45,13 @@ pub struct Freshness {
 
 impl Freshness {
     /// Loads of the last 10 ms as they are, which fade in 90 ms. Assumed, not measured: an estimator that runs every 10 ms is never
-    /// too late, and a tenth of a second after its last word no load is believed.
+    /// too late, and a tenth of a second after its last value the load counts as zero.
     pub const DEFAULT: Self = Self {
         load_hold: 0.01,
         load_fade: 0.09,
     };
 
-    /// These times, checked: what is left of a load by its age.
+    /// These times, checked, as the factor of a load by its age.
     ///
     /// # Errors
     /// [`Error`] naming `load_hold` or `load_fade`.

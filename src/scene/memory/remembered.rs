@@ -4,26 +4,26 @@ use crate::error::{Error, attempt};
 use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::{NutAngle, PlayState};
 use crate::law::{Elements, FrictionLevel, SlidingLimits};
-use crate::scene::passage::{Motion, direction};
+use crate::scene::reversal::{Motion, direction};
 use crate::scene::sliding::Sliding;
 
 /// What a scene with memory keeps from tick to tick beside the state of the scene without.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Remembered<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> {
+pub struct SceneMemory<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> {
     /// What the elements remember.
     pub elements: E::State,
     pub(super) reading: A::State,
     pub(super) play: PlayState,
-    /// Turn beyond the play that balls have still to make, rad (m): the next steps move them by it, each within the scene's largest
+    /// Travel beyond the play that is not yet applied to the balls, rad (m): the next steps apply it, each within the scene's largest
     /// speed.
     pub(super) moved: f32,
     pub(super) coefficient: L,
     /// Temperature of the last step, K, 150 to 500, and the law at it.
     pub(super) temperature: f32,
     pub(super) at_temperature: L::At,
-    /// The last sound inputs, and the last full friction with its limits and the viscous drag beside it.
+    /// The last sound inputs, and the last sliding friction with its limits and the viscous drag beside it.
     pub(super) inputs: S::Inputs,
-    pub(super) full: Option<S::Full>,
+    pub(super) sliding: Option<S::Friction>,
     pub(super) limits: SlidingLimits,
     pub(super) drag: f32,
     /// Levels that scale the limits.
@@ -46,7 +46,7 @@ const NONE: SlidingLimits = SlidingLimits {
     load: 0.0,
 };
 
-impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> Remembered<S, E, A, L> {
+impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> SceneMemory<S, E, A, L> {
     /// Before the first tick.
     pub(super) fn nothing(coefficient: L, temperature: f32) -> Self {
         Self {
@@ -58,7 +58,7 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> Remembered<S, E,
             temperature,
             at_temperature: coefficient.at_temperature(temperature),
             inputs: S::Inputs::STILL,
-            full: None,
+            sliding: None,
             limits: NONE,
             drag: 0.0,
             level: FrictionLevel::ONE,
@@ -78,7 +78,7 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> Remembered<S, E,
         Ok(())
     }
 
-    /// Turn that the balls have still to make, rad (m).
+    /// Travel that is not yet applied to the balls, rad (m).
     pub(crate) const fn moved(&self) -> f32 {
         self.moved
     }

@@ -1,7 +1,7 @@
 //! A scene with memory as bytes. The law of the friction coefficient is that of the constants, or what was set last.
 
 use super::{
-    CoefficientFor, Remembered, Sliding, WithMemory, WithMemoryConstants, WithMemoryState,
+    CoefficientFor, SceneMemory, Sliding, WithMemory, WithMemoryConstants, WithMemoryState,
 };
 use crate::error::Range;
 use crate::law::coefficient::{CoefficientModel, TEMPERATURE};
@@ -16,7 +16,7 @@ const MEMORY: u16 = 0x100;
 
 impl<S, E, A, L> StoredScene for WithMemory<S, E, A, L>
 where
-    S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Full: Stored + Default> + Copy,
+    S: StoredScene + Sliding<Constants: Copy, Inputs: Stored, Friction: Stored + Default> + Copy,
     E: Elements<State: Stored> + Fingerprinted + Copy,
     A: NutAngle<State: Stored> + Fingerprinted + Copy,
     L: CoefficientFor<<S as Scene>::Inputs>,
@@ -41,7 +41,7 @@ where
     ) -> Result<(), Refusal> {
         S::complete(&constants.scene, &mut state.scene)?;
         let remembered = &mut state.remembered;
-        if !constants.angle.gave(&remembered.reading) {
+        if !constants.angle.is_valid_state(&remembered.reading) {
             return Err(Refusal::OutOfRange { field: "reading" });
         }
         if !constants.play.holds(&remembered.play) {
@@ -67,12 +67,12 @@ where
 
 impl<S, E, A, L> Stored for WithMemoryState<S, E, A, L>
 where
-    S: Sliding<State: Stored, Inputs: Stored, Full: Stored + Default>,
+    S: Sliding<State: Stored, Inputs: Stored, Friction: Stored + Default>,
     E: Elements<State: Stored>,
     A: NutAngle<State: Stored>,
     L: CoefficientModel,
 {
-    const BYTES: usize = <S::State as Stored>::BYTES + Remembered::<S, E, A, L>::BYTES;
+    const BYTES: usize = <S::State as Stored>::BYTES + SceneMemory::<S, E, A, L>::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         self.scene.exchange(port)?;
@@ -80,9 +80,9 @@ where
     }
 }
 
-impl<S, E, A, L> Stored for Remembered<S, E, A, L>
+impl<S, E, A, L> Stored for SceneMemory<S, E, A, L>
 where
-    S: Sliding<Inputs: Stored, Full: Stored + Default>,
+    S: Sliding<Inputs: Stored, Friction: Stored + Default>,
     E: Elements<State: Stored>,
     A: NutAngle<State: Stored>,
     L: CoefficientModel,
@@ -91,7 +91,7 @@ where
         + <A::State as Stored>::BYTES
         + PlayState::BYTES
         + <<S as Scene>::Inputs as Stored>::BYTES
-        + (1 + <S::Full as Stored>::BYTES)
+        + (1 + <S::Friction as Stored>::BYTES)
         + SlidingLimits::BYTES
         + 3 * 4;
 
@@ -104,6 +104,6 @@ where
         port.number("temperature", &mut self.temperature, TEMPERATURE)?;
         port.number("moved", &mut self.moved, Range::new(-1e9, 1e9))?;
         port.number("drag", &mut self.drag, Range::new(-1e9, 1e9))?;
-        self.full.exchange(port)
+        self.sliding.exchange(port)
     }
 }

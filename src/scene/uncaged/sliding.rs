@@ -1,13 +1,13 @@
-//! Full friction of a ball screw without cage, as a memory needs it.
+//! Sliding friction of a ball screw without cage, as a memory needs it.
 
-use super::{UncagedBallScrew, UncagedConstants, UncagedFull, UncagedState};
+use super::{UncagedBallScrew, UncagedConstants, UncagedFriction, UncagedState};
 use crate::error::Range;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 use crate::scene::contract::Inputs;
 use crate::scene::faults::bounded;
 use crate::scene::outputs::UncagedOutputs;
-use crate::scene::passage::Passage;
+use crate::scene::reversal::ReversalState;
 use crate::scene::sliding::{Sliding, SlidingFriction};
 
 impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> {
@@ -15,38 +15,38 @@ impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> 
 
     const COUNTS_PRELOAD: bool = true;
 
-    type Full = UncagedFull;
+    type Friction = UncagedFriction;
 
     #[inline(always)]
-    fn full(
+    fn sliding_friction(
         constants: &UncagedConstants<N, NODES>,
         state: &mut UncagedState<N>,
         inputs: Inputs,
         friction: DirectionalCoefficient,
-    ) -> UncagedFull {
+    ) -> UncagedFriction {
         state.friction = constants.place(friction.of(inputs.nut_speed).0);
-        let mut full = constants.full(state, inputs);
-        full.row.ratios = friction.over_own(inputs.nut_speed);
-        full
+        let mut sliding = constants.sliding_friction(state, inputs);
+        sliding.row.ratios = friction.over_own(inputs.nut_speed);
+        sliding
     }
 
     #[inline(always)]
-    fn friction(full: &UncagedFull) -> SlidingFriction {
-        full.row.friction()
+    fn by_direction(sliding: &UncagedFriction) -> SlidingFriction {
+        sliding.row.friction()
     }
 
     #[inline(always)]
-    fn passed(
+    fn outputs_at(
         constants: &UncagedConstants<N, NODES>,
         inputs: Inputs,
-        full: &UncagedFull,
-        passage: Passage,
+        sliding: &UncagedFriction,
+        reversal: ReversalState,
     ) -> UncagedOutputs {
-        full.passed(inputs.axial_load * constants.reduced_lead, passage)
+        sliding.outputs_at(inputs.axial_load * constants.reduced_lead, reversal)
     }
 
     #[inline(always)]
-    fn in_a_tick(constants: &UncagedConstants<N, NODES>, turn: f32, _: f32) -> (f32, f32) {
+    fn limited_travel(constants: &UncagedConstants<N, NODES>, turn: f32, _: f32) -> (f32, f32) {
         let turn = bounded(turn, constants.limits.nut_speed * constants.tick);
         (turn, turn * constants.per_tick)
     }

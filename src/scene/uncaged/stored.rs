@@ -1,10 +1,10 @@
 //! A ball screw without cage as bytes.
 
-use super::{UncagedBallScrew, UncagedConstants, UncagedFull, UncagedState};
+use super::{UncagedBallScrew, UncagedConstants, UncagedFriction, UncagedState};
 use crate::ranges;
 use crate::scene::circuit::CircuitState;
 use crate::scene::faults::Faults;
-use crate::scene::row::RowFull;
+use crate::scene::row::TrainFriction;
 use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
@@ -47,8 +47,8 @@ impl<const N: usize> Stored for UncagedState<N> {
     }
 }
 
-impl Stored for UncagedFull {
-    const BYTES: usize = RowFull::BYTES + Faults::BYTES;
+impl Stored for UncagedFriction {
+    const BYTES: usize = TrainFriction::BYTES + Faults::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         self.row.exchange(port)?;

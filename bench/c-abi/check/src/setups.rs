@@ -4,7 +4,7 @@ use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, OilData, RollingDrag, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::{Hysteresis, Part, ProportionalElements, SLIP_4, SPIN_4};
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, FoldedBall, Freshness, Scene, UncagedConstants,
     WithMemory, WithMemoryConfiguration,
@@ -68,13 +68,13 @@ pub const NODES: usize = 5;
 
 /// The same gear with a memory, behind an encoder of 14 bits on its motor.
 pub type Remembering =
-    WithMemory<CagedBallScrew<NODES>, ProportionalElements<8>, Steady<CountSensor>, CoefficientLaw>;
+    WithMemory<CagedBallScrew<NODES>, ProportionalElements<8>, Deadband<CountSensor>, CoefficientLaw>;
 
 /// What is set for it.
 type RememberingConfiguration = WithMemoryConfiguration<
     CagedBallScrewConfiguration<NODES>,
     ProportionalElements<8>,
-    Steady<CountSensor>,
+    Deadband<CountSensor>,
     CoefficientLaw,
 >;
 
@@ -142,7 +142,7 @@ fn remembering(block: &[u32]) -> Result<RememberingConfiguration, Error> {
     Ok(WithMemoryConfiguration {
         scene,
         elements,
-        angle: Steady::new(counts, 1e-4)?,
+        angle: Deadband::new(counts, 1e-4)?,
         reference_load: 1.0,
         play: elements.breakaway(),
         coefficient: law(0.12)?,

@@ -104,7 +104,7 @@ impl Breakaway {
     }
 
     /// The seat as an element of its own, with the share of slip: for a screw with play, in
-    /// [`Together`](epas_friction::law::memory::Together) with [`Self::elements_beside_seat`].
+    /// [`ParallelElements`](epas_friction::law::memory::ParallelElements) with [`Self::elements_beside_seat`].
     ///
     /// # Errors
     /// As [`SeatElement::new`]: `reference_limit` where nothing slips, `breakaway_angle` where the grooves' slope holds the ball

@@ -1,15 +1,13 @@
 //! The two loaded contacts of a ball in a screw.
 
 use super::contact::ContactStiffness;
+use super::halving::first_not_below;
 use super::resistance::Resistance;
 use epas_friction::ball::Clearance;
 use epas_friction::contact::{RollingContact, RollingResistance, slip_and_spin};
 use epas_friction::error::{Error, Range};
 use epas_friction::geometry::{BallScrew, Groove};
 use epas_friction::math::constant;
-
-/// Halvings with which a load is found: 24 for the digits of an f32, and 16 for loads that are small beside the interval.
-const HALVINGS: u8 = 40;
 
 /// Least and largest axis ratio with which the limit surface is evaluated, those of its integrals: it hardly changes beyond.
 const AXIS_RATIO: Range = Range::new(0.02, 0.95);
@@ -112,24 +110,15 @@ impl ScrewContacts {
             return load;
         }
         let half = 0.5 * sum;
-        let (mut low, mut high) = (load, load + half * constant::sqrt(half));
-        let mut halving = 0;
-        while halving < HALVINGS {
-            let middle = 0.5 * (low + high);
+        first_not_below(load, load + half * constant::sqrt(half), |middle| {
             let left = sum - constant::cbrt_squared(middle);
             let other = if left > 0.0 {
                 left * constant::sqrt(left)
             } else {
                 0.0
             };
-            if middle - other < load {
-                low = middle;
-            } else {
-                high = middle;
-            }
-            halving += 1;
-        }
-        high
+            middle - other < load
+        })
     }
 
     /// Mean deflection of both contacts over the load to the power of 2/3, m/N^(2/3).

@@ -1,12 +1,10 @@
 //! What holds a ball across its path.
 
+use super::halving::first_not_below;
 use super::pair::ScrewContacts;
 use epas_friction::ball::Clearance;
 use epas_friction::geometry::{BallScrew, Groove};
 use epas_friction::math::constant;
-
-/// Halvings of the drift's interval: 24 for the digits of an f32, and 16 for drifts that are small beside what the slope alone allows.
-const HALVINGS: u8 = 40;
 
 /// What holds a ball of a screw across the path while its contacts slip: derived, no published screw to check with.
 ///
@@ -108,18 +106,7 @@ impl Seat {
         };
         let force = self.friction * share;
         // The grooves' slope alone would hold the ball there.
-        let (mut low, mut high) = (0.0, force / self.slope);
-        let mut halving = 0;
-        while halving < HALVINGS {
-            let middle = 0.5 * (low + high);
-            if self.holding(middle) < force {
-                low = middle;
-            } else {
-                high = middle;
-            }
-            halving += 1;
-        }
-        high
+        first_not_below(0.0, force / self.slope, |drift| self.holding(drift) < force)
     }
 
     /// Nut angle in which the ball drifts that far, rad; 0 without lead.

@@ -5,7 +5,7 @@ use epas_friction::law::FrictionLevel;
 use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, TemperatureFade};
 use epas_friction::law::compensation::CompensationMargin;
 use epas_friction::law::memory::{LoadExactElements, PreloadedElements};
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, Steady};
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
 use epas_friction::scene::{
     CagedBallScrew, CagedConstants, Freshness, WithMemory, WithMemoryConfiguration,
     WithMemoryConstants, WithMemoryInputs,
@@ -21,7 +21,7 @@ use crate::gears::LIN_4_1_RANGE;
 pub type Elements = PreloadedElements<LoadExactElements<8>>;
 
 /// The encoder behind a play as wide as its noise.
-pub type Encoder = Steady<CountSensor>;
+pub type Encoder = Deadband<CountSensor>;
 
 /// A caged ball screw whose friction remembers, with a friction coefficient by speed and temperature between the nodes of its block.
 pub type Scene = WithMemory<CagedBallScrew<5>, Elements, Encoder, CoefficientLaw>;
@@ -89,7 +89,7 @@ pub fn constants(calibration: &Calibration) -> Result<Constants, Error> {
             calibration.breakaway_angle,
             calibration.largest_axial_load / reference_load,
         )?),
-        angle: Steady::new(counter()?, calibration.angle_play)?,
+        angle: Deadband::new(counter()?, calibration.angle_play)?,
         reference_load,
         play: calibration.breakaway_angle,
         coefficient: CoefficientLaw::new(&CoefficientParameters {

@@ -237,13 +237,11 @@ impl CagedBallScrew {
 
     /// Faulted ticks are counted anew.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        let state = self.model.export();
-        let state = state.map_err(|error| refused(py, error.to_string()))?;
+        let state = restored::state(py, self.model.export())?;
         let (block, text) = match &self.origin {
             Origin::Block(words) => (Some(restored::bytes(py, words)), None),
             Origin::ClosedForm(text) => (None, Some(text.to_string())),
         };
-        let state = PyBytes::new(py, &state);
         reduced(py, "caged", (block, text, self.friction, state))
     }
 

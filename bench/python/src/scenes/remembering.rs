@@ -6,7 +6,6 @@ use epas_bench::bindings::{self, Failure, Remembers, Use, coefficients, remember
 use epas_bench::caged;
 use epas_friction::{Inputs, Outputs, Refusal};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
 
 use super::caged::words;
 use super::columns::{Columns, ScrewColumns};
@@ -215,11 +214,9 @@ impl CagedBallScrewWithMemory {
 
     /// Faulted ticks are counted anew.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        let state = self.model.export();
-        let state = state.map_err(|error| refused(py, error.to_string()))?;
+        let state = restored::state(py, self.model.export())?;
         let (name, text) = self.recipe.arguments();
         let block = restored::bytes(py, &self.words);
-        let state = PyBytes::new(py, &state);
         let arguments = (name, text, self.reference_load, block, state);
         reduced(py, "remembering", arguments)
     }

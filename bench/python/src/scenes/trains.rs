@@ -10,7 +10,6 @@ use epas_bench::uncaged::{configuration_with, fold_for, folded, read};
 use epas_design::uncaged::UncagedBlock;
 use epas_friction::{Error, Inputs, LinearInputs, LinearOutputs, UncagedOutputs};
 use pyo3::prelude::*;
-use pyo3::types::PyBytes;
 
 use super::caged::words;
 use super::columns::{Columns, LinearColumns, UncagedColumns};
@@ -85,13 +84,6 @@ impl Made {
             self.set_friction,
         )
     }
-}
-
-/// A state as bytes.
-fn state<'py, I, O>(py: Python<'py>, model: &dyn Balls<I, O>) -> PyResult<Bound<'py, PyBytes>> {
-    let state = model.export();
-    let state = state.map_err(|error| refused(py, error.to_string()))?;
-    Ok(PyBytes::new(py, &state))
 }
 
 /// Puts a model back into a state, after the coefficient that was set.
@@ -318,7 +310,7 @@ impl UncagedBallScrew {
     /// Faulted ticks are counted anew.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
         let block = restored::bytes(py, &self.words);
-        let state = state(py, &*self.model)?;
+        let state = restored::state(py, self.model.export())?;
         reduced(py, "uncaged", (self.made.arguments(), block, state))
     }
 
@@ -615,7 +607,7 @@ impl LinearBearingTrain {
 
     /// Faulted ticks are counted anew.
     fn __reduce__<'py>(&self, py: Python<'py>) -> PyResult<Reduced<'py>> {
-        let state = state(py, &*self.model)?;
+        let state = restored::state(py, self.model.export())?;
         reduced(py, "bearing", (self.made.arguments(), state))
     }
 

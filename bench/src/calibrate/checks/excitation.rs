@@ -75,8 +75,12 @@ pub fn stands_still(
 /// Shares of the samples that move forwards and backwards.
 fn directions(motion: &Motion) -> [f64; 2] {
     let slow = rest(motion);
-    let share = |way: f64| {
-        let count = motion.speed.iter().filter(|w| way * **w > slow).count();
+    let share = |direction: f64| {
+        let count = motion
+            .speed
+            .iter()
+            .filter(|w| direction * **w > slow)
+            .count();
         count as f64 / motion.speed.len().max(1) as f64
     };
     [share(1.0), share(-1.0)]
@@ -103,11 +107,11 @@ fn reversals(motion: &Motion) -> usize {
     let mut last = 0.0;
     let mut count = 0;
     for speed in motion.speed.iter().filter(|w| w.abs() > slow) {
-        let way = 1.0_f64.copysign(*speed);
-        if last != 0.0 && way != last {
+        let direction = 1.0_f64.copysign(*speed);
+        if last != 0.0 && direction != last {
             count += 1;
         }
-        last = way;
+        last = direction;
     }
     count
 }

@@ -86,7 +86,7 @@ const ELASTIC: [f64; 2] = [25e-3, 0.25e-3];
 
 /// Whether a sample is beyond that way, for every one.
 fn beyond_elasticity(trace: &Trace, motion: &Motion) -> Vec<bool> {
-    let way = match trace.coordinate {
+    let least = match trace.coordinate {
         Coordinate::Rotation => ELASTIC[0],
         Coordinate::Translation => ELASTIC[1],
     };
@@ -101,7 +101,7 @@ fn beyond_elasticity(trace: &Trace, motion: &Motion) -> Vec<bool> {
                 (low, high) = (f64::INFINITY, f64::NEG_INFINITY);
             }
             (low, high) = (low.min(*position), high.max(*position));
-            high - low > way
+            high - low > least
         })
         .collect()
 }
@@ -165,14 +165,14 @@ fn sums(trace: &Trace, motion: &Motion, samples: &[usize], later: [isize; 2]) ->
             None => 0.0,
         };
         let speed = *motion.speed.get(*sample)?;
-        let way = 1.0_f64.copysign(speed);
+        let direction = 1.0_f64.copysign(speed);
         let terms = [
             *motion.acceleration.get(*sample)?,
             speed,
-            way,
+            direction,
             1.0,
             load,
-            load.abs() * way,
+            load.abs() * direction,
         ];
         for (place, (row, term)) in products.iter_mut().zip(terms).enumerate() {
             for (product, other) in row.iter_mut().zip(terms).skip(place) {

@@ -15,9 +15,9 @@ pub fn directions(position: &[f64], speed: &[f64], dead: f64) -> Vec<f64> {
     };
     let (mut low, mut high) = ((0, *first), (0, *first));
     // The farthest place in the present direction; that direction; where it began.
-    let (mut far, mut way, mut begin) = ((0, *first), 0.0, 0);
+    let (mut far, mut direction, mut begin) = ((0, *first), 0.0, 0);
     for (sample, place) in position.iter().copied().enumerate() {
-        if way == 0.0 {
+        if direction == 0.0 {
             if place < low.1 {
                 low = (sample, place);
             }
@@ -25,20 +25,20 @@ pub fn directions(position: &[f64], speed: &[f64], dead: f64) -> Vec<f64> {
                 high = (sample, place);
             }
             if place - low.1 > dead {
-                (way, far) = (1.0, (sample, place));
+                (direction, far) = (1.0, (sample, place));
             } else if high.1 - place > dead {
-                (way, far) = (-1.0, (sample, place));
+                (direction, far) = (-1.0, (sample, place));
             }
-        } else if (place - far.1) * way >= 0.0 {
+        } else if (place - far.1) * direction >= 0.0 {
             far = (sample, place);
-        } else if (far.1 - place) * way > dead {
-            fill(&mut directions, begin..far.0, way);
+        } else if (far.1 - place) * direction > dead {
+            fill(&mut directions, begin..far.0, direction);
             directions[far.0] = speed.get(far.0).map_or(0.0, |speed| sign(*speed));
-            (begin, way) = (far.0 + 1, -way);
+            (begin, direction) = (far.0 + 1, -direction);
             far = (sample, place);
         }
     }
-    fill(&mut directions, begin..position.len(), way);
+    fill(&mut directions, begin..position.len(), direction);
     directions
 }
 
@@ -46,19 +46,21 @@ pub fn directions(position: &[f64], speed: &[f64], dead: f64) -> Vec<f64> {
 pub fn near_turns(directions: &[f64], position: &[f64], reach: f64) -> Vec<Range<usize>> {
     let mut stretches = Vec::new();
     let mut begin = 0;
-    for ways in directions.chunk_by(|one, other| one == other) {
-        let way = position.get(begin..begin + ways.len()).unwrap_or_default();
-        let first = way.first().copied().unwrap_or(0.0);
-        let near = way.iter().position(|place| (place - first).abs() > reach);
-        stretches.push(begin..begin + near.unwrap_or(ways.len()));
-        begin += ways.len();
+    for same in directions.chunk_by(|one, other| one == other) {
+        let places = position.get(begin..begin + same.len()).unwrap_or_default();
+        let first = places.first().copied().unwrap_or(0.0);
+        let near = places
+            .iter()
+            .position(|place| (place - first).abs() > reach);
+        stretches.push(begin..begin + near.unwrap_or(same.len()));
+        begin += same.len();
     }
     stretches
 }
 
-fn fill(directions: &mut [f64], samples: Range<usize>, way: f64) {
+fn fill(directions: &mut [f64], samples: Range<usize>, direction: f64) {
     if let Some(directions) = directions.get_mut(samples) {
-        directions.fill(way);
+        directions.fill(direction);
     }
 }
 
@@ -102,10 +104,13 @@ mod tests {
     fn what_is_near_a_turn_is_found() {
         let position = [0.0, 1.0, 2.0, 3.0, 4.0, 3.0, 2.0, 1.0, 0.0];
         let speed = [1.0, 1.0, 1.0, 1.0, 0.0, -1.0, -1.0, -1.0, -1.0];
-        let ways = directions(&position, &speed, 0.5);
-        assert_eq!(ways, [1.0, 1.0, 1.0, 1.0, 0.0, -1.0, -1.0, -1.0, -1.0]);
-        assert_eq!(near_turns(&ways, &position, 1.5), [0..2, 4..5, 5..7]);
+        let directions = directions(&position, &speed, 0.5);
+        assert_eq!(
+            directions,
+            [1.0, 1.0, 1.0, 1.0, 0.0, -1.0, -1.0, -1.0, -1.0]
+        );
+        assert_eq!(near_turns(&directions, &position, 1.5), [0..2, 4..5, 5..7]);
         // A motion that never comes so far is near its turns throughout.
-        assert_eq!(near_turns(&ways, &position, 9.0), [0..4, 4..5, 5..9]);
+        assert_eq!(near_turns(&directions, &position, 9.0), [0..4, 4..5, 5..9]);
     }
 }

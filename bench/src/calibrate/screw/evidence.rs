@@ -7,7 +7,7 @@ use crate::calibrate::trace::Trace;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evidence {
     /// Samples of motion forward and backward over all.
-    pub ways: [f64; 2],
+    pub directions: [f64; 2],
     /// Speed that a tenth of the moving samples stay below, and the one that a tenth exceed, rad/s.
     pub speeds: [f64; 2],
     /// Turns of the motion's direction.
@@ -30,11 +30,11 @@ impl Evidence {
     pub fn of(trace: &Trace, motion: &Motion) -> Self {
         let [speed_noise, acceleration_noise] = motion.noise;
         let samples = motion.speed.len().max(1) as f64;
-        let share = |way: f64| {
+        let share = |direction: f64| {
             let moving = motion
                 .speed
                 .iter()
-                .filter(|&speed| way * speed > MOVES * speed_noise);
+                .filter(|&speed| direction * speed > MOVES * speed_noise);
             moving.count() as f64 / samples
         };
         let mut sizes: Vec<f64> = motion
@@ -47,7 +47,7 @@ impl Evidence {
         let tenth = |place: usize| sizes.get(sizes.len() * place / 10).copied().unwrap_or(0.0);
         let square: f64 = motion.acceleration.iter().map(|a| a * a).sum();
         Self {
-            ways: [share(1.0), share(-1.0)],
+            directions: [share(1.0), share(-1.0)],
             speeds: [tenth(1), tenth(9)],
             reversals: reversals(&motion.position, reversal_distance(trace)),
             range: ends(&motion.position).map_or(0.0, |[low, high]| high - low),
@@ -59,7 +59,7 @@ impl Evidence {
 
     /// Whether both directions are there.
     pub fn both_ways(&self) -> bool {
-        self.ways.iter().all(|share| *share > 0.05)
+        self.directions.iter().all(|share| *share > 0.05)
     }
 
     /// Largest load, N; 0 where none was measured.
@@ -103,17 +103,17 @@ fn ends(list: &[f64]) -> Option<[f64; 2]> {
 /// How often a path turns back by more than a distance.
 fn reversals(path: &[f64], distance: f64) -> usize {
     let Some(&first) = path.first() else { return 0 };
-    let (mut way, mut farthest, mut count) = (0.0, first, 0);
+    let (mut direction, mut farthest, mut count) = (0.0, first, 0);
     for &place in path {
         let gone = place - farthest;
-        if way == 0.0 {
+        if direction == 0.0 {
             if gone.abs() > distance {
-                (way, farthest) = (gone.signum(), place);
+                (direction, farthest) = (gone.signum(), place);
             }
-        } else if way * gone > 0.0 {
+        } else if direction * gone > 0.0 {
             farthest = place;
-        } else if way * gone < -distance {
-            (way, farthest) = (-way, place);
+        } else if direction * gone < -distance {
+            (direction, farthest) = (-direction, place);
             count += 1;
         }
     }

@@ -15,7 +15,7 @@ use epas_design::CagedDesign;
 use epas_design::drawing::drawing;
 use epas_friction::law::coefficient::DirectionalCoefficient;
 use epas_friction::scene::{
-    CheckedInputs, Inputs, Outputs, Passage, Regime, Scene, SceneOutputs as _, Sliding,
+    CheckedInputs, Inputs, Outputs, Regime, ReversalState, Scene, SceneOutputs as _, Sliding,
     SlidingFriction,
 };
 use epas_friction::{Error, Faults, Range, ranges};
@@ -548,7 +548,7 @@ impl<'a> Scene for ExactScrew<'a> {
     type Constants = &'a ExactLaw;
     type State = ();
     type Inputs = Inputs;
-    type Known = Inputs;
+    type ValidInputs = Inputs;
     type Outputs = Outputs;
 
     fn constants(law: &&'a ExactLaw) -> Result<&'a ExactLaw, Error> {
@@ -588,9 +588,9 @@ impl<'a> Sliding for ExactScrew<'a> {
 
     const COUNTS_PRELOAD: bool = true;
 
-    type Full = SlidingFriction;
+    type Friction = SlidingFriction;
 
-    fn full(
+    fn sliding_friction(
         law: &&'a ExactLaw,
         (): &mut (),
         inputs: Inputs,
@@ -599,27 +599,27 @@ impl<'a> Sliding for ExactScrew<'a> {
         law.friction(inputs.axial_load, friction)
     }
 
-    fn friction(full: &SlidingFriction) -> SlidingFriction {
+    fn by_direction(full: &SlidingFriction) -> SlidingFriction {
         *full
     }
 
     /// Friction and the torque of the load alone: a fit reads nothing else.
-    fn passed(
+    fn outputs_at(
         law: &&'a ExactLaw,
         inputs: Inputs,
         full: &SlidingFriction,
-        passage: Passage,
+        reversal: ReversalState,
     ) -> Outputs {
-        let full = if passage.share < 0.0 {
+        let full = if reversal.share < 0.0 {
             full.backward
         } else {
             full.forward
         };
         Outputs {
-            friction_torque: passage.share * full,
+            friction_torque: reversal.share * full,
             load_torque: inputs.axial_load * law.reduced_lead as f32,
             efficiency: 0.0,
-            regime: if passage.standing {
+            regime: if reversal.standing {
                 Regime::Standing
             } else {
                 Regime::Driving
@@ -628,7 +628,7 @@ impl<'a> Sliding for ExactScrew<'a> {
         }
     }
 
-    fn in_a_tick(_: &&'a ExactLaw, turn: f32, measured: f32) -> (f32, f32) {
+    fn limited_travel(_: &&'a ExactLaw, turn: f32, measured: f32) -> (f32, f32) {
         (turn, measured)
     }
 }

@@ -15,7 +15,7 @@ use epas_friction::law::coefficient::{
 use epas_friction::law::memory::{
     Hysteresis, LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
 };
-use epas_friction::law::motion::{Steady, WrappedAngle, WrappedAngleParameters};
+use epas_friction::law::motion::{Deadband, WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{
     Freshness, Inputs, SlidingFriction, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
 };
@@ -32,7 +32,7 @@ use crate::failure::Failure;
 pub const ELEMENTS: usize = 8;
 
 /// Sensor of the nut's angle, behind its backlash.
-pub type Sensor = Steady<WrappedAngle>;
+pub type Sensor = Deadband<WrappedAngle>;
 
 /// A scene with such a memory.
 pub type Remembering<'a, E> = WithMemory<ExactScrew<'a>, E, Sensor, CoefficientLaw>;
@@ -262,7 +262,7 @@ impl Screw {
         Ok(WithMemoryConfiguration {
             scene: law,
             elements,
-            angle: Steady::new(angle, 0.5 * values.backlash as f32)?,
+            angle: Deadband::new(angle, 0.5 * values.backlash as f32)?,
             reference_load: reference.load,
             play: elements.breakaway(),
             coefficient,

@@ -60,7 +60,7 @@ impl<'a> Rival<'a> {
             });
         let scales = Scales {
             speed: size(&motion.speed).max(f64::MIN_POSITIVE),
-            way: (ends[1] - ends[0]).max(f64::MIN_POSITIVE),
+            travel: (ends[1] - ends[0]).max(f64::MIN_POSITIVE),
             resolution: trace.resolution,
             tick: trace.step,
         };

@@ -20,19 +20,19 @@ const SHARE: f64 = 0.1;
 pub fn period(position: &[f64], residual: &[f64], resolution: f64) -> Option<f64> {
     let low = position.iter().copied().fold(f64::INFINITY, f64::min);
     let high = position.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let way = high - low;
-    if !(way > 0.0) || position.len() != residual.len() {
+    let travel = high - low;
+    if !(travel > 0.0) || position.len() != residual.len() {
         return None;
     }
     let finest = if resolution > 0.0 {
-        (way / (STEPS * resolution)).min(MOST)
+        (travel / (STEPS * resolution)).min(MOST)
     } else {
         MOST
     };
     let places = ((finest - FEWEST) * FINENESS).max(0.0) as usize;
     let power = size(residual).powi(2);
     (0..=places)
-        .map(|place| way / (FEWEST + place as f64 / FINENESS))
+        .map(|place| travel / (FEWEST + place as f64 / FINENESS))
         .map(|period| (explained(position, residual, period) / power, period))
         .max_by(|one, other| one.0.total_cmp(&other.0))
         .filter(|(share, _)| *share > SHARE)
@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     /// There and back over 0.2 m.
-    fn way() -> Vec<f64> {
+    fn travel() -> Vec<f64> {
         (0..4000)
             .map(|sample| 0.1 * (1.0 - (TAU * f64::from(sample) / 4000.0).cos()))
             .collect()
@@ -74,7 +74,7 @@ mod tests {
 
     #[test]
     fn a_ripple_is_found_and_noise_is_none() {
-        let position = way();
+        let position = travel();
         // A golden-ratio sequence in place of noise: even, and without a period.
         let noise = |sample: usize| (sample as f64 * 0.618_034).fract() - 0.5;
         let rippled: Vec<f64> = position

@@ -71,7 +71,7 @@ struct Units {
     inertia: &'static str,
     drag: &'static str,
     effort: &'static str,
-    way: &'static str,
+    length: &'static str,
     speed: &'static str,
     stiffness: &'static str,
     gain: &'static str,
@@ -83,7 +83,7 @@ const fn units(coordinate: Coordinate) -> Units {
             inertia: "kg m^2",
             drag: "N m s/rad",
             effort: "N m",
-            way: "rad",
+            length: "rad",
             speed: "rad/s",
             stiffness: "N m/rad",
             gain: "m/rad",
@@ -92,7 +92,7 @@ const fn units(coordinate: Coordinate) -> Units {
             inertia: "kg",
             drag: "N s/m",
             effort: "N",
-            way: "m",
+            length: "m",
             speed: "m/s",
             stiffness: "N/m",
             gain: "",
@@ -127,7 +127,7 @@ impl<'a> Slide<'a> {
     ) -> Self {
         let scales = scales(trace, motion);
         let units = units(trace.coordinate);
-        let mut nonlinear = law.parameters(&scales, [units.way, units.speed]);
+        let mut nonlinear = law.parameters(&scales, [units.length, units.speed]);
         if terms.delay {
             nonlinear.push(Parameter {
                 name: DELAY,
@@ -353,7 +353,7 @@ fn scales(trace: &Trace, motion: &Motion) -> Scales {
         .fold(0.0, f64::max);
     Scales {
         speed: speed.max(f64::MIN_POSITIVE),
-        way: (high - low).max(f64::MIN_POSITIVE),
+        travel: (high - low).max(f64::MIN_POSITIVE),
         resolution: trace.resolution,
         tick: trace.step,
     }

@@ -1,16 +1,13 @@
 //! Caged screws: errors over the certificates of twenty folds.
 
-use epas_design::{CagedDesign, CagedFold, Figure};
-use epas_friction::{BallScrew, BallScrewParameters, Clearance, Limits, defaults};
+use epas_design::gears::{TESTED_CLEARANCES, TESTED_FRICTIONS, tested};
+use epas_design::{CagedFold, Figure};
+use epas_friction::BallScrewParameters;
 use rayon::prelude::*;
 
 use super::Accuracy;
 use crate::designs::built_in;
 use crate::failure::Failure;
-
-/// Friction coefficients and clearances, m, that the designs take in turn.
-const FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
-const CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 20e-6];
 
 /// Largest pitch radius, m: diameters to 63 mm.
 const PITCH_RADIUS: f32 = 35e-3;
@@ -22,22 +19,11 @@ fn designs() -> impl Iterator<Item = BallScrewParameters> {
         .step_by(2)
 }
 
+/// The clearances and friction coefficients in turn.
 fn fold(parameters: BallScrewParameters, place: usize) -> Result<CagedFold, Failure> {
-    let design = BallScrew::new(parameters)?;
-    let clearance = Clearance::new(CLEARANCES[place % CLEARANCES.len()])?;
-    Ok(CagedFold::of(CagedDesign {
-        design,
-        friction: FRICTIONS[place % FRICTIONS.len()],
-        rolling_resistance: defaults::ROLLING_RESISTANCE,
-        clearance: clearance.checked(&design)?,
-        loaded_balls: 37,
-        reversal_speed: 0.5,
-        limits: Limits {
-            nut_speed: 1e3,
-            axial_load: 1e5,
-            friction_torque: 100.0,
-        },
-    }))
+    let clearance = TESTED_CLEARANCES[place % TESTED_CLEARANCES.len()];
+    let friction = TESTED_FRICTIONS[place % TESTED_FRICTIONS.len()];
+    Ok(tested(parameters, clearance, friction)?)
 }
 
 /// Friction torque of a step, over all designs.

@@ -2,7 +2,7 @@
 
 use epas_friction::law::compensation::CompensationMargin;
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Steady};
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband, NutAngle};
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_reference::closed_loop::{ClosedLoop, Swing};
 use rand_distr::{Distribution, Normal};
@@ -213,8 +213,8 @@ impl Case {
         })?;
         let noise = (0.5 + 3.0 * self.noise) * ClosedLoop::COUNT;
         let half_width = play.map_or(0.0, |play| noise + play * self.breakaway);
-        let sensor = Steady::new(counts, half_width as f32)?;
-        let mut reading = Steady::<CountSensor>::FRESH;
+        let sensor = Deadband::new(counts, half_width as f32)?;
+        let mut reading = Deadband::<CountSensor>::FRESH;
         let mut state = ProportionalElements::<8>::VIRGIN;
         let limits = SlidingLimits {
             forward: FRICTION,

@@ -102,20 +102,20 @@ pub const LOOPS: &[Row] = &[
     ),
     // Balls that the scene has not asked for are taken in when the tick ends.
     row(
-        "epas_friction::scene::uncaged::UncagedConstants::full",
+        "epas_friction::scene::uncaged::UncagedConstants::sliding_friction",
         Bound::Takes(&[Total::TakenIn]),
     ),
     // The same for even loads and for loads of their own.
     row(
-        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::full::{closure#0}",
+        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::sliding_friction::{closure#0}",
         Bound::Takes(&[Total::TakenIn]),
     ),
     row(
-        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::full::{closure#1}",
+        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::sliding_friction::{closure#1}",
         Bound::Takes(&[Total::TakenIn]),
     ),
     row(
-        "epas_friction::scene::linear::LinearConstants::full",
+        "epas_friction::scene::linear::LinearConstants::sliding_friction",
         Bound::Takes(&[Total::TakenIn]),
     ),
     row(

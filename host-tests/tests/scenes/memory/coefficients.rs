@@ -6,7 +6,7 @@ use epas_friction::law::coefficient::{
 };
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
-    Motion, Passage, Sliding, SlidingFriction, WithMemory, WithMemoryConfiguration,
+    Motion, ReversalState, Sliding, SlidingFriction, WithMemory, WithMemoryConfiguration,
     WithMemoryInputs,
 };
 use epas_friction::{
@@ -137,16 +137,16 @@ fn full_friction_is_what_passes_in_its_direction() {
         for tick in 0..4000 {
             let direction = if tick < 2000 { 1.0 } else { -1.0 };
             let inputs = load.with(direction * speed, 1.0);
-            let full = S::full(&constants, &mut state, inputs, coefficients);
-            let friction = S::friction(&full);
+            let full = S::sliding_friction(&constants, &mut state, inputs, coefficients);
+            let friction = S::by_direction(&full);
             let [[groove, ball], [groove_back, ball_back]] = [1.0, -1.0].map(|share| {
                 let standing = false;
-                let passage = Passage {
+                let reversal = ReversalState {
                     share,
                     direction,
                     standing,
                 };
-                parts(&S::passed(&constants, inputs, &full, passage))
+                parts(&S::outputs_at(&constants, inputs, &full, reversal))
             });
             pressing += i32::from(ball > 0.0);
             assert_eq!(ball, -ball_back, "tick {tick}");
@@ -204,7 +204,12 @@ fn full_friction<S: Sliding<Inputs = Inputs>>(
     let constants = S::constants(configuration).unwrap();
     let mut state = S::initial_state(&constants);
     let friction = both_ways(0.075);
-    S::friction(&S::full(&constants, &mut state, screw(5.0, load), friction))
+    S::by_direction(&S::sliding_friction(
+        &constants,
+        &mut state,
+        screw(5.0, load),
+        friction,
+    ))
 }
 
 /// Backward under a load is forward under the opposite one, by a block and by both closed forms; a load that opposes the motion makes

@@ -6,6 +6,7 @@ use epas_design::CagedDesign;
 use epas_friction::{Clearance, Inputs};
 
 use super::gear::Gear;
+use crate::bristle::{bristle, stribeck};
 use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
 use crate::calibrate::fit::separable::{FitSettings, fit};
 use crate::calibrate::screw::exact::{Grid, Spacing};
@@ -106,7 +107,7 @@ impl Rival {
                 by_speed(&gear.design.caged, values, &motion.speed, load)
                     .unwrap_or_else(|_| vec![f64::NAN; trace.len()])
             }
-            (_, [stiffness, in_motion, at_rest, stribeck]) => {
+            (_, [stiffness, in_motion, at_rest, stribeck_speed]) => {
                 let mut held = 0.0;
                 let mut last = motion.position.first().copied().unwrap_or(0.0);
                 let moments = motion.position.iter().zip(&motion.speed).zip(factors);
@@ -114,9 +115,8 @@ impl Rival {
                     .map(|((angle, speed), factor)| {
                         let pull = stiffness * (angle - last);
                         last = *angle;
-                        let level =
-                            in_motion + (at_rest - in_motion) * (-(speed / stribeck).powi(2)).exp();
-                        held = (held + pull) / (1.0 + pull.abs() / level);
+                        let level = stribeck(*speed, [*at_rest, *in_motion], *stribeck_speed);
+                        held = bristle(held, pull, level);
                         factor * held
                     })
                     .collect()

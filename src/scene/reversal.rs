@@ -6,8 +6,8 @@ use crate::math;
 /// Where friction is between its two directions in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Passage {
-    /// Part of full friction, with the sign of the direction in which friction opposes motion: -1 to 1, times the
+pub struct ReversalState {
+    /// Part of sliding friction, with the sign of the direction in which friction opposes motion: -1 to 1, times the
     /// [level](crate::law::FrictionLevel) of that direction where one is set.
     pub share: f32,
     /// -1 where the motion goes, or went last, in the negative direction, else 1.
@@ -58,16 +58,16 @@ impl Reversal {
         })
     }
 
-    /// Part of full friction at a speed, -1 to 1, with the speed's sign.
+    /// Part of sliding friction at a speed, -1 to 1, with the speed's sign.
     #[inline(always)]
     pub(super) fn share(&self, speed: f32) -> f32 {
         speed / math::sqrt(speed * speed + self.squared)
     }
 
-    /// The passage at a speed; standstill counts as forward.
+    /// The reversal state at a speed; standstill counts as forward.
     #[inline(always)]
-    pub(super) fn passage(&self, speed: f32) -> Passage {
-        Passage {
+    pub(super) fn at(&self, speed: f32) -> ReversalState {
+        ReversalState {
             share: self.share(speed),
             direction: direction(speed),
             standing: self.stands(speed),

@@ -1,12 +1,13 @@
 //! What a tick computes: every ball at its place, then how they press.
 
-use super::{UncagedConstants, UncagedFull, UncagedState};
+use super::{UncagedConstants, UncagedFriction, UncagedState};
+use crate::ball::folded::FrictionPlace;
 use crate::ball::pressed::{BallNumbers, FreeMotion};
 use crate::scene::circuit::UNLOADED;
 use crate::scene::contract::Inputs;
 use crate::scene::faults::Faults;
-use crate::scene::passage::direction;
-use crate::scene::row::RowFull;
+use crate::scene::reversal::direction;
+use crate::scene::row::TrainFriction;
 use crate::train::{Grip, Intake};
 
 /// What all balls have in common in a tick.
@@ -25,9 +26,13 @@ struct Common {
 }
 
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
-    /// Full friction in the direction of motion; moves the balls on by a tick.
+    /// Sliding friction in the direction of motion; moves the balls on by a tick.
     #[inline(always)]
-    pub(super) fn full(&self, state: &mut UncagedState<N>, inputs: Inputs) -> UncagedFull {
+    pub(super) fn sliding_friction(
+        &self,
+        state: &mut UncagedState<N>,
+        inputs: Inputs,
+    ) -> UncagedFriction {
         let Inputs {
             nut_speed,
             axial_load,
@@ -42,20 +47,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             })
         } else {
             let friction = state.friction;
-            self.take_in(
-                &mut balls,
-                phase,
-                axial_load,
-                &common,
-                |share, deviations| {
-                    let load = self.law.load_of(common.mean * share);
-                    let motion = self.law.at(load, common.branch, friction, deviations);
-                    FreeMotion {
-                        impedance: motion.impedance * common.grip.of_impedance(),
-                        ..motion
-                    }
-                },
-            )
+            let own = |share, deviations| self.under_own_load(&common, friction, share, deviations);
+            self.take_in(&mut balls, phase, axial_load, &common, own)
         };
         let pressing = balls.press_rubbing(common.grip);
         state.circuit.advance(&self.circuit, nut_speed);
@@ -63,13 +56,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let numbers = &common.numbers;
         let work = self.half_speed * common.grip.per_impedance() * pressing.work;
         let rubbing = self.ball_friction * numbers.rubbing * pressing.force;
-        let most = self.law.load_of(self.heaviest * common.mean);
-        let friction = state.friction;
-        let held = self.law.holds_forces(common.load, common.branch, friction)
-            && self.law.holds_load(most)
-            && self.law.holds(friction.friction());
-        UncagedFull {
-            row: RowFull {
+        UncagedFriction {
+            row: TrainFriction {
                 groove: not_negative(
                     torque + numbers.slope * common.direction * pressing.change + work,
                 ),
@@ -79,8 +67,34 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 contacts: pressing.contacts,
                 largest_contact_force: pressing.largest,
             },
-            faults: Faults::NONE.with(!held, Faults::BEYOND_MODEL),
+            faults: Faults::NONE.with(!self.holds(&common, state.friction), Faults::BEYOND_MODEL),
         }
+    }
+
+    /// What a ball does that carries a share of its own of the load, with the impedance that the train takes in.
+    #[inline(always)]
+    fn under_own_load(
+        &self,
+        common: &Common,
+        friction: FrictionPlace,
+        share: f32,
+        deviations: [f32; 2],
+    ) -> FreeMotion {
+        let load = self.law.load_of(common.mean * share);
+        let motion = self.law.at(load, common.branch, friction, deviations);
+        FreeMotion {
+            impedance: motion.impedance * common.grip.of_impedance(),
+            ..motion
+        }
+    }
+
+    /// Whether load and friction coefficient are within the law, and the forces between balls held.
+    #[inline(always)]
+    fn holds(&self, common: &Common, friction: FrictionPlace) -> bool {
+        let most = self.law.load_of(self.heaviest * common.mean);
+        self.law.holds_forces(common.load, common.branch, friction)
+            && self.law.holds_load(most)
+            && self.law.holds(friction.friction())
     }
 
     #[inline(always)]

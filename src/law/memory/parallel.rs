@@ -8,7 +8,7 @@ use crate::law::{Elements, SlidingLimits};
 ///
 /// `T = A(share T±) + B((1 - share) T±)`. Both remember their own; as passive as both are. Cost: both, and 6 cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Together<A, B> {
+pub struct ParallelElements<A, B> {
     pub(super) first: A,
     pub(super) second: B,
     pub(super) share: f32,
@@ -17,14 +17,14 @@ pub struct Together<A, B> {
 /// What two kinds of elements remember.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct TogetherState<A, B> {
+pub struct ParallelElementsState<A, B> {
     /// What the first ones remember.
     pub first: A,
     /// What the second ones remember.
     pub second: B,
 }
 
-impl<A: Copy, B: Copy> Together<A, B> {
+impl<A: Copy, B: Copy> ParallelElements<A, B> {
     /// Both, the first ones with `share` (0 to 1) of the friction of gross sliding: their reference limits
     /// are to be these shares of the whole one.
     ///
@@ -40,10 +40,10 @@ impl<A: Copy, B: Copy> Together<A, B> {
     }
 }
 
-impl<A: Elements, B: Elements> Elements for Together<A, B> {
-    type State = TogetherState<A::State, B::State>;
+impl<A: Elements, B: Elements> Elements for ParallelElements<A, B> {
+    type State = ParallelElementsState<A::State, B::State>;
 
-    const VIRGIN: Self::State = TogetherState {
+    const VIRGIN: Self::State = ParallelElementsState {
         first: A::VIRGIN,
         second: B::VIRGIN,
     };
@@ -68,7 +68,7 @@ impl<A: Elements, B: Elements> Elements for Together<A, B> {
     }
 }
 
-impl<A: Hysteresis, B: Hysteresis> Hysteresis for Together<A, B> {
+impl<A: Hysteresis, B: Hysteresis> Hysteresis for ParallelElements<A, B> {
     fn stored_energy(&self, state: &Self::State) -> f32 {
         self.first.stored_energy(&state.first) + self.second.stored_energy(&state.second)
     }

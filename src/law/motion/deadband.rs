@@ -12,15 +12,15 @@ use crate::error::{Error, attempt};
 /// are late by its width, `2 half_width`. 30 cycles beyond the sensor's.
 ///
 /// ```
-/// use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Steady, Turn};
+/// use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Deadband, Turn};
 ///
 /// let counts = CountSensor::new(CountSensorParameters {
 ///     period: 16384,
 ///     turn_per_count: 1e-3,
 ///     largest_turn: 0.5,
 /// })?;
-/// let sensor = Steady::new(counts, 2.5e-3)?;
-/// let mut last = Steady::<CountSensor>::FRESH;
+/// let sensor = Deadband::new(counts, 2.5e-3)?;
+/// let mut last = Deadband::<CountSensor>::FRESH;
 /// for noisy in [100, 101, 99, 102, 98, 100] {
 ///     assert_eq!(sensor.turn(&mut last, noisy), Turn::Measured(0.0));
 /// }
@@ -29,7 +29,7 @@ use crate::error::{Error, attempt};
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Steady<A> {
+pub struct Deadband<A> {
     pub(super) angle: A,
     pub(super) play: Play,
 }
@@ -37,12 +37,12 @@ pub struct Steady<A> {
 /// The last good reading, and where the play is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct SteadyReading<S> {
+pub struct DeadbandReading<S> {
     pub(super) reading: S,
     pub(super) play: PlayState,
 }
 
-impl<A: Copy> Steady<A> {
+impl<A: Copy> Deadband<A> {
     /// A sensor behind a play of `half_width`, rad (m): 0 to 1e3; at least half the width of the noise, counts included.
     ///
     /// # Errors
@@ -53,17 +53,17 @@ impl<A: Copy> Steady<A> {
     }
 }
 
-impl<A: NutAngle> NutAngle for Steady<A> {
+impl<A: NutAngle> NutAngle for Deadband<A> {
     type Reading = A::Reading;
-    type State = SteadyReading<A::State>;
+    type State = DeadbandReading<A::State>;
 
-    const FRESH: Self::State = SteadyReading {
+    const FRESH: Self::State = DeadbandReading {
         reading: A::FRESH,
         play: PlayState::FRESH,
     };
 
-    fn gave(&self, state: &Self::State) -> bool {
-        self.angle.gave(&state.reading) && self.play.holds(&state.play)
+    fn is_valid_state(&self, state: &Self::State) -> bool {
+        self.angle.is_valid_state(&state.reading) && self.play.holds(&state.play)
     }
 
     #[inline]

@@ -1,4 +1,4 @@
-//! Full friction of a screw whose balls do not touch.
+//! Sliding friction of a screw whose balls do not touch.
 
 use super::faults::Faults;
 use super::sliding::SlidingFriction;
@@ -6,9 +6,9 @@ use crate::error::Range;
 use crate::ranges;
 use crate::stored::{Port, Refusal, Stored};
 
-/// Full friction of a screw whose balls do not touch, in both directions.
+/// Sliding friction of a screw whose balls do not touch, in both directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct CagedFull {
+pub struct CagedFriction {
     /// Friction torque of motion forward and backward, N m, not negative.
     pub(super) forward: f32,
     pub(super) backward: f32,
@@ -17,7 +17,7 @@ pub struct CagedFull {
     pub(super) faults: Faults,
 }
 
-impl CagedFull {
+impl CagedFriction {
     /// Friction torque in the direction of a sign.
     #[inline(always)]
     pub(super) const fn of(&self, direction: f32) -> f32 {
@@ -30,7 +30,7 @@ impl CagedFull {
 
     /// Its sizes in both directions, and the load.
     #[inline(always)]
-    pub(super) const fn sliding(&self) -> SlidingFriction {
+    pub(super) const fn by_direction(&self) -> SlidingFriction {
         SlidingFriction {
             forward: self.forward,
             backward: self.backward,
@@ -39,7 +39,7 @@ impl CagedFull {
     }
 }
 
-impl Stored for CagedFull {
+impl Stored for CagedFriction {
     const BYTES: usize = 12 + Faults::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {

@@ -1,0 +1,165 @@
+//! What one ball does under one load: polynomials in the deviations of the two grooves.
+
+use crate::error::{Error, Range, attempt, in_range};
+use crate::train::LARGEST_FREE_SPEED;
+
+/// Powers of the two deviations: `1, s, n, s^2, s n, n^2`.
+pub const POWERS: usize = 6;
+
+/// Least and largest impedance over `mu W` that count.
+pub(super) const IMPEDANCES: Range = Range::new(0.01, 1e3);
+
+/// Largest torque over load, m, and its change with the speed, that count.
+const LARGEST_ARM: f32 = 1.0;
+
+/// Largest grip: what is left of a force between balls is positive where friction between balls is at most 0.3.
+const LARGEST_GRIP: f32 = 3.0;
+
+/// What one ball does under a load, all over `mu W` but the free speed, the grip and the speed of rubbing.
+///
+/// With the deviations `s` of the screw's and `n` of the nut's contact angles, each over its largest ([`BallLaw::deviations`](super::BallLaw::deviations)), and `x` the
+/// ball's speed less its free speed:
+///
+/// ```text
+/// free speed       u = u_0 + u_1 s + u_2 n + u_3 s^2 + u_4 s n + u_5 n^2
+/// net push         P = mu W (z_0 + z_1 s + z_2 n) x
+/// friction torque  T = mu W (t_0 + ... + t_5 n^2 + c x) + P x v / 2
+/// ```
+///
+/// with the nominal speed `v` against the nut, m per unit of nut speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BallNumbers {
+    /// Free speed less the nominal one, over the nominal speed against the nut: its powers of the deviations.
+    pub free: [f32; POWERS],
+    /// Impedance: the force that changes the speed by one; powers `1, s, n`.
+    pub impedance: [f32; 3],
+    /// Friction torque on the nut at the free speed, m.
+    pub torque: [f32; POWERS],
+    /// Change of the friction torque with the speed at the free speed, m.
+    pub slope: f32,
+    /// Net push that a ball needs in addition, over the friction of its neighbours on it, -3 to 3: what friction between balls does to the
+    /// speed of a ball.
+    pub grip: f32,
+    /// Speed with which two balls alike rub against each other, m per unit of nut speed.
+    pub rubbing: f32,
+}
+
+/// What a ball does on its own in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FreeMotion {
+    /// Free speed less the nominal one, over the nominal speed against the nut.
+    pub speed: f32,
+    /// Impedance, N.
+    pub impedance: f32,
+    /// Friction torque on the nut at the free speed, N m per unit.
+    pub torque: f32,
+}
+
+impl BallNumbers {
+    /// All zero.
+    pub const NONE: Self = Self {
+        free: [0.0; POWERS],
+        impedance: [0.0; 3],
+        torque: [0.0; POWERS],
+        slope: 0.0,
+        grip: 0.0,
+        rubbing: 0.0,
+    };
+
+    /// These numbers, interpolated towards others by a share, 0 to 1.
+    #[inline(always)]
+    pub(super) fn towards(&self, others: &Self, share: f32) -> Self {
+        #[inline(always)]
+        fn all<const M: usize>(from: &[f32; M], to: &[f32; M], share: f32) -> [f32; M] {
+            let mut all = *from;
+            for (number, to) in all.iter_mut().zip(to) {
+                *number += share * (to - *number);
+            }
+            all
+        }
+        let one = |from: f32, to: f32| from + share * (to - from);
+        Self {
+            free: all(&self.free, &others.free, share),
+            impedance: all(&self.impedance, &others.impedance, share),
+            torque: all(&self.torque, &others.torque, share),
+            slope: one(self.slope, others.slope),
+            grip: one(self.grip, others.grip),
+            rubbing: one(self.rubbing, others.rubbing),
+        }
+    }
+
+    /// With impedance and torque of a ball under `mu W`, N.
+    #[inline(always)]
+    pub(super) fn under(self, load: f32) -> Self {
+        Self {
+            impedance: self.impedance.map(|number| number * load),
+            torque: self.torque.map(|number| number * load),
+            slope: self.slope * load,
+            ..self
+        }
+    }
+
+    /// What a ball does with these deviations of both grooves, each over its largest; numbers and answer both over `mu W`, or both not.
+    #[inline(always)]
+    #[must_use]
+    pub fn at(&self, [screw, nut]: [f32; 2]) -> FreeMotion {
+        let [z, z_screw, z_nut] = self.impedance;
+        FreeMotion {
+            speed: powers(&self.free, screw, nut),
+            impedance: z + screw * z_screw + nut * z_nut,
+            torque: powers(&self.torque, screw, nut),
+        }
+    }
+
+    /// Refuses numbers that some deviations make a ball that a train does not accept.
+    pub(super) const fn checked(self) -> Result<Self, Error> {
+        attempt!(in_range(
+            "free",
+            sum_of_sizes(&self.free, 0),
+            0.0,
+            LARGEST_FREE_SPEED
+        ));
+        let least = self.impedance[0] - sum_of_sizes(&self.impedance, 1);
+        attempt!(IMPEDANCES.checked("impedance", least));
+        let most = sum_of_sizes(&self.impedance, 0);
+        attempt!(IMPEDANCES.checked("impedance", most));
+        let torque = sum_of_sizes(&self.torque, 0);
+        attempt!(in_range("torque", torque, 0.0, LARGEST_ARM));
+        attempt!(in_range("slope", self.slope, -LARGEST_ARM, LARGEST_ARM));
+        attempt!(in_range("grip", self.grip, -LARGEST_GRIP, LARGEST_GRIP));
+        attempt!(in_range("rubbing", self.rubbing, 0.0, LARGEST_ARM));
+        Ok(self)
+    }
+}
+
+impl FreeMotion {
+    /// This motion, interpolated towards another by a share, 0 to 1.
+    #[inline(always)]
+    pub(super) fn towards(self, other: Self, share: f32) -> Self {
+        let one = |from: f32, to: f32| from + share * (to - from);
+        Self {
+            speed: one(self.speed, other.speed),
+            impedance: one(self.impedance, other.impedance),
+            torque: one(self.torque, other.torque),
+        }
+    }
+}
+
+/// A polynomial of two deviations.
+#[inline(always)]
+fn powers([a, s, n, ss, sn, nn]: &[f32; POWERS], screw: f32, nut: f32) -> f32 {
+    a + screw * (s + screw * ss + nut * sn) + nut * (n + nut * nn)
+}
+
+/// Sum of the sizes of numbers, from one of them on.
+const fn sum_of_sizes(numbers: &[f32], from: usize) -> f32 {
+    let mut sum = 0.0;
+    let mut number = from;
+    while number < numbers.len() {
+        sum += numbers[number].abs();
+        number += 1;
+    }
+    sum
+}

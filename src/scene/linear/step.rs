@@ -1,0 +1,138 @@
+//! What a tick computes: both diagonals, every ball at its place, then how they press.
+
+use super::{LinearConstants, LinearInputs};
+use crate::ball::GrooveLoss;
+use crate::math;
+use crate::scene::circuit::{CircuitState, UNLOADED};
+use crate::scene::contract::Regime;
+use crate::scene::faults::Faults;
+use crate::scene::outputs::LinearOutputs;
+use crate::scene::reversal::{ReversalState, direction};
+use crate::scene::row::TrainFriction;
+
+/// Force of a diagonal below which it does not count, N: the sum of two contacts of 1e-6 N. A numerical floor, which keeps cube roots
+/// and impedances above zero. In the bearing of Lin 2019, Table 3.3, the latter stay above the least that a train takes, 1e-9 N, also
+/// with a friction coefficient of 1e-6 and a hundredth of the mean load.
+const SMALLEST_FORCE: f32 = 2e-6;
+
+/// Sliding friction of a linear bearing, which is the same in both directions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LinearFriction {
+    /// Its parts. `load`: the normal load that would put the same sum of forces on both diagonals, N.
+    pub(super) row: TrainFriction,
+    /// Whether some ball may roll on two points.
+    pub(super) beyond_model: bool,
+}
+
+/// What all balls have in common in a tick: a ball under the mean load.
+struct Diagonals {
+    /// Speed deviation for one radian of the deviation maps, with the sign of the motion.
+    turn: f32,
+    /// Compliance of the ball: speed deviation over the net push, 1/N.
+    compliance: f32,
+    /// Impedance of the ball, N.
+    impedance: f32,
+    loss: GrooveLoss,
+    /// Forces of the diagonals, each the sum of its two contacts, N.
+    forces: [f32; 2],
+    /// Half the sum and half the difference of the diagonals' forces by the loads, N.
+    loads: [f32; 2],
+}
+
+impl<const N: usize> LinearConstants<N> {
+    #[inline(always)]
+    pub(super) fn sliding_friction(
+        &self,
+        state: &mut CircuitState<N>,
+        inputs: LinearInputs,
+        friction: f32,
+    ) -> LinearFriction {
+        let LinearInputs { speed, .. } = inputs;
+        let tick = self.diagonals(inputs);
+        let phase = state.phase();
+        let table = self.circuit.shares(false);
+        let (passing, recirculating) = self.circuit.deviation_units();
+        let (passing, recirculating) = (tick.turn * passing, tick.turn * recirculating);
+        let mut shares = 0.0;
+        let mut balls = state.train.intake(self.circuit.travel(speed));
+        while let Some(next) = balls.next_ball() {
+            let (free, impedance) = match self.circuit.place(next.position(), phase, table) {
+                Some(place) => {
+                    shares += place.share.four_thirds();
+                    let free = recirculating * place.recirculating + passing * place.passing;
+                    (free, tick.impedance * place.share.two_thirds())
+                }
+                None => (0.0, UNLOADED),
+            };
+            next.put(free, impedance);
+        }
+        let pressing = balls.press();
+        state.advance(&self.circuit, speed);
+
+        // Where the carriage is lifted off no ball rolls, and there is nothing to flag.
+        let ([up, down], [normal, side]) = (tick.forces, tick.loads);
+        let beyond_model = normal + side.abs() > SMALLEST_FORCE
+            && self
+                .grooves
+                .leaves_four_points(&tick.loss, pressing.largest, tick.compliance);
+        // Losses and forces are in proportion to the friction coefficient, the balls' compliances to its inverse.
+        LinearFriction {
+            row: TrainFriction {
+                groove: friction * (tick.loss.friction * shares),
+                ball: friction * (self.rubbing * pressing.force),
+                ratios: [1.0; 2],
+                load: (up + down) / (2.0 * self.normal),
+                contacts: pressing.contacts,
+                largest_contact_force: friction * pressing.largest,
+            },
+            beyond_model,
+        }
+    }
+
+    /// What both diagonals carry, and how the ball rolls under it.
+    #[inline(always)]
+    fn diagonals(&self, inputs: LinearInputs) -> Diagonals {
+        let LinearInputs {
+            speed,
+            normal_load,
+            side_load,
+        } = inputs;
+        let (normal, side) = (normal_load * self.normal, side_load * self.side);
+        let up = at_least(normal + side, SMALLEST_FORCE);
+        let down = at_least(normal - side, SMALLEST_FORCE);
+        let (up_root, up_squared) = math::cbrt_and_squared(up);
+        let (down_root, down_squared) = math::cbrt_and_squared(down);
+
+        // Speed deviation for one radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear.
+        let diagonals = [up_squared, down_squared];
+        let mean = self.ball.closed_form(diagonals, [1.0, -1.0]);
+        let spins = [up * up_root, down * down_root];
+        Diagonals {
+            turn: direction(speed) * mean.speed_deviation,
+            compliance: mean.compliance,
+            impedance: self.ball.impedance(diagonals),
+            loss: self.grooves.at([up, down], spins, normal - side.abs()),
+            forces: [up, down],
+            loads: [normal, side],
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn outputs_at(sliding: &LinearFriction, reversal: ReversalState) -> LinearOutputs {
+        let (groove_force, ball_force) = sliding.row.outputs_at(reversal);
+        LinearOutputs {
+            friction_force: groove_force + ball_force,
+            groove_force,
+            ball_force,
+            contacts: sliding.row.contacts,
+            largest_contact_force: sliding.row.largest_contact_force,
+            regime: Regime::of(reversal.standing, true, true),
+            faults: Faults::NONE.with(sliding.beyond_model, Faults::BEYOND_MODEL),
+        }
+    }
+}
+
+#[inline]
+fn at_least(value: f32, bound: f32) -> f32 {
+    if value > bound { value } else { bound }
+}
