@@ -23,7 +23,7 @@ use crate::scene::{
 /// #         let curve = LoadCurve { starts, cubics: [[2e-3, 0.0, 0.0, 0.0]; PARTS] };
 /// #         FrictionNode { friction, curves: [curve; 2], shift: [0.0; 2] }
 /// #     }
-/// #     pub static LIN_3_6: CagedConstants<1> = match CagedConstants::new(&CagedBallScrewConfiguration {
+/// #     pub static GEAR_33X20: CagedConstants<1> = match CagedConstants::new(&CagedBallScrewConfiguration {
 /// #         law: LoadLaw { nodes: [node(0.1)], ends: [120.0, 136.0], lift_off: 0.0, shifted_from: 1.0 },
 /// #         friction: 0.1, lead: 0.02, loaded_balls: 36, reversal_speed: 0.5,
 /// #         limits: Limits { nut_speed: 100.0, axial_load: 20_000.0, friction_torque: 20.0 },
@@ -33,9 +33,9 @@ use crate::scene::{
 /// #     };
 /// # }
 /// use epas_friction::{CagedBallScrew, FrictionModel, Inputs, Regime};
-/// use gear::LIN_3_6; // a `static` that `epas-bench design` has written
+/// use gear::GEAR_33X20; // a `static` that `epas-bench design` has written
 ///
-/// let mut model = FrictionModel::<CagedBallScrew, _>::of(&LIN_3_6);
+/// let mut model = FrictionModel::<CagedBallScrew, _>::of(&GEAR_33X20);
 ///
 /// // in the interrupt
 /// let outputs = model.step(Inputs { nut_speed: 40.0, axial_load: 3_000.0 });

@@ -1,5 +1,6 @@
 //! Designs by name or from a file.
 
+mod built_in;
 pub mod calibration;
 pub(crate) mod capacity;
 mod fits;
@@ -17,7 +18,7 @@ use std::str::FromStr;
 use epas_design::CagedDesign;
 use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
 use epas_friction::{
-    BallScrew, BallScrewParameters, CATALOGUE, Clearance, ClosedFormScrewConfiguration,
+    BallScrew, BallScrewParameters, CATALOGUE, ClosedFormScrewConfiguration,
     ClosedFormScrewConstants, DISSERTATION_DESIGNS, Error, FrictionBranch, GrooveSize, Limits,
     RollingResistance, defaults,
 };
@@ -27,6 +28,7 @@ pub use plausible::SOURCES;
 
 use crate::failure::Failure;
 use crate::files::{ends, standard};
+use built_in::Settings;
 use calibration::Calibrated;
 use fits::Fits;
 use fold::FoldTable;
@@ -61,15 +63,8 @@ pub struct Design {
     pub defaulted: Vec<&'static str>,
 }
 
-/// Settings of the papers' designs, which keep the numbers that their stored results have.
-const PAPERS_FRICTION: f32 = 0.075;
-const PAPERS_CLEARANCE: Clearance = Clearance::ZERO;
-const PAPERS_REVERSAL_SPEED: f32 = 0.5;
-
-/// Settings of every other design that does not say them itself.
+/// Settings of a design that does not say them itself.
 const ROLLING_RESISTANCE: RollingResistance = defaults::ROLLING_RESISTANCE;
-/// Five counts of an encoder of 14 bits in a millisecond, rad/s.
-const REVERSAL_SPEED: f32 = 2.0;
 const LIMITS: Limits = Limits {
     nut_speed: 2e3,
     axial_load: 1e5,
@@ -77,22 +72,28 @@ const LIMITS: Limits = Limits {
 };
 
 impl Design {
-    fn built_in(name: &str, design: BallScrew, loaded_balls: Option<u16>) -> Self {
+    fn new(name: &str, design: BallScrew, loaded_balls: Option<u16>, settings: Settings) -> Self {
+        let Settings {
+            friction,
+            clearance,
+            reversal_speed,
+        } = settings;
+        let caged = CagedDesign {
+            design,
+            friction,
+            rolling_resistance: ROLLING_RESISTANCE,
+            clearance,
+            loaded_balls: loaded_balls.unwrap_or_else(|| usual_balls(&design)),
+            reversal_speed,
+            limits: LIMITS,
+        };
         Self {
             name: name.into(),
-            caged: CagedDesign {
-                design,
-                friction: defaults::FRICTION,
-                rolling_resistance: ROLLING_RESISTANCE,
-                clearance: defaults::CLEARANCE,
-                loaded_balls: loaded_balls.unwrap_or_else(|| usual_balls(&design)),
-                reversal_speed: REVERSAL_SPEED,
-                limits: LIMITS,
-            },
+            caged,
             branch: None,
             rolling_tangent: 0.0,
             loaded_balls,
-            uncaged: loaded_balls.and_then(|balls| train::built_in(name, design, balls)),
+            uncaged: loaded_balls.and_then(|balls| train::built_in(name, caged, balls)),
             loads: loaded_balls.and_then(|balls| loads::built_in(name, balls)),
             calibrated: None,
             fold: FoldTable::default(),
@@ -250,14 +251,7 @@ impl DesignSource {
             } => {
                 let screw = BallScrew::new(*parameters)
                     .map_err(|error| Failure::Data(format!("{name}: {error}")))?;
-                let mut design = Design::built_in(name, screw, *loaded_balls);
-                let mut ours = FINE_LEAD_SIZES.iter().chain(&STEERING_SIZES);
-                if !ours.any(|size| size.name == *name) {
-                    design.caged.friction = PAPERS_FRICTION;
-                    design.caged.clearance = PAPERS_CLEARANCE;
-                    design.caged.reversal_speed = PAPERS_REVERSAL_SPEED;
-                }
-                Ok(design)
+                Ok(Design::new(name, screw, *loaded_balls, Settings::of(name)))
             }
             Self::LinearBearing => Err(Failure::Data(format!(
                 "{} is a linear bearing: its scene is linear",
@@ -415,10 +409,11 @@ impl DesignFile {
         };
         let clearance = fits.of(&screw, self.loaded_balls)?;
 
-        let mut design = Design::built_in(
+        let mut design = Design::new(
             self.name.as_deref().unwrap_or(stem),
             screw,
             self.loaded_balls,
+            Settings::USUAL,
         );
         let rows = self.uncaged.as_ref();
         design.defaulted = [
@@ -478,7 +473,12 @@ impl DesignFile {
             .map(Calibrated::checked)
             .transpose()
             .map_err(|message| format!("calibration: {message}"))?;
-        design.fold = self.fold.unwrap_or_default();
+        if let Some(table) = self.fold {
+            table
+                .check(&design)
+                .map_err(|message| format!("fold: {message}"))?;
+            design.fold = table;
+        }
         Ok(design)
     }
 }
@@ -496,5 +496,7 @@ fn groove(name: &str, own: Option<&GrooveTable>, both: &GrooveTable) -> Result<G
     groove_size(name, table.conformity, table.groove_radius)
 }
 
+#[cfg(test)]
+mod generated_tests;
 #[cfg(test)]
 mod tests;

@@ -412,9 +412,8 @@ fn list() -> Result<(), Failure> {
             let [screw, nut] = balls.deviations().map(|angle| 1e3 * angle);
             write!(
                 stdout,
-                "; uncaged: friction {:5.3}, clearance {:4.1} um, contact angle off by {screw:.1} mrad on the screw, {nut:.1} mrad in the nut",
-                balls.gear.friction,
-                1e6 * balls.gear.clearance.gap(),
+                "; uncaged also: friction between balls {}, contact angle off by {screw:.1} mrad on the screw, {nut:.1} mrad in the nut",
+                balls.ball_friction,
             )?;
         }
         writeln!(stdout)?;

@@ -34,7 +34,7 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// #         let curve = LoadCurve { starts, cubics: [[2e-3, 0.0, 0.0, 0.0]; PARTS] };
     /// #         FrictionNode { friction, curves: [curve; 2], shift: [0.0; 2] }
     /// #     }
-    /// #     pub static LIN_3_6_RANGE: CagedConstants<2> = match CagedConstants::new(&CagedBallScrewConfiguration {
+    /// #     pub static GEAR_33X20_RANGE: CagedConstants<2> = match CagedConstants::new(&CagedBallScrewConfiguration {
     /// #         law: LoadLaw { nodes: [node(0.05), node(0.15)], ends: [120.0, 136.0], lift_off: 0.0, shifted_from: 1.0 },
     /// #         friction: 0.05, lead: 0.02, loaded_balls: 36, reversal_speed: 0.5,
     /// #         limits: Limits { nut_speed: 100.0, axial_load: 20_000.0, friction_torque: 20.0 },
@@ -44,14 +44,14 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// #     };
     /// # }
     /// # use epas_friction::{CagedBallScrew, CagedConstants, FrictionModel, Inputs};
-    /// # use gear::LIN_3_6_RANGE;
+    /// # use gear::GEAR_33X20_RANGE;
     /// type Screw = FrictionModel<CagedBallScrew<2>, &'static CagedConstants<2>>;
     ///
     /// // What the non-volatile memory keeps.
     /// let mut kept = [0xFF; Screw::STATE_BYTES];
     ///
     /// // Ignition on: whatever is wrong with the block, the model runs on from its first state.
-    /// let mut model = Screw::of(&LIN_3_6_RANGE);
+    /// let mut model = Screw::of(&GEAR_33X20_RANGE);
     /// if let Err(refusal) = model.import(&kept) {
     ///     println!("friction starts anew: {refusal}"); // a diagnostic message
     /// }
@@ -62,7 +62,7 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// model.export(&mut kept).expect("the block is large enough");
     ///
     /// // Ignition on: the friction that was set is there again.
-    /// let mut next = Screw::of(&LIN_3_6_RANGE);
+    /// let mut next = Screw::of(&GEAR_33X20_RANGE);
     /// assert_eq!(next.import(&kept), Ok(()));
     /// # let inputs = Inputs { nut_speed: 40.0, axial_load: 3_000.0 };
     /// # assert_eq!(model.step(inputs), next.step(inputs));

@@ -5,7 +5,7 @@
 
 #include <stdint.h>
 
-static const uint32_t LIN_3_6_BLOCK[101] = {
+static const uint32_t GEAR_33X20_BLOCK[101] = {
     0x53415045u, 0x00000001u, 0x00000065u, 0x00000001u, 0xd19568f6u, 0x4c581533u,
     0x3d99999au, 0x3ca3d70au, 0x42100000u, 0x3f000000u, 0x42c80000u, 0x469c4000u,
     0x41a00000u, 0x40fb6aa0u, 0x4301fbaeu, 0x43074422u, 0x4302f957u, 0x3d99999au,
@@ -25,7 +25,7 @@ static const uint32_t LIN_3_6_BLOCK[101] = {
     0xb8cf59f0u, 0xb6ded08fu, 0x00000000u, 0x00000000u, 0x8d0f168bu,
 };
 
-static const uint32_t LIN_3_6_RANGE_BLOCK[433] = {
+static const uint32_t GEAR_33X20_RANGE_BLOCK[433] = {
     0x53415045u, 0x00000001u, 0x000001b1u, 0x00000005u, 0x53904386u, 0x75ddfd07u,
     0x3d99999au, 0x3ca3d70au, 0x42100000u, 0x3f000000u, 0x42c80000u, 0x469c4000u,
     0x41a00000u, 0x40fb6aa0u, 0x4301fbaeu, 0x43074422u, 0x4302f957u, 0x3d4ccccdu,
@@ -101,7 +101,7 @@ static const uint32_t LIN_3_6_RANGE_BLOCK[433] = {
     0xa8e3a9a3u,
 };
 
-static const uint32_t LIN_3_6_WORN_BLOCK[101] = {
+static const uint32_t GEAR_33X20_WORN_BLOCK[101] = {
     0x53415045u, 0x00000001u, 0x00000065u, 0x00000001u, 0x366f63afu, 0x26cee07eu,
     0x3d99999au, 0x3ca3d70au, 0x42100000u, 0x3f000000u, 0x42c80000u, 0x469c4000u,
     0x41a00000u, 0x00000000u, 0x42f55b1eu, 0x43073a93u, 0x3f800000u, 0x3d99999au,
@@ -121,7 +121,7 @@ static const uint32_t LIN_3_6_WORN_BLOCK[101] = {
     0x00000000u, 0x00000000u, 0x00000000u, 0x00000000u, 0xe6290d91u,
 };
 
-static const uint32_t LIN_3_6_BALL_BLOCK[1238] = {
+static const uint32_t GEAR_33X20_BALL_BLOCK[1238] = {
     0x55415045u, 0x00000001u, 0x000004d6u, 0x00000001u, 0x00000000u, 0x00000000u,
     0x3d99999au, 0x3ca3d70au, 0x3b360f1bu, 0x3c89a906u, 0x3bf3b828u, 0x3f000000u,
     0x42c80000u, 0x469c4000u, 0x41a00000u, 0x3c8ef34du, 0x3c0f0846u, 0x40fb6aa0u,
@@ -331,7 +331,7 @@ static const uint32_t LIN_3_6_BALL_BLOCK[1238] = {
     0x00000000u, 0x014b6f7cu,
 };
 
-static const uint32_t LIN_3_6_BALL_WORN_BLOCK[1238] = {
+static const uint32_t GEAR_33X20_BALL_WORN_BLOCK[1238] = {
     0x55415045u, 0x00000001u, 0x000004d6u, 0x00000001u, 0x00000000u, 0x00000000u,
     0x3d99999au, 0x3ca3d70au, 0x3b360f1bu, 0x3c89a906u, 0x3bf3b828u, 0x3f000000u,
     0x42c80000u, 0x469c4000u, 0x41a00000u, 0x3c8ef34du, 0x3c0f0846u, 0x40fb6aa0u,

@@ -26,12 +26,12 @@
 /* A folded gear. */
 #define BLOCK(words) {(words), (uint32_t)(sizeof(words) / sizeof((words)[0]))}
 
-const epas_block_t test_block = BLOCK(LIN_3_6_BLOCK);
-const epas_block_t test_worn_block = BLOCK(LIN_3_6_WORN_BLOCK);
-const epas_block_t test_range_block = BLOCK(LIN_3_6_RANGE_BLOCK);
+const epas_block_t test_block = BLOCK(GEAR_33X20_BLOCK);
+const epas_block_t test_worn_block = BLOCK(GEAR_33X20_WORN_BLOCK);
+const epas_block_t test_range_block = BLOCK(GEAR_33X20_RANGE_BLOCK);
 const epas_block_t test_other_range_block = BLOCK(GEAR_BLOCK);
-const epas_block_t test_ball_block = BLOCK(LIN_3_6_BALL_BLOCK);
-const epas_block_t test_worn_ball_block = BLOCK(LIN_3_6_BALL_WORN_BLOCK);
+const epas_block_t test_ball_block = BLOCK(GEAR_33X20_BALL_BLOCK);
+const epas_block_t test_worn_ball_block = BLOCK(GEAR_33X20_BALL_WORN_BLOCK);
 const epas_block_t test_ball_range_block = BLOCK(SCREW_BLOCK);
 
 /* The same gear by a closed form. */
@@ -48,7 +48,7 @@ const epas_closed_form_configuration_t test_closed_form_configuration = {
 
 /* The same gear with a memory, behind an encoder of 14 bits on its motor and a belt of ratio 2.5. */
 const epas_memory_configuration_t test_memory_configuration = {
-    .block = BLOCK(LIN_3_6_RANGE_BLOCK),
+    .block = BLOCK(GEAR_33X20_RANGE_BLOCK),
     .encoder = {.period = 16384u, .turn_per_count = 1.533981e-4f, .largest_turn = 1.2f, .play = 1e-4f},
     .coefficient = {
         .boundary = 0.12f,

@@ -169,7 +169,11 @@ impl CagedFold {
         })
     }
 
-    fn check(&self) -> Result<(), Failure> {
+    /// Whether every number of the design and of the domain is within its range; nothing is solved.
+    ///
+    /// # Errors
+    /// [`Failure`] naming the number that is not.
+    pub fn check(&self) -> Result<(), Failure> {
         self.gear.checked()?;
         let [least, most] = self.axial_load;
         in_range("axial_load", least, Range::new(0.01, LARGEST_LOAD))?;

@@ -1,4 +1,5 @@
-//! The gears of the project's own firmware (`bench/firmware`), folded, and the gears on which folding is tested.
+//! The gears of the project's own firmware (`bench/firmware`), folded: the geometry of the published designs `lin-3.6` and `lin-4.1` with numbers of
+//! their own, and so names of their own. Beside them the gears on which folding is tested.
 
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DISSERTATION_DESIGNS, Error, Limits,
@@ -14,11 +15,11 @@ const WORN: f32 = 2e-6;
 /// Friction coefficients of a gear whose coefficient changes.
 const FRICTION_RANGE: [f32; 2] = [0.05, 0.15];
 
-/// The gear of the scenes: Lin 2019, chapter 3.6, with 100 N of preload on each flank of the nut.
+/// The gear of the scenes: geometry of Lin 2019, Table 3.6, with 100 N of preload on each flank of the nut.
 ///
 /// # Errors
 /// None that is known.
-pub fn lin_3_6() -> Result<CagedDesign, Error> {
+pub fn gear_33x20() -> Result<CagedDesign, Error> {
     let [_, design, _] = DISSERTATION_DESIGNS;
     Ok(CagedDesign {
         design: BallScrew::new(design.parameters)?,
@@ -35,11 +36,11 @@ pub fn lin_3_6() -> Result<CagedDesign, Error> {
     })
 }
 
-/// The gear of the friction task: a rack-assist screw, 29 mm pitch circle, lead 7 mm.
+/// The gear of the friction task: geometry of Lin 2019, Table 4.1, a rack-assist screw, 29 mm pitch circle, lead 7 mm.
 ///
 /// # Errors
 /// None that is known.
-pub fn lin_4_1() -> Result<CagedDesign, Error> {
+pub fn gear_29x7() -> Result<CagedDesign, Error> {
     let [_, _, design] = DISSERTATION_DESIGNS;
     Ok(CagedDesign {
         design: BallScrew::new(design.parameters)?,
@@ -63,7 +64,7 @@ pub fn lin_4_1() -> Result<CagedDesign, Error> {
 /// # Errors
 /// None that is known.
 pub fn firmware() -> Result<[(&'static str, CagedFold); 4], Error> {
-    let gear = lin_3_6()?;
+    let gear = gear_33x20()?;
     let worn = CagedDesign {
         clearance: Clearance::new(WORN)?,
         ..gear
@@ -73,10 +74,10 @@ pub fn firmware() -> Result<[(&'static str, CagedFold); 4], Error> {
         ..CagedFold::of(gear)
     };
     Ok([
-        ("LIN_3_6", CagedFold::of(gear)),
-        ("LIN_3_6_RANGE", range(gear)),
-        ("LIN_3_6_WORN", CagedFold::of(worn)),
-        ("LIN_4_1_RANGE", range(lin_4_1()?)),
+        ("GEAR_33X20", CagedFold::of(gear)),
+        ("GEAR_33X20_RANGE", range(gear)),
+        ("GEAR_33X20_WORN", CagedFold::of(worn)),
+        ("GEAR_29X7_RANGE", range(gear_29x7()?)),
     ])
 }
 
@@ -89,14 +90,14 @@ const DEVIATIONS: [f32; 2] = [0.01745, 0.00873];
 /// None that is known.
 pub fn firmware_uncaged() -> Result<[(&'static str, UncagedFold); 2], Error> {
     let one = UncagedFold::of(UncagedDesign {
-        gear: lin_3_6()?,
+        gear: gear_33x20()?,
         deviations: DEVIATIONS,
     });
     let range = UncagedFold {
         friction: Some(FRICTION_RANGE),
         ..one
     };
-    Ok([("LIN_3_6_BALL", one), ("LIN_3_6_BALL_RANGE", range)])
+    Ok([("GEAR_33X20_BALL", one), ("GEAR_33X20_BALL_RANGE", range)])
 }
 
 /// Clearances, m, of the gears on which folding is tested: from 5 um of oversize to 20 um of play.

@@ -175,7 +175,11 @@ impl UncagedFold {
         })
     }
 
-    fn check(&self) -> Result<(), Failure> {
+    /// Whether every number of the design and of the domain is within its range; nothing is solved.
+    ///
+    /// # Errors
+    /// [`Failure`] naming the number that is not.
+    pub fn check(&self) -> Result<(), Failure> {
         let UncagedDesign { gear, deviations } = self.gear;
         gear.checked()?;
         for deviation in deviations {

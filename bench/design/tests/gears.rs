@@ -6,10 +6,10 @@ use epas_design::gears;
 #[test]
 fn firmware_holds_what_is_folded() {
     let files = [
-        include_str!("../../firmware/src/gears/lin_3_6.rs"),
-        include_str!("../../firmware/src/gears/lin_3_6_range.rs"),
-        include_str!("../../firmware/src/gears/lin_3_6_worn.rs"),
-        include_str!("../../firmware/src/gears/lin_4_1_range.rs"),
+        include_str!("../../firmware/src/gears/gear_33x20.rs"),
+        include_str!("../../firmware/src/gears/gear_33x20_range.rs"),
+        include_str!("../../firmware/src/gears/gear_33x20_worn.rs"),
+        include_str!("../../firmware/src/gears/gear_29x7_range.rs"),
     ];
     for ((name, fold), file) in gears::firmware().unwrap().into_iter().zip(files) {
         let folded = fold.folded().unwrap().rust(name).unwrap();

@@ -31,7 +31,7 @@ use epas_friction::{
     LinearBearingTrain, LoadProportionalScrew, defaults,
 };
 
-use crate::gears::{LIN_3_6, LIN_3_6_RANGE};
+use crate::gears::{GEAR_33X20, GEAR_33X20_RANGE};
 use crate::peers::{LuGre, Stribeck};
 use crate::remembering::{self, Carriage, Gear, GearByLaw};
 use crate::scenes::{
@@ -234,10 +234,10 @@ impl Contexts {
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
             closed_form: FrictionModel::new(&black_box(closed_form_configuration()?))?,
             load_proportional: FrictionModel::new(&black_box(load_proportional_configuration()))?,
-            caged: FrictionModel::of(black_box(LIN_3_6)),
-            caged_range: between_nodes(FrictionModel::of(black_box(LIN_3_6_RANGE)))?,
-            caged_set: FrictionModel::of(black_box(&LIN_3_6_RANGE)),
-            caged_swapped: FrictionModel::of(black_box(&LIN_3_6)),
+            caged: FrictionModel::of(black_box(GEAR_33X20)),
+            caged_range: between_nodes(FrictionModel::of(black_box(GEAR_33X20_RANGE)))?,
+            caged_set: FrictionModel::of(black_box(&GEAR_33X20_RANGE)),
+            caged_swapped: FrictionModel::of(black_box(&GEAR_33X20)),
             worn: false,
             caged_memory: FrictionModel::of(black_box(CAGED_WITH_MEMORY)),
             caged_law: FrictionModel::of(black_box(CAGED_BY_LAW)),

@@ -11,7 +11,7 @@ use epas_friction::{Error, FrictionModel, Inputs, LinearBearingTrain, LinearInpu
 
 use crate::cases::Reader;
 use crate::devices::{BIT_LOST, Bridge, GEAR_RATIO, Sensor, TICK};
-use crate::gears::LIN_3_6;
+use crate::gears::GEAR_33X20;
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
 use crate::scenes::{BALLS, Digest, ROW, linear_configuration, uncaged_configuration};
 
@@ -67,13 +67,13 @@ impl ControlLoop {
             reaction: FaultReaction::NeutralOnAnyFault,
         };
         Ok(Self {
-            driven: FrictionModel::of(&LIN_3_6),
+            driven: FrictionModel::of(&GEAR_33X20),
             encoder: MagneticEncoder::new(Sensor::new(inputs), &encoder)?,
             stage: FrictionFeedForward::new(Bridge::default(), &stage)?,
             blind: 0,
             safe: true,
             ticks: 0,
-            caged: FrictionModel::of(&LIN_3_6),
+            caged: FrictionModel::of(&GEAR_33X20),
             uncaged: FrictionModel::new(&uncaged_configuration()?)?,
             linear: FrictionModel::new(&linear_configuration()?)?,
             left,

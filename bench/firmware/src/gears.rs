@@ -1,15 +1,15 @@
 //! Gears that `epas-design` folded, as it wrote them: `cargo run --release -p epas-design --example gears -- bench/firmware/src/gears`.
 
-mod lin_3_6;
-mod lin_3_6_ball;
-mod lin_3_6_ball_range;
-mod lin_3_6_range;
-mod lin_3_6_worn;
-mod lin_4_1_range;
+mod gear_29x7_range;
+mod gear_33x20;
+mod gear_33x20_ball;
+mod gear_33x20_ball_range;
+mod gear_33x20_range;
+mod gear_33x20_worn;
 
-pub use lin_3_6::LIN_3_6;
-pub use lin_3_6_ball::LIN_3_6_BALL;
-pub use lin_3_6_ball_range::LIN_3_6_BALL_RANGE;
-pub use lin_3_6_range::LIN_3_6_RANGE;
-pub use lin_3_6_worn::LIN_3_6_WORN;
-pub use lin_4_1_range::LIN_4_1_RANGE;
+pub use gear_29x7_range::GEAR_29X7_RANGE;
+pub use gear_33x20::GEAR_33X20;
+pub use gear_33x20_ball::GEAR_33X20_BALL;
+pub use gear_33x20_ball_range::GEAR_33X20_BALL_RANGE;
+pub use gear_33x20_range::GEAR_33X20_RANGE;
+pub use gear_33x20_worn::GEAR_33X20_WORN;

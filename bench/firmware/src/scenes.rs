@@ -21,7 +21,7 @@ use epas_friction::{
     LinearInputs, LinearLimits, LoadProportionalConfiguration, LoadShare, LoadShares, Material,
 };
 
-use crate::gears::{LIN_3_6, LIN_3_6_BALL, LIN_3_6_BALL_RANGE, LIN_3_6_RANGE};
+use crate::gears::{GEAR_33X20, GEAR_33X20_BALL, GEAR_33X20_BALL_RANGE, GEAR_33X20_RANGE};
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
 
 /// Balls in the ball screw's circuit.
@@ -88,12 +88,12 @@ macro_rules! tried {
 
 /// Constants of the caged gear with a memory.
 pub static CAGED_WITH_MEMORY: CagedMemoryConstants = folded(WithMemoryConstants::new(
-    LIN_3_6,
+    GEAR_33X20,
     &folded(with_memory((), folded(OneCoefficient::new(0.075)))),
 ));
 /// Constants of the caged gear whose friction coefficient follows speed and temperature.
 pub static CAGED_BY_LAW: CagedLawConstants = folded(WithMemoryConstants::new(
-    LIN_3_6_RANGE,
+    GEAR_33X20_RANGE,
     &folded(with_memory((), folded(CoefficientLaw::new(&COEFFICIENT)))),
 ));
 static UNCAGED_WITH_MEMORY: UncagedMemoryConstants = folded(WithMemoryConstants::new(
@@ -255,7 +255,7 @@ impl Run for Caged {
     type Model = FrictionModel<CagedBallScrew, &'static CagedConstants>;
 
     fn set_up() -> Result<Self::Model, Error> {
-        Ok(FrictionModel::of(&LIN_3_6))
+        Ok(FrictionModel::of(&GEAR_33X20))
     }
 
     fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
@@ -411,7 +411,7 @@ pub const fn load_proportional_configuration() -> LoadProportionalConfiguration 
 /// None.
 pub const fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
     Ok(UncagedBallScrewConfiguration {
-        folded: &LIN_3_6_BALL,
+        folded: &GEAR_33X20_BALL,
         ball_friction: 0.1,
         turns: 2.0,
         return_length: 0.0,
@@ -453,7 +453,7 @@ pub const fn uncaged_shares_configuration() -> Result<UncagedBallScrewConfigurat
 pub const fn uncaged_range_configuration() -> Result<UncagedBallScrewConfiguration<3>, Error> {
     let even = folded(uncaged_configuration());
     Ok(UncagedBallScrewConfiguration {
-        folded: &LIN_3_6_BALL_RANGE,
+        folded: &GEAR_33X20_BALL_RANGE,
         ball_friction: even.ball_friction,
         turns: even.turns,
         return_length: even.return_length,

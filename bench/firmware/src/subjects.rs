@@ -31,7 +31,7 @@ use crate::counted::{
     count_stribeck_curve, count_swap_caged, count_train_37, count_turn_of_angles,
     count_turn_of_counts, count_turn_of_speed, count_turn_steady,
 };
-use crate::gears::{LIN_3_6, LIN_3_6_RANGE, LIN_3_6_WORN};
+use crate::gears::{GEAR_33X20, GEAR_33X20_RANGE, GEAR_33X20_WORN};
 use crate::inputs::{
     SPECIAL, adaptation, angle, contact_angle, four_contacts, impedances, memory, pair, positive,
     tick, train, wave,
@@ -287,14 +287,14 @@ subjects! {
         |c, [nut_speed, axial_load]| -> [4] {
             c.worn = !c.worn;
             let model = black_box(&mut c.caged_swapped);
-            let constants = black_box(if c.worn { &LIN_3_6_WORN } else { &LIN_3_6 });
+            let constants = black_box(if c.worn { &GEAR_33X20_WORN } else { &GEAR_33X20 });
             let _ = timed!(c, count_swap_caged(model, constants));
             outputs(&model.step(Inputs { nut_speed, axial_load }))
         };
     start_caged: |spread| -> [2] tick(spread),
         |c, [nut_speed, axial_load]| -> [4] {
             let model = black_box(&mut c.caged_set);
-            timed!(c, count_start_caged(model, black_box(&LIN_3_6_RANGE)));
+            timed!(c, count_start_caged(model, black_box(&GEAR_33X20_RANGE)));
             outputs(&model.step(Inputs { nut_speed, axial_load }))
         };
     start_caged_law: |spread| -> [2] tick(spread),

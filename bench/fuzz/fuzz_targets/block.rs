@@ -8,16 +8,16 @@
 #[path = "../../../host-tests/tests/kit/random.rs"]
 mod random;
 
-#[path = "../../firmware/src/gears/lin_3_6_ball.rs"]
+#[path = "../../firmware/src/gears/gear_33x20_ball.rs"]
 mod ball;
-#[path = "../../firmware/src/gears/lin_3_6_ball_range.rs"]
+#[path = "../../firmware/src/gears/gear_33x20_ball_range.rs"]
 mod ball_range;
 
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use ball::LIN_3_6_BALL;
-use ball_range::LIN_3_6_BALL_RANGE;
+use ball::GEAR_33X20_BALL;
+use ball_range::GEAR_33X20_BALL_RANGE;
 use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw, PARTS};
 use epas_friction::scene::{
     CagedBallScrewConfiguration, ChangingFriction, FoldedBall, StoredScene,
@@ -106,7 +106,7 @@ impl<const NODES: usize> Folded for CagedBallScrewConfiguration<NODES> {
             lead: 0.02,
             loaded_balls: 36,
             reversal_speed: 0.5,
-            limits: LIN_3_6_BALL.limits,
+            limits: GEAR_33X20_BALL.limits,
         }
     }
 
@@ -143,13 +143,13 @@ trait OfFirmware {
 
 impl OfFirmware for FoldedBall<1> {
     fn of_firmware() -> Self {
-        LIN_3_6_BALL
+        GEAR_33X20_BALL
     }
 }
 
 impl OfFirmware for FoldedBall<3> {
     fn of_firmware() -> Self {
-        LIN_3_6_BALL_RANGE
+        GEAR_33X20_BALL_RANGE
     }
 }
 

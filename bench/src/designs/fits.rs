@@ -3,6 +3,7 @@
 use epas_friction::{BallScrew, Clearance, Error, defaults};
 
 use super::capacity::{self, Preload};
+use super::plausible::Given;
 
 /// The four keys, one of which says how balls fit.
 #[derive(Clone, Copy, Debug, Default)]
@@ -53,7 +54,7 @@ impl Fits {
     }
 
     fn made(&self, design: &BallScrew, loaded_balls: Option<u16>) -> Result<Clearance, String> {
-        let said = |error: Error| error.to_string();
+        let said = |error: Error| Given::default().words(&error);
         let made = if let Some(gap) = self.clearance {
             let made = Clearance::new(gap).and_then(|clearance| clearance.checked(design));
             made.map_err(said)?

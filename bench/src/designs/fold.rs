@@ -1,6 +1,6 @@
 //! Table `[fold]` of a design file: the domain over which `design` folds it.
 
-use epas_design::{CagedDesign, CagedFold, UncagedFold};
+use epas_design::{CagedDesign, CagedFold, Failure, UncagedFold};
 use epas_friction::Range;
 use serde::Deserialize;
 
@@ -58,6 +58,29 @@ impl FoldTable {
                     range: Some([least, most]),
                 })
             }
+        }
+    }
+
+    /// Refuses a domain that no fold of the design can have, before anything is solved.
+    ///
+    /// # Errors
+    /// The field out of range, or what contradicts the design.
+    pub fn check(&self, design: &Design) -> Result<(), String> {
+        let said = |failure: Failure| failure.to_string();
+        if let Some([least, most]) = self.axial_load
+            && least >= most
+        {
+            return Err(format!(
+                "axial_load = [{least}, {most}] is [least, largest] of one ball, N: the largest is at least 1.1 times the least; \
+                 allowed: 0.01 to 100000"
+            ));
+        }
+        if design.branch.is_none() {
+            self.fold(design)?.check().map_err(said)?;
+        }
+        match &design.uncaged {
+            Some(row) => self.fold_uncaged(design, Some(row))?.check().map_err(said),
+            None => Ok(()),
         }
     }
 

@@ -6,15 +6,17 @@ use epas_friction::{BallScrewParameters, Error};
 pub const SOURCES: &str = "
 Sizes: 125x10x7.144 to 25x80x3.5 of Bertolino et al. 2023, Tables A1 and A2; 16x5x3.175 to 63x10x6.35 usual catalogue sizes;
 25x7x3.5 to 30x8x4.762 assumed, near a steering gear's; lin-... of Lin 2019.
-Friction: 0.075 for the papers' sizes, that of the example of Lin et al. 1994; 0.1 for the others, with which the drag torque of
-braced nuts is that of JIS B 1192.
-Clearance: -1 um is an oversize, the least preload that sorted balls set; 0 balls that just fit.
+A name has these numbers in every scene, with a cage, without one, and with memory:
+Friction: 0.1 for lin-3.6, as Lin 2019 prints it; 0.075 for the papers' other sizes, that of the example of Lin et al. 1994; 0.1 for
+sizes of no paper, with which the drag torque of braced nuts is that of JIS B 1192.
+Clearance: 0, balls that just fit, for the papers' sizes; for the others -1 um, an oversize, the least preload that sorted balls set.
+Reversal speed: 0.5 rad/s for the papers' sizes, 2 rad/s for the others.
 Rolling resistance of all: 0.01 of the elastic energy, hardened steel, without lubricant drag.
 A design file sets friction, clearance or preload, hysteresis_loss and lubricant_drag; calibrate fits them to a trace. Without
 them it has friction 0.1 and clearance -1 um.";
 
 /// Which lengths a file gives as diameters.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub struct Given {
     /// In place of the pitch radius.
     pub nominal_diameter: bool,
@@ -50,6 +52,11 @@ impl Given {
             format!(
                 "{field} = {value} {problem}; allowed: {low} to {high} m; lengths are in metres"
             )
+        };
+        // A screw without lead is refused by its own word.
+        let said = match field {
+            "lead" => said.replace("allowed: 0 to", "allowed: above 0, to"),
+            _ => said,
         };
         match hint {
             Some(unit) => format!("{said} ({})", unit.asked(value)),
@@ -111,6 +118,7 @@ impl Given {
 /// A unit that a value may be in.
 #[derive(Clone, Copy, Debug)]
 enum Meant {
+    Micrometres,
     Millimetres,
     Degrees,
 }
@@ -119,6 +127,7 @@ impl Meant {
     fn asked(self, value: f32) -> String {
         let value = f64::from(value);
         match self {
+            Self::Micrometres => format!("{value} um? that is {value}e-6"),
             Self::Millimetres => format!("{value} mm? that is {}", shown(value / 1e3)),
             Self::Degrees => format!("{value} degrees? that is {:.5}", value.to_radians()),
         }
@@ -134,13 +143,10 @@ fn shown(value: f64) -> String {
 /// The unit in which the value would be allowed.
 fn hint(error: &Error) -> Option<Meant> {
     let (value, allowed) = (error.value(), error.allowed());
-    let length = [
-        "pitch_radius",
-        "lead",
-        "ball_radius",
-        "groove_radius",
-        "clearance",
-    ];
+    if ["clearance", "axial_play"].contains(&error.field()) && allowed.contains(value * 1e-6) {
+        return Some(Meant::Micrometres);
+    }
+    let length = ["pitch_radius", "lead", "ball_radius", "groove_radius"];
     if length.contains(&error.field()) && allowed.contains(value * 1e-3) {
         return Some(Meant::Millimetres);
     }
@@ -182,7 +188,7 @@ mod tests {
             ),
             (
                 "nominal_diameter = 29e-3\nlead = 7\nball_diameter = 4e-3\n",
-                "lead = 7 is out of range; allowed: 0 to 0.2 m; lengths are in metres (7 mm? that is 0.007)",
+                "lead = 7 is out of range; allowed: above 0, to 0.2 m; lengths are in metres (7 mm? that is 0.007)",
             ),
             (
                 "pitch_radius = 14.5e-3\nlead = 7e-3\nball_radius = 2\n",

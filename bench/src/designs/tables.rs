@@ -49,9 +49,43 @@ pub fn parsed<Table: DeserializeOwned>(text: &str) -> Result<Table, String> {
             Some((before, keys)) => {
                 format!("{before}expected one of {}", keys.replace("`fit`, ", ""))
             }
-            None => said.trim_end().into(),
+            None => in_words(said.trim_end()),
         }
     })
+}
+
+/// What a value has to be, without the names of this program's types.
+const TYPES: [(&str, &str); 5] = [
+    ("expected u8", "expected a whole number, 0 to 255"),
+    ("expected u16", "expected a whole number, 0 to 65535"),
+    ("expected u32", "expected a whole number, 0 to 4294967295"),
+    ("expected f32", "expected a number"),
+    ("expected f64", "expected a number"),
+];
+
+/// An error of the parser in the words of a file.
+fn in_words(said: &str) -> String {
+    if let Some((before, words)) = TYPES
+        .iter()
+        .find_map(|(own, words)| Some((said.strip_suffix(own)?, words)))
+    {
+        return format!("{before}{words}");
+    }
+    // The line that the parser shows, as `7 | friction = 0,1`.
+    let comma = said.lines().any(|line| {
+        let value = line.split_once('=').map_or("", |(_, value)| value.trim());
+        value.split_once(',').is_some_and(|(whole, parts)| {
+            [whole, parts]
+                .iter()
+                .all(|digits| digits.trim_start_matches('-').parse::<u64>().is_ok())
+        })
+    });
+    let hint = if comma {
+        "; a decimal point stands in the place of a comma"
+    } else {
+        ""
+    };
+    format!("{said}{hint}")
 }
 
 /// Puts a given value in the place of another one.

@@ -11,6 +11,23 @@ fn every_built_in_design_is_valid_and_found_by_its_name() {
     assert!("33x20x6.35".parse::<DesignSource>().is_err());
 }
 
+/// A name has one friction coefficient, clearance, reversal speed and rolling resistance: the scene without cage runs the caged scene's gear.
+#[test]
+fn a_name_has_one_set_of_numbers_in_every_scene() {
+    let mut without_cage = Vec::new();
+    for (name, ..) in built_in() {
+        let design = name.parse::<DesignSource>().unwrap().load().unwrap();
+        let Some(balls) = design.uncaged else {
+            continue;
+        };
+        assert_eq!(balls.gear, design.caged, "{name}");
+        without_cage.push(name);
+    }
+    assert_eq!(without_cage, ["lin-3.6"]);
+    let settings = Settings::of("lin-3.6");
+    assert_eq!((settings.friction, settings.clearance.gap()), (0.1, 0.0));
+}
+
 fn parse(text: &str) -> Result<Design, String> {
     read(text, "stem")
 }
@@ -34,6 +51,36 @@ fn a_design_file_equals_the_built_in_design() {
         file.defaulted,
         ["friction", "clearance", "reversal_speed", "loaded_balls"]
     );
+}
+
+/// A refusal says what the file should have, in a file's words.
+#[test]
+fn a_wrong_value_is_explained() {
+    for (addition, words) in [
+        ("clearance = -20", "-20 um? that is -20e-6"),
+        ("clearance = -20e-6\nloaded_balls = 50", "4.2 GPa"),
+        ("axial_play = 10", "10 um? that is 10e-6"),
+        ("friction = 0,1", "a decimal point stands"),
+        ("friction = \"0.1\"", "expected a number"),
+        ("loaded_balls = 70000", "a whole number, 0 to 65535"),
+        (
+            "[fold]\naxial_load = [300, 5]",
+            "[least, largest] of one ball",
+        ),
+        (
+            "[fold]\naxial_load = [5, 1e9]",
+            "fold: axial_load = 1000000000",
+        ),
+        ("[fold]\naxial_load = [nan, 5]", "fold: axial_load = NaN"),
+        (
+            "[fold]\nfriction = [0.2, 0.3]",
+            "fold: the design's friction",
+        ),
+        ("[fold]\nfriction = [0.05, 0.9]", "fold: friction = 0.9"),
+    ] {
+        let error = parse(&format!("{GOOD}{addition}\n")).unwrap_err();
+        assert!(error.contains(words), "{addition}: {error}");
+    }
 }
 
 #[test]

@@ -4,9 +4,8 @@ use std::path::Path;
 
 use epas_design::CagedDesign;
 use epas_friction::{
-    BallScrew, Clearance, DeviationMap, GrooveSize, Harmonic, Limits, LinearBearing,
-    LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
-    RollingResistance, defaults,
+    DeviationMap, GrooveSize, Harmonic, LinearBearing, LinearBearingConfiguration,
+    LinearBearingParameters, LinearLimits, LoadShare, LoadShares, defaults,
 };
 use serde::Deserialize;
 
@@ -175,7 +174,7 @@ const BALL_FRICTION: f32 = 0.1;
 
 /// The built-in train of a ball screw of Lin 2019: Section 3.4.4, with the amplitude of the deviation that
 /// gives the printed peak of Figure 3.25.
-pub fn built_in(name: &str, screw: BallScrew, balls: u16) -> Option<UncagedDesign> {
+pub fn built_in(name: &str, gear: CagedDesign, balls: u16) -> Option<UncagedDesign> {
     if name != "lin-3.6" {
         return None;
     }
@@ -194,19 +193,6 @@ pub fn built_in(name: &str, screw: BallScrew, balls: u16) -> Option<UncagedDesig
         nut_deviation: None,
         load_shares: None,
         negative_load_shares: None,
-    };
-    let gear = CagedDesign {
-        design: screw,
-        friction: 0.1,
-        rolling_resistance: RollingResistance::NONE,
-        clearance: Clearance::ZERO,
-        loaded_balls: balls,
-        reversal_speed: 1e-2,
-        limits: Limits {
-            nut_speed: 2e3,
-            axial_load: 1e5,
-            friction_torque: 100.0,
-        },
     };
     table.design(gear).ok()
 }

@@ -204,8 +204,8 @@ fn over_the_weave(weave: &Courses) -> Figure {
         name: "friction_over_a_manoeuvre",
         caption: "Friction torque of a screw of 33 mm and lead 20 mm with 37 balls, on centre. A weave at 0.2 Hz with small corrections; the \
                   reversal under the largest load closer; motor torque at the nut without inertia; and friction of the 37 balls in its parts. Without memory \
-                  friction turns round with the speed, with memory over an angle. The cage has friction 0.075 and no deviations, the 37 balls have 0.1 and contact \
-                  angles that deviate by 40 mrad, as the design lin-3.6 has them. Model of this crate; geometry of Lin 2019, Table 3.6."
+                  friction turns round with the speed, with memory over an angle. All have the numbers of the design lin-3.6: friction 0.1, balls that just fit; the \
+                  37 balls also have its contact angles that deviate by 40 mrad, which a cage does not notice. Model of this crate; geometry of Lin 2019, Table 3.6."
             .into(),
         panels: vec![
             chart("Friction on centre", "friction torque (N m)", WHOLE, three(WHOLE)),

@@ -61,9 +61,10 @@ fn the_list_holds_every_built_in_design() {
     ] {
         assert!(list.stdout.lines().any(|line| line.starts_with(name)));
     }
-    // Its two scenes differ.
-    let both =
-        |line: &&str| line.contains("friction 0.075") && line.contains("uncaged: friction 0.100");
+    // One friction coefficient for both scenes.
+    let both = |line: &&str| {
+        line.contains("friction 0.100, clearance  0.0 um") && line.contains("uncaged also: ")
+    };
     assert_eq!(list.stdout.lines().filter(both).count(), 1);
 }
 

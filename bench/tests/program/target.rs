@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::{run, run_with};
 
-use epas_firmware::gears::LIN_3_6;
+use epas_firmware::gears::GEAR_33X20;
 use epas_firmware::inputs::CASES;
 use epas_firmware::scenes::course;
 use epas_firmware::spread::Spread;
@@ -19,7 +19,7 @@ use epas_friction::{FrictionModel, Inputs};
 fn the_log_of_the_firmware_decodes() {
     let log = run(&["target", "--log"], "");
     assert_eq!(log.code, 0, "{}", log.stderr);
-    let mut caged = FrictionModel::<CagedBallScrew, _>::of(&LIN_3_6);
+    let mut caged = FrictionModel::<CagedBallScrew, _>::of(&GEAR_33X20);
     let mut lines = log.stdout.lines();
     for tick in [100, 300, 500] {
         let (nut_speed, axial_load) = course(tick);

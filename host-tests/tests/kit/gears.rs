@@ -83,12 +83,12 @@ pub const CAGED_PRELOAD: f32 = 350.0;
 
 /// Blocks that the firmware has: the same bits on every machine.
 mod blocks {
-    include!("../../../bench/firmware/src/gears/lin_3_6_range.rs");
-    include!("../../../bench/firmware/src/gears/lin_3_6.rs");
-    include!("../../../bench/firmware/src/gears/lin_3_6_worn.rs");
-    pub(super) const RANGE: &[u32] = &LIN_3_6_RANGE_BLOCK;
-    pub(super) const ONE: &[u32] = &LIN_3_6_BLOCK;
-    pub(super) const WORN: &[u32] = &LIN_3_6_WORN_BLOCK;
+    include!("../../../bench/firmware/src/gears/gear_33x20_range.rs");
+    include!("../../../bench/firmware/src/gears/gear_33x20.rs");
+    include!("../../../bench/firmware/src/gears/gear_33x20_worn.rs");
+    pub(super) const RANGE: &[u32] = &GEAR_33X20_RANGE_BLOCK;
+    pub(super) const ONE: &[u32] = &GEAR_33X20_BLOCK;
+    pub(super) const WORN: &[u32] = &GEAR_33X20_WORN_BLOCK;
 }
 
 /// The screw of Lin 2019, chapter 3.6, caged, with 126 balls in the place of 36, and so [`CAGED_PRELOAD`]: friction coefficients of 0.05 to 0.15, 0.075

@@ -121,7 +121,7 @@ where
 fn caged() -> Result<Vec<Vec<u32>>, Error> {
     ticks(setups::caged()?, 0x1994_2019, |model, tick| {
         if tick == TICKS / 2 {
-            model.swap_constants(CagedConstants::from_block(gears::LIN_3_6_WORN)?)?;
+            model.swap_constants(CagedConstants::from_block(gears::GEAR_33X20_WORN)?)?;
         }
         Ok(())
     })
@@ -266,7 +266,7 @@ fn screw() -> Result<Vec<Vec<u32>>, Error> {
 
 /// Its friction coefficient rises in every tick, from the least to the largest that was folded.
 fn screw_range() -> Result<Vec<Vec<u32>>, Error> {
-    let (least, largest) = gears::LIN_3_6_BALL_RANGE.law.friction_range();
+    let (least, largest) = gears::GEAR_33X20_BALL_RANGE.law.friction_range();
     ticks_without_cage(setups::screw_range()?, 0x0037_0003, |model, tick| {
         model.set_friction(least + tick as f32 * ((largest - least) / 256.0))
     })

@@ -23,19 +23,23 @@ macro_rules! gear {
     };
 }
 
-gear!(lin_3_6, "lin_3_6.rs", LIN_3_6_BLOCK);
-gear!(lin_3_6_range, "lin_3_6_range.rs", LIN_3_6_RANGE_BLOCK);
-gear!(lin_3_6_worn, "lin_3_6_worn.rs", LIN_3_6_WORN_BLOCK);
-gear!(lin_4_1_range, "lin_4_1_range.rs", LIN_4_1_RANGE_BLOCK);
+gear!(gear_33x20, "gear_33x20.rs", GEAR_33X20_BLOCK);
+gear!(
+    gear_33x20_range,
+    "gear_33x20_range.rs",
+    GEAR_33X20_RANGE_BLOCK
+);
+gear!(gear_33x20_worn, "gear_33x20_worn.rs", GEAR_33X20_WORN_BLOCK);
+gear!(gear_29x7_range, "gear_29x7_range.rs", GEAR_29X7_RANGE_BLOCK);
 
 /// For one friction coefficient.
-pub static LIN_3_6: &[u32] = lin_3_6::WORDS;
+pub static GEAR_33X20: &[u32] = gear_33x20::WORDS;
 /// For a range of them.
-pub static LIN_3_6_RANGE: &[u32] = lin_3_6_range::WORDS;
+pub static GEAR_33X20_RANGE: &[u32] = gear_33x20_range::WORDS;
 /// Worn, with play.
-pub static LIN_3_6_WORN: &[u32] = lin_3_6_worn::WORDS;
+pub static GEAR_33X20_WORN: &[u32] = gear_33x20_worn::WORDS;
 /// The gear of the README's first example.
-pub static LIN_4_1_RANGE: &[u32] = lin_4_1_range::WORDS;
+pub static GEAR_29X7_RANGE: &[u32] = gear_29x7_range::WORDS;
 
 /// A ball screw without cage of the firmware: what was folded of its ball, from which its words are written.
 macro_rules! ball {
@@ -47,15 +51,15 @@ macro_rules! ball {
     };
 }
 
-ball!(lin_3_6_ball, "lin_3_6_ball.rs");
-ball!(lin_3_6_ball_range, "lin_3_6_ball_range.rs");
+ball!(gear_33x20_ball, "gear_33x20_ball.rs");
+ball!(gear_33x20_ball_range, "gear_33x20_ball_range.rs");
 
-pub use lin_3_6_ball::LIN_3_6_BALL;
-pub use lin_3_6_ball_range::LIN_3_6_BALL_RANGE;
+pub use gear_33x20_ball::GEAR_33X20_BALL;
+pub use gear_33x20_ball_range::GEAR_33X20_BALL_RANGE;
 
-/// [`LIN_3_6_BALL`] with a fifth more friction torque: as worn as a test needs it.
-pub static LIN_3_6_BALL_WORN: LazyLock<FoldedBall> = LazyLock::new(|| {
-    let mut worn = LIN_3_6_BALL;
+/// [`GEAR_33X20_BALL`] with a fifth more friction torque: as worn as a test needs it.
+pub static GEAR_33X20_BALL_WORN: LazyLock<FoldedBall> = LazyLock::new(|| {
+    let mut worn = GEAR_33X20_BALL;
     for node in &mut worn.law.nodes {
         for knot in node.branches.as_flattened_mut() {
             knot.numbers.torque = knot.numbers.torque.map(|torque| 1.2 * torque);
@@ -101,22 +105,25 @@ pub fn of_tests() -> Outcome<String> {
     header(
         "EPAS_TEST_GEARS_H",
         &[
-            ("LIN_3_6_BLOCK", LIN_3_6),
-            ("LIN_3_6_RANGE_BLOCK", LIN_3_6_RANGE),
-            ("LIN_3_6_WORN_BLOCK", LIN_3_6_WORN),
-            ("LIN_3_6_BALL_BLOCK", &words_of(&LIN_3_6_BALL)?),
-            ("LIN_3_6_BALL_WORN_BLOCK", &words_of(&LIN_3_6_BALL_WORN)?),
+            ("GEAR_33X20_BLOCK", GEAR_33X20),
+            ("GEAR_33X20_RANGE_BLOCK", GEAR_33X20_RANGE),
+            ("GEAR_33X20_WORN_BLOCK", GEAR_33X20_WORN),
+            ("GEAR_33X20_BALL_BLOCK", &words_of(&GEAR_33X20_BALL)?),
+            (
+                "GEAR_33X20_BALL_WORN_BLOCK",
+                &words_of(&GEAR_33X20_BALL_WORN)?,
+            ),
         ],
     )
 }
 
 /// The blocks of the README's examples: each the header that `epas-bench design` writes.
 pub fn of_examples() -> Outcome<[(&'static str, String); 2]> {
-    let screw = words_of(&LIN_3_6_BALL_RANGE)?;
+    let screw = words_of(&GEAR_33X20_BALL_RANGE)?;
     Ok([
         (
             "test/gear.h",
-            header("GEAR_BLOCK_H", &[("GEAR_BLOCK", LIN_4_1_RANGE)])?,
+            header("GEAR_BLOCK_H", &[("GEAR_BLOCK", GEAR_29X7_RANGE)])?,
         ),
         (
             "test/screw.h",

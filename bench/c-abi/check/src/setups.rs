@@ -20,12 +20,12 @@ use crate::gears;
 
 /// The gear of Lin 2019, chapter 3.6, with 100 N on each flank, by its block.
 pub fn caged() -> Result<FrictionModel<CagedBallScrew>, Error> {
-    FrictionModel::new(&CagedBallScrewConfiguration::read(gears::LIN_3_6)?)
+    FrictionModel::new(&CagedBallScrewConfiguration::read(gears::GEAR_33X20)?)
 }
 
 /// The same for a range of friction coefficients.
 pub fn caged_range() -> Result<FrictionModel<CagedBallScrew<NODES>>, Error> {
-    FrictionModel::new(&CagedBallScrewConfiguration::read(gears::LIN_3_6_RANGE)?)
+    FrictionModel::new(&CagedBallScrewConfiguration::read(gears::GEAR_33X20_RANGE)?)
 }
 
 /// Its catalogue numbers.
@@ -106,12 +106,12 @@ pub fn law(boundary: f32) -> Result<CoefficientLaw, Error> {
 
 /// The gear whose friction remembers.
 pub fn memory() -> Result<FrictionModel<Remembering>, Error> {
-    FrictionModel::<Remembering>::new(&remembering(gears::LIN_3_6_RANGE)?)
+    FrictionModel::<Remembering>::new(&remembering(gears::GEAR_33X20_RANGE)?)
 }
 
 /// What the gear goes on with: another block.
 pub fn swapped() -> Result<<Remembering as Scene>::Constants, Error> {
-    Remembering::constants(&remembering(gears::LIN_4_1_RANGE)?)
+    Remembering::constants(&remembering(gears::GEAR_29X7_RANGE)?)
 }
 
 /// Friction of the gear under 5 kN, N m, the share of slip in it, and the breakaway angles of slip and spin, rad.
@@ -214,17 +214,17 @@ fn with_angle<const NODES: usize>(
 
 /// The screw without cage, with one friction coefficient.
 pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
-    with_angle(&gears::LIN_3_6_BALL)
+    with_angle(&gears::GEAR_33X20_BALL)
 }
 
 /// What it goes on with: worn.
 pub fn worn_screw() -> Result<UncagedConstants<37>, Error> {
-    UncagedConstants::new(&without_cage(&gears::LIN_3_6_BALL_WORN)?)
+    UncagedConstants::new(&without_cage(&gears::GEAR_33X20_BALL_WORN)?)
 }
 
 /// The screw without cage, for a range of friction coefficients.
 pub fn screw_range() -> Result<FrictionModel<UncagedBallScrew<37, BALL_NODES>>, Error> {
-    with_angle(&gears::LIN_3_6_BALL_RANGE)
+    with_angle(&gears::GEAR_33X20_BALL_RANGE)
 }
 
 /// A linear bearing with balls of 10 mm.

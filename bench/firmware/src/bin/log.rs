@@ -6,7 +6,7 @@
 use cortex_m_rt::entry;
 use defmt_semihosting as _;
 use epas_firmware::board::finish;
-use epas_firmware::gears::LIN_3_6;
+use epas_firmware::gears::GEAR_33X20;
 use epas_firmware::scenes::{BALLS, course, linear_configuration, uncaged_configuration};
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{
@@ -37,7 +37,7 @@ fn log() -> Result<(), Error> {
     if let Err(error) = BallScrew::new(wrong) {
         defmt::warn!("refused: {}", error);
     }
-    let mut caged = FrictionModel::<CagedBallScrew, _>::of(&LIN_3_6);
+    let mut caged = FrictionModel::<CagedBallScrew, _>::of(&GEAR_33X20);
     let mut uncaged = FrictionModel::<UncagedBallScrew<BALLS>>::new(&configuration)?;
     let mut linear = FrictionModel::<LinearBearingTrain<24>>::new(&linear_configuration()?)?;
     for tick in [100, 300, 500] {

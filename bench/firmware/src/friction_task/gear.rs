@@ -15,7 +15,7 @@ use epas_friction::{
 };
 
 use super::page::Calibration;
-use crate::gears::LIN_4_1_RANGE;
+use crate::gears::GEAR_29X7_RANGE;
 
 /// Elements of a preloaded screw under any load.
 pub type Elements = PreloadedElements<LoadExactElements<8>>;
@@ -77,7 +77,7 @@ pub fn constants(calibration: &Calibration) -> Result<Constants, Error> {
     // Without an axial load the elements are told the load of both flanks, 2 sqrt(2) times the preload.
     let preload = defaults::CLEARANCE.axial_preload(&design, DESIGN.loaded_balls);
     let reference_load = 2.0 * core::f32::consts::SQRT_2 * preload;
-    let scene = LIN_4_1_RANGE.with_limits(Limits {
+    let scene = GEAR_29X7_RANGE.with_limits(Limits {
         nut_speed: calibration.largest_nut_speed,
         axial_load: calibration.largest_axial_load,
         friction_torque: calibration.largest_friction_torque,

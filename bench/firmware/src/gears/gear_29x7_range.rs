@@ -4,15 +4,15 @@
 // holds for friction coefficients 0.05 to 0.15 and axial loads of 5 to 300 N a ball, both signs
 // certificate: caged_torque, relative error on 2048 states that were not fitted (seed 1): largest 1.92e-2, rms 3.42e-3, mean 4.0e-4; flagged 0.00 %
 
-/// A caged ball screw: `FrictionModel::<CagedBallScrew<5>, _>::of(&LIN_4_1_RANGE)`.
-pub static LIN_4_1_RANGE: epas_friction::scene::CagedConstants<5> =
-    match epas_friction::scene::CagedConstants::from_block(&LIN_4_1_RANGE_BLOCK) {
+/// A caged ball screw: `FrictionModel::<CagedBallScrew<5>, _>::of(&GEAR_29X7_RANGE)`.
+pub static GEAR_29X7_RANGE: epas_friction::scene::CagedConstants<5> =
+    match epas_friction::scene::CagedConstants::from_block(&GEAR_29X7_RANGE_BLOCK) {
         Ok(constants) => constants,
         Err(_) => panic!("the block is damaged, or of another version of epas-friction"),
     };
 
 #[rustfmt::skip]
-const LIN_4_1_RANGE_BLOCK: [u32; 433] = [
+const GEAR_29X7_RANGE_BLOCK: [u32; 433] = [
     0x53415045, 0x00000001, 0x000001b1, 0x00000005, 0x0a252d71, 0xcc042601,
     0x3df5c28f, 0x3be56042, 0x428e0000, 0x3e4ccccd, 0x43fa0000, 0x469c4000,
     0x40a00000, 0x41ec7640, 0x4303e34e, 0x43075d50, 0x4304e2ae, 0x3d4ccccd,

@@ -4,15 +4,15 @@
 // holds for friction coefficients 0.075 to 0.075 and axial loads of 5 to 300 N a ball, both signs
 // certificate: caged_torque, relative error on 2048 states that were not fitted (seed 1): largest 4.63e-5, rms 1.41e-5, mean -1.0e-6; flagged 0.00 %
 
-/// A caged ball screw: `FrictionModel::<CagedBallScrew<1>, _>::of(&LIN_3_6_WORN)`.
-pub static LIN_3_6_WORN: epas_friction::scene::CagedConstants<1> =
-    match epas_friction::scene::CagedConstants::from_block(&LIN_3_6_WORN_BLOCK) {
+/// A caged ball screw: `FrictionModel::<CagedBallScrew<1>, _>::of(&GEAR_33X20_WORN)`.
+pub static GEAR_33X20_WORN: epas_friction::scene::CagedConstants<1> =
+    match epas_friction::scene::CagedConstants::from_block(&GEAR_33X20_WORN_BLOCK) {
         Ok(constants) => constants,
         Err(_) => panic!("the block is damaged, or of another version of epas-friction"),
     };
 
 #[rustfmt::skip]
-const LIN_3_6_WORN_BLOCK: [u32; 101] = [
+const GEAR_33X20_WORN_BLOCK: [u32; 101] = [
     0x53415045, 0x00000001, 0x00000065, 0x00000001, 0x366f63af, 0x26cee07e,
     0x3d99999a, 0x3ca3d70a, 0x42100000, 0x3f000000, 0x42c80000, 0x469c4000,
     0x41a00000, 0x00000000, 0x42f55b1e, 0x43073a93, 0x3f800000, 0x3d99999a,

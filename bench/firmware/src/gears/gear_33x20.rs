@@ -4,15 +4,15 @@
 // holds for friction coefficients 0.075 to 0.075 and axial loads of 5 to 300 N a ball, both signs
 // certificate: caged_torque, relative error on 2048 states that were not fitted (seed 1): largest 8.15e-5, rms 4.04e-5, mean -3.8e-6; flagged 0.00 %
 
-/// A caged ball screw: `FrictionModel::<CagedBallScrew<1>, _>::of(&LIN_3_6)`.
-pub static LIN_3_6: epas_friction::scene::CagedConstants<1> =
-    match epas_friction::scene::CagedConstants::from_block(&LIN_3_6_BLOCK) {
+/// A caged ball screw: `FrictionModel::<CagedBallScrew<1>, _>::of(&GEAR_33X20)`.
+pub static GEAR_33X20: epas_friction::scene::CagedConstants<1> =
+    match epas_friction::scene::CagedConstants::from_block(&GEAR_33X20_BLOCK) {
         Ok(constants) => constants,
         Err(_) => panic!("the block is damaged, or of another version of epas-friction"),
     };
 
 #[rustfmt::skip]
-const LIN_3_6_BLOCK: [u32; 101] = [
+const GEAR_33X20_BLOCK: [u32; 101] = [
     0x53415045, 0x00000001, 0x00000065, 0x00000001, 0xd19568f6, 0x4c581533,
     0x3d99999a, 0x3ca3d70a, 0x42100000, 0x3f000000, 0x42c80000, 0x469c4000,
     0x41a00000, 0x40fb6aa0, 0x4301fbae, 0x43074422, 0x4302f957, 0x3d99999a,

@@ -4,15 +4,15 @@
 // holds for friction coefficients 0.05 to 0.15 and axial loads of 5 to 300 N a ball, both signs
 // certificate: caged_torque, relative error on 2048 states that were not fitted (seed 1): largest 7.04e-3, rms 1.36e-3, mean 4.7e-4; flagged 0.00 %
 
-/// A caged ball screw: `FrictionModel::<CagedBallScrew<5>, _>::of(&LIN_3_6_RANGE)`.
-pub static LIN_3_6_RANGE: epas_friction::scene::CagedConstants<5> =
-    match epas_friction::scene::CagedConstants::from_block(&LIN_3_6_RANGE_BLOCK) {
+/// A caged ball screw: `FrictionModel::<CagedBallScrew<5>, _>::of(&GEAR_33X20_RANGE)`.
+pub static GEAR_33X20_RANGE: epas_friction::scene::CagedConstants<5> =
+    match epas_friction::scene::CagedConstants::from_block(&GEAR_33X20_RANGE_BLOCK) {
         Ok(constants) => constants,
         Err(_) => panic!("the block is damaged, or of another version of epas-friction"),
     };
 
 #[rustfmt::skip]
-const LIN_3_6_RANGE_BLOCK: [u32; 433] = [
+const GEAR_33X20_RANGE_BLOCK: [u32; 433] = [
     0x53415045, 0x00000001, 0x000001b1, 0x00000005, 0x53904386, 0x75ddfd07,
     0x3d99999a, 0x3ca3d70a, 0x42100000, 0x3f000000, 0x42c80000, 0x469c4000,
     0x41a00000, 0x40fb6aa0, 0x4301fbae, 0x43074422, 0x4302f957, 0x3d4ccccd,

@@ -6,15 +6,15 @@
 // certificate: 48 rows of 37 balls that were not fitted (seed 1), without friction between balls: torque, relative, largest 1.14e-3, rms 4.12e-4, mean -1.1e-4; forces between balls over the largest of their row, rms 6.86e-3, of unflagged rows 3.73e-3; flagged 2 %
 // certificate: 16 rows of 37 balls that were not fitted (seed 1), with 0.1 between balls: torque, relative, largest 4.70e-2, rms 1.71e-2, mean 3.2e-3; forces between balls over the largest of their row, rms 4.24e-2, of unflagged rows 4.24e-2; flagged 0 %
 
-/// The ball of a screw without cage: `folded: &LIN_3_6_BALL` of an `PressedScrewConfiguration<1>`.
-pub static LIN_3_6_BALL: epas_friction::scene::FoldedBall<1> =
-    match epas_friction::scene::FoldedBall::read(&LIN_3_6_BALL_BLOCK) {
+/// The ball of a screw without cage: `folded: &GEAR_33X20_BALL` of an `PressedScrewConfiguration<1>`.
+pub static GEAR_33X20_BALL: epas_friction::scene::FoldedBall<1> =
+    match epas_friction::scene::FoldedBall::read(&GEAR_33X20_BALL_BLOCK) {
         Ok(constants) => constants,
         Err(_) => panic!("the block is damaged, or of another version of epas-friction"),
     };
 
 #[rustfmt::skip]
-const LIN_3_6_BALL_BLOCK: [u32; 1238] = [
+const GEAR_33X20_BALL_BLOCK: [u32; 1238] = [
     0x55415045, 0x00000001, 0x000004d6, 0x00000001, 0xf6a191df, 0x38795d6e,
     0x3d99999a, 0x3ca3d70a, 0x3b360f1b, 0x3c89a906, 0x3bf3b828, 0x3f000000,
     0x42c80000, 0x469c4000, 0x41a00000, 0x3c8ef34d, 0x3c0f0846, 0x40fb6aa0,

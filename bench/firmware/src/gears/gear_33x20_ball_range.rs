@@ -6,15 +6,15 @@
 // certificate: 48 rows of 37 balls that were not fitted (seed 1), without friction between balls: torque, relative, largest 1.79e-2, rms 5.70e-3, mean -4.8e-4; forces between balls over the largest of their row, rms 1.92e-2, of unflagged rows 1.67e-2; flagged 10 %
 // certificate: 15 rows of 37 balls that were not fitted (seed 1), with 0.1 between balls: torque, relative, largest 3.34e-2, rms 1.21e-2, mean 4.6e-3; forces between balls over the largest of their row, rms 3.57e-2, of unflagged rows 3.57e-2; flagged 7 %
 
-/// The ball of a screw without cage: `folded: &LIN_3_6_BALL_RANGE` of an `PressedScrewConfiguration<3>`.
-pub static LIN_3_6_BALL_RANGE: epas_friction::scene::FoldedBall<3> =
-    match epas_friction::scene::FoldedBall::read(&LIN_3_6_BALL_RANGE_BLOCK) {
+/// The ball of a screw without cage: `folded: &GEAR_33X20_BALL_RANGE` of an `PressedScrewConfiguration<3>`.
+pub static GEAR_33X20_BALL_RANGE: epas_friction::scene::FoldedBall<3> =
+    match epas_friction::scene::FoldedBall::read(&GEAR_33X20_BALL_RANGE_BLOCK) {
         Ok(constants) => constants,
         Err(_) => panic!("the block is damaged, or of another version of epas-friction"),
     };
 
 #[rustfmt::skip]
-const LIN_3_6_BALL_RANGE_BLOCK: [u32; 3676] = [
+const GEAR_33X20_BALL_RANGE_BLOCK: [u32; 3676] = [
     0x55415045, 0x00000001, 0x00000e5c, 0x00000003, 0x36ca151a, 0xc1c3e5a4,
     0x3d99999a, 0x3ca3d70a, 0x3b360f1b, 0x3c89a906, 0x3bf3b828, 0x3f000000,
     0x42c80000, 0x469c4000, 0x41a00000, 0x3c8ef34d, 0x3c0f0846, 0x40fb6aa0,
