@@ -64,18 +64,21 @@ fn below_breakaway_nothing_creeps() {
     }
 }
 
-/// After a torque is taken away again the nut rests on what its elements hold against each other, at a friction of nearly nothing.
+/// After a torque beyond the load's is taken away again the nut rests on what its elements hold against each other, at a friction of nearly
+/// nothing.
 #[test]
 fn released_a_nut_comes_to_rest() {
+    let load_torque = 3000.0 * f64::from(design().screw().lead()) / TAU;
     for tick in [2e-4, 1e-3] {
         let samples = (4.0 / tick) as u32;
         let acting: Vec<Acting> = (0..samples)
             .map(|sample| {
                 let time = tick * f64::from(sample);
+                let torque = (0.1 * time).min(0.1 - 0.1 * (time - 1.0)).max(0.0);
                 Acting {
                     time,
-                    command: (0.1 * time).min(0.1 - 0.1 * (time - 1.0)).max(0.0),
-                    axial_load: 0.0,
+                    command: load_torque + torque,
+                    axial_load: 3000.0,
                     known_torque: 0.0,
                     known_force: 0.0,
                 }
