@@ -4,8 +4,8 @@
 //! fall with the motion, so the speed is the one root between rest and the speed without a change of resistance. A mass that sticks
 //! stays on its friction's spring: nothing chatters at any step. Euler's backward rule: the error of a motion falls with the step.
 //!
-//! A friction in single precision does not feel a way whose force is below its last digit: a body on its spring would creep on without end.
-//! Where it cannot come nearer to the effort, it holds the body at rest.
+//! A friction in single precision does not feel a way whose force is below its last digit: a body on its spring would creep on without end,
+//! each step too small to be felt, or felt and taken back. Where effort and inertia are within its last digits, it holds the body at rest.
 
 use roots::{SimpleConvergency, find_root_brent};
 
@@ -57,9 +57,10 @@ pub trait Resistance {
     /// The same, remembered: the step was made.
     fn follow(&mut self, step: &Step) -> f64;
 
-    /// Whether it holds the body at rest through this step: it does not feel the step's way, and no way that it feels brings it nearer to
-    /// the effort. A resistance that feels every way never does.
-    fn holds(&self, _: &Step, _effort: f64) -> bool {
+    /// Whether it holds the body at rest through this step: the effort is that at rest within its last digits, and it does not feel the
+    /// step's way, or `inertial`, the effort that stops the body within the step, is within them too. A resistance that feels every way never
+    /// does.
+    fn holds(&self, _: &Step, _effort: f64, _inertial: f64) -> bool {
         false
     }
 }
@@ -100,7 +101,8 @@ impl<R: Resistance> Mechanism<R> {
         } else {
             root(&excess, free)
         };
-        let end_speed = if self.resistance.holds(&step(end_speed), effort) {
+        let inertial = self.inertia * end_speed.abs() / time;
+        let end_speed = if self.resistance.holds(&step(end_speed), effort, inertial) {
             0.0
         } else {
             end_speed

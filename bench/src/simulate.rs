@@ -104,7 +104,9 @@ use trace::Temperature;
 ///
 /// Its rolling_drag is the drag of the lubricant over that of the default grease (1 for that; none without).
 ///
-/// For --mechanism that table has inertia, drag, offset, gain. harmonics (a list of { order, cosine, sine }) stand there too.
+/// For --mechanism that table has inertia, drag, offset, gain. Its trace has time, motor_torque (or with --controller reference_position) and
+/// axial_load, and where there are any known_torque (N m) or known_force (N, on what travels): an effort beside the motor's, in the
+/// direction of positive motion, as in `calibrate`. harmonics (a list of { order, cosine, sine }) stand there too.
 ///
 /// A linear bearing's file has ball_radius or ball_diameter, conformity or groove_radius, contact_angle, balls, loaded_length, and if wanted
 /// return_length, wavelength, rail_deviation, carriage_deviation, load_shares, friction and ball_friction (0.1 without), materials as above,

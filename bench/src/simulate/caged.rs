@@ -108,7 +108,7 @@ impl Caged {
             .map(|model| Reference::new(model, &self.design, trace))
             .transpose()?;
         if let Some(Reference::Exact(exact)) = &reference {
-            lines.append(exact.told());
+            lines.append(exact.told(&trace.samples));
         }
         let mut angle = 0.0;
         let mut last = trace.samples.first().copied();

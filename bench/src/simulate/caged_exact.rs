@@ -17,6 +17,9 @@ use crate::failure::Failure;
 const LOADS: u32 = 160;
 const SPAN: f64 = 1e4;
 
+/// Loads without a solution that are named.
+const NAMED: usize = 3;
+
 /// Friction torque over the load, between loads for which one ball is solved exactly: within 2e-4 where no contact opens
 /// between two of them. Where a load has no solution, friction is no number from the load below it to the one above.
 pub struct ExactCaged {
@@ -99,20 +102,33 @@ impl ExactCaged {
         })
     }
 
-    /// How many loads have no solution, if any.
-    pub fn told(&self) -> Lines {
+    /// Which loads have no solution, if any, and how many of the samples that costs.
+    pub fn told(&self, samples: &[ScrewSample]) -> Lines {
         let mut lines = Lines::default();
-        let solved = self.laws.iter().flatten();
-        let failed = solved.clone().filter(|(_, torque)| torque.is_nan()).count();
-        if failed > 0 {
-            lines.add(
-                "reference",
-                format!(
-                    "{failed} of {} loads without a solution; samples beside them are left open",
-                    solved.count()
-                ),
-            );
+        let named = self.laws.iter().zip(["against the motion", "with it"]);
+        let unsolved: Vec<String> = named
+            .flat_map(|(law, side)| {
+                let open = law.iter().filter(|(_, torque)| torque.is_nan());
+                open.map(move |(load, _)| format!("{load:.1} N {side}"))
+            })
+            .collect();
+        if unsolved.is_empty() {
+            return lines;
         }
+        let open = |sample: &&ScrewSample| self.friction(sample).friction_torque.is_nan();
+        let first = samples.iter().find(open);
+        let more = if unsolved.len() > NAMED { ", ..." } else { "" };
+        lines.add(
+            "reference",
+            format!(
+                "{} of {} loads without a solution ({}{more}); {} samples beside them are left open{}",
+                unsolved.len(),
+                self.laws.iter().map(Vec::len).sum::<usize>(),
+                unsolved.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", "),
+                samples.iter().filter(open).count(),
+                first.map_or_else(String::new, |first| format!(", the first at {} s", first.time)),
+            ),
+        );
         lines
     }
 
@@ -135,5 +151,65 @@ impl ExactCaged {
             (Some((_, torque)), None) => *torque,
             (None, None) => 0.0,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A load without a solution costs the samples beside it, and no other; it is named.
+    #[test]
+    fn an_unsolved_load_costs_its_samples() {
+        let loads = [10.0, 20.0, 40.0, 80.0];
+        let law = |unsolved: f64| {
+            let torque = |load: f64| {
+                if load == unsolved {
+                    f64::NAN
+                } else {
+                    1e-3 * load
+                }
+            };
+            loads.map(|load| (load, torque(load))).to_vec()
+        };
+        let exact = ExactCaged {
+            laws: [law(20.0), law(f64::INFINITY)],
+            preloaded: false,
+            reduced_lead: 1e-3,
+            reversal_speed: 0.0,
+            limits: Limits {
+                nut_speed: 100.0,
+                axial_load: 1e3,
+                friction_torque: 1.0,
+            },
+        };
+        // 15 and 30 N stand beside 20 N, where the load is against the motion.
+        let samples: Vec<ScrewSample> = [5.0, 15.0, 30.0, 60.0, -15.0]
+            .into_iter()
+            .enumerate()
+            .map(|(place, axial_load)| ScrewSample {
+                time: 0.5 * place as f64,
+                nut_speed: 10.0,
+                axial_load,
+            })
+            .collect();
+        let torques: Vec<f64> = samples
+            .iter()
+            .map(|sample| exact.friction(sample).friction_torque)
+            .collect();
+        assert_eq!(
+            torques
+                .iter()
+                .map(|torque| torque.is_nan())
+                .collect::<Vec<_>>(),
+            [false, true, true, false, false]
+        );
+        // Linear between the loads: the torque of 60 N is that of 60 N within roundings.
+        assert!((torques[3] - 0.06).abs() < 1e-15, "{torques:?}");
+        let told = format!("{:?}", exact.told(&samples));
+        assert!(
+            told.contains("1 of 8 loads without a solution (20.0 N against the motion); 2 samples beside them are left open, the first at 0.5 s"),
+            "{told}"
+        );
     }
 }

@@ -46,11 +46,14 @@ pub fn exact_screw(
         .map_err(|error| failure(&error))?;
     drop(progress);
 
-    let failed = states
+    let unsolved: Vec<f64> = states
         .iter()
         .zip(&asked)
         .filter(|(state, asked)| !state.solved() && asked.nut_speed != 0.0)
-        .count();
+        .map(|(_, asked)| asked.time)
+        .collect();
+    let first = unsolved.first();
+    let first = first.map_or_else(String::new, |time| format!(", the first at {time} s"));
     let mut lines = Lines::default();
     let between = if chosen.len() < samples.len() {
         ", linear in between"
@@ -60,9 +63,10 @@ pub fn exact_screw(
     lines.add(
         "reference",
         format!(
-            "exact whole screw at {} of {} samples{between}; {failed} states without a solution",
+            "exact whole screw at {} of {} samples{between}; {} states without a solution{first}",
             chosen.len(),
-            samples.len()
+            samples.len(),
+            unsolved.len()
         ),
     );
     let rolling = Rolling::new(design).map_err(|error| failure(&error))?;

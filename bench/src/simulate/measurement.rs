@@ -40,6 +40,11 @@ const COLUMNS: &[Described] = &[
     ),
     number("side_load", "N", "load across the rail"),
     number("motor_torque", "Nm", "torque of the motor on the nut"),
+    number(
+        "known_torque",
+        "Nm",
+        "known effort beside the motor, as a torque on the nut",
+    ),
     number("reference_position", "rad", "wanted angle of the nut"),
     number("nut_position", "rad", "angle of the nut"),
     number(
@@ -135,7 +140,7 @@ mod tests {
             Caged::columns(true),
             Uncaged::columns(true),
             Linear::columns(false),
-            crate::simulate::mechanism::COLUMNS.to_vec(),
+            crate::simulate::mechanism::columns(true),
         ] {
             assert_eq!(described(&columns).unwrap().len(), columns.len());
         }

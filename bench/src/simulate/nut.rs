@@ -63,11 +63,16 @@ impl<M: Remembers> Nut<M> {
 }
 
 /// Part of the torques within which friction and effort are near each other: far more than a step of single precision, so that it
-/// decides nothing but whether it is worth looking.
+/// decides nothing but whether it is worth looking. Torques below 1e-3 N m count as that.
 const NEAR: f64 = 1e-3;
 
-/// Speed from which on a reading is looked for that friction feels, rad/s: far below any that it does.
-const LEAST: f64 = 1e-12;
+/// Turn from which on one is looked for that friction feels, rad: far below any that it does. A last digit of 0.2 N m is 1.5e-8 N m, which a
+/// stiffness of 150 N m/rad reaches after 1e-10 rad.
+const LEAST: f64 = 1e-14;
+
+/// So many steps of friction may be missing to the balance: elements round each by itself, so that their sum may fall by a step or two where
+/// it should rise, and a balance within that is not found.
+const STEPS_OFF: f64 = 4.0;
 
 impl<M: Remembers> Nut<M> {
     /// Torque that the nut holds at rest after a reading of its speed, N m: without what a speed adds.
@@ -83,14 +88,22 @@ impl<M: Remembers> Nut<M> {
             + self.offset
     }
 
-    /// The same after the first of the readings `from`, twice that, and so on, that makes a difference to `rest`.
+    /// The difference that the first of the readings `from`, twice that, and so on, makes to `rest`, N m; 0 where none does.
     fn first_felt(&self, from: f64, rest: f64) -> f64 {
         let readings = std::iter::successors(Some(from), |reading| Some(2.0 * reading));
         readings
             .take_while(|reading| reading.abs() < 1e3)
-            .map(|reading| self.at_rest(reading))
-            .find(|torque| *torque != rest)
-            .unwrap_or(rest)
+            .map(|reading| (self.at_rest(reading) - rest).abs())
+            .find(|difference| *difference != 0.0)
+            .unwrap_or(0.0)
+    }
+
+    /// Step of the friction around rest, N m: the larger one of both directions. None where it feels no motion in one of them, because it slides.
+    fn resolution(&self, rest: f64, time: f64) -> Option<f64> {
+        let least = LEAST / time;
+        let both = [-least, least].map(|from| self.first_felt(from, rest));
+        let [back, on] = both;
+        both.iter().all(|step| *step > 0.0).then(|| back.max(on))
     }
 }
 
@@ -103,15 +116,16 @@ impl<M: Remembers> Resistance for Nut<M> {
         self.step(step)
     }
 
-    fn holds(&self, step: &Step, effort: f64) -> bool {
+    fn holds(&self, step: &Step, effort: f64, inertial: f64) -> bool {
         let rest = self.at_rest(0.0);
-        if (effort - rest).abs() > NEAR * (effort.abs() + rest.abs())
-            || self.at_rest(step.end_speed) != rest
-        {
+        let missing = (effort - rest).abs();
+        if missing > NEAR * (effort.abs() + rest.abs()).max(1e-3) {
             return false;
         }
-        let least = step.end_speed.abs().max(LEAST);
-        let (back, on) = (self.first_felt(-least, rest), self.first_felt(least, rest));
-        back < rest && rest < on && (back..=on).contains(&effort)
+        let felt = self.at_rest(step.end_speed) != rest;
+        self.resolution(rest, step.time).is_some_and(|resolution| {
+            let least = STEPS_OFF * resolution;
+            missing <= least && (!felt || inertial <= least)
+        })
     }
 }

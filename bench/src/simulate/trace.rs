@@ -21,10 +21,13 @@ pub trait Sample: Copy {
     /// Columns that a trace must have, time first.
     const COLUMNS: &'static [&'static str];
 
+    /// Columns that a trace may have; where it has none, each of their numbers is 0.
+    const OPTIONAL: &'static [&'static str] = &[];
+
     /// From the numbers in its columns.
     fn read<E>(column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E>;
 
-    /// The numbers in the order of the columns, for a table.
+    /// The numbers in the order of the columns, those that a trace may have behind those that it must have.
     fn record(&self) -> Vec<String>;
 
     /// A moment between two, each of its numbers by this function of theirs.
@@ -40,7 +43,8 @@ pub trait Sample: Copy {
         };
         let (low, high) = (numbers(low), numbers(high));
         let read = Self::read(|name| {
-            let place = Self::COLUMNS.iter().position(|column| *column == name);
+            let mut columns = Self::COLUMNS.iter().chain(Self::OPTIONAL);
+            let place = columns.position(|column| *column == name);
             let pair = place.and_then(|place| Some((*low.get(place)?, *high.get(place)?)));
             Ok::<_, std::convert::Infallible>(pair.map_or(f64::NAN, |(low, high)| of(low, high)))
         });
@@ -203,10 +207,10 @@ fn channels_of<S: Sample>(
     channels: Option<&Mapping>,
     followed: bool,
 ) -> Result<(Vec<S>, Temperature), String> {
-    let optional = followed.then_some(&TEMPERATURE);
+    let optional = || S::OPTIONAL.iter().chain(followed.then_some(&TEMPERATURE));
     let wanted: Vec<mdf4::Wanted> = S::COLUMNS
         .iter()
-        .chain(optional)
+        .chain(optional())
         .filter_map(|name| {
             let (quantity, _) = channel(name).ok()??;
             (quantity != Quantity::Time).then(|| mdf4::Wanted {
@@ -237,15 +241,13 @@ fn channels_of<S: Sample>(
             .columns
             .iter()
             .find(|column| column.quantity == wanted.quantity);
-        if column.is_none() && wanted.name == TEMPERATURE {
-            continue;
-        }
-        places.push(column.ok_or_else(|| {
-            format!(
+        if column.is_none() && !optional().any(|name| *name == wanted.name) {
+            return Err(format!(
                 "channel {} is missing; a file for --channels says which channel it is",
                 wanted.name
-            )
-        })?);
+            ));
+        }
+        places.push(column);
     }
     let warm = found
         .columns
@@ -261,10 +263,12 @@ fn channels_of<S: Sample>(
     for (row, time) in found.times.iter().enumerate() {
         let sample = S::read(|column| {
             let place = wanted.iter().position(|wanted| wanted.name == column);
-            let column = place.and_then(|place| places.get(place));
-            column
-                .map_or(Some(*time), |column| column.values.get(row).copied())
-                .ok_or("a sample is missing")
+            let value = match place.and_then(|place| places.get(place)) {
+                None => Some(*time),
+                Some(None) => Some(0.0),
+                Some(Some(column)) => column.values.get(row).copied(),
+            };
+            value.ok_or("a sample is missing")
         })?;
         let next = follows(&samples, sample).and_then(|next| {
             let value = warm.and_then(|column| column.values.get(row));
@@ -396,6 +400,10 @@ impl Rows {
             .iter()
             .map(|column| place(header, column).map(|(place, unit)| (*column, place, unit)))
             .collect::<Result<Vec<_>, _>>()?;
+        for column in S::OPTIONAL {
+            let optional = found(header, column)?;
+            places.extend(optional.map(|(place, unit)| (*column, place, unit)));
+        }
         let warm = if followed {
             found(header, TEMPERATURE)?
         } else {
@@ -488,10 +496,12 @@ impl Rows {
                 } else {
                     table.values(column)
                 };
-                let value = values.and_then(|values| values.get(row));
-                value
-                    .copied()
-                    .ok_or_else(|| "a column is missing".to_owned())
+                let value = match values {
+                    None if S::OPTIONAL.contains(&column) => Some(0.0),
+                    None => None,
+                    Some(values) => values.get(row).copied(),
+                };
+                value.ok_or_else(|| "a column is missing".to_owned())
             })
         });
         Ok((samples.collect::<Result<_, _>>()?, temperature))

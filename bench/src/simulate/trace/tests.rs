@@ -168,3 +168,53 @@ fn lines_above_units_below_and_empty_cells() {
         [10.0, 20.0, 30.0, 40.0]
     );
 }
+
+/// A moment with a column that a trace may have.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Pushed([f64; 3]);
+
+impl Sample for Pushed {
+    const COLUMNS: &'static [&'static str] = &["time", "motor_torque"];
+
+    const OPTIONAL: &'static [&'static str] = &["known_torque"];
+
+    fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
+        Ok(Self([
+            column("time")?,
+            column("motor_torque")?,
+            column("known_torque")?,
+        ]))
+    }
+
+    fn record(&self) -> Vec<String> {
+        self.0.map(|x| x.to_string()).to_vec()
+    }
+
+    fn time(&self) -> f64 {
+        self.0[0]
+    }
+
+    fn speed(&self) -> f64 {
+        0.0
+    }
+
+    fn load(&self) -> f64 {
+        0.0
+    }
+}
+
+#[test]
+fn a_column_that_may_be_missing_reads_zero() {
+    let parse = |text: &str| {
+        super::parse::<Pushed>(Cursor::new(text.as_bytes().to_vec()), false)
+            .map(|(samples, _)| samples)
+    };
+    let without = parse("time,motor_torque\n0,1\n1,2\n").unwrap();
+    assert_eq!(without, [Pushed([0.0, 1.0, 0.0]), Pushed([1.0, 2.0, 0.0])]);
+    let with = parse("time,Known torque [mNm],motor_torque\n0,500,1\n1,-500,2\n").unwrap();
+    assert_eq!(with, [Pushed([0.0, 1.0, 0.5]), Pushed([1.0, 2.0, -0.5])]);
+    let middle = Pushed::between(&with[0], &with[1], &|low, high| 0.5 * (low + high));
+    assert_eq!(middle, Pushed([0.5, 1.5, 0.0]));
+    let fault = parse("time,motor_torque,known_torque\n0,1,x\n1,1,1\n").unwrap_err();
+    assert!(fault.message.contains("known_torque = \"x\""), "{fault:?}");
+}
