@@ -1,5 +1,6 @@
 //! A thousand design files made from their numbers: valid ones, and ones with a value, key, type, unit or nesting that is wrong.
 
+use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rand::RngExt;
@@ -64,10 +65,10 @@ fn text(lines: &[Line]) -> String {
     let mut text = String::new();
     for table in ["", "limits", "uncaged", "fold"] {
         if !table.is_empty() {
-            text += &format!("[{table}]\n");
+            writeln!(text, "[{table}]").unwrap();
         }
         for (_, key, value) in lines.iter().filter(|line| line.0 == table) {
-            text += &format!("{key} = {value}\n");
+            writeln!(text, "{key} = {value}").unwrap();
         }
     }
     text
@@ -105,7 +106,7 @@ const TYPES: [&str; 7] = [
     "\"low\"",
     "1979-05-27",
     "{ least = 1 }",
-    "[[1]]",
+    "[[true]]",
     "[true]",
     "\"0.1\"",
 ];
@@ -192,9 +193,8 @@ fn file(number: u32) -> (String, Done) {
 
 /// What is wrong with the answer to a file; none where it is as it should be.
 fn wrong(text: &str, done: &Done) -> Option<String> {
-    let answer = match catch_unwind(AssertUnwindSafe(|| read(text, "made"))) {
-        Ok(answer) => answer,
-        Err(_) => return Some("panic".into()),
+    let Ok(answer) = catch_unwind(AssertUnwindSafe(|| read(text, "made"))) else {
+        return Some("panic".into());
     };
     match (done, answer) {
         (Done::Nothing, Err(message)) => Some(format!("refused: {message}")),
@@ -237,9 +237,10 @@ fn wrong(text: &str, done: &Done) -> Option<String> {
 fn unsound(design: &Design) -> Option<String> {
     let caged = design.check().map_err(|error| error.to_string());
     let asked = design.fold.says_axial_load() || design.fold.says_deviations();
-    let folded = match asked {
-        true => design.fold.check(design),
-        false => Ok(()),
+    let folded = if asked {
+        design.fold.check(design)
+    } else {
+        Ok(())
     };
     caged
         .and(folded)
