@@ -8,10 +8,9 @@ use rand_pcg::Pcg64;
 
 use super::*;
 
-/// Files; each is made from its number alone.
+/// Files, each from its number.
 const FILES: u32 = 1_000;
 
-/// Stream of the random numbers.
 const STREAM: u128 = 36;
 
 /// A line of a file: table ("" for none), key, value.
@@ -137,6 +136,15 @@ fn hostile(value: &str, choice: usize) -> String {
     }
 }
 
+/// A file whose key at a place has another letter.
+fn renamed(lines: &[Line], place: usize, at: usize, letter: char) -> (String, Done) {
+    let (_, key, value) = &lines[place];
+    let mut name = (*key).to_owned();
+    name.insert(at, letter);
+    let text = text(lines).replacen(&format!("{key} = {value}"), &format!("{name} = 1"), 1);
+    (text, Done::Key(name))
+}
+
 /// The file of a number, and what was done to it.
 fn file(number: u32) -> (String, Done) {
     let mut random = Pcg64::new(number.into(), STREAM);
@@ -158,15 +166,8 @@ fn file(number: u32) -> (String, Done) {
             Done::Type(key)
         }
         7 => {
-            let mut name = key.to_owned();
-            name.insert(below(name.len()), ['x', '_', 'q'][below(3)]);
-            let mut text = text(&lines);
-            text = text.replacen(
-                &format!("{key} = {}", lines[place].2),
-                &format!("{name} = 1"),
-                1,
-            );
-            return (text, Done::Key(name));
+            let at = below(key.len());
+            return renamed(&lines, place, at, ['x', '_', 'q'][below(3)]);
         }
         8 => {
             let needed = NEEDED[below(NEEDED.len())];
