@@ -10,7 +10,6 @@ use super::*;
 
 /// Files, each from its number.
 const FILES: u32 = 1_000;
-
 const STREAM: u128 = 36;
 
 /// A line of a file: table ("" for none), key, value.
