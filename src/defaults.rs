@@ -13,10 +13,10 @@
 //! | efficiency 125x10, 29x7, 33x20 at 100 N a ball | 0.81, 0.89, 0.95 | 0.82, 0.93, 0.97 in theory, 0.9 of it in practice |
 //! | efficiency at diameter 32, leads 6 to 64, 100 N a ball | 0.88 rising to 0.96 | 0.91 to 0.99 in theory |
 //! | efficiency over load | rises | rises |
-//! | drag torque of two braced nuts | 0.92 to 1.04 of the rule | 0.05 (tan lead angle)^-1/2 preload lead/2 pi |
+//! | drag torque of two braced nuts, 35 N a contact | 0.92 to 1.04 of the rule | 0.05 (tan lead angle)^-1/2 preload lead/2 pi |
 //!
-//! The report's section "Measured and computed" has the figures, their sources and what other values would do. Wipers,
-//! seals and the balls' return are not in them.
+//! `bench/measured.md` judges the makers' rules by friction torque, with ranges over loads and both directions; the report's section "Against measured and
+//! catalogue figures" has what other values would do. Wipers, seals and the balls' return are not in them.
 
 use crate::ball::Clearance;
 use crate::contact::RollingResistance;

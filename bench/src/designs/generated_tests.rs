@@ -1,5 +1,6 @@
 //! A thousand design files made from their numbers: valid ones, and ones with a value, key, type, unit or nesting that is wrong.
 
+use std::fmt::Write as _;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use rand::RngExt;
@@ -7,10 +8,8 @@ use rand_pcg::Pcg64;
 
 use super::*;
 
-/// Files; each is made from its number alone.
+/// Files, each from its number.
 const FILES: u32 = 1_000;
-
-/// Stream of the random numbers.
 const STREAM: u128 = 36;
 
 /// A line of a file: table ("" for none), key, value.
@@ -64,10 +63,10 @@ fn text(lines: &[Line]) -> String {
     let mut text = String::new();
     for table in ["", "limits", "uncaged", "fold"] {
         if !table.is_empty() {
-            text += &format!("[{table}]\n");
+            writeln!(text, "[{table}]").unwrap();
         }
         for (_, key, value) in lines.iter().filter(|line| line.0 == table) {
-            text += &format!("{key} = {value}\n");
+            writeln!(text, "{key} = {value}").unwrap();
         }
     }
     text
@@ -105,7 +104,7 @@ const TYPES: [&str; 7] = [
     "\"low\"",
     "1979-05-27",
     "{ least = 1 }",
-    "[[1]]",
+    "[[true]]",
     "[true]",
     "\"0.1\"",
 ];
@@ -136,6 +135,15 @@ fn hostile(value: &str, choice: usize) -> String {
     }
 }
 
+/// A file whose key at a place has another letter.
+fn renamed(lines: &[Line], place: usize, at: usize, letter: char) -> (String, Done) {
+    let (_, key, value) = &lines[place];
+    let mut name = (*key).to_owned();
+    name.insert(at, letter);
+    let text = text(lines).replacen(&format!("{key} = {value}"), &format!("{name} = 1"), 1);
+    (text, Done::Key(name))
+}
+
 /// The file of a number, and what was done to it.
 fn file(number: u32) -> (String, Done) {
     let mut random = Pcg64::new(number.into(), STREAM);
@@ -157,15 +165,8 @@ fn file(number: u32) -> (String, Done) {
             Done::Type(key)
         }
         7 => {
-            let mut name = key.to_owned();
-            name.insert(below(name.len()), ['x', '_', 'q'][below(3)]);
-            let mut text = text(&lines);
-            text = text.replacen(
-                &format!("{key} = {}", lines[place].2),
-                &format!("{name} = 1"),
-                1,
-            );
-            return (text, Done::Key(name));
+            let at = below(key.len());
+            return renamed(&lines, place, at, ['x', '_', 'q'][below(3)]);
         }
         8 => {
             let needed = NEEDED[below(NEEDED.len())];
@@ -192,9 +193,8 @@ fn file(number: u32) -> (String, Done) {
 
 /// What is wrong with the answer to a file; none where it is as it should be.
 fn wrong(text: &str, done: &Done) -> Option<String> {
-    let answer = match catch_unwind(AssertUnwindSafe(|| read(text, "made"))) {
-        Ok(answer) => answer,
-        Err(_) => return Some("panic".into()),
+    let Ok(answer) = catch_unwind(AssertUnwindSafe(|| read(text, "made"))) else {
+        return Some("panic".into());
     };
     match (done, answer) {
         (Done::Nothing, Err(message)) => Some(format!("refused: {message}")),
@@ -237,9 +237,10 @@ fn wrong(text: &str, done: &Done) -> Option<String> {
 fn unsound(design: &Design) -> Option<String> {
     let caged = design.check().map_err(|error| error.to_string());
     let asked = design.fold.says_axial_load() || design.fold.says_deviations();
-    let folded = match asked {
-        true => design.fold.check(design),
-        false => Ok(()),
+    let folded = if asked {
+        design.fold.check(design)
+    } else {
+        Ok(())
     };
     caged
         .and(folded)

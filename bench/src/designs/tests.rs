@@ -58,7 +58,7 @@ fn a_design_file_equals_the_built_in_design() {
 fn a_wrong_value_is_explained() {
     for (addition, words) in [
         ("clearance = -20", "-20 um? that is -20e-6"),
-        ("clearance = -20e-6\nloaded_balls = 50", "4.2 GPa"),
+        ("clearance = -30e-6\nloaded_balls = 50", "4.2 GPa"),
         ("axial_play = 10", "10 um? that is 10e-6"),
         ("friction = 0,1", "a decimal point stands"),
         ("friction = \"0.1\"", "expected a number"),

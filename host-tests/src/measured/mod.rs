@@ -9,6 +9,7 @@ pub mod catalogue;
 pub mod cold;
 mod figure;
 mod rows;
+mod rules;
 pub mod studies;
 
 use rayon::prelude::*;

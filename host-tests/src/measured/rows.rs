@@ -2,10 +2,10 @@
 
 use std::f64::consts::TAU;
 
-use super::catalogue;
 use super::cold::{self as over_temperature, STEERING};
 use super::figure::{Measured, Size, Source, Standing, Usual};
-use super::studies::{FIT_LOAD, SCREWS};
+use super::rules;
+use super::studies::FIT_LOAD;
 use crate::curvature::Groove;
 use crate::design::LinearBearingDesign;
 use crate::error::ReferenceError;
@@ -16,7 +16,7 @@ use crate::material::Elastic;
 type Row = fn(&Usual) -> Result<Measured, ReferenceError>;
 
 /// Every figure.
-pub(super) const ROWS: [Row; 19] = [
+pub(super) const ROWS: [Row; 21] = [
     drag_new,
     drag_worn,
     drag_over_preload,
@@ -27,10 +27,12 @@ pub(super) const ROWS: [Row; 19] = [
     drag_fluctuation,
     pre_rolling,
     pure_rolling,
-    chart,
-    rule,
-    drag_rule,
-    drag_range,
+    rules::chart,
+    rules::driving,
+    rules::back_driving,
+    rules::drag_of_two_nuts,
+    rules::drag_of_oversize,
+    rules::drag_range,
     assumed_friction,
     geometry_without_torque,
     rack,
@@ -47,7 +49,7 @@ const BATCH: f64 = 0.15;
 /// Printed preload, N.
 const PRELOAD: f64 = 1500.0;
 /// The data set prints lead, preload and dynamic load rating (16.4 kN); diameter, balls and grooves are assumed.
-const PRELOADED: Size = Size {
+pub(super) const PRELOADED: Size = Size {
     name: "32x8, balls of 4.762 mm, 60 of them",
     diameter: 32.0,
     lead: 8.0,
@@ -56,11 +58,11 @@ const PRELOADED: Size = Size {
     balls: 60.0,
 };
 
-fn widened(band: [f64; 2]) -> [f64; 2] {
+pub(super) fn widened(band: [f64; 2]) -> [f64; 2] {
     [band[0] * (1.0 - BATCH), band[1] * (1.0 + BATCH)]
 }
 
-fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
+pub(super) fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
     values
         .into_iter()
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| {
@@ -69,7 +71,7 @@ fn range(values: impl IntoIterator<Item = f64>) -> [f64; 2] {
 }
 
 /// A coefficient that was sought.
-fn found(value: Option<f64>) -> String {
+pub(super) fn found(value: Option<f64>) -> String {
     value.map_or("none".into(), |value| format!("{value:.3}"))
 }
 
@@ -83,7 +85,7 @@ fn double_nut(screw: &LoadedScrew) -> Result<f64, ReferenceError> {
     .double_nut_torque()
 }
 
-fn torque(screw: &LoadedScrew) -> Result<f64, ReferenceError> {
+pub(super) fn torque(screw: &LoadedScrew) -> Result<f64, ReferenceError> {
     Ok(screw.solve()?.torque())
 }
 
@@ -336,132 +338,6 @@ fn pure_rolling(usual: &Usual) -> Result<Measured, ReferenceError> {
             loss * 1e-5 / light,
             loss * 1e-5 / heavy
         ),
-    })
-}
-
-/// Screws under [`FIT_LOAD`] with their efficiency.
-fn efficiencies(usual: &Usual) -> Result<Vec<(Size, f64)>, ReferenceError> {
-    SCREWS
-        .iter()
-        .map(|size| {
-            let friction = size.under(FIT_LOAD * size.balls, usual).solve()?;
-            Ok((*size, friction.efficiency()))
-        })
-        .collect()
-}
-
-fn chart(usual: &Usual) -> Result<Measured, ReferenceError> {
-    let frictions = range(
-        efficiencies(usual)?
-            .iter()
-            .filter_map(|(size, efficiency)| {
-                let angle = size.design().lead_angle();
-                (1.0..=9.0)
-                    .contains(&angle.to_degrees())
-                    .then(|| catalogue::chart_friction(angle, *efficiency))
-            }),
-    );
-    Ok(Measured {
-        what: "catalogue chart: efficiency over lead angles of 1 to 9 degrees",
-        figure: "that of a plain screw with friction 0.005 to 0.01, at most 98 %",
-        source: Source::Seen("Rexroth"),
-        computed: format!(
-            "that of a plain screw with friction {:.4} to {:.4}, 100 N a ball",
-            frictions[0], frictions[1]
-        ),
-        standing: Standing::of(frictions, widened(catalogue::CHART_FRICTION)),
-        needed: "nothing".into(),
-    })
-}
-
-fn rule(usual: &Usual) -> Result<Measured, ReferenceError> {
-    let shares =
-        range(efficiencies(usual)?.iter().map(|(size, efficiency)| {
-            efficiency / catalogue::efficiency(size.diameter, size.lead)
-        }));
-    let needed = range(SCREWS[..3].iter().filter_map(|size| {
-        let screw = size.under(FIT_LOAD * size.balls, usual);
-        let rule = catalogue::efficiency(size.diameter, size.lead);
-        let target = screw.axial_load * screw.design.lead / TAU * (1.0 / rule - 1.0);
-        screw.friction_for(target, torque)
-    }));
-    Ok(Measured {
-        what: "catalogue rule: efficiency",
-        figure: "1/(1 + 0.018 d0/lead) in theory, 0.9 of it in practice",
-        source: Source::Recalled("SKF"),
-        computed: format!(
-            "{:.3} to {:.3} of the theory, ten screws, 100 N a ball",
-            shares[0], shares[1]
-        ),
-        standing: Standing::of(shares, [catalogue::PRACTICE, 1.0]),
-        needed: format!(
-            "for the theory itself friction {:.3} to {:.3} (125x10, 29x7, 33x20); what practice lacks more is wipers, seals, return",
-            needed[0], needed[1]
-        ),
-    })
-}
-
-/// Sizes of screws that are sold preloaded.
-const SOLD: [[f64; 3]; 4] = [
-    [25.0, 8.0, 4.762],
-    [32.0, 10.0, 6.35],
-    [40.0, 8.0, 6.35],
-    [40.0, 10.0, 6.35],
-];
-
-/// Drag coefficients of [`SOLD`], two nuts under 25 N a ball, and those of the rule.
-fn drag_coefficients(usual: &Usual) -> Result<Vec<[f64; 2]>, ReferenceError> {
-    SOLD.iter()
-        .map(|&[diameter, lead, ball]| {
-            let size = Size {
-                diameter,
-                lead,
-                ball,
-                ..PRELOADED
-            };
-            let screw = size.under(25.0 * size.balls, usual);
-            let unit = screw.axial_load * screw.design.lead / TAU;
-            Ok([
-                double_nut(&screw)? / unit,
-                catalogue::drag_coefficient(diameter, lead),
-            ])
-        })
-        .collect()
-}
-
-fn drag_rule(usual: &Usual) -> Result<Measured, ReferenceError> {
-    let pairs = drag_coefficients(usual)?;
-    let shares = range(pairs.iter().map(|[computed, rule]| computed / rule));
-    let frictions = range(shares.map(|share| usual.friction / share));
-    Ok(Measured {
-        what: "catalogue rule: drag torque over preload lead/2 pi",
-        figure: "0.05 (tan lead angle)^-1/2",
-        source: Source::Recalled("JIS B 1192"),
-        computed: format!(
-            "{:.2} to {:.2} of the rule, two nuts, 25 N a ball (25x8, 32x10, 40x8, 40x10)",
-            shares[0], shares[1]
-        ),
-        standing: Standing::of(shares, widened([1.0, 1.0])),
-        needed: format!(
-            "friction of about {:.2} to {:.2}; the default of the friction coefficient was fitted to this row, and to no other",
-            frictions[0], frictions[1]
-        ),
-    })
-}
-
-fn drag_range(usual: &Usual) -> Result<Measured, ReferenceError> {
-    let computed = range(
-        drag_coefficients(usual)?
-            .iter()
-            .map(|[computed, _]| *computed),
-    );
-    Ok(Measured {
-        what: "coefficient of the drag torque over preload lead/2 pi",
-        figure: "0.1 to 0.3",
-        source: Source::Seen("two makers' manuals"),
-        computed: format!("{:.3} to {:.3}, the same screws", computed[0], computed[1]),
-        standing: Standing::of(computed, catalogue::DRAG_RANGE),
-        needed: "nothing".into(),
     })
 }
 
