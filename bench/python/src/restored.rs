@@ -53,10 +53,10 @@ where
 ///
 /// # Errors
 /// `epas_friction.Error` where the state was refused.
-pub fn state<'py>(
-    py: Python<'py>,
+pub fn state(
+    py: Python<'_>,
     exported: Result<Vec<u8>, Refusal>,
-) -> PyResult<Bound<'py, PyBytes>> {
+) -> PyResult<Bound<'_, PyBytes>> {
     let state = exported.map_err(|error| refused(py, error.to_string()))?;
     Ok(PyBytes::new(py, &state))
 }

@@ -1,7 +1,6 @@
 //! What a tick computes: every ball at its place, then how they press.
 
 use super::{UncagedConstants, UncagedFriction, UncagedState};
-use crate::ball::folded::FrictionPlace;
 use crate::ball::pressed::{BallNumbers, FreeMotion};
 use crate::scene::circuit::UNLOADED;
 use crate::scene::contract::Inputs;
@@ -47,8 +46,20 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             })
         } else {
             let friction = state.friction;
-            let own = |share, deviations| self.under_own_load(&common, friction, share, deviations);
-            self.take_in(&mut balls, phase, axial_load, &common, own)
+            self.take_in(
+                &mut balls,
+                phase,
+                axial_load,
+                &common,
+                |share, deviations| {
+                    let load = self.law.load_of(common.mean * share);
+                    let motion = self.law.at(load, common.branch, friction, deviations);
+                    FreeMotion {
+                        impedance: motion.impedance * common.grip.of_impedance(),
+                        ..motion
+                    }
+                },
+            )
         };
         let pressing = balls.press_rubbing(common.grip);
         state.circuit.advance(&self.circuit, nut_speed);
@@ -56,6 +67,11 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let numbers = &common.numbers;
         let work = self.half_speed * common.grip.per_impedance() * pressing.work;
         let rubbing = self.ball_friction * numbers.rubbing * pressing.force;
+        let most = self.law.load_of(self.heaviest * common.mean);
+        let friction = state.friction;
+        let held = self.law.holds_forces(common.load, common.branch, friction)
+            && self.law.holds_load(most)
+            && self.law.holds(friction.friction());
         UncagedFriction {
             row: TrainFriction {
                 groove: not_negative(
@@ -67,34 +83,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 contacts: pressing.contacts,
                 largest_contact_force: pressing.largest,
             },
-            faults: Faults::NONE.with(!self.holds(&common, state.friction), Faults::BEYOND_MODEL),
+            faults: Faults::NONE.with(!held, Faults::BEYOND_MODEL),
         }
-    }
-
-    /// What a ball does that carries a share of its own of the load, with the impedance that the train takes in.
-    #[inline(always)]
-    fn under_own_load(
-        &self,
-        common: &Common,
-        friction: FrictionPlace,
-        share: f32,
-        deviations: [f32; 2],
-    ) -> FreeMotion {
-        let load = self.law.load_of(common.mean * share);
-        let motion = self.law.at(load, common.branch, friction, deviations);
-        FreeMotion {
-            impedance: motion.impedance * common.grip.of_impedance(),
-            ..motion
-        }
-    }
-
-    /// Whether load and friction coefficient are within the law, and the forces between balls held.
-    #[inline(always)]
-    fn holds(&self, common: &Common, friction: FrictionPlace) -> bool {
-        let most = self.law.load_of(self.heaviest * common.mean);
-        self.law.holds_forces(common.load, common.branch, friction)
-            && self.law.holds_load(most)
-            && self.law.holds(friction.friction())
     }
 
     #[inline(always)]
