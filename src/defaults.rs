@@ -116,6 +116,11 @@ const fn steering_drag() -> Result<RollingDrag, Error> {
 /// the sum rises from 20 to -40 degrees by 1.3 at 1 rad/s of the nut, 4 at 5 and 12 at 20; under 5 kN it falls at 1 rad/s, by 0.4, because friction
 /// under load goes with the square of the coefficient. Measured gears rise two- to threefold, by report. The report's section "Measured and
 /// computed" has the figure.
+///
+/// Starvation does not explain that difference: with SKF's factor for grease on the film (see [`RollingDrag`]), 0.76 at -40 degrees and 1 rad/s,
+/// the coefficient there is 0.053 in place of 0.052. A traction of the film that rises in the cold would: 0.08 at -40 degrees gives as much
+/// friction as at 20. Limiting shear stress does depend on the temperature (Wikström and Höglund 1994, J. Tribol. 116:612, measured from -20 to 110
+/// degrees at 5.8 to 7 GPa), but for greases of this kind and pressures of a screw no figures were found, so `full_film` is one number.
 pub const COEFFICIENT: CoefficientParameters = CoefficientParameters {
     boundary: 0.12,
     full_film: 0.05,
