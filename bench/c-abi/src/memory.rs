@@ -161,8 +161,12 @@ impl InHeader for Memory {
 }
 
 impl CScene for Memory {
-    type Scene =
-        WithMemory<CagedBallScrew<EPAS_RANGE_NODES>, Elements, Deadband<CountSensor>, CoefficientLaw>;
+    type Scene = WithMemory<
+        CagedBallScrew<EPAS_RANGE_NODES>,
+        Elements,
+        Deadband<CountSensor>,
+        CoefficientLaw,
+    >;
     type Folded = NoTable;
     type Inputs = MemoryInputs;
     type Outputs = Outputs;

@@ -53,10 +53,7 @@ where
 ///
 /// # Errors
 /// `epas_friction.Error` where the state was refused.
-pub fn state(
-    py: Python<'_>,
-    exported: Result<Vec<u8>, Refusal>,
-) -> PyResult<Bound<'_, PyBytes>> {
+pub fn state(py: Python<'_>, exported: Result<Vec<u8>, Refusal>) -> PyResult<Bound<'_, PyBytes>> {
     let state = exported.map_err(|error| refused(py, error.to_string()))?;
     Ok(PyBytes::new(py, &state))
 }

@@ -48,7 +48,10 @@ fn told<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, axial_loa
         nut_speed: 1.0,
         axial_load,
     };
-    S::by_direction(&S::sliding_friction(&constants, &mut state, inputs, friction)).load
+    S::by_direction(&S::sliding_friction(
+        &constants, &mut state, inputs, friction,
+    ))
+    .load
 }
 
 /// Elements of a preloaded screw know the sum of both flanks, whatever the scene is: within the 0.84 % of its series.

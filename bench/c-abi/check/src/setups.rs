@@ -67,8 +67,12 @@ pub fn closed_form() -> Result<FrictionModel<ClosedFormScrew>, Error> {
 pub const NODES: usize = 5;
 
 /// The same gear with a memory, behind an encoder of 14 bits on its motor.
-pub type Remembering =
-    WithMemory<CagedBallScrew<NODES>, ProportionalElements<8>, Deadband<CountSensor>, CoefficientLaw>;
+pub type Remembering = WithMemory<
+    CagedBallScrew<NODES>,
+    ProportionalElements<8>,
+    Deadband<CountSensor>,
+    CoefficientLaw,
+>;
 
 /// What is set for it.
 type RememberingConfiguration = WithMemoryConfiguration<
