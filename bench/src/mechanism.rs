@@ -4,7 +4,7 @@
 //! fall with the motion, so the speed is the one root between rest and the speed without a change of resistance. A mass that sticks
 //! stays on its friction's spring: nothing chatters at any step. Euler's backward rule: the error of a motion falls with the step.
 //!
-//! A friction in single precision does not feel a way whose force is below its last digit: a body on its spring would creep on without end,
+//! A friction in single precision does not feel a displacement whose force is below its last digit: a body on its spring would creep on without end,
 //! each step too small to be felt, or felt and taken back. Where effort and inertia are within its last digits, it holds the body at rest.
 
 use roots::{SimpleConvergency, find_root_brent};
@@ -18,7 +18,7 @@ pub struct Step {
     pub speed: f64,
     /// Way, rad or m.
     pub turn: f64,
-    /// Speed at its end, rad/s or m/s; of a mechanism its way over its time (Euler's backward rule).
+    /// Speed at its end, rad/s or m/s; of a mechanism its displacement over its time (Euler's backward rule).
     pub end_speed: f64,
     /// Time, s, above 0.
     pub time: f64,
@@ -51,15 +51,15 @@ impl Step {
 
 /// What opposes a motion: friction, drag, a load.
 pub trait Resistance {
-    /// Effort against the motion at the end of a step, N m or N. It must not fall with the way. Nothing is remembered.
+    /// Effort against the motion at the end of a step, N m or N. It must not fall with the displacement. Nothing is remembered.
     fn against(&self, step: &Step) -> f64;
 
     /// The same, remembered: the step was made.
     fn follow(&mut self, step: &Step) -> f64;
 
     /// Whether it holds the body at rest through this step: the effort is that at rest within its last digits, and it does not feel the
-    /// step's way, or `inertial`, the effort that stops the body within the step, is within them too. A resistance that feels every way never
-    /// does.
+    /// step's displacement, or `inertial`, the effort that stops the body within the step, is within them too. A resistance that feels every
+    /// displacement never does.
     fn holds(&self, _: &Step, _effort: f64, _inertial: f64) -> bool {
         false
     }
@@ -214,7 +214,7 @@ mod tests {
         for _ in 0..100_000 {
             pushed.advance(0.0, 1e-4);
         }
-        // It stops where friction has taken its energy: m v^2/2 = 10 N times the way, less half of the way of the spring, 1e-5 m.
+        // It stops where friction has taken its energy: m v^2/2 = 10 N times the displacement, less half of that of the spring, 1e-5 m.
         assert!(
             (pushed.position - 0.001).abs() < 2e-5,
             "{}",

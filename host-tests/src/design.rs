@@ -1,6 +1,6 @@
 //! Designs by the numbers on their drawings, and the Hertzian contacts that follow from them.
 //!
-//! The way from a drawing to a contact ellipse: groove surface, its principal curvatures at the contact
+//! From a drawing to a contact ellipse: groove surface, its principal curvatures at the contact
 //! point, relative curvatures of ball and groove, contact modulus of their materials, exact ellipse.
 //! Whatever is compared with the reference starts from here, so that an error in any of these steps shows.
 

@@ -1,4 +1,4 @@
-//! The way of a state into bytes and out of them.
+//! Writes a state into bytes and reads it from them.
 
 use core::mem::take;
 

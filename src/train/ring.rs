@@ -5,7 +5,7 @@ use core::mem::take;
 use super::ball::Ball;
 
 /// The two rows of a ring that opens in front of its foremost ball, in the order in which a walk meets them: the balls
-/// up to the foremost one and those beyond it when it goes backwards from there, the other way about when it goes
+/// up to the foremost one and those beyond it when it goes backwards from there, the other way round when it goes
 /// forwards. Within a row the walker takes the balls backwards or forwards itself.
 ///
 /// An iterator over single balls would test in each step which of the two rows it is in; that is 5 % of a tick.

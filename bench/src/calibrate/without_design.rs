@@ -459,11 +459,11 @@ fn cannot_tell(trace: &Trace, motion: &Motion, findings: &[Finding]) -> Vec<Stri
 struct Reversals {
     /// How many.
     count: usize,
-    /// How many of them turn back within a hundredth of the whole way.
+    /// How many of them turn back within a hundredth of the whole travel.
     loops: usize,
 }
 
-/// Reversals with more way between them than the noise has; a minor loop is a pair of them that is close together.
+/// Reversals with more travel between them than the noise has; a minor loop is a pair of them that is close together.
 fn reversals(motion: &Motion) -> Reversals {
     let low = motion
         .position
@@ -476,7 +476,7 @@ fn reversals(motion: &Motion) -> Reversals {
         .copied()
         .fold(f64::NEG_INFINITY, f64::max);
     let travel = high - low;
-    // What is below a hundred-thousandth of the way is taken for noise.
+    // What is below a hundred-thousandth of the travel is taken for noise.
     let dead = 1e-5 * travel;
     let mut places: Vec<f64> = Vec::new();
     let (mut extreme, mut direction) = (motion.position.first().copied().unwrap_or(0.0), 0.0);

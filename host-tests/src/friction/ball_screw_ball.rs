@@ -118,7 +118,7 @@ impl ScrewTrack {
     }
 
     /// Slip between two touching balls, components z4 and x4 of (3.73) over `R_B`: what the motions of the rear and of the front ball give
-    /// to it, with the angular velocity relative to the orbiting frame. `way` is 1 where the balls orbit along +y, -1 where they orbit
+    /// to it, with the angular velocity relative to the orbiting frame. `direction` is 1 where the balls orbit along +y, -1 where they orbit
     /// along -y.
     pub(crate) fn slip_between(&self, direction: f64) -> [SMatrix<f64, 2, 4>; 2] {
         let (sin_a, cos_a) = self.lead_angle();

@@ -34,7 +34,7 @@ enum Event {
     Border,
 }
 
-/// Balls on their way.
+/// Balls that move along the track.
 struct March<'a> {
     ring: &'a ElasticRing,
     track: RingTrack,
@@ -48,7 +48,7 @@ struct March<'a> {
     /// Speeds over the nut's speed until the next solution.
     speeds: Vec<f64>,
     events: usize,
-    /// Speed of a nominal ball, with the way and the load that it belongs to.
+    /// Speed of a nominal ball, with the direction and the load that it belongs to.
     idle: Option<(f64, f64, f64)>,
 }
 

@@ -139,7 +139,7 @@ pub(crate) struct BallContactSlope {
 }
 
 impl BallContact {
-    /// With or without the part of the force that points outward because the track is curved; `way` is that of the nut.
+    /// With or without the part of the force that points outward because the track is curved; `direction` is that of the nut.
     pub fn new(track: &ScrewTrack, friction: f64, direction: f64, chord: bool) -> Self {
         let (sin, cos) = track.ball_contact_angle();
         Self {

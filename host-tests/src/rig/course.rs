@@ -21,11 +21,11 @@ pub enum Manoeuvre {
     Parking,
     /// Triangles that grow from 1 to 8 mrad on a slow wave of 50 mrad, under about a third of that load.
     Micro,
-    /// Run up to 40 rad/s and left to run down, once each way, without a load.
+    /// Run up to 40 rad/s and left to run down, once in each direction, without a load.
     SpinDown,
     /// Short strokes at 2 rad/s while the load steps through eight values of both signs.
     LoadSteps,
-    /// Whole turns at 3 rad/s, both ways under 1.5 kN of both signs.
+    /// Whole turns at 3 rad/s, in both directions under 1.5 kN of both signs.
     Turns,
     /// Strokes up to 12 rad/s under 1.2 kN of both signs: what warms a screw up.
     Running,

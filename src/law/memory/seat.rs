@@ -15,7 +15,7 @@ pub const FREE_PLAY: Range = Range::new(0.0, 1e3);
 /// `x <- clamp(x + dtheta, -x_b, x_f)`, `T = K ((|x| - g)+)^(3/2) sgn x`, `K = T_ref/theta_b^(3/2)`; `x_f` and `x_b` are where
 /// `T` is the friction of gross sliding, `g + (T±/K)^(2/3)`.
 ///
-/// Across-slip forces of both contacts push a ball in the same direction, until a third contact holds it: `x` is the ball's way
+/// Across-slip forces of both contacts push a ball in the same direction, until a third contact holds it: `x` is the ball's displacement
 /// in its clearance in terms of the turn, `g` half the clearance, and `(x - g)^(3/2)` Hertz's law of the third contact
 /// (which bears `2 mu F`, so that `K = N l_1/(2 c_3^(3/2))` of `N` balls does not depend on the load). With clearance this, not the
 /// contacts' own deflection, decides how far a nut turns before it slides.

@@ -9,7 +9,7 @@ pub struct WrappedAngleParameters {
     /// Smallest angle, rad: -1e6 to 1e6; 0 or minus half a period.
     pub lowest: f32,
     /// Turn after which it starts again at `lowest`, rad: 1e-3 to 1e6. As the sensor's side rounds it: an f32 of a full turn
-    /// is 1.7e-7 rad more than one, which adds up over turns of one way and has no effect on a reversal.
+    /// is 1.7e-7 rad more than one, which adds up over turns in one direction and has no effect on a reversal.
     pub period: f32,
     /// Most that the nut turns between two readings, rad: [`LARGEST_TURN`](super::LARGEST_TURN), and at most half a period.
     pub largest_turn: f32,

@@ -6,7 +6,7 @@ use crate::error::{Error, attempt};
 
 /// An angle sensor `A` behind a [`Play`]: noise within the play turns nothing.
 ///
-/// For friction that is compensated. Elements that follow a noisy angle are shaken: springs with short ways slip to and fro,
+/// For friction that is compensated. Elements that follow a noisy angle are shaken: springs with short travel slip to and fro,
 /// friction sets in earlier than it should, and the compensation drives what it ought to follow
 /// ([`compensation`](crate::law::compensation)). Behind a play as wide as the noise they stand still with the nut; after a reversal they
 /// are late by its width, `2 half_width`. 30 cycles beyond the sensor's.

@@ -39,7 +39,7 @@ fn brisk(time: f64) -> [f64; 3] {
     [position, 5.0 * speed, 25.0 * acceleration]
 }
 
-/// One speed, both ways: 2 s each.
+/// One speed, both directions: 2 s each.
 fn triangle(time: f64) -> [f64; 3] {
     let phase = time.rem_euclid(4.0);
     let (position, speed) = if phase < 2.0 {
@@ -50,12 +50,12 @@ fn triangle(time: f64) -> [f64; 3] {
     [position, speed, 0.0]
 }
 
-/// One speed, one way.
+/// One speed, one direction.
 fn onwards(time: f64) -> [f64; 3] {
     [5.0 * time, 5.0, 0.0]
 }
 
-/// Slower and faster, one way.
+/// Slower and faster, one direction.
 fn pulsing(time: f64) -> [f64; 3] {
     let rate = TAU * 0.5;
     let (sine, cosine) = (rate * time).sin_cos();

@@ -205,7 +205,7 @@ fn a_clock_that_runs_free_is_interpolated() {
     word(&answer, "a logger that runs free");
 }
 
-/// A drag run of preloaded screws whose load cell reads noise of 4 N: the gain stays 1 and friction the same both ways, with a word, and
+/// A drag run of preloaded screws whose load cell reads noise of 4 N: the gain stays 1 and friction the same in both directions, with a word, and
 /// nothing that ended at a bound is an estimate. Preloads lift off at 40 to 2600 N a ball.
 #[test]
 fn a_drag_run_with_a_load_cell_of_noise() {

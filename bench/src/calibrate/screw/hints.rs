@@ -15,7 +15,7 @@ pub struct ScrewHints {
     pub step: f64,
 }
 
-/// Fewest steps of the position from the turn of a motion to full sliding: of a way that the sensor sees in fewer of them, the place
+/// Fewest steps of the position from the turn of a motion to full sliding: of a travel that the sensor sees in fewer of them, the place
 /// of the turn, known to a step, decides.
 const STEPS: f64 = 2.0;
 
