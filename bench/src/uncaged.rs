@@ -174,10 +174,14 @@ mod tests {
 
     /// 29 x 7 x 4 with 16 balls, on half a turn.
     fn design(more: &str) -> Design {
+        taken_or_refused(more).unwrap()
+    }
+
+    fn taken_or_refused(more: &str) -> Result<Design, String> {
         let text = "nominal_diameter = 0.029\nlead = 0.007\nball_diameter = 4e-3\nconformity = 0.54\ncontact_angle = 0.7853982\nclearance = 0\n";
         let row =
             "[uncaged]\nballs = 16\nturns = 0.75\nscrew_deviation = [{ order = 2, sine = 0.01 }]\n";
-        read_design(&format!("{text}{more}{row}"), "gear").unwrap()
+        read_design(&format!("{text}{more}{row}"), "gear")
     }
 
     fn fold(design: &Design, axial_load: f32) -> UncagedFold {
@@ -202,9 +206,7 @@ mod tests {
         let own = fold(&table, 8e4);
         assert_eq!(own.axial_load, [20.0, 100.0]);
         assert_eq!(own.gear.deviations, [0.02, 1e-4]);
-        let narrow = design("[fold]\nscrew_deviation = 0.005\n");
-        let row = narrow.uncaged.unwrap();
-        let refused = fold_for(&narrow, &row, (0.1, 0.1), 0.0).unwrap_err();
+        let refused = taken_or_refused("[fold]\nscrew_deviation = 0.005\n").unwrap_err();
         assert!(refused.contains("screw_deviation = 0.005"), "{refused}");
     }
 

@@ -55,7 +55,7 @@ impl Given {
         };
         // A screw without lead is refused by its own word.
         let said = match field {
-            "lead" => said.replace("allowed: 0 to", "allowed: above 0, to"),
+            "lead" => said.replace("allowed: 0 to", "allowed: above 0 to"),
             _ => said,
         };
         match hint {
@@ -101,7 +101,7 @@ impl Given {
         }
         if lead == 0.0 {
             return Err(
-                "lead = 0 is a bearing's: it moves nothing along the axis; allowed: above 0, to 0.2 m. Lengths are in metres: 7 mm is 0.007"
+                "lead = 0 is a bearing's: it moves nothing along the axis; allowed: above 0 to 0.2 m. Lengths are in metres: 7 mm is 0.007"
                     .into(),
             );
         }
@@ -188,7 +188,7 @@ mod tests {
             ),
             (
                 "nominal_diameter = 29e-3\nlead = 7\nball_diameter = 4e-3\n",
-                "lead = 7 is out of range; allowed: above 0, to 0.2 m; lengths are in metres (7 mm? that is 0.007)",
+                "lead = 7 is out of range; allowed: above 0 to 0.2 m; lengths are in metres (7 mm? that is 0.007)",
             ),
             (
                 "pitch_radius = 14.5e-3\nlead = 7e-3\nball_radius = 2\n",
