@@ -130,7 +130,7 @@ impl Refused {
         this
     }
 
-    /// What a message of the program says: `[place: ]FIELD = VALUE ...; allowed: MINIMUM to MAXIMUM[ UNIT]`, or any other text.
+    /// What a message of the program says: `[place: ]FIELD = VALUE ...; allowed: [above ]MINIMUM to [below ]MAXIMUM[ UNIT]`, or any other text.
     pub fn message(message: impl Into<String>) -> Self {
         let message = message.into();
         let (field, value, range) = told(&message).unwrap_or_default();
@@ -199,8 +199,9 @@ fn told(message: &str) -> Option<Told> {
     let (before, rest) = message.split_once(" = ")?;
     let field = before.rsplit(char::is_whitespace).next()?.to_string();
     let number = |text: &str| -> Option<f64> {
+        // An end that is open itself: "above 0 to 0.2", "0 to below 1".
         text.split_whitespace()
-            .next()?
+            .find(|word| !["above", "below"].contains(word))?
             .trim_end_matches([';', ','])
             .parse()
             .ok()
@@ -221,7 +222,7 @@ impl From<epas_friction::Error> for Refused {
         if let Some((end, word)) = ends.into_iter().find(|(end, _)| *end == error.value()) {
             let closed = format!("allowed: {} to {}", allowed.minimum, allowed.maximum);
             let open = if word == "above" {
-                format!("allowed: above {end}, to {}", allowed.maximum)
+                format!("allowed: above {end} to {}", allowed.maximum)
             } else {
                 format!("allowed: {} to below {end}", allowed.minimum)
             };
