@@ -195,14 +195,16 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     let sum =
         |of: fn(&Comparison) -> usize| found.iter().map(|(_, found)| of(found)).sum::<usize>();
+    let compared = || found.iter().filter(|(_, found)| found.compared > 0);
+    let within = |found: &Comparison| found.torque.relative()[1] <= 0.01;
+    let unflagged = || compared().filter(|(_, found)| found.flagged == 0);
     writeln!(
         stdout,
-        "friction torque within 1 % rms: {} of {} screws",
-        found
-            .iter()
-            .filter(|(_, found)| found.torque.relative()[1] <= 0.01)
-            .count(),
-        found.iter().filter(|(_, found)| found.compared > 0).count(),
+        "friction torque within 1 % rms: {} of {} screws; {} of the {} of which no state is flagged",
+        compared().filter(|(_, found)| within(found)).count(),
+        compared().count(),
+        unflagged().filter(|(_, found)| within(found)).count(),
+        unflagged().count(),
     )?;
     writeln!(
         stdout,

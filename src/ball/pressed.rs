@@ -13,7 +13,7 @@ use node::KnotPlace;
 use numbers::IMPEDANCES;
 
 pub use node::{BallKnot, BallNode, KNOTS};
-pub use numbers::{BallNumbers, FreeMotion, POWERS};
+pub use numbers::{BallNumbers, FreeMotion, LARGEST_GRIP, POWERS};
 
 /// Least and largest `mu W` that count, N.
 const SLIDING_LOADS: [f32; 2] = [1e-6, 5e5];
@@ -154,6 +154,7 @@ impl<const NODES: usize> BallLaw<NODES> {
             speed: motion.speed,
             impedance: motion.impedance * load,
             torque: motion.torque * load,
+            grip: motion.grip,
         }
     }
 
@@ -162,23 +163,6 @@ impl<const NODES: usize> BallLaw<NODES> {
     #[must_use]
     pub fn holds_load(&self, load: f32) -> bool {
         load <= self.nodes[0].branches[0][KNOTS - 1].load
-    }
-
-    /// Largest grip of a ball, of any load, at least 0.01.
-    #[must_use]
-    pub const fn largest_grip(&self) -> f32 {
-        let mut largest = 0.01;
-        let mut number = 0;
-        while number < NODES * 2 * KNOTS {
-            let knot =
-                &self.nodes[number / (2 * KNOTS)].branches[number / KNOTS % 2][number % KNOTS];
-            let grip = knot.numbers.grip.abs();
-            if grip > largest {
-                largest = grip;
-            }
-            number += 1;
-        }
-        largest
     }
 
     /// Whether the forces between balls are held under a load `W`, N.

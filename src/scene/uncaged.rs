@@ -21,7 +21,6 @@ use crate::ball::folded::{FrictionPlace, node_octaves};
 use crate::ball::pressed::BallLaw;
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
-use crate::train::LARGEST_GRIP;
 
 pub use closed_form::CatalogueBall;
 pub use configuration::{FoldedBall, UncagedBallScrewConfiguration};
@@ -39,7 +38,8 @@ pub use friction::UncagedFriction;
 /// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose places no sensor knows, stay behind.
 ///
 /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) stands in each tick whose load or friction coefficient is beyond those for which the law
-/// was folded, or under whose load the block does not hold the forces between balls; the torque is held there all the same where the block's
+/// was folded, under whose load the block does not hold the forces between balls, or in which friction between balls takes more than 0.3 of the force
+/// on a ball; the torque is held there all the same where the block's
 /// certificate says so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -238,8 +238,6 @@ const fn check_friction<const NODES: usize>(
     let (least, largest) = law.friction_range();
     attempt!(in_range("friction", friction, least, largest));
     attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
-    let most = LARGEST_GRIP / law.largest_grip();
-    attempt!(in_range("ball_friction", ball_friction, 0.0, most));
     Ok(())
 }
 

@@ -1,7 +1,6 @@
 //! Takes the remainder of rounding out of the forces of a cluster.
 
 use super::ball::Ball;
-use super::grip::Grip;
 use super::ring::Rows;
 
 /// Part of the largest force that rounding may leave of the sum of a cluster's net pushes before it is taken out:
@@ -15,14 +14,8 @@ pub(super) const ROUNDING: f32 = 1e-6;
 /// cluster's remainder, and a walk forwards meets it first.
 #[cold]
 #[inline(never)]
-pub(super) fn balance<const RUBBED: bool>(
-    balls: &mut [Ball],
-    foremost: usize,
-    least: f32,
-    grip: Grip<RUBBED>,
-) {
-    let mut balancing = Balancing {
-        grip,
+pub(super) fn balance<const RUBBED: bool>(balls: &mut [Ball], foremost: usize, least: f32) {
+    let mut balancing = Balancing::<RUBBED> {
         least,
         ahead: 0,
         rate: 0.0,
@@ -35,7 +28,6 @@ pub(super) fn balance<const RUBBED: bool>(
 
 /// A walk forwards over the balls.
 struct Balancing<const RUBBED: bool> {
-    grip: Grip<RUBBED>,
     least: f32,
     /// Balls still to come of the cluster to which the last ball belongs.
     ahead: usize,
@@ -88,7 +80,7 @@ impl<const RUBBED: bool> Balancing<RUBBED> {
     #[inline(always)]
     fn relieve(&mut self, ball: &mut Ball) {
         let passed = if RUBBED {
-            self.correction * self.grip.passed(ball)
+            self.correction * ball.passed()
         } else {
             self.correction
         };

@@ -6,7 +6,7 @@ use crate::stored::{Port, Refusal, Stored};
 /// Forces that balls may press with, in the unit of speed times impedance: what 255 balls of the largest impedance do.
 const FORCES: Range = Range::new(0.0, 1e12);
 
-/// One ball of a train: 28 bytes, of which two words hold one thing after the other in the phases of a tick.
+/// One ball of a train: 32 bytes, of which two words hold one thing after the other in the phases of a tick.
 ///
 /// | | taken in | at the end of a cluster | settled |
 /// |---|---|---|---|
@@ -26,6 +26,8 @@ pub(super) struct Ball {
     slack: f32,
     force: f32,
     of_cluster: f32,
+    /// Part of the force behind it that the ball in front feels; 1 where no neighbour rubs on it.
+    passed: f32,
     /// Place on the track, as a part of its length in units of 2^-32.
     position: u32,
     /// Sixteenths of a unit beyond the position, 0 to 15.
@@ -35,7 +37,7 @@ pub(super) struct Ball {
     rubs: bool,
 }
 
-const _: () = assert!(size_of::<Ball>() == 28);
+const _: () = assert!(size_of::<Ball>() == 32);
 
 /// Taken in: what the ball would do on its own.
 impl Ball {
@@ -46,6 +48,7 @@ impl Ball {
         slack: 0.0,
         force: 0.0,
         of_cluster: 0.0,
+        passed: 1.0,
         position: 0,
         sixteenths: 0,
         others: 0,
@@ -60,10 +63,24 @@ impl Ball {
         self.slack = slack;
     }
 
-    /// Says whether neighbours rub on it.
+    /// Neighbours rub on it: it passes on this part of the force behind it.
     #[inline(always)]
-    pub(super) fn set_rubs(&mut self, rubs: bool) {
-        self.rubs = rubs;
+    pub(super) fn set_rubbed(&mut self, passed: f32) {
+        self.rubs = true;
+        self.passed = passed;
+    }
+
+    /// No neighbour rubs on it.
+    #[inline(always)]
+    pub(super) fn set_smooth(&mut self) {
+        self.rubs = false;
+        self.passed = 1.0;
+    }
+
+    /// Part of the force behind it that the ball in front feels.
+    #[inline(always)]
+    pub(super) fn passed(&self) -> f32 {
+        self.passed
     }
 
     /// Whether neighbours rub on it.

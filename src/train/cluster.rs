@@ -1,7 +1,6 @@
 //! The algebra of clusters: what a cluster is known by, when it runs into the next, what the two are as one.
 
 use super::ball::Ball;
-use super::grip::Grip;
 
 /// Balls that move as one: they touch, or close their last distance within the tick.
 ///
@@ -21,7 +20,7 @@ use super::grip::Grip;
 /// All speeds count from a ball's own free speed: sums hold what drives the balls together, and not the size of the
 /// speeds, whose rounding would exceed it.
 ///
-/// Where balls rub, each impedance in these sums is weighed by the product of what the balls ahead of it in the cluster pass on ([`Grip`]).
+/// Where balls rub, each impedance in these sums is weighed by the product of what the balls ahead of it in the cluster pass on ([`Grip`](super::grip::Grip)).
 #[derive(Clone, Copy)]
 pub(super) struct Cluster {
     /// Force with which the balls behind would push a front ball that kept its free speed.
@@ -37,12 +36,12 @@ pub(super) struct Cluster {
 impl Cluster {
     /// A ball alone.
     #[inline(always)]
-    pub(super) fn single<const RUBBED: bool>(ball: &Ball, grip: Grip<RUBBED>) -> Self {
+    pub(super) fn single<const RUBBED: bool>(ball: &Ball) -> Self {
         Self {
             push: 0.0,
             impedance: ball.impedance(),
             inner_slack: 0.0,
-            tail: grip.passed(ball),
+            tail: passed::<RUBBED>(ball),
         }
     }
 
@@ -58,14 +57,14 @@ impl Cluster {
 
     /// With the ball behind, which has run into it.
     #[inline(always)]
-    pub(super) fn grown<const RUBBED: bool>(&self, behind: &Ball, grip: Grip<RUBBED>) -> Self {
+    pub(super) fn grown<const RUBBED: bool>(&self, behind: &Ball) -> Self {
         let slack = behind.slack() + self.inner_slack;
         let impedance = self.weighed::<RUBBED>(behind.impedance());
         Self {
             push: self.push - slack * impedance,
             impedance: self.impedance + impedance,
             inner_slack: slack,
-            tail: self.weighed::<RUBBED>(grip.passed(behind)),
+            tail: self.weighed::<RUBBED>(passed::<RUBBED>(behind)),
         }
     }
 
@@ -98,9 +97,9 @@ impl Cluster {
 
     /// The cluster with this front ball.
     #[inline(always)]
-    pub(super) fn at<const RUBBED: bool>(balls: &[Ball], front: usize, grip: Grip<RUBBED>) -> Self {
+    pub(super) fn at<const RUBBED: bool>(balls: &[Ball], front: usize) -> Self {
         let Some(front_ball) = balls.get(front) else {
-            return Self::single(&Ball::IDLE, grip);
+            return Self::single::<RUBBED>(&Ball::IDLE);
         };
         let others = front_ball.others();
         match balls.get(front.wrapping_sub(others)) {
@@ -110,7 +109,7 @@ impl Cluster {
                 inner_slack: rear_ball.inner_slack(),
                 tail: if RUBBED { rear_ball.tail() } else { 1.0 },
             },
-            _ => Self::single(front_ball, grip),
+            _ => Self::single::<RUBBED>(front_ball),
         }
     }
 
@@ -131,4 +130,10 @@ impl Cluster {
             ball.set_front(others, self.impedance, self.push);
         }
     }
+}
+
+/// Part of the force behind a ball that the ball in front feels.
+#[inline(always)]
+fn passed<const RUBBED: bool>(ball: &Ball) -> f32 {
+    if RUBBED { ball.passed() } else { 1.0 }
 }

@@ -1,7 +1,5 @@
 //! What friction between balls takes off the forces from ball to ball.
 
-use super::ball::Ball;
-
 /// Friction of its neighbours on a ball that they press, over their forces, as what it needs of net push in addition:
 ///
 /// ```text
@@ -11,32 +9,16 @@ use super::ball::Ball;
 /// With `k = (1 - r)/(1 + r)` and the impedance `Z' = Z/(1 + r)` that is `k F_behind - F_ahead = Z' (v - u)`: the train of balls that do not rub,
 /// but for a factor from ball to ball. Weighed by the product of the factors of all balls ahead, the net pushes on a cluster add up to
 /// zero as without friction, so that clusters are joined as ever.
-///
-/// Without `RUBBED` nothing rubs, and nothing of it is computed.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grip<const RUBBED: bool> {
-    /// `k` of a ball on which its neighbours rub, and `1/k`.
+pub(crate) struct Grip {
     passed: f32,
-    per_passed: f32,
-    /// `1/(1 + r)` and `1 + r`.
     per_growth: f32,
-    growth: f32,
-}
-
-impl Grip<false> {
-    /// Balls do not rub.
-    pub(crate) const NONE: Self = Self {
-        passed: 1.0,
-        per_passed: 1.0,
-        per_growth: 1.0,
-        growth: 1.0,
-    };
 }
 
 /// Largest size of `r`: with it a force falls or grows by 1.9 from ball to ball.
 pub(crate) const LARGEST_GRIP: f32 = 0.3;
 
-impl Grip<true> {
+impl Grip {
     /// Of this `r`, at most [`LARGEST_GRIP`] in size.
     #[inline(always)]
     pub(crate) fn new(grip: f32) -> Self {
@@ -48,71 +30,23 @@ impl Grip<true> {
         } else {
             -LARGEST_GRIP
         };
-        let (more, less) = (1.0 + grip, 1.0 - grip);
-        // One division for all.
-        let both = 1.0 / (more * less);
-        let (per_more, per_less) = (both * less, both * more);
+        let per_growth = 1.0 / (1.0 + grip);
         Self {
-            passed: less * per_more,
-            per_passed: more * per_less,
-            per_growth: per_more,
-            growth: more,
+            passed: (1.0 - grip) * per_growth,
+            per_growth,
         }
+    }
+
+    /// `k`: part of the force behind the ball that the ball in front feels.
+    #[inline(always)]
+    pub(crate) const fn passed(&self) -> f32 {
+        self.passed
     }
 
     /// Factor of the impedance of a ball on which its neighbours rub.
     #[inline(always)]
     pub(crate) const fn of_impedance(&self) -> f32 {
         self.per_growth
-    }
-
-    /// Impedance over what a train takes in.
-    #[inline(always)]
-    pub(crate) const fn per_impedance(&self) -> f32 {
-        self.growth
-    }
-}
-
-impl<const RUBBED: bool> Grip<RUBBED> {
-    /// The same of a train whose balls rub; none where they do not.
-    #[inline(always)]
-    pub(super) const fn rubbing(self) -> Option<Grip<true>> {
-        let Self {
-            passed,
-            per_passed,
-            per_growth,
-            growth,
-        } = self;
-        if RUBBED {
-            Some(Grip {
-                passed,
-                per_passed,
-                per_growth,
-                growth,
-            })
-        } else {
-            None
-        }
-    }
-
-    /// Part of the force behind a ball that the ball in front feels.
-    #[inline(always)]
-    pub(super) fn passed(&self, ball: &Ball) -> f32 {
-        if RUBBED && ball.rubs() {
-            self.passed
-        } else {
-            1.0
-        }
-    }
-
-    /// 1 over [`Self::passed`].
-    #[inline(always)]
-    pub(super) fn per_passed(&self, ball: &Ball) -> f32 {
-        if RUBBED && ball.rubs() {
-            self.per_passed
-        } else {
-            1.0
-        }
     }
 }
 
@@ -145,16 +79,16 @@ mod tests {
             });
             // A ring keeps a gap somewhere, and so does a row.
             room[round % BALLS] = if round % 2 == 0 { f32::INFINITY } else { 0.08 };
-            let grip = 0.6 * random(&mut seed) - 0.3;
+            let grip: [f32; BALLS] = core::array::from_fn(|_| 0.6 * random(&mut seed) - 0.3);
             let mut press = Press::<BALLS>::new();
-            assert!(press.solve_rubbing(&free, &impedance, &room, grip));
+            assert!(press.solve_rubbing(&free, &impedance, &room, &grip));
             let forces: [f32; BALLS] = core::array::from_fn(|j| press.forces().nth(j).unwrap());
             let speeds: [f32; BALLS] = core::array::from_fn(|j| press.speeds().nth(j).unwrap());
             let largest = forces.iter().copied().fold(0.0, f32::max);
             for j in 0..BALLS {
                 let behind = forces[(j + BALLS - 1) % BALLS];
                 let push = behind - forces[j];
-                let needed = impedance[j] * (speeds[j] - free[j]) + grip * (behind + forces[j]);
+                let needed = impedance[j] * (speeds[j] - free[j]) + grip[j] * (behind + forces[j]);
                 // Roundings of the forces, 1e-6 of the largest, and of the speeds, 1e-8 of up to 0.1 times 1000 N.
                 let left = (push - needed).abs();
                 assert!(
@@ -180,7 +114,7 @@ mod tests {
         let (mut smooth, mut rubbing) = (Press::<BALLS>::new(), Press::<BALLS>::new());
         let room = [0.0, 0.0, 1e-3, 0.0, 0.0, 0.0, 0.0, 2e-3, f32::INFINITY];
         assert!(smooth.solve(&free, &[500.0; BALLS], &room));
-        assert!(rubbing.solve_rubbing(&free, &[500.0; BALLS], &room, 0.0));
+        assert!(rubbing.solve_rubbing(&free, &[500.0; BALLS], &room, &[0.0; BALLS]));
         for (one, other) in smooth.forces().zip(rubbing.forces()) {
             assert!((one - other).abs() < 1e-5, "{one} {other}");
         }

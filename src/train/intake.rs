@@ -64,7 +64,7 @@ impl<const N: usize> Train<N> {
             check.add(speed, impedance);
             ahead.take_in(ball, speed, impedance);
         }
-        self.finish(travel, &ahead, check.passed(), Grip::NONE);
+        self.finish::<false>(travel, &ahead, check.passed());
         check.passed()
     }
 
@@ -95,17 +95,11 @@ impl<const N: usize> Train<N> {
 
     /// Joins, settles and moves the balls; where some input does not count, all move at the nominal speed.
     #[inline(always)]
-    fn finish<const RUBBED: bool>(
-        &mut self,
-        travel: f32,
-        ahead: &Ahead,
-        valid: bool,
-        grip: Grip<RUBBED>,
-    ) -> Pressing {
+    fn finish<const RUBBED: bool>(&mut self, travel: f32, ahead: &Ahead, valid: bool) -> Pressing {
         self.complete(&ahead.rooms);
         let motion = self.motion(travel);
-        self.press.join(valid, grip);
-        self.press.settle(motion, grip)
+        self.press.join::<RUBBED>(valid);
+        self.press.settle::<RUBBED>(motion)
     }
 
     /// Puts in the two slacks that a walk from the front backwards cannot know: that of the last ball, because the ball in
@@ -157,16 +151,21 @@ impl<const N: usize> Intake<'_, N> {
     /// Which balls press on each other, and how hard; moves all balls. Balls that have not come are taken as dropped.
     #[inline(always)]
     pub(crate) fn press(self) -> Pressing {
-        self.press_rubbing(Grip::NONE)
+        self.end::<false>()
     }
 
     /// The same for balls that rub on each other.
     #[inline(always)]
-    pub(crate) fn press_rubbing<const RUBBED: bool>(mut self, grip: Grip<RUBBED>) -> Pressing {
+    pub(crate) fn press_rubbing(self) -> Pressing {
+        self.end::<true>()
+    }
+
+    #[inline(always)]
+    fn end<const RUBBED: bool>(mut self) -> Pressing {
         while let Some(ball) = self.next_ball() {
             drop(ball);
         }
-        self.train.finish(self.travel, &self.ahead, true, grip)
+        self.train.finish::<RUBBED>(self.travel, &self.ahead, true)
     }
 }
 
@@ -197,10 +196,17 @@ impl FreeBall<'_> {
         ahead.take_in(ball, speed, impedance);
     }
 
-    /// The same of a train whose balls rub on each other, with whether neighbours rub on this one.
+    /// The same of a train whose balls rub on each other, with what friction of its neighbours does to this one.
     #[inline(always)]
-    pub(crate) fn put_rubbing(self, speed: f32, impedance: f32, rubs: bool) {
-        self.ball.set_rubs(rubs);
+    pub(crate) fn put_rubbed(self, speed: f32, impedance: f32, grip: Grip) {
+        self.ball.set_rubbed(grip.passed());
+        self.put(speed, impedance * grip.of_impedance());
+    }
+
+    /// The same of a ball there on which no neighbour rubs.
+    #[inline(always)]
+    pub(crate) fn put_smooth(self, speed: f32, impedance: f32) {
+        self.ball.set_smooth();
         self.put(speed, impedance);
     }
 }

@@ -2,20 +2,19 @@
 
 use super::ball::Ball;
 use super::cluster::Cluster;
-use super::grip::Grip;
 
 /// Joins balls to clusters and leaves these in their front and rear balls; gives the index of a ball that presses
 /// on none.
 ///
 /// Balls are taken in, with their slacks. Joins may come in any order: none of them opens another one's contact.
 #[inline(never)]
-pub(super) fn pool<const RUBBED: bool>(balls: &mut [Ball], grip: Grip<RUBBED>) -> usize {
+pub(super) fn pool<const RUBBED: bool>(balls: &mut [Ball]) -> usize {
     // Balls that belong to no cluster yet.
     let mut open = balls.len();
     while let Some(front) = balls.get_mut(..open).and_then(next_front) {
-        open = grow(balls, front, grip);
+        open = grow::<RUBBED>(balls, front);
     }
-    close(balls, grip)
+    close::<RUBBED>(balls)
 }
 
 /// From the last of these balls backwards, the first one into which the one behind runs. Balls in front of it stand
@@ -38,19 +37,19 @@ fn next_front(balls: &mut [Ball]) -> Option<usize> {
 /// Leaves the cluster that grows from the ball `front`, backwards and forwards in turn; gives the number of balls
 /// behind it.
 #[inline(always)]
-fn grow<const RUBBED: bool>(balls: &mut [Ball], mut front: usize, grip: Grip<RUBBED>) -> usize {
+fn grow<const RUBBED: bool>(balls: &mut [Ball], mut front: usize) -> usize {
     let mut behind = balls.get(..front).unwrap_or_default();
     let mut cluster = balls
         .get(front)
-        .map_or(Cluster::single(&Ball::IDLE, grip), |ball| {
-            Cluster::single(ball, grip)
+        .map_or(Cluster::single::<RUBBED>(&Ball::IDLE), |ball| {
+            Cluster::single::<RUBBED>(ball)
         });
     loop {
         while let [further @ .., ball] = behind {
             if !cluster.reached_by(ball.slack()) {
                 break;
             }
-            cluster = cluster.grown(ball, grip);
+            cluster = cluster.grown::<RUBBED>(ball);
             behind = further;
         }
         // What the cluster runs into slows it down, and the ball behind may run into it after all.
@@ -58,7 +57,7 @@ fn grow<const RUBBED: bool>(balls: &mut [Ball], mut front: usize, grip: Grip<RUB
             break;
         }
         let next = front + 1 + others(balls, front + 1);
-        let ahead = Cluster::at(balls, next, grip);
+        let ahead = Cluster::at::<RUBBED>(balls, next);
         let Some(longer) = cluster.joined::<RUBBED>(slack(balls, front), &ahead) else {
             break;
         };
@@ -73,12 +72,12 @@ fn grow<const RUBBED: bool>(balls: &mut [Ball], mut front: usize, grip: Grip<RUB
 /// Joins across the place where the ring closes: the last cluster has the first one in front. Gives the index of a
 /// ball that presses on none.
 #[inline(always)]
-fn close<const RUBBED: bool>(balls: &mut [Ball], grip: Grip<RUBBED>) -> usize {
+fn close<const RUBBED: bool>(balls: &mut [Ball]) -> usize {
     let last = balls.len().wrapping_sub(1);
-    let mut closing = Closing::new(balls, last, grip);
+    let mut closing = Closing::new::<RUBBED>(balls, last);
     // Each turn but the last makes one cluster of two.
     while !closing.is_ring()
-        && (closing.joins_ahead(balls, grip) || closing.joins_behind(balls, grip))
+        && (closing.joins_ahead::<RUBBED>(balls) || closing.joins_behind::<RUBBED>(balls))
     {}
     if closing.front != last {
         closing
@@ -101,10 +100,10 @@ struct Closing {
 
 impl Closing {
     #[inline(always)]
-    fn new<const RUBBED: bool>(balls: &[Ball], last: usize, grip: Grip<RUBBED>) -> Self {
+    fn new<const RUBBED: bool>(balls: &[Ball], last: usize) -> Self {
         let others = others(balls, last);
         Self {
-            cluster: Cluster::at(balls, last, grip),
+            cluster: Cluster::at::<RUBBED>(balls, last),
             last,
             rear: last.wrapping_sub(others),
             front: last,
@@ -130,11 +129,11 @@ impl Closing {
 
     /// Joins the cluster ahead where this one runs into it.
     #[inline(always)]
-    fn joins_ahead<const RUBBED: bool>(&mut self, balls: &[Ball], grip: Grip<RUBBED>) -> bool {
+    fn joins_ahead<const RUBBED: bool>(&mut self, balls: &[Ball]) -> bool {
         let slack = slack(balls, self.front);
         let ahead = self.ahead();
         let beyond = others(balls, ahead);
-        let cluster_ahead = Cluster::at(balls, ahead + beyond, grip);
+        let cluster_ahead = Cluster::at::<RUBBED>(balls, ahead + beyond);
         let Some(joined) = self.cluster.joined::<RUBBED>(slack, &cluster_ahead) else {
             return false;
         };
@@ -147,7 +146,7 @@ impl Closing {
     /// Joins the cluster behind where that runs into this one. As long as this one has not grown ahead, pooling has
     /// found already that it does not.
     #[inline(always)]
-    fn joins_behind<const RUBBED: bool>(&mut self, balls: &[Ball], grip: Grip<RUBBED>) -> bool {
+    fn joins_behind<const RUBBED: bool>(&mut self, balls: &[Ball]) -> bool {
         if self.front == self.last {
             return false;
         }
@@ -155,7 +154,7 @@ impl Closing {
         let Some(ball) = balls.get(front) else {
             return false;
         };
-        let behind = Cluster::at(balls, front, grip);
+        let behind = Cluster::at::<RUBBED>(balls, front);
         let Some(joined) = behind.joined::<RUBBED>(ball.slack(), &self.cluster) else {
             return false;
         };

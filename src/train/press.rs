@@ -149,8 +149,8 @@ impl<const N: usize> Press<N> {
             ball.take_in(speed, impedance, room + (ahead - speed));
             ahead = speed;
         }
-        self.join(check.passed(), Grip::NONE);
-        self.settle(Motion::NONE, Grip::NONE);
+        self.join::<false>(check.passed());
+        self.settle::<false>(Motion::NONE);
         check.passed()
     }
 
@@ -160,40 +160,43 @@ impl<const N: usize> Press<N> {
     /// F_(j-1) - F_j = (v_j - u_j)/Y_j + r (F_(j-1) + F_j)
     /// ```
     ///
-    /// with `grip` for `r`, the grip of a ball ([`BallNumbers::grip`](crate::ball::pressed::BallNumbers)) times the friction coefficient between balls, at
+    /// with `grip` for each ball's `r`, its grip ([`BallNumbers::grip`](crate::ball::pressed::BallNumbers)) times the friction coefficient between balls, at
     /// most 0.3 in size. Forces and cost as in [`Self::solve`].
     pub fn solve_rubbing(
         &mut self,
         free: &[f32; N],
         impedance: &[f32; N],
         room: &[f32; N],
-        grip: f32,
+        grip: &[f32; N],
     ) -> bool {
-        let grip = Grip::new(grip);
         let mut check = InputCheck::default();
         let mut ahead = free.first().copied().unwrap_or(0.0);
         let inputs = free.iter().zip(impedance).zip(room);
-        for (ball, ((&speed, &impedance), &room)) in self.balls.iter_mut().zip(inputs).rev() {
+        let inputs = inputs.zip(grip);
+        for (ball, (((&speed, &impedance), &room), &grip)) in
+            self.balls.iter_mut().zip(inputs).rev()
+        {
             check.add(speed, impedance);
             let room = if room < 0.0 { 0.0 } else { room };
+            let grip = Grip::new(grip);
             ball.take_in(
                 speed,
                 impedance * grip.of_impedance(),
                 room + (ahead - speed),
             );
-            ball.set_rubs(true);
+            ball.set_rubbed(grip.passed());
             ahead = speed;
         }
-        self.join(check.passed(), grip);
-        self.settle(Motion::NONE, grip);
+        self.join::<true>(check.passed());
+        self.settle::<true>(Motion::NONE);
         check.passed()
     }
 
     /// Joins balls to clusters, or leaves all at the nominal speed where not all that was taken in counts.
     #[inline(always)]
-    pub(super) fn join<const RUBBED: bool>(&mut self, valid: bool, grip: Grip<RUBBED>) {
+    pub(super) fn join<const RUBBED: bool>(&mut self, valid: bool) {
         if valid {
-            self.foremost = pool(&mut self.balls, grip) as u8;
+            self.foremost = pool::<RUBBED>(&mut self.balls) as u8;
         } else {
             self.let_go();
         }
@@ -212,15 +215,12 @@ impl<const N: usize> Press<N> {
 
     /// Speeds and forces of the clusters, and where the balls go.
     #[inline(always)]
-    pub(super) fn settle<const RUBBED: bool>(
-        &mut self,
-        motion: Motion,
-        grip: Grip<RUBBED>,
-    ) -> Pressing {
+    pub(super) fn settle<const RUBBED: bool>(&mut self, motion: Motion) -> Pressing {
         let foremost = self.foremost();
-        match grip.rubbing() {
-            Some(grip) => settle_rubbing(&mut self.balls, foremost, motion, grip),
-            None => settle(&mut self.balls, foremost, motion),
+        if RUBBED {
+            settle_rubbing(&mut self.balls, foremost, motion)
+        } else {
+            settle(&mut self.balls, foremost, motion)
         }
     }
 }

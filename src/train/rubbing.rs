@@ -2,24 +2,17 @@
 
 use super::balance::{ROUNDING, balance, not_negative_bits};
 use super::ball::Ball;
-use super::grip::Grip;
 use super::motion::Motion;
 use super::ring::Rows;
 use super::settle::Pressing;
 
 /// Gives each ball its speed and its force, and moves it, from the foremost ball backwards.
 #[inline(never)]
-pub(super) fn settle_rubbing(
-    balls: &mut [Ball],
-    foremost: usize,
-    motion: Motion,
-    grip: Grip<true>,
-) -> Pressing {
+pub(super) fn settle_rubbing(balls: &mut [Ball], foremost: usize, motion: Motion) -> Pressing {
     let mut settling = Settling {
         motion,
         // Nothing is near in front of the foremost one.
         limit: balls.get(foremost).map_or(0, |ball| motion.far_ahead(ball)),
-        grip,
         behind: 0,
         change: 0.0,
         force: 0.0,
@@ -36,7 +29,7 @@ pub(super) fn settle_rubbing(
     // large force. It hardly changes what the forces add up to.
     let least = ROUNDING * largest;
     if sums.remainder > least {
-        balance(balls, foremost, least, grip);
+        balance::<true>(balls, foremost, least);
     }
     Pressing {
         contacts: sums.contacts as u8,
@@ -50,7 +43,6 @@ pub(super) fn settle_rubbing(
 /// A walk backwards over the balls.
 struct Settling {
     motion: Motion,
-    grip: Grip<true>,
     /// Where the next ball touches the one in front.
     limit: u32,
     /// Balls still to come of the cluster to which the last ball belongs.
@@ -132,8 +124,13 @@ impl Settling {
     /// What a ball that rubs passes on: the force behind it, from its push and its force on the ball in front, and its part of the sums.
     #[inline(always)]
     fn rub(&mut self, ball: &Ball, push: f32, force: f32) {
-        let per_passed = self.grip.per_passed(ball);
-        self.sums.work += self.change * push;
+        let passed = ball.passed();
+        let more = 1.0 + passed;
+        // One division for both: 1/k, and 1 + r = 2/(1 + k).
+        let both = 1.0 / (passed * more);
+        let per_passed = more * both;
+        let growth = 2.0 * passed * both;
+        self.sums.work += self.change * push * growth;
         self.ahead_rubs = ball.rubs();
         self.sums.change += if self.ahead_rubs { self.change } else { 0.0 };
         self.force = (force + push) * per_passed;

@@ -2,7 +2,6 @@
 
 use super::balance::{ROUNDING, balance, not_negative_bits};
 use super::ball::Ball;
-use super::grip::Grip;
 use super::motion::Motion;
 use super::ring::Rows;
 
@@ -15,7 +14,7 @@ pub(crate) struct Pressing {
     pub(crate) largest: f32,
     /// Sum of the forces of the pairs that rub, in the same unit: of all pairs of a train whose balls do not rub.
     pub(crate) force: f32,
-    /// Sums over the balls, where they rub: of the square of the speed's change by the neighbours, times what was taken in as impedance; and of
+    /// Sums over the balls, where they rub: of the square of the speed's change by the neighbours, times the impedance; and of
     /// the change of the balls that rub.
     pub(crate) work: f32,
     pub(crate) change: f32,
@@ -42,7 +41,7 @@ pub(super) fn settle(balls: &mut [Ball], foremost: usize, motion: Motion) -> Pre
     // large force. It hardly changes what the forces add up to.
     let least = ROUNDING * largest;
     if sums.remainder > least {
-        balance(balls, foremost, least, Grip::NONE);
+        balance::<false>(balls, foremost, least);
     }
     Pressing {
         contacts: sums.contacts as u8,

@@ -570,7 +570,11 @@ fn ball_numbers(random: &mut Random) -> BallNumbers {
         ],
         torque,
         slope: random.of(&[0.0, 1e-4, 1.0]) * random.sign(),
-        grip: random.of(&[0.0, -1e-3, -0.5, 0.7, 3.0]),
+        grip: [
+            random.of(&[0.0, -1e-3, -0.5, 0.7, 8.0]),
+            random.within(-1.0, 1.0),
+            random.of(&[0.0, 1.0]),
+        ],
         rubbing: random.of(&[0.0, 0.01, 1.0]),
     }
 }

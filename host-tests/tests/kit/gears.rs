@@ -174,7 +174,7 @@ const fn ball_of(friction: f32) -> FoldedBall {
     while knot < 2 * KNOTS {
         ball.law.nodes[0].branches[knot / KNOTS][knot % KNOTS]
             .numbers
-            .grip = -0.5;
+            .grip = [-0.5, 0.12, -0.07];
         knot += 1;
     }
     ball

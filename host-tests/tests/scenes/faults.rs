@@ -381,7 +381,7 @@ fn folded_fields<const NODES: usize>(folded: &mut FoldedBall<NODES>) -> Vec<&mut
         &mut last.numbers.slope,
         &mut other.numbers.free[5],
         &mut other.numbers.impedance[2],
-        &mut other.numbers.grip,
+        &mut other.numbers.grip[1],
         &mut other.numbers.rubbing,
     ]
 }

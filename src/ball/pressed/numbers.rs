@@ -12,8 +12,8 @@ pub(super) const IMPEDANCES: Range = Range::new(0.01, 1e3);
 /// Largest torque over load, m, and its change with the speed, that count.
 const LARGEST_ARM: f32 = 1.0;
 
-/// Largest grip: what is left of a force between balls is positive where friction between balls is at most 0.3.
-const LARGEST_GRIP: f32 = 3.0;
+/// Largest size of a grip within the largest deviations.
+pub const LARGEST_GRIP: f32 = 10.0;
 
 /// What one ball does under a load, all over `mu W` but the free speed, the grip and the speed of rubbing.
 ///
@@ -38,9 +38,9 @@ pub struct BallNumbers {
     pub torque: [f32; POWERS],
     /// Change of the friction torque with the speed at the free speed, m.
     pub slope: f32,
-    /// Net push that a ball needs in addition, over the friction of its neighbours on it, -3 to 3: what friction between balls does to the
-    /// speed of a ball.
-    pub grip: f32,
+    /// Net push that a ball needs in addition, over the friction of its neighbours on it, -10 to 10: what friction between balls does to the
+    /// speed of a ball; powers `1, s, n`.
+    pub grip: [f32; 3],
     /// Speed with which two balls alike rub against each other, m per unit of nut speed.
     pub rubbing: f32,
 }
@@ -55,6 +55,8 @@ pub struct FreeMotion {
     pub impedance: f32,
     /// Friction torque on the nut at the free speed, N m per unit.
     pub torque: f32,
+    /// Net push in addition, over the friction of its neighbours.
+    pub grip: f32,
 }
 
 impl BallNumbers {
@@ -64,7 +66,7 @@ impl BallNumbers {
         impedance: [0.0; 3],
         torque: [0.0; POWERS],
         slope: 0.0,
-        grip: 0.0,
+        grip: [0.0; 3],
         rubbing: 0.0,
     };
 
@@ -85,7 +87,7 @@ impl BallNumbers {
             impedance: all(&self.impedance, &others.impedance, share),
             torque: all(&self.torque, &others.torque, share),
             slope: one(self.slope, others.slope),
-            grip: one(self.grip, others.grip),
+            grip: all(&self.grip, &others.grip, share),
             rubbing: one(self.rubbing, others.rubbing),
         }
     }
@@ -105,11 +107,11 @@ impl BallNumbers {
     #[inline(always)]
     #[must_use]
     pub fn at(&self, [screw, nut]: [f32; 2]) -> FreeMotion {
-        let [z, z_screw, z_nut] = self.impedance;
         FreeMotion {
             speed: powers(&self.free, screw, nut),
-            impedance: z + screw * z_screw + nut * z_nut,
+            impedance: linear(&self.impedance, screw, nut),
             torque: powers(&self.torque, screw, nut),
+            grip: linear(&self.grip, screw, nut),
         }
     }
 
@@ -128,7 +130,12 @@ impl BallNumbers {
         let torque = sum_of_sizes(&self.torque, 0);
         attempt!(in_range("torque", torque, 0.0, LARGEST_ARM));
         attempt!(in_range("slope", self.slope, -LARGEST_ARM, LARGEST_ARM));
-        attempt!(in_range("grip", self.grip, -LARGEST_GRIP, LARGEST_GRIP));
+        attempt!(in_range(
+            "grip",
+            sum_of_sizes(&self.grip, 0),
+            0.0,
+            LARGEST_GRIP
+        ));
         attempt!(in_range("rubbing", self.rubbing, 0.0, LARGEST_ARM));
         Ok(self)
     }
@@ -143,6 +150,7 @@ impl FreeMotion {
             speed: one(self.speed, other.speed),
             impedance: one(self.impedance, other.impedance),
             torque: one(self.torque, other.torque),
+            grip: one(self.grip, other.grip),
         }
     }
 }
@@ -151,6 +159,12 @@ impl FreeMotion {
 #[inline(always)]
 fn powers([a, s, n, ss, sn, nn]: &[f32; POWERS], screw: f32, nut: f32) -> f32 {
     a + screw * (s + screw * ss + nut * sn) + nut * (n + nut * nn)
+}
+
+/// A straight line over two deviations.
+#[inline(always)]
+fn linear([a, s, n]: &[f32; 3], screw: f32, nut: f32) -> f32 {
+    a + screw * s + nut * n
 }
 
 /// Sum of the sizes of numbers, from one of them on.

@@ -7,7 +7,7 @@ use crate::scene::contract::Inputs;
 use crate::scene::faults::Faults;
 use crate::scene::reversal::direction;
 use crate::scene::row::TrainFriction;
-use crate::train::{Grip, Intake};
+use crate::train::{Grip, Intake, LARGEST_GRIP};
 
 /// What all balls have in common in a tick.
 struct Common {
@@ -19,9 +19,10 @@ struct Common {
     branch: usize,
     /// -1 where the nut turns backward, else 1.
     direction: f32,
-    /// What a ball does under the mean load, with the impedance that the train takes in.
+    /// What a ball does under the mean load.
     numbers: BallNumbers,
-    grip: Grip<true>,
+    /// Friction coefficient between balls, with the sign of the direction.
+    ball_friction: f32,
 }
 
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
@@ -53,25 +54,22 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 &common,
                 |share, deviations| {
                     let load = self.law.load_of(common.mean * share);
-                    let motion = self.law.at(load, common.branch, friction, deviations);
-                    FreeMotion {
-                        impedance: motion.impedance * common.grip.of_impedance(),
-                        ..motion
-                    }
+                    self.law.at(load, common.branch, friction, deviations)
                 },
             )
         };
-        let pressing = balls.press_rubbing(common.grip);
+        let pressing = balls.press_rubbing();
         state.circuit.advance(&self.circuit, nut_speed);
 
         let numbers = &common.numbers;
-        let work = self.half_speed * common.grip.per_impedance() * pressing.work;
+        let work = self.half_speed * pressing.work;
         let rubbing = self.ball_friction * numbers.rubbing * pressing.force;
         let most = self.law.load_of(self.heaviest * common.mean);
         let friction = state.friction;
         let held = self.law.holds_forces(common.load, common.branch, friction)
             && self.law.holds_load(most)
-            && self.law.holds(friction.friction());
+            && self.law.holds(friction.friction())
+            && self.holds_grip(numbers);
         UncagedFriction {
             row: TrainFriction {
                 groove: not_negative(
@@ -87,22 +85,27 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
     }
 
+    /// Whether friction between balls leaves every ball within the largest deviations below [`LARGEST_GRIP`], at which a train cuts it off.
+    #[inline(always)]
+    fn holds_grip(&self, numbers: &BallNumbers) -> bool {
+        let [grip, screw, nut] = numbers.grip.map(f32::abs);
+        self.ball_friction * (grip + screw + nut) <= LARGEST_GRIP
+    }
+
     #[inline(always)]
     fn common(&self, state: &UncagedState<N>, inputs: Inputs) -> Common {
         let direction = direction(inputs.nut_speed);
         let mean = inputs.axial_load * self.per_ball;
         let branch = usize::from(direction * mean < 0.0);
         let load = self.law.load_of(mean);
-        let mut numbers = self.law.numbers(load, branch, state.friction);
-        let grip = Grip::new(direction * (self.ball_friction * numbers.grip));
-        numbers.impedance = numbers.impedance.map(|z| z * grip.of_impedance());
+        let numbers = self.law.numbers(load, branch, state.friction);
         Common {
             mean,
             load,
             branch,
             direction,
             numbers,
-            grip,
+            ball_friction: direction * self.ball_friction,
         }
     }
 
@@ -126,13 +129,14 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let mut torque = 0.0;
         while let Some(ball) = balls.next_ball() {
             let Some(place) = self.circuit.place(ball.position(), phase, shares) else {
-                ball.put_rubbing(idle, UNLOADED, false);
+                ball.put_smooth(idle, UNLOADED);
                 continue;
             };
             let deviations = [units[0] * place.passing, units[1] * place.recirculating];
             let motion = motion(place.share.share(), deviations);
             torque += motion.torque;
-            ball.put_rubbing(direction * motion.speed, motion.impedance, true);
+            let grip = Grip::new(common.ball_friction * motion.grip);
+            ball.put_rubbed(direction * motion.speed, motion.impedance, grip);
         }
         torque
     }

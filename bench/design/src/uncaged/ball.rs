@@ -6,6 +6,7 @@ use epas_reference::friction::held_ball::{
     AlongTrack, BallDrive, BallStart, DeviatingBall, HeldBall, HeldBallFriction,
 };
 use epas_reference::friction::patch::Integration;
+use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
 use crate::{CagedDesign, Failure};
@@ -17,9 +18,10 @@ const SIDE: usize = 5;
 /// Places of the grid at which friction of the neighbours is put on a ball: the corners, the middles of the edges and the centre.
 const RUBBED: [usize; 9] = [0, 2, 4, 10, 12, 14, 20, 22, 24];
 
-/// Friction force of each neighbour over the root mean square of the forces that hold balls: what friction between balls of 0.1 does where
-/// balls press with that force.
-const RUBBING: f64 = 0.25;
+/// Friction force of each neighbour over the root mean square of the forces that hold balls, with which the loss by rubbing is found and the
+/// grip: rows of 37 balls with friction of 0.1 between them lose as their mean force says, and are held as the larger ones of their forces say.
+const LOSS_RUBBING: f64 = 0.2;
+const GRIP_RUBBING: f64 = 0.4;
 
 /// Largest friction force of a neighbour over `mu W`: a ball that is rubbed more loses its hold on the grooves.
 const MOST_RUBBING: f64 = 0.12;
@@ -110,7 +112,7 @@ pub(super) struct BallSample {
     /// Balls of the grid.
     pub points: [BallPoint; POINTS],
     /// Net push more, over the friction of the neighbours.
-    pub grip: f64,
+    pub grip: [f64; 3],
     /// Speed with which two balls alike rub, m per unit of nut speed: the one with which they lose what friction between them adds to all losses.
     pub rubbing: f64,
 }
@@ -255,7 +257,7 @@ impl Balls<'_> {
         pushed: &[Along],
         held: &[f64],
         speeds: &Speeds,
-    ) -> Vec<Option<[f64; 2]>> {
+    ) -> Vec<Option<([f64; 3], f64)>> {
         let of = |load: usize| {
             let smooth: Option<Vec<HeldBallFriction>> =
                 pushed.iter().map(|along| along[load]).collect();
@@ -263,27 +265,31 @@ impl Balls<'_> {
             let squares: f64 = smooth.iter().map(|found| found.force.powi(2)).sum();
             let whole = self.loads[load] + self.lift_off;
             let most = MOST_RUBBING * self.ball.friction * whole;
-            let friction = most.min(RUBBING * (squares / POINTS as f64).sqrt());
-            let drive = BallDrive {
-                axial_load: self.side * self.loads[load],
-                along: AlongTrack::Held(speeds.orbital(held[load])),
-                rubbing: [friction; 2],
-            };
-            let (mut grip, mut rubbing) = (0.0, 0.0);
-            let mut count = 0.0;
-            for point in RUBBED {
-                // A ball that finds no balance does not count.
-                let Ok(found) = balls[point].solve(&drive, Some(&smooth[point].start)) else {
-                    continue;
+            let rms = (squares / POINTS as f64).sqrt();
+            let at = |friction: f64| {
+                let drive = BallDrive {
+                    axial_load: self.side * self.loads[load],
+                    along: AlongTrack::Held(speeds.orbital(held[load])),
+                    rubbing: [friction; 2],
                 };
-                count += 1.0;
-                let smooth = &smooth[point];
-                grip += (found.force - smooth.force) / (2.0 * friction);
-                // Each contact's loss is shared by its two balls.
-                let lost = found.torque - smooth.torque + 2.0 * friction * found.half_slip;
-                rubbing += lost / friction;
-            }
-            (count > 0.5 * RUBBED.len() as f64).then(|| [grip / count, rubbing / count])
+                let (mut losses, mut grips) = (Vec::new(), Vec::new());
+                for point in RUBBED {
+                    // A ball that finds no balance does not count.
+                    let Ok(found) = balls[point].solve(&drive, Some(&smooth[point].start)) else {
+                        continue;
+                    };
+                    let smooth = &smooth[point];
+                    grips.push((point, (found.force - smooth.force) / (2.0 * friction)));
+                    // Each contact's loss is shared by its two balls.
+                    let lost = found.torque - smooth.torque + 2.0 * friction * found.half_slip;
+                    losses.push((point, lost / friction));
+                }
+                (grips.len() as f64 > 0.5 * RUBBED.len() as f64)
+                    .then(|| [line(&grips), line(&losses)])
+            };
+            let [_, losses] = at(most.min(LOSS_RUBBING * rms))?;
+            let [grips, _] = at(most.min(GRIP_RUBBING * rms))?;
+            Some((grips, losses[0]))
         };
         (0..self.loads.len()).into_par_iter().map(of).collect()
     }
@@ -294,13 +300,13 @@ impl Balls<'_> {
         held: f64,
         free: &[Along],
         pushed: &[Along],
-        rubbed: &[[f64; 2]],
+        rubbed: &[([f64; 3], f64)],
         speeds: &Speeds,
     ) -> Option<BallSample> {
         let whole = self.loads[load] + self.lift_off;
         let per_load = 1.0 / (whole * self.ball.friction);
         let mut points = [BallPoint::default(); POINTS];
-        let [grip, rubbing] = rubbed[load];
+        let (grip, rubbing) = rubbed[load];
         for (point, (free, pushed)) in points.iter_mut().zip(free.iter().zip(pushed)) {
             let (free, pushed) = (free[load].as_ref()?, pushed[load].as_ref()?);
             *point = BallPoint {
@@ -321,7 +327,7 @@ impl Balls<'_> {
 }
 
 /// Values, each that is missing as the one before it, and the first as the next.
-fn with_nearest(values: &[Option<[f64; 2]>]) -> Vec<[f64; 2]> {
+fn with_nearest(values: &[Option<([f64; 3], f64)>]) -> Vec<([f64; 3], f64)> {
     let mut last = values.iter().copied().flatten().next().unwrap_or_default();
     let nearest = values.iter().map(|value| {
         last = value.unwrap_or(last);
@@ -357,4 +363,18 @@ fn step_to_balance(pushed: &[Along], load: usize, speeds: &Speeds) -> f64 {
     } else {
         0.0
     }
+}
+
+/// The straight line over the box of deviations that is nearest to a polynomial of the second degree through values at points of the grid.
+fn line(values: &[(usize, f64)]) -> [f64; 3] {
+    let powers = DMatrix::from_fn(values.len(), 6, |row, power| {
+        let [s, n] = place(values[row].0);
+        [1.0, s, n, s * s, s * n, n * n][power]
+    });
+    let right = DVector::from_iterator(values.len(), values.iter().map(|(_, value)| *value));
+    let Ok(found) = powers.svd(true, true).solve(&right, 1e-9) else {
+        return [0.0; 3];
+    };
+    // The mean of a square from -1 to 1 is a third.
+    [found[0] + (found[3] + found[5]) / 3.0, found[1], found[2]]
 }

@@ -4,7 +4,7 @@
 //! the errors of the force at the held speed count most, and those of the free speed beside them. The impedance is therefore the secant from
 //! the free speed to the held one, not the tangent at either.
 
-use epas_friction::ball::pressed::{KNOTS, POWERS};
+use epas_friction::ball::pressed::{KNOTS, LARGEST_GRIP, POWERS};
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
 use super::Column;
@@ -38,7 +38,7 @@ pub(super) struct Numbers {
     pub impedance: [f64; SLOPES],
     pub torque: [f64; POWERS],
     pub slope: f64,
-    pub grip: f64,
+    pub grip: [f64; SLOPES],
     pub rubbing: f64,
 }
 
@@ -98,6 +98,14 @@ impl Grid {
     }
 }
 
+/// A grip as large as a law may have it: where a ball is held that much firmer or looser, a scene flags the forces between balls.
+fn limited_grip(grip: [f64; SLOPES]) -> [f64; SLOPES] {
+    let size: f64 = grip.iter().map(|part| part.abs()).sum();
+    // A little less, which rounding does not pass.
+    let share = (0.999 * f64::from(LARGEST_GRIP) / size).min(1.0);
+    grip.map(|part| share * part)
+}
+
 /// Root mean square.
 fn rms(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = values.len() as f64;
@@ -140,10 +148,9 @@ impl<'a> Fit<'a> {
         let knots = Knots::placed(&loads, &self.columns(), KNOTS);
         let places = knots.places();
         let speeds = self.speeds(&knots, &places);
-        let [grips, rubbings] = [
-            self.alone(&knots, &places, |sample| sample.grip),
-            self.alone(&knots, &places, |sample| sample.rubbing),
-        ];
+        let rubbings = self.alone(&knots, &places, |sample| sample.rubbing);
+        let grips: [Vec<f64>; SLOPES] =
+            std::array::from_fn(|power| self.alone(&knots, &places, |sample| sample.grip[power]));
         let slopes = self.slopes(&knots, &places);
         let torques = self.torques(&knots, &places, &speeds, &slopes);
         let numbers: Vec<(f64, Numbers)> = (0..knots.at.len())
@@ -153,7 +160,7 @@ impl<'a> Fit<'a> {
                     impedance: std::array::from_fn(|power| speeds[knot][POWERS + power]),
                     torque: torques[knot].into(),
                     slope: slopes[knot],
-                    grip: grips[knot],
+                    grip: limited_grip(std::array::from_fn(|power| grips[power][knot])),
                     rubbing: rubbings[knot],
                 };
                 (loads[knots.at[knot]], numbers)

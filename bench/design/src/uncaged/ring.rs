@@ -89,7 +89,7 @@ impl Row {
             &motions.map(|motion| motion.speed),
             &motions.map(|motion| motion.impedance),
             &room,
-            numbers.grip * self.ball_friction,
+            &motions.map(|motion| motion.grip * self.ball_friction),
         );
         let mut torque = 0.0;
         for (motion, speed) in motions.iter().zip(press.speeds()) {

@@ -114,12 +114,13 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
         })
         .collect();
     let (mut free, mut impedance) = ([0.0; LARGEST_TRAIN], [1.0; LARGEST_TRAIN]);
-    for ((motion, free), impedance) in motions.iter().zip(&mut free).zip(&mut impedance) {
-        (*free, *impedance) = (motion.speed, motion.impedance);
+    let mut grip = [0.0; LARGEST_TRAIN];
+    for (ball, motion) in motions.iter().enumerate() {
+        (free[ball], impedance[ball]) = (motion.speed, motion.impedance);
+        grip[ball] = motion.grip * request.ball_friction as f32;
     }
     let mut press = Press::<LARGEST_TRAIN>::new();
-    let grip = numbers.grip * request.ball_friction as f32;
-    if !press.solve_rubbing(&free, &impedance, &room_of_a_row(count), grip) {
+    if !press.solve_rubbing(&free, &impedance, &room_of_a_row(count), &grip) {
         return None;
     }
     let free_torque: f64 = motions.iter().map(|motion| f64::from(motion.torque)).sum();

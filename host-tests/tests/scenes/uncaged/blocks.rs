@@ -17,7 +17,7 @@ fn all(numbers: &BallNumbers) -> Vec<f32> {
         grip,
         rubbing,
     } = *numbers;
-    [&free[..], &impedance, &torque, &[slope, grip, rubbing]].concat()
+    [&free[..], &impedance, &torque, &[slope], &grip, &[rubbing]].concat()
 }
 
 /// Impedance, torque and slope in proportion to `mu W`; free speed, grip and rubbing without it.
@@ -120,7 +120,7 @@ fn numbers_that_are_no_law_are_refused_by_name() {
     fn numbers(law: &mut BallLaw<BALL_NODES>) -> &mut BallNumbers {
         &mut knot(law).numbers
     }
-    let refused: [(&str, Change, &[f32]); 15] = [
+    let refused: [(&str, Change, &[f32]); 16] = [
         ("deviations", |law, x| law.deviations[0] = x, &[9e-7, 1.01]),
         ("deviations", |law, x| law.deviations[1] = x, &[0.0, -0.1]),
         ("lift_off", |law, x| law.lift_off = x, &[-1e-6, 1.1e7]),
@@ -148,7 +148,12 @@ fn numbers_that_are_no_law_are_refused_by_name() {
             &[1.01, -1.01],
         ),
         ("slope", |law, x| numbers(law).slope = x, &[1.01, -1.01]),
-        ("grip", |law, x| numbers(law).grip = x, &[3.01, -3.01]),
+        (
+            "grip",
+            |law, x| numbers(law).grip = [0.0, 0.0, x],
+            &[10.1, -10.1],
+        ),
+        ("grip", |law, x| numbers(law).grip = [x; 3], &[3.34, -3.34]),
         ("rubbing", |law, x| numbers(law).rubbing = x, &[-1e-9, 1.01]),
         ("load", |law, x| knot(law).load = x, &[9e-7, 1.1e7]),
         (
@@ -182,7 +187,7 @@ fn numbers_that_are_no_law_are_refused_by_name() {
         |law, _| law.deviations = [1e-6, 1.0],
         |law, _| law.lift_off = 1e7,
         |law, _| numbers(law).free = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        |law, _| numbers(law).grip = -3.0,
+        |law, _| numbers(law).grip = [-4.0, 3.0, -3.0],
         |law, _| (numbers(law).slope, numbers(law).rubbing) = (-1.0, 1.0),
     ];
     for change in taken {
@@ -277,7 +282,7 @@ fn other_blocks_are_refused_by_name() {
     };
     // What fits a checksum of another crate is taken.
     assert_eq!(FoldedBall::read(&sealed(4, 1)), Ok(BALL));
-    assert_eq!(refusal::<1>(&sealed(1, 2)), "version");
+    assert_eq!(refusal::<1>(&sealed(1, 3)), "version");
     assert_eq!(
         refusal::<1>(&sealed(0, u32::from_le_bytes(*b"EPAS"))),
         "magic"

@@ -120,7 +120,7 @@ fn every_ball_is_in_balance() {
                 let ahead = tick.forces[ball];
                 let free = &tick.free[ball];
                 let change = tick.speeds[ball] - f64::from(way * free.speed);
-                let grip = f64::from(way * ball_friction * tick.numbers.grip);
+                let grip = f64::from(way * ball_friction * free.grip);
                 let needed = f64::from(free.impedance) * change + grip * (behind + ahead);
                 // Places on a map to 2^-20 of a period change a free speed; forces add up to a cluster's roundings.
                 let size = largest + f64::from(free.impedance) * 0.01;

@@ -51,6 +51,28 @@ fn each_sign_of_the_load_has_its_shares() {
     assert_ne!(after, other.step(inputs(5.0, -1000.0)));
 }
 
+/// Friction between balls of which a train cuts off a part is flagged, and leaves a torque all the same.
+#[test]
+fn friction_between_balls_that_a_train_cuts_off_is_flagged() {
+    // The grips of the folded ball add up to 0.69 within the largest deviations, of which a train takes 0.3.
+    for (ball_friction, flagged) in [(0.0, false), (0.43, false), (0.44, true), (1.0, true)] {
+        let mut model = Model::new(&UncagedBallScrewConfiguration {
+            ball_friction,
+            ..configuration(0.5)
+        })
+        .unwrap();
+        for _ in 0..200 {
+            let outputs = model.step(inputs(5.0, 1000.0));
+            assert_eq!(
+                outputs.faults.contains(Faults::BEYOND_MODEL),
+                flagged,
+                "{ball_friction}"
+            );
+            assert!(outputs.friction_torque > 0.0 && outputs.friction_torque.is_finite());
+        }
+    }
+}
+
 fn exported<const N: usize, const NODES: usize>(
     model: &FrictionModel<UncagedBallScrew<N, NODES>>,
 ) -> Vec<u8> {
@@ -191,14 +213,6 @@ fn bad_configurations_are_refused_by_name() {
     // A speed that no ball has against the nut, a friction coefficient that is not the block's.
     assert_eq!(folded(&|f| f.speed = 1.01 * f.path_radius), "speed");
     assert_eq!(folded(&|f| f.friction *= 1.01), "friction");
-    // Friction between balls that would take more than 0.3 of their forces.
-    let largest = 0.3 / good.folded.law.largest_grip();
-    assert_eq!(with(&|c| c.ball_friction = 1.01 * largest), "ball_friction");
-    let most = UncagedBallScrewConfiguration {
-        ball_friction: (0.999 * largest).min(1.0),
-        ..good
-    };
-    assert!(Model::new(&most).is_ok());
     // Balls may move by 3 % of the track in a tick.
     assert_eq!(with(&|c| c.tick = 0.05), "tick");
     let none = LoadShares::same(&[]);
