@@ -21,15 +21,7 @@ pub(crate) const LARGEST_GRIP: f32 = 0.3;
 impl Grip {
     /// Of this `r`, at most [`LARGEST_GRIP`] in size.
     #[inline(always)]
-    pub(crate) fn new(grip: f32) -> Self {
-        // Not `clamp`, which keeps a panic for bounds that are not ordered.
-        let grip = if grip > LARGEST_GRIP {
-            LARGEST_GRIP
-        } else if grip > -LARGEST_GRIP {
-            grip
-        } else {
-            -LARGEST_GRIP
-        };
+    pub(crate) const fn within(grip: f32) -> Self {
         let per_growth = 1.0 / (1.0 + grip);
         Self {
             passed: (1.0 - grip) * per_growth,
@@ -47,6 +39,18 @@ impl Grip {
     #[inline(always)]
     pub(crate) const fn of_impedance(&self) -> f32 {
         self.per_growth
+    }
+}
+
+/// This `r`, or the largest in its direction. Not `clamp`, which keeps a panic for bounds that are not ordered.
+#[inline(always)]
+pub(crate) fn limited_grip(grip: f32) -> f32 {
+    if grip > LARGEST_GRIP {
+        LARGEST_GRIP
+    } else if grip > -LARGEST_GRIP {
+        grip
+    } else {
+        -LARGEST_GRIP
     }
 }
 

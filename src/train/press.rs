@@ -1,7 +1,7 @@
 //! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
 
 use super::ball::Ball;
-use super::grip::Grip;
+use super::grip::{Grip, limited_grip};
 use super::motion::Motion;
 use super::pool::pool;
 use super::rubbing::settle_rubbing;
@@ -178,7 +178,7 @@ impl<const N: usize> Press<N> {
         {
             check.add(speed, impedance);
             let room = if room < 0.0 { 0.0 } else { room };
-            let grip = Grip::new(grip);
+            let grip = Grip::within(limited_grip(grip));
             ball.take_in(
                 speed,
                 impedance * grip.of_impedance(),

@@ -267,7 +267,7 @@ pub struct ScrewRangeConfiguration {
 pub const EPAS_SCREW_STATE_BYTES: u32 = 370u32;
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 157;
+pub const EPAS_SCREW_WORDS: usize = 175;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other, with one friction coefficient; as
 /// `epas_caged_t`.

@@ -11,6 +11,14 @@ pub mod control_loop;
 pub mod counted;
 pub mod devices;
 pub mod friction_task;
+#[rustfmt::skip]
+#[allow(
+    missing_docs,
+    clippy::missing_errors_doc,
+    clippy::wildcard_imports,
+    reason = "as the README prints it"
+)]
+pub mod from_page;
 pub mod gears;
 pub mod inputs;
 pub mod numbers;

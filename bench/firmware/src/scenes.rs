@@ -21,6 +21,7 @@ use epas_friction::{
     LinearInputs, LinearLimits, LoadProportionalConfiguration, LoadShare, LoadShares, Material,
 };
 
+use crate::from_page;
 use crate::gears::{GEAR_33X20, GEAR_33X20_BALL, GEAR_33X20_BALL_RANGE, GEAR_33X20_RANGE};
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
 
@@ -263,6 +264,35 @@ impl Run for Caged {
             nut_speed,
             axial_load,
         })));
+    }
+}
+
+/// The same from a block of a calibration page, which is checked and kept in memory: the README's example.
+pub struct FromPage;
+
+#[allow(
+    dead_code,
+    reason = "the constants beside the block of the generated file"
+)]
+mod page {
+    include!("gears/gear_33x20.rs");
+    /// Words of a page.
+    pub static WORDS: [u32; GEAR_33X20_BLOCK.len()] = GEAR_33X20_BLOCK;
+}
+
+impl Run for FromPage {
+    const NAME: &'static str = "caged_from_page";
+    type Model = FrictionModel<CagedBallScrew>;
+
+    fn set_up() -> Result<Self::Model, Error> {
+        // A page is not known when firmware is compiled.
+        from_page::set_up(core::hint::black_box(&page::WORDS))
+    }
+
+    fn tick(model: &mut Self::Model, nut_speed: f32, axial_load: f32, digest: &mut Digest) {
+        digest.take(&[from_page::friction_compensation(
+            model, nut_speed, axial_load,
+        )]);
     }
 }
 

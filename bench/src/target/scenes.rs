@@ -3,7 +3,7 @@
 /// Scenes, each with an image of its own, a module of the crate that it has, and those that it leaves out.
 ///
 /// Whatever runs once is folded by the compiler: an image has of a module what its step calls.
-pub const SCENES: [(&str, &str, &[&str]); 8] = [
+pub const SCENES: [(&str, &str, &[&str]); 9] = [
     (
         "curvature",
         "curvature",
@@ -33,6 +33,26 @@ pub const SCENES: [(&str, &str, &[&str]); 8] = [
     ),
     (
         "caged_ball_screw",
+        "scene::caged",
+        &[
+            "contact",
+            "hertz",
+            "curvature",
+            "efficiency",
+            "kinematics",
+            "train",
+            "ball::pressed",
+            "ball::linear",
+            "ball::screw",
+            "law",
+            "scene::closed_form",
+            "scene::circuit",
+            "scene::linear",
+            "scene::uncaged",
+        ],
+    ),
+    (
+        "caged_from_page",
         "scene::caged",
         &[
             "contact",
@@ -125,6 +145,17 @@ mod tests {
     use std::path::Path;
 
     use super::*;
+
+    /// What is counted is what the README prints.
+    #[test]
+    fn the_readmes_example_is_the_one_that_is_counted() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let read = |path: &str| std::fs::read_to_string(root.join(path)).unwrap();
+        let counted = read("bench/firmware/src/from_page.rs");
+        let (_, code) = counted.split_once("\n\n").unwrap();
+        assert!(code.contains("pub fn set_up"), "{code}");
+        assert!(read("README.md").contains(&format!("```rust\n{code}```")));
+    }
 
     /// Or nothing would be found of a module that was renamed, and a scene would seem to leave it out.
     #[test]

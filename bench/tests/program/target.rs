@@ -85,6 +85,7 @@ fn figures_are_one_object() {
             "curvature",
             "efficiency",
             "caged_ball_screw",
+            "caged_from_page",
             "caged_with_memory",
             "linear_bearing",
             "ball_screw_37",

@@ -7,7 +7,7 @@ use crate::scene::contract::Inputs;
 use crate::scene::faults::Faults;
 use crate::scene::reversal::direction;
 use crate::scene::row::TrainFriction;
-use crate::train::{Grip, Intake, LARGEST_GRIP};
+use crate::train::{Grip, Intake, LARGEST_GRIP, limited_grip};
 
 /// What all balls have in common in a tick.
 struct Common {
@@ -19,10 +19,10 @@ struct Common {
     branch: usize,
     /// -1 where the nut turns backward, else 1.
     direction: f32,
-    /// What a ball does under the mean load.
+    /// What a ball does under the mean load, its grip with the friction between balls and the sign of the direction.
     numbers: BallNumbers,
-    /// Friction coefficient between balls, with the sign of the direction.
-    ball_friction: f32,
+    /// Whether a train takes all of this grip, within the largest deviations.
+    holds_grip: bool,
 }
 
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
@@ -54,7 +54,12 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 &common,
                 |share, deviations| {
                     let load = self.law.load_of(common.mean * share);
-                    self.law.at(load, common.branch, friction, deviations)
+                    let motion = self.law.at(load, common.branch, friction, deviations);
+                    let grip = common.direction * self.ball_friction * motion.grip;
+                    FreeMotion {
+                        grip: limited_grip(grip),
+                        ..motion
+                    }
                 },
             )
         };
@@ -69,7 +74,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let held = self.law.holds_forces(common.load, common.branch, friction)
             && self.law.holds_load(most)
             && self.law.holds(friction.friction())
-            && self.holds_grip(numbers);
+            && common.holds_grip;
         UncagedFriction {
             row: TrainFriction {
                 groove: not_negative(
@@ -85,27 +90,26 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
     }
 
-    /// Whether friction between balls leaves every ball within the largest deviations below [`LARGEST_GRIP`], at which a train cuts it off.
-    #[inline(always)]
-    fn holds_grip(&self, numbers: &BallNumbers) -> bool {
-        let [grip, screw, nut] = numbers.grip.map(f32::abs);
-        self.ball_friction * (grip + screw + nut) <= LARGEST_GRIP
-    }
-
     #[inline(always)]
     fn common(&self, state: &UncagedState<N>, inputs: Inputs) -> Common {
         let direction = direction(inputs.nut_speed);
         let mean = inputs.axial_load * self.per_ball;
         let branch = usize::from(direction * mean < 0.0);
         let load = self.law.load_of(mean);
-        let numbers = self.law.numbers(load, branch, state.friction);
+        let mut numbers = self.law.numbers(load, branch, state.friction);
+        let [grip, screw, nut] = numbers.grip.map(f32::abs);
+        let size = self.ball_friction * (grip + screw + nut);
+        let holds_grip = size <= LARGEST_GRIP;
+        let limited = if holds_grip { 1.0 } else { LARGEST_GRIP / size };
+        let ball_friction = direction * self.ball_friction * limited;
+        numbers.grip = numbers.grip.map(|grip| ball_friction * grip);
         Common {
             mean,
             load,
             branch,
             direction,
             numbers,
-            ball_friction: direction * self.ball_friction,
+            holds_grip,
         }
     }
 
@@ -135,7 +139,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             let deviations = [units[0] * place.passing, units[1] * place.recirculating];
             let motion = motion(place.share.share(), deviations);
             torque += motion.torque;
-            let grip = Grip::new(common.ball_friction * motion.grip);
+            let grip = Grip::within(motion.grip);
             ball.put_rubbed(direction * motion.speed, motion.impedance, grip);
         }
         torque

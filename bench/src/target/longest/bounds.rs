@@ -119,7 +119,7 @@ pub const LOOPS: &[Row] = &[
         Bound::Takes(&[Total::TakenIn]),
     ),
     row(
-        "epas_friction::train::intake::Intake::press_rubbing",
+        "epas_friction::train::intake::Intake::end",
         Bound::Takes(&[Total::TakenIn]),
     ),
     // "Why joining is exact", `epas_friction::train`: the walk passes each ball once, and every way around `grow` or `close`
