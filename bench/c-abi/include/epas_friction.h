@@ -702,12 +702,12 @@ extern "C" {
 /**
  * Size of `epas_folded_ball_t` in words of four bytes.
  */
-#define EPAS_FOLDED_BALL_WORDS 1296
+#define EPAS_FOLDED_BALL_WORDS 1424
 
 /**
  * Size of `epas_folded_ball_range_t` in words of four bytes.
  */
-#define EPAS_FOLDED_BALL_RANGE_WORDS 3862
+#define EPAS_FOLDED_BALL_RANGE_WORDS 4246
 
 /**
  * Bytes of a state of an adaptation.
@@ -865,7 +865,7 @@ extern "C" {
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 157
+#define EPAS_SCREW_WORDS 175
 
 /**
  * Friction coefficients of a folded ball for a range of them.
@@ -880,7 +880,7 @@ extern "C" {
 /**
  * Size of `epas_screw_range_t` in words of eight bytes.
  */
-#define EPAS_SCREW_RANGE_WORDS 158
+#define EPAS_SCREW_RANGE_WORDS 176
 
 /**
  * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
@@ -896,7 +896,7 @@ extern "C" {
 /**
  * Size of `epas_linear_t` in words of eight bytes.
  */
-#define EPAS_LINEAR_WORDS 138
+#define EPAS_LINEAR_WORDS 154
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises

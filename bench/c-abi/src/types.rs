@@ -285,7 +285,7 @@ pub const EPAS_SCREW_RANGE_NODES: usize = 3;
 pub const EPAS_SCREW_RANGE_STATE_BYTES: u32 = 370u32;
 
 /// Size of `epas_screw_range_t` in words of eight bytes.
-pub const EPAS_SCREW_RANGE_WORDS: usize = 158;
+pub const EPAS_SCREW_RANGE_WORDS: usize = 176;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other and whose friction coefficient changes; as
 /// `epas_caged_t`.
@@ -423,7 +423,7 @@ pub struct LinearOutputs {
 pub const EPAS_LINEAR_STATE_BYTES: u32 = 325u32;
 
 /// Size of `epas_linear_t` in words of eight bytes.
-pub const EPAS_LINEAR_WORDS: usize = 138;
+pub const EPAS_LINEAR_WORDS: usize = 154;
 
 /// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]
