@@ -168,7 +168,7 @@ static void states(void)
 }
 
 /* Words of a block to which something happens. */
-static uint32_t words[1300];
+static uint32_t words[EPAS_FOLDED_BALL_WORDS + 32u];
 
 /* A block that is none, or not whole, is refused with a status of its own; the place holds no model then. */
 static void blocks(void)
