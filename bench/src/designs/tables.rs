@@ -43,7 +43,7 @@ pub fn from_text<Table: DeserializeOwned, Made>(
 
 /// A design file's keys. What is wrong is said without a key that is none any more.
 pub fn parsed<Table: DeserializeOwned>(text: &str) -> Result<Table, String> {
-    toml::from_str(text).map_err(|error| {
+    let file = toml::from_str(text).map_err(|error| {
         let said = error.to_string();
         match said.trim_end().split_once("expected one of ") {
             Some((before, keys)) => {
@@ -51,7 +51,53 @@ pub fn parsed<Table: DeserializeOwned>(text: &str) -> Result<Table, String> {
             }
             None => in_words(said.trim_end()),
         }
-    })
+    })?;
+    // The parser takes an array for a table, by position, and a number beyond single precision for an infinite one.
+    let values: toml::Table = text
+        .parse()
+        .map_err(|error: toml::de::Error| error.to_string())?;
+    for (key, value) in &values {
+        readable(key, value)?;
+    }
+    Ok(file)
+}
+
+/// Keys whose values are tables.
+const TABLES: [&str; 8] = [
+    "screw_groove",
+    "nut_groove",
+    "ball_material",
+    "groove_material",
+    "limits",
+    "uncaged",
+    "fold",
+    "calibration",
+];
+
+/// Refuses an array in the place of a table, and a number that single precision does not hold.
+fn readable(key: &str, value: &toml::Value) -> Result<(), String> {
+    match value {
+        toml::Value::Array(_) if TABLES.contains(&key) => Err(format!(
+            "{key} is a table: write [{key}], and its keys below"
+        )),
+        toml::Value::Array(values) => {
+            if values.iter().any(toml::Value::is_array) {
+                return Err(format!(
+                    "{key} = [[...]] is a list in a list; a wave is a table, such as {{ order = 2, sine = 0.01 }}"
+                ));
+            }
+            values.iter().try_for_each(|value| readable(key, value))
+        }
+        toml::Value::Table(table) => table
+            .iter()
+            .try_for_each(|(key, value)| readable(key, value)),
+        toml::Value::Float(number) if number.is_finite() && number.abs() > f64::from(f32::MAX) => {
+            Err(format!(
+                "{key} = {number:e} is out of range; allowed: -3.4e38 to 3.4e38, what single precision holds"
+            ))
+        }
+        _ => Ok(()),
+    }
 }
 
 /// What a value has to be, without the names of this program's types.

@@ -146,6 +146,12 @@ fn every_wrong_field_is_named() {
         ("[calibration]\nchurning = -1", "churning"),
         ("[calibration]\nrolling_drag = -1", "rolling_drag"),
         ("[calibration]\nharmonics = [{ order = 0 }]", "order"),
+        ("limits = [1, 2, 3]", "limits is a table"),
+        ("friction = 1e300", "friction = 1e300"),
+        (
+            "[uncaged]\nballs = 16\nturns = 0.75\nscrew_deviation = [[1]]",
+            "screw_deviation = [[...]]",
+        ),
         (
             "[calibration]\nharmonics = [{ order = 1, sine = nan }]",
             "sine",
