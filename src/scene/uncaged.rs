@@ -39,7 +39,7 @@ pub use friction::UncagedFriction;
 ///
 /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) stands in each tick whose load or friction coefficient is beyond those for which the law
 /// was folded, under whose load the block does not hold the forces between balls, or in which friction between balls takes more than 0.3 of the force
-/// on a ball; the torque is held there all the same where the block's
+/// on a ball under the mean load, of which a train cuts off what is more; the torque is held there all the same where the block's
 /// certificate says so.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
