@@ -152,8 +152,49 @@ pub fn calibrate(
     design: &Design,
     request: &Request,
 ) -> Result<ScrewCalibration, Failure> {
-    attempt(trace, design, request, None)
+    let found = attempt(trace, design, request, None)?;
+    let Some(constant) = with_constant_coefficient(request, &found) else {
+        return Ok(found);
+    };
+    let alone = Request {
+        without_models: true,
+        profiles: Vec::new(),
+        ..constant.clone()
+    };
+    let [law, one] = [&found.answer, &attempt(trace, design, &alone, None)?.answer]
+        .map(|answer| answer.relative_error);
+    if one >= CONSTANT * law {
+        return Ok(found);
+    }
+    let mut constant = attempt(trace, design, &constant, None)?;
+    constant.answer.cannot_tell.push(format!(
+        "full film ratio: set to 1, a coefficient that does not change with the speed: it leaves {:.2} % of the torque, the default law {:.2} %.",
+        100.0 * one,
+        100.0 * law
+    ));
+    Ok(constant)
 }
+
+/// What a coefficient that does not change with the speed leaves of the torque, over what the default law leaves, from which on it is taken.
+const CONSTANT: f64 = 0.9;
+
+/// A request with a constant coefficient, where a trace has not told how it changes with the speed, and nobody has said so.
+fn with_constant_coefficient(request: &Request, found: &ScrewCalibration) -> Option<Request> {
+    let fixed = |name: &str| request.wanted.fix.iter().any(|(fixed, _)| fixed == name);
+    let told = |name: &str| {
+        let parameter = found.answer.parameter(name);
+        parameter.is_some_and(|parameter| !parameter.fixed)
+    };
+    if request.wanted.estimate.is_some() || LAW.iter().any(|name| fixed(name) || told(name)) {
+        return None;
+    }
+    let mut request = request.clone();
+    request.wanted.fix.push((LAW[0].into(), 1.0));
+    Some(request)
+}
+
+/// What says how the coefficient changes with the speed.
+const LAW: [&str; 2] = ["full_film_ratio", "half_share_speed"];
 
 /// What the position's sensor is too coarse for: the breakaway, and so what happens before sliding.
 #[derive(Clone, Debug)]

@@ -18,6 +18,9 @@ const KEYS: [&str; 7] = [
     "reversal_speed",
 ];
 
+/// Keys that say how the balls fit, of which a design has one.
+const FITS: [&str; 4] = ["preload", "clearance", "axial_preload", "axial_play"];
+
 /// Keys of the table `[calibration]` that the friction follows from: those that were set stand there too, because the
 /// estimated ones hold beside them.
 const FRICTION_KEYS: [&str; 9] = [
@@ -115,10 +118,10 @@ pub fn written(
             // The user's own number stays as it is written.
         } else if KEYS.contains(&name) {
             let root = document.as_table_mut();
-            match name {
-                "preload" => rename(root, "clearance", "preload"),
-                "clearance" => rename(root, "preload", "clearance"),
-                _ => {}
+            if FITS.contains(&name) {
+                for other in FITS.into_iter().filter(|other| *other != name) {
+                    rename(root, other, name);
+                }
             }
             set(root, estimate, &trace);
         } else if !waves.take(estimate) {
@@ -226,6 +229,11 @@ fn rename(table: &mut Table, old: &str, new: &str) {
     }
     if let Some((key, item)) = table.remove_entry(old) {
         let decor = key.leaf_decor().clone();
+        let mut item = item;
+        // What stands behind the old one speaks of it.
+        if let Some(value) = item.as_value_mut() {
+            value.decor_mut().clear();
+        }
         table.insert(new, item);
         if let Some(mut key) = table.key_mut(new) {
             *key.leaf_decor_mut() = decor;

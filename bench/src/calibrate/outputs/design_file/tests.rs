@@ -74,7 +74,7 @@ fn only_calibrated_numbers_change() {
     }
     for line in [
         "friction = 0.1152 # assumed; calibrated: 0.1037 to 0.1267 (95 %), trace weave 17",
-        "preload = 17.0 # sorted balls; calibrated: 15.30 to 18.70 (95 %), trace weave 17",
+        "preload = 17.0 # calibrated: 15.30 to 18.70 (95 %), trace weave 17",
         "full_film_ratio = 0.5 # calibrated: 0.4500 to 0.5500 (95 %), trace weave 17",
         "reference_temperature = 303.0 # calibrated: set beside trace weave 17",
     ] {
@@ -83,6 +83,28 @@ fn only_calibrated_numbers_change() {
     // What was set is not written as if it had been measured.
     for name in ["hysteresis_loss", "drag"] {
         assert!(!text.contains(name), "{text}");
+    }
+}
+
+/// However a design says how its balls fit, the calibrated preload takes that key's place.
+#[test]
+fn a_preload_takes_the_place_of_any_fit() {
+    for fit in [
+        "clearance = -1e-6",
+        "preload = 7",
+        "axial_preload = 300 # of the nut, N",
+        "axial_play = 1e-5",
+    ] {
+        let users = USERS.replace("clearance = -1e-6 # sorted balls", fit);
+        let Written { text, design, .. } = written(&users, (&whole(), None), "weave").unwrap();
+        let lines = text.lines().filter(|line| {
+            let key = line.split(' ').next().unwrap_or_default();
+            FITS.contains(&key)
+        });
+        assert_eq!(lines.count(), 1, "{text}");
+        assert!(text.contains("preload = 17.0 # calibrated: "), "{text}");
+        let preload = design.caged.clearance.preload(&design.caged.design);
+        assert!((preload - 17.0).abs() < 17.0 * 1e-5, "{preload}");
     }
 }
 
