@@ -364,6 +364,13 @@ pub fn read(text: &str, name: &str) -> Result<Design, String> {
 
 impl DesignFile {
     fn design(self, stem: &str) -> Result<Design, String> {
+        if self
+            .name
+            .as_deref()
+            .is_some_and(|name| name.chars().any(char::is_control))
+        {
+            return Err("name has a control character, which terminals obey".into());
+        }
         let ball_radius = radius(
             ("ball_radius", self.ball_radius),
             ("ball_diameter", self.ball_diameter),

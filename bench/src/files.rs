@@ -277,7 +277,13 @@ pub fn read_text(path: &Path, largest: u64) -> Result<String, Failure> {
     let mut text = String::new();
     Bounded::new(input, largest)
         .read_to_string(&mut text)
-        .map_err(|error| Failure::file("read", path, &error))?;
+        .map_err(|error| match error.kind() {
+            io::ErrorKind::InvalidData => Failure::Data(format!(
+                "{}: this is not UTF-8; save the file as UTF-8 (> in a PowerShell writes UTF-16)",
+                path.display()
+            )),
+            _ => Failure::file("read", path, &error),
+        })?;
     Ok(text)
 }
 

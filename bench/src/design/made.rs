@@ -5,6 +5,8 @@ use std::io::{self, Write};
 
 use epas_design::uncaged::{RowFigures, UncagedCertificate, UncagedFigure};
 use epas_design::{Certificate, Figure, Folded, FoldedUncaged};
+use epas_friction::BallScrew;
+use epas_friction::geometry::ContactAngle;
 use serde::Serialize;
 
 use super::Format;
@@ -128,6 +130,14 @@ impl Made {
         })
     }
 
+    /// Load of the ball that carries most, N, under one of the screw.
+    fn ball_load(&self, design: &Design, axial_load: f32) -> f32 {
+        match (self, &design.uncaged) {
+            (Self::Uncaged(_), Some(row)) => row.ball_load(axial_load),
+            _ => axial_load / f32::from(design.caged.loaded_balls),
+        }
+    }
+
     fn head(&self, design: &Design) -> Head {
         match self {
             Self::Caged(folded) => Head {
@@ -189,6 +199,15 @@ impl Made {
             "domain: friction coefficient {friction}; axial load {from} to {to} N a ball, both signs"
         )?;
         let screw = design.screw();
+        writeln!(out, "geometry: {}", geometry(screw))?;
+        let limit = design.caged.limits.axial_load;
+        let axial = to / self.ball_load(design, 1.0);
+        if limit > 1.001 * axial {
+            writeln!(
+                out,
+                "loads: {to} N a ball are {axial:.0} N of the screw; beyond, up to its limit of {limit:.0} N, they are flagged"
+            )?;
+        }
         let preload = capacity::Preload::of(screw, design.caged.clearance);
         if preload.force > 0.0 {
             let axial = design
@@ -284,7 +303,20 @@ impl Made {
 
 /// A gap in micrometres, to a nanometre: it is an f32.
 fn micrometres(gap: f32) -> f64 {
-    (1e9 * f64::from(gap)).round() * 1e-3
+    (1e9 * f64::from(gap)).round() / 1e3
+}
+
+/// What a drawing says, in its units.
+fn geometry(screw: &BallScrew) -> String {
+    let millimetres = |length: f32| (1e6 * f64::from(length)).round() / 1e3;
+    let ContactAngle { cos, sin } = screw.contact_angle();
+    format!(
+        "ball circle {} mm, lead {} mm, balls of {} mm, contact angle {:.1} degrees",
+        2.0 * millimetres(screw.pitch_radius()),
+        millimetres(screw.lead()),
+        2.0 * millimetres(screw.ball_radius()),
+        sin.atan2(cos).to_degrees()
+    )
 }
 
 fn domain(axial_load: [f32; 2], friction: (f32, f32)) -> BTreeMap<&'static str, [f32; 2]> {

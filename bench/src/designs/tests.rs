@@ -147,6 +147,7 @@ fn every_wrong_field_is_named() {
         ("[calibration]\nrolling_drag = -1", "rolling_drag"),
         ("[calibration]\nharmonics = [{ order = 0 }]", "order"),
         ("limits = [1, 2, 3]", "limits is a table"),
+        ("name = \"a\\u001b[31m\"", "control character"),
         ("friction = 1e300", "friction = 1e300"),
         (
             "[uncaged]\nballs = 16\nturns = 0.75\nscrew_deviation = [[1]]",

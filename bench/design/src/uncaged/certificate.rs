@@ -155,7 +155,9 @@ impl UncagedCertificate {
         let ball = exact_ball(&fold.gear.gear, fold.gear.gear.friction);
         let speeds = Speeds::of(&ball.design);
         let done = AtomicUsize::new(0);
-        let found: Vec<Option<Found>> = rows(fold, law.friction_range())
+        let rows = rows(fold, law.friction_range());
+        let loads: Vec<f32> = rows.iter().map(|row| row.axial_load.abs()).collect();
+        let found: Vec<Option<Found>> = rows
             .into_par_iter()
             .map(|row| {
                 let exact = row.exact(&ball, fold.gear.deviations);
@@ -172,8 +174,16 @@ impl UncagedCertificate {
             .collect();
         let unsolved = found.iter().filter(|found| found.is_none()).count();
         if unsolved as f64 > UNSOLVED * ROWS as f64 {
+            let missing = found
+                .iter()
+                .zip(&loads)
+                .filter(|(found, _)| found.is_none());
+            let [low, high] = missing.fold([f32::INFINITY, 0.0], |[low, high], (_, load)| {
+                [load.min(low), load.max(high)]
+            });
             return Err(Failure::Domain(format!(
-                "the exact balance of {unsolved} of {ROWS} rows of balls is not found"
+                "the exact balance of {unsolved} of {ROWS} rows of balls is not found, under {low:.1} to {high:.1} N a ball; narrow the loads \
+                 ([fold] axial_load = [least, largest] of one ball, N), or the deviations"
             )));
         }
         let found: Vec<Found> = found.into_iter().flatten().collect();
