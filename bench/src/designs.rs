@@ -364,13 +364,6 @@ pub fn read(text: &str, name: &str) -> Result<Design, String> {
 
 impl DesignFile {
     fn design(self, stem: &str) -> Result<Design, String> {
-        if self
-            .name
-            .as_deref()
-            .is_some_and(|name| name.chars().any(char::is_control))
-        {
-            return Err("name has a control character, which terminals obey".into());
-        }
         let ball_radius = radius(
             ("ball_radius", self.ball_radius),
             ("ball_diameter", self.ball_diameter),
@@ -417,7 +410,12 @@ impl DesignFile {
         let clearance = fits.of(&screw, self.loaded_balls)?;
 
         let mut design = Design::new(
-            self.name.as_deref().unwrap_or(stem),
+            // Terminals obey control characters.
+            &self
+                .name
+                .as_deref()
+                .unwrap_or(stem)
+                .replace(char::is_control, " "),
             screw,
             self.loaded_balls,
             Settings::USUAL,
