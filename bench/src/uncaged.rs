@@ -122,6 +122,7 @@ pub fn fold_for(
     coefficients: (f32, f32),
     axial_load: f32,
 ) -> Result<UncagedFold, String> {
+    row.check_room()?;
     let table = &design.fold;
     let mut fold = table
         .fold_uncaged(design, Some(row))

@@ -1,5 +1,6 @@
 //! Scenes whose balls press on each other, as a design file gives them.
 
+use std::f64::consts::TAU;
 use std::path::Path;
 
 use epas_design::CagedDesign;
@@ -53,6 +54,32 @@ impl UncagedDesign {
         let loaded =
             self.turns * std::f32::consts::TAU * screw.pitch_radius() / screw.cos_lead_angle();
         f32::from(self.balls) * loaded / (loaded + self.return_length)
+    }
+
+    /// Refuses more balls than there is track for.
+    ///
+    /// # Errors
+    /// How much track they need, and how many go in.
+    pub fn check_room(&self) -> Result<(), String> {
+        let screw = &self.gear.design;
+        let radius = f64::from(screw.pitch_radius());
+        let path = radius.hypot(f64::from(screw.lead()) / TAU);
+        let track = f64::from(self.turns) * TAU * path + f64::from(self.return_length);
+        // Along the curved track a ball takes the arc over its diameter.
+        let curved = path * path / radius;
+        let ball = 2.0 * curved * (f64::from(screw.ball_radius()) / curved).asin();
+        let needed = f64::from(self.balls) * ball;
+        // Numbers that are no lengths are refused by their names, later.
+        if track.is_finite() && track > 0.0 && needed > track {
+            return Err(format!(
+                "balls = {}: they need {:.1} mm, and track (turns) and return_length have {:.1}; at most {} go in; several circuits are several models",
+                self.balls,
+                1e3 * needed,
+                1e3 * track,
+                (track / ball) as u32
+            ));
+        }
+        Ok(())
     }
 
     /// Largest load of one ball under an axial load, N.

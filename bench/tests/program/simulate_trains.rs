@@ -366,7 +366,7 @@ fn what_a_train_cannot_run_is_named() {
     for (from, to, field) in [
         ("balls = 37", "balls = 0", "balls"),
         ("balls = 37", "balls = 65", "balls"),
-        ("balls = 37", "balls = 38", "pitch"),
+        ("balls = 37", "balls = 38", "balls = 38"),
         ("balls = 37", "", "balls"),
         ("turns = 2", "turns = -2", "turns"),
         ("order = 2", "order = 9", "order"),
