@@ -82,7 +82,8 @@ fn truth(name: &str, screw: &Screw) -> f64 {
         "full_film_ratio" => parameters.full_film / parameters.boundary,
         "half_share_speed" => 6.0,
         "viscosity_pole" => 273.15 - 64.0,
-        "direction_asymmetry" => 0.0,
+        // Its lubricant drags no rolling contact, and both directions are alike.
+        "direction_asymmetry" | "rolling_drag" => 0.0,
         "preload" => parameters.screw.axial_preload / screw.axial_per_contact(),
         "breakaway_angle" => parameters.breakaway,
         "inertia" => parameters.inertia,
