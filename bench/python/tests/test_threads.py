@@ -15,7 +15,7 @@ import epas_friction as ef
 
 def test_other_threads_run_meanwhile() -> None:
     screw = ef.UncagedBallScrew(ef.Design.built_in("lin-3.6"))
-    speed = np.full(40_000, 5.0, dtype=np.float32)
+    speed = np.full(400_000, 5.0, dtype=np.float32)
     ticks: list[float] = []
     done = threading.Event()
 
@@ -39,7 +39,7 @@ def test_other_threads_run_meanwhile() -> None:
 
 def test_two_threads_do_not_share_a_model() -> None:
     screw = ef.UncagedBallScrew(ef.Design.built_in("lin-3.6"))
-    speed = np.full(40_000, 5.0, dtype=np.float32)
+    speed = np.full(400_000, 5.0, dtype=np.float32)
     thread = threading.Thread(target=screw.run, args=(speed, 1500.0))
     thread.start()
     time.sleep(5e-3)
