@@ -80,7 +80,7 @@ impl<const RUBBED: bool> Balancing<RUBBED> {
     #[inline(always)]
     fn relieve(&mut self, ball: &mut Ball) {
         let passed = if RUBBED {
-            self.correction * ball.passed()
+            self.correction * ball.transmitted()
         } else {
             self.correction
         };

@@ -27,7 +27,7 @@ pub(super) struct Ball {
     force: f32,
     of_cluster: f32,
     /// Part of the force behind it that the ball in front feels; 1 where no neighbour rubs on it.
-    passed: f32,
+    transmitted: f32,
     /// Place on the track, as a part of its length in units of 2^-32.
     position: u32,
     /// Sixteenths of a unit beyond the position, 0 to 15.
@@ -48,7 +48,7 @@ impl Ball {
         slack: 0.0,
         force: 0.0,
         of_cluster: 0.0,
-        passed: 1.0,
+        transmitted: 1.0,
         position: 0,
         sixteenths: 0,
         others: 0,
@@ -65,22 +65,22 @@ impl Ball {
 
     /// Neighbours rub on it: it passes on this part of the force behind it.
     #[inline(always)]
-    pub(super) fn set_rubbed(&mut self, passed: f32) {
+    pub(super) fn set_rubbed(&mut self, transmitted: f32) {
         self.rubs = true;
-        self.passed = passed;
+        self.transmitted = transmitted;
     }
 
     /// No neighbour rubs on it.
     #[inline(always)]
     pub(super) fn set_smooth(&mut self) {
         self.rubs = false;
-        self.passed = 1.0;
+        self.transmitted = 1.0;
     }
 
     /// Part of the force behind it that the ball in front feels.
     #[inline(always)]
-    pub(super) fn passed(&self) -> f32 {
-        self.passed
+    pub(super) fn transmitted(&self) -> f32 {
+        self.transmitted
     }
 
     /// Whether neighbours rub on it.

@@ -41,7 +41,7 @@ impl Cluster {
             push: 0.0,
             impedance: ball.impedance(),
             inner_slack: 0.0,
-            tail: passed::<RUBBED>(ball),
+            tail: transmitted::<RUBBED>(ball),
         }
     }
 
@@ -64,7 +64,7 @@ impl Cluster {
             push: self.push - slack * impedance,
             impedance: self.impedance + impedance,
             inner_slack: slack,
-            tail: self.weighed::<RUBBED>(passed::<RUBBED>(behind)),
+            tail: self.weighed::<RUBBED>(transmitted::<RUBBED>(behind)),
         }
     }
 
@@ -134,6 +134,6 @@ impl Cluster {
 
 /// Part of the force behind a ball that the ball in front feels.
 #[inline(always)]
-fn passed<const RUBBED: bool>(ball: &Ball) -> f32 {
-    if RUBBED { ball.passed() } else { 1.0 }
+fn transmitted<const RUBBED: bool>(ball: &Ball) -> f32 {
+    if RUBBED { ball.transmitted() } else { 1.0 }
 }

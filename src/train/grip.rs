@@ -11,7 +11,7 @@
 /// zero as without friction, so that clusters are joined as ever.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grip {
-    passed: f32,
+    transmitted: f32,
     per_growth: f32,
 }
 
@@ -24,15 +24,15 @@ impl Grip {
     pub(crate) const fn within(grip: f32) -> Self {
         let per_growth = 1.0 / (1.0 + grip);
         Self {
-            passed: (1.0 - grip) * per_growth,
+            transmitted: (1.0 - grip) * per_growth,
             per_growth,
         }
     }
 
     /// `k`: part of the force behind the ball that the ball in front feels.
     #[inline(always)]
-    pub(crate) const fn passed(&self) -> f32 {
-        self.passed
+    pub(crate) const fn transmitted(&self) -> f32 {
+        self.transmitted
     }
 
     /// Factor of the impedance of a ball on which its neighbours rub.

@@ -199,7 +199,7 @@ impl FreeBall<'_> {
     /// The same of a train whose balls rub on each other, with what friction of its neighbours does to this one.
     #[inline(always)]
     pub(crate) fn put_rubbed(self, speed: f32, impedance: f32, grip: Grip) {
-        self.ball.set_rubbed(grip.passed());
+        self.ball.set_rubbed(grip.transmitted());
         self.put(speed, impedance * grip.of_impedance());
     }
 

@@ -184,7 +184,7 @@ impl<const N: usize> Press<N> {
                 impedance * grip.of_impedance(),
                 room + (ahead - speed),
             );
-            ball.set_rubbed(grip.passed());
+            ball.set_rubbed(grip.transmitted());
             ahead = speed;
         }
         self.join::<true>(check.passed());

@@ -124,12 +124,12 @@ impl Settling {
     /// What a ball that rubs passes on: the force behind it, from its push and its force on the ball in front, and its part of the sums.
     #[inline(always)]
     fn rub(&mut self, ball: &Ball, push: f32, force: f32) {
-        let passed = ball.passed();
-        let more = 1.0 + passed;
+        let transmitted = ball.transmitted();
+        let more = 1.0 + transmitted;
         // One division for both: 1/k, and 1 + r = 2/(1 + k).
-        let both = 1.0 / (passed * more);
+        let both = 1.0 / (transmitted * more);
         let per_passed = more * both;
-        let growth = 2.0 * passed * both;
+        let growth = 2.0 * transmitted * both;
         self.sums.work += self.change * push * growth;
         self.ahead_rubs = ball.rubs();
         self.sums.change += if self.ahead_rubs { self.change } else { 0.0 };

@@ -42,7 +42,7 @@ use self::choice::{Start, Wanted};
 use self::evidence::Evidence;
 use self::exact::Spacing;
 use self::friction::Screw;
-use self::hints::ScrewHints;
+use self::hints::{FILM, ScrewHints};
 use self::problem::{Choice, ScrewProblem};
 use self::quantities::Values;
 use self::systematic::widened;
@@ -185,16 +185,13 @@ fn with_constant_coefficient(request: &Request, found: &ScrewCalibration) -> Opt
         let parameter = found.answer.parameter(name);
         parameter.is_some_and(|parameter| !parameter.fixed)
     };
-    if request.wanted.estimate.is_some() || LAW.iter().any(|name| fixed(name) || told(name)) {
+    if request.wanted.estimate.is_some() || FILM.iter().any(|name| fixed(name) || told(name)) {
         return None;
     }
     let mut request = request.clone();
-    request.wanted.fix.push((LAW[0].into(), 1.0));
+    request.wanted.fix.push((FILM[0].into(), 1.0));
     Some(request)
 }
-
-/// What says how the coefficient changes with the speed.
-const LAW: [&str; 2] = ["full_film_ratio", "half_share_speed"];
 
 /// What the position's sensor is too coarse for: the breakaway, and so what happens before sliding.
 #[derive(Clone, Debug)]

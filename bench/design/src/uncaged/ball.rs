@@ -284,12 +284,12 @@ impl Balls<'_> {
                     let lost = found.torque - smooth.torque + 2.0 * friction * found.half_slip;
                     losses.push((point, lost / friction));
                 }
-                (grips.len() as f64 > 0.5 * RUBBED.len() as f64)
-                    .then(|| [line(&grips), line(&losses)])
+                (grips.len() as f64 > 0.5 * RUBBED.len() as f64).then_some([grips, losses])
             };
             let [_, losses] = at(most.min(LOSS_RUBBING * rms))?;
             let [grips, _] = at(most.min(GRIP_RUBBING * rms))?;
-            Some((grips, losses[0]))
+            let [rubbing, ..] = line(&losses);
+            Some((line(&grips), rubbing))
         };
         (0..self.loads.len()).into_par_iter().map(of).collect()
     }

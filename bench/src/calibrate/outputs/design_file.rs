@@ -227,9 +227,8 @@ fn rename(table: &mut Table, old: &str, new: &str) {
         table.remove(old);
         return;
     }
-    if let Some((key, item)) = table.remove_entry(old) {
+    if let Some((key, mut item)) = table.remove_entry(old) {
         let decor = key.leaf_decor().clone();
-        let mut item = item;
         // What stands behind the old one speaks of it.
         if let Some(value) = item.as_value_mut() {
             value.decor_mut().clear();

@@ -21,7 +21,7 @@ const STEPS: f64 = 2.0;
 
 /// Parameters by what tells them.
 const ROLLING: [&str; 2] = ["hysteresis_loss", "lubricant_drag"];
-const FILM: [&str; 2] = ["full_film_ratio", "half_share_speed"];
+pub const FILM: [&str; 2] = ["full_film_ratio", "half_share_speed"];
 
 impl Hints for ScrewHints {
     fn lacking(&self, names: &[&str]) -> Option<String> {
