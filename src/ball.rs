@@ -23,6 +23,10 @@ pub use clearance::Clearance;
 pub use linear::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE, SpeedDeviation};
 pub use loads::{LoadShare, LoadShares};
 pub(crate) use preload::PreloadSum;
+#[doc(hidden)]
+pub use preload::{CLOSING, LOST, QUARTIC};
 pub(crate) use screw::largest_deviation;
 pub use screw::{GrooveFit, RowContacts, ScrewRow, ScrewTick, ScrewTickBall};
+#[doc(hidden)]
+pub use two_point::HALF_TO_FOUR_THIRDS;
 pub(crate) use two_point::{BorderParameters, GrooveFriction, GrooveLoss, spin_loss};

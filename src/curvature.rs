@@ -22,6 +22,8 @@ mod literature;
 mod shape_operator;
 
 pub use circular::CircularGrooveCurvature;
+#[doc(hidden)]
+pub use fitted::CHEBYSHEV;
 pub use fitted::{DEFAULT_FIT_RANGE, FittedCurvature};
 pub use gothic_arch::GothicArch;
 pub use literature::LiteratureCurvature;

@@ -206,7 +206,8 @@ impl HertzContact {
 }
 
 /// Coefficients of `N(x)`, from the constant on, in [`axis_ratio`].
-pub(crate) const AXIS_RATIO_NUMERATOR: [f32; 6] = [
+#[doc(hidden)]
+pub const AXIS_RATIO_NUMERATOR: [f32; 6] = [
     7.79600917,
     610.73455674,
     5099.78270213,
@@ -216,7 +217,8 @@ pub(crate) const AXIS_RATIO_NUMERATOR: [f32; 6] = [
 ];
 
 /// Coefficients of `D(x)`, from the constant on.
-pub(crate) const AXIS_RATIO_DENOMINATOR: [f32; 5] = [
+#[doc(hidden)]
+pub const AXIS_RATIO_DENOMINATOR: [f32; 5] = [
     1.0,
     268.19154063,
     4970.99764586,

@@ -45,4 +45,6 @@ mod slip;
 pub use ball::ContactKinematics;
 pub use coefficients::{ContactCoefficients, SlipRatios, SlipVector};
 pub use parameters::{EllipticContact, KinematicsParameters};
+#[doc(hidden)]
+pub use path::{FOURTH_POWER, LARGEST_ELLIPSE};
 pub use slip::{BallKinematics, ContactSlip};

@@ -46,7 +46,6 @@
 //! | [`model`] | [`FrictionModel`]: check inputs, compute, limit, count | step |
 //! | [`adaptation`] | level of the friction, drag and sensor errors, found while the vehicle runs; health | beside the step |
 //! | `hal` | adapters for `embedded-hal`: nut speed from an encoder, friction torque to a duty cycle | beside the step |
-//! | `fits` | stored coefficients of fits, for the tests that make them again; not documented | nowhere: constants |
 //!
 //! Everything is set up once, with errors that name the field, its value and the allowed range; from
 //! then on nothing returns a `Result`, nothing panics, and every output is finite and flagged.
@@ -73,8 +72,6 @@ pub mod curvature;
 pub mod defaults;
 pub mod efficiency;
 pub mod error;
-#[doc(hidden)]
-pub mod fits;
 pub mod geometry;
 #[cfg(feature = "embedded-hal")]
 pub mod hal;

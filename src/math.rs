@@ -25,7 +25,8 @@ pub mod own;
 mod libm;
 #[cfg(feature = "micromath")]
 mod micromath;
-pub(crate) mod powers;
+#[doc(hidden)]
+pub mod powers;
 mod sqrt;
 
 #[cfg(all(feature = "libm", feature = "micromath"))]

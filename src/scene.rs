@@ -38,6 +38,8 @@ mod words;
 pub use caged::{CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState};
 pub use caged_friction::CagedFriction;
 pub use changing::ChangingFriction;
+#[doc(hidden)]
+pub use circuit::deviation::SINES;
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use closed_form::{
     ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, ClosedFormScrewState,

@@ -13,13 +13,16 @@
 use crate::math::constant;
 
 /// Load over preload at which the unloaded side loses contact: `2^(3/2)`.
-pub(crate) const LOST: f32 = 2.828_427_1;
+#[doc(hidden)]
+pub const LOST: f32 = 2.828_427_1;
 
 /// `(12 (2 sqrt(2) - 2) / 8 - 1) / 8`: the sum of the two forces is continuous where the unloaded side is lost.
-pub(crate) const QUARTIC: f32 = 0.030330086;
+#[doc(hidden)]
+pub const QUARTIC: f32 = 0.030330086;
 
 /// Coefficients `c1`, `c2`, `c3` of [`closing`].
-pub(crate) const CLOSING: [f32; 3] = [0.055_61, -0.044_86, 0.065_821];
+#[doc(hidden)]
+pub const CLOSING: [f32; 3] = [0.055_61, -0.044_86, 0.065_821];
 
 /// Preload of a contact below which there is none, N: below the least that [`Clearance::of_preload`](super::Clearance::of_preload)
 /// takes by more than rounding.

@@ -14,7 +14,8 @@ const BORDER_MARGIN: f32 = 1.1;
 const FORCE_MARGIN: f32 = 1.25;
 
 /// `2^(-4/3)`: a diagonal's force to the power of 4/3 is that of its sum of two equal contact forces, times this.
-pub(crate) const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
+#[doc(hidden)]
+pub const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 
 /// Friction of a ball with the grooves of a linear bearing, and how near the ball is to two-point rolling.
 ///

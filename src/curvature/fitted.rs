@@ -11,7 +11,8 @@ pub const DEFAULT_FIT_RANGE: f32 = 1.256_637_1;
 const NODES: usize = 5;
 
 /// `cos((2 i + 1) pi / 10)`: the Chebyshev nodes on -1 to 1.
-pub(crate) const CHEBYSHEV: [f32; NODES] = [0.95105652, 0.58778525, 0.0, -0.58778525, -0.95105652];
+#[doc(hidden)]
+pub const CHEBYSHEV: [f32; NODES] = [0.95105652, 0.58778525, 0.0, -0.58778525, -0.95105652];
 
 /// First principal curvature of a gothic-arch groove by a quotient that is exact at five contact
 /// angles: `kappa1 = (n0 + n1 cos(beta) + n2 sin(beta)) / (1 - d1 cos(beta) - d2 sin(beta))`.

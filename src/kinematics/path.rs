@@ -14,7 +14,8 @@ const BALL_DIAMETER: Range = Range::new(
 
 /// Hertz' half-space holds for ellipses small beside the ball: the share of the ball's radius that
 /// the semi-major axis may have.
-pub(crate) const LARGEST_ELLIPSE: f32 = 0.3;
+#[doc(hidden)]
+pub const LARGEST_ELLIPSE: f32 = 0.3;
 /// Constants of one groove.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -33,7 +34,8 @@ pub(super) struct GroovePath {
 
 /// `z^4` for `z` from 0 to 0.09, the square of [`LARGEST_ELLIPSE`], by `z`, `z^2` and `z^3`: what Chebyshev's
 /// polynomial of the fourth degree leaves, with its first zero at 0. Within 6e-7, which is 1e-8 ball radii of sagitta.
-pub(crate) const FOURTH_POWER: [f32; 3] = {
+#[doc(hidden)]
+pub const FOURTH_POWER: [f32; 3] = {
     // Half the interval, and its middle.
     let half = 0.09 / (1.0 + 0.923_879_5);
     let middle = 0.09 - half;

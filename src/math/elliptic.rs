@@ -18,7 +18,8 @@ const DUPLICATIONS: u8 = 9;
 const PANELS: u8 = 18;
 
 /// Gauss-Legendre nodes on -1 to 1 and their weights.
-pub(crate) const GAUSS: [(f32, f32); 5] = [
+#[doc(hidden)]
+pub const GAUSS: [(f32, f32); 5] = [
     (-0.906_179_85, 0.236_926_88),
     (-0.538_469_3, 0.478_628_67),
     (0.0, 0.568_888_9),

@@ -64,12 +64,16 @@ const fn root(x: f32) -> Root {
 }
 
 /// Bits of the seed of [`normal_root`] less a third of the argument's bits.
-pub(crate) const SEED: u32 = 0x5477_9d9d;
+#[doc(hidden)]
+pub const SEED: u32 = 0x5477_9d9d;
 
 /// Its cubic `(ZERO - h) ((h - CENTRE)² + OFFSET)`.
-pub(crate) const ZERO: f32 = 1.448_389_2;
-pub(crate) const CENTRE: f32 = 0.351_304_5;
-pub(crate) const OFFSET: f32 = 0.744_889_5;
+#[doc(hidden)]
+pub const ZERO: f32 = 1.448_389_2;
+#[doc(hidden)]
+pub const CENTRE: f32 = 0.351_304_5;
+#[doc(hidden)]
+pub const OFFSET: f32 = 0.744_889_5;
 
 /// Cube root of a number from 2^-125 on, either sign, without a division. With `s` for the root:
 ///
@@ -158,16 +162,19 @@ pub const fn sin_cos(x: f32) -> (f32, f32) {
 }
 
 /// Coefficient of the third power in the sine of up to pi/64.
-pub(crate) const SIN_THIRD: f32 = -1.666_500_3e-1;
+#[doc(hidden)]
+pub const SIN_THIRD: f32 = -1.666_500_3e-1;
 
 /// Coefficient of the fourth power in the cosine: 1/24.
-pub(crate) const COS_FOURTH: f32 = 4.166_666_8e-2;
+#[doc(hidden)]
+pub const COS_FOURTH: f32 = 4.166_666_8e-2;
 
 /// Directions of a turn.
 const STEPS: usize = 64;
 
 /// Sines of 0, pi/32, 2 pi/32 and so on to pi/2.
-pub(crate) const SINES: [f32; STEPS / 4 + 1] = [
+#[doc(hidden)]
+pub const SINES: [f32; STEPS / 4 + 1] = [
     0.0, 0.09801714, 0.19509032, 0.29028466, 0.38268343, 0.47139674, 0.55557024, 0.6343933,
     0.70710677, 0.77301043, 0.8314696, 0.8819213, 0.9238795, 0.95694035, 0.98078525, 0.9951847,
     1.0,
@@ -210,10 +217,12 @@ const fn reduced(x: f32) -> (u32, f32) {
 const LARGEST_MULTIPLE: u32 = 256;
 
 /// pi/32 as a sum, of which the first two parts have 5 and 20 bits.
-pub(crate) const STEP_PARTS: [f32; 3] = [9.765_625e-2, 5.185_203_6e-4, 6.200_585e-11];
+#[doc(hidden)]
+pub const STEP_PARTS: [f32; 3] = [9.765_625e-2, 5.185_203_6e-4, 6.200_585e-11];
 
 /// pi/2 as a sum, of which the first part has 8 bits.
-pub(crate) const QUARTER_PARTS: [f32; 4] = [
+#[doc(hidden)]
+pub const QUARTER_PARTS: [f32; 4] = [
     1.570_312_5,
     4.837_512_969_970_703e-4,
     7.549533620476723e-08,

@@ -1,10 +1,12 @@
 //! Powers of a contact force, to five digits.
 
 /// Bits of the seed of [`inverse_cube_roots`] less a third of the argument's bits.
-pub(crate) const SEED: u32 = 0x548d_0ddb;
+#[doc(hidden)]
+pub const SEED: u32 = 0x548d_0ddb;
 
 /// The seed's correction `p0 - c (p1 - p2 c)`, a parabola in `c = x y³`.
-pub(crate) const PARABOLA: [f32; 3] = [1.743_091_7, 1.224_815, 0.490_906_86];
+#[doc(hidden)]
+pub const PARABOLA: [f32; 3] = [1.743_091_7, 1.224_815, 0.490_906_86];
 
 /// `x^(-1/3)` of two positive normal numbers, with a relative error of 2.7e-5: `x` times it is
 /// `x^(2/3)`, `x` times its square is `x^(1/3)`. Zero gives a finite number, so that both are zero.

@@ -1,6 +1,8 @@
 //! Axis ratio of a contact ellipse from the ratio of its relative radii.
 
-use epas_friction::fits::axis_ratio::{DENOMINATOR, NUMERATOR};
+use epas_friction::hertz::{
+    AXIS_RATIO_DENOMINATOR as DENOMINATOR, AXIS_RATIO_NUMERATOR as NUMERATOR,
+};
 use epas_reference::hertz::axis_ratio;
 
 use crate::remez::{Fit, equioscillates, minimax};

@@ -1,6 +1,7 @@
 //! Seeds of the cube roots, and the polynomials that correct them.
 
-use epas_friction::fits::{cube_root, inverse_cube_root};
+use epas_friction::math::own as cube_root;
+use epas_friction::math::powers as inverse_cube_root;
 
 use crate::remez::{equioscillates, minimax, polynomial};
 

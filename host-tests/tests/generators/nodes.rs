@@ -2,7 +2,10 @@
 
 use std::f64::consts::PI;
 
-use epas_friction::fits::{curvature, elliptic, scene};
+use epas_friction::ball::HALF_TO_FOUR_THIRDS;
+use epas_friction::curvature::CHEBYSHEV;
+use epas_friction::math::elliptic::GAUSS;
+use epas_friction::scene::SINES;
 use gauss_quad::GaussLegendre;
 
 /// Rounded to nearest from a number that is itself within some ulp of float64.
@@ -16,7 +19,7 @@ fn is_rounded(stored: f32, exact: f64) {
 
 #[test]
 fn the_curvature_is_fitted_at_chebyshev_nodes() {
-    for (index, &node) in curvature::CHEBYSHEV.iter().enumerate() {
+    for (index, &node) in CHEBYSHEV.iter().enumerate() {
         if index == 2 {
             assert_eq!(node, 0.0);
         } else {
@@ -27,7 +30,7 @@ fn the_curvature_is_fitted_at_chebyshev_nodes() {
 
 #[test]
 fn numbers_with_a_name() {
-    is_rounded(scene::HALF_TO_FOUR_THIRDS, 0.5_f64.powf(4.0 / 3.0));
+    is_rounded(HALF_TO_FOUR_THIRDS, 0.5_f64.powf(4.0 / 3.0));
 }
 
 #[test]
@@ -35,7 +38,7 @@ fn the_narrow_integral_is_summed_by_gauss() {
     let rule = GaussLegendre::new(5.try_into().unwrap());
     let mut nodes = rule.as_node_weight_pairs().to_vec();
     nodes.sort_by(|first, second| first.0.total_cmp(&second.0));
-    for ((node, weight), (stored_node, stored_weight)) in nodes.into_iter().zip(elliptic::GAUSS) {
+    for ((node, weight), (stored_node, stored_weight)) in nodes.into_iter().zip(GAUSS) {
         if stored_node == 0.0 {
             // Measured: 6.1e-17, what float64 has for the cosine of a right angle.
             assert!(node.abs() < 2e-16);
@@ -49,7 +52,7 @@ fn the_narrow_integral_is_summed_by_gauss() {
 /// 63 rotations in float64 leave 1e-14: rounded to f32 each sine is right, and a zero is within that.
 #[test]
 fn deviation_maps_are_made_of_sines() {
-    for (sample, &sine) in scene::SINES.iter().enumerate() {
+    for (sample, &sine) in SINES.iter().enumerate() {
         let exact = (PI * sample as f64 / 32.0).sin();
         assert!(
             (f64::from(sine) - exact).abs() < 6.1e-8 * exact.abs() + 1e-14,

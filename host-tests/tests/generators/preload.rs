@@ -1,6 +1,6 @@
 //! Two Hertzian springs pressed against each other.
 
-use epas_friction::fits::preload::{CLOSING, LOST, QUARTIC};
+use epas_friction::ball::{CLOSING, LOST, QUARTIC};
 
 use crate::remez::{equioscillates, minimax, polynomial};
 

@@ -1,6 +1,6 @@
 //! The cubic that stands for the fourth power in the sagitta of a deformed surface.
 
-use epas_friction::fits::sagitta::{FOURTH_POWER, LARGEST_ELLIPSE};
+use epas_friction::kinematics::{FOURTH_POWER, LARGEST_ELLIPSE};
 
 use crate::remez::{equioscillates, minimax, polynomial};
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use epas_friction::fits::sine::{COS_FOURTH, QUARTER_PARTS, SIN_THIRD, SINES, STEP_PARTS};
+use epas_friction::math::own::{COS_FOURTH, QUARTER_PARTS, SIN_THIRD, SINES, STEP_PARTS};
 
 use crate::remez::{equioscillates, minimax};
 

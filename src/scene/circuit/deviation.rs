@@ -233,7 +233,8 @@ impl DeviationMap {
 }
 
 /// Sines of the samples' phases, by rotation from one to the next at compile time.
-pub(crate) const SINES: [f32; SAMPLES] = {
+#[doc(hidden)]
+pub const SINES: [f32; SAMPLES] = {
     // cos and sin of 2 pi/64.
     const STEP: (f64, f64) = (0.995_184_726_672_196_9, 0.098_017_140_329_560_6);
     let mut sines = [0.0; SAMPLES];
