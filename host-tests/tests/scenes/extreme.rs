@@ -36,6 +36,12 @@ fn random_inputs_give_finite_flagged_bounded_outputs() {
     println!("{ticks} random ticks in all scenes");
 }
 
+/// Forces of 1e5 N between balls that friction hardly holds: rounding makes some of them negative, and their sum must not drive the nut.
+#[test]
+fn forces_that_rounding_makes_negative_do_not_drive() {
+    soak::<UncagedBallScrew<64>>(0x000a_e000_0001_27ac, 1, 100);
+}
+
 /// Objects made of random numbers, most of them likely to be accepted, the rest anything.
 fn random_objects(seed: u64, count: u64) {
     for object in 0..count {
