@@ -99,6 +99,8 @@ fn foreign_endings_are_refused() {
             "fmu --scene caged --design lin-4.1 --output a.zip.toml",
             ".fmu",
         ),
+        ("fmu --scene caged --design lin-4.1 --output x.txt", ".fmu"),
+        ("fmu --scene caged --design lin-4.1 --output unit", ".fmu"),
         ("a2l --image a.elf --output a.csv", ".a2l"),
         (
             "calibrate a.csv --design lin-4.1 --design-out a.json",
