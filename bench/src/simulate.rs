@@ -1,5 +1,6 @@
 //! `simulate`: the in-loop model over a trace of speed and load.
 
+mod beyond;
 #[doc(hidden)]
 pub mod bindings;
 mod caged;
@@ -66,6 +67,9 @@ use trace::Temperature;
 /// Other units stand in the column's name, nut_speed_rpm or Nut speed [rpm]; a measurement file says them itself. Channels of several
 /// rasters are put on that of the speed: interpolated linearly, held for one tick of their own at the ends. Scenes with a train need a trace
 /// of equal steps of time.
+///
+/// Loads of a manoeuvre are those of a rack: of a screw that bears less they are scaled down, so that the largest is the least of axial_load in
+/// [limits], the static limit of its balls (4.2 GPa), and the largest load that its block holds. The summary says so.
 ///
 /// Written are a CSV file with the model's outputs at every sample and an SVG plot; a trace that is refused leaves neither. The summary says
 /// which settings are defaults.
@@ -294,6 +298,7 @@ fn remembers(arguments: &Arguments) -> bool {
 
 /// Runs one scene over its trace, and writes what is asked for.
 fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> Result<(), Failure> {
+    let mut scaled = None;
     let (trace, temperature) = match (&arguments.input, arguments.manoeuvre) {
         (Some(path), _) => {
             let channels = arguments.channels.as_deref();
@@ -301,7 +306,11 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
             let followed = scene.follows_temperature();
             trace::read(&Source(path), mapping.as_ref(), followed)?
         }
-        (None, Some(manoeuvre)) => (scene.manoeuvre(manoeuvre)?, Temperature::None),
+        (None, Some(manoeuvre)) => {
+            let (trace, words) = scene.within(scene.manoeuvre(manoeuvre)?);
+            scaled = words;
+            (trace, Temperature::None)
+        }
         (None, None) => return Err(Failure::Data("there is no trace".into())),
     };
 
@@ -325,6 +334,7 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
         output.iter().chain(&plot),
     )?;
 
+    scene.check_errors(&trace)?;
     // Every sample is computed once and written once.
     let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
     let progress = Progress::new(steps);
@@ -361,6 +371,9 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
 
     let mut stdout = files::told(output.iter().chain(&plot));
     let mut summary = scene.summary(&trace, &rows);
+    if let Some(words) = scaled {
+        summary.add("loads", words);
+    }
     if let Some(tick) = arguments.tick {
         summary.add("tick", format!("{tick} s, of --tick"));
     }
