@@ -372,7 +372,7 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
     let mut stdout = files::told(output.iter().chain(&plot));
     let mut summary = scene.summary(&trace, &rows);
     if let Some(words) = scaled {
-        summary.add("loads", words);
+        summary.add("manoeuvre", words);
     }
     if let Some(tick) = arguments.tick {
         summary.add("tick", format!("{tick} s, of --tick"));

@@ -56,17 +56,6 @@ pub fn certified(fold: &UncagedFold) -> Result<FoldedUncaged, Failure> {
     Ok(folded)
 }
 
-/// Refuses a design whose law is too far from the exact row of balls; one that is kept is not measured again.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
-pub fn check_errors(fold: &UncagedFold) -> Result<(), Failure> {
-    match FOLDS.get(fold.digest()) {
-        Some(kept) => kept.map(drop),
-        None => certified(fold).map(drop),
-    }
-}
-
 /// Keeps a law that was folded from inputs with this digest: one that is there already stays where it is.
 fn keep(digest: u64, block: &UncagedBlock) -> Folded {
     let same = |kept: &Folded| match (kept, block) {

@@ -68,8 +68,7 @@ pub fn within(
     for sample in &mut trace.samples {
         sample.axial_load *= factor;
     }
-    let words =
-        format!("{factor:.3} of the manoeuvre's {peak:.0} N at every moment: {of} is {most:.0} N");
+    let words = format!("loads scaled by {factor:.3}, from {peak:.0} to {most:.0} N at most: {of}");
     (trace, Some(words))
 }
 

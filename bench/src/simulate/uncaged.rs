@@ -23,7 +23,11 @@ use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
 use crate::progress::Working;
-use crate::uncaged;
+use crate::{folds, uncaged};
+
+/// What is not known of a block that is folded for a run: measuring its errors takes twice as long as folding it.
+const NOT_MEASURED: &str = "folded for these loads, its errors are not measured here; `design --scene uncaged` measures those of its own loads, and \
+                            refuses more than 3 %";
 
 /// The scene.
 pub struct Uncaged {
@@ -64,6 +68,14 @@ impl Uncaged {
         };
         let build = |tick| self.model(&configuration, tick, remembered);
         Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+
+    /// Whether the errors of its block are known: of one that comes with the program.
+    fn is_measured(&self, trace: &Trace<ScrewSample>) -> bool {
+        let friction = self.balls.gear.friction;
+        let own = (friction, friction);
+        uncaged::fold_for(&self.design, &self.balls, own, peak_load(trace))
+            .is_ok_and(|fold| folds::is_stored(fold.digest()))
     }
 
     /// What its model is made of, up to an axial load, N.
@@ -170,17 +182,6 @@ impl Scene for Uncaged {
         screw::within(trace, &self.design, balls, block)
     }
 
-    fn check_errors(&self, trace: &Trace<ScrewSample>) -> Result<(), Failure> {
-        // A trace that cannot be run is told before the screw is folded.
-        equal_step(trace).map_err(|failure| failure.of(self.name()))?;
-        let friction = self.balls.gear.friction;
-        let own = (friction, friction);
-        let fold = uncaged::fold_for(&self.design, &self.balls, own, peak_load(trace));
-        fold.map_err(Failure::Data)
-            .and_then(|fold| uncaged::check_errors(&fold))
-            .map_err(|failure| failure.of(self.name()))
-    }
-
     fn rows(
         &self,
         trace: &Trace<ScrewSample>,
@@ -188,6 +189,7 @@ impl Scene for Uncaged {
         done: &dyn Fn(),
     ) -> Result<(Vec<UncagedRow>, Lines), Failure> {
         let remembered = self.remembered(trace)?;
+        let measured = self.is_measured(trace);
         let mut train = self.train(trace, remembered.as_ref())?;
         let (reference, mut lines) = match reference {
             None => Default::default(),
@@ -212,6 +214,9 @@ impl Scene for Uncaged {
                 row
             })
             .collect();
+        if !measured {
+            lines.add("block", NOT_MEASURED);
+        }
         lines.add("tick", train.told());
         if let Some(remembered) = remembered {
             lines.append(remembered.lines);
