@@ -95,7 +95,8 @@ use trace::Temperature;
 /// track) and negative_load_shares (as long a list, for loads below zero; load_shares serves both signs without it).
 ///
 /// Table [fold] (`design --help` names its keys): the loads of a ball for which a screw is solved before it runs, 5 to 300 N without, above
-/// which outputs are flagged. A screw with a cage is solved within two seconds, and what runs is the block that `design` writes for it.
+/// which outputs are flagged. A screw with a cage is solved within two seconds: what runs is the block that `design` writes for it, and what
+/// `design` refuses is refused.
 ///
 /// A screw without cage is solved in some seconds, for the deviations of its maps or those of [fold]; where [fold] gives no loads, for as
 /// many as the trace needs. Where [calibration] makes the friction coefficient change, the block is one for its range, or the range is
