@@ -63,7 +63,8 @@ enum Held {
         most: f32,
     },
     Uncaged {
-        balls: UncagedDesign,
+        loaded_balls: f32,
+        friction: f32,
         most: f32,
         folded: Folded,
     },
@@ -126,7 +127,8 @@ impl Beyond {
         let [from, to] = fold.axial_load;
         Ok(Self {
             held: Held::Uncaged {
-                balls: *balls,
+                loaded_balls: balls.loaded_balls(),
+                friction,
                 most: to,
                 folded: uncaged::folded(&fold)?,
             },
@@ -169,10 +171,14 @@ impl Beyond {
             Held::Bearing => Cause::FourPoints,
             Held::Caged { most } | Held::Uncaged { most, .. } if above(most) => Cause::Load,
             Held::Caged { .. } => Cause::Coefficient,
-            Held::Uncaged { balls, folded, .. } => {
+            Held::Uncaged {
+                loaded_balls,
+                friction,
+                folded,
+                ..
+            } => {
                 let branch = usize::from(!opposing(inputs));
-                let mean = load / balls.loaded_balls();
-                let friction = balls.gear.friction;
+                let mean = load / loaded_balls;
                 let held = match folded {
                     Folded::One(ball) => {
                         let law = &ball.law;
