@@ -267,7 +267,7 @@ impl ScrewSummary {
         self.course.flags(&mut lines);
         let peaks = [self.course.peak_speed(), self.course.peak_load()];
         if let Some(words) = too_fast(design, peaks) {
-            lines.add("beyond the speed limit", words);
+            lines.add("speed limit", words);
         }
         if let Some(beyond) = self.beyond {
             beyond.lines(&mut lines);
