@@ -45,6 +45,7 @@ pub(crate) fn accepts(text: &[u8]) -> Result<usize, String> {
     let frame = trace::columns::Frame {
         lead: 7e-3,
         ratio: 2.5,
+        fastest: 2e3,
     };
     let look = |frame| -> Result<usize, Failure> {
         let trace = trace::columns::from_reader(Cursor::new(text), "trace", frame)?;

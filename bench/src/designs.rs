@@ -305,7 +305,7 @@ struct DesignFile {
     density: Option<f32>,
     ball_material: Option<MaterialTable>,
     groove_material: Option<MaterialTable>,
-    friction: Option<f32>,
+    friction: Option<OneFriction>,
     hysteresis_loss: Option<f32>,
     lubricant_drag: Option<f32>,
     rolling_tangent: Option<f32>,
@@ -323,6 +323,16 @@ struct DesignFile {
     loads: Option<LoadsTable>,
     calibration: Option<Calibrated>,
     fold: Option<FoldTable>,
+}
+
+/// The friction coefficient of a design.
+#[derive(Clone, Copy, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected a number; a range is [fold] friction = [least, most], beside this one coefficient"
+)]
+enum OneFriction {
+    One(f32),
 }
 
 #[derive(Deserialize)]
@@ -435,7 +445,10 @@ impl DesignFile {
         .filter_map(|(key, there)| (!there).then_some(key))
         .collect();
         let caged = &mut design.caged;
-        replace(&mut caged.friction, self.friction);
+        replace(
+            &mut caged.friction,
+            self.friction.map(|OneFriction::One(friction)| friction),
+        );
         let rolling = &mut caged.rolling_resistance;
         replace(&mut rolling.hysteresis_loss, self.hysteresis_loss);
         replace(&mut rolling.lubricant_drag, self.lubricant_drag);
@@ -465,6 +478,9 @@ impl DesignFile {
                     .map_err(|message| format!("uncaged: {message}"))
             })
             .transpose()?;
+        if let (Some(balls), Some(row)) = (self.loaded_balls, &design.uncaged) {
+            row.check_loaded(balls)?;
+        }
         design.loads = self
             .loads
             .map(|table| {

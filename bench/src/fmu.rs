@@ -26,7 +26,7 @@ use zip::write::SimpleFileOptions;
 
 use crate::designs::DesignSource;
 use crate::failure::Failure;
-use crate::files::{Existing, Pending, refuse_ending, refuse_same, told};
+use crate::files::{Existing, Pending, ends, refuse_same, standard, told};
 use crate::flags::FLAGS;
 use description::{Version, description};
 pub use library::mark;
@@ -106,7 +106,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     } else {
         Existing::Keep
     };
-    refuse_ending("a unit", Some(output), &["fmu"])?;
+    if !ends(output, &["fmu"]) && !standard(output) {
+        return Err(Failure::Data(format!(
+            "{}: a unit ends in .fmu",
+            output.display()
+        )));
+    }
     existing.check(output)?;
     refuse_same(
         [design.file(), arguments.library.as_deref()],

@@ -113,6 +113,11 @@ fn stored(digest: u64) -> Option<Vec<u32>> {
     blocks(BUILT_IN).find(|words| digest_of(words) == digest)
 }
 
+/// Whether a block that was folded from inputs with this digest comes with the program.
+pub fn is_stored(digest: u64) -> bool {
+    stored(digest).is_some()
+}
+
 /// The words of every block of a file, up to the first that is cut off.
 fn blocks(bytes: &[u8]) -> impl Iterator<Item = Vec<u32>> {
     let mut rest = bytes;

@@ -1,5 +1,6 @@
 //! `simulate`: the in-loop model over a trace of speed and load.
 
+mod beyond;
 #[doc(hidden)]
 pub mod bindings;
 mod caged;
@@ -67,6 +68,9 @@ use trace::Temperature;
 /// rasters are put on that of the speed: interpolated linearly, held for one tick of their own at the ends. Scenes with a train need a trace
 /// of equal steps of time.
 ///
+/// Loads of a manoeuvre are those of a rack: of a screw that bears less they are scaled down, so that the largest is the least of axial_load in
+/// [limits], the static limit of its balls (4.2 GPa), and the largest load that its block holds. The summary says so.
+///
 /// Written are a CSV file with the model's outputs at every sample and an SVG plot; a trace that is refused leaves neither. The summary says
 /// which settings are defaults.
 ///
@@ -91,7 +95,8 @@ use trace::Temperature;
 /// track) and negative_load_shares (as long a list, for loads below zero; load_shares serves both signs without it).
 ///
 /// Table [fold] (`design --help` names its keys): the loads of a ball for which a screw is solved before it runs, 5 to 300 N without, above
-/// which outputs are flagged. A screw with a cage is solved within two seconds, and what runs is the block that `design` writes for it.
+/// which outputs are flagged. A screw with a cage is solved within two seconds: what runs is the block that `design` writes for it, and what
+/// `design` refuses is refused.
 ///
 /// A screw without cage is solved in some seconds, for the deviations of its maps or those of [fold]; where [fold] gives no loads, for as
 /// many as the trace needs. Where [calibration] makes the friction coefficient change, the block is one for its range, or the range is
@@ -294,6 +299,7 @@ fn remembers(arguments: &Arguments) -> bool {
 
 /// Runs one scene over its trace, and writes what is asked for.
 fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> Result<(), Failure> {
+    let mut scaled = None;
     let (trace, temperature) = match (&arguments.input, arguments.manoeuvre) {
         (Some(path), _) => {
             let channels = arguments.channels.as_deref();
@@ -301,7 +307,11 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
             let followed = scene.follows_temperature();
             trace::read(&Source(path), mapping.as_ref(), followed)?
         }
-        (None, Some(manoeuvre)) => (scene.manoeuvre(manoeuvre)?, Temperature::None),
+        (None, Some(manoeuvre)) => {
+            let (trace, words) = scene.within(scene.manoeuvre(manoeuvre)?);
+            scaled = words;
+            (trace, Temperature::None)
+        }
         (None, None) => return Err(Failure::Data("there is no trace".into())),
     };
 
@@ -325,6 +335,7 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
         output.iter().chain(&plot),
     )?;
 
+    scene.check_errors(&trace)?;
     // Every sample is computed once and written once.
     let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
     let progress = Progress::new(steps);
@@ -361,6 +372,9 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
 
     let mut stdout = files::told(output.iter().chain(&plot));
     let mut summary = scene.summary(&trace, &rows);
+    if let Some(words) = scaled {
+        summary.add("manoeuvre", words);
+    }
     if let Some(tick) = arguments.tick {
         summary.add("tick", format!("{tick} s, of --tick"));
     }

@@ -181,10 +181,7 @@ pub fn calibrate<'py>(
     ];
     options(py, design.is_some(), &of_a_design, &of_none)?;
     let text = text(py, &trace)?;
-    let frame = design.map(|design| Frame {
-        lead: design.inner.screw().lead().into(),
-        ratio: ratio.unwrap_or(1.0),
-    });
+    let frame = design.map(|design| Frame::of(&design.inner, ratio));
     let found = if let Some(design) = design {
         let fix = match &fix {
             Some(fix) => dict("fix", fix)?.extract::<BTreeMap<String, f64>>()?,

@@ -170,10 +170,7 @@ pub fn trace_sums(
     let summed = interruptible(py, move |_| match design {
         None => without_design::plain(&read(text, None)?, &Filters::default()),
         Some(design) => {
-            let frame = Frame {
-                lead: design.screw().lead().into(),
-                ratio: ratio.unwrap_or(1.0),
-            };
+            let frame = Frame::of(&design, ratio);
             let request = Request::default();
             with_design::summed(&read(text, Some(&frame))?, &design, &request)
         }

@@ -60,6 +60,7 @@ fn look(trace: &Trace, motion: &Motion) -> Result<Vec<Finding>, String> {
     effort_lives(&moving(&trace.effort, &rests), &mut findings)?;
     measured_speed(trace, motion, &mut findings)?;
     if let Some(relation) = relation(trace, motion) {
+        exchanged(trace, &relation)?;
         signs(trace, motion, &relation)?;
         if relation.sliding.is_none() {
             findings.push(Finding::new(
@@ -91,22 +92,33 @@ pub fn load_gain(
     const WITHIN: f64 = 3.0;
     /// Load cells, leads and losses of a screw that is worth a calibration are known to less: the least ratios of gears are larger.
     const WITHOUT_GEAR: f64 = 1.4;
+    /// Between a motor and a nut there is a belt, or one stage of a gear.
+    const LARGEST_GEAR: f64 = 30.0;
     let Some(relation) = relation(trace, motion).filter(|r| r.gain_certainty.abs() > CERTAIN)
     else {
         return Ok(());
     };
     let gain = relation.gain / travel;
-    if ratio_unsaid && gain > 0.0 && gain.max(1.0 / gain) > WITHOUT_GEAR {
+    let said =
+        format!("a newton of axial load takes {gain:.3} of the effort that the lead makes of it");
+    let factor = gain.max(1.0 / gain);
+    if ratio_unsaid && gain > 0.0 && factor > WITHOUT_GEAR && factor < LARGEST_GEAR {
         return Err(Failure::Data(format!(
-            "a newton of axial load takes {gain:.3} of the effort that the lead makes of it: are torque and position the motor's, behind a gear? --ratio says its turns in a turn of the nut, as --ratio {:.2} (--ratio 1 says that there is none); else the load, the effort or the lead is in a wrong unit",
+            "{said}: are torque and position the motor's, behind a gear? --ratio says its turns in a turn of the nut, as --ratio {:.2} (--ratio 1 says that there is none); else the load, the effort or the lead is in a wrong unit",
             1.0 / gain
         )));
     }
     if gain > 1.0 / WITHIN && gain < WITHIN {
         return Ok(());
     }
+    let thousand = gain / 1e3;
+    let unit = if thousand > 1.0 / WITHIN && thousand < WITHIN {
+        "; is the load in kN or the torque in mN m? Then their columns are named axial_load [kN], motor_torque [mNm]"
+    } else {
+        ""
+    };
     Err(Failure::Data(format!(
-        "a newton of axial load takes {gain:.3} of the effort that the lead makes of it: the load, the effort or the lead is in a wrong unit"
+        "{said}: the load, the effort or the lead is in a wrong unit{unit}"
     )))
 }
 
@@ -162,7 +174,7 @@ fn moves(trace: &Trace, motion: &Motion) -> Result<(), String> {
     let top = high.max(-low);
     if top > fastest {
         return Err(format!(
-            "the speed reaches {top:.4} {unit}: a column that is not in SI units says so in its name ({hint})"
+            "the speed reaches {top:.4} {unit}: a column that is not in SI units says so in its name ({hint}){OTHER_NAMES}"
         ));
     }
     Ok(())
@@ -317,6 +329,24 @@ fn measured_speed(
     Ok(())
 }
 
+/// A newton of load takes less torque than a lead of 0.2 m makes of it; of columns that are exchanged it takes the inverse of a lead's.
+fn exchanged(trace: &Trace, relation: &Relation) -> Result<(), String> {
+    /// A lead of 6 m in a wrong unit of force, N m/N.
+    const MOST: f64 = 30.0;
+    let rotates = trace.coordinate == Coordinate::Rotation;
+    let told = trace.load.is_some() && relation.gain_certainty.abs() > CERTAIN;
+    if rotates && told && relation.gain.abs() > MOST {
+        return Err(format!(
+            "a newton of axial load takes {:.0} N m of torque: the names of motor_torque and axial_load are exchanged; compare the first line with the columns",
+            relation.gain.abs()
+        ));
+    }
+    Ok(())
+}
+
+/// What else a wrong sign may come from.
+const OTHER_NAMES: &str = "; or the names of two columns are exchanged";
+
 /// Friction takes power out of a motion, and inertia and load are positive.
 fn signs(trace: &Trace, motion: &Motion, relation: &Relation) -> Result<(), String> {
     if !excitation::both_ways(motion) {
@@ -326,23 +356,20 @@ fn signs(trace: &Trace, motion: &Motion, relation: &Relation) -> Result<(), Stri
         .sliding
         .is_none_or(|sliding| sliding.power > -CERTAIN);
     if trace.load.is_some() && relation.gain_certainty < -CERTAIN && resists {
-        return Err(
-            "the effort falls as the load rises: turn the sign of the load, which is positive where it opposes a positive motion (of a left-hand thread, a positive turn travels the other way: turn the sign of the load, or of position and torque both)"
-                .into(),
-        );
+        return Err(format!(
+            "the effort falls as the load rises: turn the sign of the load, which is positive where it opposes a positive motion (of a left-hand thread, a positive turn travels the other way: turn the sign of the load, or of position and torque both){OTHER_NAMES}"
+        ));
     }
     if !resists {
-        return Err(
-            "the effort that goes with the speed's sign drives the motion instead of resisting it: turn the sign of the effort or of the position"
-                .into(),
-        );
+        return Err(format!(
+            "the effort that goes with the speed's sign drives the motion instead of resisting it: turn the sign of the effort or of the position{OTHER_NAMES}"
+        ));
     }
     let falls = |sliding: Sliding| sliding.inertia < -CERTAIN && sliding.left < 0.3;
     if relation.sliding.is_some_and(falls) {
-        return Err(
-            "the effort falls as the acceleration rises: turn the sign of the effort or of the position"
-                .into(),
-        );
+        return Err(format!(
+            "the effort falls as the acceleration rises: turn the sign of the effort or of the position{OTHER_NAMES}"
+        ));
     }
     Ok(())
 }

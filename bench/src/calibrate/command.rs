@@ -10,6 +10,7 @@ use crate::calibrate::outputs::{Outcome, OutputArguments, folder_name};
 use crate::calibrate::page::truth;
 use crate::calibrate::screw::Request;
 use crate::calibrate::screw::choice::Wanted;
+use crate::calibrate::screw::quantities::names;
 use crate::calibrate::signals::{RowSettings, SmoothingSettings};
 use crate::calibrate::sums::Sums;
 use crate::calibrate::trace::columns::{self, Frame};
@@ -84,7 +85,8 @@ pub struct Arguments {
         long,
         value_name = "NAME",
         requires = "design",
-        conflicts_with = "trace"
+        conflicts_with = "trace",
+        value_parser = parameter
     )]
     wanted: Option<String>,
     /// Trace that is not fitted, by which models are scored
@@ -127,6 +129,15 @@ fn ratio(text: &str) -> Result<f64, String> {
         Ok(value) if (0.01..=1000.0).contains(&value) => Ok(value),
         _ => Err("a ratio is 0.01 to 1000".into()),
     }
+}
+
+/// The name of a parameter.
+fn parameter(text: &str) -> Result<String, String> {
+    if names().any(|name| name == text) {
+        return Ok(text.into());
+    }
+    let known: Vec<&str> = names().collect();
+    Err(format!("allowed: {}", known.join(", ")))
 }
 
 /// A parameter's name with its value.
@@ -221,10 +232,7 @@ impl Arguments {
 
     /// What refers motor and carriage to the nut of a design.
     fn frame(&self, design: &Design) -> Frame {
-        Frame {
-            lead: design.screw().lead().into(),
-            ratio: self.ratio.unwrap_or(1.0),
-        }
+        Frame::of(design, self.ratio)
     }
 
     /// The trace that is not fitted, where there is one.

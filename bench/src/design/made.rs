@@ -259,14 +259,17 @@ impl Made {
         match self {
             Self::Caged(folded) => {
                 let nodes = folded.block.nodes();
-                let scene = match nodes {
-                    1 => "CagedBallScrew".to_owned(),
-                    nodes => format!("CagedBallScrew<{nodes}>"),
+                let (scene, constants) = match nodes {
+                    1 => ("CagedBallScrew".to_owned(), "CagedConstants".to_owned()),
+                    nodes => (
+                        format!("CagedBallScrew<{nodes}>"),
+                        format!("CagedConstants<{nodes}>"),
+                    ),
                 };
                 match format {
                     Format::Rust => writeln!(
                         out,
-                        "    include!(\"{file}\");\n    let mut model = FrictionModel::<{scene}, _>::of(&{name});"
+                        "    include!(\"{file}\");\n    let mut model: FrictionModel<{scene}, &'static {constants}> = FrictionModel::of(&{name});"
                     ),
                     Format::C => writeln!(
                         out,

@@ -15,7 +15,7 @@ const DEVIATION: Range = Range::new(1e-4, 0.1);
 #[serde(deny_unknown_fields)]
 pub struct FoldTable {
     friction: Option<Friction>,
-    axial_load: Option<[f32; 2]>,
+    axial_load: Option<Loads>,
     screw_deviation: Option<f32>,
     nut_deviation: Option<f32>,
     seed: Option<u32>,
@@ -26,6 +26,17 @@ pub struct FoldTable {
 #[serde(untagged, expecting = "a number or [least, most]")]
 enum Friction {
     One(f32),
+    Range([f32; 2]),
+}
+
+/// Least and largest load of a ball, N.
+#[derive(Clone, Copy, Debug, Deserialize)]
+#[serde(
+    untagged,
+    expecting = "expected the least and the largest load of one ball, N, such as axial_load = [5, 300]; a ball's load is the screw's over \
+                 the number of loaded balls"
+)]
+enum Loads {
     Range([f32; 2]),
 }
 
@@ -67,7 +78,7 @@ impl FoldTable {
     /// The field out of range, or what contradicts the design.
     pub fn check(&self, design: &Design) -> Result<(), String> {
         let said = |failure: Failure| failure.to_string();
-        if let Some([least, most]) = self.axial_load
+        if let Some(Loads::Range([least, most])) = self.axial_load
             && least >= most
         {
             return Err(format!(
@@ -82,6 +93,11 @@ impl FoldTable {
             Some(row) => self.fold_uncaged(design, Some(row))?.check().map_err(said),
             None => Ok(()),
         }
+    }
+
+    /// Least and largest load of a ball that it says, N.
+    fn loads(&self) -> Option<[f32; 2]> {
+        self.axial_load.map(|Loads::Range(loads)| loads)
     }
 
     /// Whether it says for which loads of a ball a design is folded.
@@ -106,7 +122,7 @@ impl FoldTable {
         let domain = self.domain(fold.gear.friction, design.mark("friction"))?;
         fold.gear.friction = domain.friction;
         fold.friction = domain.range;
-        fold.axial_load = self.axial_load.unwrap_or(fold.axial_load);
+        fold.axial_load = self.loads().unwrap_or(fold.axial_load);
         fold.seed = self.seed.map_or(fold.seed, u64::from);
         Ok(fold)
     }
@@ -148,7 +164,7 @@ impl FoldTable {
             deviations,
         });
         fold.friction = domain.range;
-        fold.axial_load = self.axial_load.unwrap_or(fold.axial_load);
+        fold.axial_load = self.loads().unwrap_or(fold.axial_load);
         fold.seed = self.seed.map_or(fold.seed, u64::from);
         Ok(fold)
     }

@@ -1,6 +1,6 @@
 //! Errors in the words of the design file, and numbers that are allowed but mean another unit.
 
-use epas_friction::{BallScrewParameters, Error};
+use epas_friction::{BallScrewParameters, Error, GrooveSize};
 
 /// Where the numbers of the built-in designs come from.
 pub const SOURCES: &str = "
@@ -28,6 +28,10 @@ pub struct Given {
 const STEEPEST: f32 = 1.732;
 /// Ball diameters over pitch diameters: those of catalogues go from 0.05 to 0.26.
 const BALLS: [f32; 2] = [0.01, 0.5];
+/// Largest conformity: those of catalogues go from 0.505 to 0.58.
+const WIDEST: f32 = 0.7;
+/// Turns of a circuit: its return takes the balls back after 1 to 5.
+const TURNS: [f32; 2] = [0.1, 10.0];
 
 impl Given {
     /// An error with the name and the value that the file has, and the unit that it may be in.
@@ -60,11 +64,13 @@ impl Given {
         };
         match hint {
             Some(unit) => format!("{said} ({})", unit.asked(value)),
+            None if field == "conformity" => format!("{said}{}", other_conformity(value)),
             None => said,
         }
     }
 
-    /// Refuses what no screw has: turns of the groove that cross, balls of another size, a lead angle beyond 60 degrees.
+    /// Refuses what no screw has: turns of the groove that cross, balls of another size, a lead angle beyond 60 degrees, grooves that hardly
+    /// guide a ball.
     ///
     /// # Errors
     /// The numbers, and the unit that one of them may be in.
@@ -73,8 +79,12 @@ impl Given {
             pitch_radius,
             lead,
             ball_radius,
+            screw_groove,
+            nut_groove,
             ..
         } = *parameters;
+        conformity("screw_groove", screw_groove, ball_radius)?;
+        conformity("nut_groove", nut_groove, ball_radius)?;
         let ball = if self.ball_diameter {
             format!("ball_diameter = {}", 2.0 * ball_radius)
         } else {
@@ -113,6 +123,61 @@ impl Given {
         }
         Ok(())
     }
+}
+
+/// Refuses a groove that is much wider than its ball.
+///
+/// # Errors
+/// The number, and what it may be in the place of the conformity.
+pub fn conformity(groove: &str, size: GrooveSize, ball_radius: f32) -> Result<(), String> {
+    let (said, ratio) = match size {
+        GrooveSize::Conformity(ratio) => (format!("conformity = {ratio}"), ratio),
+        GrooveSize::Radius(radius) => {
+            let ratio = radius / (2.0 * ball_radius);
+            (
+                format!("groove_radius = {radius} is {ratio} ball diameters, and"),
+                ratio,
+            )
+        }
+    };
+    if ratio <= WIDEST {
+        return Ok(());
+    }
+    Err(format!(
+        "{groove}: {said} is out of range; allowed: above 0.5 to {WIDEST}{}",
+        other_conformity(ratio)
+    ))
+}
+
+/// The definition of conformity, and what a value is by another one where that gives a usual number.
+fn other_conformity(value: f32) -> String {
+    const USUAL: std::ops::RangeInclusive<f32> = 0.505..=0.6;
+    const DEFINED: &str = "conformity is groove radius over ball diameter, 0.52 to 0.58 usual";
+    let others = [
+        ("ball radius over groove radius", 0.5 / value),
+        ("groove radius over ball radius", 0.5 * value),
+        ("a percentage", 0.01 * value),
+    ];
+    match others.iter().find(|(_, made)| USUAL.contains(made)) {
+        Some((name, made)) => {
+            format!("; {DEFINED}; if {value} is {name}, write conformity = {made:.4}")
+        }
+        None => format!("; {DEFINED}"),
+    }
+}
+
+/// Refuses turns that no circuit has.
+///
+/// # Errors
+/// The number, and its range.
+pub fn turns(turns: f32) -> Result<(), String> {
+    let [least, most] = TURNS;
+    if (least..=most).contains(&turns) {
+        return Ok(());
+    }
+    Err(format!(
+        "turns = {turns} is out of range; allowed: {least} to {most}, turns of one circuit: its return takes the balls back after 1 to 5; several circuits are several models"
+    ))
 }
 
 /// A unit that a value may be in.
@@ -221,6 +286,28 @@ mod tests {
         ] {
             let message = read(&format!("{text}{REST}"), "x").unwrap_err();
             assert!(message.contains(words), "{text}: {message}");
+        }
+        for (text, words) in [
+            ("0.943", "write conformity = 0.5302"),
+            (
+                "1.06",
+                "if 1.06 is groove radius over ball radius, write conformity = 0.5300",
+            ),
+            ("54", "write conformity = 0.5400"),
+            (
+                "0.75",
+                "conformity = 0.75 is out of range; allowed: above 0.5 to 0.7",
+            ),
+        ] {
+            let text = format!(
+                "nominal_diameter = 29e-3\nlead = 7e-3\nball_diameter = 4e-3\ncontact_angle = 0.785\nconformity = {text}\n"
+            );
+            let message = read(&text, "x").unwrap_err();
+            assert!(message.contains(words), "{message}");
+            assert!(
+                message.contains("groove radius over ball diameter"),
+                "{message}"
+            );
         }
         let degrees = "nominal_diameter = 29e-3\nlead = 7e-3\nball_diameter = 4e-3\nconformity = 0.54\ncontact_angle = 45\n";
         let message = read(degrees, "x").unwrap_err();

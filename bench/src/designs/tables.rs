@@ -41,43 +41,46 @@ pub fn from_text<Table: DeserializeOwned, Made>(
     design(file, &stem).map_err(failure)
 }
 
-/// A design file's keys. What is wrong is said without a key that is none any more.
+/// A design file's keys. What is wrong is said in a file's words, without a key that is none any more.
 pub fn parsed<Table: DeserializeOwned>(text: &str) -> Result<Table, String> {
-    let file = toml::from_str(text).map_err(|error| {
-        let said = error.to_string();
-        match said.trim_end().split_once("expected one of ") {
-            Some((before, keys)) => {
-                format!("{before}expected one of {}", keys.replace("`fit`, ", ""))
-            }
-            None => in_words(said.trim_end()),
-        }
-    })?;
     // The parser takes an array for a table, by position, and a number beyond single precision for an infinite one.
     let values: toml::Table = text
         .parse()
-        .map_err(|error: toml::de::Error| error.to_string())?;
+        .map_err(|error: toml::de::Error| in_words(&error))?;
     for (key, value) in &values {
         readable(key, value)?;
     }
-    Ok(file)
+    toml::from_str(text).map_err(|error| in_words(&error))
 }
 
 /// Keys whose values are tables.
-const TABLES: [&str; 8] = [
+const TABLES: [&str; 9] = [
     "screw_groove",
     "nut_groove",
     "ball_material",
     "groove_material",
     "limits",
     "uncaged",
+    "loads",
     "fold",
     "calibration",
 ];
 
-/// Refuses an array in the place of a table, and a number that single precision does not hold.
+/// Refuses what is no table in the place of one, and a number that single precision does not hold.
 fn readable(key: &str, value: &toml::Value) -> Result<(), String> {
+    let is_table = TABLES.contains(&key);
     match value {
-        toml::Value::Array(_) if TABLES.contains(&key) => Err(format!(
+        toml::Value::Array(values)
+            if is_table && !values.is_empty() && values.iter().all(toml::Value::is_table) =>
+        {
+            Err(format!(
+                "{key} is a table: write [{key}], not an array of tables [[{key}]]"
+            ))
+        }
+        toml::Value::Table(table) => table
+            .iter()
+            .try_for_each(|(key, value)| readable(key, value)),
+        _ if is_table => Err(format!(
             "{key} is a table: write [{key}], and its keys below"
         )),
         toml::Value::Array(values) => {
@@ -88,9 +91,6 @@ fn readable(key: &str, value: &toml::Value) -> Result<(), String> {
             }
             values.iter().try_for_each(|value| readable(key, value))
         }
-        toml::Value::Table(table) => table
-            .iter()
-            .try_for_each(|(key, value)| readable(key, value)),
         toml::Value::Float(number) if number.is_finite() && number.abs() > f64::from(f32::MAX) => {
             Err(format!(
                 "{key} = {number:e} is out of range; allowed: -3.4e38 to 3.4e38, what single precision holds"
@@ -101,21 +101,34 @@ fn readable(key: &str, value: &toml::Value) -> Result<(), String> {
 }
 
 /// What a value has to be, without the names of this program's types.
-const TYPES: [(&str, &str); 5] = [
-    ("expected u8", "expected a whole number, 0 to 255"),
-    ("expected u16", "expected a whole number, 0 to 65535"),
-    ("expected u32", "expected a whole number, 0 to 4294967295"),
-    ("expected f32", "expected a number"),
-    ("expected f64", "expected a number"),
+const TYPES: [(&str, &str); 8] = [
+    ("u8", "a whole number, 0 to 255"),
+    ("u16", "a whole number, 0 to 65535"),
+    ("u32", "a whole number, 0 to 4294967295"),
+    ("f32", "a number"),
+    ("f64", "a number"),
+    (
+        "struct Wavelet",
+        "a wave, such as { order = 2, sine = 0.01 }",
+    ),
+    ("a sequence", "a list"),
+    ("a string", "a text in quotes"),
 ];
 
 /// An error of the parser in the words of a file.
-fn in_words(said: &str) -> String {
-    if let Some((before, words)) = TYPES
-        .iter()
-        .find_map(|(own, words)| Some((said.strip_suffix(own)?, words)))
-    {
-        return format!("{before}{words}");
+fn in_words(error: &toml::de::Error) -> String {
+    let said = error.to_string();
+    let said = said.trim_end().replace("`fit`, ", "");
+    let said = said
+        .replace("invalid type: sequence", "invalid type: a list")
+        .replace("invalid type: map", "invalid type: a table");
+    if let Some((before, wanted)) = said.rsplit_once("expected ") {
+        if let Some((_, words)) = TYPES.iter().find(|(own, _)| *own == wanted) {
+            return format!("{before}expected {words}");
+        }
+        if wanted.starts_with("struct ") {
+            return format!("{before}expected a table");
+        }
     }
     // The line that the parser shows, as `7 | friction = 0,1`.
     let comma = said.lines().any(|line| {

@@ -75,6 +75,34 @@ fn a_wrong_value_is_explained() {
         ),
         ("[fold]\naxial_load = [nan, 5]", "fold: axial_load = NaN"),
         (
+            "[fold]\naxial_load = 12000",
+            "such as axial_load = [5, 300]",
+        ),
+        ("friction = [0.05, 0.15]", "[fold] friction = [least, most]"),
+        (
+            "[uncaged]\nballs = 16\nturns = 50",
+            "uncaged: turns = 50 is out of range; allowed: 0.1 to 10",
+        ),
+        (
+            "loaded_balls = 40\n[uncaged]\nballs = 16\nturns = 1.5\nreturn_length = 0.05",
+            "loaded_balls = 40 does not follow from [uncaged]: of balls = 16 with turns = 1.5 and return_length = 0.05, 12.1 are loaded; \
+             allowed: 12 to 13",
+        ),
+        (
+            "[[limits]]\nnut_speed = 300",
+            "write [limits], not an array of tables [[limits]]",
+        ),
+        ("fold = 3", "fold is a table: write [fold]"),
+        ("[friction]\nlow = 1", "expected a number"),
+        (
+            "[uncaged]\nballs = 16\nturns = 1\nscrew_deviation = [2]",
+            "expected a wave, such as { order = 2, sine = 0.01 }",
+        ),
+        (
+            "[uncaged]\nballs = 16\nturns = 1\nscrew_deviation = 2",
+            "expected a list",
+        ),
+        (
             "[fold]\nfriction = [0.2, 0.3]",
             "fold: the design's friction",
         ),
@@ -82,7 +110,11 @@ fn a_wrong_value_is_explained() {
     ] {
         let error = parse(&format!("{GOOD}{addition}\n")).unwrap_err();
         assert!(error.contains(words), "{addition}: {error}");
+        assert!(!error.contains("struct "), "{addition}: {error}");
     }
+    // A place for a ball more or less.
+    let row = "[uncaged]\nballs = 16\nturns = 1.5\nreturn_length = 0.05\n";
+    parse(&format!("{GOOD}loaded_balls = 12\n{row}")).unwrap();
 }
 
 #[test]

@@ -10,6 +10,7 @@ use epas_friction::{
 };
 use serde::Deserialize;
 
+use super::plausible;
 use super::tables::{
     MaterialTable, from_text, groove_size, mark, material, parsed, radius, replace,
 };
@@ -54,6 +55,29 @@ impl UncagedDesign {
         let loaded =
             self.turns * std::f32::consts::TAU * screw.pitch_radius() / screw.cos_lead_angle();
         f32::from(self.balls) * loaded / (loaded + self.return_length)
+    }
+
+    /// Refuses another number of loaded balls than those on the loaded track, beyond one ball and a twentieth of them: balls are not placed evenly.
+    ///
+    /// # Errors
+    /// Both numbers, and which are allowed.
+    pub fn check_loaded(&self, loaded_balls: u16) -> Result<(), String> {
+        let own = self.loaded_balls();
+        let apart = (0.05 * own).max(1.0);
+        let given = f32::from(loaded_balls);
+        // Numbers that are no lengths are refused by their names, later.
+        if (given - own).abs() <= apart || own.is_nan() {
+            return Ok(());
+        }
+        Err(format!(
+            "loaded_balls = {loaded_balls} does not follow from [uncaged]: of balls = {} with turns = {} and return_length = {}, {own:.1} are loaded; \
+             allowed: {:.0} to {:.0}, or other numbers in [uncaged], which is one circuit",
+            self.balls,
+            self.turns,
+            self.return_length,
+            (own - apart).ceil().max(1.0),
+            (own + apart).floor(),
+        ))
     }
 
     /// Refuses more balls than there is track for.
@@ -233,6 +257,7 @@ impl UncagedTable {
     /// The screw with its balls.
     pub fn design(&self, gear: CagedDesign) -> Result<UncagedDesign, String> {
         refuse_fit(self.fit.as_ref())?;
+        plausible::turns(self.turns)?;
         let turns = self.deviation_turns.unwrap_or(1);
         let waves = self.screw_deviation.as_deref().unwrap_or_default();
         let on_nut = self.nut_deviation.as_deref().unwrap_or_default();
@@ -359,17 +384,19 @@ impl LinearFile {
             density: self.density,
         };
         let groove: GrooveSize = groove_size("groove", self.conformity, self.groove_radius)?;
+        let ball_radius = radius(
+            ("ball_radius", self.ball_radius),
+            ("ball_diameter", self.ball_diameter),
+        )?;
         let bearing = LinearBearing::new(LinearBearingParameters {
-            ball_radius: radius(
-                ("ball_radius", self.ball_radius),
-                ("ball_diameter", self.ball_diameter),
-            )?,
+            ball_radius,
             groove,
             contact_angle: self.contact_angle,
             ball_material: material(self.ball_material.as_ref(), &common),
             groove_material: material(self.groove_material.as_ref(), &common),
         })
-        .map_err(|error| error.to_string())?;
+        .map_err(|error| plausible::Given::default().words(&error))?;
+        plausible::conformity("groove", groove, ball_radius)?;
         let mut limits = LinearLimits {
             speed: 2.0,
             load: 1e5,

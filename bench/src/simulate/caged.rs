@@ -4,18 +4,19 @@ use epas_design::CagedDesign;
 use epas_friction::{Error, FrictionBranch, Inputs, Outputs, RollingResistance};
 use epas_reference::promises::{self, Promise};
 
+use super::beyond::Beyond;
 use super::caged_exact::ExactCaged;
 use super::manoeuvre::Manoeuvre;
 use super::memory;
 use super::picture::{self, Form, Labels, Moment};
 use super::reference::{CagedReference, Friction, ReferenceModel};
-use super::remembering::{Remembers, Use, remembering};
+use super::remembering::{Remembers, Use, coefficients, remembering};
 use super::samples::ScrewSample;
 use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
 use super::summary::Lines;
 use super::trace::{SceneSample, Temperature, Trace};
-use crate::caged::CagedScene;
+use crate::caged::{self, CagedScene};
 use crate::designs::Design;
 use crate::designs::calibration::Calibrated;
 use crate::failure::Failure;
@@ -135,6 +136,21 @@ impl Caged {
     }
 }
 
+/// Refuses a design whose block is too far from the exact ball, as `design` does.
+///
+/// # Errors
+/// What cannot be folded, with the reason.
+pub fn check_errors(design: &Design, memory: bool) -> Result<(), Failure> {
+    if design.branch.is_some() {
+        return Ok(());
+    }
+    let own = (design.caged.friction, design.caged.friction);
+    let asked = if memory { coefficients(design)? } else { own };
+    let fold = caged::fold_for(design, asked).map_err(Failure::Data);
+    fold.and_then(|fold| caged::check_errors(&fold))
+        .map_err(|failure| failure.of(&design.name))
+}
+
 /// An angle within half a turn either way, rad.
 pub fn wrapped(angle: f64) -> f32 {
     let half = std::f64::consts::PI;
@@ -162,6 +178,22 @@ impl Scene for Caged {
 
     fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<ScrewSample>, Failure> {
         manoeuvre.trace(self.design.screw())
+    }
+
+    fn within(&self, trace: Trace<ScrewSample>) -> (Trace<ScrewSample>, Option<String>) {
+        let balls = f32::from(self.design.caged.loaded_balls);
+        // What cannot be folded is told by the run.
+        let fold = caged::fold_for(
+            &self.design,
+            (self.design.caged.friction, self.design.caged.friction),
+        );
+        let block = fold.ok().filter(|_| self.design.branch.is_none());
+        let block = block.map(|fold| fold.axial_load[1] * balls);
+        screw::within(trace, &self.design, balls, block)
+    }
+
+    fn check_errors(&self, _: &Trace<ScrewSample>) -> Result<(), Failure> {
+        check_errors(&self.design, self.memory)
     }
 
     fn rows(
@@ -220,7 +252,9 @@ impl Scene for Caged {
     }
 
     fn summary(&self, trace: &Trace<ScrewSample>, rows: &[CagedRow]) -> Lines {
-        let mut summary = ScrewSummary::new(&self.design);
+        // What has run was folded: nothing is refused here.
+        let beyond = Beyond::caged(&self.design, self.memory).ok().flatten();
+        let mut summary = ScrewSummary::new(&self.design, beyond);
         for row in rows {
             summary.add(&row.sample, &row.outputs, row.reference.as_ref());
         }

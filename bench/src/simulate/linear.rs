@@ -4,6 +4,7 @@ use epas_friction::{Error, LinearInputs, LinearOutputs};
 use epas_reference::promises;
 use epas_trains::{Built, bearing};
 
+use super::beyond::Beyond;
 use super::manoeuvre::Manoeuvre;
 use super::memory::{self, Remembered};
 use super::picture::{self, Form, Labels};
@@ -173,8 +174,10 @@ impl Scene for Linear {
         // The carriage's motion is its travel.
         let mut course = Course::new(1.0);
         let mut pressing = Pressing::default();
+        let mut beyond = Beyond::bearing();
         for LinearRow { sample, train } in rows {
             let outputs = train.outputs;
+            beyond.add(sample.speed, sample.normal_load, outputs.faults);
             let travel = course.add(&Moment {
                 time: sample.time,
                 speed: sample.speed,
@@ -207,6 +210,7 @@ impl Scene for Linear {
         pressing.lines(&mut lines, &WORDS);
         course.regimes(&mut lines, trace.samples.len());
         course.flags(&mut lines);
+        beyond.lines(&mut lines);
         lines
     }
 

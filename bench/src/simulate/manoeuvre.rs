@@ -14,11 +14,11 @@ use crate::failure::Failure;
 /// A built-in manoeuvre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Manoeuvre {
-    /// Lock to lock at standstill, rack force up to 14.5 kN at low speed
+    /// Lock to lock at standstill, rack force up to 14.5 kN at low speed; less for a screw that bears less
     Parking,
     /// On-centre weave at 0.2 Hz with small corrections: light loads, many reversals
     Weave,
-    /// A wheel strikes a kerb: the rack is pushed back with 20 kN within 15 ms
+    /// A wheel strikes a kerb: the rack is pushed back with 20 kN within 15 ms; less for a screw that bears less
     Kerb,
     /// Two turns of the nut, one a second, under -1500 N: Lin 2019, Figures 3.24 and 3.25
     Turns,

@@ -13,6 +13,8 @@ use std::path::{Path, PathBuf};
 use epas_design::CagedDesign;
 use epas_friction::Outputs;
 
+use super::beyond::Beyond;
+use super::caged;
 use super::memory;
 use super::nut::{Nut, STEPS};
 use super::output::write_table;
@@ -129,6 +131,7 @@ pub fn run(
         controller: arguments.controller,
         tick,
     };
+    caged::check_errors(design, true)?;
     let (rows, mut lines) = moved(course)?;
     if let Some(told) = temperature.told() {
         lines.add("temperature", told);
@@ -144,7 +147,8 @@ pub fn run(
     settings.add("design", design.name.clone());
     settings.append(screw::settings(design, friction, clearance));
     settings.print(&mut stdout)?;
-    summary(&rows, inertia, tick).print(&mut stdout)?;
+    let beyond = Beyond::caged(design, true)?;
+    summary(&rows, inertia, tick, beyond).print(&mut stdout)?;
     lines.print(&mut stdout)?;
     for path in outputs.iter().flatten() {
         writeln!(stdout, "wrote {}", path.display())?;

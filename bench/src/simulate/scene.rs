@@ -24,6 +24,19 @@ pub trait Scene {
     /// A manoeuvre of another mechanism.
     fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<Self::Sample>, Failure>;
 
+    /// A manoeuvre's trace within the loads that the design is made for, and how it was changed where it was.
+    fn within(&self, trace: Trace<Self::Sample>) -> (Trace<Self::Sample>, Option<String>) {
+        (trace, None)
+    }
+
+    /// Refuses a design whose block is too far from the exact model, as `design` does.
+    ///
+    /// # Errors
+    /// What cannot be folded, with the reason.
+    fn check_errors(&self, _: &Trace<Self::Sample>) -> Result<(), Failure> {
+        Ok(())
+    }
+
     /// Runs the in-loop model over a trace, with the float64 reference where one is wanted; `done` is called
     /// after each sample. Lines tell what of the reference was computed.
     ///

@@ -5,8 +5,9 @@ use std::f64::consts::TAU;
 use epas_design::breakaway::ScrewContacts;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
-use epas_friction::{Clearance, Outputs};
+use epas_friction::{Clearance, Limits, Outputs};
 
+use super::beyond::Beyond;
 use super::reference::Friction;
 use super::samples::ScrewSample;
 use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
@@ -34,6 +35,63 @@ pub fn reversal_speed(design: &Design, speed: f32) -> String {
         design.mark("reversal_speed"),
         100.0 * whole
     )
+}
+
+/// A manoeuvre within what a screw is made for, its loads in proportion, where the heaviest ball carries one of so many equal parts: the limit of
+/// its loads, the static limit of a ball, and the largest load that its block holds, N. Words where it was changed.
+pub fn within(
+    mut trace: Trace<ScrewSample>,
+    design: &Design,
+    balls: f32,
+    block: Option<f32>,
+) -> (Trace<ScrewSample>, Option<String>) {
+    let limits = [
+        (design.caged.limits.axial_load, "axial_load in [limits]"),
+        (
+            capacity::static_load(design.screw()) * balls,
+            "the static limit of its balls",
+        ),
+        (
+            block.unwrap_or(f32::INFINITY),
+            "the largest load of its block",
+        ),
+    ];
+    let least =
+        |one: (f32, &'static str), other: (f32, _)| if other.0 < one.0 { other } else { one };
+    let (most, of) = limits.into_iter().fold((f32::INFINITY, ""), least);
+    let loads = trace.samples.iter().map(|sample| sample.axial_load.abs());
+    let peak = loads.fold(0.0, f64::max);
+    let factor = f64::from(most) / peak;
+    if factor.is_nan() || factor >= 1.0 {
+        return (trace, None);
+    }
+    for sample in &mut trace.samples {
+        sample.axial_load *= factor;
+    }
+    let words = format!("loads scaled by {factor:.3}, from {peak:.0} to {most:.0} N at most: {of}");
+    (trace, Some(words))
+}
+
+/// What a trace that is far too fast for its design may be, by its peaks of speed, rad/s, and load, N.
+fn too_fast(design: &Design, [speed, load]: [f64; 2]) -> Option<String> {
+    /// Speeds above the limit by less are a limit that is too tight.
+    const FAR: f64 = 1.5;
+    let Limits {
+        nut_speed,
+        axial_load,
+        ..
+    } = design.caged.limits;
+    if speed <= FAR * f64::from(nut_speed) {
+        return None;
+    }
+    let exchanged = if load <= nut_speed.into() && speed <= axial_load.into() {
+        "; or are the names nut_speed and axial_load exchanged?"
+    } else {
+        ""
+    };
+    Some(format!(
+        "{speed:.0} rad/s, and nut_speed in [limits] is {nut_speed}; is it in degrees or turns? Then its column is named nut_speed [deg/s] or nut_speed [rpm]{exchanged}"
+    ))
 }
 
 /// What a ball screw's quantities are called.
@@ -93,6 +151,7 @@ pub struct ScrewSummary {
     driving: Work,
     back_driving: Work,
     reference: Option<Difference>,
+    beyond: Option<Beyond>,
 }
 
 /// Work at the motor and at the load, J.
@@ -113,14 +172,15 @@ struct Difference {
 }
 
 impl ScrewSummary {
-    /// Nothing yet.
-    pub fn new(design: &Design) -> Self {
+    /// Nothing yet, with what the design's block does not hold.
+    pub fn new(design: &Design, beyond: Option<Beyond>) -> Self {
         Self {
             course: Course::new(f64::from(design.screw().lead()) / TAU),
             peak_motor: 0.0,
             driving: Work::default(),
             back_driving: Work::default(),
             reference: None,
+            beyond,
         }
     }
 
@@ -142,6 +202,9 @@ impl ScrewSummary {
             regime: outputs.regime,
             faults: outputs.faults,
         });
+        if let Some(beyond) = &mut self.beyond {
+            beyond.add(sample.nut_speed, sample.axial_load, outputs.faults);
+        }
         self.peak_motor = self.peak_motor.max(motor.abs());
         let work = if load * rotation >= 0.0 {
             &mut self.driving
@@ -168,7 +231,7 @@ impl ScrewSummary {
 
     /// The lines, with those of balls that press on each other.
     pub fn lines(
-        &self,
+        self,
         trace: &Trace<ScrewSample>,
         design: &Design,
         settings: Lines,
@@ -202,6 +265,13 @@ impl ScrewSummary {
             lines.add("beyond the static limit", words);
         }
         self.course.flags(&mut lines);
+        let peaks = [self.course.peak_speed(), self.course.peak_load()];
+        if let Some(words) = too_fast(design, peaks) {
+            lines.add("speed limit", words);
+        }
+        if let Some(beyond) = self.beyond {
+            beyond.lines(&mut lines);
+        }
         if let Some(difference) = self.reference {
             let open = match difference.open {
                 0 => String::new(),
@@ -246,7 +316,7 @@ mod tests {
             "design",
         )
         .unwrap();
-        let mut summary = ScrewSummary::new(&design);
+        let mut summary = ScrewSummary::new(&design, None);
         summary.course.add(&Moment {
             time: 0.0,
             speed: 1.0,
@@ -256,6 +326,69 @@ mod tests {
             faults: Faults::default(),
         });
         1e-9 * summary.peak_pressure(&design, 71)
+    }
+
+    /// Loads are scaled to the least of what bears them, and only down.
+    #[test]
+    fn a_manoeuvre_is_kept_within_what_the_screw_bears() {
+        let design = |limit: f32| {
+            read(
+                &format!(
+                    "pitch_radius = 0.0145\nlead = 0.007\nball_radius = 0.002\nconformity = 0.52\ncontact_angle = 0.785\n\
+                     loaded_balls = 20\n[limits]\naxial_load = {limit}\n"
+                ),
+                "design",
+            )
+            .unwrap()
+        };
+        let trace = || Trace {
+            name: "parking".into(),
+            samples: [-8e3, 4e3]
+                .map(|axial_load| ScrewSample {
+                    time: 0.0,
+                    nut_speed: 1.0,
+                    axial_load,
+                })
+                .to_vec(),
+        };
+        let peak = |trace: &Trace<ScrewSample>| trace.samples[0].axial_load;
+        let (kept, words) = within(trace(), &design(2e4), 20.0, Some(9e3));
+        assert_eq!((peak(&kept), words), (-8e3, None));
+        for (limit, balls, block, most, of) in [
+            (2e3, 20.0, Some(6e3), 2e3, "axial_load in [limits]"),
+            (2e4, 20.0, Some(6e3), 6e3, "its block"),
+            (
+                2e4,
+                1.0,
+                None,
+                f64::from(capacity::static_load(design(2e4).screw())),
+                "static limit",
+            ),
+        ] {
+            let (scaled, words) = within(trace(), &design(limit), balls, block);
+            assert!((peak(&scaled) / -most - 1.0).abs() < 1e-6, "{of}");
+            assert!((scaled.samples[1].axial_load / (0.5 * most) - 1.0).abs() < 1e-6);
+            assert!(words.unwrap().contains(of), "{of}");
+        }
+    }
+
+    /// Units are asked for far above the limit of the speed, exchanged names where each peak is within the other's limit.
+    #[test]
+    fn a_trace_in_another_unit_is_asked_for() {
+        let design = read(
+            "pitch_radius = 0.0145\nlead = 0.007\nball_radius = 0.002\nconformity = 0.52\ncontact_angle = 0.785\n\
+             [limits]\nnut_speed = 300\naxial_load = 20000\n",
+            "design",
+        )
+        .unwrap();
+        assert_eq!(too_fast(&design, [440.0, 5e3]), None);
+        let words = too_fast(&design, [2e3, 5e3]).unwrap();
+        assert!(
+            words.contains("nut_speed [deg/s]") && !words.contains("exchanged"),
+            "{words}"
+        );
+        let words = too_fast(&design, [14.5e3, 35.0]).unwrap();
+        assert!(words.contains("axial_load exchanged"), "{words}");
     }
 
     /// The preload presses without a load; of a contact's load it adds at most itself, below the load at which it is gone (2.8 times the preload,

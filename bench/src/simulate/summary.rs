@@ -168,6 +168,11 @@ impl Course {
         self.peak_load
     }
 
+    /// Largest speed, rad/s or m/s.
+    pub const fn peak_speed(&self) -> f64 {
+        self.peak_speed
+    }
+
     /// What was run, with its settings, and its peaks.
     pub fn peaks<S: Sample>(
         &self,

@@ -554,7 +554,15 @@ fn found(header: &StringRecord, column: &str) -> Result<Option<(usize, Option<Un
         .map(|(place, _)| place)
         .collect();
     match exact[..] {
-        [place] => return Ok(Some((place, None))),
+        [place] => {
+            return match names().find(|(other, name)| *other != place && says_unit(name, column)) {
+                None => Ok(Some((place, None))),
+                Some((_, name)) => fault(format!(
+                    "columns {column} and {} are both {column}; leave one of them out",
+                    cut(name)
+                )),
+            };
+        }
         [_, _, ..] => return fault(format!("column {column} is there twice")),
         [] => {}
     }
@@ -585,6 +593,14 @@ fn found(header: &StringRecord, column: &str) -> Result<Option<(usize, Option<Un
         ([], Some(message)) => fault(message),
         ([], None) => Ok(None),
     }
+}
+
+/// Whether a name is a column's with a unit.
+fn says_unit(name: &str, column: &str) -> bool {
+    let own = channel(column).ok().flatten().map(|(quantity, _)| quantity);
+    let found = heading(name).ok().flatten();
+    starts_like(name, column)
+        && found.is_some_and(|(quantity, unit)| Some(quantity) == own && unit != Unit::SI)
 }
 
 fn starts_like(name: &str, column: &str) -> bool {

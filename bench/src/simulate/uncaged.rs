@@ -6,6 +6,7 @@ use epas_friction::{Error, Inputs, Outputs, UncagedOutputs};
 use epas_reference::promises;
 use epas_trains::{Built, ScrewConfiguration};
 
+use super::beyond::Beyond;
 use super::exact_screw::exact_screw;
 use super::manoeuvre::Manoeuvre;
 use super::memory::{self, Remembered};
@@ -22,7 +23,11 @@ use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
 use crate::progress::Working;
-use crate::uncaged;
+use crate::{folds, uncaged};
+
+/// What is not known of a block that is folded for a run: measuring its errors takes twice as long as folding it.
+const NOT_MEASURED: &str = "folded for these loads, its errors are not measured here; `design --scene uncaged` measures those of its own loads, and \
+                            refuses more than 3 %";
 
 /// The scene.
 pub struct Uncaged {
@@ -43,21 +48,34 @@ pub struct UncagedRow {
     pub reference: Option<Friction>,
 }
 
+/// Largest size of the load of a trace, N.
+fn peak_load(trace: &Trace<ScrewSample>) -> f32 {
+    let loads = trace.samples.iter().map(|sample| sample.load().abs());
+    loads.fold(0.0, f64::max) as f32
+}
+
 impl Uncaged {
     fn train(
         &self,
         trace: &Trace<ScrewSample>,
         remembered: Option<&Remembered>,
     ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
-        // Told before the screw is folded.
+        // A trace that cannot be run is told before the screw is folded.
         equal_step(trace).map_err(|failure| failure.of(self.name()))?;
-        let loads = trace.samples.iter().map(|sample| sample.load().abs());
         let configuration = {
             let _working = Working::new("folding the screw");
-            self.folded(loads.fold(0.0, f64::max) as f32)?
+            self.folded(peak_load(trace))?
         };
         let build = |tick| self.model(&configuration, tick, remembered);
         Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+
+    /// Whether the errors of its block are known: of one that comes with the program.
+    fn is_measured(&self, trace: &Trace<ScrewSample>) -> bool {
+        let friction = self.balls.gear.friction;
+        let own = (friction, friction);
+        uncaged::fold_for(&self.design, &self.balls, own, peak_load(trace))
+            .is_ok_and(|fold| folds::is_stored(fold.digest()))
     }
 
     /// What its model is made of, up to an axial load, N.
@@ -154,6 +172,16 @@ impl Scene for Uncaged {
         manoeuvre.trace(self.design.screw())
     }
 
+    fn within(&self, trace: Trace<ScrewSample>) -> (Trace<ScrewSample>, Option<String>) {
+        let balls = 1.0 / self.balls.ball_load(1.0);
+        // Without a table the block follows the trace.
+        let friction = self.balls.gear.friction;
+        let fold = uncaged::fold_for(&self.design, &self.balls, (friction, friction), 0.0);
+        let block = fold.ok().filter(|_| self.design.fold.says_axial_load());
+        let block = block.map(|fold| fold.axial_load[1] * balls);
+        screw::within(trace, &self.design, balls, block)
+    }
+
     fn rows(
         &self,
         trace: &Trace<ScrewSample>,
@@ -161,6 +189,7 @@ impl Scene for Uncaged {
         done: &dyn Fn(),
     ) -> Result<(Vec<UncagedRow>, Lines), Failure> {
         let remembered = self.remembered(trace)?;
+        let measured = self.is_measured(trace);
         let mut train = self.train(trace, remembered.as_ref())?;
         let (reference, mut lines) = match reference {
             None => Default::default(),
@@ -185,6 +214,9 @@ impl Scene for Uncaged {
                 row
             })
             .collect();
+        if !measured {
+            lines.add("block", NOT_MEASURED);
+        }
         lines.add("tick", train.told());
         if let Some(remembered) = remembered {
             lines.append(remembered.lines);
@@ -233,7 +265,9 @@ impl Scene for Uncaged {
     }
 
     fn summary(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Lines {
-        let mut summary = ScrewSummary::new(&self.design);
+        // What has run was folded: nothing is refused here.
+        let beyond = Beyond::uncaged(&self.design, &self.balls, peak_load(trace)).ok();
+        let mut summary = ScrewSummary::new(&self.design, beyond);
         let mut pressing = Pressing::default();
         for row in rows {
             let outputs = row.train.outputs;

@@ -69,6 +69,14 @@ fn every_format_is_the_same_block() {
             "{}",
             run.stdout
         );
+        // The type that a struct or a static takes.
+        let typed = "let mut model: FrictionModel<CagedBallScrew, &'static CagedConstants> = FrictionModel::of(&GEAR);";
+        assert_eq!(
+            run.stdout.contains(typed),
+            file == "gear.rs",
+            "{}",
+            run.stdout
+        );
     }
     let text = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
     let block = words_of_bytes(&fs::read(folder.join("page.dat")).unwrap());
@@ -154,7 +162,8 @@ fn a_block_without_cage_holds_deviations() {
     let folder = folder.path();
     let row = "[uncaged]\nballs = 20\nturns = 1\nscrew_deviation = [{ order = 1, sine = 2e-3 }]\n";
     let fold = "[fold]\naxial_load = [20, 30]\n";
-    let text = format!("friction = 0.1\n{DESIGN}{row}{fold}");
+    let own = DESIGN.replace("loaded_balls = 60", "loaded_balls = 20");
+    let text = format!("friction = 0.1\n{own}{row}{fold}");
     fs::write(folder.join("screw.toml"), &text).unwrap();
     let run = design(
         folder,

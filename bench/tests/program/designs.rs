@@ -179,3 +179,61 @@ fn a_load_beyond_the_static_limit_gets_a_word() {
         assert!(line.contains("4.2 GPa"), "{line}");
     }
 }
+
+/// A 28 mm screw with play.
+const PLAY: &str = "nominal_diameter = 0.028\nlead = 0.007\nball_diameter = 3.969e-3\nconformity = 0.54\ncontact_angle = 0.7853982\n\
+                    loaded_balls = 60\nclearance = 2e-5\n";
+
+/// What `design` refuses, `simulate` refuses with the same sentence, and writes nothing.
+#[test]
+fn a_block_that_is_far_off_is_refused_alike() {
+    let place = tempfile::tempdir().unwrap();
+    let fold = "[fold]\nfriction = [0.02, 0.3]\naxial_load = [0.5, 300]\n";
+    fs::write(place.path().join("gear.toml"), format!("{PLAY}{fold}")).unwrap();
+    let [design, simulate] = [
+        "design gear.toml",
+        "simulate --design gear.toml --manoeuvre weave --output out.csv",
+    ]
+    .map(|arguments| said(place.path(), arguments));
+    let sentence = |run: &Run| {
+        let line = run.stderr.lines().find(|line| line.starts_with("error"));
+        line.unwrap_or_else(|| panic!("{}", run.stdout)).to_owned()
+    };
+    assert_eq!((design.code, simulate.code), (1, 1));
+    assert!(sentence(&design).contains("narrow the domain"));
+    assert_eq!(sentence(&design), sentence(&simulate));
+    assert!(!place.path().join("out.csv").exists());
+}
+
+/// Samples above the block say so with their loads; a manoeuvre is scaled to what the block holds, and a trace is not; one in degrees is asked for.
+#[test]
+fn loads_beyond_the_block_are_told() {
+    let place = tempfile::tempdir().unwrap();
+    let more = "[limits]\nnut_speed = 300\n[fold]\naxial_load = [5, 100]\n";
+    fs::write(place.path().join("gear.toml"), format!("{PLAY}{more}")).unwrap();
+    let trace = "time,nut_speed,axial_load\n0,1000,1000\n0.001,1000,12000\n0.002,-1000,9000\n";
+    fs::write(place.path().join("trace.csv"), trace).unwrap();
+    let simulate = |what: &str| {
+        let run = said(
+            place.path(),
+            &format!("simulate --design gear.toml {what} --output out.csv --force"),
+        );
+        assert_eq!(run.code, 0, "{}", run.stderr);
+        run.stdout
+    };
+    let told = simulate("--input trace.csv");
+    for words in [
+        "9000 to 12000 N on the screw (150 to 200 N a ball): the block holds 5 to 100 N a ball (axial_load in [fold])",
+        "1000 rad/s, and nut_speed in [limits] is 300; is it in degrees or turns?",
+    ] {
+        assert!(told.contains(words), "{told}");
+    }
+    let told = simulate("--manoeuvre parking");
+    for words in [
+        "loads scaled by 0.414, from 14500 to 6000 N at most: the largest load of its block",
+        "peak axial load                6000.0 N",
+        "flagged samples                0",
+    ] {
+        assert!(told.contains(words), "{told}");
+    }
+}

@@ -99,6 +99,8 @@ fn foreign_endings_are_refused() {
             "fmu --scene caged --design lin-4.1 --output a.zip.toml",
             ".fmu",
         ),
+        ("fmu --scene caged --design lin-4.1 --output x.txt", ".fmu"),
+        ("fmu --scene caged --design lin-4.1 --output unit", ".fmu"),
         ("a2l --image a.elf --output a.csv", ".a2l"),
         (
             "calibrate a.csv --design lin-4.1 --design-out a.json",
@@ -121,6 +123,10 @@ fn numbers_below_zero_are_told_their_range() {
         ("simulate --inertia -1", "an inertia is"),
         ("calibrate a.csv --ratio -2", "a ratio is"),
         ("calibrate a.csv --smoothing -2e1", "a cut-off is"),
+        (
+            "calibrate --wanted nonsense --design lin-4.1",
+            "allowed: friction, ",
+        ),
         ("report --rounds -1", "rounds are 1 to"),
         ("report --rounds 0", "rounds are 1 to"),
         ("screws --screws -1", "1..=100000"),

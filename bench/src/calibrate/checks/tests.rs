@@ -315,8 +315,20 @@ fn wrong_units_are_refused() {
         *load *= 1e-3;
     }
     let motion = Motion::of(&kilonewtons, &SmoothingSettings::default()).unwrap();
-    let message = word(load_gain(&kilonewtons, &motion, TRAVEL, false).unwrap_err());
-    assert!(message.contains("wrong unit"), "{message}");
+    for unsaid in [false, true] {
+        let message = word(load_gain(&kilonewtons, &motion, TRAVEL, unsaid).unwrap_err());
+        assert!(message.contains("wrong unit"), "{message}");
+        assert!(message.contains("axial_load [kN]"), "{message}");
+        assert!(!message.contains("--ratio"), "{message}");
+    }
+    let mut exchanged = trace(brisk);
+    let torque = std::mem::replace(&mut exchanged.effort, exchanged.load.take().unwrap());
+    exchanged.load = Some(torque);
+    let message = look(&exchanged).unwrap_err();
+    assert!(
+        message.contains("motor_torque and axial_load are exchanged"),
+        "{message}"
+    );
 }
 
 #[test]

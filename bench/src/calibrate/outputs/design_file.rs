@@ -1,6 +1,8 @@
 //! A design file with the calibrated numbers: the user's own text, in which only those are replaced or added.
 
-use toml_edit::{Array, DocumentMut, InlineTable, Item, RawString, Table, TableLike, Value};
+use toml_edit::{
+    Array, Document, DocumentMut, InlineTable, Item, RawString, Table, TableLike, Value,
+};
 
 use crate::calibrate::answer::{Calibration, Estimate};
 use crate::calibrate::page::shown::{interval, one_line};
@@ -100,9 +102,7 @@ pub fn written(
     (calibration, screw): (&Calibration, Option<&Screw>),
     trace: &str,
 ) -> Result<Written, String> {
-    let mut document: DocumentMut = text
-        .parse()
-        .map_err(|error: toml_edit::TomlError| error.to_string())?;
+    let mut document = parsed(text)?.into_mut();
     let trace = one_line(trace);
     let mut left_out = Vec::new();
     let mut waves = Waves::default();
@@ -117,13 +117,10 @@ pub fn written(
         } else if estimate.fixed {
             // The user's own number stays as it is written.
         } else if KEYS.contains(&name) {
-            let root = document.as_table_mut();
             if FITS.contains(&name) {
-                for other in FITS.into_iter().filter(|other| *other != name) {
-                    rename(root, other, name);
-                }
+                document = with_fit(&document, name)?;
             }
-            set(root, estimate, &trace);
+            set(document.as_table_mut(), estimate, &trace);
         } else if !waves.take(estimate) {
             left_out.push(estimate.name.clone());
         }
@@ -157,15 +154,43 @@ fn ends_at_bound(calibration: &Calibration, name: &str) -> bool {
     })
 }
 
-/// The table `[calibration]`, made where there is none.
-fn table(document: &mut DocumentMut) -> Result<&mut dyn TableLike, String> {
-    let root = document.as_table_mut();
-    if !root.contains_key("calibration") {
-        let mut table = Table::new();
-        table.decor_mut().set_prefix("\n");
-        root.insert("calibration", Item::Table(table));
+/// The keys of a text, with their places.
+fn parsed(text: &str) -> Result<Document<String>, String> {
+    Document::parse(text.to_owned()).map_err(|error| error.to_string())
+}
+
+/// A document in which `name` is the key that says how the balls fit: the one that it has is a comment below it, among the comments that speak
+/// of it.
+fn with_fit(document: &DocumentMut, name: &str) -> Result<DocumentMut, String> {
+    let parsed = parsed(&document.to_string())?;
+    let root = parsed.as_table();
+    let others = FITS.iter().filter(|other| **other != name);
+    let place = others
+        .filter_map(|other| root.key(other)?.span())
+        .map(|span| span.start)
+        .next();
+    match place {
+        Some(place) if !root.contains_key(name) => {
+            let (above, below) = parsed.raw().split_at(place);
+            // Its number follows.
+            let text = format!("{above}{name} = 0\n# {below}");
+            Ok(self::parsed(&text)?.into_mut())
+        }
+        _ => Ok(document.clone()),
     }
-    root.get_mut("calibration")
+}
+
+/// The table `[calibration]`, made where there is none: below the comments that end the file.
+fn table(document: &mut DocumentMut) -> Result<&mut dyn TableLike, String> {
+    if !document.contains_key("calibration") {
+        let above = document.trailing().as_str().unwrap_or_default().to_owned();
+        document.set_trailing("");
+        let mut table = Table::new();
+        table.decor_mut().set_prefix(format!("{above}\n"));
+        document.insert("calibration", Item::Table(table));
+    }
+    document
+        .get_mut("calibration")
         .and_then(Item::as_table_like_mut)
         .ok_or_else(|| "calibration is no table".into())
 }
@@ -206,10 +231,10 @@ fn users_comment(suffix: &str) -> &str {
 /// What is known of a number.
 fn note(estimate: &Estimate, trace: &str) -> String {
     if estimate.fixed {
-        return format!("{MARK}set beside trace {trace}");
+        return format!("{MARK}set, not estimated, from {trace}");
     }
     format!(
-        "{MARK}{} (95 %), trace {trace}",
+        "{MARK}{} (95 %), from {trace}",
         interval(estimate.low, estimate.high)
     )
 }
@@ -219,25 +244,6 @@ fn number(value: f64) -> Value {
     // The shortest digits that are this f32 again.
     let short = format!("{:?}", value as f32);
     short.parse().unwrap_or_else(|_| Value::from(value))
-}
-
-/// Gives a key another name; comments above and behind it stay with it.
-fn rename(table: &mut Table, old: &str, new: &str) {
-    if table.contains_key(new) {
-        table.remove(old);
-        return;
-    }
-    if let Some((key, mut item)) = table.remove_entry(old) {
-        let decor = key.leaf_decor().clone();
-        // What stands behind the old one speaks of it.
-        if let Some(value) = item.as_value_mut() {
-            value.decor_mut().clear();
-        }
-        table.insert(new, item);
-        if let Some(mut key) = table.key_mut(new) {
-            *key.leaf_decor_mut() = decor;
-        }
-    }
 }
 
 /// Estimated waves over the turn: order, cosine, sine.
@@ -288,7 +294,7 @@ impl Waves {
             let mut wave = Value::InlineTable(wave);
             wave.decor_mut().set_prefix(before);
             list.push_formatted(wave);
-            before = format!(" # {MARK}{} (95 %), trace {trace}\n    ", notes.join(", "));
+            before = format!(" # {MARK}{} (95 %), from {trace}\n    ", notes.join(", "));
         }
         list.set_trailing_comma(true);
         list.set_trailing(before.trim_end_matches(' '));

@@ -47,10 +47,7 @@ fn said(trace: &rig::Trace) -> Result<Calibration, String> {
         .unwrap();
     }
     let design = "lin-4.1".parse::<DesignSource>().unwrap().load().unwrap();
-    let frame = Frame {
-        lead: design.screw().lead().into(),
-        ratio: 1.0,
-    };
+    let frame = Frame::of(&design, None);
     let mut request = Request {
         without_models: true,
         ratio_unsaid: true,
@@ -243,6 +240,7 @@ fn a_drag_run_with_a_load_cell_of_noise() {
         let frame = Frame {
             lead: 0.007,
             ratio: 1.0,
+            fastest: 2e3,
         };
         let trace = from_reader(Cursor::new(csv), "trace", Some(&frame)).unwrap();
         let mut request = Request {

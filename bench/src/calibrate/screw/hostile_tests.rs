@@ -16,10 +16,7 @@ use crate::designs::DesignSource;
 /// What a calibration says to a trace: an answer, or the word with which it refuses.
 fn said(trace: &rig::Trace) -> Result<Calibration, String> {
     let design = "lin-4.1".parse::<DesignSource>().unwrap().load().unwrap();
-    let frame = Frame {
-        lead: design.screw().lead().into(),
-        ratio: 1.0,
-    };
+    let frame = Frame::of(&design, None);
     let mut text = Vec::new();
     trace.write_csv(&mut text).unwrap();
     let fit = Request::default().fit;

@@ -17,6 +17,7 @@ use std::f64::consts::TAU;
 use std::io::{Read, Seek};
 
 use crate::aside::say;
+use crate::designs::Design;
 use crate::failure::Failure;
 use crate::mdf4::{self, Mapping};
 use crate::source::Source;
@@ -45,6 +46,82 @@ pub struct Frame {
     pub lead: f64,
     /// Turns of the motor in a turn of the nut.
     pub ratio: f64,
+    /// Fastest that the nut is to turn, rad/s.
+    pub fastest: f64,
+}
+
+impl Frame {
+    /// That of a design whose motor makes so many turns in a turn of the nut, or one.
+    pub fn of(design: &Design, ratio: Option<f64>) -> Self {
+        Self {
+            lead: design.screw().lead().into(),
+            ratio: ratio.unwrap_or(1.0),
+            fastest: design.caged.limits.nut_speed.into(),
+        }
+    }
+
+    /// Refuses a motion whose name says no unit and that is far too fast for the design, but not where it is in degrees.
+    fn check_unsaid(&self, column: &Unsaid, mut speeds: Vec<f64>) -> Result<(), String> {
+        /// Speeds above the limit by less are a limit that is too tight.
+        const FAR: f64 = 1.5;
+        /// Share of the speeds that may be noise.
+        const NOISE: f64 = 0.05;
+        speeds.sort_by(f64::total_cmp);
+        let place = ((1.0 - NOISE) * speeds.len() as f64) as usize;
+        let speed = speeds.get(place).copied().unwrap_or_default();
+        if speed < FAR * self.fastest || speed.to_radians() > self.fastest {
+            return Ok(());
+        }
+        let Unsaid { name, units, part } = column;
+        let gear = if *part == Part::Nut {
+            ""
+        } else {
+            ", or that of a motor behind a gear (--ratio)"
+        };
+        Err(format!(
+            "column {name}: the nut turns at {speed:.0} rad/s, and nut_speed in [limits] is {}; is the column in degrees{gear}? Then its name is {}; else raise nut_speed",
+            self.fastest,
+            units
+                .iter()
+                .map(|unit| format!("{name} [{unit}]"))
+                .collect::<Vec<_>>()
+                .join(" or "),
+        ))
+    }
+}
+
+/// A column of a motion that may turn, and says no unit.
+struct Unsaid {
+    name: String,
+    /// Units that it may be in.
+    units: &'static [&'static str],
+    part: Part,
+}
+
+impl Unsaid {
+    fn of(
+        column: &Column,
+        part: Part,
+        reference: Reference,
+        units: &'static [&'static str],
+    ) -> Option<Self> {
+        (column.unit.dimension == Dimension::Unsaid && reference.angle).then(|| Self {
+            name: column.name.clone(),
+            units,
+            part,
+        })
+    }
+}
+
+/// Sizes of the mean speeds over stretches of a motion, so long that the steps of a sensor do not count.
+fn mean_speeds(position: &[f64], step: f64) -> Vec<f64> {
+    /// Length of a stretch, s.
+    const STRETCH: f64 = 0.05;
+    let ticks = ((STRETCH / step).round() as usize).max(1);
+    let ends = position.iter().zip(position.iter().skip(ticks));
+    ends.step_by(ticks)
+        .map(|(from, to)| (to - from).abs() / (ticks as f64 * step))
+        .collect()
 }
 
 /// Reads a trace from a file: a table, or a measurement file with the channels of a mapping or those that have a column's name.
@@ -154,8 +231,13 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
 
     let speed = speed
         .map(|(column, part)| {
-            let factor = refer(&column, part)?.factor;
-            Ok::<_, String>(clock.resample(scaled(column.values, factor)))
+            let reference = refer(&column, part)?;
+            let unsaid = Unsaid::of(&column, part, reference, &["rpm", "deg/s"]);
+            let values = clock.resample(scaled(column.values, reference.factor));
+            if let (Some(frame), Some(unsaid)) = (frame, unsaid) {
+                frame.check_unsaid(&unsaid, values.iter().map(|speed| speed.abs()).collect())?;
+            }
+            Ok::<_, String>(values)
         })
         .transpose()?;
     // The sensor's step is found before samples are interpolated, which lie between its steps.
@@ -164,7 +246,11 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
         .map(|(mut column, part)| {
             let reference = refer(&column, part)?;
             let filled = std::mem::take(&mut column.left_out);
+            let unsaid = Unsaid::of(&column, part, reference, &["deg"]);
             let values = angle(column, reference)?;
+            if let (Some(frame), Some(unsaid)) = (frame, unsaid) {
+                frame.check_unsaid(&unsaid, mean_speeds(&values, clock.step))?;
+            }
             step_of_sensor = resolution(&measured_only(&values, &filled));
             Ok::<_, String>(values)
         })

@@ -6,6 +6,7 @@ use super::Row;
 use crate::failure::Failure;
 use crate::flags;
 use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use crate::simulate::beyond::Beyond;
 use crate::simulate::picture::Form;
 use crate::simulate::summary::{Flags, Lines};
 
@@ -56,7 +57,7 @@ pub fn record(row: &Row, known: bool) -> Vec<String> {
 }
 
 /// How often the nut turned back, and what it did with its energy.
-pub fn summary(rows: &[Row], inertia: f64, tick: f64) -> Lines {
+pub fn summary(rows: &[Row], inertia: f64, tick: f64, mut beyond: Option<Beyond>) -> Lines {
     let mut lines = Lines::default();
     let most =
         |value: &dyn Fn(&Row) -> f64| rows.iter().map(|row| value(row).abs()).fold(0.0, f64::max);
@@ -112,8 +113,14 @@ pub fn summary(rows: &[Row], inertia: f64, tick: f64) -> Lines {
     let mut flags = Flags::default();
     for row in rows {
         flags.add(row.outputs.faults);
+        if let Some(beyond) = &mut beyond {
+            beyond.add(row.speed, row.acting.axial_load, row.outputs.faults);
+        }
     }
     flags.lines(&mut lines);
+    if let Some(beyond) = beyond {
+        beyond.lines(&mut lines);
+    }
     lines
 }
 

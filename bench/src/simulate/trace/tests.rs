@@ -116,6 +116,11 @@ fn every_fault_names_its_line() {
         ),
         ("time,nut_speed_mm,axial_load\n0,1,2\n", 1, "nut_speed_rpm"),
         (
+            "time,nut_speed,axial_load,axial_load_kN\n0,1,2,3\n1,1,2,3\n",
+            1,
+            "columns axial_load and axial_load_kN are both axial_load; leave one of them out",
+        ),
+        (
             "Time,Nut speed,nut_speed_rpm,axial_load\n0,1,1,2\n",
             1,
             "are both nut_speed",

@@ -73,10 +73,10 @@ fn only_calibrated_numbers_change() {
         assert_eq!(kept.contains(&line), !replaced, "{line}");
     }
     for line in [
-        "friction = 0.1152 # assumed; calibrated: 0.1037 to 0.1267 (95 %), trace weave 17",
-        "preload = 17.0 # calibrated: 15.30 to 18.70 (95 %), trace weave 17",
-        "full_film_ratio = 0.5 # calibrated: 0.4500 to 0.5500 (95 %), trace weave 17",
-        "reference_temperature = 303.0 # calibrated: set beside trace weave 17",
+        "friction = 0.1152 # assumed; calibrated: 0.1037 to 0.1267 (95 %), from weave 17",
+        "preload = 17.0 # calibrated: 15.30 to 18.70 (95 %), from weave 17",
+        "full_film_ratio = 0.5 # calibrated: 0.4500 to 0.5500 (95 %), from weave 17",
+        "reference_temperature = 303.0 # calibrated: set, not estimated, from weave 17",
     ] {
         assert!(text.contains(line), "{line}\n{text}");
     }
@@ -106,6 +106,27 @@ fn a_preload_takes_the_place_of_any_fit() {
         let preload = design.caged.clearance.preload(&design.caged.design);
         assert!((preload - 17.0).abs() < 17.0 * 1e-5, "{preload}");
     }
+}
+
+/// Comments stay beside what they speak of: below the new key those of the one that it replaces, and at the end of a table its own.
+#[test]
+fn comments_stay_in_their_places() {
+    let users = format!(
+        "{USERS}# The motor's, not the nut's.\n"
+    )
+    .replace(
+        "clearance = -1e-6 # sorted balls\n",
+        "\n# -- Fit, one of four\nclearance = -1e-6 # sorted balls\n#   nominal ball\n# axial_play = 1e-5\n",
+    );
+    let text = written(&users, (&whole(), None), "trace").unwrap().text;
+    for lines in [
+        "\n# -- Fit, one of four\npreload = 17.0 # calibrated: 15.30 to 18.70 (95 %), from trace\n# clearance = -1e-6 # sorted balls\n#   nominal ball\n# axial_play = 1e-5\nball_diameter",
+        "nut_speed = 300 # of the motor\n# The motor's, not the nut's.\n\n[calibration]\n",
+    ] {
+        assert!(text.contains(lines), "{text}");
+    }
+    let again = written(&text, (&whole(), None), "trace").unwrap().text;
+    assert_eq!(text, again);
 }
 
 #[test]

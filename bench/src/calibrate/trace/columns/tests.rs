@@ -12,6 +12,7 @@ use crate::failure::Failure;
 const FRAME: Frame = Frame {
     lead: 7e-3,
     ratio: 2.5,
+    fastest: 300.0,
 };
 
 fn read(text: &str, frame: Option<&Frame>) -> Result<Trace, String> {
@@ -44,6 +45,43 @@ fn close(found: &[f64], wanted: impl Fn(f64) -> f64, tolerance: f64) {
             "sample {sample}: {found} for {wanted}"
         );
     }
+}
+
+/// A motion in degrees whose name says no unit is far too fast for the design; one that says it is not, nor one of another unit at the limit.
+#[test]
+fn an_angle_in_degrees_is_asked_for() {
+    let of = |header: &str, value: fn(f64) -> f64| {
+        let text = table(header, 800, |time| format!("{time},0.1,{}", value(time)));
+        read(&text, Some(&FRAME))
+    };
+    for (header, words) in [
+        (
+            "time,motor_torque,nut_position",
+            "is the column in degrees? Then its name is nut_position [deg]",
+        ),
+        (
+            "time,motor_torque,position",
+            "behind a gear (--ratio)? Then its name is position [deg]",
+        ),
+    ] {
+        let message = of(header, |time| angle(time).to_degrees()).unwrap_err();
+        assert!(message.contains(words), "{message}");
+        assert!(
+            message.contains("nut_speed in [limits] is 300"),
+            "{message}"
+        );
+        of(header, angle).unwrap();
+    }
+    of("time,motor_torque,nut_position_deg", |time| {
+        angle(time).to_degrees()
+    })
+    .unwrap();
+    let message = of("time,motor_torque,nut_speed", |_| 700.0).unwrap_err();
+    assert!(
+        message.contains("nut_speed [rpm] or nut_speed [deg/s]"),
+        "{message}"
+    );
+    of("time,motor_torque,nut_speed_rpm", |_| 700.0).unwrap();
 }
 
 #[test]
