@@ -13,7 +13,7 @@ use node::KnotPlace;
 use numbers::IMPEDANCES;
 
 pub use node::{BallKnot, BallNode, KNOTS};
-pub use numbers::{BallNumbers, FreeMotion, LARGEST_GRIP, POWERS};
+pub use numbers::{BallNumbers, FreeMotion, LARGEST_GRIP, LARGEST_WORK, POWERS};
 
 /// Least and largest `mu W` that count, N.
 const SLIDING_LOADS: [f32; 2] = [1e-6, 5e5];
@@ -54,7 +54,7 @@ impl<const NODES: usize> BallLaw<NODES> {
     /// Refuses numbers that are no law.
     ///
     /// # Errors
-    /// [`Error`] naming `friction`, `load`, `per_width`, `free`, `impedance`, `torque`, `slope`, `grip`, `rubbing`, `deviations` or
+    /// [`Error`] naming `friction`, `load`, `per_width`, `free`, `impedance`, `torque`, `slope`, `work`, `grip`, `rubbing`, `deviations` or
     /// `lift_off`.
     pub const fn checked(&self) -> Result<(), Error> {
         const { assert!(NODES > 0) };

@@ -21,7 +21,7 @@ pub use certificate::{RowFigures, UncagedCertificate, UncagedFigure};
 use fit::{Branch, Fit, Numbers};
 
 /// Version of the way from a design to a block, which the digest of a block covers: raised by every change that gives the same design other bits.
-pub const ALGORITHM: u32 = 2;
+pub const ALGORITHM: u32 = 3;
 
 /// Nodes of a range of friction coefficients.
 pub const NODES: usize = 3;
@@ -314,6 +314,7 @@ fn rounded(numbers: &Numbers) -> BallNumbers {
         impedance: numbers.impedance.map(|number| number as f32),
         torque: numbers.torque.map(|number| number as f32),
         slope: numbers.slope as f32,
+        work: numbers.work as f32,
         grip: numbers.grip.map(|number| number as f32),
         rubbing: numbers.rubbing as f32,
     }

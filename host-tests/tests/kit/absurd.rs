@@ -570,6 +570,7 @@ fn ball_numbers(random: &mut Random) -> BallNumbers {
         ],
         torque,
         slope: random.of(&[0.0, 1e-4, 1.0]) * random.sign(),
+        work: random.of(&[0.0, 1.0, 4.0]),
         grip: [
             random.of(&[0.0, -1e-3, -0.5, 0.7, 8.0]),
             random.within(-1.0, 1.0),

@@ -12,10 +12,13 @@ pub(super) const IMPEDANCES: Range = Range::new(0.01, 1e3);
 /// Largest torque over load, m, and its change with the speed, that count.
 const LARGEST_ARM: f32 = 1.0;
 
+/// Largest loss by a net push over its work.
+pub const LARGEST_WORK: f32 = 4.0;
+
 /// Largest size of a grip within the largest deviations.
 pub const LARGEST_GRIP: f32 = 10.0;
 
-/// What one ball does under a load, all over `mu W` but the free speed, the grip and the speed of rubbing.
+/// What one ball does under a load, all over `mu W` but the free speed, the work, the grip and the speed of rubbing.
 ///
 /// With the deviations `s` of the screw's and `n` of the nut's contact angles, each over its largest ([`BallLaw::deviations`](super::BallLaw::deviations)), and `x` the
 /// ball's speed less its free speed:
@@ -23,7 +26,7 @@ pub const LARGEST_GRIP: f32 = 10.0;
 /// ```text
 /// free speed       u = u_0 + u_1 s + u_2 n + u_3 s^2 + u_4 s n + u_5 n^2
 /// net push         P = mu W (z_0 + z_1 s + z_2 n) x
-/// friction torque  T = mu W (t_0 + ... + t_5 n^2 + c x) + P x v / 2
+/// friction torque  T = mu W (t_0 + ... + t_5 n^2 + c x) + w P x v / 2
 /// ```
 ///
 /// with the nominal speed `v` against the nut, m per unit of nut speed.
@@ -38,6 +41,8 @@ pub struct BallNumbers {
     pub torque: [f32; POWERS],
     /// Change of the friction torque with the speed at the free speed, m.
     pub slope: f32,
+    /// Loss by the net push over its work `P x v / 2`, 0 to 4: 1 where a push is in proportion to the speed, more where it saturates.
+    pub work: f32,
     /// Net push that a ball needs in addition, over the friction of its neighbours on it, -10 to 10: what friction between balls does to the
     /// speed of a ball; powers `1, s, n`.
     pub grip: [f32; 3],
@@ -60,12 +65,13 @@ pub struct FreeMotion {
 }
 
 impl BallNumbers {
-    /// All zero.
+    /// A ball that loses nothing and holds nothing.
     pub const NONE: Self = Self {
         free: [0.0; POWERS],
         impedance: [0.0; 3],
         torque: [0.0; POWERS],
         slope: 0.0,
+        work: 1.0,
         grip: [0.0; 3],
         rubbing: 0.0,
     };
@@ -87,6 +93,7 @@ impl BallNumbers {
             impedance: all(&self.impedance, &others.impedance, share),
             torque: all(&self.torque, &others.torque, share),
             slope: one(self.slope, others.slope),
+            work: one(self.work, others.work),
             grip: all(&self.grip, &others.grip, share),
             rubbing: one(self.rubbing, others.rubbing),
         }
@@ -130,6 +137,7 @@ impl BallNumbers {
         let torque = sum_of_sizes(&self.torque, 0);
         attempt!(in_range("torque", torque, 0.0, LARGEST_ARM));
         attempt!(in_range("slope", self.slope, -LARGEST_ARM, LARGEST_ARM));
+        attempt!(in_range("work", self.work, 0.0, LARGEST_WORK));
         attempt!(in_range(
             "grip",
             sum_of_sizes(&self.grip, 0),

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | 9 | friction coefficient, lead, ball radius, path radius, nominal speed against the nut, reversal speed, limits of nut speed, axial load and friction torque |
 //! | 3 | largest deviations of screw and nut, lift-off load of a ball |
-//! | 1 347 a node | friction coefficient; 2 times 32 knots, each a load and 20 numbers; the bits of both branches where forces are not held |
+//! | 1 411 a node | friction coefficient; 2 times 32 knots, each a load and 21 numbers; the bits of both branches where forces are not held |
 //!
 //! Numbers are the bits of an `f32`.
 
@@ -18,11 +18,11 @@ use crate::scene::words::{HEADER, Layout, float, floats, word};
 const MAGIC: u32 = 0x5541_5045;
 
 /// Version of the layout.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// Numbers that do not depend on the nodes; words of a knot, and of a node.
 const COMMON: usize = 12;
-const KNOT: usize = 21;
+const KNOT: usize = 22;
 const NODE: usize = 1 + 2 * KNOTS * KNOT + 2;
 
 impl<const NODES: usize> FoldedBall<NODES> {
@@ -138,6 +138,7 @@ fn of_knot(knot: &BallKnot) -> impl Iterator<Item = u32> + use<> {
         impedance,
         torque,
         slope,
+        work,
         grip,
         rubbing,
     } = knot.numbers;
@@ -145,7 +146,7 @@ fn of_knot(knot: &BallKnot) -> impl Iterator<Item = u32> + use<> {
         .chain(free)
         .chain(impedance)
         .chain(torque)
-        .chain([slope])
+        .chain([slope, work])
         .chain(grip)
         .chain([rubbing])
         .map(f32::to_bits)
@@ -195,8 +196,9 @@ const fn knot(words: &[u32], at: usize, followed: bool) -> BallKnot {
             impedance: floats(words, at + 7),
             torque: floats(words, at + 10),
             slope: float(words, at + 16),
-            grip: floats(words, at + 17),
-            rubbing: float(words, at + 20),
+            work: float(words, at + 17),
+            grip: floats(words, at + 18),
+            rubbing: float(words, at + 21),
         },
     }
 }

@@ -165,6 +165,7 @@ const fn numbers(
         impedance: [z, z_screw, z_nut],
         torque: parabola(&at[2]),
         slope: 0.0,
+        work: 1.0,
         grip: [0.0; 3],
         rubbing: 2.0 * tick.rubbing(),
     }

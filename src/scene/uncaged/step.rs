@@ -67,7 +67,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         state.circuit.advance(&self.circuit, nut_speed);
 
         let numbers = &common.numbers;
-        let work = self.half_speed * pressing.work;
+        let work = self.half_speed * numbers.work * pressing.work;
         let rubbing = self.ball_friction * numbers.rubbing * pressing.force;
         let most = self.law.load_of(self.heaviest * common.mean);
         let friction = state.friction;

@@ -4,8 +4,8 @@
 //! the errors of the force at the held speed count most, and those of the free speed beside them. The impedance is therefore the secant from
 //! the free speed to the held one, not the tangent at either.
 
-use epas_friction::ball::pressed::{KNOTS, LARGEST_GRIP, POWERS};
-use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+use epas_friction::ball::pressed::{KNOTS, LARGEST_GRIP, LARGEST_WORK, POWERS};
+use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
 
 use super::Column;
 use super::ball::{BallSample, POINTS, place};
@@ -27,17 +27,21 @@ const STEPS: usize = 8;
 const IMPEDANCES: [f64; 2] = [0.1, 500.0];
 const LARGEST_CHANGE: f64 = 0.8;
 
+/// Largest loss by a push over its work, a little less than a law may have.
+const MOST_WORK: f64 = 0.999 * LARGEST_WORK as f64;
+
 /// Powers of an impedance, and numbers that are fitted together.
 const SLOPES: usize = 3;
 const TOGETHER: usize = POWERS + SLOPES;
 
-/// Numbers at a knot, all over `mu W` but speeds and grip; see `BallNumbers`.
+/// Numbers at a knot, all over `mu W` but speeds, work and grip; see `BallNumbers`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Numbers {
     pub free: [f64; POWERS],
     pub impedance: [f64; SLOPES],
     pub torque: [f64; POWERS],
     pub slope: f64,
+    pub work: f64,
     pub grip: [f64; SLOPES],
     pub rubbing: f64,
 }
@@ -151,15 +155,16 @@ impl<'a> Fit<'a> {
         let rubbings = self.alone(&knots, &places, |sample| sample.rubbing);
         let grips: [Vec<f64>; SLOPES] =
             std::array::from_fn(|power| self.alone(&knots, &places, |sample| sample.grip[power]));
-        let slopes = self.slopes(&knots, &places);
-        let torques = self.torques(&knots, &places, &speeds, &slopes);
+        let gains = self.gains(&knots, &places);
+        let torques = self.torques(&knots, &places, &speeds, &gains);
         let numbers: Vec<(f64, Numbers)> = (0..knots.at.len())
             .map(|knot| {
                 let numbers = Numbers {
                     free: std::array::from_fn(|power| speeds[knot][power]),
                     impedance: std::array::from_fn(|power| speeds[knot][POWERS + power]),
                     torque: torques[knot].into(),
-                    slope: slopes[knot],
+                    slope: gains[knot][0],
+                    work: gains[knot][1],
                     grip: limited_grip(std::array::from_fn(|power| grips[power][knot])),
                     rubbing: rubbings[knot],
                 };
@@ -352,26 +357,43 @@ impl<'a> Fit<'a> {
         (free, impedance)
     }
 
-    /// Change of the torque with the speed beside that of the force's work, at the knots.
-    fn slopes(&self, knots: &Knots<'_>, places: &[Between]) -> Vec<f64> {
-        let mut column = Column {
+    /// What balls lose at the held speed more than at their free speeds, in two parts at the knots: in proportion to the change of speed, and over
+    /// the work of the force. The latter is 1 where the force is in proportion to the change of speed, more where it saturates.
+    fn gains(&self, knots: &Knots<'_>, places: &[Between]) -> Vec<[f64; 2]> {
+        let column = || Column {
             values: Vec::new(),
             weights: Vec::new(),
         };
+        let mut columns = [column(), column()];
         for (load, sample) in self.samples.iter().enumerate() {
-            let (mut products, mut squares) = (0.0, 0.0);
+            let mut squares = Matrix2::zeros();
+            let mut products = Vector2::zeros();
             for point in &sample.points {
                 let push = sample.held - point.free;
                 let work = 0.5 * self.against_nut * point.force * push;
-                products += push * (point.torque_held - point.torque - work);
-                squares += push * push;
+                let parts = Vector2::new(push, work);
+                squares += parts * parts.transpose();
+                // Beside a work that counts once.
+                products += parts * (point.torque_held - point.torque - work);
             }
-            column.values.push(products / squares);
-            column
-                .weights
-                .push(self.weights[load] * squares / self.torques[load].powi(2));
+            let weight = self.weights[load] / self.torques[load].powi(2);
+            let alone = Vector2::new(products[0] / squares[(0, 0)], 0.0);
+            let found = squares
+                .cholesky()
+                .map_or(alone, |both| both.solve(&products));
+            let work = (1.0 + found[1]).clamp(0.0, MOST_WORK);
+            for (part, value) in [found[0], work].into_iter().enumerate() {
+                columns[part].values.push(value);
+                columns[part].weights.push(weight * squares[(part, part)]);
+            }
         }
-        knots.fitted(places, &column)
+        let [slopes, works] = columns.map(|column| knots.fitted(places, &column));
+        let works = works.into_iter().map(|work| work.clamp(0.0, MOST_WORK));
+        slopes
+            .into_iter()
+            .zip(works)
+            .map(<[f64; 2]>::from)
+            .collect()
     }
 
     /// Powers of the torque at the free speed, at the knots: as close to the exact one there as to what makes the one at the held speed.
@@ -380,7 +402,7 @@ impl<'a> Fit<'a> {
         knots: &Knots<'_>,
         places: &[Between],
         speeds: &[SVector<f64, TOGETHER>],
-        slopes: &[f64],
+        gains: &[[f64; 2]],
     ) -> Vec<SVector<f64, POWERS>> {
         let weights: Vec<f64> = (0..places.len())
             .map(|load| self.weights[load] / self.torques[load].powi(2))
@@ -392,11 +414,12 @@ impl<'a> Fit<'a> {
             .map(|(sample, place)| {
                 let here = blended(speeds, place);
                 let [low, high] = place.shares;
-                let slope = low * slopes[place.knot] + high * slopes[place.knot + 1];
+                let [slope, work] = [0, 1]
+                    .map(|gain| low * gains[place.knot][gain] + high * gains[place.knot + 1][gain]);
                 let coordinates = self.grid.coordinates(|point| {
                     let (free, impedance) = self.free_and_impedance(point, &here);
                     let push = sample.held - free;
-                    let gained = (slope + 0.5 * self.against_nut * impedance * push) * push;
+                    let gained = (slope + 0.5 * work * self.against_nut * impedance * push) * push;
                     let exact = &sample.points[point];
                     0.5 * (exact.torque + exact.torque_held - gained)
                 });

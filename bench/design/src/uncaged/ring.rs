@@ -96,7 +96,9 @@ impl Row {
             let x = f64::from(speed - motion.speed);
             let push = f64::from(motion.impedance) * x;
             torque += f64::from(motion.torque)
-                + (f64::from(numbers.slope) + 0.5 * speeds.against_nut * push) * x;
+                + (f64::from(numbers.slope)
+                    + 0.5 * f64::from(numbers.work) * speeds.against_nut * push)
+                    * x;
         }
         let forces: Vec<f64> = press.forces().take(BALLS - 1).map(f64::from).collect();
         let rubbing = f64::from(self.ball_friction * numbers.rubbing);

@@ -14,10 +14,19 @@ fn all(numbers: &BallNumbers) -> Vec<f32> {
         impedance,
         torque,
         slope,
+        work,
         grip,
         rubbing,
     } = *numbers;
-    [&free[..], &impedance, &torque, &[slope], &grip, &[rubbing]].concat()
+    [
+        &free[..],
+        &impedance,
+        &torque,
+        &[slope, work],
+        &grip,
+        &[rubbing],
+    ]
+    .concat()
 }
 
 /// Impedance, torque and slope in proportion to `mu W`; free speed, grip and rubbing without it.
@@ -148,6 +157,7 @@ fn numbers_that_are_no_law_are_refused_by_name() {
             &[1.01, -1.01],
         ),
         ("slope", |law, x| numbers(law).slope = x, &[1.01, -1.01]),
+        ("work", |law, x| numbers(law).work = x, &[-0.01, 4.01]),
         (
             "grip",
             |law, x| numbers(law).grip = [0.0, 0.0, x],

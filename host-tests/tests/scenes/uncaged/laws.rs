@@ -145,7 +145,9 @@ fn the_torque_is_what_the_balls_lose() {
                 let x = f64::from(way) * tick.speeds[ball] - f64::from(free.speed);
                 let push = f64::from(free.impedance) * x;
                 grooves += f64::from(free.torque)
-                    + (f64::from(tick.numbers.slope) + half_speed * push) * x;
+                    + (f64::from(tick.numbers.slope)
+                        + half_speed * f64::from(tick.numbers.work) * push)
+                        * x;
             }
             let found = f64::from(way * tick.outputs.groove_torque);
             measured::assert(
