@@ -314,7 +314,14 @@ fn attempt(
     let by_residual = uncertainty(&part, &fit);
     let values = values_of(&problem, &told.fixed, &by_residual.intervals);
     let smoothing = &request.smoothing;
-    let uncertainty = widened(&problem, &fit, &values, smoothing, by_residual.clone())?;
+    let uncertainty = widened(
+        &problem,
+        &fit,
+        &values,
+        smoothing,
+        &request.wanted.fix,
+        by_residual.clone(),
+    )?;
     let values = values_of(&problem, &told.fixed, &uncertainty.intervals);
     let mut answer = answer(&problem, &fit, &uncertainty, &values);
     let fixed: Vec<&str> = answer

@@ -3,6 +3,7 @@
 //!
 //! | sign | what follows |
 //! |---|---|
+//! | standard error above that of what is assumed without a trace ([`Hints::prior_deviation`]) | it is set |
 //! | condition above 100, and a parameter of the null direction known to worse than a quarter | the one known worst is set |
 //! | interval as wide as the bounds, or of a factor of ten to both sides | it is set |
 //! | value at a bound | it is set, or where the trace objects to that, a sentence |
@@ -53,6 +54,13 @@ pub trait Hints {
         None
     }
 
+    /// Standard deviation of that value in the parameter's inner coordinate, where it is known. A trace that identifies the parameter less
+    /// well does not estimate it.
+    fn prior_deviation(&self, name: &str) -> Option<f64> {
+        let _ = name;
+        None
+    }
+
     /// Why the sensors cannot have seen a parameter of this value, where they cannot.
     fn unseen(&self, name: &str, value: f64) -> Option<String> {
         let _ = (name, value);
@@ -82,6 +90,8 @@ pub enum Reason {
     NullDirection(f64),
     /// The interval is as wide as the bounds, or of a factor of ten to both sides.
     Wide,
+    /// The standard error is above the standard deviation of what is assumed without a trace.
+    Prior,
     /// The value is at a bound.
     AtBound,
     /// The sensors cannot have seen it.
@@ -239,6 +249,10 @@ fn worst(
     if let Some(unseen) = unseen(problem, sure, hints) {
         return Some(unseen);
     }
+    // Before the null direction: the parameters that it names may be known well once this one is set.
+    if let Some(vaguer) = vaguer_than_prior(problem, sure, hints, kept) {
+        return Some(vaguer);
+    }
     let all: Vec<usize> = (0..sure.intervals.len()).collect();
     let part = |k: usize| sure.null_direction[k].powi(2);
     let members: Vec<usize> = all.iter().copied().filter(|k| part(*k) > PART).collect();
@@ -291,6 +305,27 @@ fn unseen(
         let of = (vec![interval.name], Reason::Unseen);
         Some(setting(interval, value, of, (because, hints)))
     })
+}
+
+/// The first parameter that the trace identifies less well than what is assumed without it, and the value that it is set to.
+fn vaguer_than_prior(
+    problem: &dyn Separable,
+    sure: &Uncertainty,
+    hints: &dyn Hints,
+    kept: &[&str],
+) -> Option<(Untold, (&'static str, f64))> {
+    let vaguer = |interval: &&Interval| {
+        let deviation = hints.prior_deviation(interval.name);
+        deviation.is_some_and(|deviation| interval.standard_error > deviation)
+            && !kept.contains(&interval.name)
+    };
+    let interval = sure.intervals.iter().find(vaguer)?;
+    let names = vec![interval.name];
+    let value = prior(problem, interval.name, hints);
+    let because = hints.lacking(&names);
+    let because = because.unwrap_or_else(|| "the trace does not show it".into());
+    let of = (names, Reason::Prior);
+    Some(setting(interval, value, of, (because, hints)))
 }
 
 /// A parameter that is set, with a sentence.

@@ -2,7 +2,7 @@
 
 use super::choice::needs;
 use super::evidence::Evidence;
-use super::quantities::{Linear, Nonlinear, Values};
+use super::quantities::{Linear, Nonlinear, Values, assumed_deviation};
 use crate::calibrate::fit::telling::Hints;
 
 /// What the trace excites, and the values that stay where it tells nothing.
@@ -51,10 +51,10 @@ impl Hints for ScrewHints {
                 "speeds are {slow:.3} to {fast:.3} rad/s; measure from a fifth to ten times the half-share speed, with loads of both signs"
             ));
         }
-        if has("viscosity_pole") {
+        let range = self.evidence.temperature_range();
+        if has("viscosity_pole") && range < needs::TEMPERATURE {
             return Some(format!(
-                "the temperature varies by {:.0} K only; measure over {} K at least",
-                self.evidence.temperature_range(),
+                "the temperature varies by {range:.0} K only; measure over {} K; intervals of what depends on it allow for other lubricants",
                 needs::TEMPERATURE
             ));
         }
@@ -88,6 +88,10 @@ impl Hints for ScrewHints {
     fn prior(&self, name: &str) -> Option<f64> {
         let nonlinear = Nonlinear::named(name).map(|of| of.value(&self.values));
         nonlinear.or_else(|| Linear::named(name).map(|of| of.value(&self.values)))
+    }
+
+    fn prior_deviation(&self, name: &str) -> Option<f64> {
+        assumed_deviation(name)
     }
 
     fn unseen(&self, name: &str, value: f64) -> Option<String> {

@@ -153,6 +153,15 @@ pub const LINEAR: [Linear; 10] = {
     ]
 };
 
+/// Standard deviation of the pole of a lubricant's viscosity, K, where nobody has told the lubricant: oils with viscosity indices of 0 to 140
+/// have it at 178 to 227 K, by their viscosities at 40 and 100 degrees Celsius, and an even spread over these has 14 K.
+const POLE_DEVIATION: f64 = 15.0;
+
+/// Standard deviation of what is assumed of a quantity that others depend on, where it is neither estimated nor set.
+pub fn assumed_deviation(name: &str) -> Option<f64> {
+    (name == "viscosity_pole").then_some(POLE_DEVIATION)
+}
+
 /// Word that stands for all waves over the turn in a request.
 pub const HARMONICS: &str = "harmonics";
 
@@ -232,4 +241,41 @@ pub fn all(values: &Values) -> impl Iterator<Item = (&'static str, &'static str,
         .map(|of| (of.name, of.unit, of.value(values)));
     let linear = LINEAR.iter().map(|of| (of.name, of.unit, of.value(values)));
     nonlinear.chain(linear)
+}
+
+#[cfg(test)]
+mod tests {
+    use epas_friction::defaults;
+    use epas_friction::law::coefficient::{OilData, Viscosity};
+
+    use super::POLE_DEVIATION;
+
+    /// Oils of viscosity indices 0, 50 and 100 with 8.86 mm²/s at 100 degrees Celsius (the worked example of ASTM D2270 has 119.94 and
+    /// 69.48 mm²/s at 40 degrees for 0 and 100, from which 94.71 follows for 50), and synthetic ones of about 140 and 150: within two
+    /// standard deviations of the assumed pole, and as far apart as an even spread has it.
+    #[test]
+    fn poles_of_oils_lie_about_the_assumed_one() {
+        let pole = |cold: f32, warm: f32| {
+            let oil = OilData {
+                kinematic_viscosity_40: 1e-6 * cold,
+                kinematic_viscosity_100: 1e-6 * warm,
+                density: 850.0,
+                pour_point: 233.15,
+            };
+            f64::from(Viscosity::of_oil(&oil).unwrap().pole())
+        };
+        let poles = [
+            pole(119.94, 8.86),
+            pole(94.71, 8.86),
+            pole(69.48, 8.86),
+            pole(48.0, 8.0),
+            pole(100.0, 14.5),
+        ];
+        let assumed = f64::from(defaults::COEFFICIENT.viscosity.pole());
+        for pole in poles {
+            assert!((pole - assumed).abs() < 2.0 * POLE_DEVIATION, "{poles:?}");
+        }
+        let spread = (poles[0] - poles[3]) / 12_f64.sqrt();
+        assert!((spread - POLE_DEVIATION).abs() < 2.0, "{poles:?}");
+    }
 }

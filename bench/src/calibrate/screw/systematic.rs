@@ -8,7 +8,8 @@
 //!
 //! The scene's friction is that of the exact ball within some parts in a thousand, differently at every speed and load. Blocks of
 //! speed and load, each off by itself, widen the intervals too. These errors are the same in every trace of a screw: a mean over many
-//! traces does not take them out, and so they stand apart from the covariance (`Interval::model_error`).
+//! traces does not take them out, and so they stand apart from the covariance (`Interval::model_error`). So is what the fit assumes of a
+//! lubricant that nobody has told: the standard deviation of the assumption goes through the fit's slopes as well.
 
 use nalgebra::{DMatrix, DVector};
 use rand::{RngExt, SeedableRng};
@@ -16,7 +17,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
 use super::problem::ScrewProblem;
-use super::quantities::Values;
+use super::quantities::{NONLINEAR, Nonlinear, Values, assumed_deviation};
 use crate::calibrate::fit::problem::Scale;
 use crate::calibrate::fit::separable::{Fit, inner_slope};
 use crate::calibrate::fit::uncertainty::{Uncertainty, correlation, deviations};
@@ -41,6 +42,9 @@ const MODEL: f64 = 2e-3;
 /// Error of the breakaway angle over itself for eight elements in the place of a curve: the reference's sixty elements on two courses were
 /// found 1.0 % too small and 0.9 % too large.
 const ELEMENTS: f64 = 7e-3;
+
+/// Step of a difference over an assumed quantity, in its standard deviations.
+const STEP: f64 = 1.0 / 3.0;
 
 /// Parts of the speeds, and of the loads, in which that error is one.
 const SPEEDS: usize = 5;
@@ -109,9 +113,18 @@ pub fn widened(
     fit: &Fit,
     values: &Values,
     settings: &SmoothingSettings,
+    set: &[(String, f64)],
     mut sure: Uncertainty,
 ) -> Result<Uncertainty, Failure> {
-    let Some(systematic) = systematic(problem, fit, values, settings)? else {
+    let known = |name: &str| {
+        let estimated = sure.intervals.iter().any(|interval| interval.name == name);
+        estimated || set.iter().any(|(set, _)| set == name)
+    };
+    let assumed = NONLINEAR.iter().filter(|of| !known(of.name));
+    let assumed: Vec<_> = assumed
+        .filter_map(|of| Some((of, assumed_deviation(of.name)?)))
+        .collect();
+    let Some(systematic) = systematic(problem, fit, values, settings, &assumed)? else {
         return Ok(sure);
     };
     for (place, interval) in sure.intervals.iter_mut().enumerate() {
@@ -146,6 +159,7 @@ fn systematic(
     fit: &Fit,
     values: &Values,
     settings: &SmoothingSettings,
+    assumed: &[(&Nonlinear, f64)],
 ) -> Result<Option<Systematic>, Failure> {
     let Some(slopes) = Slopes::of(fit) else {
         return Ok(None);
@@ -156,11 +170,34 @@ fn systematic(
         let off: Vec<f64> = rows.iter().map(|row| MODEL * row).collect();
         variance += slopes.fitted(&off).map(|value| value * value);
     }
+    for (quantity, deviation) in assumed {
+        let off = rows_of_assumption(problem, values, quantity, *deviation);
+        if off.iter().all(|row| row.is_finite()) {
+            variance += slopes.fitted(&off).map(|value| value * value);
+        }
+    }
     Ok(Some(Systematic {
         shift,
         sensors,
         model: variance.map(f64::sqrt),
     }))
+}
+
+/// Rows by which the model is off where a quantity is off what is assumed of it by its standard deviation.
+fn rows_of_assumption(
+    problem: &ScrewProblem<'_>,
+    values: &Values,
+    quantity: &Nonlinear,
+    deviation: f64,
+) -> Vec<f64> {
+    let at = |side: f64| {
+        let mut values = *values;
+        *(quantity.of)(&mut values) += side * STEP * deviation;
+        problem.model(&values)
+    };
+    let rows = at(1.0).into_iter().zip(at(-1.0));
+    rows.map(|(above, below)| (above - below) / (2.0 * STEP))
+        .collect()
 }
 
 /// Shift by the sensors and its covariance, from imitations; none where an imitation is not finite.

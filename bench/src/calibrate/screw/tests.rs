@@ -200,6 +200,47 @@ fn a_trace_tells_rolling_resistance_and_backlash_on_request() {
     }
 }
 
+/// Where a trace does not identify the pole of the viscosity and nobody has set it, the interval of the half-share speed is wider by what
+/// another pole makes of the speed: 15 K, measured here by poles 5 K to both sides. Refits differ from the slopes by their curvature, a tenth.
+#[test]
+fn an_assumed_pole_widens_the_half_share_speed() {
+    let mut course = Course::vehicle().times(0.2);
+    course.temperatures = [313.15, 318.15];
+    let trace = trace(&rig(Sensors::default()), &course, 3);
+    let assumed = f64::from(epas_friction::defaults::COEFFICIENT.viscosity.pole());
+    let of = |pole: Option<f64>| {
+        let mut request = request(&[("preload", 13.984), ("breakaway_angle", 2e-3)]);
+        let pole = pole.map(|pole| ("viscosity_pole".to_string(), pole));
+        request.wanted.fix.extend(pole);
+        let estimated = ["friction", "half_share_speed", "inertia", "offset"];
+        request.wanted.estimate = Some(estimated.map(String::from).into());
+        for (name, value) in [
+            ("full_film_ratio", 0.06 / 0.115),
+            ("drag", 3e-4),
+            ("gain", 1.012),
+        ] {
+            request.wanted.fix.push((name.into(), value));
+        }
+        let found = calibrate(&trace, &design(), &request).unwrap();
+        let mut intervals = found.uncertainty.intervals.into_iter();
+        intervals.find(|i| i.name == "half_share_speed").unwrap()
+    };
+    let [open, set, above, below] = [
+        None,
+        Some(assumed),
+        Some(assumed + 5.0),
+        Some(assumed - 5.0),
+    ]
+    .map(of);
+    assert_eq!(open.value, set.value);
+    let wider = (open.model_error.powi(2) - set.model_error.powi(2)).sqrt();
+    let wanted = 1.5 * (above.value / below.value).ln().abs();
+    assert!(
+        (wider / wanted - 1.0).abs() < 0.1 && wanted > 0.05,
+        "{wider} {wanted}"
+    );
+}
+
 /// What a name is wrong in is said, and what a trace cannot tell is no number.
 #[test]
 fn wrong_requests_are_named() {
@@ -328,10 +369,13 @@ fn print_means(course: &str, runs: &[Run]) {
 /// set, as its words say. Its steep reversals make the inertia 1.0 % too large: an angle smoothed at 40 Hz turns round late, and with it the
 /// friction; imitations from a sharper angle take off the rest (1.8 % before).
 ///
-/// Widths are 1.4 to 2.7 times the bound, of the friction coefficient up to 3.4 and of the breakaway angle 4 to 10 times: the bound knows
-/// neither the load's noise nor the encoder's counts, nor what the model leaves out. What the mean of 100 runs does not hold: half-share speed
-/// (3 % off) and inertia (0.2 %) of the vehicle's course; inertia (1.0 %) and two waves (4 and 6 %) of the rig's; inertia (0.2 %) and a wave
-/// (7 %) of the whole.
+/// The rig's lubricant has its pole at 209 K, the default grease, which is assumed on the vehicle's course of 25 K, at 199 K. That makes the
+/// half-share speed 5 % too small: its interval held the truth in 16 runs of 32 while the assumption counted as certain.
+///
+/// Widths are 1.4 to 2.4 times the bound, of the friction coefficient up to 3.7, of the breakaway angle 4 to 10 times, and with an assumed pole
+/// 5 times of the half-share speed and 4 of the preload: the bound knows
+/// neither the load's noise nor the encoder's counts, nor what the model leaves out. What the mean of 32 runs does not hold: inertia (1.0 %)
+/// and two waves (4 and 6 %) of the rig's course; of 16 runs of the whole one wave (4 %). With the pole set, the mean half-share speed of the vehicle's is 1.8 % off.
 #[test]
 #[ignore = "a hundred traces of a minute on each of three courses take seven minutes on two cores"]
 fn intervals_hold_nine_times_of_ten() {
