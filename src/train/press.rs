@@ -4,6 +4,7 @@ use super::ball::Ball;
 use super::grip::{Grip, limited_grip};
 use super::motion::Motion;
 use super::pool::pool;
+use super::rubbing::settle_rubbing;
 use super::settle::{Pressing, settle};
 
 /// Largest free speed that counts, a relative deviation: that of a ball that stands, or runs twice as fast as a nominal one.
@@ -216,7 +217,11 @@ impl<const N: usize> Press<N> {
     #[inline(always)]
     pub(super) fn settle<const RUBBED: bool>(&mut self, motion: Motion) -> Pressing {
         let foremost = self.foremost();
-        settle::<RUBBED>(&mut self.balls, foremost, motion)
+        if RUBBED {
+            settle_rubbing(&mut self.balls, foremost, motion)
+        } else {
+            settle(&mut self.balls, foremost, motion)
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Speeds and forces of all balls from their clusters, and where the balls go.
 
-use super::balance::{ROUNDING, balance, not_negative_bits};
+use super::balance::{ROUNDING, balance, not_negative, not_negative_bits};
 use super::ball::Ball;
 use super::motion::Motion;
 use super::ring::Rows;
@@ -20,23 +20,16 @@ pub(crate) struct Pressing {
     pub(crate) change: f32,
 }
 
-/// Gives each ball its speed and its force, and moves it, from the foremost ball backwards. Of balls that rub on each other, what a ball passes
-/// on differs from ball to ball, and so do the sums.
+/// Gives each ball its speed and its force, and moves it, from the foremost ball backwards.
 #[inline(never)]
-pub(super) fn settle<const RUBBED: bool>(
-    balls: &mut [Ball],
-    foremost: usize,
-    motion: Motion,
-) -> Pressing {
-    let mut settling = Settling::<RUBBED> {
+pub(super) fn settle(balls: &mut [Ball], foremost: usize, motion: Motion) -> Pressing {
+    let mut settling = Settling {
         motion,
         // Nothing is near in front of the foremost one.
         limit: balls.get(foremost).map_or(0, |ball| motion.far_ahead(ball)),
         behind: 0,
         change: 0.0,
         force: 0.0,
-        impedance: 0.0,
-        ahead_rubs: false,
         sums: Sums::default(),
     };
     for row in Rows::backwards(balls, foremost) {
@@ -48,19 +41,20 @@ pub(super) fn settle<const RUBBED: bool>(
     // large force. It hardly changes what the forces add up to.
     let least = ROUNDING * largest;
     if sums.remainder > least {
-        balance::<RUBBED>(balls, foremost, least);
+        balance::<false>(balls, foremost, least);
     }
     Pressing {
         contacts: sums.contacts as u8,
         largest,
-        force: sums.force,
-        work: sums.work,
-        change: sums.change,
+        // Forces that rounding makes negative may leave a sum that is.
+        force: not_negative(sums.force),
+        work: 0.0,
+        change: 0.0,
     }
 }
 
 /// A walk backwards over the balls.
-struct Settling<const RUBBED: bool> {
+struct Settling {
     motion: Motion,
     /// Where the next ball touches the one in front.
     limit: u32,
@@ -68,15 +62,12 @@ struct Settling<const RUBBED: bool> {
     behind: usize,
     /// Actual speed of the last ball less its free speed, in a cluster.
     change: f32,
-    /// Force with which the next ball presses: without rubbing, the net push that the balls of the cluster take so far, from its front ball on.
+    /// Net push that the balls of the cluster take so far, from its front ball on: the force of the next ball.
     force: f32,
-    /// Where balls rub: impedance of the cluster, as the last ball weighs it, and whether the last ball rubs.
-    impedance: f32,
-    ahead_rubs: bool,
     sums: Sums,
 }
 
-impl<const RUBBED: bool> Settling<RUBBED> {
+impl Settling {
     /// Settles a row. The walk through it may begin within a cluster whose front ball stood in the row before.
     #[inline(always)]
     fn row(&mut self, row: &mut [Ball]) {
@@ -111,13 +102,7 @@ impl<const RUBBED: bool> Settling<RUBBED> {
     fn front(&mut self, ball: &mut Ball) {
         self.behind = ball.others();
         self.change = ball.push() / ball.cluster_impedance();
-        let push = self.change * ball.impedance();
-        self.force = if RUBBED {
-            self.impedance = ball.cluster_impedance();
-            self.rub(ball, push, 0.0)
-        } else {
-            push
-        };
+        self.force = self.change * ball.impedance();
         ball.settle(ball.free_speed() + self.change, 0.0);
         self.limit = self.motion.advance(ball, self.limit);
     }
@@ -130,39 +115,14 @@ impl<const RUBBED: bool> Settling<RUBBED> {
         let speed = ball.free_speed() + self.change;
         ball.set_position(self.limit);
         self.limit = self.motion.touching(self.limit);
-        let counted = !RUBBED || self.ahead_rubs && ball.rubs();
-        ball.settle(speed, self.sums.add(self.force, counted));
-        let push = self.change * ball.impedance();
-        self.force = if RUBBED {
-            self.rub(ball, push, self.force)
-        } else {
-            self.force + push
-        };
+        ball.settle(speed, self.sums.add(self.force));
+        self.force += self.change * ball.impedance();
         self.behind -= 1;
         if self.behind == 0 {
             // Nothing pushes the rear ball.
             ball.leave_remainder(self.force);
-            if RUBBED {
-                ball.leave_remainder_impedance(self.impedance);
-            }
             self.sums.keep_remainder(self.force);
         }
-    }
-
-    /// What a ball that rubs passes on: the force behind it, from its push and its force on the ball in front; and its part of the sums.
-    #[inline(always)]
-    fn rub(&mut self, ball: &Ball, push: f32, force: f32) -> f32 {
-        let transmitted = ball.transmitted();
-        let more = 1.0 + transmitted;
-        // One division for both: 1/k, and 1 + r = 2/(1 + k).
-        let both = 1.0 / (transmitted * more);
-        let per_passed = more * both;
-        let growth = 2.0 * transmitted * both;
-        self.sums.work += self.change * push * growth;
-        self.ahead_rubs = ball.rubs();
-        self.sums.change += if self.ahead_rubs { self.change } else { 0.0 };
-        self.impedance *= per_passed;
-        (force + push) * per_passed
     }
 }
 
@@ -173,19 +133,16 @@ struct Sums {
     /// Bits of the largest force.
     largest: i32,
     force: f32,
-    work: f32,
-    change: f32,
     /// Largest remainder of a cluster, without sign.
     remainder: f32,
 }
 
 impl Sums {
-    /// Adds a contact, whose force may count in their sum; gives the force, zero where rounding has made it a little less.
+    /// Adds a contact; gives its force, zero where rounding has made it a little less.
     #[inline(always)]
-    fn add(&mut self, force: f32, counted: bool) -> f32 {
+    fn add(&mut self, force: f32) -> f32 {
         let bits = not_negative_bits(force);
-        let force = f32::from_bits(bits as u32);
-        self.force += if counted { force } else { 0.0 };
+        self.force += force;
         self.largest = if bits > self.largest {
             bits
         } else {
@@ -193,7 +150,7 @@ impl Sums {
         };
         // The sign bit of the negated bits: 1 for each force above zero.
         self.contacts += bits.wrapping_neg() as u32 >> 31;
-        force
+        f32::from_bits(bits as u32)
     }
 
     #[inline(always)]

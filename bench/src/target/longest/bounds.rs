@@ -151,11 +151,19 @@ pub const LOOPS: &[Row] = &[
         Bound::Times(Count::Of(2)),
     ),
     row(
+        "epas_friction::train::rubbing::settle_rubbing",
+        Bound::Times(Count::Of(2)),
+    ),
+    row(
         "epas_friction::train::balance::balance",
         Bound::Times(Count::Of(2)),
     ),
     row(
         "epas_friction::train::settle::Settling::row",
+        Bound::Takes(&[Total::SettlingWays]),
+    ),
+    row(
+        "epas_friction::train::rubbing::Settling::row",
         Bound::Takes(&[Total::SettlingWays]),
     ),
     row(
@@ -210,6 +218,22 @@ pub const PLACES: &[(&str, Total)] = &[
     ),
     (
         "epas_friction::train::settle::Settling::front",
+        Total::Clusters,
+    ),
+    (
+        "epas_friction::train::rubbing::Settling::alone",
+        Total::Settled,
+    ),
+    (
+        "epas_friction::train::rubbing::Settling::front",
+        Total::Settled,
+    ),
+    (
+        "epas_friction::train::rubbing::Settling::pushing",
+        Total::Settled,
+    ),
+    (
+        "epas_friction::train::rubbing::Settling::front",
         Total::Clusters,
     ),
     (
