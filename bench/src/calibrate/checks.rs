@@ -22,7 +22,7 @@ use crate::calibrate::checks::relation::{
 };
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::channels::range;
-use crate::calibrate::trace::rests::{moving, rests};
+use crate::calibrate::trace::rests::{moving, rests, still};
 use crate::calibrate::trace::{Coordinate, Trace};
 
 /// Fastest that a nut turns, rad/s (95,000 turns a minute), and that a carriage travels, m/s.
@@ -56,7 +56,7 @@ fn look(trace: &Trace, motion: &Motion) -> Result<Vec<Finding>, String> {
     moves(trace, motion)?;
     let mut findings = told_by_reader(trace);
     let rests = rests(trace);
-    excitation::stands_still(trace, &rests, &mut findings)?;
+    excitation::stands_still(trace, &still(trace), &mut findings)?;
     effort_lives(&moving(&trace.effort, &rests), &mut findings)?;
     measured_speed(trace, motion, &mut findings)?;
     if let Some(relation) = relation(trace, motion) {

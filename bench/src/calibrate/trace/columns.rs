@@ -15,6 +15,7 @@ mod tests;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::io::{Read, Seek};
+use std::ops::Range;
 
 use crate::aside::say;
 use crate::failure::Failure;
@@ -27,6 +28,7 @@ use crate::calibrate::trace::clock::Clock;
 use crate::calibrate::trace::free_load::{self, LoadKind};
 use crate::calibrate::trace::known::KnownEffort;
 use crate::calibrate::trace::outliers;
+use crate::calibrate::trace::stuck;
 use crate::calibrate::trace::table::{self, Column, Table};
 use crate::calibrate::trace::{Coordinate, Repairs, Trace};
 use crate::units::{self, Dimension, Part, Quantity};
@@ -133,6 +135,11 @@ struct Reference {
 
 fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace, String> {
     let left_out = outliers::clean(&mut table)?;
+    let lost = stuck::clean(&mut table)?;
+    let lost: Vec<Range<f64>> = lost
+        .iter()
+        .map(|run| table.times[run.start]..table.times[run.end - 1])
+        .collect();
     let clock = Clock::of(std::mem::take(&mut table.times), table.repeated.len())?;
     let (effort, torque) = effort(&mut table)?;
     let position = motion(&mut table, Quantity::Position);
@@ -191,6 +198,7 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
     let rotates = torque || frame.is_some();
     let mut repairs = Repairs {
         left_out,
+        lost: lost.iter().map(|times| clock.ticks(times)).collect(),
         notes: table.notes,
         ..clock.repairs.clone()
     };

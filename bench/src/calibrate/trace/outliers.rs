@@ -37,9 +37,9 @@ const BEYOND_NOISE: f64 = 7.0;
 /// Steps of the sensor that flicker.
 const FLICKER: f64 = 3.0;
 /// A position that jumps by this many times the fastest travel of a tick is none of the mechanism.
-const JUMPS: f64 = 3.0;
+pub(super) const JUMPS: f64 = 3.0;
 /// Longest tick, s, within which a mechanism cannot leave and reach such speeds: motors need some milliseconds for it.
-const JUMP_TICK: f64 = 5e-3;
+pub(super) const JUMP_TICK: f64 = 5e-3;
 /// Fewest samples of one number that may be a lost word, and how many times as many they are as those of the numbers beside it.
 const WORD: (usize, f64) = (5, 10.0);
 /// Numbers on both sides of one that its count is compared with.

@@ -38,8 +38,22 @@ const MEAN: f64 = 3.0;
 /// Correlation of effort and load from which most of the effort's changes are the load's: a half of their square.
 const FOLLOWS: f64 = 0.7;
 
-/// Stretches at rest, in order.
+/// Stretches that say nothing of sliding, in order: at rest, or where a channel was lost.
 pub fn rests(trace: &Trace) -> Vec<Range<usize>> {
+    let mut all = [still(trace), trace.repairs.lost.clone()].concat();
+    all.sort_by_key(|stretch| stretch.start);
+    let mut joined: Vec<Range<usize>> = Vec::new();
+    for stretch in all {
+        match joined.last_mut() {
+            Some(last) if last.end >= stretch.start => last.end = last.end.max(stretch.end),
+            _ => joined.push(stretch),
+        }
+    }
+    joined
+}
+
+/// Stretches at rest, in order.
+pub fn still(trace: &Trace) -> Vec<Range<usize>> {
     let window = |time: f64| ((time / trace.step).ceil() as usize).max(FEWEST);
     let windows = [SHORTEST_STOP, SHORTEST].map(window);
     let mut rests = match trace.speed.as_deref().filter(|_| trace.position_summed) {
