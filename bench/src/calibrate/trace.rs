@@ -8,6 +8,7 @@
 //! | [`acting`] | loads and known efforts of a table |
 //! | [`channels`] | angles without jumps, the step of a sensor |
 //! | [`outliers`] | samples that no mechanism makes |
+//! | [`clipped`] | where an effort is cut off |
 //! | [`stuck`] | a channel that is lost for a while |
 //! | [`rests`] | where a trace stands still |
 //! | [`free_load`] | a load that never leaves its noise |
@@ -15,6 +16,7 @@
 
 pub mod acting;
 pub mod channels;
+pub mod clipped;
 pub mod clock;
 pub mod columns;
 pub mod free_load;

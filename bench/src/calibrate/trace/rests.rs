@@ -12,6 +12,7 @@ use std::ops::Range;
 use crate::calibrate::signals::noise::white_noise;
 use crate::calibrate::trace::Trace;
 use crate::calibrate::trace::channels::{range, resolution};
+use crate::calibrate::trace::clipped::clipped;
 use crate::calibrate::trace::free_load::correlation;
 
 /// Shortest rest, s. A weave of 0.6 rad at 0.2 Hz stays for 0.22 s within a step of 6 mrad (a coarse encoder of ten bits)
@@ -38,9 +39,11 @@ const MEAN: f64 = 3.0;
 /// Correlation of effort and load from which most of the effort's changes are the load's: a half of their square.
 const FOLLOWS: f64 = 0.7;
 
-/// Stretches that say nothing of sliding, in order: at rest, or where a channel was lost.
+/// Stretches that say nothing of sliding, in order: at rest, where a channel was lost, or where the effort is clipped.
 pub fn rests(trace: &Trace) -> Vec<Range<usize>> {
-    let mut all = [still(trace), trace.repairs.lost.clone()].concat();
+    let still = still(trace);
+    let clipped = clipped(&trace.effort, &still);
+    let mut all = [still, trace.repairs.lost.clone(), clipped].concat();
     all.sort_by_key(|stretch| stretch.start);
     let mut joined: Vec<Range<usize>> = Vec::new();
     for stretch in all {
