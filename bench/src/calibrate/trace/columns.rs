@@ -155,7 +155,7 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
     let known = acting::known(&mut table, torque)?;
     let temperature = take(&mut table, Quantity::Temperature);
     if let Some(column) = &temperature {
-        check_temperature(column)?;
+        check_temperature(column, &table)?;
     }
     let refer = |column: &Column, part| refer(column, part, torque, frame);
 
@@ -171,8 +171,15 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
         .map(|(mut column, part)| {
             let reference = refer(&column, part)?;
             let filled = std::mem::take(&mut column.left_out);
+            let (name, unsaid) = (
+                column.name.clone(),
+                column.unit.dimension == Dimension::Unsaid,
+            );
             let values = angle(column, reference)?;
             step_of_sensor = resolution(&measured_only(&values, &filled));
+            if reference.angle && unsaid {
+                check_degrees(&name, step_of_sensor / reference.factor)?;
+            }
             Ok::<_, String>(values)
         })
         .transpose()?;
@@ -383,15 +390,35 @@ fn effort_gain(torque: bool, frame: Option<&Frame>) -> f64 {
     }
 }
 
-fn check_temperature(column: &Column) -> Result<(), String> {
-    let (low, high) = range(&column.values);
-    if low >= TEMPERATURES.0 && high <= TEMPERATURES.1 {
+/// Refuses an angle whose sensor has a power of two of steps in 360 of its unit.
+fn check_degrees(name: &str, step: f64) -> Result<(), String> {
+    /// Distance from a power of two, of its logarithm. Of encoders with such a step in radians, the first has 18,301 steps in a turn.
+    const NEAR: f64 = 2e-5;
+    /// Bits of encoders.
+    const BITS: std::ops::RangeInclusive<f64> = 6.0..=24.0;
+    let bits = (360.0 / step).log2();
+    if !BITS.contains(&bits) || (bits - bits.round()).abs() > NEAR {
         return Ok(());
     }
-    let odd = if low < TEMPERATURES.0 { low } else { high };
     Err(format!(
-        "column {}: {odd} K is no temperature of a screw; a column in degrees Celsius is named temperature_C",
-        column.name
+        "column {name}: its sensor has steps of 360/2^{bits:.0}, as an angle in degrees: name it {name}_deg (or {name}_rad, if they are radians)"
+    ))
+}
+
+fn check_temperature(column: &Column, table: &Table) -> Result<(), String> {
+    let (low, high) = TEMPERATURES;
+    let odd = column
+        .values
+        .iter()
+        .enumerate()
+        .find(|(_, value)| !(low..=high).contains(*value));
+    let Some((sample, value)) = odd else {
+        return Ok(());
+    };
+    Err(format!(
+        "column {}: {value} K, in row {}, is no temperature of a screw; a column in degrees Celsius is named temperature_C",
+        column.name,
+        table.row(sample)
     ))
 }
 
