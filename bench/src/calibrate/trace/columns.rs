@@ -23,7 +23,7 @@ use crate::mdf4::{self, Mapping};
 use crate::source::Source;
 
 use crate::calibrate::trace::acting;
-use crate::calibrate::trace::channels::{range, resolution, unwrap};
+use crate::calibrate::trace::channels::{resolution, unwrap};
 use crate::calibrate::trace::clock::Clock;
 use crate::calibrate::trace::free_load::{self, LoadKind};
 use crate::calibrate::trace::known::KnownEffort;
