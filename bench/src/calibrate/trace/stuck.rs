@@ -3,14 +3,14 @@
 //! Up to ten such samples are single faults ([`super::outliers`]). A longer stretch cannot be filled, and would be taken for a measurement.
 //! It is known by the channel's own noise, which repeats a number to the last digit by chance only; a channel that does so by itself, as
 //! one of coarse steps or of a slower raster, is not judged. A speed is lost where it leaves within a tick for a number, stays there, and
-//! comes back to where it was, or where it stays at its last number and then jumps: a mechanism would need time for either.
+//! comes back to where it was: a mechanism would need time for either.
 
 #[cfg(test)]
 mod tests;
 
 use std::ops::Range;
 
-use crate::calibrate::trace::channels::range;
+use crate::calibrate::trace::channels::{range, resolution};
 use crate::calibrate::trace::clock::{LONGEST_GAP, MOST_MISSING, median_tick};
 use crate::calibrate::trace::outliers::{JUMP_TICK, JUMPS};
 use crate::calibrate::trace::table::{Column, Table};
@@ -166,7 +166,7 @@ fn stuck(values: &[f64]) -> Vec<Range<usize>> {
     runs.into_iter().filter(|run| noisy(values, run)).collect()
 }
 
-/// Long runs that a speed leaves within a tick: those that it reaches so too, and leaves for where it was, and those at the last number before.
+/// Long runs that a speed reaches within a tick, and leaves within a tick for where it was.
 fn lost_speed(times: &[f64], speed: &[f64]) -> Vec<Range<usize>> {
     let tick = median_tick(times, 1);
     if tick > JUMP_TICK {
@@ -181,6 +181,8 @@ fn lost_speed(times: &[f64], speed: &[f64]) -> Vec<Range<usize>> {
         })
         .fold(0.0, f64::max);
     let (low, high) = range(speed);
+    // Of a coarse sensor a slow speed goes to and fro by a step.
+    let step = resolution(speed);
     let mut runs = long_runs(speed);
     runs.retain(|run| {
         let Some(before) = run.start.checked_sub(1).filter(|_| run.end < speed.len()) else {
@@ -190,7 +192,7 @@ fn lost_speed(times: &[f64], speed: &[f64]) -> Vec<Range<usize>> {
         let jump = |from: usize, to: usize| {
             let ticks = ((times[to] - times[from]) / tick).max(1.0);
             let jump = (speed[to] - speed[from]).abs();
-            if jump > (JUMPS * fastest * ticks).max(REST * (high - low)) {
+            if jump > JUMPS * (fastest * ticks + step) + REST * (high - low) {
                 jump
             } else {
                 0.0
@@ -198,8 +200,7 @@ fn lost_speed(times: &[f64], speed: &[f64]) -> Vec<Range<usize>> {
         };
         let (to, back) = (jump(before, run.start), jump(run.end - 1, run.end));
         let returns = (speed[run.end] - speed[before]).abs() <= BACK * to.min(back);
-        let held = to == 0.0 && fastest > 0.0;
-        back > 0.0 && (held || (to > 0.0 && returns))
+        to > 0.0 && back > 0.0 && returns
     });
     runs
 }
