@@ -14,6 +14,8 @@ pub mod relation;
 #[cfg(test)]
 mod tests;
 
+use std::ops::Range;
+
 use crate::failure::Failure;
 
 use crate::calibrate::checks::finding::{Finding, FindingKind};
@@ -22,13 +24,14 @@ use crate::calibrate::checks::relation::{
 };
 use crate::calibrate::signals::Motion;
 use crate::calibrate::trace::channels::range;
-use crate::calibrate::trace::rests::{moving, rests};
+use crate::calibrate::trace::clipped::clipped;
+use crate::calibrate::trace::rests::{moving, rests, still};
 use crate::calibrate::trace::{Coordinate, Trace};
 
 /// Fastest that a nut turns, rad/s (95,000 turns a minute), and that a carriage travels, m/s.
 const FASTEST: [f64; 2] = [1e4, 50.0];
-/// Largest share of samples at the effort's limit, and the share from which it is said.
-const CLIPPED: [f64; 2] = [0.05, 0.001];
+/// Largest share of samples at the effort's limit.
+const CLIPPED: f64 = 0.05;
 /// Certainty, in standard deviations, from which a sign is believed: far beyond chance, because the relation itself is rough.
 const CERTAIN: f64 = 6.0;
 /// A shifted clock is refused from this many ticks and this much less left with the shift, and said from the others. The
@@ -56,8 +59,9 @@ fn look(trace: &Trace, motion: &Motion) -> Result<Vec<Finding>, String> {
     moves(trace, motion)?;
     let mut findings = told_by_reader(trace);
     let rests = rests(trace);
-    excitation::stands_still(trace, &rests, &mut findings)?;
-    effort_lives(&moving(&trace.effort, &rests), &mut findings)?;
+    let still = still(trace);
+    excitation::stands_still(trace, &still, &mut findings)?;
+    effort_lives(trace, &still, &mut findings)?;
     measured_speed(trace, motion, &mut findings)?;
     if let Some(relation) = relation(trace, motion) {
         exchanged(trace, &relation)?;
@@ -223,54 +227,37 @@ fn told_by_reader(trace: &Trace) -> Vec<Finding> {
 }
 
 /// The effort changes, and is not cut off.
-fn effort_lives(effort: &[f64], findings: &mut Vec<Finding>) -> Result<(), String> {
-    let (low, high) = range(effort);
+fn effort_lives(
+    trace: &Trace,
+    still: &[Range<usize>],
+    findings: &mut Vec<Finding>,
+) -> Result<(), String> {
+    let effort = moving(&trace.effort, still);
+    let (low, high) = range(&effort);
     if !(high > low) {
         return Err(format!(
             "the effort is {low} at every sample: a dead channel"
         ));
     }
-    let share = clipped(effort, low, high);
-    if share > CLIPPED[0] {
+    let clipped: usize = clipped(&trace.effort, still).iter().map(Range::len).sum();
+    let share = clipped as f64 / effort.len() as f64;
+    if share > CLIPPED {
         return Err(format!(
             "{:.0} % of the effort stands at its limits of {low:.4} and {high:.4}: it is clipped; widen the range, or cut those parts out",
             100.0 * share
         ));
     }
-    if share > CLIPPED[1] {
+    if share > 0.0 {
         findings.push(Finding::new(
             FindingKind::ClippedEffort,
             share,
             format!(
-                "{:.1} % of the effort stands at its limits of {low:.4} and {high:.4}, as if clipped",
+                "{:.1} % of the effort stands at its limits of {low:.4} and {high:.4}, as if clipped: left out",
                 100.0 * share
             ),
         ));
     }
     Ok(())
-}
-
-/// Share of samples that stay at an extreme, of an effort that elsewhere does not stand still. Three equal samples are
-/// chance where the steps of the sensor are coarse; many are not.
-fn clipped(effort: &[f64], low: f64, high: f64) -> f64 {
-    /// Fewest samples that stay.
-    const STAY: usize = 5;
-    /// Share of samples that may equal the one before, away from the limits, for equality to say anything.
-    const STILL: f64 = 0.2;
-    let (mut stay, mut still) = (0usize, 0usize);
-    for equal in effort.chunk_by(|a, b| a == b) {
-        let at_limit = equal.first().is_some_and(|x| *x == low || *x == high);
-        if at_limit && equal.len() >= STAY {
-            stay += equal.len();
-        } else {
-            still += equal.len() - 1;
-        }
-    }
-    let others = effort.len() - stay;
-    if still as f64 > STILL * others as f64 {
-        return 0.0;
-    }
-    stay as f64 / effort.len() as f64
 }
 
 /// Ticks that a shift is sought within.

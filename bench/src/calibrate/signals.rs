@@ -95,6 +95,8 @@ pub struct Motion {
     pub noise: [f64; 2],
     /// Samples at each end that what lies beyond the end reaches.
     pub edge: usize,
+    /// Cut-off of its filter, Hz.
+    pub cutoff: f64,
 }
 
 impl Motion {
@@ -119,6 +121,7 @@ impl Motion {
             acceleration: Vec::new(),
             noise: [0.0; 2],
             edge,
+            cutoff: filter.cutoff(),
         }
         .again(trace, &filter);
         let (measured, smooth, orders) = match measured_speed(trace) {
@@ -143,6 +146,7 @@ impl Motion {
             speed,
             noise: self.noise,
             edge: self.edge,
+            cutoff: filter.cutoff(),
         }
     }
 }

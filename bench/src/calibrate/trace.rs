@@ -8,21 +8,26 @@
 //! | [`acting`] | loads and known efforts of a table |
 //! | [`channels`] | angles without jumps, the step of a sensor |
 //! | [`outliers`] | samples that no mechanism makes |
+//! | [`clipped`] | where an effort is cut off |
+//! | [`stuck`] | a channel that is lost for a while |
 //! | [`rests`] | where a trace stands still |
 //! | [`free_load`] | a load that never leaves its noise |
 //! | [`known`] | an effort beside the motor's that is known |
 
 pub mod acting;
 pub mod channels;
+pub mod clipped;
 pub mod clock;
 pub mod columns;
 pub mod free_load;
 pub mod known;
 pub mod outliers;
 pub mod rests;
+pub mod stuck;
 pub mod table;
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use self::known::KnownEffort;
 use self::outliers::LeftOut;
@@ -49,6 +54,8 @@ pub struct Repairs {
     pub free_running: usize,
     /// Samples that no mechanism makes, by column.
     pub left_out: Vec<LeftOut>,
+    /// Stretches in which a channel was lost, in samples of the trace: nothing in them counts.
+    pub lost: Vec<Range<usize>>,
     /// What else was done, a sentence each.
     pub notes: Vec<String>,
 }

@@ -56,7 +56,7 @@ use crate::failure::Failure;
 pub struct Filters {
     /// Cut-off of the motion, Hz; `None` for the highest of [`SMOOTHING`] at which noise of the sensor is lost in the acceleration.
     pub smoothing: Option<f64>,
-    /// Cut-off of the rows, Hz; `None` for [`ROWS`], or an eighth of the sampling rate where that is less.
+    /// Cut-off of the rows, Hz; `None` for [`ROWS`], or three fifths of the motion's where that is less.
     pub rows: Option<f64>,
 }
 
@@ -64,6 +64,8 @@ pub struct Filters {
 pub const SMOOTHING: [f64; 4] = [100.0, 60.0, 40.0, 25.0];
 /// Cut-off of the rows, Hz.
 pub const ROWS: f64 = 60.0;
+/// Largest cut-off of the rows over the motion's: what is smoothed away of the acceleration alone must not be in the rows.
+const BELOW: f64 = 0.6;
 /// Noise of the acceleration, over its own root mean square, that is let pass.
 const NOISE: f64 = 0.05;
 /// Cut-off over the sampling rate that is let pass.
@@ -92,14 +94,16 @@ struct Filtered<'a> {
 
 impl<'a> Filtered<'a> {
     fn new(trace: &'a Trace, filters: &Filters) -> Result<Self, Failure> {
-        let cutoff = filters.rows.unwrap_or_else(|| ROWS.min(SHARE / trace.step));
+        let motion = motion(trace, filters.smoothing)?;
+        let highest = BELOW * motion.cutoff;
+        let cutoff = filters.rows.unwrap_or_else(|| ROWS.min(highest));
         let settings = RowSettings {
             cutoff: Some(cutoff),
             ..RowSettings::default()
         };
         Ok(Self {
             trace,
-            motion: motion(trace, filters.smoothing)?,
+            motion,
             rows: Rows::of_trace(trace, &settings)?,
         })
     }

@@ -1,5 +1,7 @@
 //! One sample clock for a trace: its tick, gaps, jitter.
 
+use std::ops::Range;
+
 use crate::calibrate::trace::Repairs;
 
 /// Distance from the tick, in ticks, within which a sample counts as on it.
@@ -173,6 +175,13 @@ impl Clock {
             self.places = places;
             self.times = times;
         }
+    }
+
+    /// The ticks about some times.
+    pub fn ticks(&self, times: &Range<f64>) -> Range<usize> {
+        let at = |time: f64| (time - self.start) / self.step;
+        // Times have roundings; a tick more on either side does no harm.
+        (at(times.start).floor().max(0.0) as usize)..(at(times.end).ceil().max(0.0) as usize + 1)
     }
 
     /// The channel at every tick: a sample where one is on it, else on the cubic through the four about it.

@@ -15,6 +15,7 @@ mod tests;
 use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::io::{Read, Seek};
+use std::ops::Range;
 
 use crate::aside::say;
 use crate::designs::Design;
@@ -23,11 +24,12 @@ use crate::mdf4::{self, Mapping};
 use crate::source::Source;
 
 use crate::calibrate::trace::acting;
-use crate::calibrate::trace::channels::{range, resolution, unwrap};
+use crate::calibrate::trace::channels::{resolution, unwrap};
 use crate::calibrate::trace::clock::Clock;
 use crate::calibrate::trace::free_load::{self, LoadKind};
 use crate::calibrate::trace::known::KnownEffort;
 use crate::calibrate::trace::outliers;
+use crate::calibrate::trace::stuck;
 use crate::calibrate::trace::table::{self, Column, Table};
 use crate::calibrate::trace::{Coordinate, Repairs, Trace};
 use crate::units::{self, Dimension, Part, Quantity};
@@ -210,6 +212,11 @@ struct Reference {
 
 fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace, String> {
     let left_out = outliers::clean(&mut table)?;
+    let lost = stuck::clean(&mut table)?;
+    let lost: Vec<Range<f64>> = lost
+        .iter()
+        .map(|run| table.times[run.start]..table.times[run.end - 1])
+        .collect();
     let clock = Clock::of(std::mem::take(&mut table.times), table.repeated.len())?;
     let (effort, torque) = effort(&mut table)?;
     let position = motion(&mut table, Quantity::Position);
@@ -225,7 +232,7 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
     let known = acting::known(&mut table, torque)?;
     let temperature = take(&mut table, Quantity::Temperature);
     if let Some(column) = &temperature {
-        check_temperature(column)?;
+        check_temperature(column, &table)?;
     }
     let refer = |column: &Column, part| refer(column, part, torque, frame);
 
@@ -248,10 +255,13 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
             let filled = std::mem::take(&mut column.left_out);
             let unsaid = Unsaid::of(&column, part, reference, &["deg"]);
             let values = angle(column, reference)?;
-            if let (Some(frame), Some(unsaid)) = (frame, unsaid) {
-                frame.check_unsaid(&unsaid, mean_speeds(&values, clock.step))?;
+            if let (Some(frame), Some(unsaid)) = (frame, &unsaid) {
+                frame.check_unsaid(unsaid, mean_speeds(&values, clock.step))?;
             }
             step_of_sensor = resolution(&measured_only(&values, &filled));
+            if let Some(unsaid) = &unsaid {
+                check_degrees(&unsaid.name, step_of_sensor / reference.factor)?;
+            }
             Ok::<_, String>(values)
         })
         .transpose()?;
@@ -277,6 +287,7 @@ fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace
     let rotates = torque || frame.is_some();
     let mut repairs = Repairs {
         left_out,
+        lost: lost.iter().map(|times| clock.ticks(times)).collect(),
         notes: table.notes,
         ..clock.repairs.clone()
     };
@@ -461,15 +472,35 @@ fn effort_gain(torque: bool, frame: Option<&Frame>) -> f64 {
     }
 }
 
-fn check_temperature(column: &Column) -> Result<(), String> {
-    let (low, high) = range(&column.values);
-    if low >= TEMPERATURES.0 && high <= TEMPERATURES.1 {
+/// Refuses an angle whose sensor has a power of two of steps in 360 of its unit.
+fn check_degrees(name: &str, step: f64) -> Result<(), String> {
+    /// Distance from a power of two, of its logarithm. Of encoders with such a step in radians, the first has 18,301 steps in a turn.
+    const NEAR: f64 = 2e-5;
+    /// Bits of encoders.
+    const BITS: std::ops::RangeInclusive<f64> = 6.0..=24.0;
+    let bits = (360.0 / step).log2();
+    if !BITS.contains(&bits) || (bits - bits.round()).abs() > NEAR {
         return Ok(());
     }
-    let odd = if low < TEMPERATURES.0 { low } else { high };
     Err(format!(
-        "column {}: {odd} K is no temperature of a screw; a column in degrees Celsius is named temperature_C",
-        column.name
+        "column {name}: its sensor has steps of 360/2^{bits:.0}, as an angle in degrees: name it {name}_deg (or {name}_rad, if they are radians)"
+    ))
+}
+
+fn check_temperature(column: &Column, table: &Table) -> Result<(), String> {
+    let (low, high) = TEMPERATURES;
+    let odd = column
+        .values
+        .iter()
+        .enumerate()
+        .find(|(_, value)| !(low..=high).contains(*value));
+    let Some((sample, value)) = odd else {
+        return Ok(());
+    };
+    Err(format!(
+        "column {}: {value} K, in row {}, is no temperature of a screw; a column in degrees Celsius is named temperature_C",
+        column.name,
+        table.row(sample)
     ))
 }
 

@@ -8,10 +8,15 @@
 //! An effort or a load can rise and fall within a tick, and a run of such samples may be a pulse. There a run is left
 //! out only where all its samples are the same number to the last digit, which a noisy channel never reads by itself, and
 //! a single sample stays where the motion answers to it.
+//!
+//! A word that is lost reads the same number each time. A number that a channel reads far more often than those beside it, and that mostly
+//! stands off its neighbours, is such a word: it says nothing about the channel's noise, and is left out where half the distance shows it.
+//! So many of them may stand close together.
 
 #[cfg(test)]
 mod tests;
 
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::TAU;
 
 use crate::calibrate::trace::channels::{range, resolution};
@@ -32,9 +37,17 @@ const BEYOND_NOISE: f64 = 7.0;
 /// Steps of the sensor that flicker.
 const FLICKER: f64 = 3.0;
 /// A position that jumps by this many times the fastest travel of a tick is none of the mechanism.
-const JUMPS: f64 = 3.0;
+pub(super) const JUMPS: f64 = 3.0;
 /// Longest tick, s, within which a mechanism cannot leave and reach such speeds: motors need some milliseconds for it.
-const JUMP_TICK: f64 = 5e-3;
+pub(super) const JUMP_TICK: f64 = 5e-3;
+/// Fewest samples of one number that may be a lost word, and how many times as many they are as those of the numbers beside it.
+const WORD: (usize, f64) = (5, 10.0);
+/// Numbers on both sides of one that its count is compared with.
+const BESIDE: usize = 16;
+/// Share of the noise's limit beyond which a lost word stands off: four deviations instead of seven times the quiet share.
+const WORD_BEYOND: f64 = 0.5;
+/// Fewest samples of a window whose neighbours are no lost words.
+const LEFT: usize = 16;
 /// Rows that a message names.
 const NAMED: usize = 12;
 
@@ -166,6 +179,23 @@ struct Roughness {
     off: Vec<f64>,
     /// Distance beyond which it is no noise.
     noise: f64,
+    /// Whether a sample reads a lost word; nothing where none is lost.
+    lost: Vec<bool>,
+}
+
+impl Roughness {
+    /// Distance beyond which a sample is no noise.
+    fn beyond(&self, sample: usize) -> f64 {
+        if self.is_lost(sample) {
+            WORD_BEYOND * self.noise
+        } else {
+            self.noise
+        }
+    }
+
+    fn is_lost(&self, sample: usize) -> bool {
+        self.lost.get(sample) == Some(&true)
+    }
 }
 
 /// What stands about a run: the two samples before, the two behind.
@@ -243,23 +273,61 @@ impl<'a> Channel<'a> {
                 *off = self.off(sample, &about).abs();
             }
         }
-        let quiet = off
-            .chunks(WINDOW)
-            .filter(|window| 2 * window.len() > WINDOW)
-            .map(|window| {
-                let mut sizes = window.to_vec();
-                let place = (QUIET * sizes.len() as f64) as usize;
-                *sizes.select_nth_unstable_by(place, f64::total_cmp).1
-            })
-            .fold(0.0, f64::max);
-        let (low, high) = range(self.values);
         // Roundings of the numbers themselves.
+        let (low, high) = range(self.values);
         let rounding = 1e-9 * (high - low);
-        let noise = BEYOND_NOISE * quiet + FLICKER * resolution(self.values);
+        let steps = FLICKER * resolution(self.values);
+        let noise = |quiet: f64| BEYOND_NOISE * quiet + steps;
+        let often = often(self.values);
+        let about = |sample: usize| sample.saturating_sub(2)..(sample + 3).min(samples);
+        let without = |sample: usize| !often[about(sample)].contains(&true);
+        let (all, others) = (
+            roughest(&off, 0, |_| true).unwrap_or(0.0),
+            (often.contains(&true))
+                .then(|| roughest(&off, LEFT, without))
+                .flatten(),
+        );
+        let lost = others.map_or_else(Vec::new, |quiet| {
+            self.lost(often, &off, WORD_BEYOND * noise(quiet) + rounding)
+        });
+        let quiet = if lost.is_empty() {
+            all
+        } else {
+            roughest(&off, LEFT, |sample| !lost[about(sample)].contains(&true)).unwrap_or(all)
+        };
+        let noise = noise(quiet);
         Roughness {
             measured: noise > rounding,
             off,
             noise: noise + rounding,
+            lost,
+        }
+    }
+
+    /// Those of the numbers that are read often that mostly stand off their neighbours by more than this; nothing where there are none.
+    fn lost(&self, mut often: Vec<bool>, off: &[f64], beyond: f64) -> Vec<bool> {
+        let mut counts: HashMap<u64, (usize, usize)> = HashMap::new();
+        // Within a stretch that stays there is nothing to stand off from.
+        let inner = |sample: usize| {
+            let near = self.values.get(sample.saturating_sub(1)..sample + 2);
+            near.is_some_and(|near| near.iter().all(|value| *value == self.values[sample]))
+        };
+        for (sample, _) in often.iter().enumerate().filter(|(_, often)| **often) {
+            if inner(sample) {
+                continue;
+            }
+            let (all, far) = counts.entry(bits(self.values[sample])).or_default();
+            *all += 1;
+            *far += usize::from(off[sample] > beyond);
+        }
+        for (often, value) in often.iter_mut().zip(self.values) {
+            let mostly = |(all, far): &(usize, usize)| 2 * far > *all;
+            *often = *often && counts.get(&bits(*value)).is_some_and(mostly);
+        }
+        if often.contains(&true) {
+            often
+        } else {
+            Vec::new()
         }
     }
 
@@ -269,7 +337,7 @@ impl<'a> Channel<'a> {
         rough: &Roughness,
         motion: Option<&Roughness>,
     ) -> Result<Vec<Vec<usize>>, String> {
-        let fastest = self.fastest();
+        let fastest = self.fastest(rough);
         let samples = self.values.len();
         let [start, end] = self.ends(rough.noise, fastest);
         let mut runs: Vec<Vec<usize>> = Vec::new();
@@ -278,7 +346,8 @@ impl<'a> Channel<'a> {
         while sample < end.min(samples - 1) {
             let left = sample - 1;
             let jump = self.between(left, sample);
-            if jump.abs() <= rough.noise && rough.off[sample] <= rough.noise {
+            let beyond = rough.beyond(sample);
+            if jump.abs() <= beyond && rough.off[sample] <= beyond {
                 sample += 1;
                 continue;
             }
@@ -323,7 +392,7 @@ impl<'a> Channel<'a> {
         motion: Option<&Roughness>,
     ) -> Option<Vec<usize>> {
         for last in sample..sample + LONGEST {
-            let about = self.about(sample - 1, last + 1, rough.noise)?;
+            let about = self.about(sample - 1, last + 1, rough.beyond(sample))?;
             let far = |sample: &usize| self.off(*sample, &about).abs() > about.allowed;
             if far(&sample) && far(&last) {
                 let run: Vec<usize> = (sample..=last).filter(far).collect();
@@ -352,8 +421,8 @@ impl<'a> Channel<'a> {
             && jump.abs() > noise + JUMPS * fastest * time
     }
 
-    /// The largest speed that holds for three of five ticks.
-    fn fastest(&self) -> f64 {
+    /// The largest speed that holds for three of five ticks, away from lost words.
+    fn fastest(&self, rough: &Roughness) -> f64 {
         let speeds: Vec<f64> = (1..self.values.len())
             .map(|sample| {
                 let time = self.times[sample] - self.times[sample - 1];
@@ -362,7 +431,9 @@ impl<'a> Channel<'a> {
             .collect();
         speeds
             .windows(5)
-            .map(|near| {
+            .enumerate()
+            .filter(|(first, _)| !(*first..first + 6).any(|sample| rough.is_lost(sample)))
+            .map(|(_, near)| {
                 let mut near = [near[0], near[1], near[2], near[3], near[4]];
                 near.sort_by(f64::total_cmp);
                 near[2].abs()
@@ -401,6 +472,56 @@ impl<'a> Channel<'a> {
         }
         values
     }
+}
+
+/// The quiet share of the roughest window, of samples that count; nothing where no window has so many of them.
+fn roughest(off: &[f64], fewest: usize, counts: impl Fn(usize) -> bool) -> Option<f64> {
+    (0..off.len())
+        .step_by(WINDOW)
+        .filter(|start| 2 * (off.len() - start) > WINDOW)
+        .filter_map(|start| {
+            let window = start..(start + WINDOW).min(off.len());
+            let mut sizes: Vec<f64> = window
+                .filter(|sample| counts(*sample))
+                .map(|sample| off[sample])
+                .collect();
+            if sizes.is_empty() || sizes.len() < fewest {
+                return None;
+            }
+            let place = (QUIET * sizes.len() as f64) as usize;
+            Some(*sizes.select_nth_unstable_by(place, f64::total_cmp).1)
+        })
+        .reduce(f64::max)
+}
+
+/// The bits of a number; zero has no sign.
+fn bits(value: f64) -> u64 {
+    (value + 0.0).to_bits()
+}
+
+/// Whether a sample reads a number that is read far more often than those beside it.
+fn often(values: &[f64]) -> Vec<bool> {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let counts: Vec<(f64, usize)> = sorted
+        .chunk_by(|a, b| a == b)
+        .filter_map(|same| Some((*same.first()?, same.len())))
+        .collect();
+    let found: HashSet<u64> = (0..counts.len())
+        .filter(|place| {
+            let (_, own) = counts[*place];
+            let near = place.saturating_sub(BESIDE)..(place + BESIDE + 1).min(counts.len());
+            let others = near.len() - 1;
+            let sum: usize = counts[near].iter().map(|(_, count)| count).sum();
+            let beside = (sum - own) as f64 / others.max(1) as f64;
+            own >= WORD.0 && own as f64 > WORD.1 * beside
+        })
+        .map(|place| bits(counts[place].0))
+        .collect();
+    values
+        .iter()
+        .map(|value| found.contains(&bits(*value)))
+        .collect()
 }
 
 /// Whether the motion changes about a sample by more than its noise: then an effort's peak was real.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Filters, plain};
+use super::{Filtered, Filters, plain};
 use crate::calibrate::fit::toys::noise;
 use crate::calibrate::trace::{Coordinate, Repairs, Trace};
 
@@ -186,4 +186,54 @@ fn runs_from_rest_do_not_bias_the_viscous_friction() {
     let off = (mean - 4e-5).abs() / variance.sqrt();
     println!("mean {mean:.4e}, {off:.2} standard errors off");
     assert!(off < 3.0, "{mean} {off}");
+}
+
+/// What the motion's filter takes from the acceleration alone would go into the inertia.
+#[test]
+fn rows_hold_nothing_that_is_smoothed_away_of_the_motion() {
+    let quiet = drive(1);
+    let mut noisy = quiet.clone();
+    for (angle, noise) in noisy.position.iter_mut().zip(noise(2, SAMPLES, 0.0)) {
+        *angle += 2e-4 * noise;
+    }
+    for trace in [quiet, noisy] {
+        let filtered = Filtered::new(&trace, &Filters::default()).unwrap();
+        let cutoff = filtered.rows.filter().cutoff();
+        assert!(cutoff < 0.61 * filtered.motion.cutoff, "{cutoff}");
+    }
+}
+
+/// A torque that is cut off at seven tenths of its largest for some per cent of the time.
+#[test]
+fn a_clipped_torque_does_not_take_from_the_inertia() {
+    let mut clipped = drive(3);
+    let largest = clipped.effort.iter().copied().fold(0.0, f64::max);
+    let mut limit = largest;
+    let share = |limit: f64| {
+        let beyond = clipped.effort.iter().filter(|x| x.abs() > limit).count();
+        beyond as f64 / SAMPLES as f64
+    };
+    while share(limit) < 0.03 {
+        limit *= 0.99;
+    }
+    for effort in &mut clipped.effort {
+        *effort = effort.clamp(-limit, limit);
+    }
+    let (answer, _) = plain(&clipped, &Filters::default()).unwrap();
+    let found = |name: &str| answer.parameters.iter().find(|of| of.name == name).unwrap();
+    for (name, truth) in TRUTH {
+        let found = found(name);
+        let half = 0.5 * (found.high - found.low);
+        // Twice the 95 % interval: one drive.
+        assert!(
+            (found.value - truth).abs() < 2.0 * half,
+            "{name}: {found:?}"
+        );
+        assert!(half < 0.05 * truth, "{name}: {found:?}");
+    }
+    let said = answer
+        .cannot_tell
+        .iter()
+        .any(|word| word.contains("clipped: left out"));
+    assert!(said, "{:?}", answer.cannot_tell);
 }

@@ -387,3 +387,29 @@ fn seeds_are_read_and_their_ruins_do_no_harm() {
         let _ = crate::calibrate::accepts(&text);
     }
 }
+
+/// An encoder of 14 bits whose angle is in degrees without a word, and the same in radians.
+#[test]
+fn steps_of_a_degree_are_no_radians() {
+    let file = |name: &str, turn: f64| {
+        let step = turn / 16384.0;
+        let mut text = format!("time,{name},motor_torque\n");
+        for sample in 0..2000 {
+            let time = 1e-3 * f64::from(sample);
+            let angle = 0.4 * turn * (4.0 * time).sin();
+            let angle = (angle / step).round() * step;
+            writeln!(text, "{time:.3},{angle:.6},{:.4}", (7.0 * time).sin()).unwrap();
+        }
+        from_reader(Cursor::new(text), "trace", None)
+    };
+    let Err(Failure::Data(message)) = file("nut_position", 360.0) else {
+        panic!("degrees are taken for radians");
+    };
+    assert!(
+        message.contains("steps of 360/2^14") && message.contains("nut_position_deg"),
+        "{message}"
+    );
+    file("nut_position_rad", 360.0).unwrap();
+    file("nut_position_deg", 360.0).unwrap();
+    file("nut_position", TAU).unwrap();
+}

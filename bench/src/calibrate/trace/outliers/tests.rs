@@ -108,6 +108,27 @@ fn dropouts_and_spikes_are_left_out_and_named() {
     }
 }
 
+/// A word that is lost for a third of the samples of a quarter of a second is no noise of the channel.
+#[test]
+fn lost_words_may_stand_close_together() {
+    for column in 0..3 {
+        let mut rows = measured();
+        let lost: Vec<usize> = (0..250)
+            .map(|k| 2900 + k)
+            .filter(|sample| sample * sample % 7 == 1)
+            .collect();
+        for sample in &lost {
+            rows[*sample][column] = 0.0;
+        }
+        let trace = read(&rows, "nut_position").unwrap();
+        let [found] = &trace.repairs.left_out[..] else {
+            panic!("{:?}", trace.repairs);
+        };
+        let wanted: Vec<usize> = lost.iter().map(|sample| sample + 1).collect();
+        assert_eq!(found.rows, wanted, "column {column}");
+    }
+}
+
 /// A word that is lost for some ms, of an angle that starts again after a turn.
 #[test]
 fn a_run_of_an_angle_that_wraps_is_left_out() {

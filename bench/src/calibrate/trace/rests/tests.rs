@@ -78,6 +78,39 @@ fn rests_of_a_measured_speed_are_found() {
     assert!(found.iter().all(|rest| rest.len() == 100), "{found:?}");
 }
 
+/// Stops of 60 to 250 ms between ramps of 0.1 s, whatever measures the motion; turns of the same ramps are none.
+#[test]
+fn a_short_rest_between_a_stop_and_a_start_is_found() {
+    let step = TAU / 16384.0;
+    for stop in [0, 60, 120, 250] {
+        let ramp = (0..100).map(|k| f64::from(k) / 100.0);
+        let run = ramp.clone().chain(vec![1.0; 500]);
+        let run = run.chain(ramp.rev()).chain(vec![0.0; stop]);
+        let speed: Vec<f64> = [2.0, -2.0, 5.0, -5.0]
+            .iter()
+            .flat_map(|top| run.clone().map(move |share| top * share))
+            .collect();
+        let mut angle = 0.0;
+        let position = speed.iter().map(|speed| {
+            angle += speed * STEP;
+            (angle / step).round() * step
+        });
+        let position = rests(&trace(position.collect(), step, None, STEP));
+        let rounded = speed.iter().map(|x| (x / 0.02).round() * 0.02).collect();
+        let speed = rests(&trace(vec![0.0; speed.len()], 0.0, Some(rounded), STEP));
+        for found in [position, speed] {
+            // At the end of the trace no start is to be seen.
+            let wanted = if stop == 0 { 0 } else { 3 };
+            assert_eq!(found.len(), wanted, "{stop}: {found:?}");
+            for (place, rest) in found.iter().enumerate() {
+                let start = 700 + place * (700 + stop);
+                // A ramp of 20 rad/s^2 passes a step within 7 ms of its end.
+                assert!(rest.start.abs_diff(start) <= 10 && rest.end.abs_diff(start + stop) <= 10);
+            }
+        }
+    }
+}
+
 /// Turning points and slow motions are none.
 #[test]
 fn a_motion_never_rests() {

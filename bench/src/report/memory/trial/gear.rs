@@ -133,5 +133,6 @@ fn tracked(trace: &Trace) -> Motion {
         acceleration: vec![0.0; trace.len()],
         noise: [0.0; 2],
         edge: 0,
+        cutoff: f64::INFINITY,
     }
 }
