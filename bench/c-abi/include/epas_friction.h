@@ -702,12 +702,12 @@ extern "C" {
 /**
  * Size of `epas_folded_ball_t` in words of four bytes.
  */
-#define EPAS_FOLDED_BALL_WORDS 1424
+#define EPAS_FOLDED_BALL_WORDS 1488
 
 /**
  * Size of `epas_folded_ball_range_t` in words of four bytes.
  */
-#define EPAS_FOLDED_BALL_RANGE_WORDS 4246
+#define EPAS_FOLDED_BALL_RANGE_WORDS 4438
 
 /**
  * Bytes of a state of an adaptation.

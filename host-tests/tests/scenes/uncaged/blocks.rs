@@ -129,7 +129,7 @@ fn numbers_that_are_no_law_are_refused_by_name() {
     fn numbers(law: &mut BallLaw<BALL_NODES>) -> &mut BallNumbers {
         &mut knot(law).numbers
     }
-    let refused: [(&str, Change, &[f32]); 16] = [
+    let refused: [(&str, Change, &[f32]); 17] = [
         ("deviations", |law, x| law.deviations[0] = x, &[9e-7, 1.01]),
         ("deviations", |law, x| law.deviations[1] = x, &[0.0, -0.1]),
         ("lift_off", |law, x| law.lift_off = x, &[-1e-6, 1.1e7]),
