@@ -413,7 +413,7 @@ fn ended_at_bound(sure: &Uncertainty) -> Vec<String> {
     let ended = sure.intervals.iter().filter(|interval| interval.at_bound);
     let sentences = ended.map(|interval| {
         format!(
-            "{}: ended at its bound of {}, and is not told",
+            "{}: ended at its bound of {}, and is not told; what is estimated beside it can be off by more than its interval",
             interval.name.replace('_', " "),
             digits(interval.value, 3)
         )

@@ -392,7 +392,8 @@ fn at_bounds(sure: &Uncertainty, hints: &dyn Hints) -> Vec<Untold> {
             .lacking(&names)
             .map_or(String::new(), |text| format!("; {text}"));
         let sentence = format!(
-            "{}: ended at its bound of {:.4}, so the trace asks for a value beyond it{because}",
+            "{}: ended at its bound of {:.4}, so the trace asks for a value beyond it, and what is estimated beside it can be off by more than its \
+             interval{because}",
             words(&names, hints),
             interval.value
         );

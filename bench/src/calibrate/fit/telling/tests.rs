@@ -108,7 +108,8 @@ fn no_effect_and_at_the_bound() {
         sentences,
         [
             "ghost: the trace does not show it; ghost is set to 2",
-            "rate: ended at its bound of 0.0100, so the trace asks for a value beyond it"
+            "rate: ended at its bound of 0.0100, so the trace asks for a value beyond it, and what is estimated beside it can be off by more \
+             than its interval"
         ]
     );
 }
