@@ -333,7 +333,9 @@ fn rust(summary: &[String], declared: &Declared, name: &str, words: &[u32]) -> S
          match {from}(&{name}_BLOCK) {{\n        \
          Ok(constants) => constants,\n        \
          Err(_) => panic!(\"the block is damaged, or of another version of epas-friction\"),\n    }};\n\n\
-         #[rustfmt::skip]\nconst {name}_BLOCK: [u32; {}] = [\n",
+         #[rustfmt::skip]\n\
+         #[allow(clippy::large_const_arrays, reason = \"read while compiling alone\")]\n\
+         const {name}_BLOCK: [u32; {}] = [\n",
         words.len()
     );
     text.push_str(&listed(words));

@@ -14,6 +14,7 @@ pub static GEAR_33X20_BALL: epas_friction::scene::FoldedBall<1> =
     };
 
 #[rustfmt::skip]
+#[allow(clippy::large_const_arrays, reason = "read while compiling alone")]
 const GEAR_33X20_BALL_BLOCK: [u32; 1430] = [
     0x55415045, 0x00000003, 0x00000596, 0x00000001, 0x5a6651a0, 0x7a0555d3,
     0x3d99999a, 0x3ca3d70a, 0x3b360f1b, 0x3c89a906, 0x3bf3b828, 0x3f000000,

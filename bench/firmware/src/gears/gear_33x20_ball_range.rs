@@ -14,6 +14,7 @@ pub static GEAR_33X20_BALL_RANGE: epas_friction::scene::FoldedBall<3> =
     };
 
 #[rustfmt::skip]
+#[allow(clippy::large_const_arrays, reason = "read while compiling alone")]
 const GEAR_33X20_BALL_RANGE_BLOCK: [u32; 4252] = [
     0x55415045, 0x00000003, 0x0000109c, 0x00000003, 0xfda57c52, 0x586f38e6,
     0x3d99999a, 0x3ca3d70a, 0x3b360f1b, 0x3c89a906, 0x3bf3b828, 0x3f000000,
