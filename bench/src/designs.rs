@@ -6,7 +6,7 @@ pub(crate) mod capacity;
 mod fits;
 pub mod fold;
 pub mod loads;
-mod plausible;
+pub mod plausible;
 mod tables;
 pub mod text;
 pub mod train;

@@ -335,7 +335,7 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
         output.iter().chain(&plot),
     )?;
 
-    scene.check_errors(&trace)?;
+    scene.check_errors()?;
     // Every sample is computed once and written once.
     let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
     let progress = Progress::new(steps);

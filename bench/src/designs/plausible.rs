@@ -30,6 +30,8 @@ const STEEPEST: f32 = 1.732;
 const BALLS: [f32; 2] = [0.01, 0.5];
 /// Largest conformity: those of catalogues go from 0.505 to 0.58.
 const WIDEST: f32 = 0.7;
+/// Largest speed of a trace over the limit of its design: above a limit by less, the limit is too tight; above it by more, the unit is another.
+pub const FASTEST: f64 = 1.5;
 /// Turns of a circuit: its return takes the balls back after 1 to 5.
 const TURNS: [f32; 2] = [0.1, 10.0];
 

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use epas_design::CagedFold;
+use epas_design::{CagedFold, UncagedFold};
 use epas_friction::{Faults, Inputs};
 use epas_trains::Folded;
 
@@ -10,8 +10,7 @@ use super::summary::Lines;
 use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
-use crate::simulate::remembering::coefficients;
-use crate::{caged, uncaged};
+use crate::uncaged;
 
 /// Loads within this of the largest that a block holds may be flagged: roundings of its logarithm.
 const ROUNDED: f32 = 0.999;
@@ -84,53 +83,38 @@ pub struct Beyond {
 }
 
 impl Beyond {
-    /// Of a screw whose balls do not touch; none of a closed form, which holds every load.
-    ///
-    /// # Errors
-    /// What of its table `[fold]` cannot be folded.
-    pub fn caged(design: &Design, memory: bool) -> Result<Option<Self>, Failure> {
-        if design.branch.is_some() {
-            return Ok(None);
-        }
-        let own = (design.caged.friction, design.caged.friction);
-        let asked = if memory { coefficients(design)? } else { own };
+    /// Of a screw whose balls do not touch, and what is folded of it.
+    pub fn caged(design: &Design, fold: &CagedFold) -> Self {
         let CagedFold {
             axial_load: [from, to],
             friction,
             ..
-        } = caged::fold_for(design, asked).map_err(Failure::Data)?;
+        } = *fold;
         let mut domain = format!("the block holds {from} to {to} N a ball");
         if let Some([least, most]) = friction {
             let _ = write!(domain, ", friction coefficients {least} to {most}");
         }
-        Ok(Some(Self {
+        Self {
             held: Held::Caged { most: to },
             of_ball: Some(1.0 / f32::from(design.caged.loaded_balls)),
             limit: design.caged.limits.axial_load,
             domain,
             moments: Vec::new(),
-        }))
+        }
     }
 
-    /// Of a screw whose balls press on each other, under loads up to the largest of a trace, N.
+    /// Of a screw whose balls press on each other, and what is folded of it.
     ///
     /// # Errors
     /// What cannot be folded, with the reason.
-    pub fn uncaged(
-        design: &Design,
-        balls: &UncagedDesign,
-        axial_load: f32,
-    ) -> Result<Self, Failure> {
-        let friction = balls.gear.friction;
-        let fold = uncaged::fold_for(design, balls, (friction, friction), axial_load)
-            .map_err(Failure::Data)?;
+    pub fn uncaged(balls: &UncagedDesign, fold: &UncagedFold) -> Result<Self, Failure> {
         let [from, to] = fold.axial_load;
         Ok(Self {
             held: Held::Uncaged {
                 loaded_balls: balls.loaded_balls(),
-                friction,
+                friction: balls.gear.friction,
                 most: to,
-                folded: uncaged::folded(&fold)?,
+                folded: uncaged::folded(fold)?,
             },
             of_ball: Some(balls.ball_load(1.0)),
             limit: balls.gear.limits.axial_load,
@@ -301,6 +285,7 @@ fn newtons(load: f32) -> String {
 mod tests {
     use super::*;
     use crate::designs::read;
+    use crate::simulate::caged::fold;
 
     const GEAR: &str = "nominal_diameter = 0.029\nlead = 0.007\nball_diameter = 4e-3\nconformity = 0.54\ncontact_angle = 0.7853982\n\
                         loaded_balls = 50\n";
@@ -329,7 +314,7 @@ mod tests {
     #[test]
     fn loads_above_the_block_are_a_band() {
         let design = read(&format!("{GEAR}[fold]\naxial_load = [5, 100]\n"), "gear").unwrap();
-        let beyond = || Beyond::caged(&design, false).unwrap().unwrap();
+        let beyond = || Beyond::caged(&design, &fold(&design, false).unwrap().unwrap());
         let lines = told(
             beyond(),
             &[

@@ -1,6 +1,6 @@
 //! A ball screw whose balls do not touch.
 
-use epas_design::CagedDesign;
+use epas_design::{CagedDesign, CagedFold};
 use epas_friction::{Error, FrictionBranch, Inputs, Outputs, RollingResistance};
 use epas_reference::promises::{self, Promise};
 
@@ -141,14 +141,23 @@ impl Caged {
 /// # Errors
 /// What cannot be folded, with the reason.
 pub fn check_errors(design: &Design, memory: bool) -> Result<(), Failure> {
+    fold(design, memory)?.map_or(Ok(()), |fold| {
+        caged::check_errors(&fold).map_err(|failure| failure.of(&design.name))
+    })
+}
+
+/// What is folded of a design for a run, for all coefficients of its calibration where friction remembers; nothing of a closed form.
+///
+/// # Errors
+/// What cannot be folded, with the reason.
+pub fn fold(design: &Design, memory: bool) -> Result<Option<CagedFold>, Failure> {
     if design.branch.is_some() {
-        return Ok(());
+        return Ok(None);
     }
     let own = (design.caged.friction, design.caged.friction);
     let asked = if memory { coefficients(design)? } else { own };
     let fold = caged::fold_for(design, asked).map_err(Failure::Data);
-    fold.and_then(|fold| caged::check_errors(&fold))
-        .map_err(|failure| failure.of(&design.name))
+    fold.map(Some).map_err(|failure| failure.of(&design.name))
 }
 
 /// An angle within half a turn either way, rad.
@@ -183,16 +192,12 @@ impl Scene for Caged {
     fn within(&self, trace: Trace<ScrewSample>) -> (Trace<ScrewSample>, Option<String>) {
         let balls = f32::from(self.design.caged.loaded_balls);
         // What cannot be folded is told by the run.
-        let fold = caged::fold_for(
-            &self.design,
-            (self.design.caged.friction, self.design.caged.friction),
-        );
-        let block = fold.ok().filter(|_| self.design.branch.is_none());
-        let block = block.map(|fold| fold.axial_load[1] * balls);
+        let fold = fold(&self.design, false).ok().flatten();
+        let block = fold.map(|fold| fold.axial_load[1] * balls);
         screw::within(trace, &self.design, balls, block)
     }
 
-    fn check_errors(&self, _: &Trace<ScrewSample>) -> Result<(), Failure> {
+    fn check_errors(&self) -> Result<(), Failure> {
         check_errors(&self.design, self.memory)
     }
 
@@ -253,7 +258,8 @@ impl Scene for Caged {
 
     fn summary(&self, trace: &Trace<ScrewSample>, rows: &[CagedRow]) -> Lines {
         // What has run was folded: nothing is refused here.
-        let beyond = Beyond::caged(&self.design, self.memory).ok().flatten();
+        let fold = fold(&self.design, self.memory).ok().flatten();
+        let beyond = fold.map(|fold| Beyond::caged(&self.design, &fold));
         let mut summary = ScrewSummary::new(&self.design, beyond);
         for row in rows {
             summary.add(&row.sample, &row.outputs, row.reference.as_ref());

@@ -147,7 +147,7 @@ pub fn run(
     settings.add("design", design.name.clone());
     settings.append(screw::settings(design, friction, clearance));
     settings.print(&mut stdout)?;
-    let beyond = Beyond::caged(design, true)?;
+    let beyond = caged::fold(design, true)?.map(|fold| Beyond::caged(design, &fold));
     summary(&rows, inertia, tick, beyond).print(&mut stdout)?;
     lines.print(&mut stdout)?;
     for path in outputs.iter().flatten() {

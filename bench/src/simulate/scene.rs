@@ -33,7 +33,7 @@ pub trait Scene {
     ///
     /// # Errors
     /// What cannot be folded, with the reason.
-    fn check_errors(&self, _: &Trace<Self::Sample>) -> Result<(), Failure> {
+    fn check_errors(&self) -> Result<(), Failure> {
         Ok(())
     }
 

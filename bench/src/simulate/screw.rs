@@ -12,6 +12,7 @@ use super::reference::Friction;
 use super::samples::ScrewSample;
 use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
 use super::trace::{Sample, Trace};
+use crate::designs::plausible::FASTEST;
 use crate::designs::{Design, capacity};
 use crate::flags;
 
@@ -74,14 +75,12 @@ pub fn within(
 
 /// What a trace that is far too fast for its design may be, by its peaks of speed, rad/s, and load, N.
 fn too_fast(design: &Design, [speed, load]: [f64; 2]) -> Option<String> {
-    /// Speeds above the limit by less are a limit that is too tight.
-    const FAR: f64 = 1.5;
     let Limits {
         nut_speed,
         axial_load,
         ..
     } = design.caged.limits;
-    if speed <= FAR * f64::from(nut_speed) {
+    if speed <= FASTEST * f64::from(nut_speed) {
         return None;
     }
     let exchanged = if load <= nut_speed.into() && speed <= axial_load.into() {

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use epas_design::UncagedFold;
 use epas_friction::{Error, Inputs, Outputs, UncagedOutputs};
 use epas_reference::promises;
 use epas_trains::{Built, ScrewConfiguration};
@@ -72,10 +73,18 @@ impl Uncaged {
 
     /// Whether the errors of its block are known: of one that comes with the program.
     fn is_measured(&self, trace: &Trace<ScrewSample>) -> bool {
-        let friction = self.balls.gear.friction;
-        let own = (friction, friction);
-        uncaged::fold_for(&self.design, &self.balls, own, peak_load(trace))
+        self.fold(peak_load(trace))
             .is_ok_and(|fold| folds::is_stored(fold.digest()))
+    }
+
+    /// What is folded of it for axial loads up to one, N.
+    ///
+    /// # Errors
+    /// What cannot be folded, with the reason.
+    fn fold(&self, axial_load: f32) -> Result<UncagedFold, Failure> {
+        let friction = self.balls.gear.friction;
+        uncaged::fold_for(&self.design, &self.balls, (friction, friction), axial_load)
+            .map_err(Failure::Data)
     }
 
     /// What its model is made of, up to an axial load, N.
@@ -175,9 +184,10 @@ impl Scene for Uncaged {
     fn within(&self, trace: Trace<ScrewSample>) -> (Trace<ScrewSample>, Option<String>) {
         let balls = 1.0 / self.balls.ball_load(1.0);
         // Without a table the block follows the trace.
-        let friction = self.balls.gear.friction;
-        let fold = uncaged::fold_for(&self.design, &self.balls, (friction, friction), 0.0);
-        let block = fold.ok().filter(|_| self.design.fold.says_axial_load());
+        let block = self
+            .fold(0.0)
+            .ok()
+            .filter(|_| self.design.fold.says_axial_load());
         let block = block.map(|fold| fold.axial_load[1] * balls);
         screw::within(trace, &self.design, balls, block)
     }
@@ -266,7 +276,10 @@ impl Scene for Uncaged {
 
     fn summary(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Lines {
         // What has run was folded: nothing is refused here.
-        let beyond = Beyond::uncaged(&self.design, &self.balls, peak_load(trace)).ok();
+        let fold = self.fold(peak_load(trace));
+        let beyond = fold
+            .and_then(|fold| Beyond::uncaged(&self.balls, &fold))
+            .ok();
         let mut summary = ScrewSummary::new(&self.design, beyond);
         let mut pressing = Pressing::default();
         for row in rows {

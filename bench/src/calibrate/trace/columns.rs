@@ -19,6 +19,7 @@ use std::ops::Range;
 
 use crate::aside::say;
 use crate::designs::Design;
+use crate::designs::plausible::FASTEST;
 use crate::failure::Failure;
 use crate::mdf4::{self, Mapping};
 use crate::source::Source;
@@ -64,14 +65,12 @@ impl Frame {
 
     /// Refuses a motion whose name says no unit and that is far too fast for the design, but not where it is in degrees.
     fn check_unsaid(&self, column: &Unsaid, mut speeds: Vec<f64>) -> Result<(), String> {
-        /// Speeds above the limit by less are a limit that is too tight.
-        const FAR: f64 = 1.5;
         /// Share of the speeds that may be noise.
         const NOISE: f64 = 0.05;
         speeds.sort_by(f64::total_cmp);
         let place = ((1.0 - NOISE) * speeds.len() as f64) as usize;
         let speed = speeds.get(place).copied().unwrap_or_default();
-        if speed < FAR * self.fastest || speed.to_radians() > self.fastest {
+        if speed < FASTEST * self.fastest || speed.to_radians() > self.fastest {
             return Ok(());
         }
         let Unsaid { name, units, part } = column;
