@@ -21,7 +21,7 @@ pub use certificate::{RowFigures, UncagedCertificate, UncagedFigure};
 use fit::{Branch, Fit, Numbers};
 
 /// Version of the way from a design to a block, which the digest of a block covers: raised by every change that gives the same design other bits.
-pub const ALGORITHM: u32 = 3;
+pub const ALGORITHM: u32 = 4;
 
 /// Nodes of a range of friction coefficients.
 pub const NODES: usize = 3;

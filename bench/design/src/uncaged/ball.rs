@@ -18,10 +18,9 @@ const SIDE: usize = 5;
 /// Places of the grid at which friction of the neighbours is put on a ball: the corners, the middles of the edges and the centre.
 const RUBBED: [usize; 9] = [0, 2, 4, 10, 12, 14, 20, 22, 24];
 
-/// Friction force of each neighbour over the root mean square of the forces that hold balls, with which the loss by rubbing is found and the
-/// grip: rows of 37 balls with friction of 0.1 between them lose as their mean force says, and are held as the larger ones of their forces say.
-const LOSS_RUBBING: f64 = 0.2;
-const GRIP_RUBBING: f64 = 0.4;
+/// Friction force of each neighbour over the root mean square of the forces that hold balls, with which grip and loss by rubbing are found: the
+/// mean one of rows of 37 balls with friction of 0.1 between them.
+const RUBBING: f64 = 0.2;
 
 /// Largest friction force of a neighbour over `mu W`: a ball that is rubbed more loses its hold on the grooves.
 const MOST_RUBBING: f64 = 0.12;
@@ -111,10 +110,19 @@ pub(super) struct BallSample {
     pub held: f64,
     /// Balls of the grid.
     pub points: [BallPoint; POINTS],
-    /// Net push more, over the friction of the neighbours.
-    pub grip: [f64; 3],
-    /// Speed with which two balls alike rub, m per unit of nut speed: the one with which they lose what friction between them adds to all losses.
-    pub rubbing: f64,
+    /// Some of them with friction of both neighbours.
+    pub rubbed: Rubbed,
+}
+
+/// Some of the balls of the grid, on which both neighbours rub, at a speed at which their mean net push is about zero; over `mu W`.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Rubbed {
+    /// Speed of the balls, a deviation.
+    pub speed: f64,
+    /// Friction force of each neighbour.
+    pub friction: f64,
+    /// Balls: their points of the grid, net push, and friction torque with their part of the loss between balls, m.
+    pub balls: Vec<(usize, f64, f64)>,
 }
 
 /// What is solved: a design with a friction coefficient, under loads of one sign.
@@ -249,47 +257,69 @@ impl Balls<'_> {
             .collect()
     }
 
-    /// Some of the balls, held, with friction of their neighbours, under each load: the mean of the net push more over that friction, and the
-    /// speed of rubbing with which friction between balls loses what it adds to all losses. `None` where most of the balls have lost their hold.
+    /// Some of the balls under each load, with friction of their neighbours; `None` where most of them have lost their hold.
+    ///
+    /// In a row friction between balls moves the common speed until the net pushes add up to zero again. What a ball needs then is not what it
+    /// would need at the speed of balls that do not rub, because its push saturates with the speed.
     fn rubbed(
         &self,
         balls: &[DeviatingBall],
         pushed: &[Along],
         held: &[f64],
         speeds: &Speeds,
-    ) -> Vec<Option<([f64; 3], f64)>> {
+    ) -> Vec<Option<Rubbed>> {
         let of = |load: usize| {
             let smooth: Option<Vec<HeldBallFriction>> =
                 pushed.iter().map(|along| along[load]).collect();
             let smooth = smooth?;
             let squares: f64 = smooth.iter().map(|found| found.force.powi(2)).sum();
-            let whole = self.loads[load] + self.lift_off;
-            let most = MOST_RUBBING * self.ball.friction * whole;
             let rms = (squares / POINTS as f64).sqrt();
-            let at = |friction: f64| {
+            let sliding = (self.loads[load] + self.lift_off) * self.ball.friction;
+            let friction = (MOST_RUBBING * sliding).min(RUBBING * rms);
+            let at = |speed: f64| {
                 let drive = BallDrive {
                     axial_load: self.side * self.loads[load],
-                    along: AlongTrack::Held(speeds.orbital(held[load])),
+                    along: AlongTrack::Held(speeds.orbital(speed)),
                     rubbing: [friction; 2],
                 };
-                let (mut losses, mut grips) = (Vec::new(), Vec::new());
-                for point in RUBBED {
-                    // A ball that finds no balance does not count.
-                    let Ok(found) = balls[point].solve(&drive, Some(&smooth[point].start)) else {
-                        continue;
-                    };
-                    let smooth = &smooth[point];
-                    grips.push((point, (found.force - smooth.force) / (2.0 * friction)));
-                    // Each contact's loss is shared by its two balls.
-                    let lost = found.torque - smooth.torque + 2.0 * friction * found.half_slip;
-                    losses.push((point, lost / friction));
-                }
-                (grips.len() as f64 > 0.5 * RUBBED.len() as f64).then_some([grips, losses])
+                // A ball that finds no balance does not count.
+                let found: Vec<(usize, HeldBallFriction)> = RUBBED
+                    .into_iter()
+                    .filter_map(|point| {
+                        let found = balls[point].solve(&drive, Some(&smooth[point].start));
+                        Some((point, found.ok()?))
+                    })
+                    .collect();
+                (found.len() as f64 > 0.5 * RUBBED.len() as f64).then_some(found)
             };
-            let [_, losses] = at(most.min(LOSS_RUBBING * rms))?;
-            let [grips, _] = at(most.min(GRIP_RUBBING * rms))?;
-            let [rubbing, ..] = line(&losses);
-            Some((line(&grips), rubbing))
+            let first = at(held[load])?;
+            let mean = |value: &dyn Fn(&HeldBallFriction) -> f64| {
+                let values: Vec<(usize, f64)> = first
+                    .iter()
+                    .map(|(point, found)| (*point, value(found)))
+                    .collect();
+                line(&values)[0]
+            };
+            let impedance = mean(&|found| speeds.impedance(found.stiffness));
+            let push = mean(&|found| found.force);
+            let speed = if impedance > 0.0 {
+                held[load] - push / impedance
+            } else {
+                held[load]
+            };
+            let balls = at(speed)?
+                .into_iter()
+                .map(|(point, found)| {
+                    // Each contact's loss is shared by its two balls.
+                    let torque = found.torque + 2.0 * friction * found.half_slip;
+                    (point, found.force / sliding, torque / sliding)
+                })
+                .collect();
+            Some(Rubbed {
+                speed,
+                friction: friction / sliding,
+                balls,
+            })
         };
         (0..self.loads.len()).into_par_iter().map(of).collect()
     }
@@ -300,13 +330,12 @@ impl Balls<'_> {
         held: f64,
         free: &[Along],
         pushed: &[Along],
-        rubbed: &[([f64; 3], f64)],
+        rubbed: &[Rubbed],
         speeds: &Speeds,
     ) -> Option<BallSample> {
         let whole = self.loads[load] + self.lift_off;
         let per_load = 1.0 / (whole * self.ball.friction);
         let mut points = [BallPoint::default(); POINTS];
-        let (grip, rubbing) = rubbed[load];
         for (point, (free, pushed)) in points.iter_mut().zip(free.iter().zip(pushed)) {
             let (free, pushed) = (free[load].as_ref()?, pushed[load].as_ref()?);
             *point = BallPoint {
@@ -320,18 +349,19 @@ impl Balls<'_> {
             load: whole,
             held,
             points,
-            grip,
-            rubbing,
+            rubbed: rubbed[load].clone(),
         })
     }
 }
 
 /// Values, each that is missing as the one before it, and the first as the next.
-fn with_nearest(values: &[Option<([f64; 3], f64)>]) -> Vec<([f64; 3], f64)> {
-    let mut last = values.iter().copied().flatten().next().unwrap_or_default();
+fn with_nearest(values: &[Option<Rubbed>]) -> Vec<Rubbed> {
+    let mut last = values.iter().flatten().next().cloned().unwrap_or_default();
     let nearest = values.iter().map(|value| {
-        last = value.unwrap_or(last);
-        last
+        if let Some(value) = value {
+            last = value.clone();
+        }
+        last.clone()
     });
     nearest.collect()
 }
@@ -366,7 +396,7 @@ fn step_to_balance(pushed: &[Along], load: usize, speeds: &Speeds) -> f64 {
 }
 
 /// The straight line over the box of deviations that is nearest to a polynomial of the second degree through values at points of the grid.
-fn line(values: &[(usize, f64)]) -> [f64; 3] {
+pub(super) fn line(values: &[(usize, f64)]) -> [f64; 3] {
     let powers = DMatrix::from_fn(values.len(), 6, |row, power| {
         let [s, n] = place(values[row].0);
         [1.0, s, n, s * s, s * n, n * n][power]

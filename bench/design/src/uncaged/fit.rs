@@ -8,7 +8,7 @@ use epas_friction::ball::pressed::{KNOTS, LARGEST_GRIP, LARGEST_WORK, POWERS};
 use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
 
 use super::Column;
-use super::ball::{BallSample, POINTS, place};
+use super::ball::{BallSample, POINTS, line, place};
 use super::knots::{Between, Knots};
 
 /// Errors that weigh as much as each other where knots are placed: of the torque, of the force over its root mean square, and of the free
@@ -152,11 +152,9 @@ impl<'a> Fit<'a> {
         let knots = Knots::placed(&loads, &self.columns(), KNOTS);
         let places = knots.places();
         let speeds = self.speeds(&knots, &places);
-        let rubbings = self.alone(&knots, &places, |sample| sample.rubbing);
-        let grips: [Vec<f64>; SLOPES] =
-            std::array::from_fn(|power| self.alone(&knots, &places, |sample| sample.grip[power]));
         let gains = self.gains(&knots, &places);
         let torques = self.torques(&knots, &places, &speeds, &gains);
+        let [grips @ .., rubbings] = self.rubbed(&knots, &places, &speeds, &gains, &torques);
         let numbers: Vec<(f64, Numbers)> = (0..knots.at.len())
             .map(|knot| {
                 let numbers = Numbers {
@@ -166,7 +164,8 @@ impl<'a> Fit<'a> {
                     slope: gains[knot][0],
                     work: gains[knot][1],
                     grip: limited_grip(std::array::from_fn(|power| grips[power][knot])),
-                    rubbing: rubbings[knot],
+                    // Where balls hardly press, nothing is lost.
+                    rubbing: rubbings[knot].max(0.0),
                 };
                 (loads[knots.at[knot]], numbers)
             })
@@ -222,18 +221,49 @@ impl<'a> Fit<'a> {
         columns
     }
 
-    /// A number that no other depends on, at the knots.
-    fn alone(
+    /// What friction of their neighbours adds to balls, at the knots: powers of the grip, what the net push lacks over that friction; and the
+    /// speed with which two balls alike rub, the one with which they lose what the torque lacks.
+    fn rubbed(
         &self,
         knots: &Knots<'_>,
         places: &[Between],
-        value: impl Fn(&BallSample) -> f64,
-    ) -> Vec<f64> {
-        let column = Column {
-            values: self.samples.iter().map(value).collect(),
+        speeds: &[SVector<f64, TOGETHER>],
+        gains: &[[f64; 2]],
+        torques: &[SVector<f64, POWERS>],
+    ) -> [Vec<f64>; SLOPES + 1] {
+        let mut columns: [Column; SLOPES + 1] = std::array::from_fn(|_| Column {
+            values: Vec::new(),
             weights: self.weights.to_vec(),
-        };
-        knots.fitted(places, &column)
+        });
+        for (sample, place) in self.samples.iter().zip(places) {
+            let rubbed = &sample.rubbed;
+            let here = blended(speeds, place);
+            let torque_here =
+                torques[place.knot] * place.shares[0] + torques[place.knot + 1] * place.shares[1];
+            let (mut grips, mut losses) = (Vec::new(), Vec::new());
+            for &(point, force, torque) in &rubbed.balls {
+                let (free, impedance) = self.free_and_impedance(point, &here);
+                let push = rubbed.speed - free;
+                let smooth = (self.grid.powers.row(point) * torque_here)[0]
+                    + self.gained(place, gains, impedance, push);
+                grips.push((point, (force - impedance * push) / (2.0 * rubbed.friction)));
+                losses.push((point, (torque - smooth) / rubbed.friction));
+            }
+            let [grip @ .., rubbing] = &mut columns;
+            for (power, value) in grip.iter_mut().zip(line(&grips)) {
+                power.values.push(value);
+            }
+            rubbing.values.push(line(&losses)[0]);
+        }
+        columns.map(|column| knots.fitted(places, &column))
+    }
+
+    /// What a ball loses by a change of speed more than at its free speed.
+    fn gained(&self, place: &Between, gains: &[[f64; 2]], impedance: f64, push: f64) -> f64 {
+        let [low, high] = place.shares;
+        let [slope, work] =
+            [0, 1].map(|gain| low * gains[place.knot][gain] + high * gains[place.knot + 1][gain]);
+        (slope + 0.5 * work * self.against_nut * impedance * push) * push
     }
 
     /// Powers of free speed and impedance at the knots.
@@ -413,13 +443,10 @@ impl<'a> Fit<'a> {
             .zip(places)
             .map(|(sample, place)| {
                 let here = blended(speeds, place);
-                let [low, high] = place.shares;
-                let [slope, work] = [0, 1]
-                    .map(|gain| low * gains[place.knot][gain] + high * gains[place.knot + 1][gain]);
                 let coordinates = self.grid.coordinates(|point| {
                     let (free, impedance) = self.free_and_impedance(point, &here);
                     let push = sample.held - free;
-                    let gained = (slope + 0.5 * work * self.against_nut * impedance * push) * push;
+                    let gained = self.gained(place, gains, impedance, push);
                     let exact = &sample.points[point];
                     0.5 * (exact.torque + exact.torque_held - gained)
                 });
