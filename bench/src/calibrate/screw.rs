@@ -53,7 +53,7 @@ use crate::calibrate::fit::problem::Separable;
 use crate::calibrate::fit::profile::profile;
 use crate::calibrate::fit::separable::checks::FitError;
 use crate::calibrate::fit::separable::{self, Fit, FitSettings, Fixed};
-use crate::calibrate::fit::telling::{Reason, Told, tell};
+use crate::calibrate::fit::telling::{Reason, Told, at_bounds, tell};
 use crate::calibrate::fit::uncertainty::{Interval, Uncertainty, uncertainty};
 use crate::calibrate::laws::turns::{directions, near_turns};
 use crate::calibrate::page::picture;
@@ -296,6 +296,7 @@ fn attempt(
         evidence,
         values,
         step: trace.resolution,
+        coarse: too_coarse.is_some(),
     };
     let told = tell(&problem, &request.fit, &hints)?;
     if too_coarse.is_none()
@@ -320,6 +321,7 @@ fn attempt(
         &values,
         smoothing,
         &request.wanted.fix,
+        hints.coarse,
         by_residual.clone(),
     )?;
     let values = values_of(&problem, &told.fixed, &uncertainty.intervals);
@@ -332,7 +334,11 @@ fn attempt(
         .map(|parameter| parameter.name.as_str())
         .collect();
     let left_out = hints.left_out(&fixed);
-    let untold = told.untold.into_iter().map(|untold| untold.sentence);
+    // On the fine grid another one may end at its bound than in the search.
+    let mut untold = told.untold;
+    untold.retain(|untold| untold.reason != Reason::AtBound || untold.fixed.is_some());
+    untold.extend(at_bounds(&uncertainty, &hints));
+    let untold = untold.into_iter().map(|untold| untold.sentence);
     let too_coarse = too_coarse.into_iter().map(|coarse| coarse.sentence);
     answer.cannot_tell = too_coarse
         .chain(untold)

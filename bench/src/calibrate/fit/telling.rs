@@ -61,9 +61,9 @@ pub trait Hints {
         None
     }
 
-    /// Why the sensors cannot have seen a parameter of this value, where they cannot.
-    fn unseen(&self, name: &str, value: f64) -> Option<String> {
-        let _ = (name, value);
+    /// Why the sensors cannot have seen a parameter that came out so, where they cannot.
+    fn unseen(&self, interval: &Interval) -> Option<String> {
+        let _ = interval;
         None
     }
 
@@ -227,7 +227,8 @@ fn half_range(interval: &Interval) -> f64 {
     }
 }
 
-fn is_wide(interval: &Interval) -> bool {
+/// Whether an interval is as wide as its bounds, or of a factor of ten to both sides.
+pub fn is_wide(interval: &Interval) -> bool {
     interval.half_width >= half_range(interval)
 }
 
@@ -300,7 +301,7 @@ fn unseen(
     hints: &dyn Hints,
 ) -> Option<(Untold, (&'static str, f64))> {
     sure.intervals.iter().find_map(|interval| {
-        let because = hints.unseen(interval.name, interval.value)?;
+        let because = hints.unseen(interval)?;
         let value = prior(problem, interval.name, hints);
         let of = (vec![interval.name], Reason::Unseen);
         Some(setting(interval, value, of, (because, hints)))
@@ -385,7 +386,8 @@ fn words(names: &[&str], hints: &dyn Hints) -> String {
     }
 }
 
-fn at_bounds(sure: &Uncertainty, hints: &dyn Hints) -> Vec<Untold> {
+/// What ended at a bound all the same.
+pub fn at_bounds(sure: &Uncertainty, hints: &dyn Hints) -> Vec<Untold> {
     let untold = |interval: &Interval| {
         let names = vec![interval.name];
         let because = hints

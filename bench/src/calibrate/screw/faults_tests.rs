@@ -133,10 +133,10 @@ fn a_rest_with_the_drive_off_pulls_nothing() {
     word(&answer, "stands still for 4.");
 }
 
-/// Steps of 0.2 to 3 breakaway angles: an interval that holds it, or none.
+/// Steps of 0.2 to 6 breakaway angles: an interval that holds it, or none, and the others hold.
 #[test]
 fn a_coarse_encoder_tells_no_breakaway_below_its_step() {
-    for step in [4e-4, 1.7e-3, 6e-3] {
+    for step in [4e-4, 1.7e-3, 6e-3, 12e-3] {
         let mut trace = measured();
         for angle in &mut trace.nut_position {
             *angle = (*angle / step).round() * step;
@@ -145,6 +145,7 @@ fn a_coarse_encoder_tells_no_breakaway_below_its_step() {
         let breakaway = answer.parameter("breakaway_angle").unwrap();
         if step > 1e-3 {
             assert!(breakaway.fixed, "{breakaway:?}");
+            holds(&answer, &["breakaway_angle"]);
             word(&answer, "too coarse for it");
         } else {
             holds(&answer, &["friction", "inertia", "offset", "gain"]);

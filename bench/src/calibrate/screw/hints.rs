@@ -3,7 +3,8 @@
 use super::choice::needs;
 use super::evidence::Evidence;
 use super::quantities::{Linear, Nonlinear, Values, assumed_deviation};
-use crate::calibrate::fit::telling::Hints;
+use crate::calibrate::fit::telling::{Hints, is_wide};
+use crate::calibrate::fit::uncertainty::Interval;
 
 /// What the trace excites, and the values that stay where it tells nothing.
 pub struct ScrewHints {
@@ -13,6 +14,8 @@ pub struct ScrewHints {
     pub values: Values,
     /// Step of the position's sensor, rad of the nut.
     pub step: f64,
+    /// Whether that step is too coarse for the breakaway angle.
+    pub coarse: bool,
 }
 
 /// Fewest steps of the position from the turn of a motion to full sliding: of a travel that the sensor sees in fewer of them, the place
@@ -94,9 +97,13 @@ impl Hints for ScrewHints {
         assumed_deviation(name)
     }
 
-    fn unseen(&self, name: &str, value: f64) -> Option<String> {
+    fn unseen(&self, interval: &Interval) -> Option<String> {
+        let Interval { name, value, .. } = *interval;
         let way = matches!(name, "breakaway_angle" | "backlash");
-        (way && value > 0.0 && value < STEPS * self.step).then(|| {
+        let way = way && value > 0.0 && value < STEPS * self.step;
+        // What the steps make of a slow motion asks for any law of the speed.
+        let film = self.coarse && FILM.contains(&name) && (interval.at_bound || is_wide(interval));
+        (way || film).then(|| {
             format!(
                 "not estimated; a step of the position is {:.2e} rad of the nut, too coarse for it",
                 self.step

@@ -4,7 +4,8 @@
 //! shift parameters, and correlate over long times where the nut hardly moves, so that the residual alone does not show them. And a turn
 //! that is smoothed is a turn that is late. The trace's own motion and load, less smooth than the fit's, are counted, disturbed and smoothed
 //! again, a few times; what the model then says else goes through the fit's own slopes. Its mean is taken off the parameters, its spread
-//! widens their intervals.
+//! widens their intervals. Of a sensor that is too coarse for the breakaway the mean is as uncertain as it is large: the motion that is
+//! counted again was counted before.
 //!
 //! The scene's friction is that of the exact ball within some parts in a thousand, differently at every speed and load. Blocks of
 //! speed and load, each off by itself, widen the intervals too. These errors are the same in every trace of a screw: a mean over many
@@ -114,6 +115,7 @@ pub fn widened(
     values: &Values,
     settings: &SmoothingSettings,
     set: &[(String, f64)],
+    coarse: bool,
     mut sure: Uncertainty,
 ) -> Result<Uncertainty, Failure> {
     let known = |name: &str| {
@@ -124,7 +126,7 @@ pub fn widened(
     let assumed: Vec<_> = assumed
         .filter_map(|of| Some((of, assumed_deviation(of.name)?)))
         .collect();
-    let Some(systematic) = systematic(problem, fit, values, settings, &assumed)? else {
+    let Some(systematic) = systematic(problem, fit, values, (settings, coarse), &assumed)? else {
         return Ok(sure);
     };
     for (place, interval) in sure.intervals.iter_mut().enumerate() {
@@ -158,13 +160,16 @@ fn systematic(
     problem: &ScrewProblem<'_>,
     fit: &Fit,
     values: &Values,
-    settings: &SmoothingSettings,
+    (settings, coarse): (&SmoothingSettings, bool),
     assumed: &[(&Nonlinear, f64)],
 ) -> Result<Option<Systematic>, Failure> {
     let Some(slopes) = Slopes::of(fit) else {
         return Ok(None);
     };
-    let (shift, sensors) = sensors(problem, &slopes, values, settings)?;
+    let (shift, mut sensors) = sensors(problem, &slopes, values, settings)?;
+    if coarse {
+        sensors += &shift * shift.transpose();
+    }
     let mut variance = DVector::zeros(fit.jacobian.ncols());
     for rows in friction_by_blocks(problem, values, SPEEDS, LOADS) {
         let off: Vec<f64> = rows.iter().map(|row| MODEL * row).collect();

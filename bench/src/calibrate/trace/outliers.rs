@@ -6,8 +6,12 @@
 //! the channel goes on behind it as before. An angle may start again after a turn.
 //!
 //! An effort or a load can rise and fall within a tick, and a run of such samples may be a pulse. There a run is left
-//! out only where all its samples are the same number to the last digit, which a noisy channel never reads by itself, and
-//! a single sample stays where the motion answers to it.
+//! out only where all its samples are the same number to the last digit, which a noisy channel never reads by itself, or
+//! where no two neighbours agree, which no pulse does; and it stays where the motion answers to it.
+//!
+//! Where samples that stand off are dense, they spoil the neighbours of others. So what was found is taken out, and the
+//! rest is judged anew, until nothing more is found; and the noise of a stretch in which they are dense is that of its
+//! samples that agree with any two neighbours.
 //!
 //! A word that is lost reads the same number each time. A number that a channel reads far more often than those beside it, and that mostly
 //! stands off its neighbours, is such a word: it says nothing about the channel's noise, and is left out where half the distance shows it.
@@ -34,6 +38,16 @@ const QUIET: f64 = 0.75;
 /// the cubic is 1.39 standard deviations, three quarters of its sizes are below 1.15 of that: seven of them are 11
 /// deviations, and of a Laplace distribution's samples 6 in 100,000 are beyond.
 const BEYOND_NOISE: f64 = 7.0;
+/// The same of the distances from the nearest of the lines through one neighbour on each side: how many of them are
+/// looked at, the share that outliers leave alone, and the factor that makes of it the quiet share of white noise.
+const PAIRS: usize = 3;
+const QUIET_PAIRS: f64 = 0.6;
+const PAIRS_TO_CUBIC: f64 = 7.4;
+/// A window whose distances from the cubics are this many times what those from the lines say is full of outliers.
+const DENSE: f64 = 3.0;
+/// Share of a window's samples that repeat the one before, from which on an effort, a load or a speed is one of a slower
+/// raster, whose plateaus agree with their neighbours.
+const HELD: f64 = 0.5;
 /// Steps of the sensor that flicker.
 const FLICKER: f64 = 3.0;
 /// A position that jumps by this many times the fastest travel of a tick is none of the mechanism.
@@ -102,18 +116,11 @@ pub fn clean(table: &mut Table) -> Result<Vec<LeftOut>, String> {
         if !judged(quantity) {
             continue;
         }
-        let channel = Channel::of(&table.times, &table.columns[place]);
-        let rough = channel.roughness();
-        let runs = if rough.measured {
-            channel.runs(&rough, motion.as_ref())?
-        } else {
-            Vec::new()
-        };
-        let samples = runs.concat();
+        let column = &table.columns[place];
+        let (values, samples) = cleaned(table, column, motion.as_ref())?;
         let rows: Vec<usize> = samples.iter().map(|sample| table.row(*sample)).collect();
-        check_share(&channel, &rows)?;
+        check_share(&column.name, column.values.len(), &rows)?;
         if !samples.is_empty() {
-            let values = channel.filled(&runs);
             let column = &mut table.columns[place];
             column.values = values;
             column.left_out = samples;
@@ -123,10 +130,40 @@ pub fn clean(table: &mut Table) -> Result<Vec<LeftOut>, String> {
             });
         }
         if rank(quantity) <= 1 && motion.is_none() {
-            motion = Some(Channel::of(&table.times, &table.columns[place]).roughness());
+            let column = &table.columns[place];
+            motion = Some(Channel::of(&table.times, &column.values, column, &[]).roughness());
         }
     }
     Ok(found)
+}
+
+/// The values of a column with what no mechanism makes replaced by what stands about it, and those samples.
+fn cleaned(
+    table: &Table,
+    column: &Column,
+    motion: Option<&Roughness>,
+) -> Result<(Vec<f64>, Vec<usize>), String> {
+    let mut kept: Vec<usize> = (0..column.values.len()).collect();
+    loop {
+        let of = |all: &[f64]| -> Vec<f64> { kept.iter().map(|sample| all[*sample]).collect() };
+        let (times, values) = (of(&table.times), of(&column.values));
+        let channel = Channel::of(&times, &values, column, &kept);
+        let rough = channel.roughness();
+        let found = if rough.measured {
+            channel.runs(&rough, motion, table)?
+        } else {
+            Vec::new()
+        };
+        if found.is_empty() {
+            return Ok(channel.filled(&table.times, &column.values));
+        }
+        let mut found = found.into_iter().peekable();
+        let mut place = 0;
+        kept.retain(|_| {
+            place += 1;
+            found.next_if_eq(&(place - 1)).is_none()
+        });
+    }
 }
 
 /// Positions, then speeds, then what acts.
@@ -146,23 +183,23 @@ const fn judged(quantity: Quantity) -> bool {
     )
 }
 
-fn check_share(channel: &Channel<'_>, rows: &[usize]) -> Result<(), String> {
-    let all = channel.values.len();
+fn check_share(name: &str, all: usize, rows: &[usize]) -> Result<(), String> {
     if rows.len() as f64 <= MOST_MISSING * all as f64 {
         return Ok(());
     }
     Err(format!(
-        "column {}: {} of {all} samples stand off what the mechanism can do, as a loose plug or a word that is torn makes them ({}): at most {:.0} % are left out",
-        channel.name,
+        "column {name}: {} of {all} samples stand off what the mechanism can do, as a loose plug or a word that is torn makes them ({}): at most {:.0} % are left out",
         rows.len(),
         listed(rows),
         100.0 * MOST_MISSING
     ))
 }
 
-/// A column with its times.
+/// A column with its times, of those samples that are left.
 struct Channel<'a> {
     name: &'a str,
+    /// Their places in the column; nothing where all are left.
+    kept: &'a [usize],
     times: &'a [f64],
     values: &'a [f64],
     quantity: Quantity,
@@ -208,14 +245,15 @@ struct About {
 }
 
 impl<'a> Channel<'a> {
-    fn of(times: &'a [f64], column: &'a Column) -> Self {
+    fn of(times: &'a [f64], values: &'a [f64], column: &'a Column, kept: &'a [usize]) -> Self {
         let angle = matches!(column.quantity, Quantity::Position(part) if turns(part, column.unit.dimension));
         Self {
             name: &column.name,
+            kept,
             times,
-            values: &column.values,
+            values,
             quantity: column.quantity,
-            wraps: angle && wraps(&column.values),
+            wraps: angle && wraps(values),
             tick: median_tick(times, 1),
         }
     }
@@ -273,6 +311,7 @@ impl<'a> Channel<'a> {
                 *off = self.off(sample, &about).abs();
             }
         }
+        let nearest = self.nearest();
         // Roundings of the numbers themselves.
         let (low, high) = range(self.values);
         let rounding = 1e-9 * (high - low);
@@ -282,9 +321,9 @@ impl<'a> Channel<'a> {
         let about = |sample: usize| sample.saturating_sub(2)..(sample + 3).min(samples);
         let without = |sample: usize| !often[about(sample)].contains(&true);
         let (all, others) = (
-            roughest(&off, 0, |_| true).unwrap_or(0.0),
+            self.roughest(&off, &nearest, 0, |_| true).unwrap_or(0.0),
             (often.contains(&true))
-                .then(|| roughest(&off, LEFT, without))
+                .then(|| self.roughest(&off, &nearest, LEFT, without))
                 .flatten(),
         );
         let lost = others.map_or_else(Vec::new, |quiet| {
@@ -293,7 +332,8 @@ impl<'a> Channel<'a> {
         let quiet = if lost.is_empty() {
             all
         } else {
-            roughest(&off, LEFT, |sample| !lost[about(sample)].contains(&true)).unwrap_or(all)
+            let without = |sample: usize| !lost[about(sample)].contains(&true);
+            self.roughest(&off, &nearest, LEFT, without).unwrap_or(all)
         };
         let noise = noise(quiet);
         Roughness {
@@ -302,6 +342,61 @@ impl<'a> Channel<'a> {
             noise: noise + rounding,
             lost,
         }
+    }
+
+    /// Distance of every sample from the nearest of the lines through one of its neighbours on each side; 0 at the ends.
+    fn nearest(&self) -> Vec<f64> {
+        let samples = self.values.len();
+        let mut nearest = vec![0.0; samples];
+        let inner = samples.saturating_sub(PAIRS);
+        for (sample, nearest) in nearest.iter_mut().enumerate().take(inner).skip(PAIRS) {
+            let lines = (1..=PAIRS).flat_map(|back| (1..=PAIRS).map(move |on| (back, on)));
+            let off = |(back, on): (usize, usize)| {
+                let (before, after) = (sample - back, sample + on);
+                let share = (self.times[sample] - self.times[before])
+                    / (self.times[after] - self.times[before]);
+                let over = self.between(before, after);
+                (self.between(before, sample) - share * over).abs()
+            };
+            *nearest = lines.map(off).fold(f64::INFINITY, f64::min);
+        }
+        nearest
+    }
+
+    /// The quiet share of the roughest window, of samples that count; nothing where no window has so many of them.
+    fn roughest(
+        &self,
+        off: &[f64],
+        nearest: &[f64],
+        fewest: usize,
+        counts: impl Fn(usize) -> bool,
+    ) -> Option<f64> {
+        (0..off.len())
+            .step_by(WINDOW)
+            .filter(|start| 2 * (off.len() - start) > WINDOW)
+            .filter_map(|start| {
+                let window = start..(start + WINDOW).min(off.len());
+                let values = &self.values[window.clone()];
+                let repeats = values.windows(2).filter(|pair| pair[0] == pair[1]).count();
+                let held = rank(self.quantity) > 0 && repeats as f64 > HELD * values.len() as f64;
+                let samples: Vec<usize> = window.filter(|sample| counts(*sample)).collect();
+                if samples.is_empty() || samples.len() < fewest {
+                    return None;
+                }
+                let quiet = |of: &[f64], share: f64| {
+                    let mut sizes: Vec<f64> = samples.iter().map(|sample| of[*sample]).collect();
+                    let place = (share * sizes.len() as f64) as usize;
+                    *sizes.select_nth_unstable_by(place, f64::total_cmp).1
+                };
+                let by_cubics = quiet(off, QUIET);
+                let by_lines = PAIRS_TO_CUBIC * quiet(nearest, QUIET_PAIRS);
+                Some(if !held && by_cubics > DENSE * by_lines {
+                    by_lines
+                } else {
+                    by_cubics
+                })
+            })
+            .reduce(f64::max)
     }
 
     /// Those of the numbers that are read often that mostly stand off their neighbours by more than this; nothing where there are none.
@@ -331,17 +426,18 @@ impl<'a> Channel<'a> {
         }
     }
 
-    /// Runs of samples that no mechanism makes.
+    /// Samples that no mechanism makes, in order.
     fn runs(
         &self,
         rough: &Roughness,
         motion: Option<&Roughness>,
-    ) -> Result<Vec<Vec<usize>>, String> {
+        table: &Table,
+    ) -> Result<Vec<usize>, String> {
         let fastest = self.fastest(rough);
         let samples = self.values.len();
         let [start, end] = self.ends(rough.noise, fastest);
-        let mut runs: Vec<Vec<usize>> = Vec::new();
-        runs.extend((start > 0).then(|| (0..start).collect()));
+        let mut found: Vec<usize> = (0..start).collect();
+        let mut jumps = None;
         let mut sample = start + 1;
         while sample < end.min(samples - 1) {
             let left = sample - 1;
@@ -351,25 +447,28 @@ impl<'a> Channel<'a> {
                 sample += 1;
                 continue;
             }
-            match self.run(sample, rough, motion) {
-                Some(run) => {
-                    sample = run.last().map_or(sample, |last| *last) + 2;
-                    runs.push(run);
-                }
-                None if self.jumps(left, jump, rough.noise, fastest) => {
-                    return Err(format!(
-                        "column {}: it jumps by {jump:.4} before row {} (at {} s) and does not come back, {:.0} times as far as the mechanism travels in a tick: the sensor lost its place, or two records are joined; cut the trace there",
-                        self.name,
-                        sample + 1,
-                        self.times[sample],
-                        jump.abs() / (fastest * self.tick).max(f64::MIN_POSITIVE)
-                    ));
-                }
-                None => sample += 1,
+            if let Some(run) = self.run(sample, rough, motion) {
+                sample = run.last().map_or(sample, |last| *last) + 2;
+                found.extend(run);
+                continue;
             }
+            if jumps.is_none() && self.jumps(left, jump, rough.noise, fastest) {
+                jumps = Some((sample, jump));
+            }
+            sample += 1;
         }
-        runs.extend((end < samples).then(|| (end..samples).collect()));
-        Ok(runs)
+        found.extend(end..samples);
+        // What seems to jump may come back once its neighbours are out.
+        match jumps.filter(|_| found.is_empty()) {
+            Some((sample, jump)) => Err(format!(
+                "column {}: it jumps by {jump:.4} before row {} (at {} s) and does not come back, {:.0} times as far as the mechanism travels in a tick: the sensor lost its place, or two records are joined; cut the trace there",
+                self.name,
+                table.row(self.kept[sample]),
+                self.times[sample],
+                jump.abs() / (fastest * self.tick).max(f64::MIN_POSITIVE)
+            )),
+            None => Ok(found),
+        }
     }
 
     /// Samples between those of a position's ends that have no two neighbours on one side and jump to their one.
@@ -396,21 +495,25 @@ impl<'a> Channel<'a> {
             let far = |sample: &usize| self.off(*sample, &about).abs() > about.allowed;
             if far(&sample) && far(&last) {
                 let run: Vec<usize> = (sample..=last).filter(far).collect();
-                return self.believed(&run, motion).then_some(run);
+                return self.believed(&run, rough, motion).then_some(run);
             }
         }
         None
     }
 
-    /// Whether a run of samples that stand off is a fault: of an effort or a load, one word, or a single peak that nothing answers to.
-    fn believed(&self, run: &[usize], motion: Option<&Roughness>) -> bool {
-        match (rank(self.quantity), run) {
-            (0, _) => true,
-            (2, [single]) => !answered(*single, motion),
-            (_, run) => run
-                .windows(2)
-                .all(|pair| self.values[pair[0]] == self.values[pair[1]]),
-        }
+    /// Whether a run of samples that stand off is a fault: of an effort, a load or a speed, one word, or samples of which no
+    /// two neighbours agree; of an effort or a load those stay where the motion answers.
+    fn believed(&self, run: &[usize], rough: &Roughness, motion: Option<&Roughness>) -> bool {
+        let rank = rank(self.quantity);
+        let mut pairs = run.windows(2).map(|pair| (pair[0], pair[1]));
+        let same = |(one, other): (usize, usize)| self.values[one] == self.values[other];
+        let apart = |(one, other): (usize, usize)| {
+            other > one + 1 || (self.values[one] - self.values[other]).abs() > rough.noise
+        };
+        rank == 0
+            || run.len() > 1 && pairs.clone().all(same)
+            || pairs.all(apart)
+                && (rank == 1 || !run.iter().any(|place| answered(self.kept[*place], motion)))
     }
 
     /// Whether a position moves farther than the mechanism can.
@@ -441,57 +544,36 @@ impl<'a> Channel<'a> {
             .fold(0.0, f64::max)
     }
 
-    /// The values with the runs replaced by the cubic through what stands about them; at an end they are held.
-    fn filled(&self, runs: &[Vec<usize>]) -> Vec<f64> {
-        let mut values = self.values.to_vec();
+    /// All values of the column, those that are not left replaced by the cubic through what stands about them, and held at
+    /// an end; and the samples that are not left.
+    fn filled(&self, times: &[f64], all: &[f64]) -> (Vec<f64>, Vec<usize>) {
+        let mut values = all.to_vec();
+        let mut filled = Vec::new();
         let (low, high) = range(self.values);
-        for run in runs {
-            let (Some(first), Some(last)) = (run.first(), run.last()) else {
+        let mut after = 0;
+        for (sample, value) in values.iter_mut().enumerate() {
+            if self.kept.get(after) == Some(&sample) {
+                after += 1;
                 continue;
-            };
-            let before = first.checked_sub(1);
-            let about = before.and_then(|before| self.about(before, last + 1, 0.0));
+            }
+            filled.push(sample);
+            let before = after.checked_sub(1);
+            let about = before.and_then(|before| self.about(before, after, 0.0));
             let (Some(before), Some(about)) = (before, about) else {
-                let held = before.unwrap_or(last + 1);
-                for sample in run {
-                    values[*sample] = self.values[held];
-                }
+                *value = self.values[before.unwrap_or(after)];
                 continue;
             };
-            let times = about.places.map(|place| self.times[place]);
-            for sample in run {
-                let expected = cubic(times, about.values, self.times[*sample], 0.0).unwrap_or(0.0);
-                let mut value = self.values[before] + expected;
-                if self.wraps && value > high {
-                    value -= TAU;
-                } else if self.wraps && value < low {
-                    value += TAU;
-                }
-                values[*sample] = value;
+            let places = about.places.map(|place| self.times[place]);
+            let expected = cubic(places, about.values, times[sample], 0.0).unwrap_or(0.0);
+            *value = self.values[before] + expected;
+            if self.wraps && *value > high {
+                *value -= TAU;
+            } else if self.wraps && *value < low {
+                *value += TAU;
             }
         }
-        values
+        (values, filled)
     }
-}
-
-/// The quiet share of the roughest window, of samples that count; nothing where no window has so many of them.
-fn roughest(off: &[f64], fewest: usize, counts: impl Fn(usize) -> bool) -> Option<f64> {
-    (0..off.len())
-        .step_by(WINDOW)
-        .filter(|start| 2 * (off.len() - start) > WINDOW)
-        .filter_map(|start| {
-            let window = start..(start + WINDOW).min(off.len());
-            let mut sizes: Vec<f64> = window
-                .filter(|sample| counts(*sample))
-                .map(|sample| off[sample])
-                .collect();
-            if sizes.is_empty() || sizes.len() < fewest {
-                return None;
-            }
-            let place = (QUIET * sizes.len() as f64) as usize;
-            Some(*sizes.select_nth_unstable_by(place, f64::total_cmp).1)
-        })
-        .reduce(f64::max)
 }
 
 /// The bits of a number; zero has no sign.

@@ -3,7 +3,8 @@
 //! Up to ten such samples are single faults ([`super::outliers`]). A longer stretch cannot be filled, and would be taken for a measurement.
 //! It is known by the channel's own noise, which repeats a number to the last digit by chance only; a channel that does so by itself, as
 //! one of coarse steps or of a slower raster, is not judged. A speed is lost where it leaves within a tick for a number, stays there, and
-//! comes back to where it was: a mechanism would need time for either.
+//! comes back to where it was, or where it stays while it rises or falls, and goes on within a tick from where it would be by then: a mechanism
+//! would need time for either.
 
 #[cfg(test)]
 mod tests;
@@ -28,6 +29,8 @@ const NEAR: usize = 64;
 const TURNS: f64 = 0.25;
 /// How near to where it was a speed comes back, over how far it went.
 const BACK: f64 = 0.25;
+/// How near to where it would be by then a speed goes on that was held, over how far it jumps.
+const GOES_ON: f64 = 0.5;
 /// How near to a limit the next number is, over the whole range.
 const BESIDE_LIMIT: f64 = 0.1;
 /// Travel that is none, over the whole.
@@ -166,11 +169,15 @@ fn stuck(values: &[f64]) -> Vec<Range<usize>> {
     runs.into_iter().filter(|run| noisy(values, run)).collect()
 }
 
-/// Long runs that a speed reaches within a tick, and leaves within a tick for where it was.
+/// Long runs that a speed leaves within a tick for where it was, where it came within a tick, or for where it would be by then, where it was
+/// held; and those of a speed whose noise never repeats a number, but not at zero, which may be a rest.
 fn lost_speed(times: &[f64], speed: &[f64]) -> Vec<Range<usize>> {
     let tick = median_tick(times, 1);
+    let moving = |run: &Range<usize>| speed[run.start] != 0.0;
+    let mut noisy = stuck(speed);
+    noisy.retain(moving);
     if tick > JUMP_TICK {
-        return Vec::new();
+        return noisy;
     }
     let fastest = speed
         .windows(6)
@@ -185,6 +192,9 @@ fn lost_speed(times: &[f64], speed: &[f64]) -> Vec<Range<usize>> {
     let step = resolution(speed);
     let mut runs = long_runs(speed);
     runs.retain(|run| {
+        if noisy.contains(run) {
+            return true;
+        }
         let Some(before) = run.start.checked_sub(1).filter(|_| run.end < speed.len()) else {
             return false;
         };
@@ -200,7 +210,18 @@ fn lost_speed(times: &[f64], speed: &[f64]) -> Vec<Range<usize>> {
         };
         let (to, back) = (jump(before, run.start), jump(run.end - 1, run.end));
         let returns = (speed[run.end] - speed[before]).abs() <= BACK * to.min(back);
-        to > 0.0 && back > 0.0 && returns
+        if to > 0.0 {
+            return back > 0.0 && returns;
+        }
+        let slope = |from: usize| {
+            let to = from + LONGEST;
+            let change = speed.get(to).map(|after| after - speed[from]);
+            change.map_or(0.0, |change| change / (times[to] - times[from]))
+        };
+        let slopes = slope(before.saturating_sub(LONGEST)) + slope(run.end);
+        let went_on = 0.5 * slopes * (times[run.end] - times[before]);
+        let off = speed[run.end] - speed[before] - went_on;
+        back > 0.0 && moving(run) && off.abs() <= GOES_ON * back
     });
     runs
 }

@@ -129,6 +129,39 @@ fn lost_words_may_stand_close_together() {
     }
 }
 
+/// A quarter of the samples of 0.4 s that read anything: what stands off by more than noise, change and travel is left out, though
+/// its neighbours are spoiled too.
+#[test]
+fn random_numbers_may_stand_close_together() {
+    for (column, low, high, near) in [
+        (0, 0.0, 10.0, 0.03),
+        (1, -3.0, 3.0, 0.06),
+        (2, -8e3, 8e3, 90.0),
+    ] {
+        let mut rows = measured();
+        let rough = noise(31 + column as u64, 2 * 400, 0.0);
+        let mut wrong = 0;
+        for (place, row) in rows[2900..3300].iter_mut().enumerate() {
+            // Uniform numbers of normal ones.
+            let uniform = |value: f64| (1e3 * value).rem_euclid(1.0);
+            if uniform(rough[2 * place]) < 0.25 {
+                row[column] = low + (high - low) * uniform(rough[2 * place + 1]);
+                wrong += 1;
+            }
+        }
+        let trace = read(&rows, "nut_position").unwrap();
+        let channel = [&trace.position, &trace.effort, trace.load.as_ref().unwrap()][column];
+        let off = (0..SAMPLES).filter(|sample| {
+            (channel[*sample] - drive(1e-3 * *sample as f64)[column]).abs() > near
+        });
+        let left = off.count();
+        assert!(
+            wrong > 80 && left <= wrong / 8,
+            "column {column}: {left} of {wrong}"
+        );
+    }
+}
+
 /// A word that is lost for some ms, of an angle that starts again after a turn.
 #[test]
 fn a_run_of_an_angle_that_wraps_is_left_out() {

@@ -107,6 +107,15 @@ fn a_speed_that_is_lost_is_left_out() {
     let mut lost = table(&speed);
     assert_eq!(clean(&mut lost).unwrap().first(), Some(&(300..320)));
     assert_eq!(lost.columns[0].values, exact);
+    // Held at what it was, while it falls.
+    let mut held = exact.clone();
+    let at = held[620];
+    held[621..640].fill(at);
+    let mut lost = table(&held);
+    assert_eq!(clean(&mut lost).unwrap().first(), Some(&(619..640)));
+    let off = lost.columns[0].values.iter().zip(&exact);
+    // A step of the sensor.
+    assert!(off.into_iter().all(|(a, b)| (a - b).abs() < 0.11));
     let slow = (0..6000).map(|sample| (5.0 * (3e-3 * f64::from(sample)).sin()).round());
     let slow: Vec<f64> = slow.collect();
     assert!(clean(&mut table(&slow)).unwrap().is_empty());
