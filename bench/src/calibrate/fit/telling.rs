@@ -8,6 +8,7 @@
 //! | interval as wide as the bounds, or of a factor of ten to both sides | it is set |
 //! | value at a bound | it is set, or where the trace objects to that, a sentence |
 //! | what the caller's sensors cannot see ([`Hints::unseen`]) | it is set, whatever the residual says |
+//! | several answers with the same residual | the one that the caller names of the parameters that differ is set ([`Hints::assumed`]) |
 //! | correlation above 0.95 | a sentence |
 
 use crate::calibrate::fit::problem::{Scale, Separable};
@@ -67,6 +68,12 @@ pub trait Hints {
         None
     }
 
+    /// Which of some parameters is set where several answers that differ in them have the same residual.
+    fn assumed(&self, names: &[&'static str]) -> Option<&'static str> {
+        let _ = names;
+        None
+    }
+
     /// Whether a parameter is never set.
     fn needed(&self, name: &str) -> bool {
         let _ = name;
@@ -96,6 +103,8 @@ pub enum Reason {
     AtBound,
     /// The sensors cannot have seen it.
     Unseen,
+    /// Several answers have the same residual.
+    Rivals,
     /// Correlation of two parameters.
     Correlation(f64),
 }
@@ -146,7 +155,9 @@ pub fn tell(
     loop {
         let part = Fixed::new(problem, &fixed)?;
         let sure = uncertainty(&part, &found);
-        let Some((next, value)) = worst(&part, &sure, hints, &kept) else {
+        let next = worst(&part, &sure, hints, &kept);
+        let next = next.or_else(|| rivals(&part, &found, &sure, hints, &kept));
+        let Some((next, value)) = next else {
             untold.extend(at_bounds(&sure, hints));
             untold.extend(correlated(&sure, hints));
             return Ok(Told {
@@ -326,6 +337,34 @@ fn vaguer_than_prior(
     let because = hints.lacking(&names);
     let because = because.unwrap_or_else(|| "the trace does not show it".into());
     let of = (names, Reason::Prior);
+    Some(setting(interval, value, of, (because, hints)))
+}
+
+/// Of the parameters in which answers with the same residual differ, the one that is set, and its value.
+fn rivals(
+    problem: &dyn Separable,
+    found: &Fit,
+    sure: &Uncertainty,
+    hints: &dyn Hints,
+    kept: &[&str],
+) -> Option<(Untold, (&'static str, f64))> {
+    let Verdict::DependsOnStart { names } = &found.verdict else {
+        return None;
+    };
+    let name = hints
+        .assumed(names)
+        .filter(|name| !kept.contains(name) && !hints.needed(name))?;
+    let interval = sure
+        .intervals
+        .iter()
+        .find(|interval| interval.name == name)?;
+    let value = prior(problem, name, hints);
+    let lacking = hints.lacking(&[name]);
+    let because = format!(
+        "answers that differ in them have the same residual{}",
+        lacking.map_or_else(String::new, |text| format!("; {text}"))
+    );
+    let of = (names.clone(), Reason::Rivals);
     Some(setting(interval, value, of, (because, hints)))
 }
 

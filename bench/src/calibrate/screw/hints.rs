@@ -97,6 +97,11 @@ impl Hints for ScrewHints {
         assumed_deviation(name)
     }
 
+    fn assumed(&self, names: &[&'static str]) -> Option<&'static str> {
+        let of_film = |film: &&&str| names.contains(*film);
+        FILM.iter().rev().find(of_film).copied()
+    }
+
     fn unseen(&self, interval: &Interval) -> Option<String> {
         let Interval { name, value, .. } = *interval;
         let way = matches!(name, "breakaway_angle" | "backlash");

@@ -154,7 +154,9 @@ fn cleaned(
         } else {
             Vec::new()
         };
-        if found.is_empty() {
+        // More than are left out need not be found.
+        let many = (kept.len() as f64) < (1.0 - MOST_MISSING) * column.values.len() as f64;
+        if found.is_empty() || many {
             return Ok(channel.filled(&table.times, &column.values));
         }
         let mut found = found.into_iter().peekable();

@@ -1,6 +1,6 @@
 use super::*;
 use crate::calibrate::fit::problem::{Evaluation, LinearParameter};
-use crate::calibrate::fit::toys::{Toy, free, noise, positive};
+use crate::calibrate::fit::toys::{Toy, free, noise, positive, total};
 
 /// Friction of a loaded slide, `sign(v) (coefficient load + preload)`, whose load varies by this part of its mean.
 fn slide(variation: f64) -> Toy<impl Fn(&[f64]) -> Evaluation + Sync + use<>> {
@@ -145,4 +145,68 @@ fn a_trace_that_knows_less_than_before() {
     assert_eq!(set(0.1, &KnownPreload), known);
     let (unset, _) = set(0.1, &NoHints);
     assert!(unset.is_empty(), "{unset:?}");
+}
+
+/// A rate that is known where nothing else tells which of two it is.
+struct Known(f64);
+
+impl Hints for Known {
+    fn lacking(&self, _: &[&str]) -> Option<String> {
+        None
+    }
+
+    fn prior(&self, name: &str) -> Option<f64> {
+        (name == "rate_a").then_some(self.0)
+    }
+
+    fn assumed(&self, names: &[&'static str]) -> Option<&'static str> {
+        names.iter().find(|name| **name == "rate_a").copied()
+    }
+}
+
+/// Two decays may be exchanged. Where the rate of one is known the other is told, and it is said; where the trace objects to that rate the
+/// answer stays one that depends on the start.
+#[test]
+fn of_two_answers_the_one_with_what_is_known() {
+    let noise = noise(7, 400, 0.0);
+    let decay = |rate: f64| -> Vec<f64> {
+        (0..400)
+            .map(|row| (-rate * 0.01 * f64::from(row)).exp())
+            .collect()
+    };
+    let model = move |q: &[f64]| Evaluation {
+        fixed: vec![0.0; 400],
+        columns: vec![decay(q[0]), decay(q[1])],
+    };
+    let pure = total(&model(&[0.5, 5.0]), &[1.0, 2.0]);
+    let toy = Toy {
+        nonlinear: vec![
+            positive("rate_a", 1.0, 0.05, 50.0),
+            positive("rate_b", 2.0, 0.05, 50.0),
+        ],
+        linear: vec![free("a"), free("b")],
+        target: pure
+            .iter()
+            .zip(&noise)
+            .map(|(value, noise)| value + 1e-3 * noise)
+            .collect(),
+        model,
+    };
+    let settings = FitSettings {
+        starts: 12,
+        finished: 12,
+        ..FitSettings::default()
+    };
+    let told = tell(&toy, &settings, &Known(0.5)).unwrap();
+    assert_eq!(told.fixed, [("rate_a", 0.5)]);
+    assert!(told.fit.refusal().is_none(), "{:?}", told.fit.verdict);
+    assert_eq!(told.untold[0].reason, Reason::Rivals);
+    let rate = &told.uncertainty.intervals[0];
+    assert!(rate.low < 5.0 && 5.0 < rate.high, "{rate:?}");
+    let told = tell(&toy, &settings, &Known(1.0)).unwrap();
+    assert!(
+        told.fixed.is_empty() && told.fit.refusal().is_some(),
+        "{:?}",
+        told.fixed
+    );
 }
