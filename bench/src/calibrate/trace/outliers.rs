@@ -144,21 +144,26 @@ fn cleaned(
     motion: Option<&Roughness>,
 ) -> Result<(Vec<f64>, Vec<usize>), String> {
     let mut kept: Vec<usize> = (0..column.values.len()).collect();
+    let mut first = None;
     loop {
         let of = |all: &[f64]| -> Vec<f64> { kept.iter().map(|sample| all[*sample]).collect() };
         let (times, values) = (of(&table.times), of(&column.values));
         let channel = Channel::of(&times, &values, column, &kept);
         let rough = channel.roughness();
-        let found = if rough.measured {
-            channel.runs(&rough, motion, table)?
+        let (found, jumps) = if rough.measured {
+            channel.runs(&rough, motion, table)
         } else {
-            Vec::new()
+            (Vec::new(), None)
         };
-        // More than are left out need not be found.
+        // What seems to jump may come back once its neighbours are out. More than are left out need not be found.
         let many = (kept.len() as f64) < (1.0 - MOST_MISSING) * column.values.len() as f64;
         if found.is_empty() || many {
-            return Ok(channel.filled(&table.times, &column.values));
+            return jumps
+                .filter(|_| found.is_empty())
+                .or(first.filter(|_| many))
+                .map_or_else(|| Ok(channel.filled(&table.times, &column.values)), Err);
         }
+        first = first.or(jumps);
         let mut found = found.into_iter().peekable();
         let mut place = 0;
         kept.retain(|_| {
@@ -428,13 +433,13 @@ impl<'a> Channel<'a> {
         }
     }
 
-    /// Samples that no mechanism makes, in order.
+    /// Samples that no mechanism makes, in order; and what is to be said of the first jump that does not come back.
     fn runs(
         &self,
         rough: &Roughness,
         motion: Option<&Roughness>,
         table: &Table,
-    ) -> Result<Vec<usize>, String> {
+    ) -> (Vec<usize>, Option<String>) {
         let fastest = self.fastest(rough);
         let samples = self.values.len();
         let [start, end] = self.ends(rough.noise, fastest);
@@ -460,17 +465,16 @@ impl<'a> Channel<'a> {
             sample += 1;
         }
         found.extend(end..samples);
-        // What seems to jump may come back once its neighbours are out.
-        match jumps.filter(|_| found.is_empty()) {
-            Some((sample, jump)) => Err(format!(
+        let said = jumps.map(|(sample, jump)| {
+            format!(
                 "column {}: it jumps by {jump:.4} before row {} (at {} s) and does not come back, {:.0} times as far as the mechanism travels in a tick: the sensor lost its place, or two records are joined; cut the trace there",
                 self.name,
                 table.row(self.kept[sample]),
                 self.times[sample],
                 jump.abs() / (fastest * self.tick).max(f64::MIN_POSITIVE)
-            )),
-            None => Ok(found),
-        }
+            )
+        });
+        (found, said)
     }
 
     /// Samples between those of a position's ends that have no two neighbours on one side and jump to their one.
