@@ -396,7 +396,12 @@ fn step_to_balance(pushed: &[Along], load: usize, speeds: &Speeds) -> f64 {
 }
 
 /// The straight line over the box of deviations that is nearest to a polynomial of the second degree through values at points of the grid.
+///
+/// Without values it is zero.
 pub(super) fn line(values: &[(usize, f64)]) -> [f64; 3] {
+    if values.is_empty() {
+        return [0.0; 3];
+    }
     let powers = DMatrix::from_fn(values.len(), 6, |row, power| {
         let [s, n] = place(values[row].0);
         [1.0, s, n, s * s, s * n, n * n][power]
