@@ -238,8 +238,7 @@ impl<'a> Fit<'a> {
         for (sample, place) in self.samples.iter().zip(places) {
             let rubbed = &sample.rubbed;
             let here = blended(speeds, place);
-            let torque_here =
-                torques[place.knot] * place.shares[0] + torques[place.knot + 1] * place.shares[1];
+            let torque_here = blended(torques, place);
             let (mut grips, mut losses) = (Vec::new(), Vec::new());
             for &(point, force, torque) in &rubbed.balls {
                 let (free, impedance) = self.free_and_impedance(point, &here);
@@ -497,7 +496,7 @@ fn limit_impedance(numbers: &mut SVector<f64, TOGETHER>) {
 }
 
 /// Numbers at a place between knots.
-fn blended(knots: &[SVector<f64, TOGETHER>], place: &Between) -> SVector<f64, TOGETHER> {
+fn blended<const N: usize>(knots: &[SVector<f64, N>], place: &Between) -> SVector<f64, N> {
     let [low, high] = place.shares;
     knots[place.knot] * low + knots[place.knot + 1] * high
 }
