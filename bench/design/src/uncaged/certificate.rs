@@ -1,5 +1,6 @@
 //! Errors of a folded law against rows of exact balls that press on each other, on states that were not fitted.
 
+use std::f32::consts::TAU;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use epas_friction::ball::pressed::BallLaw;
@@ -12,8 +13,15 @@ use super::ball::{Speeds, exact_ball};
 use super::ring::{BALLS, Row, RowAnswer};
 use crate::Failure;
 
-/// Rows of a certificate.
+/// Rows whose deviations are random, each ball's by itself.
 pub const ROWS: usize = 64;
+
+/// Rows whose deviations go in waves along the grooves, as those of a ground groove do: neighbours deviate alike, and what is wrong in a corner of
+/// the box does not average out.
+pub const WAVES: usize = 48;
+
+/// Least and most waves in a row.
+const IN_A_ROW: [f32; 2] = [0.5, 9.0];
 
 /// Friction coefficient between the balls of every fourth pair of rows; the others have none.
 const BALL_FRICTION: f32 = 0.1;
@@ -33,13 +41,17 @@ pub struct UncagedCertificate {
     pub balls: usize,
     /// Rows for which the exact solver found no answer: counted in no figure.
     pub unsolved: usize,
-    /// Rows without friction between balls.
+    /// Rows of random deviations without friction between balls.
     pub smooth: RowFigures,
-    /// Rows with a friction coefficient of 0.1 between balls.
+    /// Rows of random deviations with a friction coefficient of 0.1 between balls.
     pub rubbing: RowFigures,
     /// Those of them in which no friction force between balls is above a tenth of `mu W`. Where one is, it takes from a ball the hold on its
     /// grooves, of which the law knows nothing.
     pub lightly_rubbing: RowFigures,
+    /// Rows in waves without friction between balls.
+    pub waves: RowFigures,
+    /// Rows in waves with a friction coefficient of 0.1 between balls.
+    pub rubbing_waves: RowFigures,
 }
 
 /// Errors on some of the rows.
@@ -82,6 +94,8 @@ struct Found {
     flagged: bool,
     /// Load `W` of a ball, N.
     load: f64,
+    /// Whether its deviations go in waves.
+    in_waves: bool,
 }
 
 impl Found {
@@ -157,23 +171,26 @@ impl UncagedCertificate {
         let done = AtomicUsize::new(0);
         let rows = rows(fold, law.friction_range());
         let loads: Vec<f32> = rows.iter().map(|row| row.axial_load.abs()).collect();
+        let all = rows.len() as f64;
         let found: Vec<Option<Found>> = rows
             .into_par_iter()
-            .map(|row| {
+            .enumerate()
+            .map(|(number, row)| {
                 let exact = row.exact(&ball, fold.gear.deviations);
                 let rows = done.fetch_add(1, Ordering::Relaxed) + 1;
-                progress(rows as f64 / ROWS as f64);
+                progress(rows as f64 / all);
                 Some(Found {
                     exact: exact.ok()?,
                     folded: row.folded(law, &speeds),
                     flagged: row.is_flagged(law),
                     load: law.load_of(row.axial_load).into(),
+                    in_waves: number >= ROWS,
                     row,
                 })
             })
             .collect();
         let unsolved = found.iter().filter(|found| found.is_none()).count();
-        if unsolved as f64 > UNSOLVED * ROWS as f64 {
+        if unsolved as f64 > UNSOLVED * all {
             let missing = found
                 .iter()
                 .zip(&loads)
@@ -182,29 +199,38 @@ impl UncagedCertificate {
                 [load.min(low), load.max(high)]
             });
             return Err(Failure::Domain(format!(
-                "the exact balance of {unsolved} of {ROWS} rows of balls is not found, under {low:.1} to {high:.1} N a ball; narrow the loads \
+                "the exact balance of {unsolved} of {all} rows of balls is not found, under {low:.1} to {high:.1} N a ball; narrow the loads \
                  ([fold] axial_load = [least, largest] of one ball, N), or the deviations"
             )));
         }
         let found: Vec<Found> = found.into_iter().flatten().collect();
-        let rubbing = || found.iter().filter(|found| found.row.ball_friction > 0.0);
+        let of = |in_waves: bool, rubbing: bool| {
+            found
+                .iter()
+                .filter(move |found| found.in_waves == in_waves)
+                .filter(move |found| (found.row.ball_friction > 0.0) == rubbing)
+        };
         Ok(Self {
             seed: fold.seed,
             balls: BALLS,
             unsolved,
-            smooth: RowFigures::of(found.iter().filter(|found| found.row.ball_friction == 0.0)),
-            rubbing: RowFigures::of(rubbing()),
-            lightly_rubbing: RowFigures::of(rubbing().filter(|found| found.rubbing() <= LIGHT)),
+            smooth: RowFigures::of(of(false, false)),
+            rubbing: RowFigures::of(of(false, true)),
+            lightly_rubbing: RowFigures::of(
+                of(false, true).filter(|found| found.rubbing() <= LIGHT),
+            ),
+            waves: RowFigures::of(of(true, false)),
+            rubbing_waves: RowFigures::of(of(true, true)),
         })
     }
 }
 
 /// Rows over the whole domain: in turns with a load that opposes the motion and one that assists it, and a quarter of each with friction
-/// between balls.
+/// between balls. First those of random deviations, then those in waves.
 fn rows(fold: &UncagedFold, (low, high): (f32, f32)) -> Vec<Row> {
     let mut random = Pcg64::seed_from_u64(fold.seed);
     let [least, most] = fold.axial_load;
-    (0..ROWS)
+    (0..ROWS + WAVES)
         .map(|row| {
             let side = if row % 2 == 0 { 1.0 } else { -1.0 };
             let load = least * (most / least).powf(random.random_range(0.0..1.0_f32));
@@ -213,10 +239,35 @@ fn rows(fold: &UncagedFold, (low, high): (f32, f32)) -> Vec<Row> {
                     .clamp(low, high),
                 ball_friction: if row / 2 % 4 == 3 { BALL_FRICTION } else { 0.0 },
                 axial_load: side * load,
-                deviations: std::array::from_fn(|_| {
-                    std::array::from_fn(|_| random.random_range(-1.0..1.0_f32))
-                }),
+                deviations: if row < ROWS {
+                    std::array::from_fn(|_| {
+                        std::array::from_fn(|_| random.random_range(-1.0..1.0_f32))
+                    })
+                } else {
+                    in_waves(row - ROWS, &mut random)
+                },
             }
         })
         .collect()
+}
+
+/// Deviations that reach the largest ones in waves: in turns both grooves in one phase, in opposite phases, and each with waves of its own.
+fn in_waves(row: usize, random: &mut Pcg64) -> [[f32; 2]; BALLS] {
+    let [least, most] = IN_A_ROW;
+    let mut wave = || {
+        let angle = TAU * least * (most / least).powf(random.random_range(0.0..1.0_f32));
+        let phase = random.random_range(0.0..TAU);
+        move |ball: usize| (phase + angle * ball as f32 / BALLS as f32).sin()
+    };
+    let (screw, nut) = (wave(), wave());
+    std::array::from_fn(|ball| {
+        let screw = screw(ball);
+        // Every pair of rows has both signs of the load.
+        let nut = match row / 2 % 3 {
+            0 => screw,
+            1 => -screw,
+            _ => nut(ball),
+        };
+        [screw, nut]
+    })
 }
