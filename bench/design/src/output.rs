@@ -215,17 +215,27 @@ impl FoldedUncaged {
         let rows = [
             ("without friction between balls", &certificate.smooth),
             ("with 0.1 between balls", &certificate.rubbing),
+            (
+                "in waves, without friction between balls",
+                &certificate.waves,
+            ),
+            (
+                "in waves, with 0.1 between balls",
+                &certificate.rubbing_waves,
+            ),
         ];
         for (which, figures) in rows {
             lines.push(format!(
                 "certificate: {} rows of {} balls that were not fitted (seed {}), {which}: torque, relative, largest {:.2e}, rms {:.2e}, mean \
-                 {:.1e}; forces between balls over the largest of their row, rms {:.2e}, of unflagged rows {:.2e}; flagged {:.0} %",
+                 {:.1e}, of unflagged rows largest {:.2e}; forces between balls over the largest of their row, rms {:.2e}, of unflagged rows \
+                 {:.2e}; flagged {:.0} %",
                 figures.rows,
                 certificate.balls,
                 certificate.seed,
                 figures.torque.largest,
                 figures.torque.rms,
                 figures.torque.mean,
+                figures.unflagged_torque.largest,
                 figures.forces.rms,
                 figures.unflagged_forces.rms,
                 100.0 * figures.flagged,

@@ -137,11 +137,18 @@ impl UncagedFold {
             UncagedBlock::One(block) => UncagedCertificate::of(self, &block.law, &certified),
             UncagedBlock::Range(block) => UncagedCertificate::of(self, &block.law, &certified),
         }?;
-        let torque = &certificate.smooth.torque;
-        if torque.largest > LARGEST_ERROR {
+        let rows = [
+            ("random deviations", &certificate.smooth),
+            ("deviations in waves", &certificate.waves),
+        ];
+        for (which, figures) in rows {
+            let torque = &figures.torque;
+            if torque.largest <= LARGEST_ERROR {
+                continue;
+            }
             return Err(Failure::Domain(format!(
-                "the torque of a row of balls is held to {:.1} % only, largest at {:.3} N a ball, friction coefficient {:.4}; narrow the \
-                 domain there, or the deviations",
+                "the torque of a row of balls with {which} is held to {:.1} % only, largest at {:.3} N a ball, friction coefficient {:.4}; narrow \
+                 the domain there, or the deviations",
                 100.0 * torque.largest,
                 torque.worst_load,
                 torque.worst_friction,

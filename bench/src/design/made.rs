@@ -339,7 +339,7 @@ fn of_ball(figure: &Figure) -> ShownFigure {
     }
 }
 
-/// Figures of rows of balls, flagged ones in the count: of rows without friction between balls, with it, and of those of them that rub lightly.
+/// Figures of rows of balls, flagged ones in the count: of rows without friction between balls, with it, those of them that rub lightly, and the same of rows in waves.
 fn of_rows(certificate: &UncagedCertificate) -> impl Iterator<Item = ShownFigure> {
     let shown = |quantity, figure: &UncagedFigure, of: &RowFigures, unit| ShownFigure {
         quantity,
@@ -361,6 +361,12 @@ fn of_rows(certificate: &UncagedCertificate) -> impl Iterator<Item = ShownFigure
             "lightly_rubbing_ring_torque",
             "lightly_rubbing_ring_force",
             &certificate.lightly_rubbing,
+        ),
+        ("wave_ring_torque", "wave_ring_force", &certificate.waves),
+        (
+            "rubbing_wave_ring_torque",
+            "rubbing_wave_ring_force",
+            &certificate.rubbing_waves,
         ),
     ]
     .into_iter()

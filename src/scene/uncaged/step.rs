@@ -68,12 +68,16 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
 
         let numbers = &common.numbers;
         let work = self.half_speed * numbers.work * pressing.work;
-        let rubbing = self.ball_friction * numbers.rubbing * pressing.force;
+        let rubbing_force = self.ball_friction * pressing.force;
+        let rubbing = numbers.rubbing * rubbing_force;
         let most = self.law.load_of(self.heaviest * common.mean);
         let friction = state.friction;
         let held = self.law.holds_forces(common.load, common.branch, friction)
             && self.law.holds_load(most)
             && self.law.holds(friction.friction())
+            && self
+                .law
+                .holds_rubbing(common.load * self.balls, friction, rubbing_force)
             && common.holds_grip;
         UncagedFriction {
             row: TrainFriction {

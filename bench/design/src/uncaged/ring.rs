@@ -106,11 +106,13 @@ impl Row {
         RowAnswer { torque, forces }
     }
 
-    /// Whether the law says that it does not hold the forces.
-    pub fn is_flagged<const N: usize>(&self, law: &BallLaw<N>) -> bool {
+    /// Whether the law says that it does not hold these forces between balls.
+    pub fn is_flagged<const N: usize>(&self, law: &BallLaw<N>, forces: &[f64]) -> bool {
         let place: FrictionPlace = law.place(self.friction);
         let (load, branch) = self.load(law);
-        !law.holds_forces(load, branch, place)
+        let mean = forces.iter().sum::<f64>() / BALLS as f64;
+        let rubbing = self.ball_friction * mean as f32;
+        !(law.holds_forces(load, branch, place) && law.holds_rubbing(load, place, rubbing))
     }
 
     fn load<const N: usize>(&self, law: &BallLaw<N>) -> (f32, usize) {

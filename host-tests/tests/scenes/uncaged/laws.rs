@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use epas_friction::ball::pressed::{BallNumbers, FreeMotion};
 use epas_friction::{
-    DeviationMap, FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    DeviationMap, Faults, FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration,
     UncagedOutputs,
 };
 
@@ -34,6 +34,9 @@ fn configuration(ball_friction: f32) -> UncagedBallScrewConfiguration {
 /// What a tick made of its balls.
 struct Tick {
     outputs: UncagedOutputs,
+    /// Axial load of a ball, N, and the branch of the law.
+    load: f32,
+    branch: usize,
     /// Numbers of all balls, and what each does on its own.
     numbers: BallNumbers,
     free: Vec<FreeMotion>,
@@ -78,6 +81,8 @@ fn tick(
     let forces: Vec<f64> = train.forces().map(f64::from).collect();
     Tick {
         outputs,
+        load: inputs.axial_load / SCREW_BALLS as f32,
+        branch,
         numbers,
         free,
         speeds: train.speeds().map(f64::from).collect(),
@@ -131,6 +136,32 @@ fn every_ball_is_in_balance() {
         });
         assert!(pressing > 1000, "{pressing}");
     }
+}
+
+/// A mean friction force between balls above 0.05 `mu W` is flagged, and only this where the law holds all else.
+#[test]
+fn balls_that_rub_hard_are_flagged() {
+    let law = &BALL.law;
+    let friction = law.place(BALL.friction);
+    let [mut hard, mut lightly] = [0, 0];
+    for ball_friction in [0.0, 0.1, 0.3, 0.6] {
+        ticks(ball_friction, |tick, _| {
+            let load = law.load_of(tick.load);
+            let mean = tick.forces.iter().sum::<f64>() / SCREW_BALLS as f64;
+            let rubbing = f64::from(ball_friction) * mean;
+            let over = rubbing / f64::from(friction.friction() * load);
+            let flagged = tick.outputs.faults.contains(Faults::BEYOND_MODEL);
+            if over > 0.0501 {
+                assert!(flagged, "{over}");
+                hard += 1;
+            } else if over < 0.0499 {
+                let held = law.holds_forces(load, tick.branch, friction);
+                assert_eq!(flagged, !held, "{over}");
+                lightly += u32::from(rubbing > 0.0 && held);
+            }
+        });
+    }
+    assert!(hard > 300 && lightly > 300, "{hard} {lightly}");
 }
 
 /// The torque is what the balls lose: each in its grooves at its speed, and all of them between them; forces between them do no work, but in
