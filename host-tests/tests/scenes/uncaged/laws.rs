@@ -155,7 +155,9 @@ fn balls_that_rub_hard_are_flagged() {
                 assert!(flagged, "{over}");
                 hard += 1;
             } else if over < 0.0499 {
-                let held = law.holds_forces(load, tick.branch, friction);
+                let grip: f32 = tick.numbers.grip.iter().map(|part| part.abs()).sum();
+                let held =
+                    law.holds_forces(load, tick.branch, friction) && ball_friction * grip <= 0.3;
                 assert_eq!(flagged, !held, "{over}");
                 lightly += u32::from(rubbing > 0.0 && held);
             }
