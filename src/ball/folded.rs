@@ -20,8 +20,8 @@ pub struct FrictionNode {
     pub friction: f32,
     /// Friction torque over load and friction coefficient, m, under a load that opposes the motion and under one that assists it.
     pub curves: [LoadCurve; 2],
-    /// Octaves by which the regimes of the contacts lie higher at the next node's friction coefficient, of both curves, -30 to 30; 0 of the
-    /// last node.
+    /// By how many octaves the load at which a contact begins to carry is higher at the next node's friction coefficient, of both curves, -30 to
+    /// 30; 0 of the last node.
     pub shift: [f32; 2],
 }
 

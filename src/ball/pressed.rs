@@ -177,7 +177,8 @@ impl<const NODES: usize> BallLaw<NODES> {
         node.unheld[branch & 1] >> (knot % KNOTS) & 1 == 0
     }
 
-    /// Whether balls that rub on each other with this mean friction force, N, are held under a load `W`, N: up to 0.05 `mu W`.
+    /// Whether balls that rub on each other are held, by friction force and load `W`, N, both of one ball in the mean or both summed over all balls: up to
+    /// a friction force of 0.05 `mu W`.
     ///
     /// A ball that is rubbed more needs less of net push than in proportion to that force. Where balls deviate in long waves, each alike to its
     /// neighbours, forces and what is wrong with them grow from ball to ball: torque off by 2 % rms below this limit, 4 % at it, 14 % at twice as much

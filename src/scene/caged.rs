@@ -26,6 +26,8 @@ pub use configuration::CagedBallScrewConfiguration;
 ///
 /// A load above the block's largest is computed with the law's end and flagged [`Faults::BEYOND_MODEL`], as is a friction coefficient
 /// beyond its nodes.
+///
+/// The arithmetic of a step: `ball/folded.rs` (`LoadLaw::torque_over_load`) and `ball/folded/curve.rs`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedBallScrew<const NODES: usize = 1>;
@@ -129,7 +131,7 @@ impl<const NODES: usize> CagedConstants<NODES> {
         }
     }
 
-    /// Friction torque of all balls, N m, not negative, under a load that opposes a motion in this direction where `opposing` is not below 0.
+    /// Friction torque of all balls, N m, not negative; where `opposing` is below 0 the load assists the motion, else it opposes it.
     #[inline(always)]
     fn torque(&self, loaded: &Loaded, opposing: f32, place: FrictionPlace) -> f32 {
         let branch = usize::from(opposing < 0.0);
@@ -137,7 +139,8 @@ impl<const NODES: usize> CagedConstants<NODES> {
         loaded.whole * per_load
     }
 
-    /// What a motion puts out whose sliding friction is `sliding`, in the direction of motion and in that of the share.
+    /// Outputs from two sliding frictions: that in the direction of motion, which decides the regime, and that in the direction in which
+    /// friction acts, of which a reversal leaves a share.
     #[inline(always)]
     fn put_out(
         &self,
@@ -148,22 +151,12 @@ impl<const NODES: usize> CagedConstants<NODES> {
     ) -> Outputs {
         let load_torque = axial_load * self.reduced_lead;
         let opposing = reversal.direction * load_torque;
-        let moving = if opposing >= 0.0 {
-            Regime::Driving
-        } else if sliding < -opposing {
-            Regime::BackDriving
-        } else {
-            Regime::Locked
-        };
         Outputs {
             friction_torque: reversal.share * shared,
             load_torque,
+            // Filled in where friction is limited.
             efficiency: 0.0,
-            regime: if reversal.standing {
-                Regime::Standing
-            } else {
-                moving
-            },
+            regime: Regime::under(reversal.standing, opposing, sliding),
             faults,
         }
     }

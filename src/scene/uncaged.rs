@@ -38,9 +38,12 @@ pub use friction::UncagedFriction;
 /// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose places no sensor knows, stay behind.
 ///
 /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) stands in each tick whose load or friction coefficient is beyond those for which the law
-/// was folded, under whose load the block does not hold the forces between balls, or in which friction between balls takes more than 0.3 of the force
-/// on a ball under the mean load, of which a train cuts off what is more; the torque is held there all the same where the block's
-/// certificate says so.
+/// was folded, under whose load the block does not hold the forces between balls, in which friction between balls is more than the law holds
+/// ([`BallLaw::holds_rubbing`]), or takes more than 0.3 of the force on a ball under the mean load, of which a train cuts off what is more; the
+/// torque is held there all the same where the block's certificate says so.
+///
+/// The arithmetic of a step: what a ball does on its own in `ball/pressed/numbers.rs` ([`BallNumbers`](crate::ball::pressed::BallNumbers)), which balls press in
+/// `train/pool.rs`, and how hard in `train/rubbing.rs`; `train.rs` has the words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedBallScrew<const N: usize, const NODES: usize = 1>;

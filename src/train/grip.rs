@@ -1,6 +1,6 @@
 //! What friction between balls takes off the forces from ball to ball.
 
-/// Friction of its neighbours on a ball that they press, over their forces, as what it needs of net push in addition:
+/// `r`: the net push that a ball needs in addition because its neighbours rub on it, over the sum of their forces.
 ///
 /// ```text
 /// F_behind - F_ahead = Z (v - u) + r (F_behind + F_ahead)

@@ -117,8 +117,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
     }
 
-    /// Takes in all balls, of which `motion` says what a loaded one does by its share of the load and its deviations, with the impedance that the
-    /// train takes in; gives the sum of their torques, N m.
+    /// Gives each ball its free speed and impedance, a loaded one by `motion` from its share of the load and its deviations; returns the sum of their
+    /// torques, N m.
     #[inline(always)]
     fn take_in(
         &self,
