@@ -118,7 +118,7 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
         state: &mut LinearState<N>,
         inputs: LinearInputs,
     ) -> LinearOutputs {
-        let sliding = constants.sliding_friction(&mut state.circuit, inputs, state.friction);
+        let sliding = constants.friction_of_balls(&mut state.circuit, inputs, state.friction);
         LinearConstants::<N>::outputs_at(&sliding, constants.reversal.at(inputs.speed))
     }
 
@@ -143,7 +143,7 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
         friction: DirectionalCoefficient,
     ) -> LinearFriction {
         let ratio = friction.of(inputs.speed).0 / constants.friction;
-        let mut sliding = constants.sliding_friction(&mut state.circuit, inputs, ratio);
+        let mut sliding = constants.friction_of_balls(&mut state.circuit, inputs, ratio);
         sliding.row.ratios = friction.over_own(inputs.speed);
         sliding
     }

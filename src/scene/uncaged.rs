@@ -134,7 +134,7 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
         state: &mut UncagedState<N>,
         inputs: Inputs,
     ) -> UncagedOutputs {
-        let sliding = constants.sliding_friction(state, inputs);
+        let sliding = constants.friction_of_balls(state, inputs);
         sliding.outputs_at(
             inputs.axial_load * constants.reduced_lead,
             constants.reversal.at(inputs.nut_speed),

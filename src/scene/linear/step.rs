@@ -41,7 +41,7 @@ struct Diagonals {
 
 impl<const N: usize> LinearConstants<N> {
     #[inline(always)]
-    pub(super) fn sliding_friction(
+    pub(super) fn friction_of_balls(
         &self,
         state: &mut CircuitState<N>,
         inputs: LinearInputs,

@@ -25,7 +25,7 @@ impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> 
         friction: DirectionalCoefficient,
     ) -> UncagedFriction {
         state.friction = constants.place(friction.of(inputs.nut_speed).0);
-        let mut sliding = constants.sliding_friction(state, inputs);
+        let mut sliding = constants.friction_of_balls(state, inputs);
         sliding.row.ratios = friction.over_own(inputs.nut_speed);
         sliding
     }

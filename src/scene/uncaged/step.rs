@@ -28,7 +28,7 @@ struct Common {
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     /// Sliding friction in the direction of motion; moves the balls on by a tick.
     #[inline(always)]
-    pub(super) fn sliding_friction(
+    pub(super) fn friction_of_balls(
         &self,
         state: &mut UncagedState<N>,
         inputs: Inputs,
@@ -69,7 +69,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let numbers = &common.numbers;
         let work = self.half_speed * numbers.work * pressing.work;
         let rubbing_force = self.ball_friction * pressing.force;
-        let rubbing = numbers.rubbing * rubbing_force;
+        let ball_torque = numbers.rubbing * rubbing_force;
         let most = self.law.load_of(self.heaviest * common.mean);
         let friction = state.friction;
         let held = self.law.holds_forces(common.load, common.branch, friction)
@@ -84,7 +84,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 groove: not_negative(
                     torque + numbers.slope * common.direction * pressing.change + work,
                 ),
-                ball: rubbing,
+                ball: ball_torque,
                 ratios: [1.0; 2],
                 load: common.load * self.balls,
                 contacts: pressing.contacts,

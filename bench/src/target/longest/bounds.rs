@@ -96,26 +96,22 @@ pub const LOOPS: &[Row] = &[
     row("epas_friction::train::press::Press::solve", TAKES_IN),
     row("epas_friction::train::press::Press::let_go", BALLS),
     row("epas_friction::train::positions::Train::step", TAKES_IN),
-    row(
-        "epas_friction::scene::uncaged::UncagedConstants::rubbing",
-        BALLS,
-    ),
     // Balls that the scene has not asked for are taken in when the tick ends.
     row(
-        "epas_friction::scene::uncaged::UncagedConstants::sliding_friction",
+        "epas_friction::scene::uncaged::UncagedConstants::friction_of_balls",
         Bound::Takes(&[Total::TakenIn]),
     ),
     // The same for even loads and for loads of their own.
     row(
-        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::sliding_friction::{closure#0}",
+        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::friction_of_balls::{closure#0}",
         Bound::Takes(&[Total::TakenIn]),
     ),
     row(
-        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::sliding_friction::{closure#1}",
+        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::friction_of_balls::{closure#1}",
         Bound::Takes(&[Total::TakenIn]),
     ),
     row(
-        "epas_friction::scene::linear::LinearConstants::sliding_friction",
+        "epas_friction::scene::linear::LinearConstants::friction_of_balls",
         Bound::Takes(&[Total::TakenIn]),
     ),
     row(
