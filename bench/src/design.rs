@@ -41,8 +41,8 @@ use made::Made;
 /// cage screw_deviation and nut_deviation, rad, each [least, most]), certificate, seed, two_answers (with a cage: share of the states with two
 /// exact answers), unsolved (states without one), seconds.
 ///
-/// The certificate is a list of quantity (caged_torque of one ball, or ring_torque and ring_force of rows of balls), largest, rms, mean,
-/// states, flagged (share), unit.
+/// The certificate is a list of quantity (caged_torque of one ball, or ring_torque and ring_force of rows of balls, with rubbing_ before it where they rub, wave_ where
+/// deviations go in waves), largest, rms, mean, states, flagged (share), unit.
 // Each is a switch of the command line.
 #[allow(clippy::struct_excessive_bools)]
 #[derive(Debug, clap::Args)]

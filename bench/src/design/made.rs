@@ -426,7 +426,8 @@ fn notes_of_rows(out: &mut dyn Write, folded: &FoldedUncaged) -> io::Result<()> 
         "Errors against the exact solver, on rows of {} touching balls that were not fitted (seed {}), flagged rows in the count: of the torque of \
          a row, relative, without friction between balls largest at {worst_load:.4} N a ball, friction coefficient {worst_friction:.4}; of the forces \
          between its balls, over the largest of the row. Rubbing: with a friction coefficient of 0.1 between balls, which takes from a ball the \
-         hold on its grooves where it is large; lightly: where no friction force between balls is above a tenth of friction coefficient times load.",
+         hold on its grooves where it is large; lightly: where no friction force between balls is above a tenth of friction coefficient times load. Wave: deviations go in waves along the \
+         grooves, else each ball's is random.",
         certificate.balls, certificate.seed,
     )?;
     unsolved(out, certificate.unsolved, "rows")

@@ -27,7 +27,7 @@ pub enum Cause {
     Coefficient,
     /// A ball loses a contact.
     Contact,
-    /// Friction between balls is cut off.
+    /// Friction between balls is more than the law holds.
     Grip,
     /// Neighbours press a bearing's ball off its grooves.
     FourPoints,
@@ -192,7 +192,7 @@ impl Beyond {
                 "a ball loses a contact, and forces between balls are not held".into()
             }
             Cause::Grip => {
-                "friction between balls takes a ball's hold on its grooves, and is cut off".into()
+                "friction between balls is more than the law holds (ball_friction in [uncaged])".into()
             }
             Cause::FourPoints => "neighbours press a ball off two of its four contacts".into(),
         }
