@@ -192,7 +192,8 @@ impl Beyond {
                 "a ball loses a contact, and forces between balls are not held".into()
             }
             Cause::Grip => {
-                "friction between balls is more than the law holds (ball_friction in [uncaged])".into()
+                "friction between balls is more than the law holds (ball_friction in [uncaged])"
+                    .into()
             }
             Cause::FourPoints => "neighbours press a ball off two of its four contacts".into(),
         }
