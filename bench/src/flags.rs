@@ -38,7 +38,7 @@ pub const FLAGS: [Flag; 10] = [
             "SPEED_NOT_FINITE",
             "speed not finite",
             "the speed is NaN or infinite: no friction; with memory the last sound speed",
-            "count; fade compensation out if it lasts",
+            "hold the last torque, then fade it out; count",
         ],
     ),
     flag(
@@ -47,7 +47,7 @@ pub const FLAGS: [Flag; 10] = [
             "LOAD_NOT_FINITE",
             "load not finite",
             "a load is NaN or infinite: no friction; with memory the last sound load",
-            "count; fade compensation out if it lasts",
+            "hold the last torque, then fade it out; count",
         ],
     ),
     flag(
@@ -92,7 +92,7 @@ pub const FLAGS: [Flag; 10] = [
             "ANGLE_NOT_VALID",
             "angle not valid",
             "a reading of the encoder is missing or impossible: friction stays",
-            "as for a lost encoder",
+            "fade out if it lasts",
         ],
     ),
     flag(
@@ -110,7 +110,7 @@ pub const FLAGS: [Flag; 10] = [
             "LOAD_STALE",
             "load too old",
             "the load is older than allowed: friction fades",
-            "as for a lost estimator",
+            "set a diagnostic",
         ],
     ),
     flag(
