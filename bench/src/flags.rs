@@ -109,7 +109,7 @@ pub const FLAGS: [Flag; 10] = [
         [
             "LOAD_STALE",
             "load too old",
-            "the load is older than allowed: friction fades",
+            "the load is older than allowed: its friction fades, that of a preload stays",
             "set a diagnostic",
         ],
     ),
