@@ -138,14 +138,13 @@ impl UncagedFold {
             UncagedBlock::Range(block) => UncagedCertificate::of(self, &block.law, &certified),
         }?;
         let rows = [
-            ("random deviations", &certificate.smooth),
-            ("deviations in waves", &certificate.waves),
+            ("random deviations", &certificate.smooth.torque),
+            ("deviations in waves", &certificate.waves.torque),
         ];
-        for (which, figures) in rows {
-            let torque = &figures.torque;
-            if torque.largest <= LARGEST_ERROR {
-                continue;
-            }
+        if let Some((which, torque)) = rows
+            .into_iter()
+            .find(|(_, torque)| torque.largest > LARGEST_ERROR)
+        {
             return Err(Failure::Domain(format!(
                 "the torque of a row of balls with {which} is held to {:.1} % only, largest at {:.3} N a ball, friction coefficient {:.4}; narrow \
                  the domain there, or the deviations",

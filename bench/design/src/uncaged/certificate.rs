@@ -183,9 +183,10 @@ impl UncagedCertificate {
                 unsolved.fetch_add(exact.is_err().into(), Ordering::Relaxed);
                 let rows = done.fetch_add(1, Ordering::Relaxed) + 1;
                 progress(rows as f64 / all as f64);
+                let exact = exact.ok()?;
                 let folded = row.folded(law, &speeds);
                 Some(Found {
-                    exact: exact.ok()?,
+                    exact,
                     flagged: row.is_flagged(law, &folded.forces),
                     folded,
                     load: law.load_of(row.axial_load).into(),
@@ -228,14 +229,12 @@ impl UncagedCertificate {
 /// between balls. First those of random deviations, then those in waves.
 fn rows(fold: &UncagedFold, (low, high): (f32, f32)) -> Vec<Row> {
     let mut random = Pcg64::seed_from_u64(fold.seed);
-    let [least, most] = fold.axial_load;
     (0..ROWS + WAVES)
         .map(|row| {
             let side = if row % 2 == 0 { 1.0 } else { -1.0 };
-            let load = least * (most / least).powf(random.random_range(0.0..1.0_f32));
+            let load = by_octaves(fold.axial_load, &mut random);
             Row {
-                friction: (low * (high / low).powf(random.random_range(0.0..1.0_f32)))
-                    .clamp(low, high),
+                friction: by_octaves([low, high], &mut random).clamp(low, high),
                 ball_friction: if row / 2 % 4 == 3 { BALL_FRICTION } else { 0.0 },
                 axial_load: side * load,
                 deviations: if row < ROWS {
@@ -250,11 +249,15 @@ fn rows(fold: &UncagedFold, (low, high): (f32, f32)) -> Vec<Row> {
         .collect()
 }
 
+/// A number from the least to the most, each octave as often as every other.
+fn by_octaves([least, most]: [f32; 2], random: &mut Pcg64) -> f32 {
+    least * (most / least).powf(random.random_range(0.0..1.0_f32))
+}
+
 /// Deviations that reach the largest ones in waves: in turns both grooves in one phase, in opposite phases, and each with waves of its own.
 fn in_waves(row: usize, random: &mut Pcg64) -> [[f32; 2]; BALLS] {
-    let [least, most] = IN_A_ROW;
     let mut wave = || {
-        let angle = TAU * least * (most / least).powf(random.random_range(0.0..1.0_f32));
+        let angle = TAU * by_octaves(IN_A_ROW, random);
         let phase = random.random_range(0.0..TAU);
         move |ball: usize| (phase + angle * ball as f32 / BALLS as f32).sin()
     };
