@@ -19,7 +19,6 @@
 
 mod caged;
 mod caged_friction;
-mod changing;
 pub(crate) mod circuit;
 mod closed_form;
 mod contract;
@@ -37,7 +36,6 @@ mod words;
 
 pub use caged::{CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState};
 pub use caged_friction::CagedFriction;
-pub use changing::ChangingFriction;
 #[doc(hidden)]
 pub use circuit::deviation::SINES;
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
@@ -45,7 +43,7 @@ pub use closed_form::{
     ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, ClosedFormScrewState,
     FrictionBranch,
 };
-pub use contract::{CheckedInputs, Inputs, Limits, Regime, Scene, SceneOutputs};
+pub use contract::{ChangingFriction, CheckedInputs, Inputs, Limits, Regime, Scene, SceneOutputs};
 pub use faults::Faults;
 pub use linear::{
     LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFriction, LinearInputs,

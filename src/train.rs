@@ -27,7 +27,7 @@
 //! | take in | `intake`, `track` | `N` balls | each ball has its free speed, impedance and slack; nothing but its position is left of the last tick |
 //! | join | `pool`, `cluster` | at most `N - 1` joins, fewer than `4 N` comparisons | clusters part the ring; none runs into the one ahead; their end balls hold their sums |
 //! | settle | `settle` or `rubbing`, `ring` | `N` balls, a division for each cluster of two or more | each ball has its actual speed and its force, zero or more |
-//! | move | `motion`, in the walk of settling | | balls that press stand in contact exactly, no two overlap by more than rounding |
+//! | move | `track`, in the walk of settling | | balls that press stand in contact exactly, no two overlap by more than rounding |
 //! | balance | `balance` | `N` balls, where rounding needs it | the net pushes on each cluster add up to zero, to 1e-6 of the largest force |
 //!
 //! What a ball holds in each phase stands in `ball`. Loops are bounded by `N`; nothing iterates to a tolerance,
@@ -78,7 +78,6 @@ mod ball;
 mod cluster;
 mod grip;
 mod intake;
-mod motion;
 mod pool;
 mod positions;
 mod press;

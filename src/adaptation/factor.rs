@@ -61,13 +61,13 @@ impl<const N: usize> Factor<N> {
 
     /// The same for a reading of one number alone, times `h`.
     #[inline(always)]
-    pub(super) fn project_one(&self, place: usize, h: f32) -> Projection<N> {
+    pub(super) fn project_one(&self, number: usize, h: f32) -> Projection<N> {
         let mut along = [[0.0; 2]; N];
         let mut variance = 0.0;
         let columns = self.columns.iter().zip(&self.diagonal);
         for (j, ((column, diagonal), along)) in columns.zip(&mut along).enumerate() {
-            let above = column.get(place).copied().unwrap_or(0.0);
-            let f = if j == place { h } else { h * above };
+            let above = column.get(number).copied().unwrap_or(0.0);
+            let f = if j == number { h } else { h * above };
             let g = diagonal * f;
             variance += f * g;
             *along = [f, g];

@@ -25,9 +25,9 @@ pub struct AdaptationState {
     pub(super) seen: Projection<ESTIMATES>,
     /// By how much the estimates move at the next prediction, in their deviations.
     pub(super) moves: [f32; ESTIMATES],
-    /// Ticks since the last upkeep, and which variance the next one keeps up.
+    /// Ticks since the last upkeep, and which variance the next one renews.
     pub(super) tick: u8,
-    pub(super) place: u8,
+    pub(super) next: u8,
     /// An estimate is at its bound.
     pub(super) at_bound: bool,
     pub(super) health: HealthState,
@@ -50,7 +50,7 @@ impl AdaptationState {
             seen: Projection::NONE,
             moves: [0.0; ESTIMATES],
             tick: 0,
-            place: 0,
+            next: 0,
             at_bound: constants.binds(&START),
             health: HealthState::NEW,
         }
@@ -166,12 +166,12 @@ impl AdaptationState {
     fn forget(&mut self, constants: &AdaptationConstants) {
         self.covariance.forget(constants.growth);
         // The number is read off as it is: it does not move.
-        let place = usize::from(self.place);
-        let projection = self.covariance.project_one(place, constants.prior);
+        let next = usize::from(self.next);
+        let projection = self.covariance.project_one(next, constants.prior);
         let _ = self.covariance.read(&projection, 1.0);
-        self.place += 1;
-        if usize::from(self.place) >= ESTIMATES {
-            self.place = 0;
+        self.next += 1;
+        if usize::from(self.next) >= ESTIMATES {
+            self.next = 0;
             self.health.follow(&constants.health, self.level_less_one());
         }
     }

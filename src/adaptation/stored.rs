@@ -58,7 +58,7 @@ impl Stored for AdaptationState {
         port.numbers("estimates", &mut self.estimates, Range::new(-1e4, 1e4))?;
         self.covariance.exchange(port)?;
         port.count("tick", &mut self.tick, UPKEEP - 1)?;
-        port.count("place", &mut self.place, ESTIMATES as u8 - 1)?;
+        port.count("next", &mut self.next, ESTIMATES as u8 - 1)?;
         self.health.exchange(port)?;
         self.observed = 0.0;
         self.regressors = [0.0; ESTIMATES];

@@ -9,7 +9,7 @@ use crate::error::{Error, attempt, in_range};
 use crate::ranges;
 
 pub use curve::{LoadCurve, PARTS, octaves};
-pub use friction::FrictionPlace;
+pub use friction::FrictionInterval;
 pub(crate) use friction::{holds, node_octaves};
 
 /// The curves for one friction coefficient.
@@ -32,7 +32,7 @@ pub struct FrictionNode {
 /// ```
 ///
 /// with the axial load `F` of the ball, the lift-off load `F_0` of its preload, the curves `c` of the two nodes around the friction coefficient
-/// `mu`, its place `t` between them (0 to 1, by octaves), and the shift `d` that aligns the loads at which a contact begins to carry. Lift-off of a preload does not depend on friction: `w` rises from
+/// `mu`, its fraction `t` of the distance between them (0 to 1, by octaves), and the shift `d` that aligns the loads at which a contact begins to carry. Lift-off of a preload does not depend on friction: `w` rises from
 /// 0 there to 1 an octave above it; without a preload it is 1.
 /// Below the least load the torque is in proportion to `W`.
 ///
@@ -106,15 +106,19 @@ impl<const NODES: usize> LoadLaw<NODES> {
         all
     }
 
-    /// The [`octaves`] of the nodes' friction coefficients, for [`Self::place`].
+    /// The [`octaves`] of the nodes' friction coefficients, for [`Self::interval`].
     pub(crate) const fn node_octaves(&self) -> [f32; NODES] {
         node_octaves(&self.frictions())
     }
 
-    /// The place of a friction coefficient. Beyond the outermost nodes the torque is in proportion to it.
+    /// The nodes between which a friction coefficient lies. Beyond the outermost nodes the torque is in proportion to it.
     #[inline(always)]
-    pub(crate) const fn place(&self, friction: f32, node_octaves: &[f32; NODES]) -> FrictionPlace {
-        FrictionPlace::among(&self.frictions(), node_octaves, friction)
+    pub(crate) const fn interval(
+        &self,
+        friction: f32,
+        node_octaves: &[f32; NODES],
+    ) -> FrictionInterval {
+        FrictionInterval::among(&self.frictions(), node_octaves, friction)
     }
 
     /// Friction torque of a ball over its load `W`, m, whose octaves these are, within the ends; `branch` 0 under a load that opposes the
@@ -124,20 +128,20 @@ impl<const NODES: usize> LoadLaw<NODES> {
         &self,
         octaves: f32,
         branch: usize,
-        place: FrictionPlace,
+        interval: FrictionInterval,
     ) -> f32 {
-        let below = &self.nodes[place.node as usize % NODES];
+        let below = &self.nodes[interval.node as usize % NODES];
         let value = if NODES == 1 {
             below.curves[branch & 1].at(octaves)
         } else {
-            let above = &self.nodes[(place.node as usize + 1) % NODES];
+            let above = &self.nodes[(interval.node as usize + 1) % NODES];
             let shift = below.shift[branch & 1] * shifted_part(octaves - self.shifted_from);
-            let low = below.curves[branch & 1].at(octaves - place.share * shift);
-            let high = above.curves[branch & 1].at(octaves + (1.0 - place.share) * shift);
-            low + place.share * (high - low)
+            let low = below.curves[branch & 1].at(octaves - interval.fraction * shift);
+            let high = above.curves[branch & 1].at(octaves + (1.0 - interval.fraction) * shift);
+            low + interval.fraction * (high - low)
         };
         if value > 0.0 {
-            place.friction * value
+            interval.friction * value
         } else {
             0.0
         }
@@ -181,8 +185,8 @@ mod tests {
     fn friction_coefficients_lie_between_nodes() {
         let law = law().checked().unwrap();
         let over = |friction: f32| {
-            let place = law.place(friction, &law.node_octaves());
-            law.torque_over_load(120.0, 0, place) / friction
+            let interval = law.interval(friction, &law.node_octaves());
+            law.torque_over_load(120.0, 0, interval) / friction
         };
         assert_eq!(over(0.05), 1.0);
         assert_eq!(over(0.1), 2.0);

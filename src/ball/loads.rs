@@ -59,16 +59,16 @@ impl LoadShare {
             Some(first) => (*first, *first),
             None => (Self::MEAN, Self::MEAN),
         };
-        let mut place = 0;
-        while place < shares.len() {
-            let share = shares[place];
+        let mut index = 0;
+        while index < shares.len() {
+            let share = shares[index];
             if share.share < lightest.share {
                 lightest = share;
             }
             if share.share > heaviest.share {
                 heaviest = share;
             }
-            place += 1;
+            index += 1;
         }
         (lightest, heaviest)
     }

@@ -1,15 +1,15 @@
 //! The law of one ball whose neighbours press on it, solved on a host and folded into constants.
 //!
 //! The control interrupt evaluates it: the numbers of two knots around the load are blended, and a ball's answer is three polynomials in the
-//! deviations of the two grooves at its place. Nothing is solved, and no ball has a state of its own but its place.
+//! deviations of the two grooves at its position. Nothing is solved, and no ball has a state of its own but its position.
 
 mod node;
 mod numbers;
 
-use super::folded::{FrictionPlace, holds, node_octaves};
+use super::folded::{FrictionInterval, holds, node_octaves};
 use crate::error::{Error, attempt, in_range};
 use crate::train::IMPEDANCE_RANGE;
-use node::KnotPlace;
+use node::KnotInterval;
 use numbers::IMPEDANCES;
 
 pub use node::{BallKnot, BallNode, KNOTS};
@@ -41,7 +41,7 @@ pub struct BallLaw<const NODES: usize> {
 
 /// Friction coefficient times load, N, within what keeps impedances within those of a train.
 #[inline(always)]
-fn sliding_load(friction: FrictionPlace, load: f32) -> f32 {
+fn sliding_load(friction: FrictionInterval, load: f32) -> f32 {
     let [least, most] = SLIDING_LOADS;
     let sliding = friction.friction() * load;
     if sliding > most {
@@ -102,11 +102,11 @@ impl<const NODES: usize> BallLaw<NODES> {
         holds(self.friction_range(), friction)
     }
 
-    /// The place of a friction coefficient among the nodes; beyond them impedance and torque are in proportion to it.
+    /// The nodes between which a friction coefficient lies; beyond them impedance and torque are in proportion to it.
     #[must_use]
-    pub const fn place(&self, friction: f32) -> FrictionPlace {
+    pub const fn interval(&self, friction: f32) -> FrictionInterval {
         let frictions = self.frictions();
-        FrictionPlace::among(&frictions, &node_octaves(&frictions), friction)
+        FrictionInterval::among(&frictions, &node_octaves(&frictions), friction)
     }
 
     /// Load `W` of a ball, N, under an axial load, N, of either sign.
@@ -120,15 +120,15 @@ impl<const NODES: usize> BallLaw<NODES> {
     /// 1 under one that assists it.
     #[inline(always)]
     #[must_use]
-    pub fn numbers(&self, load: f32, branch: usize, friction: FrictionPlace) -> BallNumbers {
+    pub fn numbers(&self, load: f32, branch: usize, friction: FrictionInterval) -> BallNumbers {
         let below = &self.nodes[friction.node() % NODES];
-        let numbers = below.numbers(branch, below.place(branch, load));
+        let numbers = below.numbers(branch, below.interval(branch, load));
         let numbers = if NODES == 1 {
             numbers
         } else {
             let above = &self.nodes[(friction.node() + 1) % NODES];
-            let others = above.numbers(branch, above.place(branch, load));
-            numbers.towards(&others, friction.share())
+            let others = above.numbers(branch, above.interval(branch, load));
+            numbers.towards(&others, friction.fraction())
         };
         numbers.under(sliding_load(friction, load))
     }
@@ -141,7 +141,7 @@ impl<const NODES: usize> BallLaw<NODES> {
         &self,
         load: f32,
         branch: usize,
-        friction: FrictionPlace,
+        friction: FrictionInterval,
         deviations: [f32; 2],
     ) -> FreeMotion {
         let below = &self.nodes[friction.node() % NODES];
@@ -150,7 +150,7 @@ impl<const NODES: usize> BallLaw<NODES> {
             motion
         } else {
             let above = &self.nodes[(friction.node() + 1) % NODES];
-            motion.towards(above.motion(branch, load, deviations), friction.share())
+            motion.towards(above.motion(branch, load, deviations), friction.fraction())
         };
         let load = sliding_load(friction, load);
         FreeMotion {
@@ -171,9 +171,9 @@ impl<const NODES: usize> BallLaw<NODES> {
     /// Whether the forces between balls are held under a load `W`, N.
     #[inline(always)]
     #[must_use]
-    pub fn holds_forces(&self, load: f32, branch: usize, friction: FrictionPlace) -> bool {
+    pub fn holds_forces(&self, load: f32, branch: usize, friction: FrictionInterval) -> bool {
         let node = &self.nodes[friction.node() % NODES];
-        let KnotPlace { knot, .. } = node.place(branch, load);
+        let KnotInterval { knot, .. } = node.interval(branch, load);
         node.unheld[branch & 1] >> (knot % KNOTS) & 1 == 0
     }
 
@@ -185,7 +185,7 @@ impl<const NODES: usize> BallLaw<NODES> {
     /// (240 rows of 37 balls of lin-3.6 in waves, friction of 0.05 to 0.15 between balls).
     #[inline(always)]
     #[must_use]
-    pub fn holds_rubbing(&self, load: f32, friction: FrictionPlace, rubbing: f32) -> bool {
+    pub fn holds_rubbing(&self, load: f32, friction: FrictionInterval, rubbing: f32) -> bool {
         rubbing <= HELD_RUBBING * friction.friction() * load
     }
 }

@@ -112,10 +112,10 @@ impl AcrossTable {
     /// The contact where the spin gives the end of the major axis the speed `end_speed = a |w|`, m.
     pub(crate) const fn at(&self, end_speed: f32) -> Across {
         let whole = end_speed + self.slip;
-        let place = end_speed / whole * CELLS as f32;
-        let cell = place as usize;
+        let position = end_speed / whole * CELLS as f32;
+        let cell = position as usize;
         let cell = if cell < CELLS { cell } else { CELLS - 1 };
-        let x = place - cell as f32;
+        let x = position - cell as f32;
         let [drag, drag_slope, compliance, compliance_slope] = self.nodes[cell];
         let [
             next_drag,
@@ -129,11 +129,11 @@ impl AcrossTable {
             [compliance, compliance_slope],
             [next_compliance, next_compliance_slope],
         );
-        let remainder = CELLS as f32 - place;
+        let remainder = CELLS as f32 - position;
         Across {
             drag: whole * drag,
             compliance: whole * compliance,
-            share: self.reach * (drag - place * drag_slope),
+            share: self.reach * (drag - position * drag_slope),
             drag_growth: end_speed * (drag + remainder * drag_slope),
             compliance_growth: end_speed * (compliance + remainder * compliance_slope),
         }
@@ -177,8 +177,12 @@ pub const fn slip_and_spin(axis_ratio: f32, slip: f32) -> (f32, f32) {
 /// Drag, its growth, compliance and its growth, all over the end's speed, at a slip over that speed. Growth is the change with the
 /// logarithm of the end's speed.
 const fn spinning(k: f32, slip: f32) -> [f32; 4] {
-    let (square, place) = (k * k, slip * slip);
-    let lambda = if place > square { place - square } else { 0.0 };
+    let (square, slip_squared) = (k * k, slip * slip);
+    let lambda = if slip_squared > square {
+        slip_squared - square
+    } else {
+        0.0
+    };
     let (long, short) = (1.0 + lambda, square + lambda);
     let root = constant::sqrt(lambda);
     let weight = 2.0 * lambda * root / constant::sqrt(long * short);
@@ -186,10 +190,10 @@ const fn spinning(k: f32, slip: f32) -> [f32; 4] {
     let both = (across - along) / ((1.0 - k) * (1.0 + k));
     let narrow = fifth_integral(k, lambda, root, along, across);
     let whole = weight + along + square * across;
-    let cubic = narrow * place;
+    let cubic = narrow * slip_squared;
     let share = 0.75 * slip * (across - cubic);
-    let moment = 0.1875 * (whole + place * (3.0 * cubic - 2.0 * across));
-    let bend = both * place;
+    let moment = 0.1875 * (whole + slip_squared * (3.0 * cubic - 2.0 * across));
+    let bend = both * slip_squared;
     let inverse = 1.0 / (along - bend);
     let compliance = (4.0 / 3.0) * inverse;
     [

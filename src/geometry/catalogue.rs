@@ -200,22 +200,22 @@ pub const fn named(name: &str) -> Option<BallScrewParameters> {
     let lists: [&[CatalogueSize]; 3] = [&CATALOGUE, &FINE_LEAD_SIZES, &STEERING_SIZES];
     let mut list = 0;
     while list < lists.len() {
-        let mut place = 0;
-        while place < lists[list].len() {
-            let size = lists[list][place];
+        let mut index = 0;
+        while index < lists[list].len() {
+            let size = lists[list][index];
             if same(size.name, name) {
                 return Some(size.parameters());
             }
-            place += 1;
+            index += 1;
         }
         list += 1;
     }
-    let mut place = 0;
-    while place < DISSERTATION_DESIGNS.len() {
-        if same(DISSERTATION_DESIGNS[place].name, name) {
-            return Some(DISSERTATION_DESIGNS[place].parameters);
+    let mut index = 0;
+    while index < DISSERTATION_DESIGNS.len() {
+        if same(DISSERTATION_DESIGNS[index].name, name) {
+            return Some(DISSERTATION_DESIGNS[index].parameters);
         }
-        place += 1;
+        index += 1;
     }
     None
 }
@@ -226,12 +226,12 @@ const fn same(one: &str, other: &str) -> bool {
     if one.len() != other.len() {
         return false;
     }
-    let mut place = 0;
-    while place < one.len() {
-        if one[place] != other[place] {
+    let mut index = 0;
+    while index < one.len() {
+        if one[index] != other[index] {
             return false;
         }
-        place += 1;
+        index += 1;
     }
     true
 }

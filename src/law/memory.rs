@@ -30,7 +30,6 @@ mod parallel;
 mod preloaded;
 mod proportional;
 mod quadrature;
-mod ranges;
 mod seat;
 mod slider;
 mod state;
@@ -39,11 +38,10 @@ mod stored;
 pub use backbone::{
     Backbone, BackboneElement, SLIP_4, SLIP_6, SLIP_8, SLIP_10, SPIN_4, SPIN_6, SPIN_8, SPIN_10,
 };
-pub use hysteresis::Hysteresis;
+pub use hysteresis::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
 pub use load_exact::LoadExactElements;
 pub use parallel::{ParallelElements, ParallelElementsState};
 pub use preloaded::PreloadedElements;
 pub use proportional::{Part, ProportionalElements};
-pub use ranges::{BREAKAWAY, REFERENCE_LIMIT};
 pub use seat::{SeatElement, SeatState};
 pub use state::MemoryState;

@@ -5,13 +5,12 @@ mod configuration;
 mod stored;
 
 use super::caged_friction::CagedFriction;
-use super::changing::ChangingFriction;
-use super::contract::{CheckedInputs, Inputs, Limits, Regime, Scene};
+use super::contract::{ChangingFriction, CheckedInputs, Inputs, Limits, Regime, Scene};
 use super::faults::Faults;
 use super::outputs::Outputs;
 use super::reversal::{Reversal, ReversalState};
 use super::sliding::{Sliding, SlidingFriction};
-use crate::ball::folded::{FrictionPlace, LoadLaw, octaves};
+use crate::ball::folded::{FrictionInterval, LoadLaw, octaves};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
@@ -39,8 +38,8 @@ pub struct CagedConstants<const NODES: usize = 1> {
     law: LoadLaw<NODES>,
     /// Octaves of the nodes' friction coefficients.
     node_octaves: [f32; NODES],
-    /// Place of the configuration's friction coefficient.
-    friction: FrictionPlace,
+    /// The configuration's friction coefficient.
+    friction: FrictionInterval,
     /// 1 over the number of loaded balls; lift-off load of all balls, N.
     per_ball: f32,
     lift_off: f32,
@@ -54,7 +53,7 @@ pub struct CagedConstants<const NODES: usize = 1> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedState {
-    friction: FrictionPlace,
+    friction: FrictionInterval,
 }
 
 /// A load in the law.
@@ -88,7 +87,7 @@ impl<const NODES: usize> CagedConstants<NODES> {
         let balls = attempt!(in_range("loaded_balls", loaded_balls as f32, 1.0, 1e3));
         let node_octaves = law.node_octaves();
         Ok(Self {
-            friction: law.place(friction, &node_octaves),
+            friction: law.interval(friction, &node_octaves),
             node_octaves,
             per_ball: 1.0 / balls,
             lift_off: balls * law.lift_off,
@@ -112,8 +111,8 @@ impl<const NODES: usize> CagedConstants<NODES> {
 
     /// Where a friction coefficient lies.
     #[inline(always)]
-    const fn place(&self, friction: f32) -> FrictionPlace {
-        self.law.place(friction, &self.node_octaves)
+    const fn interval(&self, friction: f32) -> FrictionInterval {
+        self.law.interval(friction, &self.node_octaves)
     }
 
     /// Where a load lies.
@@ -133,26 +132,26 @@ impl<const NODES: usize> CagedConstants<NODES> {
 
     /// Friction torque of all balls, N m, not negative; where `opposing` is below 0 the load assists the motion, else it opposes it.
     #[inline(always)]
-    fn torque(&self, loaded: &Loaded, opposing: f32, place: FrictionPlace) -> f32 {
+    fn torque(&self, loaded: &Loaded, opposing: f32, interval: FrictionInterval) -> f32 {
         let branch = usize::from(opposing < 0.0);
-        let per_load = self.law.torque_over_load(loaded.octaves, branch, place);
+        let per_load = self.law.torque_over_load(loaded.octaves, branch, interval);
         loaded.whole * per_load
     }
 
     /// Outputs from two sliding frictions: that in the direction of motion, which decides the regime, and that in the direction in which
-    /// friction acts, of which a reversal leaves a share.
+    /// friction acts, times the factor that a reversal leaves of it.
     #[inline(always)]
     fn put_out(
         &self,
         axial_load: f32,
-        [sliding, shared]: [f32; 2],
+        [sliding, reversing]: [f32; 2],
         reversal: ReversalState,
         faults: Faults,
     ) -> Outputs {
         let load_torque = axial_load * self.reduced_lead;
         let opposing = reversal.direction * load_torque;
         Outputs {
-            friction_torque: reversal.share * shared,
+            friction_torque: reversal.factor * reversing,
             load_torque,
             // Filled in where friction is limited.
             efficiency: 0.0,
@@ -233,8 +232,8 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
         let beyond = loaded.beyond || !law.holds(forward) || !law.holds(backward);
         let load = inputs.axial_load;
         CagedFriction {
-            forward: constants.torque(&loaded, load, constants.place(forward)),
-            backward: constants.torque(&loaded, -load, constants.place(backward)),
+            forward: constants.torque(&loaded, load, constants.interval(forward)),
+            backward: constants.torque(&loaded, -load, constants.interval(backward)),
             load: loaded.whole,
             faults: Faults::NONE.with(beyond, Faults::BEYOND_MODEL),
         }
@@ -252,7 +251,7 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
         sliding: &CagedFriction,
         reversal: ReversalState,
     ) -> Outputs {
-        let torques = [sliding.of(reversal.direction), sliding.of(reversal.share)];
+        let torques = [sliding.of(reversal.direction), sliding.of(reversal.factor)];
         constants.put_out(inputs.axial_load, torques, reversal, sliding.faults)
     }
 
@@ -270,7 +269,7 @@ impl<const NODES: usize> ChangingFriction for CagedBallScrew<NODES> {
     ) -> Result<(), Error> {
         let (least, largest) = constants.law.friction_range();
         let friction = in_range("friction", friction, least, largest)?;
-        state.friction = constants.place(friction);
+        state.friction = constants.interval(friction);
         Ok(())
     }
 }

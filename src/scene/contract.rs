@@ -60,6 +60,19 @@ pub trait Scene {
     fn largest_friction(constants: &Self::Constants) -> f32;
 }
 
+/// A scene whose friction coefficient may change while it runs.
+pub trait ChangingFriction: Scene {
+    /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
+    ///
+    /// # Errors
+    /// [`Error`] naming `friction`; the state is then as it was.
+    fn set_friction(
+        constants: &Self::Constants,
+        state: &mut Self::State,
+        friction: f32,
+    ) -> Result<(), Error>;
+}
+
 /// A scene's outputs, as far as faults decide them.
 pub trait SceneOutputs: Copy {
     /// The safe output: no friction, nothing pressing, standing.

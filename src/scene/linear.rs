@@ -5,9 +5,8 @@ mod inputs;
 mod step;
 mod stored;
 
-use super::changing::ChangingFriction;
 use super::circuit::{Circuit, CircuitState, per_loaded_ball};
-use super::contract::{CheckedInputs, Scene};
+use super::contract::{ChangingFriction, CheckedInputs, Scene};
 use super::faults::bounded;
 use super::outputs::LinearOutputs;
 use super::reversal::{Reversal, ReversalState};

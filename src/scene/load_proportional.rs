@@ -145,7 +145,7 @@ impl Scene for LoadProportionalScrew {
             axial_load,
         } = inputs;
         let ReversalState {
-            share,
+            factor,
             direction,
             standing,
         } = constants.reversal.at(nut_speed);
@@ -155,7 +155,7 @@ impl Scene for LoadProportionalScrew {
         let viscous = constants.viscous_friction * nut_speed;
         let full = sliding + direction * viscous;
         Outputs {
-            friction_torque: share * sliding + viscous,
+            friction_torque: factor * sliding + viscous,
             load_torque,
             efficiency: 0.0,
             regime: Regime::under(standing, opposing_torque, full),

@@ -7,9 +7,9 @@ use crate::math;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ReversalState {
-    /// Part of sliding friction, with the sign of the direction in which friction opposes motion: -1 to 1, times the
+    /// Factor on sliding friction, with the sign of the direction in which friction opposes motion: -1 to 1, times the
     /// [level](crate::law::FrictionLevel) of that direction where one is set.
-    pub share: f32,
+    pub factor: f32,
     /// -1 where the motion goes, or went last, in the negative direction, else 1.
     pub direction: f32,
     /// Whether the mechanism stands: friction is between its two directions.
@@ -58,9 +58,9 @@ impl Reversal {
         })
     }
 
-    /// Part of sliding friction at a speed, -1 to 1, with the speed's sign.
+    /// Factor on sliding friction at a speed, -1 to 1, with the speed's sign.
     #[inline(always)]
-    pub(super) fn share(&self, speed: f32) -> f32 {
+    pub(super) fn factor(&self, speed: f32) -> f32 {
         speed / math::sqrt(speed * speed + self.squared)
     }
 
@@ -68,7 +68,7 @@ impl Reversal {
     #[inline(always)]
     pub(super) fn at(&self, speed: f32) -> ReversalState {
         ReversalState {
-            share: self.share(speed),
+            factor: self.factor(speed),
             direction: direction(speed),
             standing: self.stands(speed),
         }

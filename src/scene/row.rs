@@ -47,12 +47,12 @@ impl TrainFriction {
         if direction < 0.0 { backward } else { forward }
     }
 
-    /// Friction of the grooves and of the balls at a reversal state, with the sign of its share.
+    /// Friction of the grooves and of the balls at a reversal state, with the sign of its factor.
     #[inline(always)]
     pub(super) fn outputs_at(&self, reversal: ReversalState) -> (f32, f32) {
         (
-            reversal.share * (self.ratio(reversal.share) * self.groove),
-            reversal.share * self.ball,
+            reversal.factor * (self.ratio(reversal.factor) * self.groove),
+            reversal.factor * self.ball,
         )
     }
 }

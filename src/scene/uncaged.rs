@@ -4,38 +4,36 @@
 mod block;
 mod closed_form;
 mod configuration;
-mod friction;
 mod sliding;
 mod step;
 mod stored;
 
 use core::f32::consts::TAU;
 
-use super::changing::ChangingFriction;
 use super::circuit::{Circuit, CircuitState, per_loaded_ball};
-use super::contract::{CheckedInputs, Inputs, Limits, Scene};
+use super::contract::{ChangingFriction, CheckedInputs, Inputs, Limits, Scene};
 use super::outputs::UncagedOutputs;
 use super::reversal::Reversal;
 use crate::ball::LoadShare;
-use crate::ball::folded::{FrictionPlace, node_octaves};
+use crate::ball::folded::{FrictionInterval, node_octaves};
 use crate::ball::pressed::BallLaw;
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
 
 pub use closed_form::CatalogueBall;
 pub use configuration::{FoldedBall, UncagedBallScrewConfiguration};
-pub use friction::UncagedFriction;
+pub use step::UncagedFriction;
 
 /// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls, by the folded law of one ball, for
 /// `NODES` friction coefficients.
 ///
-/// Every ball is evaluated in every tick, at its place, under the load of this tick: nothing settles after a start, a reversal or a step of the
+/// Every ball is evaluated in every tick, at its position, under the load of this tick: nothing settles after a start, a reversal or a step of the
 /// load. What is kept from tick to tick is where the balls are, the phase of the screw's deviations and the friction coefficient.
 ///
 /// A tick whose speed or load is no number is flagged in that tick, puts out no torque, and leaves the state as
 /// it is; the next sound tick is unflagged. Balls, and the phase of the screw's deviations, then stand behind by
 /// the travel of the missed ticks, and friction is that of this position: sound, but that of an earlier angle.
-/// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose places no sensor knows, stay behind.
+/// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose positions no sensor knows, stay behind.
 ///
 /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) stands in each tick whose load or friction coefficient is beyond those for which the law
 /// was folded, under whose load the block does not hold the forces between balls, in which friction between balls is more than the law holds
@@ -54,7 +52,7 @@ pub struct UncagedBallScrew<const N: usize, const NODES: usize = 1>;
 pub struct UncagedState<const N: usize> {
     /// Where the balls are, and how they press.
     pub circuit: CircuitState<N>,
-    friction: FrictionPlace,
+    friction: FrictionInterval,
 }
 
 /// Constants of a ball screw without cage, with `N` balls.
@@ -64,8 +62,8 @@ pub struct UncagedConstants<const N: usize, const NODES: usize = 1> {
     law: &'static BallLaw<NODES>,
     /// Octaves of the nodes' friction coefficients.
     node_octaves: [f32; NODES],
-    /// Place of the configuration's friction coefficient.
-    friction: FrictionPlace,
+    /// The configuration's friction coefficient.
+    friction: FrictionInterval,
     circuit: Circuit,
     /// Friction coefficient of ball and ball.
     ball_friction: f32,
@@ -185,7 +183,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let per_ball = per_loaded_ball(configuration.loaded_length(), return_length, N);
         Ok(Self {
             law,
-            friction: law.place(friction),
+            friction: law.interval(friction),
             node_octaves: node_octaves(&law.frictions()),
             circuit,
             ball_friction,
@@ -216,8 +214,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
 
     /// Where a friction coefficient lies.
     #[inline(always)]
-    fn place(&self, friction: f32) -> FrictionPlace {
-        FrictionPlace::among(&self.law.frictions(), &self.node_octaves, friction)
+    fn interval(&self, friction: f32) -> FrictionInterval {
+        FrictionInterval::among(&self.law.frictions(), &self.node_octaves, friction)
     }
 
     /// Shares of the balls under a load of this sign.
@@ -252,7 +250,7 @@ impl<const N: usize, const NODES: usize> ChangingFriction for UncagedBallScrew<N
     ) -> Result<(), Error> {
         let (least, largest) = constants.law.friction_range();
         let friction = in_range("friction", friction, least, largest)?;
-        state.friction = constants.place(friction);
+        state.friction = constants.interval(friction);
         Ok(())
     }
 }

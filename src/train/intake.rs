@@ -4,11 +4,11 @@ use core::mem::ManuallyDrop;
 
 use super::ball::Ball;
 use super::grip::Grip;
-use super::motion::{Motion, SIXTEENTHS};
 use super::positions::Train;
 use super::press::{IMPEDANCE_RANGE, InputCheck};
 use super::settle::Pressing;
 use super::track::Rooms;
+use super::track::{Motion, SIXTEENTHS};
 
 /// Impedance of a ball for which the scene gave no values: the least allowed, so that it follows its neighbours.
 const DEFAULT_IMPEDANCE: f32 = IMPEDANCE_RANGE.0;

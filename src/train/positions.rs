@@ -1,8 +1,8 @@
 //! A train: where its balls are, and what the last tick made of them.
 
 use super::ball::Ball;
-use super::motion::OVERLAP;
 use super::press::Press;
+use super::track::OVERLAP;
 use super::track::Track;
 use crate::error::{Error, in_range};
 

@@ -2,10 +2,10 @@
 
 use super::ball::Ball;
 use super::grip::{Grip, limited_grip};
-use super::motion::Motion;
 use super::pool::pool;
 use super::rubbing::settle_rubbing;
 use super::settle::{Pressing, settle};
+use super::track::Motion;
 
 /// Largest free speed that counts, a relative deviation: that of a ball that stands, or runs twice as fast as a nominal one.
 pub const LARGEST_FREE_SPEED: f32 = 1.0;

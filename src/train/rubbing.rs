@@ -2,9 +2,9 @@
 
 use super::balance::{ROUNDING, balance, not_negative, not_negative_bits};
 use super::ball::Ball;
-use super::motion::Motion;
 use super::ring::Rows;
 use super::settle::Pressing;
+use super::track::Motion;
 
 /// Gives each ball its speed and its force, and moves it, from the foremost ball backwards.
 #[inline(never)]

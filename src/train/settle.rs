@@ -2,8 +2,8 @@
 
 use super::balance::{ROUNDING, balance, not_negative, not_negative_bits};
 use super::ball::Ball;
-use super::motion::Motion;
 use super::ring::Rows;
+use super::track::Motion;
 
 /// What the contacts between balls add up to in a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

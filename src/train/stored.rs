@@ -1,8 +1,8 @@
 //! A train as bytes: where its balls are, and how they press.
 
 use super::ball::Ball;
-use super::motion::OVERLAP;
 use super::positions::Train;
+use super::track::OVERLAP;
 use super::track::Track;
 use crate::error::Range;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};

@@ -166,11 +166,11 @@ impl Beyond {
                 let held = match folded {
                     Folded::One(ball) => {
                         let law = &ball.law;
-                        law.holds_forces(law.load_of(mean), branch, law.place(friction))
+                        law.holds_forces(law.load_of(mean), branch, law.interval(friction))
                     }
                     Folded::Range(ball) => {
                         let law = &ball.law;
-                        law.holds_forces(law.load_of(mean), branch, law.place(friction))
+                        law.holds_forces(law.load_of(mean), branch, law.interval(friction))
                     }
                 };
                 if held { Cause::Grip } else { Cause::Contact }

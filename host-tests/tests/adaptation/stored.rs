@@ -173,7 +173,7 @@ fn numbers_that_no_adaptation_leaves_are_refused() {
     }
     for (at, byte, field) in [
         (TICK_AT, 9, "tick"),
-        (TICK_AT + 1, 5, "place"),
+        (TICK_AT + 1, 5, "next"),
         (HEALTH_AT + 12, 2, "fallen"),
         (HEALTH_AT + 13, 9, "risen"),
     ] {

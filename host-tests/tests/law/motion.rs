@@ -155,7 +155,7 @@ fn a_steady_sensor_turns_as_promised() {
     let play = Play::new(1.0).unwrap();
     let steady = Deadband::new(counter(16_384, COUNT, 4.0), 1.0).unwrap();
     // Nobody sees a sensor's place: a play beside it is moved by the same turns.
-    let (mut place, mut reading) = (PlayState::FRESH, Deadband::<CountSensor>::FRESH);
+    let (mut behind, mut reading) = (PlayState::FRESH, Deadband::<CountSensor>::FRESH);
     let mut random = Random(8);
     let mut errors = Errors::default();
     let mut count = 0_i64;
@@ -163,9 +163,9 @@ fn a_steady_sensor_turns_as_promised() {
     for tick in 0..200_000 {
         let counts = random.between(-128.0, 128.0) as i64;
         count += counts;
-        let before = f64::from(place.place());
+        let before = f64::from(behind.position());
         let turn = counts as f64 * f64::from(COUNT);
-        let _ = play.follow(&mut place, turn as f32);
+        let _ = play.follow(&mut behind, turn as f32);
         let found = steady.turn(&mut reading, count.rem_euclid(16_384) as u32);
         assert!(found.is_measured());
         let exact = (before + turn) - (before + turn).clamp(-1.0, 1.0);
@@ -244,10 +244,10 @@ fn a_play_keeps_noise_away() {
     let mut place = 0.0_f64;
     for tick in 0..200_000 {
         let turn = random.between(-2.0, 2.0) as f32;
-        let before = f64::from(state.place());
+        let before = f64::from(state.position());
         let moved = play.follow(&mut state, turn);
         errors.add_case(
-            before + f64::from(turn) - f64::from(state.place()) - f64::from(moved.turn),
+            before + f64::from(turn) - f64::from(state.position()) - f64::from(moved.turn),
             || tick.to_string(),
         );
         place += f64::from(moved.turn);
@@ -276,7 +276,7 @@ fn a_steady_sensor_is_a_play_of_its_turns() {
     let sensor = counter(16_384, 1e-3, 0.5);
     let play = Play::new(3e-3).unwrap();
     let steady = Deadband::new(sensor, 3e-3).unwrap();
-    let (mut raw, mut place) = (CountSensor::FRESH, PlayState::FRESH);
+    let (mut raw, mut behind) = (CountSensor::FRESH, PlayState::FRESH);
     let mut reading = Deadband::<CountSensor>::FRESH;
     let mut random = Random(5);
     let (mut count, mut moved) = (0_i64, 0);
@@ -288,7 +288,7 @@ fn a_steady_sensor_is_a_play_of_its_turns() {
         }
         count += random.between(-6.0, 6.0) as i64;
         let now = count.rem_euclid(16_384) as u32;
-        let turn = play.follow(&mut place, sensor.turn(&mut raw, now).angle());
+        let turn = play.follow(&mut behind, sensor.turn(&mut raw, now).angle());
         assert_eq!(steady.turn(&mut reading, now), Turn::Measured(turn.turn));
         moved += usize::from(turn.turn != 0.0);
     }

@@ -121,14 +121,15 @@ fn every_kind(count: u64) {
     let seated = |place: f32| 0.4 * (f64::from(place).abs() - 0.5).max(0.0).powf(2.5);
     check(
         "seat",
-        least(&seat, |state| seated(state.place()), 4, count),
+        least(&seat, |state| seated(state.displacement()), 4, count),
     );
     let spin = proportional(&SPIN_8, 0.3, 0.2);
     let stiffnesses = spin.stiffnesses();
     let seat = SeatElement::new(0.7, 0.5, 1.0).unwrap();
     let both = ParallelElements::new(spin, seat, 0.3).unwrap();
     let stored = |state: &ParallelElementsState<MemoryState<8>, SeatState>| {
-        energy(&spin.torques(&state.first), &stiffnesses) + 0.7 * seated(state.second.place())
+        energy(&spin.torques(&state.first), &stiffnesses)
+            + 0.7 * seated(state.second.displacement())
     };
     check("spin beside the seat", least(&both, stored, 5, count));
 }

@@ -53,7 +53,7 @@ fn play_is_free_and_sliding_is_full() {
     assert_eq!(seat.follow(&mut state, 1e-3, &limits), 0.0);
     assert_eq!(seat.follow(&mut state, -2e-3, &limits), 0.0);
     assert_eq!(seat.follow(&mut state, 1.0, &limits), 0.04);
-    let error = state.place() / seat.breakaway() - 1.0;
+    let error = state.displacement() / seat.breakaway() - 1.0;
     measured::assert("seat, place of sliding", error);
     assert_eq!(seat.follow(&mut state, -1.0, &limits), -0.03);
     // Formed again from the place: a cube root, a square root and four products. Measured: 1.2e-7.
@@ -134,7 +134,7 @@ fn together_they_are_the_sum_of_both() {
         let pressed = (place.abs() - 0.5).max(0.0).powf(1.5) * place.signum();
         let wanted = share * followed(&mut eight) + (1.0 - share) * pressed;
         errors.add_case(f64::from(found_seated) - wanted, || format!("{tick}: seat"));
-        place = f64::from(seated_state.second.place());
+        place = f64::from(seated_state.second.displacement());
     }
     errors.assert_promised(promises::of("memory_together"));
 }
@@ -197,8 +197,11 @@ fn set_ups_and_states_are_refused_by_field() {
     assert_eq!(field(1.0, -1e-3, 1.0), "free_play");
     assert_eq!(field(1.0, 0.0, f32::NAN), "breakaway_angle");
     assert_eq!(
-        SeatState::from_place(f32::NAN).unwrap_err().field(),
-        "place"
+        SeatState::from_displacement(f32::NAN).unwrap_err().field(),
+        "displacement"
     );
-    assert_eq!(SeatState::from_place(1e-3).unwrap().place(), 1e-3);
+    assert_eq!(
+        SeatState::from_displacement(1e-3).unwrap().displacement(),
+        1e-3
+    );
 }

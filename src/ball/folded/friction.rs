@@ -22,24 +22,24 @@ pub(crate) const fn node_octaves<const NODES: usize>(frictions: &[f32; NODES]) -
     all
 }
 
-/// A friction coefficient between the nodes of a law.
+/// A friction coefficient, and the nodes of a law between which it lies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct FrictionPlace {
+pub struct FrictionInterval {
     pub(super) friction: f32,
-    /// The node below it, and its share of the distance to the next node by octaves, 0 to 1.
+    /// The node below it, and its fraction of the distance to the next node by octaves, 0 to 1.
     pub(super) node: u32,
-    pub(super) share: f32,
+    pub(super) fraction: f32,
 }
 
-impl FrictionPlace {
+impl FrictionInterval {
     /// The friction coefficient.
     #[must_use]
     pub const fn friction(&self) -> f32 {
         self.friction
     }
 
-    /// The place of a friction coefficient among those of nodes, rising, with these octaves.
+    /// The interval that holds a friction coefficient, among nodes with these coefficients, rising, and their octaves.
     #[inline(always)]
     pub(crate) const fn among<const NODES: usize>(
         frictions: &[f32; NODES],
@@ -54,7 +54,7 @@ impl FrictionPlace {
             }
             number += 1;
         }
-        let share = if NODES == 1 || friction <= frictions[0] {
+        let fraction = if NODES == 1 || friction <= frictions[0] {
             0.0
         } else if friction < frictions[NODES - 1] {
             let [low, high] = [octaves_of[node % NODES], octaves_of[(node + 1) % NODES]];
@@ -65,7 +65,7 @@ impl FrictionPlace {
         Self {
             friction,
             node: node as u32,
-            share,
+            fraction,
         }
     }
 
@@ -75,13 +75,13 @@ impl FrictionPlace {
         self.node as usize
     }
 
-    /// Its share of the distance to the next node.
+    /// Its fraction of the distance to the next node.
     #[inline(always)]
-    pub(crate) const fn share(&self) -> f32 {
-        self.share
+    pub(crate) const fn fraction(&self) -> f32 {
+        self.fraction
     }
 
-    /// The same place for another friction coefficient, until [`LoadLaw::place`](super::LoadLaw) has found its own.
+    /// The same interval for another friction coefficient, until [`LoadLaw::interval`](super::LoadLaw) has found its own.
     pub(crate) const fn with_friction(self, friction: f32) -> Self {
         Self { friction, ..self }
     }

@@ -43,19 +43,19 @@ pub struct BallNode {
     pub unheld: [u32; 2],
 }
 
-/// A load between knots.
+/// The knots between which a load lies.
 #[derive(Clone, Copy)]
-pub(super) struct KnotPlace {
+pub(super) struct KnotInterval {
     /// The knot below the load.
     pub(super) knot: usize,
-    /// Share of the distance to the next knot, 0 to 1.
-    share: f32,
+    /// Fraction of the distance to the next knot, 0 to 1.
+    fraction: f32,
 }
 
 impl BallNode {
-    /// The knot below a load, and the load's share of the distance to the next knot, 0 to 1.
+    /// The knot below a load, and the load's fraction of the distance to the next knot, 0 to 1.
     #[inline(always)]
-    pub(super) fn place(&self, branch: usize, load: f32) -> KnotPlace {
+    pub(super) fn interval(&self, branch: usize, load: f32) -> KnotInterval {
         let knots = &self.branches[branch & 1];
         // Loads are not negative: integers compare their bits.
         let bits = load.to_bits().cast_signed();
@@ -69,10 +69,10 @@ impl BallNode {
             step /= 2;
         }
         let below = &knots[knot % KNOTS];
-        let share = (load - below.load) * below.per_width;
-        KnotPlace {
+        let fraction = (load - below.load) * below.per_width;
+        KnotInterval {
             knot,
-            share: if share > 0.0 { share } else { 0.0 },
+            fraction: if fraction > 0.0 { fraction } else { 0.0 },
         }
     }
 
@@ -80,19 +80,19 @@ impl BallNode {
     #[inline(always)]
     pub(super) fn motion(&self, branch: usize, load: f32, deviations: [f32; 2]) -> FreeMotion {
         let knots = &self.branches[branch & 1];
-        let KnotPlace { knot, share } = self.place(branch, load);
+        let KnotInterval { knot, fraction } = self.interval(branch, load);
         let [below, above] =
             [knot, knot + 1].map(|knot| knots[knot % KNOTS].numbers.at(deviations));
-        below.towards(above, share)
+        below.towards(above, fraction)
     }
 
-    /// Numbers at a place.
+    /// Numbers within an interval.
     #[inline(always)]
-    pub(super) fn numbers(&self, branch: usize, place: KnotPlace) -> BallNumbers {
+    pub(super) fn numbers(&self, branch: usize, interval: KnotInterval) -> BallNumbers {
         let knots = &self.branches[branch & 1];
-        let below = &knots[place.knot % KNOTS].numbers;
-        let above = &knots[(place.knot + 1) % KNOTS].numbers;
-        below.towards(above, place.share)
+        let below = &knots[interval.knot % KNOTS].numbers;
+        let above = &knots[(interval.knot + 1) % KNOTS].numbers;
+        below.towards(above, interval.fraction)
     }
 
     /// Refuses numbers that are no law.
@@ -116,14 +116,14 @@ impl BallNode {
                     0.0
                 };
                 attempt!(in_range("load", width, 0.0, 1e7));
-                // A share of 1 at the next knot but for roundings; knots that are not needed stand at the last one's load.
-                let share = width * per_width;
+                // A fraction of 1 at the next knot but for roundings; knots that are not needed stand at the last one's load.
+                let fraction = width * per_width;
                 let (least, most) = if width > 0.0 {
                     (1.0 - 1e-5, 1.0 + 1e-5)
                 } else {
                     (0.0, 0.0)
                 };
-                attempt!(in_range("per_width", share, least, most));
+                attempt!(in_range("per_width", fraction, least, most));
                 attempt!(in_range("per_width", per_width, 0.0, 1e9));
                 number += 1;
             }

@@ -76,25 +76,25 @@ impl BallNumbers {
         rubbing: 0.0,
     };
 
-    /// These numbers, interpolated towards others by a share, 0 to 1.
+    /// These numbers, interpolated towards others by a fraction, 0 to 1.
     #[inline(always)]
-    pub(super) fn towards(&self, others: &Self, share: f32) -> Self {
+    pub(super) fn towards(&self, others: &Self, fraction: f32) -> Self {
         #[inline(always)]
-        fn all<const M: usize>(from: &[f32; M], to: &[f32; M], share: f32) -> [f32; M] {
+        fn all<const M: usize>(from: &[f32; M], to: &[f32; M], fraction: f32) -> [f32; M] {
             let mut all = *from;
             for (number, to) in all.iter_mut().zip(to) {
-                *number += share * (to - *number);
+                *number += fraction * (to - *number);
             }
             all
         }
-        let one = |from: f32, to: f32| from + share * (to - from);
+        let one = |from: f32, to: f32| from + fraction * (to - from);
         Self {
-            free: all(&self.free, &others.free, share),
-            impedance: all(&self.impedance, &others.impedance, share),
-            torque: all(&self.torque, &others.torque, share),
+            free: all(&self.free, &others.free, fraction),
+            impedance: all(&self.impedance, &others.impedance, fraction),
+            torque: all(&self.torque, &others.torque, fraction),
             slope: one(self.slope, others.slope),
             work: one(self.work, others.work),
-            grip: all(&self.grip, &others.grip, share),
+            grip: all(&self.grip, &others.grip, fraction),
             rubbing: one(self.rubbing, others.rubbing),
         }
     }
@@ -150,10 +150,10 @@ impl BallNumbers {
 }
 
 impl FreeMotion {
-    /// This motion, interpolated towards another by a share, 0 to 1.
+    /// This motion, interpolated towards another by a fraction, 0 to 1.
     #[inline(always)]
-    pub(super) fn towards(self, other: Self, share: f32) -> Self {
-        let one = |from: f32, to: f32| from + share * (to - from);
+    pub(super) fn towards(self, other: Self, fraction: f32) -> Self {
+        let one = |from: f32, to: f32| from + fraction * (to - from);
         Self {
             speed: one(self.speed, other.speed),
             impedance: one(self.impedance, other.impedance),

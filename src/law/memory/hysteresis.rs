@@ -1,6 +1,13 @@
-//! What every kind of elements can say of itself beside its friction.
+//! What all kinds of elements share: their ranges, and what they say of themselves beside their friction.
 
+use crate::error::Range;
 use crate::law::{Elements, SlidingLimits};
+
+/// Friction of gross sliding at the reference load: 1e-9 to 1e9 N m (N).
+pub const REFERENCE_LIMIT: Range = Range::new(1e-9, 1e9);
+
+/// Turn from no friction to full sliding: 1e-9 to 1e3 rad (m).
+pub const BREAKAWAY: Range = Range::new(1e-9, 1e3);
 
 /// Elements that hold, store energy, and have a stiffness and a breakaway.
 pub trait Hysteresis: Elements {

@@ -1,8 +1,7 @@
 //! Elements that come into contact with the load, as the springs of an elastic contact do.
 
-use super::hysteresis::Hysteresis;
+use super::hysteresis::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
 use super::quadrature::Rule;
-use super::ranges::{BREAKAWAY, REFERENCE_LIMIT};
 use super::slider::{held, held_pair, not_negative, turned};
 use super::state::MemoryState;
 use crate::error::{Error, Range, attempt, in_range};
@@ -71,8 +70,8 @@ impl<const N: usize> LoadExactElements<N> {
         let mut index = 0;
         while index < N {
             let (node, weight) = Rule::<N>::NODES[index];
-            let place = half + half * node;
-            onsets[index] = place * place;
+            let point = half + half * node;
+            onsets[index] = point * point;
             stiffnesses[index] = 1.5 * half * weight * (reference_limit / breakaway_angle);
             index += 1;
         }

@@ -1,8 +1,7 @@
 //! Elements whose limits are constant shares of the friction of gross sliding.
 
 use super::backbone::BackboneElement;
-use super::hysteresis::Hysteresis;
-use super::ranges::{BREAKAWAY, REFERENCE_LIMIT};
+use super::hysteresis::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
 use super::slider::{held, held_pair, turned};
 use super::state::MemoryState;
 use crate::error::{Error, attempt, in_range};

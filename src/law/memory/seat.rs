@@ -1,7 +1,6 @@
 //! The seat of a ball: free play, then a contact that stiffens, until all slides.
 
-use super::hysteresis::Hysteresis;
-use super::ranges::{BREAKAWAY, REFERENCE_LIMIT};
+use super::hysteresis::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
 use super::slider::{not_negative, turned};
 use crate::error::{Error, Range, attempt};
 use crate::law::{Elements, SlidingLimits};
@@ -41,23 +40,23 @@ pub struct SeatElement {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SeatState {
-    pub(super) place: f32,
+    pub(super) displacement: f32,
 }
 
 impl SeatState {
     /// Turn from the middle of the play, rad (m).
     #[must_use]
-    pub const fn place(&self) -> f32 {
-        self.place
+    pub const fn displacement(&self) -> f32 {
+        self.displacement
     }
 
     /// A state from a turn from the middle of the play. One beyond sliding is cut in the next tick.
     ///
     /// # Errors
-    /// `place`, where it is not a number within 1e6.
-    pub const fn from_place(place: f32) -> Result<Self, Error> {
-        let place = attempt!(Range::new(-1e6, 1e6).checked("place", place));
-        Ok(Self { place })
+    /// `displacement`, where it is not a number within 1e6.
+    pub const fn from_displacement(displacement: f32) -> Result<Self, Error> {
+        let displacement = attempt!(Range::new(-1e6, 1e6).checked("displacement", displacement));
+        Ok(Self { displacement })
     }
 }
 
@@ -89,16 +88,16 @@ impl SeatElement {
 impl Elements for SeatElement {
     type State = SeatState;
 
-    const VIRGIN: Self::State = SeatState { place: 0.0 };
+    const VIRGIN: Self::State = SeatState { displacement: 0.0 };
 
     #[inline]
     fn follow(&self, state: &mut Self::State, turn: f32, limits: &SlidingLimits) -> f32 {
-        let place = state.place + turned(turn);
-        let is_back = place < 0.0;
+        let displacement = state.displacement + turned(turn);
+        let is_back = displacement < 0.0;
         let (size, limit) = if is_back {
-            (-place, limits.backward)
+            (-displacement, limits.backward)
         } else {
-            (place, limits.forward)
+            (displacement, limits.forward)
         };
         let pressed = not_negative(size - self.free_play);
         let friction = self.stiffness * (pressed * sqrt(pressed));
@@ -109,10 +108,10 @@ impl Elements for SeatElement {
             (size, friction)
         };
         if is_back {
-            state.place = -size;
+            state.displacement = -size;
             -friction
         } else {
-            state.place = size;
+            state.displacement = size;
             friction
         }
     }
@@ -120,10 +119,10 @@ impl Elements for SeatElement {
 
 impl Hysteresis for SeatElement {
     fn stored_energy(&self, state: &Self::State) -> f32 {
-        let size = if state.place < 0.0 {
-            -state.place
+        let size = if state.displacement < 0.0 {
+            -state.displacement
         } else {
-            state.place
+            state.displacement
         };
         let pressed = not_negative(size - self.free_play);
         0.4 * self.stiffness * (pressed * pressed) * sqrt(pressed)

@@ -51,7 +51,11 @@ impl Stored for SeatState {
     const BYTES: usize = 4;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("place", &mut self.place, Range::new(-1e6, 1e6))
+        port.number(
+            "displacement",
+            &mut self.displacement,
+            Range::new(-1e6, 1e6),
+        )
     }
 }
 

@@ -17,7 +17,7 @@ pub struct Play {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct PlayState {
-    pub(super) place: f32,
+    pub(super) position: f32,
     pub(super) direction: f32,
 }
 
@@ -34,14 +34,14 @@ pub struct Moved {
 impl PlayState {
     /// In the middle of the play, and not moved yet.
     pub const FRESH: Self = Self {
-        place: 0.0,
+        position: 0.0,
         direction: 0.0,
     };
 
     /// Turn from the middle of the play, rad (m), within its half width.
     #[must_use]
-    pub const fn place(&self) -> f32 {
-        self.place
+    pub const fn position(&self) -> f32 {
+        self.position
     }
 
     /// Direction of the output's last motion: 1 or -1; 0 before the first.
@@ -63,27 +63,27 @@ impl Play {
 
     /// Makes a state that another play left one of this play.
     pub(crate) const fn take_over(&self, state: &mut PlayState) {
-        if state.place.abs() > self.half_width {
-            state.place = self.half_width.copysign(state.place);
+        if state.position.abs() > self.half_width {
+            state.position = self.half_width.copysign(state.position);
         }
     }
 
     /// What the output does under a turn, rad (m).
     #[inline]
     pub fn follow(&self, state: &mut PlayState, turn: f32) -> Moved {
-        let place = state.place + turn;
-        let turn = if place > self.half_width {
-            state.place = self.half_width;
+        let position = state.position + turn;
+        let turn = if position > self.half_width {
+            state.position = self.half_width;
             state.direction = 1.0;
-            place - self.half_width
-        } else if place < -self.half_width {
-            state.place = -self.half_width;
+            position - self.half_width
+        } else if position < -self.half_width {
+            state.position = -self.half_width;
             state.direction = -1.0;
-            place + self.half_width
+            position + self.half_width
         } else {
             // A turn that is no number stays outside.
-            if !place.is_nan() {
-                state.place = place;
+            if !position.is_nan() {
+                state.position = position;
             }
             0.0
         };

@@ -80,7 +80,7 @@ impl Stored for PlayState {
     const BYTES: usize = 8;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("place", &mut self.place, Range::new(-1e3, 1e3))?;
+        port.number("position", &mut self.position, Range::new(-1e3, 1e3))?;
         port.number("direction", &mut self.direction, Range::new(-1.0, 1.0))
     }
 }
@@ -88,7 +88,7 @@ impl Stored for PlayState {
 impl Play {
     /// Whether a state is one of this play.
     pub(crate) fn holds(&self, state: &PlayState) -> bool {
-        state.place.abs() <= self.half_width && [-1.0, 0.0, 1.0].contains(&state.direction)
+        state.position.abs() <= self.half_width && [-1.0, 0.0, 1.0].contains(&state.direction)
     }
 
     /// Its width.

@@ -17,7 +17,7 @@ impl<const NODES: usize> StoredScene for CagedBallScrew<NODES> {
     fn complete(constants: &CagedConstants<NODES>, state: &mut CagedState) -> Result<(), Refusal> {
         let friction = state.friction.friction();
         if constants.law.holds(friction) {
-            state.friction = constants.place(friction);
+            state.friction = constants.interval(friction);
             Ok(())
         } else {
             Err(Refusal::OutOfRange { field: "friction" })

@@ -2,7 +2,7 @@
 
 use super::deviation::DeviationMap;
 use super::phase::Phase;
-use super::zone::{LoadedZone, Place};
+use super::zone::{LoadedBall, LoadedZone};
 use crate::ball::{LoadShare, LoadShares};
 use crate::error::{Error, attempt, in_range};
 use crate::train::{IMPEDANCE_RANGE, LARGEST_TRAVEL, Track, Train};
@@ -127,14 +127,14 @@ impl Circuit {
         self.zone.shares(negative)
     }
 
-    /// What a ball at a position of the track finds there, where it is loaded, by the [`Circuit::shares`] of this tick.
+    /// The ball at a position of the track, if it is loaded there, by the [`Circuit::shares`] of this tick.
     #[inline(always)]
-    pub(crate) fn place(
+    pub(crate) fn loaded_ball(
         &self,
         position: u32,
         phase: u32,
         shares: &'static [LoadShare],
-    ) -> Option<Place> {
+    ) -> Option<LoadedBall> {
         self.zone.at(position, phase, shares)
     }
 }

@@ -25,14 +25,14 @@ pub(super) struct LoadedZone {
     shares: LoadShares,
 }
 
-/// What a loaded ball finds.
-pub(crate) struct Place {
+/// A loaded ball: deviations of the grooves at its contacts, and its share of the load.
+pub(crate) struct LoadedBall {
     /// Deviation of the groove that passes by, as a multiple of the first of [`LoadedZone::units`].
     pub(crate) passing: f32,
     /// Deviation of the groove of the body in which balls recirculate, as a multiple of the second.
     pub(crate) recirculating: f32,
     /// Its load over the mean load.
-    pub(crate) share: &'static LoadShare,
+    pub(crate) load: &'static LoadShare,
 }
 
 impl LoadedZone {
@@ -66,7 +66,7 @@ impl LoadedZone {
         self.shares.of(negative)
     }
 
-    /// What a ball at `position` finds, where it is loaded, when the passing groove is at `phase` and the balls
+    /// The ball at `position`, if it is loaded, when the passing groove is at `phase` and the balls
     /// have these [`LoadedZone::shares`].
     #[inline(always)]
     pub(super) fn at(
@@ -74,14 +74,14 @@ impl LoadedZone {
         position: u32,
         phase: u32,
         shares: &'static [LoadShare],
-    ) -> Option<Place> {
+    ) -> Option<LoadedBall> {
         let scaled = |ratio: u32| ((u64::from(position) * u64::from(ratio)) >> 32) as u32;
-        let share = shares.get((scaled(self.entries) >> FRACTION_BITS) as usize)?;
+        let load = shares.get((scaled(self.entries) >> FRACTION_BITS) as usize)?;
         let passing = scaled(self.passing_ratio).wrapping_add(phase >> (32 - PHASE_BITS));
-        Some(Place {
+        Some(LoadedBall {
             passing: self.passing.units(passing) as f32,
             recirculating: self.recirculating.units(scaled(self.recirculating_ratio)) as f32,
-            share,
+            load,
         })
     }
 

@@ -82,7 +82,7 @@ impl ClosedForm {
             axial_load: load,
         } = inputs;
         let reversal = reversal.at(speed);
-        let direction = reversal.share;
+        let direction = reversal.factor;
         let sum = self.flanks.under(load);
         // Sliding friction in the direction of motion, for the efficiency; standstill counts as forward.
         let opposing_load = if speed < 0.0 { -load } else { load };
@@ -120,7 +120,7 @@ impl ClosedForm {
         }
     }
 
-    /// Sliding friction times its share at the reversal.
+    /// Sliding friction times the factor of the reversal.
     #[inline(always)]
     pub(super) fn outputs_at(
         &self,
@@ -128,7 +128,7 @@ impl ClosedForm {
         found: &CagedFriction,
         reversal: ReversalState,
     ) -> Outputs {
-        let friction_torque = reversal.share * found.of(reversal.share);
+        let friction_torque = reversal.factor * found.of(reversal.factor);
         let opposing_load = reversal.direction * load;
         let sliding = found.of(reversal.direction);
         self.put_out(

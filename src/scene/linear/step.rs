@@ -1,4 +1,4 @@
-//! What a tick computes: both diagonals, every ball at its place, then how they press.
+//! What a tick computes: both diagonals, every ball at its position, then how they press.
 
 use super::{LinearConstants, LinearInputs};
 use crate::ball::GrooveLoss;
@@ -56,11 +56,11 @@ impl<const N: usize> LinearConstants<N> {
         let mut shares = 0.0;
         let mut balls = state.train.intake(self.circuit.travel(speed));
         while let Some(next) = balls.next_ball() {
-            let (free, impedance) = match self.circuit.place(next.position(), phase, table) {
-                Some(place) => {
-                    shares += place.share.four_thirds();
-                    let free = recirculating * place.recirculating + passing * place.passing;
-                    (free, tick.impedance * place.share.two_thirds())
+            let (free, impedance) = match self.circuit.loaded_ball(next.position(), phase, table) {
+                Some(ball) => {
+                    shares += ball.load.four_thirds();
+                    let free = recirculating * ball.recirculating + passing * ball.passing;
+                    (free, tick.impedance * ball.load.two_thirds())
                 }
                 None => (0.0, UNLOADED),
             };

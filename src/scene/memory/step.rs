@@ -83,16 +83,16 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         } else {
             limits.forward
         };
-        let share = if limit > 0.0 { friction / limit } else { 0.0 };
+        let factor = if limit > 0.0 { friction / limit } else { 0.0 };
         let reversal = ReversalState {
-            share: share * remembered.level.of(friction),
+            factor: factor * remembered.level.of(friction),
             direction: if remembered.play.direction() == 0.0 {
                 direction(friction)
             } else {
                 remembered.play.direction()
             },
             standing: if limit > 0.0 {
-                share.abs() < SLIDES
+                factor.abs() < SLIDES
             } else {
                 turn == 0.0
             },

@@ -24,7 +24,7 @@ impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> 
         inputs: Inputs,
         friction: DirectionalCoefficient,
     ) -> UncagedFriction {
-        state.friction = constants.place(friction.of(inputs.nut_speed).0);
+        state.friction = constants.interval(friction.of(inputs.nut_speed).0);
         let mut sliding = constants.friction_of_balls(state, inputs);
         sliding.row.ratios = friction.over_own(inputs.nut_speed);
         sliding

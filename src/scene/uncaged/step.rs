@@ -1,13 +1,48 @@
-//! What a tick computes: every ball at its place, then how they press.
+//! What a tick computes: every ball at its position, then how they press.
 
-use super::{UncagedConstants, UncagedFriction, UncagedState};
+use super::{UncagedConstants, UncagedState};
 use crate::ball::pressed::{BallNumbers, FreeMotion};
 use crate::scene::circuit::UNLOADED;
-use crate::scene::contract::Inputs;
+use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
-use crate::scene::reversal::direction;
+use crate::scene::outputs::UncagedOutputs;
+use crate::scene::reversal::{ReversalState, direction};
 use crate::scene::row::TrainFriction;
 use crate::train::{Grip, Intake, LARGEST_GRIP, limited_grip};
+
+/// Sliding friction of a ball screw without cage, in the direction in which its balls go.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct UncagedFriction {
+    /// Its parts. `load`: the axial load, preload counted, N.
+    pub(in crate::scene) row: TrainFriction,
+    pub(in crate::scene) faults: Faults,
+}
+
+impl UncagedFriction {
+    /// The outputs under a load that is held by this torque, N m.
+    #[inline(always)]
+    pub(in crate::scene) fn outputs_at(
+        &self,
+        load_torque: f32,
+        reversal: ReversalState,
+    ) -> UncagedOutputs {
+        let (groove_torque, ball_torque) = self.row.outputs_at(reversal);
+        UncagedOutputs {
+            friction_torque: groove_torque + ball_torque,
+            groove_torque,
+            ball_torque,
+            load_torque,
+            contacts: self.row.contacts,
+            largest_contact_force: self.row.largest_contact_force,
+            regime: Regime::under(
+                reversal.standing,
+                reversal.direction * load_torque,
+                self.row.of(reversal.direction),
+            ),
+            faults: self.faults,
+        }
+    }
+}
 
 /// What all balls have in common in a tick.
 struct Common {
@@ -136,12 +171,12 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let idle = direction * numbers.free[0];
         let mut torque = 0.0;
         while let Some(ball) = balls.next_ball() {
-            let Some(place) = self.circuit.place(ball.position(), phase, shares) else {
+            let Some(loaded) = self.circuit.loaded_ball(ball.position(), phase, shares) else {
                 ball.put_smooth(idle, UNLOADED);
                 continue;
             };
-            let deviations = [units[0] * place.passing, units[1] * place.recirculating];
-            let motion = motion(place.share.share(), deviations);
+            let deviations = [units[0] * loaded.passing, units[1] * loaded.recirculating];
+            let motion = motion(loaded.load.share(), deviations);
             torque += motion.torque;
             let grip = Grip::within(motion.grip);
             ball.put_rubbed(direction * motion.speed, motion.impedance, grip);

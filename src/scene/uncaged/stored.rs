@@ -25,7 +25,7 @@ impl<const N: usize, const NODES: usize> StoredScene for UncagedBallScrew<N, NOD
         state.circuit.train.in_order()?;
         let friction = state.friction.friction();
         if constants.law.holds(friction) {
-            state.friction = constants.place(friction);
+            state.friction = constants.interval(friction);
             Ok(())
         } else {
             Err(Refusal::OutOfRange { field: "friction" })

@@ -1,6 +1,6 @@
 //! A row of touching balls: by the exact solver, and by a folded law as a control interrupt evaluates it.
 
-use epas_friction::ball::folded::FrictionPlace;
+use epas_friction::ball::folded::FrictionInterval;
 use epas_friction::ball::pressed::BallLaw;
 use epas_friction::train::Press;
 use epas_reference::ReferenceError;
@@ -78,9 +78,9 @@ impl Row {
 
     /// By a law.
     pub fn folded<const N: usize>(&self, law: &BallLaw<N>, speeds: &Speeds) -> RowAnswer {
-        let place = law.place(self.friction);
+        let interval = law.interval(self.friction);
         let (load, branch) = self.load(law);
-        let numbers = law.numbers(load, branch, place);
+        let numbers = law.numbers(load, branch, interval);
         let motions = self.deviations.map(|at| numbers.at(at));
         let mut room = [0.0; BALLS];
         room[BALLS - 1] = f32::INFINITY;
@@ -108,11 +108,11 @@ impl Row {
 
     /// Whether the law says that it does not hold these forces between balls.
     pub fn is_flagged<const N: usize>(&self, law: &BallLaw<N>, forces: &[f64]) -> bool {
-        let place: FrictionPlace = law.place(self.friction);
+        let interval: FrictionInterval = law.interval(self.friction);
         let (load, branch) = self.load(law);
         let mean = forces.iter().sum::<f64>() / BALLS as f64;
         let rubbing = self.ball_friction * mean as f32;
-        !(law.holds_forces(load, branch, place) && law.holds_rubbing(load, place, rubbing))
+        !(law.holds_forces(load, branch, interval) && law.holds_rubbing(load, interval, rubbing))
     }
 
     fn load<const N: usize>(&self, law: &BallLaw<N>) -> (f32, usize) {

@@ -610,13 +610,13 @@ impl<'a> Sliding for ExactScrew<'a> {
         full: &SlidingFriction,
         reversal: ReversalState,
     ) -> Outputs {
-        let full = if reversal.share < 0.0 {
+        let full = if reversal.factor < 0.0 {
             full.backward
         } else {
             full.forward
         };
         Outputs {
-            friction_torque: reversal.share * full,
+            friction_torque: reversal.factor * full,
             load_torque: inputs.axial_load * law.reduced_lead as f32,
             efficiency: 0.0,
             regime: if reversal.standing {

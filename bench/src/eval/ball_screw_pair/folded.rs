@@ -89,7 +89,7 @@ fn law(request: &Request, design: &BallScrew) -> Option<&'static FoldedBall> {
 /// None where a ball runs further from nominal rolling than a step takes.
 fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
     let law = &ball.law;
-    let place = law.place(ball.friction);
+    let interval = law.interval(ball.friction);
     // In the frame in which the nut turns forward.
     let way = if request.nut_speed < 0.0 { -1.0 } else { 1.0 };
     let count = request.balls.len();
@@ -101,7 +101,7 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
         / count as f64;
     let branch = usize::from(way * mean < 0.0);
     let load = law.load_of(mean as f32);
-    let numbers = law.numbers(load, branch, place);
+    let numbers = law.numbers(load, branch, interval);
 
     let [screw, nut] = law.deviations.map(|largest| way / f64::from(largest));
     let motions: Vec<_> = request
@@ -110,7 +110,7 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
         .map(|ball| {
             let deviations = [screw * ball.screw_deviation, nut * ball.nut_deviation];
             let load = law.load_of(ball.axial_load as f32);
-            law.at(load, branch, place, deviations.map(|part| part as f32))
+            law.at(load, branch, interval, deviations.map(|part| part as f32))
         })
         .collect();
     let (mut free, mut impedance) = ([0.0; LARGEST_TRAIN], [1.0; LARGEST_TRAIN]);
@@ -148,6 +148,6 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
             groove_torque_free: Some(free_torque),
             loads: None,
         },
-        flagged: Some(!(law.holds_forces(load, branch, place) && law.holds_load(most))),
+        flagged: Some(!(law.holds_forces(load, branch, interval) && law.holds_load(most))),
     })
 }

@@ -17,7 +17,7 @@ pub enum Count {
     HalfTheBalls,
 }
 
-/// What a loop does with each way back to its header.
+/// What a loop does on each back edge to its header.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bound {
     /// It runs so often at most each time when it is entered.
@@ -46,9 +46,9 @@ pub enum Total {
     Settled,
     /// Clusters of two balls or more.
     Clusters,
-    /// Ways around within the rows that settling walks through: each settles a ball.
+    /// Back edges within the rows that settling walks through: each settles a ball.
     SettlingWays,
-    /// Ways around within the rows that balancing walks through: each relieves a ball or passes one.
+    /// Back edges within the rows that balancing walks through: each relieves a ball or passes one.
     BalancingWays,
 }
 
@@ -71,7 +71,7 @@ impl Total {
 pub struct Row {
     /// The function, without lengths of arrays.
     pub function: &'static str,
-    /// A function whose code stands where the loop goes back; none where the row is for every way back.
+    /// A function whose code stands where the loop goes back; none where the row is for every back edge.
     pub through: Option<&'static str>,
     /// Its bound.
     pub bound: Bound,
@@ -118,7 +118,7 @@ pub const LOOPS: &[Row] = &[
         "epas_friction::train::intake::Intake::end",
         Bound::Takes(&[Total::TakenIn]),
     ),
-    // "Why joining is exact", `epas_friction::train`: the walk passes each ball once, and every way around `grow` or `close`
+    // "Why joining is exact", `epas_friction::train`: the walk passes each ball once, and every back edge of `grow` or `close`
     // is a join; one that grows backwards passes a ball as well.
     row(
         "epas_friction::train::pool::pool",

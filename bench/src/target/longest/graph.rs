@@ -24,16 +24,16 @@ impl Block {
     }
 }
 
-/// A way from one block to another or out of the function.
+/// An edge from one block to another or out of the function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
     /// The block that it leaves.
     pub from: usize,
     /// The block that it leads to; none where the function ends.
     pub to: Option<usize>,
-    /// A function that runs to its return on the way.
+    /// A function that runs to its return on this edge.
     pub call: Option<u32>,
-    /// Cycles of the block that it leaves and of the way, the function that is called not counted.
+    /// Cycles of the block that it leaves and of the edge, the function that is called not counted.
     pub cycles: u64,
 }
 
@@ -115,7 +115,7 @@ fn leaders(steps: &Steps, start: u32) -> Vec<u32> {
     std::iter::once(start).chain(leaders).collect()
 }
 
-/// Cycles of an instruction that is followed in this way.
+/// Cycles of an instruction, by what is executed after it.
 fn cycles(steps: &Steps, address: u32, following: Following) -> u64 {
     let Some(step) = steps.get(&address) else {
         return 0;

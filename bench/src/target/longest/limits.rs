@@ -82,7 +82,7 @@ impl Known<'_, '_> {
         &self.graph.blocks[block].addresses
     }
 
-    /// The row of the table for a way back.
+    /// The row of the table for a back edge.
     fn row(&self, owner: &str, back: usize) -> Option<&'static Row> {
         let from = self.graph.edges[back].from;
         LOOPS.iter().find(|row| {
@@ -103,7 +103,7 @@ impl Known<'_, '_> {
             .any(|frame| plain(&frame.function) == function)
     }
 
-    /// The limit of a loop by itself: what all ways back take is no more than what all entries bring.
+    /// The limit of a loop by itself: what all back edges take is no more than what all entries bring.
     fn limit(&self, natural: &Loop, bound: Bound, context: Context) -> Option<Limit> {
         let balls = || context.balls.map(f64::from);
         let (per_back, per_entry) = match bound {

@@ -8,10 +8,10 @@ use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::graph::Graph;
 
-/// A natural loop: all that lies on a way from its header back to it.
+/// A natural loop: all that lies on a path from its header back to it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Loop {
-    /// The block through which every way into the loop leads.
+    /// The block through which every path into the loop leads.
     pub header: usize,
     /// Blocks of the loop, the header among them.
     pub body: BTreeSet<usize>,
@@ -19,7 +19,7 @@ pub struct Loop {
     pub back: Vec<usize>,
     /// Edges that lead to the header from outside.
     pub entries: Vec<usize>,
-    /// Blocks of the loop through which every way around it leads.
+    /// Blocks of the loop through which every path around it leads.
     pub always: BTreeSet<usize>,
 }
 
@@ -72,7 +72,7 @@ pub fn loops(graph: &Graph) -> Result<Vec<Loop>, usize> {
     Ok(loops)
 }
 
-/// The block among these through which every way to the others leads.
+/// The block among these through which every path to the others leads.
 pub fn first(graph: &Graph, blocks: &[usize]) -> Option<usize> {
     let dominators = simple_fast(&flow(graph, |_| true), NodeIndex::new(0));
     let mut blocks = blocks.iter().copied();

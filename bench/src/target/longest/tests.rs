@@ -122,7 +122,7 @@ fn a_loop_with_two_entries_has_no_header() {
 
 #[test]
 fn what_traps_is_no_end() {
-    // The way over block 1 is longer and leads nowhere.
+    // The path over block 1 is longer and leads nowhere.
     let trap = graph(3, &[(0, 1, 50), (0, 2, 1), (2, 3, 4)]);
     assert_eq!(most(&trap, &[]), Ok(5));
     assert!(most(&graph(2, &[(0, 1, 1)]), &[]).is_err());
@@ -130,12 +130,12 @@ fn what_traps_is_no_end() {
 
 /// All paths through graphs without loops.
 fn tried(graph: &Graph, block: usize) -> Option<u64> {
-    let ways = graph.out_of(block).filter_map(|edge| {
+    let paths = graph.out_of(block).filter_map(|edge| {
         let edge = graph.edges[edge];
         let rest = edge.to.map_or(Some(0), |to| tried(graph, to))?;
         Some(edge.cycles + rest)
     });
-    ways.max()
+    paths.max()
 }
 
 #[test]

@@ -139,10 +139,10 @@ fn full_friction_is_what_passes_in_its_direction() {
             let inputs = load.with(direction * speed, 1.0);
             let full = S::sliding_friction(&constants, &mut state, inputs, coefficients);
             let friction = S::by_direction(&full);
-            let [[groove, ball], [groove_back, ball_back]] = [1.0, -1.0].map(|share| {
+            let [[groove, ball], [groove_back, ball_back]] = [1.0, -1.0].map(|factor| {
                 let standing = false;
                 let reversal = ReversalState {
-                    share,
+                    factor,
                     direction,
                     standing,
                 };

@@ -54,7 +54,7 @@ fn numbers_are_those_of_the_knots() {
     for node in 0..BALL_NODES {
         let law = &BALL_RANGE.law;
         let friction = law.nodes[node].friction;
-        let place = law.place(friction);
+        let interval = law.interval(friction);
         for branch in 0..2 {
             let knots = &law.nodes[node].branches[branch];
             let sizes: Vec<f32> = (0..18)
@@ -63,7 +63,8 @@ fn numbers_are_those_of_the_knots() {
                     numbers.fold(0.0, f32::max)
                 })
                 .collect();
-            let found = |load: f32| over_load(&law.numbers(load, branch, place), friction * load);
+            let found =
+                |load: f32| over_load(&law.numbers(load, branch, interval), friction * load);
             for pair in knots.windows(2) {
                 let [below, above] = [&pair[0], &pair[1]];
                 assert!(alike(&found(below.load), &all(&below.numbers), &sizes));
@@ -96,12 +97,12 @@ fn one_ball_is_as_all_under_its_load() {
         let heaviest = law.nodes[0].branches[0][KNOTS - 1].load;
         for _ in 0..20_000 {
             let load = random.size(0.1, 2.0 * heaviest);
-            let place = law.place(random.within(least, largest));
+            let interval = law.interval(random.within(least, largest));
             let branch = random.below(2);
             let deviations = [random.within(-1.0, 1.0), random.within(-1.0, 1.0)];
-            let numbers = law.numbers(load, branch, place);
+            let numbers = law.numbers(load, branch, interval);
             let (one, all) = (
-                law.at(load, branch, place, deviations),
+                law.at(load, branch, interval, deviations),
                 numbers.at(deviations),
             );
             let sum = |numbers: &[f32]| numbers.iter().map(|number| number.abs()).sum::<f32>();

@@ -59,7 +59,7 @@ fn tick(
     let gaps: Vec<f32> = train.gaps().collect();
     let load = law.load_of(inputs.axial_load / SCREW_BALLS as f32);
     let branch = usize::from(way * inputs.axial_load < 0.0);
-    let numbers = law.numbers(load, branch, law.place(configuration.folded.friction));
+    let numbers = law.numbers(load, branch, law.interval(configuration.folded.friction));
     let turns = f64::from(configuration.turns);
     let free = train
         .positions()
@@ -142,7 +142,7 @@ fn every_ball_is_in_balance() {
 #[test]
 fn balls_that_rub_hard_are_flagged() {
     let law = &BALL.law;
-    let friction = law.place(BALL.friction);
+    let friction = law.interval(BALL.friction);
     let [mut hard, mut lightly] = [0, 0];
     for ball_friction in [0.0, 0.1, 0.3, 0.6] {
         ticks(ball_friction, |tick, _| {
@@ -220,7 +220,7 @@ fn a_mirrored_screw_has_the_mirrored_torque() {
     // two balls and their images are up to `2 n` units closer or further apart, and where they meet they press by what takes these units
     // from the speed of a tick.
     let law = &configuration.folded.law;
-    let place = law.place(configuration.folded.friction);
+    let interval = law.interval(configuration.folded.friction);
     let track = 2.0 * TAU * f64::from(configuration.folded.path_radius);
     let travel = 10.0 * f64::from(TICK) * f64::from(configuration.folded.speed);
     let units = 2.0 * track / 2_f64.powi(32) / travel;
@@ -229,7 +229,7 @@ fn a_mirrored_screw_has_the_mirrored_torque() {
         let numbers = law.numbers(
             law.load_of(load / BALLS as f32),
             usize::from(load < 0.0),
-            place,
+            interval,
         );
         let impedance: f32 = numbers.impedance.map(f32::abs).iter().sum();
         let [mut there, mut back] = [(); 2]
