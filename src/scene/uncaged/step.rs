@@ -107,12 +107,11 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let ball_torque = numbers.rubbing * rubbing_force;
         let most = self.law.load_of(self.heaviest * common.mean);
         let friction = state.friction;
+        let load = common.load * self.balls;
         let held = self.law.holds_forces(common.load, common.branch, friction)
             && self.law.holds_load(most)
             && self.law.holds(friction.friction())
-            && self
-                .law
-                .holds_rubbing(common.load * self.balls, friction, rubbing_force)
+            && self.law.holds_rubbing(load, friction, rubbing_force)
             && common.holds_grip;
         UncagedFriction {
             row: TrainFriction {
@@ -121,7 +120,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 ),
                 ball: ball_torque,
                 ratios: [1.0; 2],
-                load: common.load * self.balls,
+                load,
                 contacts: pressing.contacts,
                 largest_contact_force: pressing.largest,
             },

@@ -1,5 +1,6 @@
 //! The exact ball of a design, free and held, over the box of deviations and along the loads: what a law is fitted to.
 
+use epas_friction::ball::pressed::POWERS;
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::caged_ball::CagedBall;
 use epas_reference::friction::held_ball::{
@@ -38,7 +39,7 @@ pub(super) fn exact_ball(gear: &CagedDesign, friction: f32) -> CagedBall {
 }
 
 /// Place of a point of the grid in the box, -1 to 1 each.
-pub(super) fn place(point: usize) -> [f64; 2] {
+fn deviations(point: usize) -> [f64; 2] {
     const LOBATTO: [f64; SIDE] = [
         -1.0,
         -0.654_653_670_707_977_1,
@@ -214,7 +215,7 @@ impl Balls<'_> {
         };
         (0..POINTS)
             .map(|point| {
-                let [screw, nut] = place(point);
+                let [screw, nut] = deviations(point);
                 let [most_screw, most_nut] = self.deviations;
                 Ok(ball.in_grooves(screw * most_screw, nut * most_nut)?)
             })
@@ -395,6 +396,12 @@ fn step_to_balance(pushed: &[Along], load: usize, speeds: &Speeds) -> f64 {
     }
 }
 
+/// Powers `1, s, n, s^2, s n, n^2` of the deviations at a point of the grid.
+pub(super) fn powers(point: usize) -> [f64; POWERS] {
+    let [s, n] = deviations(point);
+    [1.0, s, n, s * s, s * n, n * n]
+}
+
 /// The straight line over the box of deviations that is nearest to a polynomial of the second degree through values at points of the grid.
 ///
 /// Without values it is zero.
@@ -402,9 +409,8 @@ pub(super) fn line(values: &[(usize, f64)]) -> [f64; 3] {
     if values.is_empty() {
         return [0.0; 3];
     }
-    let powers = DMatrix::from_fn(values.len(), 6, |row, power| {
-        let [s, n] = place(values[row].0);
-        [1.0, s, n, s * s, s * n, n * n][power]
+    let powers = DMatrix::from_fn(values.len(), POWERS, |row, power| {
+        powers(values[row].0)[power]
     });
     let right = DVector::from_iterator(values.len(), values.iter().map(|(_, value)| *value));
     let Ok(found) = powers.svd(true, true).solve(&right, 1e-9) else {

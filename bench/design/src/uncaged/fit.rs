@@ -8,7 +8,7 @@ use epas_friction::ball::pressed::{KNOTS, LARGEST_GRIP, LARGEST_WORK, POWERS};
 use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
 
 use super::Column;
-use super::ball::{BallSample, POINTS, line, place};
+use super::ball::{BallSample, POINTS, line, powers};
 use super::knots::{Between, Knots};
 
 /// Errors that weigh as much as each other where knots are placed: of the torque, of the force over its root mean square, and of the free
@@ -64,11 +64,6 @@ pub(super) struct Errors {
     pub force: f64,
 }
 
-/// Powers `1, s, n, s^2, s n, n^2` of a place.
-fn powers([s, n]: [f64; 2]) -> SVector<f64, POWERS> {
-    SVector::from([1.0, s, n, s * s, s * n, n * n])
-}
-
 /// Powers of all points, and the polynomials of least squares through values there.
 struct Grid {
     powers: SMatrix<f64, POINTS, POWERS>,
@@ -80,7 +75,7 @@ struct Grid {
 impl Grid {
     fn new() -> Self {
         let powers: SMatrix<f64, POINTS, POWERS> =
-            SMatrix::from_fn(|point, power| powers(place(point))[power]);
+            SMatrix::from_fn(|point, power| powers(point)[power]);
         let factors = powers.qr();
         Self {
             powers,
