@@ -85,18 +85,6 @@ impl StaticLoad {
         (at.energy, gradient)
     }
 
-    /// Newton's step from a state, as it is before any test; None where nothing resists.
-    #[must_use]
-    pub fn newton_step(&self, state: &State) -> Option<State> {
-        let system = System::new(self);
-        let at = system.evaluate(state);
-        let step = system.step(&at, 0.0, self.reference_stiffness(&at))?;
-        Some(State {
-            nodes: step.nodes,
-            balls: step.balls,
-        })
-    }
-
     /// Finds the loads from any start. Held displacements take their values whatever the start says.
     ///
     /// # Errors

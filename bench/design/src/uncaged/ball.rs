@@ -38,7 +38,7 @@ pub(super) fn exact_ball(gear: &CagedDesign, friction: f32) -> CagedBall {
     }
 }
 
-/// Place of a point of the grid in the box, -1 to 1 each.
+/// Deviations of both grooves at a point of the grid, over the largest: -1 to 1 each.
 fn deviations(point: usize) -> [f64; 2] {
     const LOBATTO: [f64; SIDE] = [
         -1.0,
