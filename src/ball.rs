@@ -8,7 +8,7 @@
 //! | [`ScrewRow`], [`ScrewTick`] | balls of a ball screw under one load in closed form, for comparison | direct |
 //! | [`LoadShare`], [`LoadShares`] | a ball's share of the load; along the track, for both signs of it | `UncagedBallScrew`, `LinearBearingTrain` |
 //! | [`Clearance`] | how balls fit between the grooves | set-up of `ClosedFormScrew` |
-//! | `preload` | two springs pressed against each other, and what a load leaves of it | `ClosedFormScrew`, [`ScrewRow`]; [`PreloadedElements`](crate::law::memory::PreloadedElements) |
+//! | `preload` | two springs pressed against each other, and the preload that remains under a load | `ClosedFormScrew`, [`ScrewRow`]; [`PreloadedElements`](crate::law::memory::PreloadedElements) |
 
 mod clearance;
 pub mod folded;

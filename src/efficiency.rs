@@ -3,7 +3,7 @@
 //! [`EfficiencyGeometry`] runs at the set-up of the scene by closed forms. The contact angle of least loss, the published design
 //! procedure and the correction for the balls' inertia are in `epas-design`.
 //!
-//! Two answers stand side by side, both after Lin, Velinsky, Ravani 1994:
+//! There are two answers, both after Lin, Velinsky, Ravani 1994:
 //!
 //! - **rolling**, eq. (3): the ball rolls; only the contact at the screw slips, across the groove.
 //!   Integrating the ball's equations of motion from a rolling start with Coulomb friction leads to

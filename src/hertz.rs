@@ -82,7 +82,7 @@ impl HertzContact {
         let axis_ratio = axis_ratio(flat / steep);
         let Complete { first, second, .. } = complete(axis_ratio);
 
-        // The load stands outside: a = semi_major F^(1/3), and likewise the others.
+        // The load is factored out: a = semi_major F^(1/3), and likewise the others.
         let semi_major = constant::cbrt(
             3.0 * second
                 / (core::f32::consts::PI * axis_ratio * axis_ratio)

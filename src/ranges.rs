@@ -2,8 +2,8 @@
 //!
 //! Called at set-up, by every constructor that takes one of these quantities.
 //!
-//! A range that only one module has stands in the documentation of its field. Ranges of a validated design (lengths,
-//! conformity, nominal contact angle) stand in [`geometry`](crate::geometry).
+//! A range that only one module has is in the documentation of its field. Ranges of a validated design (lengths,
+//! conformity, nominal contact angle) are in [`geometry`](crate::geometry).
 
 use crate::error::Range;
 

@@ -13,7 +13,7 @@
 //! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train); [`contact`](crate::contact) and [`hertz`](crate::hertz) at set-up |
 //! | [`WithMemory`] | any of them but `LoadProportionalScrew`, with friction that remembers | [`law`](crate::law) beside it |
 //!
-//! Below them stand the [`Scene`] contract with inputs, limits and regimes, the faults, the outputs (torques of a
+//! Below them are the [`Scene`] contract with inputs, limits and regimes, the faults, the outputs (torques of a
 //! screw, forces of a bearing), and the circuit that both trains share: loaded zone, phase of the passing groove,
 //! deviation maps, load shares.
 

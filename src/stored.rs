@@ -6,7 +6,7 @@
 //!
 //! # Block
 //!
-//! Numbers are little-endian, an `f32` stands as its bits.
+//! Numbers are little-endian, an `f32` is stored as its bits.
 //!
 //! | bytes | what |
 //! |---|---|

@@ -6,7 +6,7 @@
 //! | [`Train`] | the balls' positions on a closed track, and a tick that moves them |
 //!
 //! A ball is known here by two numbers alone, the speed at which it would run on its own and the force that
-//! changes this speed by one, its impedance. What the numbers come from stands elsewhere. [`Press`] says what is
+//! changes this speed by one, its impedance. Where the numbers come from is not its concern. [`Press`] says what is
 //! solved; this page says how, file by file, for whoever reviews it.
 //!
 //! # Words
@@ -30,7 +30,7 @@
 //! | move | `track`, in the walk of settling | | balls that press stand in contact exactly, no two overlap by more than rounding |
 //! | balance | `balance` | `N` balls, where rounding needs it | the net pushes on each cluster add up to zero, to 1e-6 of the largest force |
 //!
-//! What a ball holds in each phase stands in `ball`. Loops are bounded by `N`; nothing iterates to a tolerance,
+//! `ball` says what a ball holds in each phase. Loops are bounded by `N`; nothing iterates to a tolerance,
 //! recurses, allocates or panics. The longest path is in [`Press::solve`] and grows in proportion to `N`.
 //!
 //! # Why joining is exact
@@ -64,7 +64,7 @@
 //! # Where balls rub on each other
 //!
 //! Friction of its neighbours makes a ball need more or less net push, in proportion to their forces (`grip`). Each force then is that of balls
-//! that do not rub, times a factor from ball to ball; impedances weighed by the same factors leave all that stands above as it is.
+//! that do not rub, times a factor from ball to ball; impedances weighed by the same factors leave all of the above as it is.
 //!
 //! # Rounding
 //!

@@ -43,7 +43,7 @@ pub struct AdaptationConfiguration {
     pub tick: f32,
     /// Time in which data lose their weight, s, 200 to 1e5 ticks; only ticks that count run. Short follows fast, long is quiet.
     pub forgetting_time: f32,
-    /// Time constant of the filter, s, 0 to 1: about that of the speed's own filter. 0 is none.
+    /// Time constant of the filter, s, 0 to 1: about that of the speed's own filter. 0 for no filter.
     pub filter_time: f32,
     /// Noise of the observed torque after the filter, one standard deviation, N m, 1e-6 to 1e3. At least one 100,000th of what
     /// the deviations below make of the limits.

@@ -20,7 +20,7 @@ pub struct AdaptationState {
     /// Filtered torque and regressors.
     pub(super) observed: f32,
     pub(super) regressors: [f32; ESTIMATES],
-    /// What the last tick has seen: the error over the noise, and how the reading stands to the covariance.
+    /// What the last tick has seen: the error over the noise, and the projection of the covariance on the reading.
     pub(super) error: f32,
     pub(super) seen: Projection<ESTIMATES>,
     /// By how much the estimates move at the next prediction, in their deviations.
@@ -107,7 +107,7 @@ impl AdaptationState {
         }
     }
 
-    /// How far the filtered torque is from what the estimates say, and how that stands to the covariance.
+    /// How far the filtered torque is from what the estimates say, and the projection of the covariance on the reading.
     #[inline(always)]
     fn predict(&mut self, constants: &AdaptationConstants) {
         let mut error = self.observed;

@@ -3,7 +3,7 @@
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
 
-/// A load above zero and up to 1e7 N as it is; anything else, NaN included, is none.
+/// A load above zero and up to 1e7 N as it is; 0 for anything else, NaN included.
 #[inline]
 pub(crate) const fn loaded(load: f32) -> f32 {
     // Positive numbers are in the order of their bits, everything else is larger: one comparison.

@@ -1,4 +1,4 @@
-//! Two Hertzian springs pressed against each other by a preload, and what a load leaves of it.
+//! Two Hertzian springs pressed against each other by a preload, and the preload that remains under a load.
 //!
 //! Forces `F_U` and `F_D` that push against each other with the deflections `F_U^(2/3)` and `F_D^(2/3)`, both `F_0` without a
 //! load, under a load `F = F_U - F_D`:
@@ -24,7 +24,7 @@ pub const QUARTIC: f32 = 0.030330086;
 #[doc(hidden)]
 pub const CLOSING: [f32; 3] = [0.055_61, -0.044_86, 0.065_821];
 
-/// Preload of a contact below which there is none, N: below the least that [`Clearance::of_preload`](super::Clearance::of_preload)
+/// Preload of a contact below which it counts as 0, N: below the least that [`Clearance::of_preload`](super::Clearance::of_preload)
 /// takes by more than rounding.
 const NO_PRELOAD: f32 = 0.99e-3;
 
@@ -70,7 +70,7 @@ pub(crate) struct PreloadSum {
 }
 
 impl PreloadSum {
-    /// Folds a preload, N; 0 is none.
+    /// Constants of a preload, N; 0 for no preload.
     pub(crate) const fn new(force: f32) -> Self {
         let loaded = force > 0.0;
         Self {
@@ -106,7 +106,7 @@ impl PreloadSum {
 }
 
 impl Preload {
-    /// Folds a preload, N; 0 is none.
+    /// Constants of a preload, N; 0 for no preload.
     pub(crate) const fn new(force: f32) -> Self {
         Self {
             force,

@@ -16,7 +16,7 @@ use crate::ranges;
 /// behind. Drag: a lubricant is pumped into the contact's inlet against its own viscosity.
 ///
 /// Both are small beside the friction of a ball screw's contacts, which slip and spin: hysteresis is about one per cent
-/// of it. They are what is left of it where a contact neither slips nor spins.
+/// of it. Where a contact neither slips nor spins, only these two are left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RollingResistance {
@@ -25,7 +25,7 @@ pub struct RollingResistance {
     /// Steel: at most of the order of one per cent below yield (Johnson 1985, section 9.2). A rolling coefficient of
     /// the order of 1e-5, as measured of a ball between plates, means 0.002 to 0.01, by its load. Rubber: 0.1 and more.
     pub hysteresis_loss: f32,
-    /// Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 where there is none.
+    /// Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 without drag.
     ///
     /// At one viscosity and speed: by [`RollingDrag`](crate::law::coefficient::RollingDrag), which follows both and takes its place
     /// in a scene with memory, a ball of 5.6 mm in a screw of 33 mm, 0.1 Pa s and 1 turn a second have 0.014 N.

@@ -107,7 +107,7 @@ const fn dissertation(
 
 /// The 31 sizes of Tables A1 and A2 (Bertolino et al. 2023), in their order.
 ///
-/// The row printed as 20 x 65 x 3.5 stands here as 20 x 60 x 3.5: its printed lead angle (43.68
+/// The row printed as 20 x 65 x 3.5 is here 20 x 60 x 3.5: its printed lead angle (43.68
 /// degrees) and its printed errors are those of a lead of 60 mm.
 pub const CATALOGUE: [CatalogueSize; 31] = [
     size("125x10x7.144", 125e-3, 10e-3, 7.144e-3),

@@ -1,6 +1,6 @@
 //! Limits that every design keeps.
 //!
-//! Lengths stand in metres. Their ranges hold every ball screw and bearing of a steering gear or a machine, and refuse most
+//! Lengths are in metres. Their ranges hold every ball screw and bearing of a steering gear or a machine, and refuse most
 //! lengths that were given in millimetres.
 
 use crate::error::Range;
@@ -15,7 +15,7 @@ pub const LEAD: Range = Range::new(0.0, 0.2);
 pub const BALL_RADIUS: Range = Range::new(1e-4, 0.05);
 
 /// Smallest accepted conformity `groove_radius / (2 ball_radius)`. At 0.5 ball and groove coincide and
-/// the contact is no ellipse; catalogues stand between 0.505 and 0.58.
+/// the contact is no ellipse; catalogues have 0.505 to 0.58.
 pub const SMALLEST_CONFORMITY: f32 = 0.5005;
 
 /// Largest accepted conformity; at 1 the groove radius is the ball's diameter.

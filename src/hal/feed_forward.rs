@@ -10,7 +10,7 @@ use crate::scene::{Faults, Outputs, UncagedOutputs};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FaultReaction {
-    /// Any fault ([`Faults::faulty`]): neutral. [`Faults::BEYOND_MODEL`] is none: its torque is the best
+    /// Any fault ([`Faults::faulty`]): neutral. [`Faults::BEYOND_MODEL`] is no fault: its torque is the best
     /// estimate, and stays.
     #[default]
     NeutralOnAnyFault,
@@ -24,7 +24,7 @@ pub enum FaultReaction {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FeedForwardConfiguration {
-    /// Torque about the nut's axis that full duty stands for, N m, 1e-6 to 1e6. With a belt: the
+    /// Torque about the nut's axis at full duty, N m, 1e-6 to 1e6. With a belt: the
     /// motor's torque times the gear ratio.
     pub full_torque: f32,
     /// Largest torque that is put out, N m, 0 up to `full_torque`: the authority of the compensation.

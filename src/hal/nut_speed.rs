@@ -90,7 +90,7 @@ impl NutSpeed {
         self.wait(turning);
     }
 
-    /// A tick without a change of the angle; at standstill that is none that counts.
+    /// A tick without a change of the angle; it does not count at standstill.
     #[inline]
     const fn wait(&mut self, turning: bool) {
         self.unchanged = if turning {

@@ -13,7 +13,7 @@
 //! 3. **Less loss than there is.** What friction takes from a swing, the compensation gives back. In units of friction and breakaway
 //!    angle a swing to either side by the amplitude `A >= 1` loses `4 A - 3.2`; the compensation behind a play of the half width `p` gives
 //!    `g q (4 A - 8 p - 3.2/b)`, and most in proportion to the loss at `A = 1`. So a model that breaks away 5 % too early
-//!    feeds a swing of one breakaway angle, though its stiffness is in order. Six elements or more stand for a smooth curve within
+//!    feeds a swing of one breakaway angle, though its stiffness is in order. Six elements or more replace a smooth curve within
 //!    0.04 breakaway angles, which the play has to cover: `g q (4 - 8 (p - 0.04) - 3.2/b) <= 0.8` and `p >= 0.04`.
 //!
 //! So: set the breakaway angle to the high end of its confidence band, and put a play of 5 % of it, beyond the noise, between sensor and

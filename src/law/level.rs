@@ -36,7 +36,7 @@ impl FrictionLevel {
         Ok(self)
     }
 
-    /// Level of the direction that a sign stands for; 0 counts as forward.
+    /// Level of a direction, given by its sign; 0 counts as forward.
     #[inline(always)]
     #[must_use]
     pub const fn of(&self, direction: f32) -> f32 {

@@ -11,8 +11,8 @@
 //! | [`CountSensor`] | counts of an encoder, wrapped | exact, in integers; one rounding to radians |
 //! | [`WrappedAngle`] | radians, wrapped | one rounding, relative to the turn |
 //! | [`SpeedOverTick`] | speed, rad/s | one rounding |
-//! | [`Deadband`] | that of a sensor | what is left of it beyond the sensor's noise |
-//! | [`Play`] | turns | what is left of them after a backlash |
+//! | [`Deadband`] | a sensor's reading | the turn beyond the sensor's noise |
+//! | [`Play`] | turns | the turns behind a backlash |
 
 mod angle;
 mod counts;

@@ -70,8 +70,8 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// ```
     ///
     /// # Errors
-    /// [`Refusal::Length`] where `bytes` are too short; [`Refusal::OutOfRange`] where a number of the state is none: such
-    /// a block could not be read again.
+    /// [`Refusal::Length`] where `bytes` are too short; [`Refusal::OutOfRange`] where the state holds a NaN or an
+    /// infinity: such a block could not be read again.
     pub fn export(&self, bytes: &mut [u8]) -> Result<usize, Refusal> {
         // A state has one description, which also reads: it works on a copy.
         let mut state = self.state;
@@ -86,8 +86,8 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// twice the breakaway angle both are the same again. See
     /// [`FrictionModel::import_with_reading`] for a sensor that spans the gap.
     ///
-    /// On a refusal the model is as it was: the block is read into a copy of the state, which stands on the stack. Outside the
-    /// interrupt; what it costs stands with [`FrictionModel::export`].
+    /// On a refusal the model is as it was: the block is read into a copy of the state on the stack. Outside the
+    /// interrupt; for its cost see [`FrictionModel::export`].
     ///
     /// # Errors
     /// The [`Refusal`].
@@ -136,7 +136,7 @@ where
     /// spans the time without power.
     ///
     /// Right only for a sensor that is absolute over all that the nut may have turned by: a counter that begins at 0 with the
-    /// power would give a turn that was none, one that is absolute within a turn loses whole turns. A turn beyond the
+    /// power would give a false turn, one that is absolute within a turn loses whole turns. A turn beyond the
     /// sensor's largest one is cut to that and flagged.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use crate::error::{Error, attempt, in_range};
 /// A mechanism with its configuration, its constants, its state and its outputs.
 ///
 /// Constants are folded once and never change; the state is small and is all that a tick changes. A scene gives its
-/// checks ([`Scene::check_inputs`]) and its physics ([`Scene::outputs`]) as plain functions; what happens to faults stands in
+/// checks ([`Scene::check_inputs`]) and its physics ([`Scene::outputs`]) as plain functions; faults are handled in
 /// one place, [`FrictionModel::step`](crate::FrictionModel::step).
 pub trait Scene {
     /// Set-up parameters.

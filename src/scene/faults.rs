@@ -31,7 +31,7 @@ impl Faults {
     /// is known to make, and zero is put out.
     pub const FRICTION_LIMIT: Self = Self(1 << 4);
     /// The mechanism is where its formulas leave the accuracy that they promise. What is put out is the best estimate, finite
-    /// and continuous: not the safe output, and no reason to take the friction away. Where this begins stands with the scene.
+    /// and continuous: not the safe output, and no reason to take the friction away. Each scene says where this begins.
     pub const BEYOND_MODEL: Self = Self(1 << 5);
     /// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
     pub const ANGLE_NOT_VALID: Self = Self(1 << 7);

@@ -28,7 +28,7 @@ pub use step::LinearFriction;
 /// on and 23 % at 10 N (too small: the closed form leaves out that a ball rubbed by its neighbours turns).
 ///
 /// Where side forces leave little on one diagonal, balls change to two-point rolling, and their speed jumps.
-/// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) stands from the tick on in which the loads and the force between balls let some ball do so,
+/// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) is set from the tick on in which the loads and the force between balls let some ball do so,
 /// at the least favourable deviations of both maps. With the ball of Lin 2019, Table 3.3, under 100 N that is a side-force
 /// ratio of 0.92 where grooves are straight, 0.87 where one deviates by 3 degrees; less with heavier balls, closer
 /// grooves, and friction between balls that press. The flag comes up to 0.03 of the ratio before a ball alone jumps, up to
@@ -37,7 +37,7 @@ pub use step::LinearFriction;
 /// friction of a row is within 40 % up to a ratio of 0.97.
 ///
 /// A tick whose speed or load is no number is flagged in that tick, puts out no force, and leaves the state as
-/// it is; the next sound tick is unflagged. Balls, and the phase of the rail's deviations, stand behind by the
+/// it is; the next sound tick is unflagged. Balls, and the phase of the rail's deviations, lag by the
 /// travel of the missed ticks from then on, until [`FrictionModel::reset`](crate::FrictionModel::reset);
 /// [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position) brings the phase back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -31,11 +31,11 @@ pub use step::UncagedFriction;
 /// load. What is kept from tick to tick is where the balls are, the phase of the screw's deviations and the friction coefficient.
 ///
 /// A tick whose speed or load is no number is flagged in that tick, puts out no torque, and leaves the state as
-/// it is; the next sound tick is unflagged. Balls, and the phase of the screw's deviations, then stand behind by
+/// it is; the next sound tick is unflagged. Balls, and the phase of the screw's deviations, then lag by
 /// the travel of the missed ticks, and friction is that of this position: sound, but that of an earlier angle.
 /// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose positions no sensor knows, stay behind.
 ///
-/// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) stands in each tick whose load or friction coefficient is beyond those for which the law
+/// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) is set in each tick whose load or friction coefficient is beyond those for which the law
 /// was folded, under whose load the block does not hold the forces between balls, in which friction between balls is more than the law holds
 /// ([`BallLaw::holds_rubbing`]), or takes more than 0.3 of the force on a ball under the mean load, of which a train cuts off what is more; the
 /// torque is held there all the same where the block's certificate says so.

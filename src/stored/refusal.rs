@@ -36,7 +36,7 @@ pub enum Refusal {
     },
     /// The block is of another design, or of another friction coefficient, clearance, memory or angle sensor.
     OtherConstants,
-    /// A number is none, or one that no state has.
+    /// A number is NaN or infinite, or out of the range of its field.
     OutOfRange {
         /// Which one.
         field: &'static str,

@@ -67,7 +67,7 @@ impl InputCheck {
 /// Speeds are deviations from a common nominal one over its size, so that small differences keep their
 /// digits; they are signed along the row, also for a train that runs backwards.
 ///
-/// Scratch and results stand in the caller's memory, and not on the stack of an interrupt.
+/// Scratch and results are in the caller's memory, not on the stack of an interrupt.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Press<const N: usize> {

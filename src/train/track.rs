@@ -148,7 +148,7 @@ impl Rooms {
         gap as f32 * self.per_unit
     }
 
-    /// Room between two balls that may overlap by rounding, which is none.
+    /// Room between two balls; 0 where rounding lets them overlap.
     #[inline(always)]
     pub(super) fn without_overlap(&self, position: u32, ahead: u32) -> f32 {
         let gap = self.track.gap(position, ahead);

@@ -227,7 +227,7 @@ pub(crate) fn adaptation(c: &AdaptationConfiguration) -> Result<Adaptation, Fail
     .map_err(Failure::of)
 }
 
-/// The crate's inputs. A regime that is none counts as standing.
+/// The crate's inputs. An unknown regime counts as standing.
 pub(crate) const fn inputs(inputs: &AdaptationInputs) -> CrateInputs {
     CrateInputs {
         observed: inputs.observed,

@@ -20,7 +20,7 @@ pub const EPAS_OUT_OF_RANGE: u32 = 5u32;
 pub const EPAS_FOLDED_GROOVE: u32 = 6u32;
 /// The block has not the length of a state.
 pub const EPAS_STATE_LENGTH: u32 = 7u32;
-/// The bytes are no state.
+/// The bytes are not a stored state.
 pub const EPAS_NOT_A_STATE: u32 = 8u32;
 /// The state is of another version of the library.
 pub const EPAS_STATE_VERSION: u32 = 9u32;
@@ -28,9 +28,9 @@ pub const EPAS_STATE_VERSION: u32 = 9u32;
 pub const EPAS_STATE_DAMAGED: u32 = 10u32;
 /// The state is of another scene, another number of balls or another design; of a linear bearing, or of another friction coefficient.
 pub const EPAS_STATE_FOREIGN: u32 = 11u32;
-/// A number of the state is none, or one that no state has.
+/// A number of the state is NaN or infinite, or out of the range of its field.
 pub const EPAS_STATE_OUT_OF_RANGE: u32 = 12u32;
-/// The words are no block of a folded screw.
+/// The words are not a block of a folded screw.
 pub const EPAS_NOT_A_BLOCK: u32 = 13u32;
 /// The block is of another version of its layout.
 pub const EPAS_BLOCK_VERSION: u32 = 14u32;

@@ -446,7 +446,7 @@ fn plausible(design: &Design, evidence: &Evidence) -> Result<(), Failure> {
     let travel = reduced_lead(design) * evidence.range;
     if speed > FASTEST || travel > LONGEST {
         return Err(Failure::Data(format!(
-            "a travel of {travel:.3} m with balls at {speed:.1} m/s is none of this screw: is the angle in degrees (nut_position_deg), or the motor's with a ratio (--ratio)?"
+            "a travel of {travel:.3} m with balls at {speed:.1} m/s does not fit this screw: is the angle in degrees (nut_position_deg), or the motor's with a ratio (--ratio)?"
         )));
     }
     let pressed = design.caged.clearance.gap() < 0.0;

@@ -116,7 +116,7 @@ impl BallNode {
                     0.0
                 };
                 attempt!(in_range("load", width, 0.0, 1e7));
-                // A fraction of 1 at the next knot but for roundings; knots that are not needed stand at the last one's load.
+                // A fraction of 1 at the next knot but for roundings; knots that are not needed repeat the last one's load.
                 let fraction = width * per_width;
                 let (least, most) = if width > 0.0 {
                     (1.0 - 1e-5, 1.0 + 1e-5)

@@ -150,7 +150,7 @@ impl ScrewRow {
     /// `SR = beta + screw_deviation`, `NL = beta - nut_deviation`, `NR = beta + nut_deviation`.
     ///
     /// Loads up to 1e7 N; those under 1e-3 N count as 1e-3 N. Deviations up to
-    /// [`ScrewRow::largest_deviation`]; NaN is none.
+    /// [`ScrewRow::largest_deviation`]; NaN counts as 0.
     #[must_use]
     pub const fn contacts(
         &self,

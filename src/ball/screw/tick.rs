@@ -142,7 +142,7 @@ impl ScrewTick {
     /// ```
     ///
     /// with the share `q` of the load and the change `s` of the contacts' spin with the speed. A deviation beyond
-    /// [`ScrewRow::largest_deviation`](super::ScrewRow::largest_deviation) is taken at it, NaN is none.
+    /// [`ScrewRow::largest_deviation`](super::ScrewRow::largest_deviation) is cut to it; NaN counts as 0.
     #[inline]
     #[must_use]
     pub const fn ball(

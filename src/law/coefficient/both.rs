@@ -11,7 +11,7 @@ pub struct DirectionalCoefficient {
 }
 
 impl DirectionalCoefficient {
-    /// Coefficient of the direction that a sign stands for, and that of the opposite direction; 0 and NaN count as forward. No
+    /// Coefficient of a direction, given by its sign, and of the opposite direction; 0 and NaN count as forward. No
     /// arithmetic.
     #[inline(always)]
     #[must_use]
@@ -41,7 +41,7 @@ impl DirectionalCoefficient {
         }
     }
 
-    /// Both coefficients over that of the direction that a sign stands for, forward first: 1 and a ratio, 1e-6 to 1e6. Cost: one
+    /// Both coefficients over the one of a direction, given by its sign, forward first: 1 and a ratio, 1e-6 to 1e6. Cost: one
     /// division.
     #[inline(always)]
     #[must_use]

@@ -59,7 +59,7 @@ const BOTH_FLANKS: f32 = 2.1;
 /// moment `G_rr (nu n)^0.6` itself is not taken: its constants are for bearings with 7 to 15 balls and radial grooves. Both agree
 /// within a factor of two for the bearing 6206.
 ///
-/// The powers above stand in for all of this. Largest difference -26 and +25 %, rms 10 %: 0.02 to 16 Pa s, 0.5 to 60 rad/s, 5 to 200
+/// The powers above approximate all of this. Largest difference -26 and +25 %, rms 10 %: 0.02 to 16 Pa s, 0.5 to 60 rad/s, 5 to 200
 /// N a ball, five sizes of 20 to 50 mm. Preloaded flanks are counted within 22 % below lift-off.
 ///
 /// Left out: churning of grease in the nut and its return ([`churning`](super::CoefficientParameters::churning) has a place for it), the
@@ -69,7 +69,7 @@ const BOTH_FLANKS: f32 = 2.1;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RollingDrag {
-    /// Torque at 1 Pa s, 1 rad/s of the nut and 1 N of axial load, without heating, N m, 0 to 1e3; 0 where there is none.
+    /// Torque at 1 Pa s, 1 rad/s of the nut and 1 N of axial load, without heating, N m, 0 to 1e3; 0 without drag.
     pub torque: f32,
     /// Inlet shear heating at 1 Pa s and 1 rad/s: by that much the drag is smaller, 0 to 1e3.
     pub heating: f32,

@@ -44,7 +44,7 @@ pub struct BackboneElement {
 pub struct Backbone<const N: usize> {
     /// The elements, by the angle at which they start to slide.
     pub elements: [BackboneElement; N],
-    /// Largest difference from the curve that it stands for, over the friction of gross sliding.
+    /// Largest difference from the curve that it replaces, over the friction of gross sliding.
     pub error: f32,
 }
 

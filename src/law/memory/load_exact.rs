@@ -38,8 +38,8 @@ const BOUNDLESS: f32 = 1e12;
 /// [`ProportionalElements`](super::ProportionalElements) have 1.2 %.
 ///
 /// In full sliding the friction is `T+` or `-T-` to the bit; below a load of 8e-6 of the largest no element of eight is in
-/// contact, and there is none. f32 against f64: 8e-7 of the limit. Finite limits and any turn; a turn that is no number or
-/// from `2^20` on is none. 371 cycles for eight elements with the cube root.
+/// contact, and friction is 0. f32 against f64: 8e-7 of the limit. Finite limits and any turn; a turn that is NaN or
+/// from `2^20` on counts as 0. 371 cycles for eight elements with the cube root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadExactElements<const N: usize> {
     pub(super) stiffnesses: [f32; N],

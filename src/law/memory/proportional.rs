@@ -35,7 +35,7 @@ pub struct Part<'a> {
 /// angle grows with the power 2/3 of its load, this one's with the first. Choose the reference at the preload. f32 against
 /// f64: 1e-6 of the limit, also after 200,000 ticks.
 ///
-/// Finite limits and any turn; a turn that is no number or from `2^20` on is none. 190 cycles for eight elements.
+/// Finite limits and any turn; a turn that is NaN or from `2^20` on counts as 0. 190 cycles for eight elements.
 ///
 /// ```
 /// use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};

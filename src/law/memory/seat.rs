@@ -23,7 +23,7 @@ pub const FREE_PLAY: Range = Range::new(0.0, 1e3);
 /// alone: `dE <= T dx`, and where the slider moves it moves towards the friction. Hence passive, whatever the limits do.
 ///
 /// Exact in its formula; f32 against f64 is 5e-7 of the limit. 172 cycles, 100 where nothing slides. Finite limits and any turn; a
-/// turn that is no number or from `2^20` on is none.
+/// turn that is NaN or from `2^20` on counts as 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SeatElement {

@@ -5,8 +5,8 @@ use crate::error::{Error, attempt, in_range};
 /// A play of `half_width` to either side: the output follows the turn only after it has gone through the play.
 ///
 /// `p <- clamp(p + dtheta, -h, h)`, moved `= dtheta - dp`. As wide as the noise of an encoder, it keeps a row of balls from
-/// turning round with every count. What has moved and what is in the play add up to the turn, to rounding. A turn that is no number
-/// is none. Cost: 40 modelled cycles.
+/// turning round with every count. What has moved and what is in the play add up to the turn, to rounding. A NaN
+/// counts as no turn. Cost: 40 modelled cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Play {

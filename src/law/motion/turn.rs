@@ -26,7 +26,7 @@ pub enum Turn {
     Measured(f32),
     /// More than the largest turn that a tick can have: cut to that.
     Limited(f32),
-    /// The reading is none. Friction holds; the next reading's turn spans the gap.
+    /// The reading is not valid. Friction holds; the next reading's turn spans the gap.
     Unknown,
 }
 

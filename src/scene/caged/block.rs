@@ -119,8 +119,8 @@ impl<const NODES: usize> CagedConstants<NODES> {
     /// Constants of a block that `epas-design` wrote: in a constant when firmware is compiled, or of a calibration page.
     ///
     /// # Errors
-    /// [`Error`] naming `magic`, `version`, `nodes`, `words` or `checksum` of a block that is none, or what
-    /// [`CagedConstants::new`] refuses.
+    /// [`Error`] naming `magic`, `version`, `nodes`, `words` or `checksum` of words that are no block, or a
+    /// field that [`CagedConstants::new`] refuses.
     pub const fn from_block(words: &[u32]) -> Result<Self, Error> {
         let configuration = attempt!(CagedBallScrewConfiguration::read(words));
         Self::new(&configuration)

@@ -36,7 +36,7 @@ pub struct Harmonic {
 /// Deviation of a groove's contact angles along the track, periodic: a table of 64 samples.
 ///
 /// Where it is positive the right flank's contact angle is larger by it and the left flank's smaller
-/// (Lin 2019, Fig. 3.21: `+theta` on SR, `-theta` on SL). Made at compile time, it stands in flash:
+/// (Lin 2019, Fig. 3.21: `+theta` on SR, `-theta` on SL). Made at compile time, it lies in flash:
 ///
 /// ```
 /// use epas_friction::{DeviationMap, Harmonic};

@@ -23,7 +23,7 @@ pub struct WithMemoryConfiguration<C, E, A, L = CoefficientLaw> {
     pub play: f32,
     /// Friction coefficient: by speed, temperature and direction, or one alone.
     pub coefficient: L,
-    /// How old a temperature may be, and what stands in for it then.
+    /// How old a temperature may be, and which one replaces it then.
     pub temperature: TemperatureFade,
     /// How old loads may be.
     pub freshness: Freshness,

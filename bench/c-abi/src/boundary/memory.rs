@@ -19,8 +19,8 @@ pub unsafe extern "C" fn epas_memory_init(
     unsafe { init::<Memory>(place, configuration, failure) }
 }
 
-/// One tick, every millisecond or so; as `epas_caged_step`. Where speed or load is no number the last ones stand in, and where
-/// the count is none friction stays where it is: flagged.
+/// One tick, every millisecond or so; as `epas_caged_step`. NaN as speed or load: the last values are used. Where
+/// the count is not valid friction keeps its last value. Both are flagged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_memory_step(
     place: *mut MemoryPlace,

@@ -266,7 +266,7 @@ impl UncagedBallScrew {
     /// Sets the angle of the nut against the screw, rad, from which the grooves' deviations are counted.
     ///
     /// Raises:
-    ///     Error: an angle that is none.
+    ///     Error: an angle that is NaN or out of range.
     fn set_nut_angle(&mut self, py: Python<'_>, angle: f64) -> PyResult<()> {
         let angle = place(py, "angle", angle)?;
         self.model.set_place(angle);
