@@ -124,7 +124,7 @@ extern "C" {
 #define EPAS_STATE_LENGTH 7u
 
 /**
- * The bytes are no state.
+ * The bytes are not a stored state.
  */
 #define EPAS_NOT_A_STATE 8u
 
@@ -144,12 +144,12 @@ extern "C" {
 #define EPAS_STATE_FOREIGN 11u
 
 /**
- * A number of the state is none, or one that no state has.
+ * A number of the state is NaN or infinite, or out of the range of its field.
  */
 #define EPAS_STATE_OUT_OF_RANGE 12u
 
 /**
- * The words are no block of a folded screw.
+ * The words are not a block of a folded screw.
  */
 #define EPAS_NOT_A_BLOCK 13u
 
@@ -2063,8 +2063,8 @@ uint32_t epas_memory_init(struct epas_memory_t *place,
                           struct epas_failure_t *failure);
 
 /**
- * One tick, every millisecond or so; as `epas_caged_step`. Where speed or load is no number the last ones stand in, and where
- * the count is none friction stays where it is: flagged.
+ * One tick, every millisecond or so; as `epas_caged_step`. NaN as speed or load: the last values are used. Where
+ * the count is not valid friction keeps its last value. Both are flagged.
  */
 uint32_t epas_memory_step(struct epas_memory_t *place,
                           const struct epas_memory_inputs_t *inputs,
