@@ -273,3 +273,15 @@ const fn over(values: [f32; ESTIMATES], divisor: f32) -> [f32; ESTIMATES] {
 const fn fifth_power_less_one(x: f32) -> f32 {
     x * (5.0 + x * (10.0 + x * (10.0 + x * (5.0 + x))))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::fifth_power_less_one;
+
+    /// Exact in f32: multiples of 2^-5.
+    #[test]
+    fn a_fifth_power() {
+        assert_eq!(fifth_power_less_one(0.5), 1.5_f32.powi(5) - 1.0);
+        assert_eq!(fifth_power_less_one(-1.0), -1.0);
+    }
+}

@@ -117,4 +117,26 @@ mod tests {
         assert_eq!(READ_DIAGNOSTICS, 0xFFFC);
         assert_eq!(READ_ERRORS, 0x4001);
     }
+
+    /// Each error and each finding has its bit, as the data sheet numbers them, and none reads as another.
+    #[test]
+    fn every_bit_is_its_own() {
+        for bit in 0..16 {
+            let errors = SensorErrors(1 << bit);
+            assert_eq!(
+                [errors.framing(), errors.invalid_command(), errors.parity()],
+                [bit == 0, bit == 1, bit == 2]
+            );
+            let found = Diagnostics(1 << bit);
+            assert_eq!(
+                [
+                    found.ready(),
+                    found.overflow(),
+                    found.magnet_too_strong(),
+                    found.magnet_too_weak()
+                ],
+                [bit == 8, bit == 9, bit == 10, bit == 11]
+            );
+        }
+    }
 }

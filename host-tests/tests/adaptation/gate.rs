@@ -25,6 +25,24 @@ fn running() -> Adaptation {
     adaptation
 }
 
+/// Each flag is a bit of its own, for a log; those of a closed gate come first.
+#[test]
+fn flags_are_bits() {
+    let flags = [
+        AdaptationFlags::INPUT_RANGE,
+        AdaptationFlags::FAULTED,
+        AdaptationFlags::SATURATED,
+        AdaptationFlags::STANDING,
+        AdaptationFlags::TOO_WEAK,
+        AdaptationFlags::ERROR_CUT,
+        AdaptationFlags::AT_BOUND,
+    ];
+    for (bit, flag) in flags.into_iter().enumerate() {
+        assert_eq!(flag.bits(), 1 << bit);
+        assert_eq!(AdaptationFlags::CLOSED.contains(flag), bit < 5);
+    }
+}
+
 #[test]
 fn what_does_not_count_changes_nothing_and_says_why() {
     let good = sound(0.05, 0.04, 8.0);

@@ -61,6 +61,9 @@ fn drift_counts_from_commissioning() {
     run(&mut adaptation, 1.4, 60);
     adaptation.commission();
     assert_eq!(adaptation.health().drift, 0.0);
+    // The average goes on from the level that was commissioned, to what 60 s with 5 s of forgetting leave of the first level.
+    let health = run(&mut adaptation, 1.4, 1).health;
+    assert!(health.drift.abs() < 1e-4, "{health:?}");
     // 1.4 times 1.4 is a rise of 0.4, not of 0.96. Derived: after 700 s exp(-7) of it is left, 3.6e-4. Measured: 4.0e-4.
     let health = run(&mut adaptation, 1.96, 700).health;
     assert!(

@@ -2,6 +2,7 @@
 
 use std::f32::consts::TAU;
 
+use epas_friction::adaptation::Estimates;
 use epas_friction::law::FrictionLevel;
 use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
@@ -120,6 +121,21 @@ fn stiffness_stays() {
         // Measured: 0.
         assert!((still / held - 1.0).abs() < 1.2e-7, "{still} {held}");
     }
+}
+
+/// Estimates as a torque, of a model without memory: the level of the direction times the model's friction, and the drag. All numbers
+/// are exact in f32.
+#[test]
+fn estimates_scale_a_friction_and_add_the_drag() {
+    let estimates = Estimates {
+        forward: 1.5,
+        backward: 0.75,
+        drag: 0.015625,
+        offset: 0.25,
+        load_error: 0.0625,
+    };
+    assert_eq!(estimates.friction(0.5, 8.0), 0.75 + 0.125);
+    assert_eq!(estimates.friction(-0.5, -8.0), -0.375 - 0.125);
 }
 
 #[test]

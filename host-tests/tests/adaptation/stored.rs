@@ -79,6 +79,10 @@ fn what_was_found_is_there_again() {
 #[test]
 fn a_level_at_its_bound_is_known_again() {
     let mut was = driven();
+    let mut is = Adaptation::new(&configuration(5.0)).unwrap();
+    assert_eq!(is.import(&export(&was)), Ok(()));
+    let adapted = is.update(&sound(0.052, 0.04, 8.0));
+    assert!(!adapted.flags.contains(AdaptationFlags::AT_BOUND));
     let jammed = sound(0.4, 0.04, 8.0);
     for _ in 0..10_000 {
         was.update(&jammed);
@@ -145,6 +149,8 @@ fn a_block_that_is_not_its_own_is_refused() {
 #[test]
 fn numbers_that_no_adaptation_leaves_are_refused() {
     let block = export(&driven());
+    // Three numbers, two flags and the checksum.
+    assert_eq!(BYTES, HEALTH_AT + 14 + 4);
     let with = |at: usize, number: f32| {
         let mut wrong = block;
         wrong[at..at + 4].copy_from_slice(&number.to_le_bytes());

@@ -355,6 +355,40 @@ proptest! {
     }
 }
 
+/// With rolling resistance the load back-drives with as much as it takes to drive with all friction reversed,
+/// `eta_B(f, t) = 1 / eta_D(-f, -t)`; a tangent that is negative or NaN counts as 0.
+#[test]
+fn back_driving_is_driving_with_all_friction_reversed() {
+    for lead_angle in [0.02_f32, 0.1, 0.5] {
+        for contact_angle in [0.5_f32, 0.8, 1.2] {
+            let fast = EfficiencyGeometry::new(lead_angle, contact_angle, 0.125).unwrap();
+            for friction in [0.01_f32, 0.1, 0.3] {
+                for rolling_tangent in [0.0_f32, 5e-4, 5e-3, 0.05] {
+                    let reversed = Screw {
+                        lead_angle: lead_angle.into(),
+                        contact_angle: contact_angle.into(),
+                        friction: -f64::from(friction),
+                        ball_ratio: 0.125,
+                        rolling_tangent: -f64::from(rolling_tangent),
+                    };
+                    let exact = 1.0 / reversed.rolling_screw();
+                    let found = fast.rolling_backdrive_efficiency(friction, rolling_tangent);
+                    // Derived: twelve roundings of 6e-8 in the loss, one of the difference.
+                    let bound = 6e-8 * (1.0 + 12.0 * (1.0 - exact).abs());
+                    let error = f64::from(found) - exact;
+                    assert!(error.abs() < bound, "{error:e} {reversed:?}");
+                }
+                let without = fast.rolling_efficiency(friction, 0.0);
+                for tangent in [-1e-3, -1.0, f32::NAN] {
+                    let error = fast.rolling_efficiency(friction, tangent) - without;
+                    // Derived: four roundings in either of the two.
+                    assert!(error.abs() < 8.0 * 6e-8, "{tangent} {error:e}");
+                }
+            }
+        }
+    }
+}
+
 /// The rolling back-drive efficiency is the balance of work at the slipping contact.
 #[test]
 fn rolling_backdrive_equals_the_reference() {

@@ -118,6 +118,35 @@ fn breakaway_is_where_all_slides() {
     each!(check);
 }
 
+/// Until an element slides all of the work is in the springs, `T theta/2`. In full sliding each holds half its friction times the turn to its
+/// own sliding, which is no more than the breakaway.
+#[test]
+fn springs_hold_the_work_until_an_element_slides() {
+    fn check<E: Hysteresis>(elements: &E) {
+        let unit = SlidingLimits {
+            forward: 0.04,
+            backward: 0.04,
+            load: 1.0,
+        };
+        let mut state = E::VIRGIN;
+        let breakaway = elements.breakaway();
+        let turn = 1e-3 * breakaway;
+        let work = 0.5 * elements.follow(&mut state, turn, &unit) * turn;
+        // Derived: ten terms of four roundings of 6e-8 on either side.
+        let error = elements.stored_energy(&state) / work - 1.0;
+        assert!(error.abs() < 5e-6, "{error}");
+        for turn in [1e-3 * breakaway, breakaway] {
+            elements.follow(&mut state, turn, &unit);
+            let stored = elements.stored_energy(&state);
+            assert!(work < stored && stored < 0.5 * 0.04 * breakaway, "{stored}");
+        }
+        let full = elements.stored_energy(&state);
+        elements.follow(&mut state, 10.0 * breakaway, &unit);
+        assert_eq!(elements.stored_energy(&state), full);
+    }
+    each!(check);
+}
+
 /// Load biased below breakaway, a million cycles: nothing creeps. 1e-9 of a breakaway angle a cycle is 1e-9 of friction, too:
 /// the stiffness is 1.5 in these units.
 #[test]

@@ -158,6 +158,12 @@ fn together_they_share_the_limit() {
         // Two parts that are rounded on their own.
         measured::assert("spin beside the seat, limit", friction / limit - 1.0);
     }
+    let parts = [
+        spin.stored_energy(&state.first),
+        seat.stored_energy(&state.second),
+    ];
+    assert!(parts.iter().all(|&part| part > 0.0));
+    assert_eq!(both.stored_energy(&state), parts[0] + parts[1]);
     assert_eq!(both.breakaway(), seat.breakaway());
     assert_eq!(both.initial_stiffness(), spin.initial_stiffness());
     assert_eq!(
