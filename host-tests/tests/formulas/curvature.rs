@@ -158,6 +158,9 @@ fn without_offsets_the_groove_is_a_tube_and_without_lead_a_bearing() {
             let circular = CircularGrooveCurvature::from(&arch);
             let first = f64::from(circular.first(case.contact_angle()));
             assert!((first - truth).abs() <= allowed, "{}", case.line(groove));
+            // Derived: the radius and its inverse are rounded once each.
+            let second = f64::from(circular.second()) / case.truth(groove).kappa2 - 1.0;
+            assert!(second.abs() < 1.3e-7, "{second:e} {}", case.line(groove));
             if case.alpha == 0.0 {
                 let bearing = LiteratureCurvature::new(groove, case.r_m as f32, case.r_s as f32);
                 let first = f64::from(bearing.first(case.contact_angle()));

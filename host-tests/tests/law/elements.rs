@@ -145,6 +145,14 @@ fn springs_hold_the_work_until_an_element_slides() {
         assert_eq!(elements.stored_energy(&state), full);
     }
     each!(check);
+    // A preload changes the load that elements see, and nothing that they say of themselves.
+    let (plain, preloaded) = (by_load(), PreloadedElements::new(by_load()));
+    let mut state = MemoryState::VIRGIN;
+    plain.follow(&mut state, 0.3e-3, &LIMITS);
+    assert!(plain.stored_energy(&state) > 0.0);
+    assert_eq!(preloaded.stored_energy(&state), plain.stored_energy(&state));
+    assert_eq!(preloaded.initial_stiffness(), plain.initial_stiffness());
+    assert_eq!(preloaded.breakaway(), plain.breakaway());
 }
 
 /// Load biased below breakaway, a million cycles: nothing creeps. 1e-9 of a breakaway angle a cycle is 1e-9 of friction, too:

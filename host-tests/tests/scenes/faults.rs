@@ -17,6 +17,26 @@ const COMMAND: &str = "cargo test -p epas-reference --test scenes faults -- --no
 type Screw = gears::UncagedScrew<{ gears::SCREW_BALLS }>;
 type Rail = LinearBearingTrain<{ gears::LINEAR_BALLS }>;
 
+/// Each flag has the bit that the README's table says.
+#[test]
+fn flags_are_bits() {
+    for (flag, bit) in [
+        (Faults::SPEED_NOT_FINITE, 0),
+        (Faults::LOAD_NOT_FINITE, 1),
+        (Faults::SPEED_RANGE, 2),
+        (Faults::LOAD_RANGE, 3),
+        (Faults::FRICTION_LIMIT, 4),
+        (Faults::BEYOND_MODEL, 5),
+        (Faults::ANGLE_NOT_VALID, 7),
+        (Faults::TEMPERATURE_RANGE, 8),
+        (Faults::LOAD_STALE, 9),
+        (Faults::TEMPERATURE_STALE, 10),
+    ] {
+        assert_eq!(flag.bits(), 1 << bit);
+        assert_eq!(flag.faulty(), flag != Faults::BEYOND_MODEL);
+    }
+}
+
 /// Speed and load of a weave with reversals: one a second at 10 kHz.
 fn weave(tick: u32) -> (f32, f32) {
     let phase = f64::from(tick) * 1e-4;
