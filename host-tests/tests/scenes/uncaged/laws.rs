@@ -79,6 +79,14 @@ fn tick(
     let outputs = model.step(inputs);
     let train = &model.state().circuit.train;
     let forces: Vec<f64> = train.forces().map(f64::from).collect();
+    // The list of contacts has each pair that presses, at its rear ball.
+    let contacts = train.contacts();
+    assert_eq!(contacts.len(), usize::from(outputs.contacts));
+    for contact in &contacts {
+        let ball = usize::from(contact.ball);
+        assert!(contact.force > 0.0 && f64::from(contact.force) == forces[ball]);
+        assert_eq!(train.positions().nth(ball), Some(contact.position));
+    }
     Tick {
         outputs,
         load: inputs.axial_load / SCREW_BALLS as f32,
