@@ -3,8 +3,9 @@
 use std::f32::consts::TAU;
 use std::fmt::Debug;
 
+use epas_friction::law::memory::{LoadExactElements, ParallelElements, SeatElement};
 use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
-use epas_friction::scene::{StoredScene, WithMemoryConfiguration};
+use epas_friction::scene::{StoredScene, WithMemory, WithMemoryConfiguration};
 use epas_friction::stored::VERSION;
 use epas_friction::{Faults, FrictionModel, LinearBearingTrain, Refusal, UncagedBallScrew};
 
@@ -246,7 +247,46 @@ fn blocks_of_other_constants_are_refused() {
     }
 }
 
-/// Bytes of a ball of a train in a block: its place in units of 2^-32 of the track, sixteenths of a unit, force.
+/// Elements of every kind count: a state that others left means something else.
+#[test]
+fn states_of_other_elements_are_refused() {
+    let angle = WrappedAngle::new(WrappedAngleParameters {
+        lowest: 0.0,
+        period: TAU,
+        largest_turn: 0.5,
+    })
+    .unwrap();
+    macro_rules! check {
+        ($kind:ty, $own:expr, $others:expr) => {{
+            let model = |elements: $kind| {
+                let configuration = with_memory(caged(), elements, angle);
+                FrictionModel::<WithMemory<CagedScrew, $kind, WrappedAngle>>::new(&configuration)
+                    .unwrap()
+            };
+            let block = export(&model($own));
+            assert_eq!(model($own).import(&block), Ok(()));
+            for other in $others {
+                let refusal = model(other).import(&block);
+                assert_eq!(refusal, Err(Refusal::OtherConstants));
+            }
+        }};
+    }
+    let exact = |limit, breakaway| LoadExactElements::<8>::new(limit, breakaway, 4.0).unwrap();
+    check!(
+        LoadExactElements<8>,
+        exact(0.04, 2e-3),
+        [exact(0.05, 2e-3), exact(0.04, 3e-3)]
+    );
+    let seat = |breakaway| SeatElement::new(0.02, 1e-3, breakaway).unwrap();
+    let beside = |seat, share| ParallelElements::new(exact(0.04, 2e-3), seat, share).unwrap();
+    check!(
+        ParallelElements<LoadExactElements<8>, SeatElement>,
+        beside(seat(2e-3), 0.5),
+        [beside(seat(3e-3), 0.5), beside(seat(2e-3), 0.4)]
+    );
+}
+
+/// Bytes of a ball of a train in a block: its position in units of 2^-32 of the track, sixteenths of a unit, force.
 const BALL_BYTES: usize = 9;
 /// And where the first one begins: behind what the train carries over, and the number of the foremost ball.
 const TRAIN_AT: usize = STATE_AT + 5;
