@@ -65,6 +65,7 @@ macro_rules! each {
         $check(&proportional(&SPIN_10, 0.04, 2e-3));
         $check(&by_load());
         $check(&LoadExactElements::<4>::new(0.04, 2e-3, 1.6).unwrap());
+        $check(&LoadExactElements::<5>::new(0.04, 2e-3, 1.6).unwrap());
         $check(&mixed());
     };
 }
