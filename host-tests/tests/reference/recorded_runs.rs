@@ -74,3 +74,27 @@ fn nothing_fails_and_as_much_has_run_as_is_asked_for() {
     }
     assert!(list(&recorded, "mended").len() > 10 && list(&recorded, "limits").len() > 5);
 }
+
+/// The faults that were tried add up, and each that no test has seen stands in a file that is there, with a reason.
+#[test]
+fn survivors_have_reasons() {
+    let recorded = recorded();
+    let mutants = &recorded["mutants"];
+    let count = |name: &str| mutants[name].as_u64().unwrap();
+    let survivors = list(mutants, "survivors");
+    assert_eq!(
+        count("tried"),
+        count("seen") + count("unviable") + survivors.len() as u64
+    );
+    assert!(count("tried") * 8 >= count("listed"));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for survivor in survivors {
+        let (file, _) = survivor["mutant"]
+            .as_str()
+            .unwrap()
+            .split_once(':')
+            .unwrap();
+        assert!(root.join(file).is_file(), "{survivor}");
+        assert!(!survivor["why"].as_str().unwrap().is_empty(), "{survivor}");
+    }
+}
