@@ -1,12 +1,17 @@
-//! `recorded.json`: every recorded run names a command that is there, and none has failures.
+//! `recorded.json`: every recorded run names a command that is there, and none has failures. `mutants.json`: each fault that no test saw has a
+//! reason.
 
 use std::path::Path;
 
 use serde_json::Value;
 
-fn recorded() -> Value {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/recorded.json");
+fn read(name: &str) -> Value {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn recorded() -> Value {
+    read("recorded.json")
 }
 
 fn list<'a>(recorded: &'a Value, name: &str) -> &'a [Value] {
@@ -78,10 +83,9 @@ fn nothing_fails_and_as_much_has_run_as_is_asked_for() {
 /// The faults that were tried add up, and each that no test has seen stands in a file that is there, with a reason.
 #[test]
 fn survivors_have_reasons() {
-    let recorded = recorded();
-    let mutants = &recorded["mutants"];
+    let mutants = read("mutants.json");
     let count = |name: &str| mutants[name].as_u64().unwrap();
-    let survivors = list(mutants, "survivors");
+    let survivors = list(&mutants, "survivors");
     assert_eq!(
         count("tried"),
         count("seen") + count("unviable") + survivors.len() as u64
