@@ -378,17 +378,6 @@ fn back_driving_is_driving_with_all_friction_reversed() {
                     let error = f64::from(found) - exact;
                     assert!(error.abs() < bound, "{error:e} {reversed:?}");
                 }
-                // Without lead a load moves nothing where rolling resists, and gives up what slip takes where it does not.
-                let flat = EfficiencyGeometry::new(0.0, contact_angle, 0.125).unwrap();
-                let (sin, cos) = f64::from(contact_angle).sin_cos();
-                let friction_f64 = f64::from(friction);
-                let exact = 1.0 - 0.125 * friction_f64 / (sin + friction_f64 * cos);
-                let error = f64::from(flat.rolling_backdrive_efficiency(friction, 0.0)) - exact;
-                assert!(error.abs() < 1.2e-7, "{error:e}");
-                assert_eq!(
-                    flat.rolling_backdrive_efficiency(friction, 1e-3),
-                    f32::NEG_INFINITY
-                );
                 let without = fast.rolling_efficiency(friction, 0.0);
                 for tangent in [-1e-3, -1.0, f32::NAN] {
                     let error = fast.rolling_efficiency(friction, tangent) - without;
@@ -396,6 +385,30 @@ fn back_driving_is_driving_with_all_friction_reversed() {
                     assert!(error.abs() < 8.0 * 6e-8, "{tangent} {error:e}");
                 }
             }
+        }
+    }
+}
+
+/// Without lead a load moves nothing where rolling resists, and gives up what slip takes where it does not.
+#[test]
+fn back_driving_without_lead() {
+    for contact_angle in [0.5_f32, 0.8, 1.2] {
+        let fast = EfficiencyGeometry::new(0.0, contact_angle, 0.125).unwrap();
+        for friction in [0.01_f32, 0.1, 0.3] {
+            let exact = Screw {
+                lead_angle: 0.0,
+                contact_angle: contact_angle.into(),
+                friction: friction.into(),
+                ball_ratio: 0.125,
+                rolling_tangent: 0.0,
+            };
+            let found = f64::from(fast.rolling_backdrive_efficiency(friction, 0.0));
+            let error = found - exact.rolling_backdrive();
+            assert!(error.abs() < 1.2e-7, "{error:e}");
+            assert_eq!(
+                fast.rolling_backdrive_efficiency(friction, 1e-3),
+                f32::NEG_INFINITY
+            );
         }
     }
 }

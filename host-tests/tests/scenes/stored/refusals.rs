@@ -159,6 +159,16 @@ where
     }
 }
 
+/// A sensor of the nut's angle whose turn begins at `lowest`, rad.
+fn wrapped(lowest: f32) -> WrappedAngle {
+    WrappedAngle::new(WrappedAngleParameters {
+        lowest,
+        period: TAU,
+        largest_turn: 0.5,
+    })
+    .unwrap()
+}
+
 /// Constants with which a state's numbers mean something else, and those that may change from one ignition to the next.
 #[test]
 fn blocks_of_other_constants_are_refused() {
@@ -215,18 +225,8 @@ fn blocks_of_other_constants_are_refused() {
     refused_by_all::<Linear>(&block, &others);
 
     let block = export(&CagedByAngle::model());
-    let angle = WrappedAngle::new(WrappedAngleParameters {
-        lowest: 0.0,
-        period: TAU,
-        largest_turn: 0.5,
-    })
-    .unwrap();
-    let other = WrappedAngle::new(WrappedAngleParameters {
-        lowest: -3.0,
-        period: TAU,
-        largest_turn: 0.5,
-    })
-    .unwrap();
+    let angle = wrapped(0.0);
+    let other = wrapped(-3.0);
     let import = |elements, angle, play| {
         let configuration = WithMemoryConfiguration {
             play,
@@ -250,12 +250,7 @@ fn blocks_of_other_constants_are_refused() {
 /// Elements of every kind count: a state that others left means something else.
 #[test]
 fn states_of_other_elements_are_refused() {
-    let angle = WrappedAngle::new(WrappedAngleParameters {
-        lowest: 0.0,
-        period: TAU,
-        largest_turn: 0.5,
-    })
-    .unwrap();
+    let angle = wrapped(0.0);
     macro_rules! check {
         ($kind:ty, $own:expr, $others:expr) => {{
             let model = |elements: $kind| {
