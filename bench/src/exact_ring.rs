@@ -21,7 +21,7 @@ use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
 use epas_trains::Folded;
 
-use crate::uncaged::{LEAST_DEVIATION, MARGIN, folded, loads_holding};
+use epas_design::uncaged_scene::{LEAST_DEVIATION, MARGIN, folded, loads_holding};
 
 /// Part of the track that the balls fill, where a case does not say its length.
 const OCCUPATION: f64 = 0.978;

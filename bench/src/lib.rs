@@ -79,7 +79,7 @@ pub fn run() -> ExitCode {
 pub mod untrusted {
     /// Answers one line as `eval` does; whether it was a good request.
     pub fn request(line: &str) -> bool {
-        crate::eval::accepts(line)
+        epas_eval::accepts(line)
     }
 
     /// Reads a trace as `simulate --input` does; its number of samples.
@@ -87,7 +87,7 @@ pub mod untrusted {
     /// # Errors
     /// What is wrong, with the line.
     pub fn trace(text: &[u8]) -> Result<usize, String> {
-        crate::simulate::accepts(text)
+        epas_cli::simulate::accepts(text)
     }
 
     /// Reads a trace as `calibrate` does, without a design and with one, smooths it and looks whether it may be believed;
@@ -96,7 +96,7 @@ pub mod untrusted {
     /// # Errors
     /// What is wrong.
     pub fn calibration_trace(text: &[u8]) -> Result<usize, String> {
-        crate::calibrate::accepts(text)
+        epas_calibrate::accepts(text)
     }
 
     /// Reads a measurement file as `simulate --input` and `calibrate` do; its number of samples.
@@ -104,8 +104,8 @@ pub mod untrusted {
     /// # Errors
     /// What is wrong.
     pub fn measurement(bytes: &[u8]) -> Result<usize, String> {
-        let trace = crate::calibrate::trace::columns::measured(bytes, "trace", None, None);
-        let simulated = crate::simulate::accepts_measurement(bytes)?;
+        let trace = epas_calibrate::trace::columns::measured(bytes, "trace", None, None);
+        let simulated = epas_cli::simulate::accepts_measurement(bytes)?;
         trace
             .map(|trace| trace.len().max(simulated))
             .map_err(|failure| format!("{failure:?}"))
@@ -116,6 +116,6 @@ pub mod untrusted {
     /// # Errors
     /// What is wrong.
     pub fn design(text: &str) -> Result<(), String> {
-        crate::designs::accepts(text)
+        epas_design::files::accepts(text)
     }
 }

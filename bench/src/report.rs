@@ -29,9 +29,9 @@ mod uncaged;
 
 use std::path::PathBuf;
 
-use crate::document::{Document, Part, Section};
-use crate::failure::Failure;
-use crate::target::TargetFigures;
+use epas_page::document::{Document, Part, Section};
+use epas_page::failure::Failure;
+use epas_target::TargetFigures;
 use crate::timing::compete;
 use context::Context;
 use flagship::Flagship;

@@ -17,10 +17,10 @@ use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::material::Elastic;
-use epas_trains::Folded;
+use epas_design::uncaged_scene::Folded;
 
-use crate::failure::Failure;
-use crate::uncaged::folded;
+use epas_page::failure::Failure;
+use epas_design::uncaged_scene::folded;
 
 /// Friction coefficient of balls and grooves.
 pub const FRICTION: f64 = 0.1;

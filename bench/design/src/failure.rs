@@ -18,6 +18,14 @@ pub enum Failure {
     File(std::io::Error),
 }
 
+impl Failure {
+    /// The same failure of something with a name.
+    #[must_use]
+    pub fn of(self, name: &str) -> Self {
+        Self::Domain(format!("{name}: {self}"))
+    }
+}
+
 impl fmt::Display for Failure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

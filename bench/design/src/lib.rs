@@ -31,18 +31,27 @@
 //! | [`breakaway`] | initial stiffness and breakaway angle from a design: parts for the elements of a memory |
 //! | [`efficiency`] | contact angle of least loss, design procedure, inertia of the balls |
 //! | [`gears`] | the gear of the project's own firmware |
+//! | [`manoeuvre`] | rack travel and rack force of parking, weave, kerb |
+//! | [`files`] | design files and built-in designs |
+//! | [`folds`] | blocks that need no fold: those of the built-in designs, and those of this run |
+//! | [`caged_scene`], [`uncaged_scene`] | a design as a scene that runs on this machine |
 
 pub mod breakaway;
 pub mod caged;
+pub mod caged_scene;
 pub mod certificate;
 pub mod curve;
 mod digest;
 pub mod drawing;
 pub mod efficiency;
 mod failure;
+pub mod files;
+pub mod folds;
 pub mod gears;
+pub mod manoeuvre;
 pub mod output;
 pub mod uncaged;
+pub mod uncaged_scene;
 
 pub use caged::{CagedDesign, CagedFold, Folded};
 pub use certificate::{Certificate, Figure};

@@ -15,9 +15,9 @@ use serde::{Deserialize, Serialize};
 pub use measured::measured;
 
 use super::statistics::Errors;
-use crate::document::{Cell, Table};
-use crate::failure::Failure;
-use crate::files::{self, Existing};
+use epas_page::document::{Cell, Table};
+use epas_page::failure::Failure;
+use epas_page::files::{self, Existing};
 
 /// Relative difference of two errors that is let pass: roundings of another processor's library of functions, far below the two digits that pages
 /// print.

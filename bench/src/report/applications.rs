@@ -9,10 +9,10 @@ use epas_reference::statics::studies::tie_rod::{TieRodLoad, TieRodLoads};
 use epas_reference::statics::studies::waviness::{Waviness, compare};
 
 use super::context::Context;
-use crate::document::{Block, Cell, Figure, Section, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
-use crate::progress::Progress;
+use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::progress::Progress;
 
 /// Oversize of the balls' radius in the lash tests, m, which the text does not print.
 const OVERSIZE: f64 = 2e-6;

@@ -11,9 +11,9 @@ use epas_reference::published::bearings::{DISPLACEMENTS, table_3_1, table_3_2};
 
 use super::context::Context;
 use super::statistics::evenly;
-use crate::document::{Block, Figure, Section};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
+use epas_page::document::{Block, Figure, Section};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {

@@ -2,8 +2,8 @@
 
 use super::accuracy::Accuracy;
 use super::flagship::Flagship;
-use crate::failure::Failure;
-use crate::target::TargetFigures;
+use epas_page::failure::Failure;
+use epas_target::TargetFigures;
 use crate::timing::Competition;
 
 /// What every section works with.

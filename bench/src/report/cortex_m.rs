@@ -11,10 +11,10 @@ use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
 use super::context::Context;
 use super::curvature::{FORMS, catalogue_errors};
 use super::statistics::{Errors, evenly};
-use crate::document::{Block, Cell, Figure, Section, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
-use crate::target::{Budget, Figures, budgets};
+use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
+use epas_target::{Budget, Figures, budgets};
 
 /// A formula or a backend: its error and its cycles.
 struct Point {

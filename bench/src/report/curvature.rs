@@ -11,9 +11,9 @@ use epas_reference::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
 
 use super::context::Context;
 use super::statistics::{Errors, evenly};
-use crate::document::{Block, Cell, Figure, Section, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 use crate::timing::Competition;
 
 /// The four forms of the crate, in the order in which they are shown.

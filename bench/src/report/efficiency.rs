@@ -11,9 +11,9 @@ use epas_reference::steady_state::BallScrewState;
 
 use super::context::Context;
 use super::statistics::{Errors, evenly};
-use crate::document::{Block, Cell, Figure, Section, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// The paper's case: 2113 N on one ball at 2000 rpm.
 const BALL_RADIUS: f64 = 4.37e-3;

@@ -5,8 +5,8 @@ use std::path::Path;
 
 use tempfile::tempfile_in;
 
-use crate::failure::Failure;
-use crate::folder::refuse_way;
+use epas_page::failure::Failure;
+use epas_page::folder::refuse_way;
 
 /// First letters of a report as Markdown.
 const OURS: &str = "# epas-friction: ";

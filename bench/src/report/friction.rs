@@ -5,12 +5,12 @@ use epas_reference::promises::{self, Promise};
 use super::context::Context;
 use super::statistics::Errors;
 use super::times::time;
-use crate::document::{Block, Cell, Figure, Section, Table};
-use crate::failure::Failure;
-use crate::peers::candidates::ours;
-use crate::peers::compare::Comparison;
-use crate::plot::{Axis, Chart, Mark, Panel, Series, thin};
-use crate::simulate::{Courses, Manoeuvre, Moment, courses};
+use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::failure::Failure;
+use epas_papers::peers::candidates::ours;
+use epas_papers::peers::compare::Comparison;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series, thin};
+use epas_cli::simulate::{Courses, Manoeuvre, Moment, courses};
 
 /// The screw of Lin 2019, Section 3.4.4: pitch circle of 33 mm, lead 20 mm, 37 balls.
 const DESIGN: &str = "lin-3.6";

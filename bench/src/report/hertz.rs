@@ -5,9 +5,9 @@ use epas_reference::hertz::Hertz;
 
 use super::context::Context;
 use super::statistics::{Errors, evenly};
-use crate::document::{Block, Cell, Figure, Section, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 const PARTS: [&str; 5] = [
     "axis ratio",

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use super::context::Context;
 use super::statistics::{Errors, evenly};
 use super::times::time;
-use crate::document::{Block, Cell, Section, Table};
-use crate::failure::Failure;
+use epas_page::document::{Block, Cell, Section, Table};
+use epas_page::failure::Failure;
 use crate::timing::kernels::{libm, micromath, own};
 
 /// Inputs of a sweep.

@@ -6,9 +6,9 @@ use epas_reference::kinematics::{ContactKinematics, Raceway, Revised};
 use epas_reference::published::kinematics::records;
 
 use super::context::Context;
-use crate::document::{Block, Cell, Figure, Section, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {

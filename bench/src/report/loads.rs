@@ -14,9 +14,9 @@ use epas_reference::statics::{
 };
 
 use super::context::Context;
-use crate::document::{Block, Cell, Figure, Section, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 fn failed(error: impl std::fmt::Display) -> Failure {
     Failure::Data(error.to_string())

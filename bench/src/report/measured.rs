@@ -11,9 +11,9 @@ use epas_reference::measured::cold::Lubricant;
 use epas_reference::measured::{COUNT, Measured, Standing, Usual, records, studies};
 
 use super::context::Context;
-use crate::document::{Block, Cell, Section, Table};
-use crate::failure::Failure;
-use crate::progress::Progress;
+use epas_page::document::{Block, Cell, Section, Table};
+use epas_page::failure::Failure;
+use epas_page::progress::Progress;
 
 /// The crate's defaults, widened for the reference.
 fn usual() -> Usual {

@@ -4,8 +4,8 @@ use epas_reference::published::records;
 use epas_reference::record::{Paper, Record, Verdict};
 
 use super::context::Context;
-use crate::document::{Block, Cell, Section, Table};
-use crate::failure::Failure;
+use epas_page::document::{Block, Cell, Section, Table};
+use epas_page::failure::Failure;
 
 /// The section.
 pub fn section(_: &Context) -> Result<Section, Failure> {

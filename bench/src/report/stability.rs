@@ -11,8 +11,8 @@ pub use recorded::errors as recorded_errors;
 
 use super::context::Context;
 use super::statistics::Errors;
-use crate::document::{Block, Cell, Figure, Section, Table};
-use crate::failure::Failure;
+use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::failure::Failure;
 
 /// The table of promises.
 fn table_of_promises() -> Table {

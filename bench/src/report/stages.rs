@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use crate::aside::say;
+use epas_page::aside::say;
 
 /// Stages of some number.
 pub struct Stages {

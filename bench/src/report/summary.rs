@@ -4,9 +4,9 @@ use super::context::Context;
 use super::statistics::Errors;
 use super::times::{quartiles, ratio, time};
 use super::{accuracy, curvature, efficiency, hertz};
-use crate::document::{Block, Cell, Figure, Section, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 
 /// Key of the time, name and error of a formula.
 type Point = (&'static str, &'static str, f64);

@@ -1,6 +1,6 @@
 //! Times and their ratios in a table: a number, or an upper limit where the time is below the resolution.
 
-use crate::document::Cell;
+use epas_page::document::Cell;
 use crate::timing::{Measure, Ratio, Spread};
 
 /// The median of a time, ns.

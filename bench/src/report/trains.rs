@@ -7,8 +7,8 @@ mod screw;
 pub use linear::closed_form_errors;
 
 use super::context::Context;
-use crate::document::{Block, Section};
-use crate::failure::Failure;
+use epas_page::document::{Block, Section};
+use epas_page::failure::Failure;
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {

@@ -9,8 +9,8 @@ mod settings;
 use super::context::Context;
 use super::flagship::Flagship;
 use super::times::time;
-use crate::document::{Block, Cell, Section, Table};
-use crate::failure::Failure;
+use epas_page::document::{Block, Cell, Section, Table};
+use epas_page::failure::Failure;
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {

@@ -31,9 +31,9 @@ use super::kernels::{libm, micromath, own};
 use super::measure::{Measure, Ratio};
 use super::race::{Mode, Race};
 use super::trains::trains;
-use crate::caged::block;
-use crate::failure::Failure;
-use crate::progress::Progress;
+use epas_design::caged_scene::block;
+use epas_page::failure::Failure;
+use epas_page::progress::Progress;
 
 /// One function with its times.
 #[derive(Clone, Debug)]

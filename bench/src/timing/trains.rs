@@ -14,7 +14,7 @@ use epas_friction::{Inputs, LoadShare, UncagedOutputs};
 use super::feed::{Feed, Taken};
 use super::group::{Group, List};
 use super::race::Race;
-use crate::failure::Failure;
+use epas_page::failure::Failure;
 use crate::study;
 
 /// Contact angles and forces of a ball, in the order BL, BR, TR, TL.

@@ -6,8 +6,8 @@ use epas_friction::BallScrewParameters;
 use rayon::prelude::*;
 
 use super::Accuracy;
-use crate::designs::built_in;
-use crate::failure::Failure;
+use epas_design::files::built_in;
+use epas_page::failure::Failure;
 
 /// Largest pitch radius, m: diameters to 63 mm.
 const PITCH_RADIUS: f32 = 35e-3;

@@ -17,7 +17,7 @@ use rand_pcg::Pcg64;
 
 use super::{Accuracy, caged};
 use crate::exact_ring::{Comparison, Off};
-use crate::failure::Failure;
+use epas_page::failure::Failure;
 use crate::report::flagship::Flagship;
 use crate::report::stability::recorded_errors;
 use crate::report::statistics::Errors;

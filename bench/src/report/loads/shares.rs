@@ -4,8 +4,8 @@ use epas_reference::ReferenceError;
 use epas_reference::statics::shares::loads_between;
 use epas_reference::statics::{Served, ShareError, ShareTable, ShareTables};
 
-use crate::designs::loads::{LoadCase, built_in};
-use crate::document::{Cell, Table};
+use epas_design::files::loads::{LoadCase, built_in};
+use epas_page::document::{Cell, Table};
 
 const TOLERANCE: ShareError = ShareError::TOLERANCE;
 

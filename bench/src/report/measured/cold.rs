@@ -5,9 +5,9 @@ use epas_reference::measured::cold::{
     Friction, LOADS, Lubricant, SPEEDS, STEERING, over_temperature,
 };
 
-use crate::document::{Block, Cell, Figure, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// Text, figure and table.
 pub fn blocks(usual: &Usual, lubricant: &Lubricant) -> Result<Vec<Block>, Failure> {

@@ -3,8 +3,8 @@
 use epas_reference::measured::studies::{CLEARANCES, Choice, DecidingRow, LOADS, TABLE_3_6};
 
 use super::known::known;
-use crate::document::{Block, Cell, Figure, Table};
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// Tables and figure.
 pub fn blocks(rows: &[DecidingRow], choices: &[Choice]) -> Vec<Block> {

@@ -5,8 +5,8 @@ use epas_reference::measured::catalogue;
 use epas_reference::measured::studies::{EfficiencyRow, FIT_LOAD};
 
 use super::known::known;
-use crate::document::{Block, Cell, Figure, Table};
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// Diameter of the screws that differ in nothing but their lead, mm.
 const ONE_DIAMETER: f64 = 32.0;

@@ -1,6 +1,6 @@
 //! Cells of numbers that may not be known.
 
-use crate::document::Cell;
+use epas_page::document::Cell;
 
 /// A number, or nothing where there is none.
 pub fn known(value: f64, decimals: usize) -> Cell {

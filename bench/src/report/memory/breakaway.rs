@@ -3,8 +3,8 @@
 use epas_design::breakaway::{Breakaway, BreakawayConfiguration, Mechanism, ScrewContacts};
 use epas_friction::{BallScrew, Clearance, DISSERTATION_DESIGNS, defaults};
 
-use crate::document::{Block, Cell, Table};
-use crate::failure::Failure;
+use epas_page::document::{Block, Cell, Table};
+use epas_page::failure::Failure;
 
 /// Axial loads, N.
 const LOADS: [f32; 3] = [300.0, 1000.0, 5000.0];

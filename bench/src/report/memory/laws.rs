@@ -1,11 +1,11 @@
 //! Error and cost of every law under constant limits.
 
 use super::panel::PANEL;
-use crate::document::{Block, Cell, Figure, Table};
-use crate::failure::Failure;
-use crate::peers::candidates::{Candidate, Cycles};
-use crate::peers::compare::Comparison;
-use crate::plot::{Axis, Chart, Mark, Note, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_papers::peers::candidates::{Candidate, Cycles};
+use epas_papers::peers::compare::Comparison;
+use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 use crate::report::context::Context;
 
 const COLUMNS: [&str; 14] = [

@@ -4,14 +4,14 @@ use rayon::prelude::*;
 
 use super::laws::shown;
 use super::panel::PANEL;
-use crate::document::{Block, Cell, Figure, Table};
-use crate::failure::Failure;
-use crate::peers::candidates::{LOAD_EXACT, MULTIPLIED, PROPORTIONAL, under_load};
-use crate::peers::compare::{
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_papers::peers::candidates::{LOAD_EXACT, MULTIPLIED, PROPORTIONAL, under_load};
+use epas_papers::peers::compare::{
     LOAD_CASES, errors_under_load, exact_under_load, least_loss, load_cycle, work_of_a_load_cycle,
 };
-use crate::peers::torques;
-use crate::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
+use epas_papers::peers::torques;
+use epas_page::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 use crate::report::context::Context;
 
 /// Tables and pictures.

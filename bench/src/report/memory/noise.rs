@@ -1,11 +1,11 @@
 //! What encoder noise does to friction by angle and by speed.
 
 use super::panel::PANEL;
-use crate::document::{Block, Cell, Figure, Table};
-use crate::failure::Failure;
-use crate::peers::candidates::{Candidate, ours};
-use crate::peers::noise::{AtRest, TICK, by_angle, by_speed, error_of_counts};
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_papers::peers::candidates::{Candidate, ours};
+use epas_papers::peers::noise::{AtRest, TICK, by_angle, by_speed, error_of_counts};
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// Breakaway angles, rad.
 const BREAKAWAYS: [f64; 3] = [1e-3, 2e-3, 5e-3];

@@ -7,14 +7,14 @@ use epas_reference::rig::parameters::Parameters;
 use rayon::prelude::*;
 
 use super::panel::PANEL;
-use crate::calibrate::fit::separable::FitSettings;
-use crate::calibrate::screw::choice::Wanted;
-use crate::calibrate::screw::exact::Spacing;
-use crate::calibrate::screw::friction::{Course, ElementsKind};
-use crate::calibrate::screw::{Request, calibrate};
-use crate::document::{Block, Cell, Figure, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_calibrate::fit::separable::FitSettings;
+use epas_calibrate::screw::choice::Wanted;
+use epas_calibrate::screw::exact::Spacing;
+use epas_calibrate::screw::friction::{Course, ElementsKind};
+use epas_calibrate::screw::{Request, calibrate};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 use gear::Gear;
 use rivals::Rival;
 

@@ -6,9 +6,9 @@ use std::fmt::Write as _;
 use epas_reference::promises;
 use serde_json::Value;
 
-use crate::document::Cell;
-use crate::eval;
-use crate::plot::{Axis, ColourMap, Colours, Panel};
+use epas_page::document::Cell;
+use epas_eval;
+use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::statistics::Errors;
 use crate::study::turned_ball;
 

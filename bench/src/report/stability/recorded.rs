@@ -2,8 +2,8 @@
 
 use serde::Deserialize;
 
-use crate::document::{Block, Cell, Table};
-use crate::failure::Failure;
+use epas_page::document::{Block, Cell, Table};
+use epas_page::failure::Failure;
 use crate::report::accuracy::Accuracy;
 use crate::report::statistics::Errors;
 

@@ -4,9 +4,9 @@ use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, SpeedDeviation};
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::LinearBall;
 
-use crate::document::{Block, Cell, Figure, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, ColourMap, Colours, Panel};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::context::Context;
 use crate::report::statistics::{Errors, evenly};
 use crate::report::times::time;

@@ -5,9 +5,9 @@ use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_reference::friction::ball_screw_ball::ScrewMotion;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 
-use crate::document::{Block, Cell, Figure, Table};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 use crate::report::context::Context;
 use crate::report::statistics::Errors;
 use crate::report::times::time;

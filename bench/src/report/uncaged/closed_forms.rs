@@ -9,10 +9,10 @@ use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use crate::document::Figure;
-use crate::eval;
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::document::Figure;
+use epas_eval;
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// The ball of Table 3.6, in m, under this load, N, with this friction and lead.
 const PITCH_RADIUS: f64 = 16.5e-3;

@@ -7,10 +7,10 @@ use epas_reference::friction::whole_screw::WholeScrew;
 use epas_reference::published::balls::whole_screw;
 use rayon::prelude::*;
 
-use crate::document::{Block, Cell, Figure, Table};
+use epas_page::document::{Block, Cell, Figure, Table};
 use crate::exact_ring::{Case, exact, follow};
-use crate::failure::Failure;
-use crate::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// Amplitudes of the screw's deviation, degrees: the text does not print that of Figure 3.23.
 const AMPLITUDES: [f64; 4] = [2.0, 2.3, 2.5, 3.0];

@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use crate::document::{Block, Cell, Figure, Table};
-use crate::eval;
-use crate::plot::{Axis, ColourMap, Colours, Panel};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_eval;
+use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::statistics::Errors;
 
 /// Deviation of one of the balls, degrees: it loads the third contact, or takes load from it. One law holds both.

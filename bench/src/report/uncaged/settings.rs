@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_PI_4;
 
 use rayon::prelude::*;
 
-use crate::document::{Block, Cell, Table};
+use epas_page::document::{Block, Cell, Table};
 use crate::exact_ring::{Case, Comparison, Off, compare};
-use crate::uncaged::MARGIN;
+use epas_design::uncaged_scene::MARGIN;
 
 /// Balls of every screw of the table.
 const BALLS: usize = 16;

@@ -4,10 +4,10 @@ use epas_reference::rig::course::{Course, Manoeuvre};
 use epas_reference::rig::parameters::Parameters;
 use epas_reference::rig::{self, Rig, Sensors};
 
-use crate::calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
-use crate::calibrate::trace::{Coordinate, Repairs, Trace};
-use crate::designs::{Design, DesignSource};
-use crate::failure::Failure;
+use epas_calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
+use epas_calibrate::trace::{Coordinate, Repairs, Trace};
+use epas_design::files::{Design, DesignSource};
+use epas_page::failure::Failure;
 
 /// Seed of the trace that models are fitted to, and of the one on which they are judged.
 const SEEDS: [u64; 2] = [0, 5];

@@ -6,13 +6,13 @@ use epas_design::CagedDesign;
 use epas_friction::{Clearance, Inputs};
 
 use super::gear::Gear;
-use crate::bristle::{bristle, stribeck};
-use crate::calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
-use crate::calibrate::fit::separable::{FitSettings, fit};
-use crate::calibrate::screw::exact::{Grid, Spacing};
-use crate::calibrate::signals::Motion;
-use crate::calibrate::trace::Trace;
-use crate::failure::Failure;
+use epas_calibrate::bristle::{bristle, stribeck};
+use epas_calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
+use epas_calibrate::fit::separable::{FitSettings, fit};
+use epas_calibrate::screw::exact::{Grid, Spacing};
+use epas_calibrate::signals::Motion;
+use epas_calibrate::trace::Trace;
+use epas_page::failure::Failure;
 
 /// Nut speed over which friction changes its direction in the model of today, rad/s.
 const REVERSAL_SPEED: f32 = 0.2;

@@ -1,0 +1,391 @@
+//! `calibrate`: arguments, and which room does the work.
+
+use std::path::{Path, PathBuf};
+
+use epas_page::aside::say;
+use crate::answer::Calibration;
+use crate::experiment::wanted;
+use crate::folder::{self, Folder, FolderArguments};
+use crate::outputs::{Outcome, OutputArguments, folder_name};
+use crate::page::truth;
+use crate::screw::Request;
+use crate::screw::choice::Wanted;
+use crate::screw::quantities::names;
+use crate::signals::{RowSettings, SmoothingSettings};
+use crate::sums::Sums;
+use crate::trace::columns::{self, Frame};
+use crate::trace::{Coordinate, Trace};
+use crate::with_design;
+use crate::without_design::controller::SeenController;
+use crate::without_design::{self, Filters};
+use crate::controller::Controller;
+use epas_design::files::{Design, DesignSource, text};
+use epas_page::failure::Failure;
+use epas_page::files::refuse_shared;
+use epas_traces::mdf4::{self, Mapping};
+use epas_traces::source::Source;
+
+/// Fits a model to a measured trace, and says how sure it is and what the trace cannot tell.
+///
+/// The trace is a CSV file, or a measurement file (MDF 4, .mf4), with the columns or channels time; position or speed (of the
+/// nut, or of motor_ or carriage_); motor_torque or motor_force; and where there are any reference_position, axial_load or
+/// load_torque, temperature, and known_torque or known_force (an effort that is known and that the controller did not command).
+///
+/// Units are SI (rad, m, N, N m, K); others stand in the column's name: nut_position_deg, motor_speed_rpm, axial_load_kN,
+/// temperature_C, or in brackets behind it: Nut position [deg]. A measurement file says the units itself; --channels names its
+/// channels where they have other names.
+///
+/// All channels are put on the raster of the position, or of the speed where there is none.
+///
+/// With a design the model is the one that firmware runs: friction coefficient by speed and temperature, preload, pre-sliding. Each
+/// parameter is estimated where the trace can tell it.
+///
+/// Without a design a mass or an inertia with Coulomb and viscous friction is fitted, in the trace's own coordinate, with losses in
+/// proportion to the load for driving and back-driving where one is measured.
+///
+/// Models of friction are compared on what was not fitted: another trace (--validate), or the last third of this one; with a design that is
+/// every third twelfth. With --controller they are compared by the simulated closed loop.
+///
+/// Of a folder every trace (*.csv, *.mf4) is fitted, and their parameters together; a run that was stopped goes on where it was.
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Measured trace, or a folder of them; - for standard input
+    #[arg(
+        value_name = "TRACE.csv|TRACE.mf4|FOLDER",
+        required_unless_present_any = ["wanted", "merge"]
+    )]
+    trace: Option<PathBuf>,
+    /// Built-in design, or design file ending in .toml
+    #[arg(long, value_name = "NAME|FILE.toml")]
+    design: Option<DesignSource>,
+    /// Turns of the motor in a turn of the nut [default: 1]
+    #[arg(long, value_name = "RATIO", requires = "design", value_parser = ratio)]
+    ratio: Option<f64>,
+    /// Parameters to estimate, by name [default: what the trace can tell]
+    #[arg(
+        long,
+        value_name = "NAME,...",
+        requires = "design",
+        value_delimiter = ','
+    )]
+    estimate: Option<Vec<String>>,
+    /// Parameters to set
+    #[arg(long, value_name = "NAME=VALUE,...", requires = "design", value_delimiter = ',', value_parser = setting)]
+    fix: Vec<(String, f64)>,
+    /// Parameters whose profile likelihoods the page shows: how much worse the trace is explained with each held elsewhere
+    #[arg(
+        long,
+        value_name = "NAME,...",
+        requires = "design",
+        value_delimiter = ','
+    )]
+    profile: Vec<String>,
+    /// Tell which manoeuvre would tell this parameter best, without a trace
+    #[arg(
+        long,
+        value_name = "NAME",
+        requires = "design",
+        conflicts_with = "trace",
+        value_parser = parameter
+    )]
+    wanted: Option<String>,
+    /// Trace that is not fitted, by which models are scored
+    #[arg(long, value_name = "OTHER.csv|OTHER.mf4")]
+    validate: Option<PathBuf>,
+    /// Which channel of a measurement file is which column, in TOML: nut_speed = "NAME", or with group, source and unit
+    /// nut_speed = { channel = "NAME", group = "GROUP", source = "SOURCE", unit = "rpm" }; - for standard input
+    #[arg(long, value_name = "MAPPING.toml")]
+    channels: Option<PathBuf>,
+    /// Controller of the trace: force = V (P (reference_position - position) - speed); where it has its speed from is found
+    #[arg(
+        long,
+        value_name = "gain_position=P,gain_speed=V",
+        conflicts_with = "design"
+    )]
+    controller: Option<Controller>,
+    /// Cut-off of the zero-phase filter of the motion, Hz [default: 40 with a design; else 100, less where the sensor is coarse]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
+    smoothing: Option<f64>,
+    /// Cut-off of the zero-phase filter of both sides of the regression, Hz [default: 25 with a design, else 60]
+    #[arg(long, value_name = "HZ", value_parser = frequency)]
+    rows: Option<f64>,
+    #[command(flatten)]
+    outputs: OutputArguments,
+    #[command(flatten)]
+    folder: FolderArguments,
+}
+
+/// A frequency, Hz.
+fn frequency(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (1e-3..=1e6).contains(&value) => Ok(value),
+        _ => Err("a cut-off is 1e-3 to 1e6 Hz".into()),
+    }
+}
+
+/// A ratio of a gear.
+fn ratio(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (0.01..=1000.0).contains(&value) => Ok(value),
+        _ => Err("a ratio is 0.01 to 1000".into()),
+    }
+}
+
+/// The name of a parameter.
+fn parameter(text: &str) -> Result<String, String> {
+    if names().any(|name| name == text) {
+        return Ok(text.into());
+    }
+    let known: Vec<&str> = names().collect();
+    Err(format!("allowed: {}", known.join(", ")))
+}
+
+/// A parameter's name with its value.
+fn setting(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
+    let number: f64 = value
+        .trim()
+        .parse()
+        .map_err(|_| format!("{value} is no number"))?;
+    if !number.is_finite() {
+        return Err(format!("{value} is not finite"));
+    }
+    Ok((name.trim().into(), number))
+}
+
+/// Calibrates a trace, or the traces of a folder.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let file = arguments.design.as_ref().and_then(DesignSource::file);
+    refuse_shared([
+        file,
+        arguments.trace.as_deref(),
+        arguments.validate.as_deref(),
+        arguments.channels.as_deref(),
+    ])?;
+    let design = arguments
+        .design
+        .as_ref()
+        .map(|source| {
+            let text = source.text()?;
+            let design = source.load_from(text.as_deref())?;
+            let text = text.unwrap_or_else(|| text::text(&design));
+            Ok::<_, Failure>((design, text))
+        })
+        .transpose()?;
+    let (design, text) = design.unzip();
+    if let (Some(name), Some(design)) = (&arguments.wanted, &design) {
+        return wanted::tell(design, name);
+    }
+    let merges = !arguments.folder.merge.is_empty();
+    let trace = match &arguments.trace {
+        Some(trace) => trace,
+        // Folders that are merged have no name in common.
+        None if merges => Path::new("merged"),
+        None => return Err(Failure::Data("there is no trace".into())),
+    };
+    let folder = merges || trace.is_dir();
+    arguments.fits(folder)?;
+    let beside = [
+        file,
+        arguments.validate.as_deref(),
+        arguments.channels.as_deref(),
+    ];
+    arguments.outputs.check(trace, beside)?;
+    let mapping = arguments
+        .channels
+        .as_deref()
+        .map(Mapping::read)
+        .transpose()?;
+    let mapping = mapping.as_ref();
+    if folder {
+        return whole_folder(arguments, trace, design.as_ref(), mapping);
+    }
+    match (&design, &text) {
+        (Some(design), Some(text)) => with_design(arguments, trace, (design, text), mapping),
+        _ => free(arguments, trace, mapping),
+    }
+}
+
+impl Arguments {
+    /// Refuses options that a folder, or that one trace, has no use for.
+    fn fits(&self, folder: bool) -> Result<(), Failure> {
+        let of_one_trace = [
+            ("--design-out", self.outputs.design_out.is_some()),
+            ("--constants", self.outputs.constants.is_some()),
+            ("--validate", self.validate.is_some()),
+            ("--controller", self.controller.is_some()),
+            ("--profile", !self.profile.is_empty()),
+        ];
+        let needless = of_one_trace.iter().find(|(_, given)| *given && folder);
+        if let Some((name, _)) = needless {
+            return Err(Failure::Data(format!(
+                "{name} is for one trace, and not for a folder of them"
+            )));
+        }
+        if self.folder.part.is_some() && !folder {
+            return Err(Failure::Data(
+                "--part is for a folder of traces, and not for one trace".into(),
+            ));
+        }
+        Ok(())
+    }
+
+    /// What refers motor and carriage to the nut of a design.
+    fn frame(&self, design: &Design) -> Frame {
+        Frame::of(design, self.ratio)
+    }
+
+    /// The trace that is not fitted, where there is one.
+    fn unseen(
+        &self,
+        frame: Option<&Frame>,
+        mapping: Option<&Mapping>,
+    ) -> Result<Option<Trace>, Failure> {
+        self.validate
+            .as_deref()
+            .map(|path| columns::read(&Source(path), frame, mapping.filter(|_| mdf4::named(path))))
+            .transpose()
+    }
+
+    fn filters(&self) -> Filters {
+        Filters {
+            smoothing: self.smoothing,
+            rows: self.rows,
+        }
+    }
+
+    fn request(&self) -> Request {
+        Request {
+            wanted: Wanted {
+                estimate: self.estimate.clone(),
+                fix: self.fix.clone(),
+                ..Wanted::default()
+            },
+            smoothing: SmoothingSettings {
+                cutoff: self.smoothing,
+                ..SmoothingSettings::default()
+            },
+            rows: RowSettings {
+                cutoff: self.rows,
+                ..RowSettings::default()
+            },
+            profiles: self.profile.clone(),
+            ratio_unsaid: self.ratio.is_none(),
+            ..Request::default()
+        }
+    }
+}
+
+/// A trace of a screw whose design is known.
+fn with_design(
+    arguments: &Arguments,
+    trace: &Path,
+    (design, text): (&Design, &str),
+    mapping: Option<&Mapping>,
+) -> Result<(), Failure> {
+    let frame = arguments.frame(design);
+    let truth = truth::of(trace);
+    let trace = columns::read(&Source(trace), Some(&frame), mapping)?;
+    let request = Request {
+        unseen: arguments.unseen(Some(&frame), mapping)?,
+        ..arguments.request()
+    };
+    let found = with_design::told(&trace, design, &request)?;
+    arguments.outputs.write(Outcome {
+        calibration: &found.answer,
+        picture: &found.picture,
+        design: Some(text),
+        screw: Some(&found.screw),
+        drive: None,
+        truth: &truth,
+    })
+}
+
+/// A trace without a design.
+fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Result<(), Failure> {
+    let truth = truth::of(trace);
+    let trace = columns::read(&Source(trace), None, mapping)?;
+    let unseen = arguments.unseen(None, mapping)?;
+    let told = without_design::calibrate(
+        &trace,
+        unseen.as_ref(),
+        arguments.controller,
+        &arguments.filters(),
+    )?;
+    if let Some(controller) = &told.controller {
+        tell(controller, trace.coordinate);
+    }
+    arguments.outputs.write(Outcome {
+        calibration: &told.answer,
+        picture: &told.picture,
+        design: None,
+        screw: None,
+        drive: Some(&told.drive),
+        truth: &truth,
+    })
+}
+
+/// What the trace shows of its controller; beside the answer, so that a JSON object stays alone.
+fn tell(seen: &SeenController, coordinate: Coordinate) {
+    let unit = match coordinate {
+        Coordinate::Rotation => "N m",
+        Coordinate::Translation => "N",
+    };
+    say(format_args!(
+        "The controller's speed is {}; it leaves {:.3e} {unit} rms of the effort, {:.1} %.",
+        seen.source.words(),
+        seen.residual,
+        100.0 * seen.share
+    ));
+}
+
+/// Every trace of a folder.
+fn whole_folder(
+    arguments: &Arguments,
+    traces: &Path,
+    design: Option<&Design>,
+    mapping: Option<&Mapping>,
+) -> Result<(), Failure> {
+    let name = folder_name(traces);
+    let output = arguments.outputs.folder(&name);
+    if design.is_some() {
+        arguments.request().check()?;
+    }
+    let mut settings = format!(
+        "{} {:?} {:?} {:?} {:?} {:?}",
+        env!("CARGO_PKG_VERSION"),
+        design.map(|design| (&design.caged, design.branch, &design.calibrated)),
+        arguments.ratio,
+        arguments.estimate,
+        arguments.fix,
+        arguments.filters(),
+    );
+    if let Some(mapping) = mapping {
+        settings.extend([" ", &format!("{mapping:?}")]);
+    }
+    let folder = Folder {
+        traces,
+        output: &output,
+        arguments: &arguments.folder,
+        settings: &settings,
+        json: arguments.outputs.json,
+    };
+    folder::run(&folder, |path| one(arguments, design, mapping, path))
+}
+
+/// One trace of a folder.
+fn one(
+    arguments: &Arguments,
+    design: Option<&Design>,
+    mapping: Option<&Mapping>,
+    path: &Path,
+) -> Result<(Calibration, Sums), Failure> {
+    // A folder may hold tables beside measurement files.
+    let mapping = mapping.filter(|_| mdf4::named(path));
+    let Some(design) = design else {
+        let trace = columns::read(&Source(path), None, mapping)?;
+        return without_design::plain(&trace, &arguments.filters());
+    };
+    let trace = columns::read(&Source(path), Some(&arguments.frame(design)), mapping)?;
+    with_design::summed(&trace, design, &arguments.request())
+}

@@ -1,0 +1,155 @@
+//! Problems whose answer is known, for the tests of the fit.
+
+use rand::{RngExt, SeedableRng};
+use rand_distr::StandardNormal;
+use rand_pcg::Pcg64;
+
+use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
+
+/// A problem made of a closure.
+pub struct Toy<F> {
+    pub nonlinear: Vec<Parameter>,
+    pub linear: Vec<LinearParameter>,
+    pub target: Vec<f64>,
+    pub model: F,
+}
+
+impl<F: Fn(&[f64]) -> Evaluation + Sync> Separable for Toy<F> {
+    fn nonlinear(&self) -> &[Parameter] {
+        &self.nonlinear
+    }
+
+    fn linear(&self) -> &[LinearParameter] {
+        &self.linear
+    }
+
+    fn target(&self) -> &[f64] {
+        &self.target
+    }
+
+    fn row_step(&self) -> f64 {
+        0.01
+    }
+
+    fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
+        (self.model)(nonlinear)
+    }
+}
+
+pub fn positive(name: &'static str, start: f64, low: f64, high: f64) -> Parameter {
+    Parameter {
+        name,
+        unit: "1",
+        start,
+        low,
+        high,
+        scale: Scale::Logarithmic,
+    }
+}
+
+pub fn free(name: &'static str) -> LinearParameter {
+    LinearParameter {
+        name,
+        unit: "1",
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    }
+}
+
+/// Normal noise of deviation 1 with correlation `memory` between neighbours.
+pub fn noise(seed: u64, rows: usize, memory: f64) -> Vec<f64> {
+    let mut source = Pcg64::seed_from_u64(seed);
+    let mut state: f64 = source.sample(StandardNormal);
+    let fresh = (1.0 - memory * memory).sqrt();
+    (0..rows)
+        .map(|_| {
+            let now = state;
+            let next: f64 = source.sample(StandardNormal);
+            state = memory * state + fresh * next;
+            now
+        })
+        .collect()
+}
+
+/// Whether every number is the wanted one, relative.
+pub fn close(found: &[f64], wanted: &[f64], relative: f64) {
+    assert_eq!(found.len(), wanted.len());
+    for (found, wanted) in found.iter().zip(wanted) {
+        assert!(
+            (found - wanted).abs() <= relative * wanted.abs(),
+            "{found} is not {wanted}"
+        );
+    }
+}
+
+/// Noise by formula, so that another program can make the same: `fract(sin(12.9898 k) 43758.5453) - 1/2`.
+pub fn hash(k: usize) -> f64 {
+    let value = (12.9898 * k as f64).sin() * 43758.5453;
+    value - value.floor() - 0.5
+}
+
+/// 1,500 rows of [`hash`] times 0.4, and an outlier of 3 in every 97th row.
+pub fn rough() -> Vec<f64> {
+    (0..1500)
+        .map(|k| 0.4 * hash(k) + if k % 97 == 0 { 3.0 } else { 0.0 })
+        .collect()
+}
+
+/// A sum of columns and a fixed part.
+pub fn total(evaluation: &Evaluation, linear: &[f64]) -> Vec<f64> {
+    let mut sum = evaluation.fixed.clone();
+    for (column, value) in evaluation.columns.iter().zip(linear) {
+        sum.iter_mut()
+            .zip(column)
+            .for_each(|(sum, x)| *sum += value * x);
+    }
+    sum
+}
+
+/// Speeds, 1/s, of a Stribeck curve's test: two sines.
+pub fn speeds(rows: usize) -> Vec<f64> {
+    (0..rows)
+        .map(|row| {
+            let t = row as f64 * 0.01;
+            4.0 * (0.9 * t).sin() + 1.5 * (2.3 * t + 0.4).sin()
+        })
+        .collect()
+}
+
+/// Stribeck's curve `sign(v) (c + (s - c) exp(-|v| / v_s)) + b v + offset` with smooth sign; nonlinear: s (fixed part: no linear
+/// parameter), v_s; linear: c, b, offset.
+pub fn stribeck(speeds: &[f64], q: &[f64]) -> Evaluation {
+    let (peak, fall) = (q[0], q[1]);
+    let sign = |v: &f64| (v / 0.05).tanh();
+    let part = |v: &f64| (-v.abs() / fall).exp();
+    Evaluation {
+        fixed: speeds.iter().map(|v| peak * sign(v) * part(v)).collect(),
+        columns: vec![
+            speeds.iter().map(|v| sign(v) * (1.0 - part(v))).collect(),
+            speeds.to_vec(),
+            vec![1.0; speeds.len()],
+        ],
+    }
+}
+
+/// Truth of [`stribeck`].
+pub const STRIBECK: ([f64; 2], [f64; 3]) = ([3.0, 0.8], [2.0, 0.15, -0.1]);
+
+/// A Stribeck problem with noise.
+pub fn stribeck_toy(noise: &[f64], size: f64) -> Toy<impl Fn(&[f64]) -> Evaluation + Sync + use<>> {
+    let speeds = speeds(noise.len());
+    let clean = total(&stribeck(&speeds, &STRIBECK.0), &STRIBECK.1);
+    Toy {
+        nonlinear: vec![
+            positive("static", 1.0, 0.1, 20.0),
+            positive("stribeck_speed", 2.0, 0.02, 20.0),
+        ],
+        linear: vec![free("coulomb"), free("viscous"), free("offset")],
+        target: clean
+            .iter()
+            .zip(noise)
+            .map(|(value, noise)| value + size * noise)
+            .collect(),
+        model: move |q: &[f64]| stribeck(&speeds, q),
+    }
+}

@@ -1,0 +1,375 @@
+//! Laws of friction over a motion, each with unit friction at its highest level: what one linear parameter multiplies.
+
+pub mod cost;
+pub mod turns;
+
+use epas_friction::Error;
+use epas_friction::law::coefficient::{
+    CoefficientAtTemperature, CoefficientLaw, CoefficientParameters,
+};
+use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
+use epas_friction::law::{Elements, SlidingLimits};
+
+use crate::bristle::{bristle, stribeck};
+use crate::fit::problem::{Parameter, Scale};
+use crate::mechanism::Step;
+
+/// How friction of sliding follows the speed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// Not at all (Coulomb).
+    Constant,
+    /// `1 + (share at rest - 1) exp(-(v/v_s)^2)` (Stribeck).
+    Stribeck,
+    /// The crate's coefficient law: `1 + (share at rest - 1)/(1 + |v|/v_m)`.
+    LoadShare,
+}
+
+/// How friction passes from one direction to the other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Passage {
+    /// At once: where a motion is known, at its turning points; where it comes sample by sample, a bristle as short as a step of the
+    /// sensor.
+    AtOnce,
+    /// By the speed: `v/sqrt(v^2 + v_r^2)`, as in the crate's scenes without memory.
+    Speed,
+    /// Dahl's law, implicit.
+    Dahl,
+    /// LuGre: Dahl's bristles that follow the level, with a damping of their own.
+    LuGre,
+    /// The crate's elements that remember.
+    Elements,
+}
+
+/// A law of friction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Law {
+    /// Name.
+    pub name: &'static str,
+    /// How sliding follows the speed.
+    pub level: Level,
+    /// How friction reverses.
+    pub passage: Passage,
+    /// What it costs.
+    pub cost: Cost,
+}
+
+/// What a law costs on the reference core.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cost {
+    /// Sum of what was counted of these functions of the firmware.
+    Counted(&'static [&'static str]),
+    /// Modelled cycles of its operations, counted by hand.
+    Estimated(u32),
+}
+
+/// What a motion is like: from it first guesses and bounds follow.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scales {
+    /// Largest speed, rad/s or m/s.
+    pub speed: f64,
+    /// Distance of the farthest places, rad or m.
+    pub travel: f64,
+    /// Step of the position's sensor, rad or m.
+    pub resolution: f64,
+    /// Tick, s.
+    pub tick: f64,
+}
+
+/// Share of friction at rest.
+const SHARE_AT_REST: &str = "friction_share_at_rest";
+/// Speed at which half of the difference is gone, or Stribeck's.
+const HALF_SHARE_SPEED: &str = "half_share_speed";
+/// Travel to full sliding.
+const BREAKAWAY: &str = "breakaway";
+/// Speed of a reversal.
+const REVERSAL_SPEED: &str = "reversal_speed";
+/// Damping of a bristle over its stiffness, s.
+const BRISTLE_TIME: &str = "bristle_time";
+
+/// Number of the crate's elements.
+const ELEMENTS: usize = 8;
+
+impl Law {
+    /// Parameters that do not enter linearly, for a motion of such a size; rad or m as `units` says.
+    pub fn parameters(&self, scales: &Scales, units: [&'static str; 2]) -> Vec<Parameter> {
+        let [length, speed] = units;
+        let shortest = (2.0 * scales.resolution).max(1e-7 * scales.travel);
+        let speeds = |name, start: f64| Parameter {
+            name,
+            unit: speed,
+            start: start * scales.speed,
+            low: 1e-3 * scales.speed,
+            high: 2.0 * scales.speed,
+            scale: Scale::Logarithmic,
+        };
+        let mut parameters = Vec::new();
+        if self.level != Level::Constant {
+            parameters.push(Parameter {
+                name: SHARE_AT_REST,
+                unit: "",
+                start: 0.7,
+                low: 0.1,
+                high: 3.0,
+                scale: Scale::Logarithmic,
+            });
+            parameters.push(speeds(HALF_SHARE_SPEED, 0.1));
+        }
+        match self.passage {
+            Passage::AtOnce => {}
+            Passage::Speed => parameters.push(speeds(REVERSAL_SPEED, 0.01)),
+            Passage::Dahl | Passage::LuGre | Passage::Elements => {
+                // A motion of some hundred steps of the sensor may be all before sliding.
+                parameters.push(Parameter {
+                    name: BREAKAWAY,
+                    unit: length,
+                    start: (20.0 * shortest).min((1e-3 * scales.travel).max(3.0 * shortest)),
+                    low: shortest,
+                    high: (0.1 * scales.travel).max(100.0 * shortest),
+                    scale: Scale::Logarithmic,
+                });
+            }
+        }
+        if self.passage == Passage::LuGre {
+            parameters.push(Parameter {
+                name: BRISTLE_TIME,
+                unit: "s",
+                start: scales.tick,
+                low: 1e-3 * scales.tick,
+                high: 100.0 * scales.tick,
+                scale: Scale::Logarithmic,
+            });
+        }
+        parameters
+    }
+
+    /// The law at these parameters, at rest before it ever moved.
+    ///
+    /// # Errors
+    /// [`Error`] naming a parameter that the crate refuses.
+    pub fn friction(&self, scales: &Scales, values: &[f64]) -> Result<Friction, Error> {
+        let mut values = values.iter().copied();
+        let mut next = || values.next().unwrap_or(f64::NAN);
+        let level = match self.level {
+            Level::Constant => LevelAt::Constant,
+            Level::Stribeck => LevelAt::Stribeck {
+                at_rest: next(),
+                speed: next(),
+            },
+            Level::LoadShare => load_share(next(), next())?,
+        };
+        let memory = match self.passage {
+            Passage::AtOnce => Memory::AtOnce {
+                breakaway: (2.0 * scales.resolution).max(1e-7 * scales.travel),
+                held: 0.0,
+            },
+            Passage::Speed => Memory::Speed(next()),
+            Passage::Dahl => Memory::Bristle {
+                breakaway: next(),
+                held: 0.0,
+            },
+            Passage::LuGre => Memory::Damped {
+                breakaway: next(),
+                time: next(),
+                held: 0.0,
+            },
+            Passage::Elements => {
+                let part = Part {
+                    backbone: &SLIP_8.elements,
+                    share: 1.0,
+                    breakaway_angle: 1.0,
+                };
+                Memory::Elements {
+                    elements: ProportionalElements::new(1.0, &[part])?,
+                    state: ProportionalElements::<ELEMENTS>::VIRGIN,
+                    breakaway: next(),
+                }
+            }
+        };
+        Ok(Friction { level, memory })
+    }
+}
+
+/// The crate's law, over the half-share speed, in units of the full-film coefficient.
+fn load_share(at_rest: f64, speed: f64) -> Result<LevelAt, Error> {
+    let viscosity = epas_friction::defaults::COEFFICIENT.viscosity;
+    let mut parameters = CoefficientParameters::constant(FULL_FILM, viscosity);
+    parameters.boundary = (f64::from(FULL_FILM) * at_rest) as f32;
+    let law = CoefficientLaw::new(&parameters)?;
+    let at = law.at_temperature(parameters.reference_temperature);
+    Ok(LevelAt::LoadShare { at, speed })
+}
+
+/// Coefficient for which a level stands; shares of it keep within the crate's range.
+const FULL_FILM: f32 = 0.1;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum LevelAt {
+    Constant,
+    Stribeck {
+        at_rest: f64,
+        speed: f64,
+    },
+    LoadShare {
+        at: CoefficientAtTemperature,
+        speed: f64,
+    },
+}
+
+impl LevelAt {
+    fn at(&self, speed: f64) -> f64 {
+        match self {
+            Self::Constant => 1.0,
+            Self::Stribeck {
+                at_rest,
+                speed: stribeck_speed,
+            } => stribeck(speed, [*at_rest, 1.0], *stribeck_speed),
+            Self::LoadShare { at, speed: half } => {
+                f64::from(at.at((speed / half) as f32)) / f64::from(FULL_FILM)
+            }
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Memory {
+    Speed(f64),
+    AtOnce {
+        breakaway: f64,
+        held: f64,
+    },
+    Bristle {
+        breakaway: f64,
+        held: f64,
+    },
+    Damped {
+        breakaway: f64,
+        time: f64,
+        held: f64,
+    },
+    Elements {
+        elements: ProportionalElements<ELEMENTS>,
+        state: MemoryState<ELEMENTS>,
+        breakaway: f64,
+    },
+}
+
+/// A law of friction with what it remembers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Friction {
+    level: LevelAt,
+    memory: Memory,
+}
+
+impl Friction {
+    /// Friction at every sample of a motion, over its highest level.
+    ///
+    /// Where a motion turns round between two samples it goes to the turning point first, and comes back from there: the way from
+    /// sample to sample alone would let friction turn round half a sample late. Friction that is late pushes where the acceleration
+    /// is largest, and counts as inertia (1.5 % of it in a drive with half of its effort in friction, sampled at 500 Hz).
+    pub fn along(mut self, position: &[f64], speed: &[f64], tick: f64) -> Vec<f64> {
+        if let Memory::AtOnce { breakaway, .. } = self.memory {
+            let directions = turns::directions(position, speed, breakaway);
+            let levels = speed.iter().map(|speed| self.level.at(*speed));
+            return directions
+                .iter()
+                .zip(levels)
+                .map(|(direction, level)| direction * level)
+                .collect();
+        }
+        let mut before = None;
+        let samples = position.iter().zip(speed);
+        samples
+            .map(|(&position, &speed)| {
+                let (start, start_speed) = before
+                    .replace((position, speed))
+                    .unwrap_or((position, speed));
+                let whole = Step {
+                    position: start,
+                    speed: start_speed,
+                    turn: position - start,
+                    end_speed: speed,
+                    time: tick,
+                };
+                match whole.halves() {
+                    Some((there, back)) => {
+                        self.follow(&there);
+                        self.follow(&back)
+                    }
+                    None => self.follow(&whole),
+                }
+            })
+            .collect()
+    }
+
+    /// Friction after a step, over its highest level, and remembered. The level is that of the speed at the step's start.
+    pub fn follow(&mut self, step: &Step) -> f64 {
+        let level = self.level.at(step.speed);
+        match &mut self.memory {
+            Memory::Speed(reversal) => {
+                let speed = step.end_speed;
+                level * speed / speed.hypot(*reversal)
+            }
+            Memory::AtOnce { breakaway, held } | Memory::Bristle { breakaway, held } => {
+                *held = bristle(*held, step.turn / *breakaway, level);
+                *held
+            }
+            Memory::Damped {
+                breakaway,
+                time,
+                held,
+            } => {
+                let found = bristle(*held, step.turn / *breakaway, level);
+                let moved = found - *held;
+                *held = found;
+                found + *time * moved / step.time
+            }
+            Memory::Elements {
+                elements,
+                state,
+                breakaway,
+            } => {
+                let limits = SlidingLimits {
+                    forward: level as f32,
+                    backward: level as f32,
+                    load: 1.0,
+                };
+                f64::from(elements.follow(state, (step.turn / *breakaway) as f32, &limits))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_start_is_within_its_bounds_for_any_way() {
+        for steps in [4.0, 20.0, 500.0, 2000.0, 1e4, 1e6] {
+            let scales = Scales {
+                speed: 1.0,
+                travel: steps * 1e-4,
+                resolution: 1e-4,
+                tick: 1e-3,
+            };
+            for passage in [Passage::Dahl, Passage::LuGre, Passage::Elements] {
+                let law = Law {
+                    name: "any",
+                    level: Level::Stribeck,
+                    passage,
+                    cost: Cost::Estimated(1),
+                };
+                for parameter in law.parameters(&scales, ["rad", "rad/s"]) {
+                    let Parameter {
+                        low, start, high, ..
+                    } = parameter;
+                    assert!(
+                        0.0 < low && low < start && start < high,
+                        "{steps}: {parameter:?}"
+                    );
+                }
+            }
+        }
+    }
+}

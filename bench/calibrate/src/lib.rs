@@ -1,0 +1,75 @@
+//! `calibrate`: from a measured trace to constants, with their uncertainty.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`trace`] | a measured trace on one sample clock, in SI units: columns of a file, units, clock, angles without jumps |
+//! | [`signals`] | smoothed motion and the rows of a regression: filter, noise, spectrum, autocorrelation |
+//! | [`checks`] | whether a trace may be believed: what it excites, how effort and motion go together, what it does not tell |
+//! | [`fit`] | the estimator: parameters that enter linearly eliminated, the few others searched; intervals, profiles, what the rows do not see |
+//! | [`experiment`] | which manoeuvre tells a parameter |
+//! | [`laws`] | laws of friction of unit level over a motion, and what each costs on the reference core |
+//! | [`screw`] | a trace of a screw whose design is known, as a problem of the estimator |
+//! | [`with_design`] | its calibration |
+//! | [`without_design`] | calibration of a trace without a design: models of friction, the period of a wave, the closed loop |
+//! | [`answer`] | what a calibration answers: parameters with intervals, what cannot be told, scores of models |
+//! | [`page`] | the page of a calibration, and what it draws as plain data |
+//! | [`outputs`] | what a calibration writes, and where: design file, Rust constants |
+//! | [`sums`] | what many traces say together, as sums that merge |
+//! | [`folder`] | every trace of a folder, and what they have in common |
+//! | `command` | arguments, and what is printed |
+
+// For the programs of this workspace: a failure is a sentence, whose causes the sentence names.
+#![allow(clippy::missing_errors_doc)]
+// The documentation of arguments is the program's help text, where back-quotes would be noise and
+// square brackets are no links.
+#![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
+
+pub mod answer;
+pub mod bristle;
+pub mod checks;
+mod command;
+pub mod controller;
+pub mod experiment;
+pub mod fit;
+pub mod folder;
+pub mod laws;
+pub mod mechanism;
+pub mod outputs;
+pub mod page;
+pub mod screw;
+pub mod signals;
+pub mod sums;
+pub mod trace;
+pub mod with_design;
+pub mod without_design;
+
+use std::io::Cursor;
+
+use epas_page::failure::Failure;
+
+pub use command::{Arguments, run};
+
+/// Reads a trace without a design and with one, smooths it and looks whether it may be believed; its number of samples.
+pub fn accepts(text: &[u8]) -> Result<usize, String> {
+    let frame = trace::columns::Frame {
+        lead: 7e-3,
+        ratio: 2.5,
+        fastest: 2e3,
+    };
+    let look = |frame| -> Result<usize, Failure> {
+        let trace = trace::columns::from_reader(Cursor::new(text), "trace", frame)?;
+        let motion = signals::Motion::of(&trace, &signals::SmoothingSettings::default())?;
+        let rows = signals::Rows::new(trace.step, &signals::RowSettings::default())?;
+        let rows = rows.of(&motion.speed);
+        checks::examine(&trace, &motion)?;
+        checks::load_gain(&trace, &motion, 1e-3, true)?;
+        Ok(trace.len().max(rows.len()))
+    };
+    // Either may be refused by itself: a length and a torque need a design.
+    look(Some(&frame))
+        .and(look(None))
+        .map_err(|failure| match failure {
+            Failure::Data(message) => message,
+            other => format!("{other:?}"),
+        })
+}

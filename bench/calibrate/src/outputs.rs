@@ -1,0 +1,202 @@
+//! What a calibration writes, and where.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`design_file`] | the user's design file with the calibrated numbers |
+//! | [`firmware`] | what firmware takes of a calibrated design, as plain numbers |
+//! | [`constants`] | the same as Rust constants |
+//! | [`drive`] | Rust constants of a drive without a drawing |
+
+pub mod constants;
+pub mod design_file;
+pub mod drive;
+pub mod firmware;
+
+use std::io::{self, Write as _};
+use std::path::{Path, PathBuf};
+
+use crate::answer::Calibration;
+use crate::outputs::design_file::Written;
+use crate::page;
+use crate::page::picture::Picture;
+use crate::page::shown;
+use crate::page::truth::Truth;
+use crate::screw::friction::Screw;
+use crate::without_design::drive::Drive;
+use epas_page::failure::Failure;
+use epas_page::files::{self, Existing, refuse_ending, refuse_same};
+use epas_page::folder;
+use epas_traces::source::Source;
+
+/// Where the outputs of a calibration go.
+#[derive(Clone, Debug, Default, PartialEq, Eq, clap::Args)]
+pub struct OutputArguments {
+    /// Folder of the page with its figures and tables [default: target/calibrate/TRACE]
+    #[arg(long, value_name = "FOLDER")]
+    pub output: Option<PathBuf>,
+    /// Where the design file with the calibrated numbers goes
+    #[arg(long, value_name = "OUT.toml", requires = "design")]
+    pub design_out: Option<PathBuf>,
+    /// Where Rust constants for firmware go: of the screw with a design, else of a drive with losses in proportion to the load
+    #[arg(long, value_name = "OUT.rs")]
+    pub constants: Option<PathBuf>,
+    /// Replace a design file or constants that exist, and write to a folder that holds other files
+    #[arg(long)]
+    pub force: bool,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// What is written of a calibration.
+#[derive(Clone, Copy)]
+pub struct Outcome<'a> {
+    /// The answer.
+    pub calibration: &'a Calibration,
+    /// What the page draws.
+    pub picture: &'a Picture,
+    /// Text of the design file that was calibrated, where there is a design.
+    pub design: Option<&'a str>,
+    /// The screw that was fitted, where there is a design.
+    pub screw: Option<&'a Screw>,
+    /// The drive, where there is none.
+    pub drive: Option<&'a Drive>,
+    /// What the trace was made with, where its file says it.
+    pub truth: &'a Truth,
+}
+
+impl OutputArguments {
+    /// Fails before any work is done where an output would be in the way of a file, or is one of the inputs: the trace or one of those
+    /// beside it.
+    ///
+    /// # Errors
+    /// The file.
+    pub fn check<const N: usize>(
+        &self,
+        trace: &Path,
+        beside: [Option<&Path>; N],
+    ) -> Result<(), Failure> {
+        refuse_ending("a design file", self.design_out.as_deref(), &["toml"])?;
+        refuse_ending("constants", self.constants.as_deref(), &["rs"])?;
+        for path in self.files() {
+            self.existing().check(path)?;
+        }
+        refuse_same(beside.into_iter().chain([Some(trace)]), self.files())?;
+        let name = if trace.is_dir() {
+            folder_name(trace)
+        } else {
+            Source(trace).name()
+        };
+        folder::check(&self.folder(&name), self.force)
+    }
+
+    fn files(&self) -> impl Iterator<Item = &PathBuf> {
+        self.design_out.iter().chain(&self.constants)
+    }
+
+    const fn existing(&self) -> Existing {
+        if self.force {
+            Existing::Replace
+        } else {
+            Existing::Keep
+        }
+    }
+
+    /// Folder of the page of a trace.
+    pub fn folder(&self, trace: &str) -> PathBuf {
+        self.output.clone().unwrap_or_else(|| {
+            let name: String = trace
+                .chars()
+                .map(|letter| {
+                    if letter.is_alphanumeric() || "-_".contains(letter) {
+                        letter
+                    } else {
+                        '_'
+                    }
+                })
+                .collect();
+            Path::new("target").join("calibrate").join(name)
+        })
+    }
+
+    /// Writes everything, and prints what is to be told: the page's text and tables, or one JSON object.
+    ///
+    /// # Errors
+    /// What cannot be written; a calibrated number that no design can have.
+    pub fn write(&self, outcome: Outcome<'_>) -> Result<(), Failure> {
+        let Outcome {
+            calibration,
+            picture,
+            design,
+            ..
+        } = outcome;
+        let drive = match (outcome.drive, &self.constants) {
+            (Some(drive), Some(path)) => Some((path, drive::text(drive, &picture.name)?)),
+            _ => None,
+        };
+        let folder = self.folder(&picture.name);
+        let document = page::document(calibration, picture, outcome.truth, design.is_some());
+        folder::mark(&folder)?;
+        document.write(&folder)?;
+        let mut told = Vec::new();
+        if let Some((path, text)) = drive {
+            files::write(path, &text, self.existing())?;
+            told.push(format!("wrote {}", path.display()));
+        }
+        if let (Some(text), true) = (design, self.files().next().is_some()) {
+            let written = calibrated(text, outcome)?;
+            if let Some(path) = &self.design_out {
+                files::write(path, &written.text, self.existing())?;
+                told.push(format!("wrote {}", path.display()));
+                if !written.left_out.is_empty() {
+                    let names = written.left_out.join(", ");
+                    told.push(format!("a design file has no key for {names}"));
+                }
+                if !written.at_bound.is_empty() {
+                    let names = written.at_bound.join(", ");
+                    told.push(format!(
+                        "not written, because at a bound or beside one that is: {names}"
+                    ));
+                }
+            }
+            if let Some(path) = &self.constants {
+                let text = constants::text(&written.design, &picture.name)?;
+                files::write(path, &text, self.existing())?;
+                told.push(format!("wrote {}", path.display()));
+            }
+        }
+        if self.json {
+            return print_json(calibration);
+        }
+        document.print(&folder)?;
+        let mut stdout = io::stdout().lock();
+        for line in told {
+            writeln!(stdout, "{line}")?;
+        }
+        Ok(())
+    }
+}
+
+/// The design's own text with the calibrated numbers in it.
+fn calibrated(text: &str, outcome: Outcome<'_>) -> Result<Written, Failure> {
+    let trace = shown::one_line(&outcome.picture.name);
+    let told = (outcome.calibration, outcome.screw);
+    design_file::written(text, told, &trace)
+        .map_err(|message| Failure::Data(format!("the calibrated design: {message}")))
+}
+
+/// Name of a folder of traces.
+pub fn folder_name(traces: &Path) -> String {
+    traces.file_name().map_or_else(
+        || "folder".into(),
+        |name| name.to_string_lossy().into_owned(),
+    )
+}
+
+/// One JSON object on a line.
+fn print_json(calibration: &Calibration) -> Result<(), Failure> {
+    let text =
+        serde_json::to_string(calibration).map_err(|error| Failure::Data(error.to_string()))?;
+    writeln!(io::stdout().lock(), "{text}")?;
+    Ok(())
+}

@@ -1,0 +1,306 @@
+//! A design file with the calibrated numbers: the user's own text, in which only those are replaced or added.
+
+use toml_edit::{
+    Array, Document, DocumentMut, InlineTable, Item, RawString, Table, TableLike, Value,
+};
+
+use crate::answer::{Calibration, Estimate};
+use crate::page::shown::{interval, one_line};
+use crate::screw::friction::{ElementsKind, Screw};
+use epas_design::files::{Design, read};
+
+/// Keys of a screw that a trace may tell, at the top of a design file.
+const KEYS: [&str; 7] = [
+    "friction",
+    "hysteresis_loss",
+    "lubricant_drag",
+    "rolling_tangent",
+    "clearance",
+    "preload",
+    "reversal_speed",
+];
+
+/// Keys that say how the balls fit, of which a design has one.
+const FITS: [&str; 4] = ["preload", "clearance", "axial_preload", "axial_play"];
+
+/// Keys of the table `[calibration]` that the friction follows from: those that were set stand there too, because the
+/// estimated ones hold beside them.
+const FRICTION_KEYS: [&str; 9] = [
+    "full_film_ratio",
+    "half_share_speed",
+    "reference_temperature",
+    "viscosity_pole",
+    "direction_asymmetry",
+    "breakaway_angle",
+    "reference_load",
+    "largest_load",
+    "backlash",
+];
+
+/// Keys of the table for what is no friction of the screw: only where they were estimated.
+const OTHER_KEYS: [&str; 6] = [
+    "inertia",
+    "drag",
+    "churning",
+    "rolling_drag",
+    "offset",
+    "gain",
+];
+
+/// Keys that a design file has together or not at all.
+const TOGETHER: [[&str; 2]; 2] = [
+    ["full_film_ratio", "half_share_speed"],
+    ["breakaway_angle", "largest_load"],
+];
+
+/// What a comment of this program starts with.
+const MARK: &str = "calibrated: ";
+
+/// A design file that was made.
+#[derive(Debug)]
+pub struct Written {
+    /// Its text.
+    pub text: String,
+    /// The design that it is read as.
+    pub design: Design,
+    /// Estimated parameters that a design file has no key for.
+    pub left_out: Vec<String>,
+    /// Parameters that ended at a bound, or say nothing without one that did, and are not written.
+    pub at_bound: Vec<String>,
+}
+
+/// At what a screw was calibrated, as parameters that were set: a design file needs them beside the estimated ones.
+fn circumstances(screw: &Screw) -> Vec<Estimate> {
+    let mut all = vec![
+        Estimate::fixed("reference_temperature", "K", screw.reference_temperature),
+        Estimate::fixed("reference_load", "N", screw.reference_load),
+    ];
+    if screw.elements != ElementsKind::Proportional {
+        all.push(Estimate::fixed("largest_load", "N", screw.largest_load));
+    }
+    all
+}
+
+/// How elements follow the load, as a design file names it.
+const fn elements(kind: ElementsKind) -> &'static str {
+    match kind {
+        ElementsKind::Proportional => "proportional",
+        ElementsKind::LoadExact => "load_exact",
+        ElementsKind::Preloaded => "preloaded",
+    }
+}
+
+/// The text of a design file with the estimated parameters in it, and beside each its interval and the trace's name.
+///
+/// Everything else stays as it was: other keys, their order, comments, blank lines. A second calibration replaces the
+/// comments of the first one.
+///
+/// # Errors
+/// What is wrong with the text, or which calibrated number is out of the range of a design.
+pub fn written(
+    text: &str,
+    (calibration, screw): (&Calibration, Option<&Screw>),
+    trace: &str,
+) -> Result<Written, String> {
+    let mut document = parsed(text)?.into_mut();
+    let trace = one_line(trace);
+    let mut left_out = Vec::new();
+    let mut waves = Waves::default();
+    let circumstances = screw.map(circumstances).unwrap_or_default();
+    let all = calibration.parameters.iter().chain(&circumstances);
+    let (at_bound, told): (Vec<&Estimate>, Vec<&Estimate>) =
+        all.partition(|estimate| ends_at_bound(calibration, &estimate.name));
+    for estimate in told {
+        let name = estimate.name.as_str();
+        if FRICTION_KEYS.contains(&name) || OTHER_KEYS.contains(&name) && !estimate.fixed {
+            set(table(&mut document)?, estimate, &trace);
+        } else if estimate.fixed {
+            // The user's own number stays as it is written.
+        } else if KEYS.contains(&name) {
+            if FITS.contains(&name) {
+                document = with_fit(&document, name)?;
+            }
+            set(document.as_table_mut(), estimate, &trace);
+        } else if !waves.take(estimate) {
+            left_out.push(estimate.name.clone());
+        }
+    }
+    if let Some(screw) = screw.filter(|_| !ends_at_bound(calibration, "breakaway_angle")) {
+        let name = toml_edit::value(elements(screw.elements));
+        table(&mut document)?.insert("elements", name);
+    }
+    if let Some(list) = waves.list(&trace) {
+        table(&mut document)?.insert("harmonics", Item::Value(list.into()));
+    }
+    let text = document.to_string();
+    let design = read(&text, &trace)?;
+    Ok(Written {
+        text,
+        design,
+        left_out,
+        at_bound: at_bound
+            .iter()
+            .map(|estimate| estimate.name.clone())
+            .collect(),
+    })
+}
+
+/// Whether a parameter ended at a bound, or one that it says nothing without.
+fn ends_at_bound(calibration: &Calibration, name: &str) -> bool {
+    let group = TOGETHER.iter().find(|group| group.contains(&name));
+    let mut ended = calibration.parameters.iter().filter(|other| other.at_bound);
+    ended.any(|other| {
+        other.name == name || group.is_some_and(|group| group.contains(&other.name.as_str()))
+    })
+}
+
+/// The keys of a text, with their places.
+fn parsed(text: &str) -> Result<Document<String>, String> {
+    Document::parse(text.to_owned()).map_err(|error| error.to_string())
+}
+
+/// A document in which `name` is the key that says how the balls fit: the one that it has is a comment below it, among the comments that speak
+/// of it.
+fn with_fit(document: &DocumentMut, name: &str) -> Result<DocumentMut, String> {
+    let parsed = parsed(&document.to_string())?;
+    let root = parsed.as_table();
+    let others = FITS.iter().filter(|other| **other != name);
+    let place = others
+        .filter_map(|other| root.key(other)?.span())
+        .map(|span| span.start)
+        .next();
+    match place {
+        Some(place) if !root.contains_key(name) => {
+            let (above, below) = parsed.raw().split_at(place);
+            // Its number follows.
+            let text = format!("{above}{name} = 0\n# {below}");
+            Ok(self::parsed(&text)?.into_mut())
+        }
+        _ => Ok(document.clone()),
+    }
+}
+
+/// The table `[calibration]`, made where there is none: below the comments that end the file.
+fn table(document: &mut DocumentMut) -> Result<&mut dyn TableLike, String> {
+    if !document.contains_key("calibration") {
+        let above = document.trailing().as_str().unwrap_or_default().to_owned();
+        document.set_trailing("");
+        let mut table = Table::new();
+        table.decor_mut().set_prefix(format!("{above}\n"));
+        document.insert("calibration", Item::Table(table));
+    }
+    document
+        .get_mut("calibration")
+        .and_then(Item::as_table_like_mut)
+        .ok_or_else(|| "calibration is no table".into())
+}
+
+/// Puts a number in its place, with what is known of it as a comment behind it; that of the user stays before that.
+fn set(table: &mut dyn TableLike, estimate: &Estimate, trace: &str) {
+    let users = table
+        .get(&estimate.name)
+        .and_then(Item::as_value)
+        .and_then(|value| value.decor().suffix())
+        .and_then(RawString::as_str)
+        .map_or("", users_comment)
+        .to_owned();
+    let before = if users.is_empty() {
+        " # ".to_owned()
+    } else {
+        format!(" {users}; ")
+    };
+    let mut value = number(estimate.value);
+    value.decor_mut().set_prefix(" ");
+    value
+        .decor_mut()
+        .set_suffix(format!("{before}{}", note(estimate, trace)));
+    if let Some(place) = table.get_mut(&estimate.name) {
+        *place = Item::Value(value);
+    } else {
+        table.insert(&estimate.name, Item::Value(value));
+    }
+}
+
+/// A comment without what this program had added to it.
+fn users_comment(suffix: &str) -> &str {
+    let end = suffix.find(MARK).unwrap_or(suffix.len());
+    let own = suffix[..end].trim().trim_end_matches(';').trim_end();
+    if own == "#" { "" } else { own }
+}
+
+/// What is known of a number.
+fn note(estimate: &Estimate, trace: &str) -> String {
+    if estimate.fixed {
+        return format!("{MARK}set, not estimated, from {trace}");
+    }
+    format!(
+        "{MARK}{} (95 %), from {trace}",
+        interval(estimate.low, estimate.high)
+    )
+}
+
+/// A number to the last digit of what a design holds.
+fn number(value: f64) -> Value {
+    // The shortest digits that are this f32 again.
+    let short = format!("{:?}", value as f32);
+    short.parse().unwrap_or_else(|_| Value::from(value))
+}
+
+/// Estimated waves over the turn: order, cosine, sine.
+#[derive(Default)]
+struct Waves(Vec<(u8, [Option<Estimate>; 2])>);
+
+impl Waves {
+    /// Whether an estimate is a part of a wave, `cosine_1` or `sine_1`; then it is taken.
+    fn take(&mut self, estimate: &Estimate) -> bool {
+        let Some((part, order)) = estimate.name.split_once('_') else {
+            return false;
+        };
+        let (Ok(order), Some(place)) = (
+            order.parse::<u8>(),
+            ["cosine", "sine"].iter().position(|known| *known == part),
+        ) else {
+            return false;
+        };
+        let index = self
+            .0
+            .iter()
+            .position(|(known, _)| *known == order)
+            .unwrap_or_else(|| {
+                self.0.push((order, [None, None]));
+                self.0.len() - 1
+            });
+        self.0[index].1[place] = Some(estimate.clone());
+        true
+    }
+
+    /// The list of a design file, one wave a line.
+    fn list(self, trace: &str) -> Option<Array> {
+        if self.0.is_empty() {
+            return None;
+        }
+        let mut list = Array::new();
+        let mut before = String::from("\n    ");
+        for (order, parts) in self.0 {
+            let mut wave = InlineTable::new();
+            wave.insert("order", i64::from(order).into());
+            let mut notes = Vec::new();
+            for (name, part) in ["cosine", "sine"].into_iter().zip(parts) {
+                if let Some(part) = part {
+                    wave.insert(name, number(part.value));
+                    notes.push(format!("{name} {}", interval(part.low, part.high)));
+                }
+            }
+            let mut wave = Value::InlineTable(wave);
+            wave.decor_mut().set_prefix(before);
+            list.push_formatted(wave);
+            before = format!(" # {MARK}{} (95 %), from {trace}\n    ", notes.join(", "));
+        }
+        list.set_trailing_comma(true);
+        list.set_trailing(before.trim_end_matches(' '));
+        Some(list)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,127 @@
+//! What the page of a calibration draws, as plain data.
+
+use crate::fit::profile;
+use crate::fit::uncertainty::Uncertainty;
+use crate::signals::{Motion, Rows};
+use crate::trace::{Coordinate, Trace};
+
+/// A fitted trace, row by row. All lists are as long as `time`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Picture {
+    /// Name of the trace, for headings.
+    pub name: String,
+    /// What position, speed and effort are.
+    pub coordinate: Coordinate,
+    /// Time, s, in equal steps.
+    pub time: Vec<f64>,
+    /// Effort of the motor as measured and filtered, N m or N.
+    pub measured: Vec<f64>,
+    /// What the model says to it, N m or N.
+    pub model: Vec<f64>,
+    /// Position, rad or m.
+    pub position: Vec<f64>,
+    /// Speed, rad/s or m/s.
+    pub speed: Vec<f64>,
+    /// Axial load, N, where it was measured.
+    pub load: Option<Vec<f64>>,
+    /// Temperature, K, where it was measured.
+    pub temperature: Option<Vec<f64>>,
+    /// Profile likelihoods.
+    pub profiles: Vec<Profile>,
+    /// Correlations of the parameters' errors.
+    pub correlations: Correlations,
+}
+
+/// How much worse the trace is explained with a parameter held at other values, and all others fitted again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Profile {
+    /// Name of the parameter.
+    pub name: String,
+    /// Its unit; empty where it has none.
+    pub unit: String,
+    /// Its fitted value.
+    pub best: f64,
+    /// Values, and the rise of minus twice the logarithm of the likelihood there.
+    pub points: Vec<(f64, f64)>,
+}
+
+impl Profile {
+    /// The profile of a parameter with this fitted value.
+    pub fn of(profile: &profile::Profile, best: f64) -> Self {
+        let points = profile.points.iter();
+        Self {
+            name: profile.name.into(),
+            unit: profile.unit.into(),
+            best,
+            points: points.map(|point| (point.value, point.loss)).collect(),
+        }
+    }
+}
+
+/// Correlations of the parameters' errors.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Correlations {
+    /// Names of the parameters.
+    pub names: Vec<String>,
+    /// One row for each of them, as long as the names; -1 to 1.
+    pub rows: Vec<Vec<f64>>,
+}
+
+impl Picture {
+    /// A fit whose rows are those of a trace: what was measured there, and what the model leaves of it.
+    pub fn of(
+        trace: &Trace,
+        motion: &Motion,
+        rows: &Rows,
+        (measured, residual): (&[f64], &[f64]),
+        sure: &Uncertainty,
+    ) -> Self {
+        let samples: Vec<usize> = rows.samples(trace.len()).collect();
+        let at = |signal: &[f64]| -> Vec<f64> {
+            let values = samples.iter().map(|sample| signal.get(*sample));
+            values
+                .map(|value| value.copied().unwrap_or(f64::NAN))
+                .collect()
+        };
+        let time = |sample: &usize| trace.start + trace.step * *sample as f64;
+        let names = sure.intervals.iter().map(|interval| interval.name);
+        let correlations = sure.correlation.row_iter();
+        Self {
+            name: trace.name.clone(),
+            coordinate: trace.coordinate,
+            time: samples.iter().map(time).collect(),
+            measured: measured.to_vec(),
+            model: measured
+                .iter()
+                .zip(residual)
+                .map(|(measured, residual)| measured - residual)
+                .collect(),
+            position: at(&motion.position),
+            speed: at(&motion.speed),
+            load: trace.load.as_deref().map(at),
+            temperature: trace.temperature.as_deref().map(at),
+            profiles: Vec::new(),
+            correlations: Correlations {
+                names: names.map(String::from).collect(),
+                rows: correlations
+                    .map(|row| row.iter().copied().collect())
+                    .collect(),
+            },
+        }
+    }
+
+    /// What the model does not explain, at every row: measured less model.
+    pub fn residual(&self) -> impl Iterator<Item = f64> + Clone + '_ {
+        self.measured
+            .iter()
+            .zip(&self.model)
+            .map(|(measured, model)| measured - model)
+    }
+
+    /// Time between rows, s; none where there are fewer than two.
+    pub fn step(&self) -> Option<f64> {
+        let (first, last) = (self.time.first()?, self.time.last()?);
+        let steps = self.time.len() - 1;
+        (steps > 0).then(|| (last - first) / steps as f64)
+    }
+}

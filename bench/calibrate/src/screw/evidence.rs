@@ -1,0 +1,121 @@
+//! What a trace of a screw can tell, before anything is fitted.
+
+use crate::signals::Motion;
+use crate::trace::Trace;
+
+/// What a trace excites.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Evidence {
+    /// Samples of motion forward and backward over all.
+    pub directions: [f64; 2],
+    /// Speed that a tenth of the moving samples stay below, and the one that a tenth exceed, rad/s.
+    pub speeds: [f64; 2],
+    /// Turns of the motion's direction.
+    pub reversals: usize,
+    /// Distance between the outermost angles, rad.
+    pub range: f64,
+    /// Acceleration, rms, over its noise.
+    pub acceleration: f64,
+    /// Least and largest load, N; none where it was not measured.
+    pub load: Option<[f64; 2]>,
+    /// Coldest and warmest temperature, K; none where it was not measured.
+    pub temperature: Option<[f64; 2]>,
+}
+
+/// Speeds that count as motion, over the noise of the speed.
+const MOVES: f64 = 4.0;
+
+impl Evidence {
+    /// What a trace excites.
+    pub fn of(trace: &Trace, motion: &Motion) -> Self {
+        let [speed_noise, acceleration_noise] = motion.noise;
+        let samples = motion.speed.len().max(1) as f64;
+        let share = |direction: f64| {
+            let moving = motion
+                .speed
+                .iter()
+                .filter(|&speed| direction * speed > MOVES * speed_noise);
+            moving.count() as f64 / samples
+        };
+        let mut sizes: Vec<f64> = motion
+            .speed
+            .iter()
+            .map(|speed| speed.abs())
+            .filter(|&speed| speed > MOVES * speed_noise)
+            .collect();
+        sizes.sort_by(f64::total_cmp);
+        let tenth = |place: usize| sizes.get(sizes.len() * place / 10).copied().unwrap_or(0.0);
+        let square: f64 = motion.acceleration.iter().map(|a| a * a).sum();
+        Self {
+            directions: [share(1.0), share(-1.0)],
+            speeds: [tenth(1), tenth(9)],
+            reversals: reversals(&motion.position, reversal_distance(trace)),
+            range: ends(&motion.position).map_or(0.0, |[low, high]| high - low),
+            acceleration: (square / samples).sqrt() / acceleration_noise.max(f64::MIN_POSITIVE),
+            load: trace.load.as_deref().and_then(ends),
+            temperature: trace.temperature.as_deref().and_then(ends),
+        }
+    }
+
+    /// Whether both directions are there.
+    pub fn both_ways(&self) -> bool {
+        self.directions.iter().all(|share| *share > 0.05)
+    }
+
+    /// Largest load, N; 0 where none was measured.
+    pub fn largest_load(&self) -> f64 {
+        self.load.map_or(0.0, |[low, high]| high.max(-low))
+    }
+
+    /// Range of the load's size over its largest.
+    pub fn load_variation(&self) -> f64 {
+        match self.load {
+            Some([low, high]) if high.max(-low) > 0.0 => {
+                let least = if low * high <= 0.0 {
+                    0.0
+                } else {
+                    low.abs().min(high.abs())
+                };
+                1.0 - least / high.max(-low)
+            }
+            _ => 0.0,
+        }
+    }
+
+    /// Range of the temperature, K.
+    pub fn temperature_range(&self) -> f64 {
+        self.temperature.map_or(0.0, |[low, high]| high - low)
+    }
+}
+
+/// Least distance that a motion goes back for a reversal: some steps of the sensor.
+fn reversal_distance(trace: &Trace) -> f64 {
+    3.0 * trace.resolution
+}
+
+fn ends(list: &[f64]) -> Option<[f64; 2]> {
+    let first = *list.first()?;
+    Some(list.iter().fold([first; 2], |[low, high], &value| {
+        [low.min(value), high.max(value)]
+    }))
+}
+
+/// How often a path turns back by more than a distance.
+fn reversals(path: &[f64], distance: f64) -> usize {
+    let Some(&first) = path.first() else { return 0 };
+    let (mut direction, mut farthest, mut count) = (0.0, first, 0);
+    for &place in path {
+        let gone = place - farthest;
+        if direction == 0.0 {
+            if gone.abs() > distance {
+                (direction, farthest) = (gone.signum(), place);
+            }
+        } else if direction * gone > 0.0 {
+            farthest = place;
+        } else if direction * gone < -distance {
+            (direction, farthest) = (-direction, place);
+            count += 1;
+        }
+    }
+    count
+}

@@ -1,0 +1,402 @@
+//! Friction of a screw along a trace: the exact ball of the reference, behind the memory that the firmware runs.
+//!
+//! One formula, in one place: values of a calibration become a design here, and nowhere else. Firmware evaluates a block that is folded for
+//! that design, whose certificate says how far it is from the exact ball.
+
+use std::f32::consts::{PI, TAU};
+use std::sync::Arc;
+
+use epas_design::CagedDesign;
+use epas_friction::law::Elements;
+use epas_friction::law::coefficient::DirectionalCoefficient;
+use epas_friction::law::coefficient::{
+    CoefficientLaw, CoefficientParameters, RollingDrag, TemperatureFade, Viscosity,
+};
+use epas_friction::law::memory::{
+    Hysteresis, LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
+};
+use epas_friction::law::motion::{Deadband, WrappedAngle, WrappedAngleParameters};
+use epas_friction::scene::{
+    Freshness, Inputs, SlidingFriction, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+};
+use epas_friction::{Clearance, Error, FrictionModel, RollingResistance};
+
+use super::exact::{ExactLaw, ExactScrew, Grid, Spacing};
+use super::quantities::Values;
+use crate::signals::Motion;
+use crate::signals::filter::ZeroPhase;
+use crate::trace::Trace;
+use epas_page::failure::Failure;
+
+/// Elements of every calibrated memory.
+pub const ELEMENTS: usize = 8;
+
+/// Sensor of the nut's angle, behind its backlash.
+pub type Sensor = Deadband<WrappedAngle>;
+
+/// A scene with such a memory.
+pub type Remembering<'a, E> = WithMemory<ExactScrew<'a>, E, Sensor, CoefficientLaw>;
+
+/// What is set for it.
+pub type Configuration<'a, E> = WithMemoryConfiguration<&'a ExactLaw, E, Sensor, CoefficientLaw>;
+
+/// Distance of the second point of a viscosity from the reference temperature, K.
+const SECOND: f32 = 60.0;
+
+/// Viscosity at the reference temperature, Pa s, where only its growth matters.
+const VISCOSITY: f32 = 0.1;
+
+/// Coldest temperature of a lubricant, K.
+const COLDEST: f32 = 150.0;
+
+/// How elements follow the load.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ElementsKind {
+    /// Constant shares of the friction of gross sliding: a preloaded screw.
+    Proportional,
+    /// Springs that come into contact with the load: any load, without a preload.
+    LoadExact,
+    /// The same at the load that both flanks of a preloaded nut share: any load, at a reference load of none.
+    Preloaded,
+}
+
+/// What of a screw is not estimated from a trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Screw {
+    /// Its design; friction, fit and rolling resistance are replaced.
+    pub caged: CagedDesign,
+    /// How elements follow the load.
+    pub elements: ElementsKind,
+    /// Whether the fit is that of the preload; else it is the design's own.
+    pub preloaded: bool,
+    /// Temperature of the half-share speed, K.
+    pub reference_temperature: f64,
+    /// Axial load of the breakaway angle, N, not below 0.
+    pub reference_load: f64,
+    /// Largest axial load of the trace, N.
+    pub largest_load: f64,
+}
+
+/// Gross sliding with the coefficient at standstill, at the reference load and at the largest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reference {
+    /// Mean friction of both directions, N m.
+    pub torque: f32,
+    /// Load of the elements there, N.
+    pub load: f32,
+    /// That at the largest load over it.
+    pub largest_load: f32,
+}
+
+impl Screw {
+    /// The design with the values' friction, fit and rolling resistance.
+    ///
+    /// # Errors
+    /// [`Error`] naming a value out of range.
+    pub fn scene(&self, values: &Values) -> Result<CagedDesign, Error> {
+        let design = self.caged.design;
+        CagedDesign {
+            friction: values.friction as f32,
+            rolling_resistance: RollingResistance {
+                hysteresis_loss: values.hysteresis_loss as f32,
+                lubricant_drag: values.lubricant_drag as f32,
+            },
+            clearance: if self.preloaded {
+                Clearance::of_preload(&design, values.preload as f32)?
+            } else {
+                self.caged.clearance
+            },
+            ..self.caged
+        }
+        .checked()
+    }
+
+    /// Law of the friction coefficient. Churned lubricant counts as a torque of its own.
+    pub fn coefficient(&self, values: &Values) -> CoefficientParameters {
+        CoefficientParameters {
+            boundary: values.friction as f32,
+            full_film: (values.full_film_ratio * values.friction) as f32,
+            half_share_speed: values.half_share_speed as f32,
+            reference_temperature: self.reference_temperature as f32,
+            viscosity: self
+                .viscosity(values)
+                .unwrap_or(epas_friction::defaults::VISCOSITY),
+            forward: (1.0 + values.direction_asymmetry) as f32,
+            backward: (1.0 - values.direction_asymmetry) as f32,
+            churning: 0.0,
+            drag: RollingDrag::NONE,
+        }
+    }
+
+    /// A viscosity with the values' pole.
+    ///
+    /// # Errors
+    /// [`Error`] naming `viscosity` for a pole too close to the reference temperature or too far from it.
+    pub fn viscosity(&self, values: &Values) -> Result<Viscosity, Error> {
+        let (reference, pole) = (
+            self.reference_temperature as f32,
+            values.viscosity_pole as f32,
+        );
+        let ratio = (reference - pole) / (reference + SECOND - pole);
+        Viscosity::through(
+            (reference, VISCOSITY),
+            (reference + SECOND, VISCOSITY * ratio.powi(5)),
+            COLDEST,
+        )
+    }
+
+    /// The exact ball, solved for what a fit asks for, from these values on.
+    ///
+    /// # Errors
+    /// A value out of range.
+    pub fn grid(&self, values: &Values, spacing: Spacing) -> Result<Arc<Grid>, Failure> {
+        let largest = self.largest_load.max(self.reference_load);
+        Ok(Grid::of(&self.scene(values)?, largest, spacing)?)
+    }
+
+    /// Gross sliding at the reference load.
+    ///
+    /// # Errors
+    /// A value out of range.
+    pub fn reference(&self, values: &Values) -> Result<Reference, Failure> {
+        let friction = values.friction as f32;
+        let grid = self.grid(values, Spacing::WRITTEN)?;
+        let law = grid.law(&self.scene(values)?, (friction, friction))?;
+        Ok(self.reference_of(&law, values))
+    }
+
+    /// The same by a law that there is.
+    fn reference_of(&self, law: &ExactLaw, values: &Values) -> Reference {
+        let friction = DirectionalCoefficient {
+            forward: values.friction as f32,
+            backward: values.friction as f32,
+        };
+        let limits = |load: f64| law.friction(load as f32, friction);
+        let largest = limits(self.largest_load);
+        let SlidingFriction {
+            forward,
+            backward,
+            load,
+        } = limits(self.reference_load);
+        Reference {
+            torque: 0.5 * (forward + backward),
+            load,
+            largest_load: largest.load / load,
+        }
+    }
+
+    /// Elements in constant shares of the friction.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is out of range.
+    pub fn proportional(
+        &self,
+        values: &Values,
+        reference: &Reference,
+    ) -> Result<ProportionalElements<ELEMENTS>, Error> {
+        let whole = Part {
+            backbone: &SLIP_8.elements,
+            share: 1.0,
+            breakaway_angle: values.breakaway_angle as f32,
+        };
+        ProportionalElements::new(reference.torque, &[whole])
+    }
+
+    /// Elements that come into contact with the load.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is out of range.
+    pub fn load_exact(
+        &self,
+        values: &Values,
+        reference: &Reference,
+    ) -> Result<LoadExactElements<ELEMENTS>, Error> {
+        LoadExactElements::new(
+            reference.torque,
+            values.breakaway_angle as f32,
+            reference.largest_load,
+        )
+    }
+
+    /// Elements that come into contact with the load that both flanks share.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is out of range.
+    pub fn preloaded(
+        &self,
+        values: &Values,
+        reference: &Reference,
+    ) -> Result<PreloadedElements<LoadExactElements<ELEMENTS>>, Error> {
+        let shared = Reference {
+            largest_load: self.largest_load_of_elements(reference),
+            ..*reference
+        };
+        Ok(PreloadedElements::new(self.load_exact(values, &shared)?))
+    }
+
+    /// Largest load of the elements over that at the reference.
+    pub fn largest_load_of_elements(&self, reference: &Reference) -> f32 {
+        match self.elements {
+            ElementsKind::Preloaded => PreloadedElements::new(()).shared(reference.largest_load),
+            _ => reference.largest_load,
+        }
+    }
+
+    /// The whole scene with these elements.
+    ///
+    /// # Errors
+    /// [`Error`] naming a value out of range.
+    pub fn configuration<'a, E: Elements + Hysteresis + Copy>(
+        &self,
+        values: &Values,
+        reference: &Reference,
+        elements: E,
+        law: &'a ExactLaw,
+    ) -> Result<Configuration<'a, E>, Error> {
+        let coefficient = CoefficientLaw::new(&self.coefficient(values))?;
+        let angle = WrappedAngle::new(WrappedAngleParameters {
+            lowest: -PI,
+            period: TAU,
+            largest_turn: PI,
+        })?;
+        Ok(WithMemoryConfiguration {
+            scene: law,
+            elements,
+            angle: Deadband::new(angle, 0.5 * values.backlash as f32)?,
+            reference_load: reference.load,
+            play: elements.breakaway(),
+            coefficient,
+            temperature: TemperatureFade::new(self.reference_temperature as f32, 1.0, 1.0)?,
+            freshness: Freshness::DEFAULT,
+        })
+    }
+
+    /// The law of these values: for all friction coefficients that they take.
+    ///
+    /// # Errors
+    /// A value out of range.
+    pub fn law(&self, values: &Values, grid: &Grid) -> Result<ExactLaw, Failure> {
+        let (least, largest) = CoefficientLaw::new(&self.coefficient(values))?.extremes();
+        let own = values.friction as f32;
+        let coefficients = (least.min(own), largest.max(own));
+        Ok(grid.law(&self.scene(values)?, coefficients)?)
+    }
+
+    /// Friction torque at every sample, N m, by the exact ball.
+    ///
+    /// # Errors
+    /// A value out of range.
+    pub fn friction(
+        &self,
+        values: &Values,
+        course: &Course,
+        grid: &Grid,
+    ) -> Result<Vec<f64>, Failure> {
+        let law = &self.law(values, grid)?;
+        let reference = self.reference_of(law, values);
+        let friction = match self.elements {
+            ElementsKind::Proportional => {
+                let elements = self.proportional(values, &reference)?;
+                course.friction(&self.configuration(values, &reference, elements, law)?)
+            }
+            ElementsKind::Preloaded => {
+                let elements = self.preloaded(values, &reference)?;
+                course.friction(&self.configuration(values, &reference, elements, law)?)
+            }
+            ElementsKind::LoadExact => {
+                let elements = self.load_exact(values, &reference)?;
+                course.friction(&self.configuration(values, &reference, elements, law)?)
+            }
+        };
+        Ok(friction?)
+    }
+
+    /// Friction torque at every sample, N m, without memory: with one coefficient, over a reversal speed, rad/s.
+    ///
+    /// # Errors
+    /// A value out of range.
+    pub fn friction_by_speed(
+        &self,
+        values: &Values,
+        course: &Course,
+        grid: &Grid,
+        reversal_speed: f32,
+    ) -> Result<Vec<f64>, Failure> {
+        let friction = values.friction as f32;
+        let law = grid.law(&self.scene(values)?, (friction, friction))?;
+        let inputs = course.inputs().iter();
+        Ok(inputs
+            .map(|inputs| law.by_speed(inputs.scene, friction, reversal_speed))
+            .collect())
+    }
+}
+
+/// What the model is told at every sample.
+#[derive(Clone, Debug)]
+pub struct Course {
+    inputs: Vec<WithMemoryInputs<Inputs, f32>>,
+}
+
+impl Course {
+    /// Inputs along a trace, with its load smoothed by a filter where one is given; no load, and the temperature given, where nothing was
+    /// measured.
+    ///
+    /// Noise of the load would cut what elements hold before they slide, whenever it lowers their limits.
+    pub fn of(
+        trace: &Trace,
+        motion: &Motion,
+        smoothing: Option<&ZeroPhase>,
+        temperature: f64,
+    ) -> Self {
+        let load = trace.load.as_deref().map(|load| match smoothing {
+            Some(filter) => filter.apply(load),
+            None => load.to_vec(),
+        });
+        let at = |list: &Option<Vec<f64>>, index: usize, other: f64| {
+            let value = list.as_ref().and_then(|list| list.get(index));
+            value.copied().unwrap_or(other) as f32
+        };
+        let moments = motion.position.iter().zip(&motion.speed).enumerate();
+        let inputs = moments.map(|(index, (position, speed))| WithMemoryInputs {
+            scene: Inputs {
+                nut_speed: *speed as f32,
+                axial_load: at(&load, index, 0.0),
+            },
+            reading: wrapped(*position),
+            load_age: 0.0,
+            temperature: at(&trace.temperature, index, temperature),
+            temperature_age: 0.0,
+        });
+        Self {
+            inputs: inputs.collect(),
+        }
+    }
+
+    /// Inputs at every sample.
+    pub fn inputs(&self) -> &[WithMemoryInputs<Inputs, f32>] {
+        &self.inputs
+    }
+
+    /// Friction torque of a scene with memory at every sample, N m.
+    ///
+    /// # Errors
+    /// [`Error`] naming what is out of range in the configuration.
+    pub fn friction<E: Elements + Copy>(
+        &self,
+        configuration: &Configuration<'_, E>,
+    ) -> Result<Vec<f64>, Error> {
+        let mut model = FrictionModel::<Remembering<'_, E>>::new(configuration)?;
+        Ok(self
+            .inputs
+            .iter()
+            .map(|inputs| model.step(*inputs).friction_torque.into())
+            .collect())
+    }
+}
+
+/// An angle within half a turn either way, rad.
+fn wrapped(angle: f64) -> f32 {
+    let half = std::f64::consts::PI;
+    let within = (angle + half).rem_euclid(2.0 * half) - half;
+    (within as f32).clamp(-PI, PI)
+}

@@ -1,0 +1,427 @@
+//! Synthetic traces from the exact reference.
+
+use std::collections::BTreeMap;
+
+use epas_friction::Clearance;
+use epas_reference::rig::course::Course;
+use epas_reference::rig::parameters::Parameters;
+use epas_reference::rig::{Rig, Sensors};
+use rayon::prelude::*;
+use statrs::statistics::Statistics;
+
+use super::choice::Wanted;
+use super::exact::Spacing;
+use super::friction::Screw;
+use super::{Request, ScrewCalibration, calibrate};
+use crate::fit::cramer_rao::inverse;
+use crate::fit::separable::{FitSettings, inner, inner_slope};
+use crate::sums::{Population, Sums};
+use crate::trace::{Coordinate, Repairs, Trace};
+use crate::with_design::sums;
+use epas_design::files::{Design, DesignSource};
+
+/// The rig's screw with another preload and friction coefficient: what an engineer has before a calibration.
+fn design() -> Design {
+    let source: DesignSource = "lin-4.1".parse().unwrap();
+    let mut design = source.load().unwrap();
+    let screw = design.caged.design;
+    design.caged.clearance = Clearance::of_preload(&screw, 20.0).unwrap();
+    design
+}
+
+fn rig(sensors: Sensors) -> Rig {
+    Rig::new(Parameters::default(), sensors).unwrap()
+}
+
+fn trace(rig: &Rig, course: &Course, seed: u64) -> Trace {
+    let measured = rig.run(course, seed).unwrap();
+    Trace {
+        name: "rig".into(),
+        coordinate: Coordinate::Rotation,
+        start: 0.0,
+        step: course.tick,
+        position: measured.nut_position,
+        resolution: Sensors::default().count,
+        position_summed: false,
+        speed: None,
+        effort: measured.motor_torque,
+        reference_position: None,
+        load: Some(measured.axial_load),
+        load_is_effort: false,
+        known: None,
+        temperature: Some(measured.temperature),
+        repairs: Repairs::default(),
+        ignored: Vec::new(),
+    }
+}
+
+fn request(fix: &[(&str, f64)]) -> Request {
+    let fix = fix.iter().map(|(name, value)| ((*name).into(), *value));
+    let reference = ("reference_temperature".to_string(), 303.15);
+    let fit = Request::default().fit;
+    Request {
+        wanted: Wanted {
+            fix: fix.chain([reference]).collect(),
+            ..Wanted::default()
+        },
+        fit: FitSettings {
+            starts: 1,
+            finished: 1,
+            ..fit
+        },
+        without_models: true,
+        ..Request::default()
+    }
+}
+
+/// What the rig was made with; the preload is the force of a contact.
+fn truth(name: &str, screw: &Screw) -> f64 {
+    let parameters = Parameters::default();
+    match name {
+        "friction" => parameters.boundary,
+        "full_film_ratio" => parameters.full_film / parameters.boundary,
+        "half_share_speed" => 6.0,
+        "viscosity_pole" => 273.15 - 64.0,
+        // Its lubricant drags no rolling contact, and both directions are alike.
+        "direction_asymmetry" | "rolling_drag" => 0.0,
+        "preload" => parameters.screw.axial_preload / screw.axial_per_contact(),
+        "breakaway_angle" => parameters.breakaway,
+        "inertia" => parameters.inertia,
+        "drag" => parameters.viscous,
+        "offset" => parameters.offset,
+        "gain" => parameters.load_gain,
+        "cosine_1" => parameters.waves[0].cosine,
+        "sine_1" => parameters.waves[0].sine,
+        "cosine_2" => parameters.waves[1].cosine,
+        "sine_2" => parameters.waves[1].sine,
+        other => panic!("{other}: not known of the rig"),
+    }
+}
+
+/// A quarter of a minute with a third of the parameters. Of an interval of 95 % twice the half width is 1 in 10000.
+#[test]
+fn a_short_trace_tells_what_the_rig_was_made_with() {
+    let rig = rig(Sensors::default());
+    let trace = trace(&rig, &Course::vehicle().times(0.2), 3);
+    let mut request = request(&[]);
+    request.wanted.estimate = Some(
+        [
+            "friction",
+            "breakaway_angle",
+            "inertia",
+            "drag",
+            "offset",
+            "gain",
+        ]
+        .map(String::from)
+        .into(),
+    );
+    request.wanted.fix.extend([
+        ("full_film_ratio".to_string(), 0.06 / 0.115),
+        ("half_share_speed".to_string(), 6.0),
+        ("viscosity_pole".to_string(), 273.15 - 64.0),
+        ("preload".to_string(), 13.984),
+    ]);
+    let found = calibrate(&trace, &design(), &request).unwrap();
+    for parameter in found.answer.parameters.iter().filter(|p| !p.fixed) {
+        let off = (parameter.value - truth(&parameter.name, &found.screw)).abs();
+        assert!(off < 2.0 * parameter.half_width(), "{parameter:?}");
+    }
+    assert_eq!(
+        found.answer.parameters.iter().filter(|p| !p.fixed).count(),
+        6
+    );
+    let friction = found.answer.parameter("friction").unwrap();
+    assert!(
+        friction.half_width() < 0.02 * friction.value,
+        "{friction:?}"
+    );
+}
+
+/// A search on the coarse grid and one on the fine grid end at the same answer: value and half width of every parameter agree to a hundredth
+/// of the half width. That is 0.02 standard deviations, which add 4e-4 to the mean square of the error.
+#[test]
+fn a_coarse_search_ends_at_the_fine_answer() {
+    let trace = trace(&rig(Sensors::default()), &Course::vehicle().times(0.2), 3);
+    let of = |search: Spacing| {
+        let request = Request {
+            search,
+            ..request(&[])
+        };
+        calibrate(&trace, &design(), &request).unwrap().answer
+    };
+    let [coarse, fine] = [Spacing::COARSE, Spacing::FINE].map(of);
+    let mut estimated = 0;
+    for (coarse, fine) in coarse.parameters.iter().zip(&fine.parameters) {
+        assert_eq!((&coarse.name, coarse.fixed), (&fine.name, fine.fixed));
+        let allowed = 0.01 * fine.half_width();
+        let off = (coarse.value - fine.value).abs();
+        let wider = (coarse.half_width() - fine.half_width()).abs();
+        println!("{}: {off:e} {wider:e} of {allowed:e}", fine.name);
+        assert!(
+            off <= allowed && wider <= allowed,
+            "{coarse:?} and {fine:?}"
+        );
+        estimated += usize::from(!fine.fixed);
+    }
+    assert!(estimated >= 10, "{estimated} parameters are estimated");
+}
+
+/// What is estimated on request only: rolling resistance and backlash, each of a screw that has more of it than the design says, beside
+/// what stands in for it most easily. Twelve seconds tell the backlash within 3 %, the rolling resistance within half of it.
+#[test]
+fn a_trace_tells_rolling_resistance_and_backlash_on_request() {
+    let mut rolls = Parameters::default();
+    rolls.screw.rolling.hysteresis_loss = 0.1;
+    let plays = Parameters {
+        backlash: 3e-3,
+        ..Parameters::default()
+    };
+    let law = [
+        ("full_film_ratio", 0.06 / 0.115),
+        ("half_share_speed", 6.0),
+        ("viscosity_pole", 273.15 - 64.0),
+        ("preload", 13.984),
+    ];
+    for (parameters, name, wanted) in [(rolls, "hysteresis_loss", 0.1), (plays, "backlash", 3e-3)] {
+        let rig = Rig::new(parameters, Sensors::default()).unwrap();
+        let trace = trace(&rig, &Course::vehicle().times(0.2), 3);
+        let mut request = request(&law);
+        let estimated = ["friction", "breakaway_angle", "inertia", "offset", name];
+        request.wanted.estimate = Some(estimated.map(String::from).into());
+        for (other, value) in [("drag", 3e-4), ("gain", 1.012)] {
+            request.wanted.fix.push((other.into(), value));
+        }
+        let found = calibrate(&trace, &design(), &request).unwrap();
+        let parameter = found.answer.parameter(name).unwrap();
+        let off = (parameter.value - wanted).abs();
+        assert!(off < 2.0 * parameter.half_width(), "{parameter:?}");
+        assert!(parameter.half_width() < 0.6 * wanted, "{parameter:?}");
+    }
+}
+
+/// Where a trace does not identify the pole of the viscosity and nobody has set it, the interval of the half-share speed is wider by what
+/// another pole makes of the speed: 15 K, measured here by poles 5 K to both sides. Refits differ from the slopes by their curvature, a tenth.
+#[test]
+fn an_assumed_pole_widens_the_half_share_speed() {
+    let mut course = Course::vehicle().times(0.2);
+    course.temperatures = [313.15, 318.15];
+    let trace = trace(&rig(Sensors::default()), &course, 3);
+    let assumed = f64::from(epas_friction::defaults::COEFFICIENT.viscosity.pole());
+    let of = |pole: Option<f64>| {
+        let mut request = request(&[("preload", 13.984), ("breakaway_angle", 2e-3)]);
+        let pole = pole.map(|pole| ("viscosity_pole".to_string(), pole));
+        request.wanted.fix.extend(pole);
+        let estimated = ["friction", "half_share_speed", "inertia", "offset"];
+        request.wanted.estimate = Some(estimated.map(String::from).into());
+        for (name, value) in [
+            ("full_film_ratio", 0.06 / 0.115),
+            ("drag", 3e-4),
+            ("gain", 1.012),
+        ] {
+            request.wanted.fix.push((name.into(), value));
+        }
+        let found = calibrate(&trace, &design(), &request).unwrap();
+        let mut intervals = found.uncertainty.intervals.into_iter();
+        intervals.find(|i| i.name == "half_share_speed").unwrap()
+    };
+    let [open, set, above, below] = [
+        None,
+        Some(assumed),
+        Some(assumed + 5.0),
+        Some(assumed - 5.0),
+    ]
+    .map(of);
+    assert_eq!(open.value, set.value);
+    let wider = (open.model_error.powi(2) - set.model_error.powi(2)).sqrt();
+    let wanted = 1.5 * (above.value / below.value).ln().abs();
+    assert!(
+        (wider / wanted - 1.0).abs() < 0.1 && wanted > 0.05,
+        "{wider} {wanted}"
+    );
+}
+
+/// What a name is wrong in is said, and what a trace cannot tell is no number.
+#[test]
+fn wrong_requests_are_named() {
+    let rig = rig(Sensors::default());
+    let trace = trace(&rig, &Course::vehicle().times(0.1), 1);
+    let refused = |request: &Request, trace: &Trace| {
+        let failure = calibrate(trace, &design(), request).unwrap_err();
+        format!("{failure:?}")
+    };
+    assert!(refused(&request(&[("frictoin", 0.1)]), &trace).contains("frictoin"));
+    assert!(refused(&request(&[("friction", f64::NAN)]), &trace).contains("friction"));
+    assert!(refused(&request(&[("friction", -1.0)]), &trace).contains("friction"));
+    let mut both = request(&[("friction", 0.1)]);
+    both.wanted.estimate = Some(vec!["friction".into()]);
+    assert!(refused(&both, &trace).contains("both"));
+    let mut profiled = request(&[("preload", 14.0)]);
+    for (name, word) in [("foo", "foo: unknown"), ("preload", "without a profile")] {
+        profiled.profiles = vec![name.into()];
+        assert!(refused(&profiled, &trace).contains(word));
+    }
+    let mut beside = request(&[]);
+    beside.unseen = Some(Trace {
+        load: None,
+        ..trace.clone()
+    });
+    assert!(refused(&beside, &trace).contains("axial load"));
+    let mut travel = trace;
+    travel.coordinate = Coordinate::Translation;
+    assert!(refused(&request(&[]), &travel).contains("angle"));
+}
+
+/// How the intervals of one parameter do in several runs.
+#[derive(Default)]
+struct Coverage {
+    /// Runs that estimate it.
+    runs: u64,
+    /// Runs whose interval holds the truth.
+    held: u64,
+    /// Sum over the runs of the half width over that of the Cramer-Rao bound.
+    width: f64,
+    /// Sum over the runs of the error over the half width.
+    error: f64,
+}
+
+/// Half widths of 95 % of the Cramer-Rao bound, in inner coordinates: white noise on the torque alone, everything else known. The
+/// rows' slopes stand for those of all samples: a model's torque has next to nothing above the rows' cut-off.
+fn bound(found: &ScrewCalibration, effort: &[f64]) -> Vec<f64> {
+    let noise = Sensors::default().torque_noise.powi(2) * effort.population_variance();
+    let mut slopes = found.fit.jacobian.clone();
+    let intervals = &found.uncertainty.intervals;
+    for (mut column, interval) in slopes.column_iter_mut().zip(intervals) {
+        column /= inner_slope(interval.scale, interval.value);
+    }
+    let samples_a_row = effort.len() as f64 / slopes.nrows() as f64;
+    let information = slopes.tr_mul(&slopes) * (samples_a_row / noise);
+    let least = inverse(&information).unwrap();
+    least
+        .diagonal()
+        .map(|variance| 1.959964 * variance.sqrt())
+        .as_slice()
+        .to_vec()
+}
+
+/// One run.
+struct Run {
+    /// What it says of each parameter that it estimates.
+    each: Vec<(&'static str, Coverage)>,
+    /// What it adds to the other runs.
+    sums: Sums,
+    screw: Screw,
+}
+
+/// What one run says of each parameter that it estimates, and what it adds to those of the other runs.
+fn coverage(trace: &Trace, fix: &[(&str, f64)]) -> Run {
+    let found = calibrate(trace, &design(), &request(fix)).unwrap();
+    let intervals = found.uncertainty.intervals.iter();
+    let each = intervals
+        .zip(bound(&found, &trace.effort))
+        .map(|(interval, bound)| {
+            let truth = truth(interval.name, &found.screw);
+            let error = inner(interval.scale, interval.value) - inner(interval.scale, truth);
+            let one = Coverage {
+                runs: 1,
+                held: u64::from((interval.low..=interval.high).contains(&truth)),
+                width: interval.half_width / bound,
+                error: error / interval.half_width,
+            };
+            (interval.name, one)
+        });
+    Run {
+        each: each.collect(),
+        sums: sums(&found).unwrap(),
+        screw: found.screw,
+    }
+}
+
+/// Prints what all runs say together.
+fn print_means(course: &str, runs: &[Run]) {
+    let mut whole = runs[0].sums.clone();
+    for run in &runs[1..] {
+        whole.merge(&run.sums).unwrap();
+    }
+    for Population {
+        name,
+        mean,
+        mean_interval: [low, high],
+        ..
+    } in whole.population()
+    {
+        let truth = truth(&name, &runs[0].screw);
+        let held = if (low..=high).contains(&truth) {
+            ""
+        } else {
+            ", not in it"
+        };
+        println!(
+            "{course}, mean of {name}: {mean:.4e}, {low:.4e} to {high:.4e}, truth {truth:.4e}{held}"
+        );
+    }
+}
+
+/// How often each parameter is within its own interval: at least 90 of 100; and how wide intervals are over the Cramer-Rao bound of
+/// the torque's noise; and what all runs say together. `RUNS` and `COURSES` (`vehicle,rig,whole`) in the environment choose less.
+///
+/// On the rig's course alone full-film ratio, half-share speed and pole depend on the start, and the command refuses them: here they are
+/// set, as its words say. Its steep reversals make the inertia 1.0 % too large: an angle smoothed at 40 Hz turns round late, and with it the
+/// friction; imitations from a sharper angle take off the rest (1.8 % before).
+///
+/// The rig's lubricant has its pole at 209 K, the default grease, which is assumed on the vehicle's course of 25 K, at 199 K. That makes the
+/// half-share speed 5 % too small: its interval held the truth in 16 runs of 32 while the assumption counted as certain.
+///
+/// Every parameter was held in 94 of 100 runs or more on each course.
+///
+/// Widths are 1.4 to 2.4 times the bound, of the friction coefficient up to 3.7, of the breakaway angle 4 to 10 times, and with an assumed pole
+/// 5 times of the half-share speed and 4 of the preload: the bound knows
+/// neither the load's noise nor the encoder's counts, nor what the model leaves out. What the mean of 32 runs does not hold: inertia (1.0 %)
+/// and two waves (4 and 6 %) of the rig's course; of 16 runs of the whole one wave (4 %). With the pole set, the mean half-share speed of the vehicle's is 1.8 % off.
+#[test]
+#[ignore = "a hundred traces of a minute on each of three courses take seven minutes on two cores"]
+fn intervals_hold_nine_times_of_ten() {
+    let runs: u64 = std::env::var("RUNS").map_or(100, |runs| runs.parse().unwrap());
+    let wanted = std::env::var("COURSES").unwrap_or_else(|_| "vehicle,rig,whole".into());
+    let rig = rig(Sensors::default());
+    let mut missed = Vec::new();
+    let law = [
+        ("full_film_ratio", 0.06 / 0.115),
+        ("half_share_speed", 6.0),
+        ("viscosity_pole", 273.15 - 64.0),
+    ];
+    for (name, course, fix) in [
+        ("vehicle", Course::vehicle(), &[][..]),
+        ("rig", Course::rig(), &law),
+        ("whole", Course::whole(), &[]),
+    ] {
+        if !wanted.split(',').any(|wanted| wanted == name) {
+            continue;
+        }
+        let found: Vec<Run> = (0..runs)
+            .into_par_iter()
+            .map(|seed| coverage(&trace(&rig, &course, seed), fix))
+            .collect();
+        print_means(name, &found);
+        let mut all: BTreeMap<&str, Coverage> = BTreeMap::new();
+        for (parameter, one) in found.into_iter().flat_map(|run| run.each) {
+            let sum = all.entry(parameter).or_default();
+            sum.runs += one.runs;
+            sum.held += one.held;
+            sum.width += one.width;
+            sum.error += one.error;
+        }
+        for (parameter, sum) in all {
+            let Coverage { runs, held, .. } = sum;
+            println!(
+                "{name}, {parameter}: held in {held} of {runs}, {:.2} times the bound, mean error {:.2} half widths",
+                sum.width / runs as f64,
+                sum.error / runs as f64
+            );
+            if 10 * held < 9 * runs {
+                missed.push(format!("{name}, {parameter}: {held} of {runs}"));
+            }
+        }
+    }
+    assert!(missed.is_empty(), "{missed:?}");
+}

@@ -1,0 +1,174 @@
+//! A controller as a trace shows it: where it has its speed from, and what of the effort is not its own.
+
+use crate::checks::relation::root_mean_square as size;
+use crate::signals::Motion;
+use crate::trace::Trace;
+use crate::trace::known::KnownEffort;
+use crate::controller::Controller;
+
+/// Where a controller has its speed from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpeedSource {
+    /// A sensor of the speed.
+    Sensor,
+    /// Difference of the last two positions.
+    OneTick,
+    /// Difference over the last two ticks.
+    TwoTicks,
+    /// Difference over the last four ticks.
+    FourTicks,
+}
+
+impl SpeedSource {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Sensor, Self::OneTick, Self::TwoTicks, Self::FourTicks];
+
+    /// Ticks of the difference; none of a sensor.
+    pub const fn ticks(self) -> usize {
+        match self {
+            Self::Sensor => 0,
+            Self::OneTick => 1,
+            Self::TwoTicks => 2,
+            Self::FourTicks => 4,
+        }
+    }
+
+    /// What it is, in words.
+    pub const fn words(self) -> &'static str {
+        match self {
+            Self::Sensor => "a sensor of the speed",
+            Self::OneTick => "the difference of the last two positions",
+            Self::TwoTicks => "the difference of positions two ticks apart",
+            Self::FourTicks => "the difference of positions four ticks apart",
+        }
+    }
+}
+
+/// A controller as the trace shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeenController {
+    /// Its gains.
+    pub controller: Controller,
+    /// Where it has its speed from: what explains the measured effort best.
+    pub source: SpeedSource,
+    /// Effort that is not the controller's, at every sample, N or N m: what is known of it, and what is beyond the noise of the position's
+    /// steps.
+    pub added: Vec<f64>,
+    /// Residual of the measured effort, rms, N or N m.
+    pub residual: f64,
+    /// The same over the measured effort, rms.
+    pub share: f64,
+}
+
+/// Share of the effort from which on a controller is not the trace's.
+const UNEXPLAINED: f64 = 0.5;
+
+impl SeenController {
+    /// Effort at every sample from the measured positions.
+    fn efforts(
+        controller: &Controller,
+        trace: &Trace,
+        motion: &Motion,
+        reference: &[f64],
+        source: SpeedSource,
+    ) -> Vec<f64> {
+        let ticks = source.ticks();
+        let speeds = trace.speed.as_ref().unwrap_or(&motion.speed);
+        (0..trace.len())
+            .map(|sample| {
+                let position = trace.position[sample];
+                let speed = if ticks == 0 {
+                    speeds[sample]
+                } else if sample < ticks {
+                    motion.speed[sample]
+                } else {
+                    (position - trace.position[sample - ticks]) / (ticks as f64 * trace.step)
+                };
+                controller.effort(reference[sample], position, speed)
+            })
+            .collect()
+    }
+
+    /// The controller as this trace shows it; `None` without a reference position.
+    pub fn of(controller: Controller, trace: &Trace, motion: &Motion) -> Option<Self> {
+        let reference = trace.reference_position.as_ref()?;
+        SpeedSource::ALL
+            .into_iter()
+            .map(|source| {
+                let efforts = Self::efforts(&controller, trace, motion, reference, source);
+                let rest: Vec<f64> = trace
+                    .effort
+                    .iter()
+                    .zip(&efforts)
+                    .enumerate()
+                    .map(|(sample, (measured, wanted))| measured - wanted - within(trace, sample))
+                    .collect();
+                (source, robust_spread(&rest), rest)
+            })
+            .min_by(|one, other| one.1.total_cmp(&other.1))
+            .map(|(source, spread, rest)| Self::told(controller, trace, source, spread, &rest))
+    }
+
+    fn told(
+        controller: Controller,
+        trace: &Trace,
+        source: SpeedSource,
+        spread: f64,
+        rest: &[f64],
+    ) -> Self {
+        let steps =
+            controller.gain_speed * trace.resolution / (source.ticks().max(1) as f64 * trace.step);
+        // Six standard deviations, or two steps of the sensor: what is beyond is no noise.
+        let noise = (6.0 * spread).max(2.0 * steps);
+        let added = rest
+            .iter()
+            .enumerate()
+            .map(|(sample, rest)| {
+                let beyond = if rest.abs() > noise { *rest } else { 0.0 };
+                beyond + within(trace, sample)
+            })
+            .collect();
+        let residual = size(rest);
+        Self {
+            controller,
+            source,
+            added,
+            residual,
+            share: residual / size(&trace.effort).max(f64::MIN_POSITIVE),
+        }
+    }
+
+    /// What is said of gains that do not explain the trace.
+    pub fn doubt(&self) -> Option<String> {
+        let Controller {
+            gain_position,
+            gain_speed,
+        } = self.controller;
+        (self.share > UNEXPLAINED).then(|| {
+            format!(
+                "which model closes the loop best: the controller with gain_position = {gain_position} and gain_speed = {gain_speed} leaves {:.0} % of the measured effort; check both gains and their units",
+                100.0 * self.share
+            )
+        })
+    }
+}
+
+/// What the effort holds at a sample that the controller did not command, as far as it is known.
+fn within(trace: &Trace, sample: usize) -> f64 {
+    let known = trace.known.as_ref().and_then(KnownEffort::within);
+    known
+        .and_then(|known| known.get(sample))
+        .copied()
+        .unwrap_or(0.0)
+}
+
+/// Standard deviation of most of the values, by the median of their sizes.
+fn robust_spread(values: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
+    let middle = sizes.len() / 2;
+    if sizes.is_empty() {
+        return 0.0;
+    }
+    let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+    1.4826 * *median
+}

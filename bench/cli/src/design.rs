@@ -1,0 +1,346 @@
+//! `design`: a ball screw solved once, on this machine, into the constants that firmware evaluates, with a certificate of their errors.
+
+mod made;
+
+use std::io::{self, IsTerminal as _, Write};
+use std::path::{Path, PathBuf};
+
+use clap::ValueEnum as _;
+use clap::error::ErrorKind;
+
+use epas_design::files::train::no_row;
+use epas_design::files::{Design, DesignSource};
+use epas_page::failure::Failure;
+use epas_page::progress::Progress;
+use epas_page::files::{self, Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
+use epas_design::{caged_scene as caged, folds, uncaged_scene as uncaged};
+use made::Made;
+
+/// Folds a design: solves it once, here, into the constants that firmware evaluates.
+///
+/// The exact balance of a ball is solved in float64 at hundreds of loads. What comes out is a block of constants, and a certificate: the errors
+/// of its friction against the exact solver, at states that were not fitted. The same design gives the same block, bit for bit.
+///
+/// With --scene caged the block is that of the scene CagedBallScrew: of a screw with a cage or spacer balls, whose balls press on nothing. With
+/// --scene uncaged it is the ball of the scene UncagedBallScrew, over the deviations of the contact angles too.
+///
+/// The certificate is printed. --output also writes the block, in the format that the file's ending names: .rs (Rust), .h (C), .toml, or
+/// .bin (each word with its least significant byte first, for a calibration page). --format without --output prints the block, and the
+/// certificate to standard error.
+///
+/// --new gear.toml writes a design file to start from. A design file may say the domain in a table [fold]: friction (a number, or [least, most]
+/// for coefficients that change while firmware runs; the design's without), axial_load ([least, most] of a ball, N; [5, 300] without),
+/// seed (of the certificate's states; 1 without).
+///
+/// For --scene uncaged it may also have screw_deviation and nut_deviation (largest, rad; without, what the maps of [uncaged] reach, at
+/// least 1e-4).
+///
+/// A closed form (branch = "rolling" or "sliding") is refused, because it needs no fold. So is a domain over which the torque is not held to
+/// 3 %: the exit code is 1, and the message says where.
+///
+/// --json prints one object: version (of the layout), digest (of the inputs and of the version of the fold), bytes, domain (axial_load of a ball, N, friction, and without
+/// cage screw_deviation and nut_deviation, rad, each [least, most]), certificate, seed, two_answers (with a cage: share of the states with two
+/// exact answers), unsolved (states without one), seconds.
+///
+/// The certificate is a list of quantity (caged_torque of one ball, or ring_torque and ring_force of rows of balls, with rubbing_ before it where they rub, wave_ where
+/// deviations go in waves), largest, rms, mean, states, flagged (share), unit.
+// Each is a switch of the command line.
+#[allow(clippy::struct_excessive_bools)]
+#[derive(Debug, clap::Args)]
+pub struct Arguments {
+    /// Built-in design (`simulate --list` prints all), or design file ending in .toml; - for standard input
+    #[arg(value_name = "NAME|GEAR.toml", required_unless_present_any = ["new", "store", "gate"])]
+    design: Option<DesignSource>,
+    /// Write a design file to start from, every key with its unit, its range and where it stands on a drawing
+    #[arg(
+        long,
+        value_name = "GEAR.toml",
+        conflicts_with_all = ["design", "scene", "format", "output", "json"]
+    )]
+    new: Option<PathBuf>,
+    /// Whose ball is folded [default: uncaged where the table [fold] gives a deviation, else caged]
+    #[arg(long, value_enum)]
+    scene: Option<Scene>,
+    /// What the block is written as [default: what the output's ending names]
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+    /// Where the block goes; - for standard output
+    #[arg(long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Print one JSON object in the place of the text
+    #[arg(long)]
+    json: bool,
+    /// Replace a file that exists
+    #[arg(long)]
+    force: bool,
+    /// Fold every built-in design anew and store the blocks that the program brings with it, and do nothing else
+    #[arg(long, exclusive = true)]
+    store: bool,
+    /// Fold every built-in design anew and fail where a block that the program brings with it has other bits, and do nothing else
+    #[arg(long, exclusive = true)]
+    gate: bool,
+}
+
+/// Scenes whose blocks are folded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Scene {
+    /// A ball screw whose balls do not touch
+    Caged,
+    /// A ball screw whose balls press on each other
+    Uncaged,
+}
+
+/// What a block is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Format {
+    /// A static of checked constants
+    Rust,
+    /// A header with an array of words
+    C,
+    /// An array of words, with the summary as comments
+    Toml,
+    /// The words alone
+    Binary,
+}
+
+impl Format {
+    /// Endings of its files.
+    const fn endings(self) -> &'static [&'static str] {
+        match self {
+            Self::Rust => &["rs"],
+            Self::C => &["h"],
+            Self::Toml => &["toml"],
+            Self::Binary => &["bin"],
+        }
+    }
+}
+
+/// A block that is written.
+struct Target {
+    format: Format,
+    path: PathBuf,
+    existing: Existing,
+}
+
+/// Ends the program with exit code 2.
+fn usage(kind: ErrorKind, message: &str) -> ! {
+    clap::Error::raw(kind, format!("{message}\n")).exit()
+}
+
+impl Arguments {
+    const fn existing(&self) -> Existing {
+        if self.force {
+            Existing::Replace
+        } else {
+            Existing::Keep
+        }
+    }
+
+    /// Where the block goes, if anywhere.
+    fn target(&self) -> Result<Option<Target>, Failure> {
+        let path = match (&self.output, self.format) {
+            (Some(path), _) => path.clone(),
+            (None, Some(_)) => "-".into(),
+            (None, None) if self.force => usage(
+                ErrorKind::MissingRequiredArgument,
+                "--force replaces a file, and none is written: --output names one",
+            ),
+            (None, None) => return Ok(None),
+        };
+        let named = || {
+            let formats = Format::value_variants().iter().copied();
+            formats.into_iter().find(|one| ends(&path, one.endings()))
+        };
+        let Some(format) = self.format.or_else(named) else {
+            refuse_ending("a block", Some(&path), &["rs", "h", "toml", "bin"])?;
+            usage(
+                ErrorKind::MissingRequiredArgument,
+                "the output's ending names no format: .rs, .h, .toml and .bin do, as does --format",
+            );
+        };
+        refuse_ending("a block of this format", Some(&path), format.endings())?;
+        if standard(&path) && self.json {
+            usage(
+                ErrorKind::ArgumentConflict,
+                "--json and the block both go to standard output; --output names a file for the block",
+            );
+        }
+        if standard(&path) && format == Format::Binary && io::stdout().is_terminal() {
+            usage(
+                ErrorKind::ArgumentConflict,
+                "a terminal shows no binary block; --output names a file for it",
+            );
+        }
+        let existing = self.existing();
+        existing.check(&path)?;
+        let file = self.design.as_ref().and_then(DesignSource::file);
+        refuse_same([file], std::iter::once(&path))?;
+        Ok(Some(Target {
+            format,
+            path,
+            existing,
+        }))
+    }
+}
+
+/// Folds the design, writes its block and prints its certificate.
+pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    if let Some(path) = &arguments.new {
+        return start(path, arguments.existing());
+    }
+    // Without a design the parser asks for one of these.
+    let Some(source) = &arguments.design else {
+        return built_in(arguments.store);
+    };
+    let target = arguments.target()?;
+    let design = source.load()?;
+    let made = made(&design, arguments.scene)?;
+    let words = made.words()?.len();
+    if let Some(target) = &target {
+        let name = constant(if standard(&target.path) {
+            design.name.as_ref()
+        } else {
+            target.path.file_stem().unwrap_or_default()
+        });
+        let block = made.written(target.format, &name)?;
+        write(target, &block)?;
+    }
+    let mut out = told(target.iter().map(|target| &target.path));
+    if arguments.json {
+        serde_json::to_writer(&mut out, &made.shown()?).map_err(io::Error::from)?;
+        writeln!(out)?;
+        return Ok(());
+    }
+    made.print(&mut out, &design, words)?;
+    next(&mut out, target.as_ref(), &made, words)?;
+    Ok(())
+}
+
+/// The design file that users start from.
+pub const START: &str = include_str!("../../designs/rack-29x7.toml");
+
+/// Writes a design file to start from.
+fn start(path: &Path, existing: Existing) -> Result<(), Failure> {
+    refuse_ending("a design file", Some(path), &["toml"])?;
+    if !standard(path) && !ends(path, &["toml"]) {
+        return Err(Failure::Data(format!(
+            "{}: a design file ends in .toml",
+            path.display()
+        )));
+    }
+    existing.check(path)?;
+    files::write(path, START, existing)?;
+    if !standard(path) {
+        let path = path.display();
+        writeln!(
+            io::stdout(),
+            "wrote {path}, a rack-assist gear; put your drawing's numbers in, then: design {path}"
+        )?;
+    }
+    Ok(())
+}
+
+/// Stores the blocks of the built-in designs, or compares the stored ones with a new fold.
+fn built_in(store: bool) -> Result<(), Failure> {
+    if store {
+        return Ok(folds::store()?);
+    }
+    let blocks = folds::gate()?;
+    writeln!(
+        io::stdout(),
+        "{blocks} blocks of built-in designs have the bits of a new fold"
+    )?;
+    Ok(())
+}
+
+/// Folds the ball of a scene.
+fn made(design: &Design, scene: Option<Scene>) -> Result<Made, Failure> {
+    let table = &design.fold;
+    let failure = |message: String| Failure::Data(format!("{}: {message}", design.name));
+    let of_fold = |message: String| failure(format!("fold: {message}"));
+    let named = |error: epas_design::Failure| error.of(&design.name);
+    let progress = Progress::of_fold();
+    let scene = scene.unwrap_or(if table.says_deviations() {
+        Scene::Uncaged
+    } else {
+        Scene::Caged
+    });
+    match scene {
+        Scene::Caged => {
+            let fold = table.fold(design).map_err(of_fold)?;
+            let folded = caged::certified(&fold, &|share| progress.share(share)).map_err(named)?;
+            Ok(Made::Caged(Box::new(folded)))
+        }
+        Scene::Uncaged if design.uncaged.is_none() && !table.says_deviations() => {
+            Err(Failure::Data(no_row(&design.name)))
+        }
+        Scene::Uncaged => {
+            let row = design.uncaged.as_ref();
+            let fold = table.fold_uncaged(design, row).map_err(of_fold)?;
+            let folded = uncaged::certified(&fold, &|share| progress.share(share)).map_err(named)?;
+            Ok(Made::Uncaged(Box::new(folded)))
+        }
+    }
+}
+
+/// The block in its file, whole or not at all.
+fn write(target: &Target, block: &[u8]) -> Result<(), Failure> {
+    let mut pending = Pending::new(&target.path, target.existing)?;
+    pending
+        .writer()
+        .write_all(block)
+        .map_err(|error| Failure::file("write", &target.path, &error))?;
+    pending.finish()
+}
+
+/// A name for a constant in Rust and C.
+fn constant(name: &std::ffi::OsStr) -> String {
+    let name: String = name
+        .to_string_lossy()
+        .chars()
+        .map(|letter| match letter {
+            'a'..='z' | 'A'..='Z' | '0'..='9' => letter.to_ascii_uppercase(),
+            _ => '_',
+        })
+        .collect();
+    if name.starts_with(|first: char| first.is_ascii_uppercase()) {
+        name
+    } else {
+        format!("GEAR_{name}")
+    }
+}
+
+/// How firmware takes the block in.
+fn next(out: &mut dyn Write, target: Option<&Target>, made: &Made, words: usize) -> io::Result<()> {
+    let Some(Target { format, path, .. }) = target.filter(|target| !standard(&target.path)) else {
+        if target.is_none() {
+            writeln!(
+                out,
+                "\nNext: --output gear.rs writes the block for firmware (gear.h for C, gear.toml, gear.bin for a calibration page)."
+            )?;
+        }
+        return Ok(());
+    };
+    let file = path.file_name().unwrap_or_default().to_string_lossy();
+    let name = constant(path.file_stem().unwrap_or_default());
+    writeln!(out, "\nwrote {}; in firmware:", path.display())?;
+    made.next(out, *format, (&file, &name), words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_constant_is_named_after_its_file() {
+        for (name, wanted) in [
+            ("gear", "GEAR"),
+            ("lin-4.1", "LIN_4_1"),
+            ("29x7x4", "GEAR_29X7X4"),
+            ("_ä", "GEAR___"),
+            ("", "GEAR_"),
+        ] {
+            assert_eq!(constant(name.as_ref()), wanted);
+        }
+    }
+}

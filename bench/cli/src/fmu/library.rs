@@ -1,0 +1,134 @@
+//! The shared library of a unit: built from the sources, or built before.
+
+use std::env::consts::{ARCH, DLL_PREFIX, DLL_SUFFIX, OS};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use super::description::{LIBRARY, Version};
+use epas_page::failure::Failure;
+
+/// What a library of so many balls carries, so that one of another build is noticed.
+pub fn mark(balls: u8) -> String {
+    format!("epas-friction row of {balls:02} balls")
+}
+
+/// Folder of its sources below a checkout.
+const SOURCES: &str = "bench/fmu";
+
+/// Folder of its sources: in the checkout that the user is in, else in the one that this program was built from.
+fn sources() -> Option<PathBuf> {
+    let here = std::env::current_dir().ok();
+    let around = here.iter().flat_map(|here| here.ancestors());
+    let around = around.map(|folder| folder.join(SOURCES));
+    let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fmu");
+    around
+        .chain([own])
+        .find(|sources| sources.join("Cargo.toml").is_file())
+}
+
+/// How a library is built before, for a program that stands alone.
+fn how(balls: u8) -> String {
+    format!(
+        "the unit's library is built from the sources of epas-friction, and this program stands without them. In a checkout: \
+         EPAS_FMU_BALLS={balls} cargo build --release --package epas-fmu; then here: --library CHECKOUT/target/release/{DLL_PREFIX}epas_fmu{DLL_SUFFIX}"
+    )
+}
+
+/// Where a library stands in a unit's file, by the names that a version of FMI has for this platform.
+///
+/// # Errors
+/// Where FMI has no name for it.
+pub fn place(version: Version) -> Result<String, Failure> {
+    let three = match (ARCH, OS) {
+        ("x86_64", "macos") => "x86_64-darwin".to_owned(),
+        ("aarch64", "macos") => "aarch64-darwin".to_owned(),
+        (arch, os) => format!("{arch}-{os}"),
+    };
+    let two = match (ARCH, OS) {
+        ("x86_64", "linux") => "linux64",
+        ("x86_64", "windows") => "win64",
+        ("x86_64", "macos") => "darwin64",
+        _ => "",
+    };
+    let folder = match version {
+        Version::Two => two,
+        Version::Three => &three,
+    };
+    if folder.is_empty() {
+        return Err(Failure::Data(format!(
+            "FMI 2.0 has no name for {ARCH} with {OS}; --fmi 3 has"
+        )));
+    }
+    Ok(format!("binaries/{folder}/{LIBRARY}{DLL_SUFFIX}"))
+}
+
+/// A library that was built before; its bytes.
+///
+/// # Errors
+/// A file that cannot be read, or is the library of another number of balls.
+pub fn read(path: &Path, balls: u8) -> Result<Vec<u8>, Failure> {
+    let bytes = fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
+    if marked(&bytes, balls) {
+        return Ok(bytes);
+    }
+    Err(Failure::Data(format!(
+        "{} is no library of a unit with {balls} balls (0 without a row of balls): EPAS_FMU_BALLS={balls} cargo build --release --package epas-fmu builds it",
+        path.display()
+    )))
+}
+
+fn marked(bytes: &[u8], balls: u8) -> bool {
+    let mark = mark(balls);
+    let mut windows = bytes.windows(mark.len());
+    windows.any(|window| window == mark.as_bytes())
+}
+
+/// Builds the library for a row of so many balls; its bytes, and the folder of its sources.
+///
+/// # Errors
+/// Where there are no sources, or cargo or its build fails.
+pub fn build(balls: u8) -> Result<(Vec<u8>, PathBuf), Failure> {
+    let sources = sources().ok_or_else(|| Failure::Data(how(balls)))?;
+    let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    // That of the program itself, so that what both depend on is compiled once.
+    let target = std::env::var_os("CARGO_TARGET_DIR")
+        .map_or_else(|| sources.join("../../target"), PathBuf::from);
+    let output = Command::new(cargo)
+        .args([
+            "build",
+            "--locked",
+            "--quiet",
+            "--release",
+            "--package",
+            "epas-fmu",
+        ])
+        .arg("--target-dir")
+        .arg(&target)
+        .current_dir(&sources)
+        .env("EPAS_FMU_BALLS", balls.to_string())
+        .stdin(Stdio::null())
+        .output()
+        .map_err(|error| {
+            Failure::Data(format!(
+                "cannot run cargo ({error}), which builds the unit's library: https://rustup.rs installs it, or --library names one that was built before"
+            ))
+        })?;
+    if !output.status.success() {
+        let said = String::from_utf8_lossy(&output.stderr);
+        return Err(Failure::Data(format!(
+            "the unit's library does not build:\n{said}"
+        )));
+    }
+    let path = target
+        .join("release")
+        .join(format!("{DLL_PREFIX}epas_fmu{DLL_SUFFIX}"));
+    let bytes = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
+    if marked(&bytes, balls) {
+        Ok((bytes, sources))
+    } else {
+        Err(Failure::Data(
+            "another unit was built at the same time; once more, please".into(),
+        ))
+    }
+}

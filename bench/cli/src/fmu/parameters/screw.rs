@@ -1,0 +1,245 @@
+//! Parameters of a ball screw.
+
+use epas_friction::{
+    BallScrew, BallScrewParameters, Clearance, FrictionBranch, Limits, RollingResistance,
+};
+
+use super::named::{BALL, GROOVE, NUT, SCREW, Values, list, named, single};
+use epas_design::files::Design;
+use epas_design::files::train::UncagedDesign;
+use crate::fmu::scene::SceneName;
+use crate::fmu::variables::{Choice, Kind, Variable, parameter};
+
+/// What both scenes of a ball screw have; a built-in design has other numbers of its own where its balls press on each other.
+struct Common {
+    friction: f32,
+    rolling_resistance: RollingResistance,
+    clearance: Clearance,
+    reversal_speed: f32,
+    limits: Limits,
+}
+
+impl Common {
+    fn of(design: &Design, scene: SceneName) -> Self {
+        let gear = match (scene.has_row(), &design.uncaged) {
+            (true, Some(train)) => &train.gear,
+            _ => &design.caged,
+        };
+        Self {
+            friction: gear.friction,
+            rolling_resistance: gear.rolling_resistance,
+            clearance: gear.clearance,
+            reversal_speed: gear.reversal_speed,
+            limits: gear.limits,
+        }
+    }
+}
+
+/// Parameters of a ball screw's scene.
+pub fn of_screw(design: &Design, scene: SceneName) -> Vec<Variable> {
+    let common = Common::of(design, scene);
+    let mut l = Vec::new();
+    geometry(&mut l, design.screw().parameters());
+    common.contacts(&mut l);
+    match (scene.has_row(), &design.uncaged) {
+        (true, Some(train)) => row(&mut l, train),
+        _ => caged(&mut l, design),
+    }
+    common.limits(&mut l);
+    l
+}
+
+impl Common {
+    fn contacts(&self, l: &mut Vec<Variable>) {
+        let friction = "Coulomb friction coefficient of ball and groove, 1e-6 to 0.5";
+        let loss = "share of the elastic energy that is lost while a contact passes, 0 to 0.2";
+        let drag = "drag of the lubricant on one contact under 100 N, 0 to 10";
+        let gap = "radial gap of every contact without load; play above 0, oversize below; -0.02 to 0.05 ball radii";
+        let reversal = "nut speed over which friction changes its direction, 1e-6 to 1e3";
+        let rolling = self.rolling_resistance;
+        list(
+            l,
+            [
+                ("friction", None, friction, self.friction),
+                ("hysteresis_loss", None, loss, rolling.hysteresis_loss),
+                ("lubricant_drag", Some("N"), drag, rolling.lubricant_drag),
+                ("clearance", Some("m"), gap, self.clearance.gap()),
+                (
+                    "reversal_speed",
+                    Some("rad/s"),
+                    reversal,
+                    self.reversal_speed,
+                ),
+            ],
+        );
+    }
+
+    fn limits(&self, l: &mut Vec<Variable>) {
+        let Limits {
+            nut_speed,
+            axial_load,
+            friction_torque,
+        } = self.limits;
+        let speed = "largest nut speed that is believed, 1e-3 to 1e6";
+        let load = "largest axial load that is believed, 1e-3 to 1e7";
+        let torque = "largest friction torque that is put out, 1e-6 to 1e6";
+        list(
+            l,
+            [
+                ("limits.nut_speed", Some("rad/s"), speed, nut_speed),
+                ("limits.axial_load", Some("N"), load, axial_load),
+                (
+                    "limits.friction_torque",
+                    Some("N.m"),
+                    torque,
+                    friction_torque,
+                ),
+            ],
+        );
+    }
+}
+
+/// What only a screw with a row of balls has.
+fn row(l: &mut Vec<Variable>, train: &UncagedDesign) {
+    let friction = "Coulomb friction coefficient of ball and ball, 0 to 1";
+    let turns = "turns of the loaded track, 0.1 to 100";
+    list(
+        l,
+        [
+            ("ball_friction", None, friction, train.ball_friction),
+            ("turns", None, turns, train.turns),
+            (
+                "return_length",
+                Some("m"),
+                "length of the return, 0 to 10",
+                train.return_length,
+            ),
+        ],
+    );
+}
+
+fn geometry(l: &mut Vec<Variable>, screw: &BallScrewParameters) {
+    single(
+        l,
+        "pitch_radius",
+        Some("m"),
+        "radius of the cylinder on which the ball centres run, 1e-3 to 0.5",
+        screw.pitch_radius,
+    );
+    single(
+        l,
+        "lead",
+        Some("m"),
+        "axial travel in one turn, 0 to 0.2",
+        screw.lead,
+    );
+    single(
+        l,
+        "ball_radius",
+        Some("m"),
+        "ball radius, 1e-4 to 0.05, up to 0.9 pitch radii",
+        screw.ball_radius,
+    );
+    SCREW.list(l, screw.screw_groove);
+    NUT.list(l, screw.nut_groove);
+    single(
+        l,
+        "contact_angle",
+        Some("rad"),
+        "nominal contact angle, 0.01 to 1.5533",
+        screw.contact_angle,
+    );
+    BALL.list(l, &screw.ball_material);
+    GROOVE.list(l, &screw.groove_material);
+}
+
+/// What only a screw without ball-to-ball friction has.
+fn caged(l: &mut Vec<Variable>, design: &Design) {
+    single(
+        l,
+        "rolling_tangent",
+        None,
+        "lever arm of rolling friction over ball_radius sin(contact_angle), 0 to 0.1; for the closed forms alone",
+        design.rolling_tangent,
+    );
+    let branch = match design.branch {
+        None => 0.0,
+        Some(FrictionBranch::Sliding) => 2.0,
+        Some(_) => 1.0,
+    };
+    l.push(parameter(
+        Kind::Choice(Choice::Branch),
+        "branch",
+        None,
+        "which state of a ball friction is computed for",
+        branch,
+    ));
+    l.push(parameter(
+        Kind::Int32,
+        "loaded_balls",
+        None,
+        "balls that carry load, 1 to 1000",
+        design.caged.loaded_balls.into(),
+    ));
+}
+
+/// A ball screw's design with other numbers.
+///
+/// # Errors
+/// The parameter that is wrong, its value and what is allowed.
+pub fn changed_screw(
+    design: &Design,
+    scene: SceneName,
+    values: &Values<'_>,
+) -> Result<Design, String> {
+    let as_in = design.screw().parameters();
+    let parameters = BallScrewParameters {
+        pitch_radius: values.single("pitch_radius"),
+        lead: values.single("lead"),
+        ball_radius: values.single("ball_radius"),
+        screw_groove: SCREW.of(values, as_in.screw_groove),
+        nut_groove: NUT.of(values, as_in.nut_groove),
+        contact_angle: values.single("contact_angle"),
+        ball_material: BALL.of(values),
+        groove_material: GROOVE.of(values),
+    };
+    let screw =
+        BallScrew::new(parameters).map_err(|error| named(&error, &parameters.ball_material))?;
+    let clearance = Clearance::new(values.single("clearance"))
+        .and_then(|clearance| clearance.checked(&screw))
+        .map_err(|error| error.to_string())?;
+    let mut changed = design.clone();
+    let caged = &mut changed.caged;
+    caged.design = screw;
+    caged.friction = values.single("friction");
+    caged.rolling_resistance.hysteresis_loss = values.single("hysteresis_loss");
+    caged.rolling_resistance.lubricant_drag = values.single("lubricant_drag");
+    caged.clearance = clearance;
+    caged.reversal_speed = values.single("reversal_speed");
+    caged.limits.nut_speed = values.single("limits.nut_speed");
+    caged.limits.axial_load = values.single("limits.axial_load");
+    caged.limits.friction_torque = values.single("limits.friction_torque");
+    if scene.has_row() {
+        changed_row(&mut changed, values);
+    } else {
+        changed.rolling_tangent = values.single("rolling_tangent");
+        changed.branch = match values.within("branch", 0.0, 2.0)? {
+            1.0 => Some(FrictionBranch::Rolling),
+            2.0 => Some(FrictionBranch::Sliding),
+            _ => None,
+        };
+        changed.caged.loaded_balls = values.within("loaded_balls", 1.0, 1000.0)? as u16;
+    }
+    Ok(changed)
+}
+
+/// The numbers of its row of balls.
+fn changed_row(design: &mut Design, values: &Values<'_>) {
+    let caged = design.caged;
+    if let Some(train) = &mut design.uncaged {
+        train.gear = caged;
+        train.ball_friction = values.single("ball_friction");
+        train.turns = values.single("turns");
+        train.return_length = values.single("return_length");
+    }
+}

@@ -1,0 +1,384 @@
+//! A ball screw whose balls do not touch.
+
+use epas_design::{CagedDesign, CagedFold};
+use epas_friction::{Error, FrictionBranch, Inputs, Outputs, RollingResistance};
+use epas_reference::promises::{self, Promise};
+
+use super::beyond::Beyond;
+use super::caged_exact::ExactCaged;
+use super::manoeuvre::{Manoeuvre, trace};
+use super::memory;
+use super::picture::{self, Form, Labels, Moment};
+use super::reference::{CagedReference, Friction, ReferenceModel};
+use super::remembering::{Remembers, Use, coefficients, remembering};
+use super::samples::ScrewSample;
+use super::scene::Scene;
+use super::screw::{self, ScrewSummary};
+use super::summary::Lines;
+use super::trace::{SceneSample, Temperature, Trace};
+use epas_design::caged_scene::{self as caged, CagedScene};
+use epas_design::files::Design;
+use epas_design::files::calibration::Calibrated;
+use epas_page::failure::Failure;
+use epas_page::progress::Progress;
+
+/// Largest load of a ball for which errors of the friction are promised, N.
+const LARGEST_BALL_LOAD: f64 = 300.0;
+
+/// The scene.
+pub struct Caged {
+    /// Its design.
+    pub design: Design,
+    /// Whether friction remembers.
+    pub memory: bool,
+}
+
+/// What runs beside the scene.
+enum Reference {
+    Exact(ExactCaged),
+    ClosedForm(CagedReference),
+}
+
+impl Reference {
+    /// The exact ball of the contacts' friction, or a closed form: that of the design, or of rolling balls.
+    fn new(
+        model: ReferenceModel,
+        design: &Design,
+        trace: &Trace<ScrewSample>,
+    ) -> Result<Self, Failure> {
+        Ok(match (design.branch, model) {
+            (None, ReferenceModel::Exact) => Self::Exact(ExactCaged::new(&design.caged, trace)?),
+            (branch, _) => {
+                let branch = branch.unwrap_or(FrictionBranch::Rolling);
+                Self::ClosedForm(CagedReference::new(&design.in_closed_form(branch))?)
+            }
+        })
+    }
+
+    fn friction(&self, sample: &ScrewSample) -> Friction {
+        match self {
+            Self::Exact(scene) => scene.friction(sample),
+            Self::ClosedForm(scene) => scene.friction(sample),
+        }
+    }
+}
+
+/// The model that runs, told inputs, the angle of the nut, rad, within half a turn either way, and a temperature, K.
+type Model = Box<dyn FnMut(Inputs, f32, f32) -> Outputs>;
+
+/// Boxes a screw that remembers.
+struct Boxed;
+
+impl Use for Boxed {
+    type Made = Model;
+
+    fn with(self, mut screw: impl Remembers + 'static) -> Model {
+        Box::new(move |inputs, angle, temperature| screw.step_at(inputs, angle, temperature))
+    }
+}
+
+impl Caged {
+    /// The model over a trace, and what of its memory the summary tells.
+    fn model(&self, trace: &Trace<ScrewSample>) -> Result<(Model, Lines), Failure> {
+        let refused = |error: Error| Failure::Data(format!("{}: {error}", self.design.name));
+        if self.memory {
+            let angle = memory::angle().map_err(refused)?;
+            return remembering(&self.design, memory::mean_load(trace), angle, Boxed);
+        }
+        let mut model = CagedScene::of(&self.design)?.model().map_err(refused)?;
+        let plain = Box::new(move |inputs, _, _| model.step(inputs));
+        let mut lines = Lines::default();
+        let calibrated = self.design.calibrated.as_ref();
+        let left = calibrated.map_or_else(Vec::new, Calibrated::remembered);
+        if !left.is_empty() {
+            let text = format!("without --memory left out: {}", left.join(", "));
+            lines.add("calibration", text);
+        }
+        Ok((plain, lines))
+    }
+
+    /// Every sample with what the models say to it, with the temperature of each where there are any.
+    fn follow(
+        &self,
+        trace: &Trace<ScrewSample>,
+        temperature: impl Fn(usize) -> Option<f32>,
+        reference: Option<ReferenceModel>,
+        done: &dyn Fn(),
+    ) -> Result<(Vec<CagedRow>, Lines), Failure> {
+        let (mut model, mut lines) = self.model(trace)?;
+        let reference = reference
+            .map(|model| Reference::new(model, &self.design, trace))
+            .transpose()?;
+        if let Some(Reference::Exact(exact)) = &reference {
+            lines.append(exact.told(&trace.samples));
+        }
+        let mut angle = 0.0;
+        let mut last = trace.samples.first().copied();
+        let rows = trace
+            .samples
+            .iter()
+            .enumerate()
+            .map(|(index, &sample)| {
+                if let Some(last) = last.replace(sample) {
+                    angle += 0.5 * (last.nut_speed + sample.nut_speed) * (sample.time - last.time);
+                }
+                let temperature = temperature(index).unwrap_or(memory::TEMPERATURE);
+                let outputs = model(sample.inputs(), wrapped(angle), temperature);
+                done();
+                CagedRow {
+                    sample,
+                    temperature,
+                    outputs,
+                    reference: reference.as_ref().map(|scene| scene.friction(&sample)),
+                }
+            })
+            .collect();
+        Ok((rows, lines))
+    }
+}
+
+/// Refuses a design whose block is too far from the exact ball, as `design` does.
+///
+/// # Errors
+/// What cannot be folded, with the reason.
+pub fn check_errors(design: &Design, memory: bool) -> Result<(), Failure> {
+    fold(design, memory)?.map_or(Ok(()), |fold| {
+        let progress = Progress::of_fold();
+        let checked = caged::check_errors(&fold, &|share| progress.share(share));
+        Ok(checked.map_err(|failure| failure.of(&design.name))?)
+    })
+}
+
+/// What is folded of a design for a run, for all coefficients of its calibration where friction remembers; nothing of a closed form.
+///
+/// # Errors
+/// What cannot be folded, with the reason.
+pub fn fold(design: &Design, memory: bool) -> Result<Option<CagedFold>, Failure> {
+    if design.branch.is_some() {
+        return Ok(None);
+    }
+    let own = (design.caged.friction, design.caged.friction);
+    let asked = if memory { coefficients(design)? } else { own };
+    let fold = caged::fold_for(design, asked).map_err(Failure::Data);
+    fold.map(Some).map_err(|failure| failure.of(&design.name))
+}
+
+/// An angle within half a turn either way, rad.
+pub fn wrapped(angle: f64) -> f32 {
+    let half = std::f64::consts::PI;
+    ((angle + half).rem_euclid(2.0 * half) - half) as f32
+}
+
+/// One sample with what the models say to it.
+pub struct CagedRow {
+    sample: ScrewSample,
+    /// K.
+    temperature: f32,
+    /// What the scene puts out.
+    pub outputs: Outputs,
+    /// What the float64 reference says.
+    pub reference: Option<Friction>,
+}
+
+impl Scene for Caged {
+    type Sample = ScrewSample;
+    type Row = CagedRow;
+
+    fn name(&self) -> &str {
+        &self.design.name
+    }
+
+    fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<ScrewSample>, Failure> {
+        trace(manoeuvre, self.design.screw())
+    }
+
+    fn within(&self, trace: Trace<ScrewSample>) -> (Trace<ScrewSample>, Option<String>) {
+        let balls = f32::from(self.design.caged.loaded_balls);
+        // What cannot be folded is told by the run.
+        let fold = fold(&self.design, false).ok().flatten();
+        let block = fold.map(|fold| fold.axial_load[1] * balls);
+        screw::within(trace, &self.design, balls, block)
+    }
+
+    fn check_errors(&self) -> Result<(), Failure> {
+        check_errors(&self.design, self.memory)
+    }
+
+    fn rows(
+        &self,
+        trace: &Trace<ScrewSample>,
+        reference: Option<ReferenceModel>,
+        done: &dyn Fn(),
+    ) -> Result<(Vec<CagedRow>, Lines), Failure> {
+        self.follow(trace, |_| None, reference, done)
+    }
+
+    fn reference_name(&self, model: ReferenceModel) -> String {
+        let form = match (self.design.branch, model) {
+            (None, ReferenceModel::Exact) => "one ball in elastic balance",
+            (None, ReferenceModel::ClosedForm) => {
+                "a rolling ball in closed form, another model than the design's friction of contacts"
+            }
+            (Some(FrictionBranch::Sliding), _) => "the design's closed form, a sliding ball",
+            (Some(_), _) => "the design's closed form, a rolling ball",
+        };
+        let without = match (self.memory, &self.design.calibrated) {
+            (false, _) => "",
+            (true, None) => ", without memory",
+            (true, Some(_)) => ", without memory and calibration",
+        };
+        format!("{form}{without}")
+    }
+
+    fn follows_temperature(&self) -> bool {
+        let calibrated = self.design.calibrated.as_ref();
+        self.memory && calibrated.is_some_and(Calibrated::follows_temperature)
+    }
+
+    fn rows_at(
+        &self,
+        trace: &Trace<ScrewSample>,
+        temperature: &Temperature,
+        reference: Option<ReferenceModel>,
+        done: &dyn Fn(),
+    ) -> Result<(Vec<CagedRow>, Lines), Failure> {
+        self.follow(trace, |sample| temperature.at(sample), reference, done)
+    }
+
+    fn columns(with_reference: bool) -> Vec<&'static str> {
+        let mut columns = screw::columns();
+        if with_reference {
+            columns.extend(screw::REFERENCE_COLUMNS);
+        }
+        columns
+    }
+
+    fn record(row: &CagedRow) -> Vec<String> {
+        let mut record = screw::record(&row.sample, &row.outputs);
+        record.extend(row.reference.iter().flat_map(screw::reference_record));
+        record
+    }
+
+    fn summary(&self, trace: &Trace<ScrewSample>, rows: &[CagedRow]) -> Lines {
+        // What has run was folded: nothing is refused here.
+        let fold = fold(&self.design, self.memory).ok().flatten();
+        let beyond = fold.map(|fold| Beyond::caged(&self.design, &fold));
+        let mut summary = ScrewSummary::new(&self.design, beyond);
+        for row in rows {
+            summary.add(&row.sample, &row.outputs, row.reference.as_ref());
+        }
+        let CagedDesign {
+            friction,
+            clearance,
+            loaded_balls,
+            reversal_speed,
+            ..
+        } = self.design.caged;
+        let mut settings = screw::settings(&self.design, friction, clearance);
+        if !self.memory {
+            let speed = screw::reversal_speed(&self.design, reversal_speed);
+            settings.add("reversal speed", speed);
+        }
+        let balls = self.design.mark("loaded_balls");
+        if !balls.is_empty() {
+            settings.add(
+                "loaded balls",
+                format!("{loaded_balls}{balls}, of 2.5 turns"),
+            );
+        }
+        summary.lines(trace, &self.design, settings, None)
+    }
+
+    fn picture(
+        &self,
+        trace: &Trace<ScrewSample>,
+        rows: &[CagedRow],
+        form: Form,
+    ) -> Result<String, Failure> {
+        let labels = self.labels(trace);
+        let moments = self.moments(trace, rows)?;
+        form.draw(&labels.title, &picture::panels(&labels, &moments, form))
+    }
+}
+
+impl Caged {
+    /// What the error of this scene is, where it is promised.
+    fn promise(&self) -> Option<&'static Promise> {
+        match (self.design.branch, self.memory) {
+            (None, true) if self.design.calibrated.is_some() => {
+                Some(promises::of("step_caged_range"))
+            }
+            (None, _) => Some(promises::of("step_caged")),
+            _ => None,
+        }
+    }
+
+    fn labels(&self, trace: &Trace<ScrewSample>) -> Labels {
+        let error = self.promise().map_or(0.0, |promise| promise.largest);
+        Labels {
+            title: format!("{} on {}", trace.name, self.design.name),
+            place: "time (s)",
+            loads: ["axial load (N)", ""],
+            speed: "nut speed (rad/s)",
+            friction: ("friction torque", "N m"),
+            parts: ["slip and spin", "rolling resistance"],
+            error: format!("largest error promised, {:.1} %", 100.0 * error),
+            reference: if self.memory {
+                "reference without memory"
+            } else {
+                "reference"
+            },
+        }
+    }
+
+    /// Every sample for the picture. Slip and spin are the friction without rolling resistance.
+    ///
+    /// # Errors
+    /// A trace that does not fit the picture.
+    pub fn moments(
+        &self,
+        trace: &Trace<ScrewSample>,
+        rows: &[CagedRow],
+    ) -> Result<Vec<Moment>, Failure> {
+        let caged = &self.design.caged;
+        let resists = caged.rolling_resistance != RollingResistance::NONE;
+        let slips = (resists && self.design.branch.is_none())
+            .then(|| {
+                let mut design = self.design.clone();
+                design.caged.rolling_resistance = RollingResistance::NONE;
+                let slipping = Self {
+                    design,
+                    memory: self.memory,
+                };
+                let at = |sample: usize| rows.get(sample).map(|row| row.temperature);
+                slipping.follow(trace, at, None, &|| ())
+            })
+            .transpose()?;
+        let promise = self.promise();
+        let largest_load = LARGEST_BALL_LOAD * f64::from(caged.loaded_balls);
+        let moment = |(index, row): (usize, &CagedRow)| {
+            let friction = f64::from(row.outputs.friction_torque);
+            let load = row.sample.axial_load;
+            let slip = slips.as_ref().and_then(|(rows, _)| rows.get(index));
+            Moment {
+                place: row.sample.time,
+                load,
+                side: None,
+                speed: row.sample.nut_speed,
+                motor: Some(f64::from(row.outputs.load_torque) + friction),
+                friction,
+                parts: slip.map(|slip| {
+                    let slip = f64::from(slip.outputs.friction_torque);
+                    [slip, friction - slip]
+                }),
+                error: promise
+                    .filter(|_| load.abs() <= largest_load)
+                    .map(|promise| promise.largest * friction.abs()),
+                reference: row.reference.map(|reference| reference.friction_torque),
+                regime: row.outputs.regime,
+                flagged: row.outputs.faults.any(),
+            }
+        };
+        Ok(rows.iter().enumerate().map(moment).collect())
+    }
+}

@@ -1,0 +1,369 @@
+//! A ball screw whose balls press on each other.
+
+use std::f64::consts::TAU;
+
+use epas_design::UncagedFold;
+use epas_friction::{Error, Inputs, Outputs, UncagedOutputs};
+use epas_reference::promises;
+use epas_trains::{Built, ScrewConfiguration};
+
+use super::beyond::Beyond;
+use super::exact_screw::exact_screw;
+use super::manoeuvre::{Manoeuvre, trace};
+use super::memory::{self, Remembered};
+use super::picture::{Form, Labels, Moment};
+use super::reference::{Friction, ReferenceModel, whole_screw};
+use super::samples::ScrewSample;
+use super::scene::Scene;
+use super::screw::{self, ScrewSummary};
+use super::summary::{Lines, Pressing};
+use super::trace::{Sample, Trace};
+use super::train::{Train, TrainRow, equal_step};
+use super::train_picture::{TrainPoint, draw};
+use epas_design::files::Design;
+use epas_design::files::train::UncagedDesign;
+use epas_page::failure::Failure;
+use epas_page::progress::Working;
+use epas_design::{folds, uncaged_scene as uncaged};
+
+/// What is not known of a block that is folded for a run: measuring its errors takes twice as long as folding it.
+const NOT_MEASURED: &str = "folded for these loads, its errors are not measured here; `design --scene uncaged` measures those of its own loads, and \
+                            refuses more than 3 %";
+
+/// The scene.
+pub struct Uncaged {
+    /// Its design.
+    pub design: Design,
+    /// Its balls.
+    pub balls: UncagedDesign,
+    /// Whether friction remembers.
+    pub memory: bool,
+}
+
+/// One sample with what the models say to it.
+pub struct UncagedRow {
+    sample: ScrewSample,
+    /// What the scene puts out.
+    pub train: TrainRow<UncagedOutputs>,
+    /// What the float64 reference says.
+    pub reference: Option<Friction>,
+}
+
+/// Largest size of the load of a trace, N.
+fn peak_load(trace: &Trace<ScrewSample>) -> f32 {
+    let loads = trace.samples.iter().map(|sample| sample.load().abs());
+    loads.fold(0.0, f64::max) as f32
+}
+
+impl Uncaged {
+    fn train(
+        &self,
+        trace: &Trace<ScrewSample>,
+        remembered: Option<&Remembered>,
+    ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
+        // A trace that cannot be run is told before the screw is folded.
+        equal_step(trace).map_err(|failure| failure.of(self.name()))?;
+        let configuration = {
+            let _working = Working::new("folding the screw");
+            self.folded(peak_load(trace))?
+        };
+        let build = |tick| self.model(&configuration, tick, remembered);
+        Train::new(trace, build).map_err(|failure| failure.of(self.name()))
+    }
+
+    /// Whether the errors of its block are known: of one that comes with the program.
+    fn is_measured(&self, trace: &Trace<ScrewSample>) -> bool {
+        self.fold(peak_load(trace))
+            .is_ok_and(|fold| folds::is_stored(fold.digest()))
+    }
+
+    /// What is folded of it for axial loads up to one, N.
+    ///
+    /// # Errors
+    /// What cannot be folded, with the reason.
+    fn fold(&self, axial_load: f32) -> Result<UncagedFold, Failure> {
+        let friction = self.balls.gear.friction;
+        uncaged::fold_for(&self.design, &self.balls, (friction, friction), axial_load)
+            .map_err(Failure::Data)
+    }
+
+    /// What its model is made of, up to an axial load, N.
+    ///
+    /// # Errors
+    /// What cannot be folded, with the reason.
+    pub fn folded(&self, axial_load: f32) -> Result<ScrewConfiguration, Failure> {
+        let friction = self.balls.gear.friction;
+        Ok(uncaged::configuration(
+            &self.design,
+            &self.balls,
+            (friction, friction),
+            axial_load,
+        )?)
+    }
+
+    /// The model for a tick, s.
+    ///
+    /// # Errors
+    /// [`Error`] naming a field out of range.
+    pub fn model(
+        &self,
+        configuration: &ScrewConfiguration,
+        tick: f32,
+        remembered: Option<&Remembered>,
+    ) -> Built<Inputs, UncagedOutputs> {
+        let configuration = ScrewConfiguration {
+            tick,
+            ..*configuration
+        };
+        let friction = self.balls.gear.friction;
+        let whole = memory::whole(configuration, remembered, tick, friction)?;
+        epas_trains::screw(self.balls.balls, &whole)
+    }
+}
+
+impl Uncaged {
+    /// Elements at an axial load, N.
+    ///
+    /// # Errors
+    /// [`Error`] naming a field out of range.
+    pub fn remembered_at(&self, axial_load: f32) -> Result<Remembered, Error> {
+        let gear = &self.balls.gear;
+        memory::Screw {
+            design: &gear.design,
+            friction: gear.friction,
+            clearance: gear.clearance,
+            rolling_resistance: gear.rolling_resistance,
+            loaded_balls: self.balls.loaded_balls(),
+        }
+        .remembered(axial_load)
+    }
+
+    /// What decides its friction.
+    fn settings(&self) -> Lines {
+        let UncagedDesign {
+            ref gear,
+            ball_friction,
+            ..
+        } = self.balls;
+        let mut settings = screw::settings(&self.design, gear.friction, gear.clearance);
+        let mark = self.design.mark("ball_friction");
+        settings.add("between balls", format!("{ball_friction}{mark}"));
+        let [screw, nut] = self.balls.deviations().map(|angle| 1e3 * angle);
+        let text = format!("screw {screw:.1} mrad, nut {nut:.1} mrad at most");
+        settings.add("contact angle deviates", text);
+        if !self.memory {
+            let speed = screw::reversal_speed(&self.design, gear.reversal_speed);
+            settings.add("reversal speed", speed);
+        }
+        settings
+    }
+
+    /// Elements at the trace's mean load, where friction remembers.
+    fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
+        let told = self.design.calibrated.is_some();
+        let mut remembered = self
+            .memory
+            .then(|| self.remembered_at(memory::mean_load(trace)))
+            .transpose()
+            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
+        if let (Some(remembered), true) = (&mut remembered, told) {
+            let text = "left out: what a trace has told is that of the scene caged";
+            remembered.lines.add("calibration", text);
+        }
+        Ok(remembered)
+    }
+}
+
+impl Scene for Uncaged {
+    type Sample = ScrewSample;
+    type Row = UncagedRow;
+
+    fn name(&self) -> &str {
+        &self.design.name
+    }
+
+    fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<ScrewSample>, Failure> {
+        trace(manoeuvre, self.design.screw())
+    }
+
+    fn within(&self, trace: Trace<ScrewSample>) -> (Trace<ScrewSample>, Option<String>) {
+        let balls = 1.0 / self.balls.ball_load(1.0);
+        // Without a table the block follows the trace.
+        let block = self
+            .fold(0.0)
+            .ok()
+            .filter(|_| self.design.fold.says_axial_load());
+        let block = block.map(|fold| fold.axial_load[1] * balls);
+        screw::within(trace, &self.design, balls, block)
+    }
+
+    fn rows(
+        &self,
+        trace: &Trace<ScrewSample>,
+        reference: Option<ReferenceModel>,
+        done: &dyn Fn(),
+    ) -> Result<(Vec<UncagedRow>, Lines), Failure> {
+        let remembered = self.remembered(trace)?;
+        let measured = self.is_measured(trace);
+        let mut train = self.train(trace, remembered.as_ref())?;
+        let (reference, mut lines) = match reference {
+            None => Default::default(),
+            Some(ReferenceModel::Exact) => exact_screw(&self.balls, trace)?,
+            Some(ReferenceModel::ClosedForm) => {
+                let mut lines = Lines::default();
+                lines.add("reference", "closed form, at every sample");
+                (whole_screw(&self.balls, trace)?, lines)
+            }
+        };
+        let rows = trace
+            .samples
+            .iter()
+            .enumerate()
+            .map(|(index, &sample)| {
+                let row = UncagedRow {
+                    sample,
+                    train: train.step(&sample),
+                    reference: reference.get(index).copied(),
+                };
+                done();
+                row
+            })
+            .collect();
+        if !measured {
+            lines.add("block", NOT_MEASURED);
+        }
+        lines.add("tick", train.told());
+        if let Some(remembered) = remembered {
+            lines.append(remembered.lines);
+        }
+        Ok((rows, lines))
+    }
+
+    fn reference_name(&self, model: ReferenceModel) -> String {
+        let form = match model {
+            ReferenceModel::Exact => "the exact whole screw",
+            ReferenceModel::ClosedForm => "the closed form of each ball, which is not exact",
+        };
+        let without = if self.memory { ", without memory" } else { "" };
+        format!("{form}{without}")
+    }
+
+    fn columns(with_reference: bool) -> Vec<&'static str> {
+        let mut columns = screw::columns();
+        columns.extend([
+            "nut_angle",
+            "groove_friction",
+            "ball_friction",
+            "contacts",
+            "largest_contact_force",
+        ]);
+        if with_reference {
+            columns.extend(screw::REFERENCE_COLUMNS);
+        }
+        columns
+    }
+
+    fn record(row: &UncagedRow) -> Vec<String> {
+        let TrainRow {
+            outputs, motion, ..
+        } = row.train;
+        let mut record = screw::record(&row.sample, &outputs.into());
+        record.extend([
+            motion.to_string(),
+            outputs.groove_torque.to_string(),
+            outputs.ball_torque.to_string(),
+            outputs.contacts.to_string(),
+            outputs.largest_contact_force.to_string(),
+        ]);
+        record.extend(row.reference.iter().flat_map(screw::reference_record));
+        record
+    }
+
+    fn summary(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Lines {
+        // What has run was folded: nothing is refused here.
+        let fold = self.fold(peak_load(trace));
+        let beyond = fold
+            .and_then(|fold| Beyond::uncaged(&self.balls, &fold))
+            .ok();
+        let mut summary = ScrewSummary::new(&self.design, beyond);
+        let mut pressing = Pressing::default();
+        for row in rows {
+            let outputs = row.train.outputs;
+            let common = Outputs::from(outputs);
+            let rotation = summary.add(&row.sample, &common, row.reference.as_ref());
+            pressing.add(
+                outputs.ball_torque,
+                outputs.contacts,
+                outputs.largest_contact_force,
+                rotation,
+            );
+        }
+        summary.lines(trace, &self.design, self.settings(), Some(&pressing))
+    }
+
+    fn picture(
+        &self,
+        trace: &Trace<ScrewSample>,
+        rows: &[UncagedRow],
+        form: Form,
+    ) -> Result<String, Failure> {
+        draw(&self.labels(trace), &self.points(trace, rows), form)
+    }
+}
+
+impl Uncaged {
+    /// Every sample for the picture.
+    pub fn points(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Vec<TrainPoint> {
+        // Where the motion turns back, an angle stands for more than one moment.
+        let reverses = trace.reverses();
+        let reduced_lead = f64::from(self.design.screw().lead()) / TAU;
+        rows.iter()
+            .map(|row| {
+                let outputs = row.train.outputs;
+                let friction = f64::from(outputs.friction_torque);
+                TrainPoint {
+                    moment: Moment {
+                        place: if reverses {
+                            row.sample.time
+                        } else {
+                            row.train.motion.to_degrees()
+                        },
+                        load: row.sample.axial_load,
+                        side: None,
+                        speed: row.sample.nut_speed,
+                        motor: Some(row.sample.axial_load * reduced_lead + friction),
+                        friction,
+                        parts: Some([outputs.groove_torque, outputs.ball_torque].map(f64::from)),
+                        error: Some(promises::of("step_uncaged").rms * friction.abs()),
+                        reference: row.reference.map(|friction| friction.friction_torque),
+                        regime: outputs.regime,
+                        flagged: outputs.faults.any(),
+                    },
+                    contacts: outputs.contacts,
+                    largest_contact_force: outputs.largest_contact_force,
+                    pressing: row.train.pressing,
+                }
+            })
+            .collect()
+    }
+
+    fn labels(&self, trace: &Trace<ScrewSample>) -> Labels {
+        Labels {
+            title: format!("{} on {}", trace.name, self.name()),
+            place: if trace.reverses() {
+                "time (s)"
+            } else {
+                "nut angle (degrees)"
+            },
+            loads: ["axial load (N)", ""],
+            speed: "nut speed (rad/s)",
+            friction: ("friction torque", "N m"),
+            parts: ["grooves", "ball to ball"],
+            error: format!(
+                "rms error promised, {:.1} %",
+                100.0 * promises::of("step_uncaged").rms
+            ),
+            reference: "reference",
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! How balls fit between the grooves, in the words of a design file.
+
+use epas_friction::{BallScrew, Clearance, Error, defaults};
+
+use super::capacity::{self, Preload};
+use super::plausible::Given;
+
+/// The four keys, one of which says how balls fit.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Fits {
+    /// Radial gap of every contact, m; oversize below 0.
+    pub clearance: Option<f32>,
+    /// Force of one contact without a load, N.
+    pub preload: Option<f32>,
+    /// Axial play of the nut, from one flank to the other, m.
+    pub axial_play: Option<f32>,
+    /// Axial preload of the nut, N.
+    pub axial_preload: Option<f32>,
+}
+
+impl Fits {
+    /// The keys that a file gives.
+    fn given(&self) -> Vec<&'static str> {
+        [
+            ("clearance", self.clearance),
+            ("preload", self.preload),
+            ("axial_play", self.axial_play),
+            ("axial_preload", self.axial_preload),
+        ]
+        .into_iter()
+        .filter_map(|(key, value)| value.map(|_| key))
+        .collect()
+    }
+
+    /// Whether a file gives one of them.
+    pub fn any(&self) -> bool {
+        !self.given().is_empty()
+    }
+
+    /// The clearance that they say, or the default.
+    ///
+    /// # Errors
+    /// Two keys, a value out of its range, a preload beyond what a contact bears, a preload of a nut whose balls are not counted.
+    pub fn of(&self, design: &BallScrew, loaded_balls: Option<u16>) -> Result<Clearance, String> {
+        let given = self.given();
+        if let [one, other, ..] = given[..] {
+            return Err(format!("{one} and {other} say the same; give one of them"));
+        }
+        let made = self.made(design, loaded_balls)?;
+        if made.gap() < 0.0 && !given.is_empty() && loaded_balls.is_none() {
+            return Err(COUNT.into());
+        }
+        Ok(made)
+    }
+
+    fn made(&self, design: &BallScrew, loaded_balls: Option<u16>) -> Result<Clearance, String> {
+        let said = |error: Error| Given::default().words(&error);
+        let made = if let Some(gap) = self.clearance {
+            let made = Clearance::new(gap).and_then(|clearance| clearance.checked(design));
+            made.map_err(said)?
+        } else if let Some(play) = self.axial_play {
+            Clearance::of_axial_play(design, play).map_err(said)?
+        } else if let Some(force) = self.preload {
+            of_force(design, force)?
+        } else if let Some(force) = self.axial_preload {
+            let balls = loaded_balls.ok_or(COUNT)?;
+            of_nut(design, force, balls)?
+        } else {
+            return defaults::CLEARANCE.checked(design).map_err(said);
+        };
+        self.bearable(design, made)?;
+        Ok(made)
+    }
+
+    /// Refuses a preload that presses harder than a ball bears at rest.
+    fn bearable(&self, design: &BallScrew, made: Clearance) -> Result<(), String> {
+        let preload = Preload::of(design, made);
+        if preload.pressure <= capacity::STATIC_PRESSURE {
+            return Ok(());
+        }
+        let (key, value) = match (self.clearance, self.preload, self.axial_preload) {
+            (Some(gap), _, _) => ("clearance", gap),
+            (_, Some(force), _) => ("preload", force),
+            (_, _, Some(force)) => ("axial_preload", force),
+            _ => ("clearance", made.gap()),
+        };
+        let nut = if key == "preload" {
+            format!(
+                "; preload is the force of one contact, that of the nut is axial_preload = {value}"
+            )
+        } else {
+            String::new()
+        };
+        let tightest = capacity::tightest(design);
+        Err(format!(
+            "{key} = {value} presses every contact with {}: beyond {}; allowed: a clearance of {:.3e} m and more, a preload of {:.0} N a contact{nut}",
+            preload.words(),
+            capacity::LIMIT,
+            tightest.gap(),
+            tightest.preload(design),
+        ))
+    }
+}
+
+/// What is missing where a preload of a nut is given.
+const COUNT: &str = "loaded_balls is missing: all of them press on the flanks of a preloaded nut";
+
+/// The clearance of a force of one contact, N; 0 is none.
+fn of_force(design: &BallScrew, force: f32) -> Result<Clearance, String> {
+    if force == 0.0 {
+        return Ok(Clearance::ZERO);
+    }
+    Clearance::of_preload(design, force).map_err(|error| {
+        let nut = if force > error.allowed().maximum {
+            format!(
+                "; this is the force of one contact, that of the nut is axial_preload = {force}"
+            )
+        } else {
+            String::new()
+        };
+        format!("preload: {error}{nut}")
+    })
+}
+
+/// The clearance of an axial preload of a nut with so many loaded balls, N; 0 is none.
+fn of_nut(design: &BallScrew, force: f32, balls: u16) -> Result<Clearance, String> {
+    let per_contact = f32::from(balls) * design.axial_per_normal();
+    let made = match force / per_contact {
+        0.0 => Ok(Clearance::ZERO),
+        contact => Clearance::of_preload(design, contact),
+    };
+    made.map_err(|error| {
+        let allowed = error.allowed();
+        let [low, high] = [allowed.minimum, allowed.maximum].map(|end| end * per_contact);
+        format!("axial_preload = {force} is out of range; allowed: 0, or {low} to {high} N")
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::DesignSource;
+
+    fn screw() -> BallScrew {
+        let source: DesignSource = "lin-4.1".parse().unwrap();
+        *source.load().unwrap().screw()
+    }
+
+    fn of(fits: Fits) -> Result<Clearance, String> {
+        fits.of(&screw(), Some(71))
+    }
+
+    /// Each key gives the clearance whose number it is.
+    #[test]
+    fn four_keys_say_one_clearance() {
+        let screw = screw();
+        let force = of(Fits {
+            preload: Some(30.0),
+            ..Fits::default()
+        })
+        .unwrap();
+        // The 2/3 power and its inverse: a few roundings.
+        assert!((force.preload(&screw) / 30.0 - 1.0).abs() < 1e-5);
+        let nut = of(Fits {
+            axial_preload: Some(force.axial_preload(&screw, 71)),
+            ..Fits::default()
+        })
+        .unwrap();
+        assert!((nut.gap() / force.gap() - 1.0).abs() < 1e-5);
+        let play = of(Fits {
+            axial_play: Some(20e-6),
+            ..Fits::default()
+        })
+        .unwrap();
+        assert!((play.axial_play(&screw) / 20e-6 - 1.0).abs() < 1e-4);
+        for fits in [
+            Fits {
+                preload: Some(0.0),
+                ..Fits::default()
+            },
+            Fits {
+                axial_preload: Some(0.0),
+                ..Fits::default()
+            },
+        ] {
+            assert_eq!(of(fits).unwrap(), Clearance::ZERO);
+        }
+    }
+
+    #[test]
+    fn two_keys_are_refused() {
+        let fits = Fits {
+            axial_play: Some(0.0),
+            axial_preload: Some(0.0),
+            ..Fits::default()
+        };
+        assert_eq!(
+            of(fits).unwrap_err(),
+            "axial_play and axial_preload say the same; give one of them"
+        );
+    }
+
+    /// Beyond 4.2 GPa in either groove a clearance is refused, in every key; the tightest that is allowed is not.
+    #[test]
+    fn a_preload_is_bounded_by_the_pressure() {
+        let screw = screw();
+        let tightest = capacity::tightest(&screw);
+        for gap in [1.01 * tightest.gap(), -20e-6] {
+            let refused = of(Fits {
+                clearance: Some(gap),
+                ..Fits::default()
+            });
+            let words = refused.unwrap_err();
+            assert!(
+                words.contains("GPa") && words.contains("ISO 3408-5"),
+                "{words}"
+            );
+        }
+        let allowed = Fits {
+            clearance: Some(0.999 * tightest.gap()),
+            ..Fits::default()
+        };
+        assert!(of(allowed).is_ok());
+        // What a catalogue gives for the nut is no force of a contact.
+        let nut = Fits {
+            preload: Some(1.1 * tightest.preload(&screw)),
+            ..Fits::default()
+        };
+        let words = of(nut).unwrap_err();
+        assert!(
+            words.contains("that of the nut is axial_preload"),
+            "{words}"
+        );
+    }
+}

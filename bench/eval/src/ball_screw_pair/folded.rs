@@ -1,0 +1,153 @@
+//! A row of balls by the law that the scene of a ball screw without cage evaluates, folded for the request.
+//!
+//! The law is folded for the largest deviation of each groove, either sign, and for 5 to 300 N a ball, or down and up to the next power of two
+//! where the request needs more. Requests with the same screw, friction coefficient, clearance and largest deviations share a law, which takes some
+//! seconds to fold.
+
+use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
+use epas_friction::scene::FoldedBall;
+use epas_friction::train::Press;
+use epas_friction::{BallScrew, Clearance, Limits, RollingResistance};
+use epas_reference::friction::ball_screw_row::RowBall;
+use epas_design::uncaged_scene::Folded;
+use serde::Serialize;
+
+use super::super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};
+use super::request::{Request, Row};
+use epas_design::uncaged_scene::{LEAST_DEVIATION, folded, loads_holding};
+
+/// Limits that no request meets.
+const LIMITS: Limits = Limits {
+    nut_speed: 10.0,
+    axial_load: 1e6,
+    friction_torque: 1e6,
+};
+
+/// What the law finds.
+#[derive(Default, Serialize)]
+pub struct FoldedRow {
+    #[serde(flatten)]
+    found: Row,
+    /// Whether a step under these loads is flagged, because the law does not hold the forces.
+    flagged: Option<bool>,
+}
+
+/// What the law finds; nothing where the clearance is not among those of the crate, for loads of both signs in one row, and where no law
+/// holds the box.
+pub fn row(request: &Request, design: &BallScrew) -> FoldedRow {
+    let one_side = request.balls.windows(2).all(|pair| match pair {
+        [one, other] => one.axial_load * other.axial_load > 0.0,
+        _ => true,
+    });
+    if !one_side {
+        return FoldedRow::default();
+    }
+    let found = law(request, design).map(|law| answer(request, law));
+    found.flatten().unwrap_or_default()
+}
+
+/// The law of the request's box.
+fn law(request: &Request, design: &BallScrew) -> Option<&'static FoldedBall> {
+    let clearance = Clearance::new(request.clearance as f32).ok()?;
+    let largest = |of: fn(&RowBall) -> f64| {
+        let sizes = request.balls.iter().map(|ball| of(ball).abs() as f32);
+        sizes.fold(0.0, f32::max)
+    };
+    let mut fold = UncagedFold::of(UncagedDesign {
+        gear: CagedDesign {
+            design: *design,
+            friction: request.friction as f32,
+            rolling_resistance: RollingResistance::NONE,
+            clearance,
+            loaded_balls: 1,
+            reversal_speed: 1e-6,
+            limits: LIMITS,
+        },
+        deviations: [
+            largest(|ball| ball.screw_deviation),
+            largest(|ball| ball.nut_deviation),
+        ]
+        .map(|deviation| deviation.max(LEAST_DEVIATION)),
+    });
+    let loads = || {
+        request
+            .balls
+            .iter()
+            .map(|ball| ball.axial_load.abs() as f32)
+    };
+    let ends = [
+        loads().fold(f32::MAX, f32::min),
+        loads().fold(0.0, f32::max),
+    ];
+    fold.axial_load = loads_holding(fold.axial_load, ends);
+    match folded(&fold).ok()? {
+        Folded::One(law) => Some(law),
+        Folded::Range(_) => None,
+    }
+}
+
+/// None where a ball runs further from nominal rolling than a step takes.
+fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
+    let law = &ball.law;
+    let interval = law.interval(ball.friction);
+    // In the frame in which the nut turns forward.
+    let way = if request.nut_speed < 0.0 { -1.0 } else { 1.0 };
+    let count = request.balls.len();
+    let mean = request
+        .balls
+        .iter()
+        .map(|ball| ball.axial_load)
+        .sum::<f64>()
+        / count as f64;
+    let branch = usize::from(way * mean < 0.0);
+    let load = law.load_of(mean as f32);
+    let numbers = law.numbers(load, branch, interval);
+
+    let [screw, nut] = law.deviations.map(|largest| way / f64::from(largest));
+    let motions: Vec<_> = request
+        .balls
+        .iter()
+        .map(|ball| {
+            let deviations = [screw * ball.screw_deviation, nut * ball.nut_deviation];
+            let load = law.load_of(ball.axial_load as f32);
+            law.at(load, branch, interval, deviations.map(|part| part as f32))
+        })
+        .collect();
+    let (mut free, mut impedance) = ([0.0; LARGEST_TRAIN], [1.0; LARGEST_TRAIN]);
+    let mut grip = [0.0; LARGEST_TRAIN];
+    for (ball, motion) in motions.iter().enumerate() {
+        (free[ball], impedance[ball]) = (motion.speed, motion.impedance);
+        grip[ball] = motion.grip * request.ball_friction as f32;
+    }
+    let mut press = Press::<LARGEST_TRAIN>::new();
+    if !press.solve_rubbing(&free, &impedance, &room_of_a_row(count), &grip) {
+        return None;
+    }
+    let free_torque: f64 = motions.iter().map(|motion| f64::from(motion.torque)).sum();
+    let change: f32 = motions
+        .iter()
+        .zip(press.speeds())
+        .map(|(motion, speed)| {
+            let change = speed - motion.speed;
+            (numbers.slope + 0.5 * ball.speed * motion.impedance * change) * change
+        })
+        .sum();
+    let nominal = ball.path_radius - ball.speed;
+    let orbital = |speed: f32| f64::from((nominal + ball.speed * speed) / ball.path_radius);
+    let forces = contact_forces(&press);
+    let heaviest = request
+        .balls
+        .iter()
+        .map(|ball| ball.axial_load.abs() as f32);
+    let most = law.load_of(heaviest.fold(0.0, f32::max));
+    Some(FoldedRow {
+        found: Row {
+            free_speed: Some(motions.iter().map(|motion| orbital(motion.speed)).collect()),
+            contact_force: Some(forces.iter().take(count - 1).map(|&f| f.into()).collect()),
+            groove_torque: Some(free_torque + f64::from(change)),
+            groove_torque_free: Some(free_torque),
+            loads: None,
+        },
+        flagged: Some(!(law.holds_forces(load, branch, interval) && law.holds_load(most))),
+    })
+}

@@ -1,0 +1,308 @@
+//! Files that are written whole or not at all.
+
+use std::fs;
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use tempfile::{Builder, NamedTempFile};
+
+use crate::failure::Failure;
+
+/// What happens to a file that is there already.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Existing {
+    /// It stays, and the run fails.
+    Keep,
+    /// It is replaced.
+    Replace,
+}
+
+impl Existing {
+    /// Fails before any work is done where a folder is missing, or something would be in the way: any file, or with
+    /// [`Existing::Replace`] what is none, such as a device or a pipe.
+    pub fn check(self, path: &Path) -> Result<(), Failure> {
+        if standard(path) {
+            return Ok(());
+        }
+        let folder = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty());
+        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+            return Err(no_folder(path, folder));
+        }
+        // A link counts as its target, or as itself where the target is missing.
+        let Ok(there) = fs::metadata(path).or_else(|_| fs::symlink_metadata(path)) else {
+            return Ok(());
+        };
+        match self {
+            Self::Keep => Err(in_the_way(path)),
+            Self::Replace if there.is_file() || there.is_symlink() => Ok(()),
+            Self::Replace => Err(Failure::Data(format!(
+                "{} is no ordinary file: it stays",
+                path.display()
+            ))),
+        }
+    }
+}
+
+fn no_folder(path: &Path, folder: &Path) -> Failure {
+    Failure::Data(format!(
+        "cannot write {}: the folder {} is missing; mkdir -p makes it",
+        path.display(),
+        folder.display()
+    ))
+}
+
+fn in_the_way(path: &Path) -> Failure {
+    Failure::Data(format!("{} exists; --force replaces it", path.display()))
+}
+
+/// A temporary file beside its final place: moved there when it is complete, deleted when dropped before. What is for standard
+/// output waits among the system's temporary files.
+pub struct Pending {
+    path: PathBuf,
+    existing: Existing,
+    writer: BufWriter<NamedTempFile>,
+}
+
+impl Pending {
+    /// A file that will stand at `path`, in a folder that is there.
+    pub fn new(path: &Path, existing: Existing) -> Result<Self, Failure> {
+        let failure = |error: io::Error| Failure::file("write", path, &error);
+        let waiting = std::env::temp_dir();
+        let folder = match path.parent() {
+            _ if standard(path) => &waiting,
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        if !folder.is_dir() {
+            return Err(no_folder(path, folder));
+        }
+        let mut builder = Builder::new();
+        builder.prefix(".epas-");
+        // A temporary file is private by default; this one is to become an ordinary file.
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
+        let file = builder.tempfile_in(folder).map_err(failure)?;
+        Ok(Self {
+            path: path.into(),
+            existing,
+            writer: BufWriter::new(file),
+        })
+    }
+
+    /// Where to write.
+    pub fn writer(&mut self) -> &mut (impl Write + Seek + use<>) {
+        &mut self.writer
+    }
+
+    /// Puts the file in its place.
+    pub fn finish(self) -> Result<(), Failure> {
+        let Self {
+            path,
+            existing,
+            writer,
+        } = self;
+        let file = writer
+            .into_inner()
+            .map_err(|error| Failure::file("write", &path, error.error()))?;
+        if standard(&path) {
+            let mut complete = file.reopen()?;
+            io::copy(&mut complete, &mut io::stdout().lock())?;
+            return Ok(());
+        }
+        let placed = match existing {
+            Existing::Replace => file.persist(&path),
+            Existing::Keep => file.persist_noclobber(&path),
+        };
+        match placed {
+            Ok(_) => Ok(()),
+            Err(error) if error.error.kind() == io::ErrorKind::AlreadyExists => {
+                Err(in_the_way(&path))
+            }
+            Err(error) => Err(Failure::file("write", &path, &error.error)),
+        }
+    }
+}
+
+/// Writes the whole text of a file that is pending.
+pub fn all(pending: &mut Pending, path: &Path, contents: &str) -> Result<(), Failure> {
+    pending
+        .writer()
+        .write_all(contents.as_bytes())
+        .map_err(|error| Failure::file("write", path, &error))
+}
+
+/// Writes a whole file.
+pub fn write(path: &Path, contents: &str, existing: Existing) -> Result<(), Failure> {
+    let mut pending = Pending::new(path, existing)?;
+    all(&mut pending, path, contents)?;
+    pending.finish()
+}
+
+/// Fails where an output is an input, or another output: inputs are never overwritten.
+pub fn refuse_same<'a, 'b>(
+    inputs: impl IntoIterator<Item = Option<&'b Path>>,
+    outputs: impl Iterator<Item = &'a PathBuf>,
+) -> Result<(), Failure> {
+    // What comes from standard input is not what goes to standard output.
+    let inputs = inputs.into_iter().flatten();
+    let mut taken: Vec<PathBuf> = inputs.filter(|path| !standard(path)).map(place).collect();
+    for output in outputs {
+        let place = place(output);
+        if taken.contains(&place) {
+            return Err(Failure::Data(format!(
+                "{} is named twice",
+                output.display()
+            )));
+        }
+        taken.push(place);
+    }
+    Ok(())
+}
+
+/// Endings that say what a file holds, without regard to case.
+const KNOWN: [&str; 24] = [
+    "a2l", "bin", "bmp", "csv", "fmu", "gif", "h", "htm", "html", "jpeg", "jpg", "json", "mat",
+    "md", "mf4", "ods", "parquet", "pdf", "png", "rs", "svg", "toml", "xls", "xlsx",
+];
+
+/// Whether a file has one of these endings, in whatever case.
+pub fn ends(path: &Path, endings: &[&str]) -> bool {
+    path.extension()
+        .is_some_and(|own| endings.iter().any(|one| own.eq_ignore_ascii_case(one)))
+}
+
+/// Fails where an output's ending says that it holds something else than it will.
+pub fn refuse_ending(what: &str, path: Option<&Path>, endings: &[&str]) -> Result<(), Failure> {
+    match path {
+        Some(path) if ends(path, &KNOWN) && !ends(path, endings) => {
+            let written: Vec<String> = endings.iter().map(|one| format!(".{one}")).collect();
+            Err(Failure::Data(format!(
+                "{}: {what} ends in {}",
+                path.display(),
+                written.join(" or ")
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Where a file is or will be, under one name however it is spelled.
+fn place(path: &Path) -> PathBuf {
+    fs::canonicalize(path).unwrap_or_else(|_| {
+        let absolute = std::path::absolute(path).unwrap_or_else(|_| path.into());
+        match (absolute.parent().map(fs::canonicalize), path.file_name()) {
+            (Some(Ok(folder)), Some(name)) => folder.join(name),
+            _ => absolute,
+        }
+    })
+}
+
+/// Whether a path stands for standard input or output.
+pub fn standard(path: &Path) -> bool {
+    path.as_os_str() == "-"
+}
+
+/// Fails where several inputs are standard input, which can be read once.
+pub fn refuse_shared<const N: usize>(inputs: [Option<&Path>; N]) -> Result<(), Failure> {
+    let asked = inputs.into_iter().flatten().filter(|path| standard(path));
+    if asked.count() > 1 {
+        return Err(Failure::Data(
+            "two inputs are -, but standard input can be read once".into(),
+        ));
+    }
+    Ok(())
+}
+
+/// Where a run tells what it found: beside standard output where that is one of the outputs.
+pub fn told<'a>(mut outputs: impl Iterator<Item = &'a PathBuf>) -> Box<dyn Write> {
+    if outputs.any(|path| standard(path)) {
+        Box::new(io::stderr())
+    } else {
+        Box::new(io::stdout())
+    }
+}
+
+/// An input that ends with an error where it is longer than it may be.
+pub struct Bounded<R> {
+    input: R,
+    largest: u64,
+    left: u64,
+}
+
+impl<R> Bounded<R> {
+    /// At most `largest` bytes of `input`.
+    pub const fn new(input: R, largest: u64) -> Self {
+        Self {
+            input,
+            largest,
+            left: largest,
+        }
+    }
+}
+
+impl<R: Read> Read for Bounded<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let read = self.input.read(buffer)?;
+        self.left = self.left.checked_sub(read as u64).ok_or_else(|| {
+            let largest = self.largest;
+            io::Error::new(
+                io::ErrorKind::FileTooLarge,
+                format!("it has more than {largest} bytes"),
+            )
+        })?;
+        Ok(read)
+    }
+}
+
+impl<R: Seek> Seek for Bounded<R> {
+    /// What is read again counts again.
+    fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
+        self.left = self.largest;
+        self.input.seek(position)
+    }
+}
+
+/// The text of a file, or of standard input, of at most `largest` bytes.
+///
+/// # Errors
+/// A file that cannot be read, is longer, or is no text.
+pub fn read_text(path: &Path, largest: u64) -> Result<String, Failure> {
+    let input: Box<dyn Read> = if standard(path) {
+        Box::new(io::stdin())
+    } else {
+        Box::new(fs::File::open(path).map_err(|error| Failure::file("open", path, &error))?)
+    };
+    let mut text = String::new();
+    Bounded::new(input, largest)
+        .read_to_string(&mut text)
+        .map_err(|error| match error.kind() {
+            io::ErrorKind::InvalidData => Failure::Data(format!(
+                "{}: this is not UTF-8; save the file as UTF-8 (> in a PowerShell writes UTF-16)",
+                path.display()
+            )),
+            _ => Failure::file("read", path, &error),
+        })?;
+    Ok(text)
+}
+
+/// Line of the record that starts at this byte of an input, where a CSV reader says that it starts at `line`: the reader
+/// counts blank lines before a record as part of it.
+pub fn line_of(mut input: impl Read + Seek, byte: u64, line: u64) -> u64 {
+    let mut blank_lines = || -> io::Result<u64> {
+        input.seek(SeekFrom::Start(byte))?;
+        let mut input = BufReader::new(&mut input);
+        let mut count = 0;
+        loop {
+            match input.fill_buf()?.first() {
+                Some(b'\n') => count += 1,
+                Some(b'\r') => {}
+                _ => return Ok(count),
+            }
+            input.consume(1);
+        }
+    };
+    // Where the input cannot be read again, the line is that of the blank lines.
+    line + blank_lines().unwrap_or(0)
+}
