@@ -19,7 +19,7 @@ use epas_reference::friction::ball_screw_ring::{
 };
 use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
-use epas_trains::Folded;
+use epas_design::uncaged_scene::Folded;
 
 use epas_design::uncaged_scene::{LEAST_DEVIATION, MARGIN, folded, loads_holding};
 
@@ -34,15 +34,21 @@ const POISSON_RATIO: f64 = 0.28;
 pub struct Case {
     /// Design; both grooves have the same radius.
     pub pitch_radius: f64,
+    /// Lead, m.
     pub lead: f64,
+    /// Radius of a ball, m.
     pub ball_radius: f64,
+    /// Radius of both grooves, m.
     pub groove_radius: f64,
+    /// Nominal contact angle, rad.
     pub contact_angle: f64,
     /// Friction coefficients of balls and grooves, and between balls.
     pub friction: f64,
+    /// Friction coefficient between balls.
     pub ball_friction: f64,
     /// Radial gap of every contact at the centred ball.
     pub clearance: f64,
+    /// Axial load of a ball, N.
     pub load_per_ball: f64,
     /// Length of the whole track in turns; without it as long as lets the balls fill 97.8 % of it.
     pub track: Option<f64>,
@@ -50,11 +56,13 @@ pub struct Case {
     pub loaded: f64,
     /// Amplitude of the deviation, and waves in a turn, of screw and nut.
     pub screw: (f64, u8),
+    /// The same of the nut.
     pub nut: (f64, u8),
     /// Turns of the nut a second, negative backward.
     pub speed: f64,
     /// Turns of the nut that are followed, and states that are compared on the way.
     pub turns: f64,
+    /// States that are compared.
     pub states: usize,
     /// Longest time between two ticks, s: as many of one length lead from each state to the next.
     pub tick: f64,
@@ -132,9 +140,11 @@ pub struct Moment {
     pub nut_angle: f64,
     /// Groove torque, ball torque, N m, largest force between two balls, N, and pairs that press: scene and exact.
     pub scene: [f64; 4],
+    /// The same of the exact screw.
     pub exact: [f64; 4],
     /// Whether the scene flags this state, and whether the exact screw has it.
     pub flagged: bool,
+    /// Whether the exact screw has a solution.
     pub solved: bool,
 }
 
@@ -145,6 +155,7 @@ pub struct Comparison {
     pub force: Off,
     /// Friction torque and its part of the grooves, over the exact torque of the same state.
     pub torque: Off,
+    /// Torque of the grooves.
     pub groove: Off,
     /// Its part of the balls, over the largest.
     pub ball: Off,
@@ -154,7 +165,9 @@ pub struct Comparison {
     pub pairs: Off,
     /// States compared, those among them that the scene flags, and those that the exact screw does not have.
     pub compared: usize,
+    /// States that the scene flags.
     pub flagged: usize,
+    /// States without an exact solution.
     pub failed: usize,
     /// Largest exact force, N.
     pub largest_force: f64,
@@ -343,7 +356,7 @@ impl Case {
         match folded(&fold) {
             Ok(Folded::One(folded)) => Ok(folded),
             Ok(Folded::Range(_)) => Err("one friction coefficient is one node".into()),
-            Err(failure) => Err(failure.message().into()),
+            Err(failure) => Err(failure.to_string()),
         }
     }
 

@@ -1,73 +1,71 @@
-//! `report`: the error of every formula beside its run time, as tables on the screen and as Markdown,
-//! one HTML page, SVG, CSV and JSON in a folder.
+//! The main job: the error of every formula and scene beside its run time, stability on stiff and extreme cases, cost on the target; as tables on the
+//! screen and as Markdown, one HTML page, SVG, CSV and JSON in a folder.
 
 mod accuracy;
-mod applications;
-mod bearings;
 mod context;
 mod cortex_m;
-mod curvature;
+pub mod curvature;
 mod efficiency;
 mod flagship;
-mod folder;
 mod friction;
 mod hertz;
 mod kernels;
-mod kinematics;
-mod loads;
-mod measured;
-mod memory;
 mod provenance;
-mod published;
 mod stability;
 mod stages;
-mod statistics;
+pub mod statistics;
 mod summary;
-mod times;
+pub mod times;
 mod trains;
 mod uncaged;
+mod weave;
 
 use std::path::PathBuf;
 
-use epas_page::document::{Document, Part, Section};
-use epas_page::failure::Failure;
-use epas_target::TargetFigures;
+use crate::counts;
 use crate::timing::compete;
 use context::Context;
+use epas_page::document::{Document, Part, Section};
+use epas_page::failure::Failure;
+use epas_page::folder;
 use flagship::Flagship;
 use stages::Stages;
 
-/// Rounds whose medians are a measurement.
-const ROUNDS: usize = 1500;
+/// Timing rounds by default: a median that is right to some per cent within two seconds.
+const ROUNDS: usize = 120;
+
+/// Timing rounds of a full report.
+const FULL_ROUNDS: usize = 1500;
 
 /// Most rounds: far more than a median needs.
 const MOST_ROUNDS: usize = 1_000_000;
 
-/// Rounds of a look.
-const QUICK_ROUNDS: usize = 40;
-
-/// The error of every formula against its run time, on this machine (the main job).
+/// Error against run time of every formula and of every scene of epas-friction, on this machine.
 ///
 /// Prints tables and writes them, with plots, to a folder: report.md, report.html (one page that
 /// needs nothing else), and every figure as SVG, CSV and JSON.
+///
+/// Sweeps are samples of those of --full, from the same domains. Counts of the target are those that epas-target has stored; tables and figures of
+/// the four papers are made by epas-papers.
 // Each is a switch of the command line.
 #[allow(clippy::struct_excessive_bools)]
-#[derive(Debug, PartialEq, Eq, clap::Args)]
+#[derive(Debug, PartialEq, Eq, clap::Parser)]
+#[command(name = "epas-bench", version)]
 pub struct Arguments {
     /// Folder to write to; a report written there before is replaced
     #[arg(long, default_value = "target/report")]
     output: PathBuf,
-    /// Timing rounds on this machine: a median over a few is a look, not a measurement
-    #[arg(long, default_value_t = ROUNDS, value_parser = rounds)]
-    rounds: usize,
-    /// Few timing rounds, coarser sweeps, stored figures of the target: a look, not a measurement
-    #[arg(long, conflicts_with = "rounds")]
-    quick: bool,
+    /// Whole sweeps and 1500 timing rounds: some minutes
+    #[arg(long)]
+    full: bool,
+    /// Timing rounds on this machine [default: 120; 1500 with --full]
+    #[arg(long, value_parser = rounds)]
+    rounds: Option<usize>,
     /// Store the errors that README and bench/accuracy.md print, and do nothing else
     #[arg(long, exclusive = true)]
     store: bool,
-    /// Fail where an error differs from the stored one
-    #[arg(long, conflicts_with = "quick")]
+    /// Fail where an error differs from the stored one; its sweeps are those of --full
+    #[arg(long)]
     gate: bool,
     /// Replace files of the same names that no report wrote
     #[arg(long)]
@@ -82,58 +80,33 @@ fn rounds(text: &str) -> Result<usize, String> {
     }
 }
 
-impl Default for Arguments {
-    fn default() -> Self {
-        Self {
-            output: "target/report".into(),
-            rounds: ROUNDS,
-            quick: false,
-            store: false,
-            gate: false,
-            force: false,
-        }
-    }
-}
-
 /// Makes a section.
 type MakeSection = fn(&Context) -> Result<Section, Failure>;
 
 /// Heading of a part, whether it is unfolded, and its sections with a line on each.
 type Plan = (&'static str, bool, &'static [(MakeSection, &'static str)]);
 
-/// Every section, in the order of the report: friction first, then what it is made of, then the papers.
-const PARTS: [Plan; 4] = [
+/// Every section, in the order of the report: what firmware steps first, then what it is made of.
+const PARTS: [Plan; 2] = [
     (
         "Friction",
         true,
-        &[(
-            friction::section,
-            "torque over a manoeuvre, its error and its cost",
-        )],
-    ),
-    (
-        "Friction in depth",
-        false,
         &[
             (
+                friction::section,
+                "torque over a manoeuvre, its error and its cost",
+            ),
+            (
                 uncaged::section,
-                "37 balls against the exact whole screw; pairs; settings; closed forms",
-            ),
-            (
-                memory::section,
-                "reversals: loops, laws in use today, changing loads, noise, compensation",
-            ),
-            (
-                measured::section,
-                "figures of real screws beside the model; what decides the friction of a screw",
-            ),
-            (
-                cortex_m::section,
-                "instructions, modelled cycles, flash, RAM and stack of every function",
+                "37 balls against the exact whole screw; pairs; settings",
             ),
             (
                 stability::section,
                 "worst cases over whole domains, known limits, every promise",
+            ),
+            (
+                cortex_m::section,
+                "instructions, modelled cycles, flash, RAM and stack of every function",
             ),
         ],
     ),
@@ -142,91 +115,72 @@ const PARTS: [Plan; 4] = [
         false,
         &[
             (
-                summary::section,
-                "every formula: largest error beside the time of one call",
-            ),
-            (
                 trains::section,
                 "how balls are driven apart or together, and what rubbing costs",
-            ),
-            (
-                efficiency::section,
-                "rolling and full sliding, driving and back-driving",
-            ),
-            (
-                curvature::section,
-                "radius of curvature of helical grooves: literature, circular groove, fitted, exact",
             ),
             (
                 hertz::section,
                 "the contact ellipse against elliptic integrals",
             ),
-            (
-                kinematics::section,
-                "slip, spin and entrainment at the contacts",
-            ),
-            (loads::section, "shares of the balls in the axial load"),
             (kernels::section, "roots and angles in single precision"),
-        ],
-    ),
-    (
-        "The papers",
-        false,
-        &[
-            (
-                published::section,
-                "every printed number that can be computed, and what did not reproduce",
-            ),
-            (bearings::section, "rotary and linear bearings of Lin 2019"),
-            (
-                applications::section,
-                "lash, tie rod and wavy grooves of Lin 2019, chapter 4",
-            ),
         ],
     ),
 ];
 
-/// Makes the report.
+/// Makes the report. Each section is printed when it is made, the first within seconds.
+///
+/// # Errors
+/// A model that is refused, a folder that cannot be written; with `--gate`, an error that is not the stored one.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.store {
-        return accuracy::store(&accuracy::measured(&Flagship::new(false))?);
+        return accuracy::store(&accuracy::measured(&Flagship::new(false), false)?);
     }
-    let rounds = if arguments.quick {
-        QUICK_ROUNDS
-    } else {
-        arguments.rounds
-    };
+    let quick = !(arguments.full || arguments.gate);
+    let rounds = arguments
+        .rounds
+        .unwrap_or(if quick { ROUNDS } else { FULL_ROUNDS });
     // A folder that cannot be written to is found before anything is computed.
     folder::check(&arguments.output, arguments.force)?;
     let sections: usize = PARTS.iter().map(|(_, _, sections)| sections.len()).sum();
     let stages = Stages::new(sections + 4);
     stages.next("times on this machine");
     let competition = compete(rounds)?;
-    stages.next("counts on the target");
-    let target = TargetFigures::new(arguments.quick)?;
     stages.next("37 balls beside the exact whole screw");
-    let flagship = Flagship::new(arguments.quick);
-    stages.next("errors that README prints");
-    let accuracy = if arguments.quick {
-        accuracy::stored()?
-    } else {
-        accuracy::measured(&flagship)?
-    };
-    let context = Context {
-        quick: arguments.quick,
+    let mut context = Context {
+        quick,
         competition,
-        target,
-        flagship,
-        accuracy,
+        counts: counts::stored()?,
+        flagship: Flagship::new(quick),
+        accuracy: Vec::new(),
     };
+    let made = provenance::lines(rounds);
+    for line in &made {
+        epas_page::document::print_line(line)?;
+    }
+    stages.next("every formula: largest error beside the time of one call");
+    let summary = summary::section(&context)?;
+    summary.print()?;
+    stages.next("errors that README prints");
+    context.accuracy = accuracy::measured(&context.flagship, quick)?;
+    let errors = accuracy::section(&context.accuracy, quick)?;
+    errors.print()?;
+    let mut parts = parts(&context, &stages)?;
+    let lead = |title, section| (title, section);
+    let first = [
+        lead("every formula: largest error beside the time of one call", summary),
+        lead("every scene and formula: error at the same state, flagged states counted", errors),
+    ];
+    if let Some(part) = parts.first_mut() {
+        part.sections.splice(0..0, first);
+    }
     let document = Document {
         title: "epas-friction: friction of a ball screw, its error and its cost".into(),
-        made: provenance::lines(rounds),
-        parts: parts(&context, &stages)?,
+        made,
+        parts,
     };
-    // Files first: a reader that closes the output early still gets the whole report in files.
+    folder::mark(&arguments.output)?;
     document.write(&arguments.output)?;
-    document.print(&arguments.output)?;
+    document.print_where(&arguments.output)?;
     if arguments.gate {
         accuracy::gate(&context.accuracy)?;
     }
@@ -240,7 +194,9 @@ fn parts(context: &Context, stages: &Stages) -> Result<Vec<Part>, Failure> {
         .map(|&(title, open, sections)| {
             let sections = sections.iter().map(|(make, lead)| {
                 stages.next(lead);
-                Ok((*lead, make(context)?))
+                let section = make(context)?;
+                section.print()?;
+                Ok((*lead, section))
             });
             Ok(Part {
                 title,

@@ -1,12 +1,18 @@
 //! The case studies of Lin 2019 that report and timing share.
 
+use std::f32::consts::{PI, TAU};
 use std::f64::consts::FRAC_PI_4;
 
+use epas_design::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::ball::LinearBallParameters;
+use epas_friction::law::coefficient::OneCoefficient;
+use epas_friction::law::memory::{ProportionalElements, SLIP_4, SPIN_4};
+use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
+use epas_friction::scene::{Scene, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
-    Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
+    Inputs, Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
     UncagedBallScrewConfiguration,
 };
 use epas_reference::curvature::Groove;
@@ -186,4 +192,69 @@ pub fn whole_screw<const N: usize>() -> Result<FrictionModel<UncagedBallScrew<N>
         load_shares: LoadShares::EVEN,
         tick: 1e-3,
     })?)
+}
+
+/// A scene with a memory of eight elements, whose sensor reads an angle within a turn either way and whose friction coefficient is one.
+pub type Remembering<S> = FrictionModel<WithMemory<S, ProportionalElements<8>, WrappedAngle, OneCoefficient>>;
+
+/// The scene of a gear with the elements that its contacts have under an axial load, N.
+pub fn remembering<S>(
+    gear: &CagedDesign,
+    scene: S::Configuration,
+    axial_load: f32,
+) -> Result<Remembering<S>, Failure>
+where
+    S: Sliding<Constants: Copy, Configuration: Copy>,
+    WithMemory<S, ProportionalElements<8>, WrappedAngle, OneCoefficient>: Scene<
+        Configuration = WithMemoryConfiguration<
+            S::Configuration,
+            ProportionalElements<8>,
+            WrappedAngle,
+            OneCoefficient,
+        >,
+    >,
+{
+    let CagedDesign {
+        design,
+        friction,
+        clearance,
+        rolling_resistance,
+        loaded_balls,
+        ..
+    } = *gear;
+    let contact_load = ScrewContacts::of(&design).preloaded(axial_load, loaded_balls, clearance);
+    let breakaway = Breakaway::of(
+        &design,
+        &BreakawayConfiguration {
+            friction,
+            clearance,
+            rolling_resistance,
+            loaded_balls,
+            contact_load,
+        },
+    )?;
+    let elements = breakaway.elements(&Tables {
+        slip: &SLIP_4.elements,
+        spin: &SPIN_4.elements,
+        rolling_resistance: &[],
+    })?;
+    let sensor = WrappedAngle::new(WrappedAngleParameters {
+        lowest: -TAU,
+        period: 2.0 * TAU,
+        largest_turn: PI,
+    })?;
+    let configuration =
+        WithMemoryConfiguration::new(scene, friction, elements, sensor, axial_load)?;
+    Ok(FrictionModel::new(&configuration)?)
+}
+
+/// A moment of a sensor that was read now, at the temperature of the default law.
+pub fn fresh(inputs: Inputs, reading: f32) -> WithMemoryInputs<Inputs, f32> {
+    WithMemoryInputs {
+        scene: inputs,
+        reading,
+        load_age: 0.0,
+        temperature: 313.0,
+        temperature_age: 0.0,
+    }
 }

@@ -22,33 +22,49 @@ use crate::failure::Failure;
 use crate::files::{Existing, write};
 use page::Page;
 
+/// Prints a line.
+pub fn print_line(line: &str) -> Result<(), Failure> {
+    Ok(writeln!(std::io::stdout().lock(), "{line}")?)
+}
+
+impl Section {
+    /// Prints its text and its tables.
+    pub fn print(&self) -> Result<(), Failure> {
+        let mut output = std::io::stdout().lock();
+        writeln!(output, "\n== {}", self.title)?;
+        for block in &self.blocks {
+            match block {
+                Block::Text(text) => writeln!(output, "\n{}", inline::wrapped(text))?,
+                Block::Table(table) | Block::Answer(table) => {
+                    write!(output, "\n{}", table.text())?;
+                }
+                Block::Annex(_) | Block::Figure(_) => {}
+            }
+        }
+        Ok(())
+    }
+}
+
 impl Document {
     /// Prints the text and the tables, and where the rest is.
     pub fn print(&self, folder: &Path) -> Result<(), Failure> {
-        let mut output = std::io::stdout().lock();
-        writeln!(output, "{}", self.title)?;
+        print_line(&self.title)?;
         for line in &self.made {
-            writeln!(output, "{line}")?;
+            print_line(line)?;
         }
         for (_, section) in self.parts.iter().flat_map(|part| &part.sections) {
-            writeln!(output, "\n== {}", section.title)?;
-            for block in &section.blocks {
-                match block {
-                    Block::Text(text) => writeln!(output, "\n{}", inline::wrapped(text))?,
-                    Block::Table(table) | Block::Answer(table) => {
-                        write!(output, "\n{}", table.text())?;
-                    }
-                    Block::Annex(_) | Block::Figure(_) => {}
-                }
-            }
+            section.print()?;
         }
-        writeln!(
-            output,
+        self.print_where(folder)
+    }
+
+    /// Prints where the files are.
+    pub fn print_where(&self, folder: &Path) -> Result<(), Failure> {
+        print_line(&format!(
             "\nWritten to {}: report.html (open it in a browser), report.md, report.json, and every\n\
              figure as SVG and CSV.",
             folder.display()
-        )?;
-        Ok(())
+        ))
     }
 
     /// Writes every form into a folder.

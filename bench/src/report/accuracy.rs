@@ -12,10 +12,10 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-pub use measured::measured;
+pub use measured::{measured, memory_against_exact};
 
 use super::statistics::Errors;
-use epas_page::document::{Cell, Table};
+use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::files::{self, Existing};
 
@@ -88,7 +88,7 @@ pub fn gate(found: &[Accuracy]) -> Result<(), Failure> {
     }
     Err(Failure::Data(format!(
         "errors are not those stored in bench/accuracy.json:\n{}\nwhere that is meant:\n  \
-         cargo run --release -p epas-bench -- report --store",
+         cargo run --release -p epas-bench -- --store",
         differing.join("\n")
     )))
 }
@@ -119,27 +119,36 @@ fn differing(stored: &[Accuracy], found: &[Accuracy]) -> Vec<String> {
     changed.chain(new).collect()
 }
 
-/// The table of the report.
-pub fn table(found: &[Accuracy], quick: bool) -> Table {
+/// The section of the report.
+pub fn section(found: &[Accuracy], quick: bool) -> Result<Section, Failure> {
+    Ok(Section {
+        title: "Errors of scenes and formulas",
+        blocks: vec![Block::Table(table(found, quick)?)],
+    })
+}
+
+/// The table of the report: what this run found beside what a full one has stored.
+fn table(found: &[Accuracy], quick: bool) -> Result<Table, Failure> {
+    let stored = stored()?;
     let row = |entry: &Accuracy| {
+        let full = stored.iter().find(|stored| stored.name == entry.name);
         vec![
             Cell::from(entry.name.as_str()),
             Cell::power(entry.largest),
             Cell::power(entry.rms),
             Cell::fixed(100.0 * entry.flagged, 1),
             Cell::fixed(entry.states as f64, 0),
+            full.map_or("".into(), |full| Cell::power(full.largest)),
+            full.map_or("".into(), |full| Cell::power(full.rms)),
             entry.error.as_str().into(),
         ]
     };
-    let source = if quick {
-        "Stored in bench/accuracy.json by a full report"
-    } else {
-        "Found in this run"
-    };
-    Table {
+    let sweeps = if quick { "samples" } else { "whole sweeps" };
+    Ok(Table {
         name: "accuracy",
         caption: format!(
-            "Errors at the same state, flagged states counted, as README and bench/accuracy.md print them. {source}; those over every f32 are recorded"
+            "Errors at the same state, flagged states counted: {sweeps} of this run, beside those of the whole sweeps (`epas-bench --full`) that README and \
+             bench/accuracy.md print; those over every f32 are recorded"
         ),
         columns: [
             "quantity",
@@ -147,12 +156,14 @@ pub fn table(found: &[Accuracy], quick: bool) -> Table {
             "rms",
             "flagged (%)",
             "states",
+            "stored: largest",
+            "rms",
             "error of what, over which states",
         ]
         .map(String::from)
         .to_vec(),
         rows: found.iter().map(row).collect(),
-    }
+    })
 }
 
 #[cfg(test)]
@@ -178,7 +189,7 @@ mod tests {
             gate(&found)
                 .unwrap_err()
                 .message()
-                .contains("report --store")
+                .contains("-- --store")
         );
     }
 }

@@ -3,7 +3,7 @@
 use super::accuracy::Accuracy;
 use super::flagship::Flagship;
 use epas_page::failure::Failure;
-use epas_target::TargetFigures;
+use crate::counts::Figures;
 use crate::timing::Competition;
 
 /// What every section works with.
@@ -12,8 +12,8 @@ pub struct Context {
     pub quick: bool,
     /// Times on this machine.
     pub competition: Vec<Competition>,
-    /// Counts on the target.
-    pub target: TargetFigures,
+    /// Stored counts on the target.
+    pub counts: Figures,
     /// The ball screw without cage beside the exact one.
     pub flagship: Flagship,
     /// Errors that README and the page of accuracy print: of this run, or stored ones of a quick look.

@@ -4,23 +4,18 @@ use epas_reference::promises::{self, Promise};
 
 use super::context::Context;
 use super::statistics::Errors;
+use super::weave::{Row, Weave};
 use super::times::time;
 use epas_page::document::{Block, Cell, Figure, Section, Table};
 use epas_page::failure::Failure;
-use epas_papers::peers::candidates::ours;
-use epas_papers::peers::compare::Comparison;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series, thin};
-use epas_cli::simulate::{Courses, Manoeuvre, Moment, courses};
-
-/// The screw of Lin 2019, Section 3.4.4: pitch circle of 33 mm, lead 20 mm, 37 balls.
-const DESIGN: &str = "lin-3.6";
 
 /// Cycles in a millisecond of a processor of 168 MHz.
 const CYCLES_A_MILLISECOND: f64 = 168_000.0;
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
-    let weave = courses(DESIGN, Manoeuvre::Weave)?;
+    let weave = Weave::new()?;
     Ok(Section {
         title: "Friction of the whole screw",
         blocks: vec![
@@ -45,8 +40,18 @@ struct Found {
     kind: String,
 }
 
+impl Found {
+    fn of(errors: &Errors, kind: &str) -> Self {
+        Self {
+            largest: errors.largest,
+            rms: errors.rms(),
+            kind: kind.into(),
+        }
+    }
+}
+
 /// One scene.
-struct Row {
+struct SceneRow {
     scene: &'static str,
     found: Found,
     promise: &'static Promise,
@@ -54,34 +59,28 @@ struct Row {
     counted: &'static str,
 }
 
-fn errors_and_costs(context: &Context, weave: &Courses) -> Result<Table, Failure> {
-    let eight = ours()
-        .into_iter()
-        .find(|candidate| candidate.name.ends_with("8 elements"))
-        .ok_or_else(|| Failure::Data("no law of eight elements".into()))?;
-    let (rms, largest) = Comparison::new(&eight)?.random;
+fn errors_and_costs(context: &Context, weave: &Weave) -> Result<Table, Failure> {
+    let memory = super::accuracy::memory_against_exact()?;
     let [whole_largest, whole_rms, _] = context.flagship.comparison.torque.relative();
     let rows = [
-        Row {
+        SceneRow {
             scene: "balls in a cage",
-            found: against_exact(&weave.caged),
+            found: Found::of(&weave.errors, "torque, relative: weave, exact ball"),
             promise: promises::of("step_caged"),
             time: "step_caged",
             counted: "step_caged",
         },
-        Row {
+        SceneRow {
             scene: "balls in a cage, with memory",
-            found: Found {
-                largest,
-                rms,
-                kind: "torque over that of sliding: elements, random strokes, exact hysteresis"
-                    .into(),
-            },
+            found: Found::of(
+                &memory,
+                "torque over that of sliding: eight elements, random strokes, exact hysteresis",
+            ),
             promise: promises::of("step_caged"),
             time: "step_caged_memory",
             counted: "step_caged_memory",
         },
-        Row {
+        SceneRow {
             scene: "37 balls that press on each other",
             found: Found {
                 largest: whole_largest,
@@ -120,8 +119,8 @@ fn errors_and_costs(context: &Context, weave: &Courses) -> Result<Table, Failure
     })
 }
 
-fn cells(context: &Context, row: &Row) -> Result<Vec<Cell>, Failure> {
-    let function = context.target.figures.function(row.counted);
+fn cells(context: &Context, row: &SceneRow) -> Result<Vec<Cell>, Failure> {
+    let function = context.counts.function(row.counted);
     let cycles = function.map(|function| f64::from(function.cycles_max));
     Ok(vec![
         row.scene.into(),
@@ -137,46 +136,28 @@ fn cells(context: &Context, row: &Row) -> Result<Vec<Cell>, Failure> {
     ])
 }
 
-/// Differences from the reference over its largest torque.
-fn against_exact(moments: &[Moment]) -> Found {
-    let pairs = || {
-        moments
-            .iter()
-            .filter_map(|moment| Some((moment.friction, moment.reference?)))
-    };
-    let largest = pairs().fold(0.0, |largest: f64, (_, exact)| largest.max(exact.abs()));
-    let errors: Errors = pairs()
-        .map(|(friction, exact)| (friction - exact) / largest)
-        .collect();
-    Found {
-        largest: errors.largest,
-        rms: errors.rms(),
-        kind: "torque over its largest: weave, exact ball".into(),
-    }
-}
-
-fn between(moments: &[Moment], (start, end): (f64, f64)) -> &[Moment] {
-    let from = moments.partition_point(|moment| moment.place < start);
-    let to = moments.partition_point(|moment| moment.place <= end);
-    &moments[from..to.max(from)]
+fn between(rows: &[Row], (start, end): (f64, f64)) -> &[Row] {
+    let from = rows.partition_point(|row| row.time < start);
+    let to = rows.partition_point(|row| row.time <= end);
+    &rows[from..to.max(from)]
 }
 
 /// The start of the reversal under the largest load, s.
-fn reversal(moments: &[Moment]) -> f64 {
-    let reversals = moments
+fn reversal(rows: &[Row]) -> f64 {
+    let reversals = rows
         .windows(2)
         .filter(|pair| pair[0].speed * pair[1].speed <= 0.0);
     reversals
         .max_by(|one, other| one[0].load.abs().total_cmp(&other[0].load.abs()))
-        .map_or(0.0, |pair| pair[0].place)
+        .map_or(0.0, |pair| pair[0].time)
 }
 
-fn over_the_weave(weave: &Courses) -> Figure {
+fn over_the_weave(weave: &Weave) -> Figure {
     const WHOLE: (f64, f64) = (0.0, 5.0);
-    let start = reversal(&weave.memory);
+    let start = reversal(&weave.rows);
     let close = (start - 0.02, start + 0.06);
-    let line = |name: &str, colour, moments: &[Moment], ends, value: &dyn Fn(&Moment) -> f64| {
-        let points = thin(between(moments, ends), &|moment| moment.place, value);
+    let line = |name: &str, colour, ends, value: &dyn Fn(&Row) -> f64| {
+        let points = thin(between(&weave.rows, ends), &|row| row.time, value);
         Series::new(name, colour, Mark::Line, points)
     };
     let chart = |title: &str, label: &str, ends: (f64, f64), series| {
@@ -188,18 +169,13 @@ fn over_the_weave(weave: &Courses) -> Figure {
             notes: Vec::new(),
         })
     };
-    let friction = |moment: &Moment| moment.friction;
     let three = |ends| {
         vec![
-            line("cage", 0, &weave.caged, ends, &friction),
-            line("cage, memory", 1, &weave.memory, ends, &friction),
-            line("37 balls, memory", 2, &weave.balls, ends, &friction),
+            line("cage", 0, ends, &|row: &Row| row.caged),
+            line("cage, memory", 1, ends, &|row: &Row| row.memory),
+            line("37 balls, memory", 2, ends, &|row: &Row| row.balls[0]),
         ]
     };
-    let part =
-        |index: usize| move |moment: &Moment| moment.parts.map_or(f64::NAN, |parts| parts[index]);
-    let motor = |moment: &Moment| moment.motor.unwrap_or(f64::NAN);
-    let load = |moment: &Moment| motor(moment) - moment.friction;
     Figure {
         name: "friction_over_a_manoeuvre",
         caption: "Friction torque of a screw of 33 mm and lead 20 mm with 37 balls, on centre. A weave at 0.2 Hz with small corrections; the \
@@ -215,8 +191,10 @@ fn over_the_weave(weave: &Courses) -> Figure {
                 "motor torque (N m)",
                 WHOLE,
                 vec![
-                    line("load alone", 6, &weave.balls, WHOLE, &load),
-                    line("load and friction of 37 balls", 1, &weave.balls, WHOLE, &motor),
+                    line("load alone", 6, WHOLE, &|row: &Row| row.load_torque),
+                    line("load and friction of 37 balls", 1, WHOLE, &|row: &Row| {
+                        row.load_torque + row.balls[0]
+                    }),
                 ],
             ),
             chart(
@@ -224,8 +202,8 @@ fn over_the_weave(weave: &Courses) -> Figure {
                 "friction torque (N m)",
                 WHOLE,
                 vec![
-                    line("grooves", 0, &weave.balls, WHOLE, &part(0)),
-                    line("ball to ball", 1, &weave.balls, WHOLE, &part(1)),
+                    line("grooves", 0, WHOLE, &|row: &Row| row.balls[1]),
+                    line("ball to ball", 1, WHOLE, &|row: &Row| row.balls[2]),
                 ],
             ),
         ],

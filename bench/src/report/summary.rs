@@ -3,7 +3,7 @@
 use super::context::Context;
 use super::statistics::Errors;
 use super::times::{quartiles, ratio, time};
-use super::{accuracy, curvature, efficiency, hertz};
+use super::{curvature, efficiency, hertz};
 use epas_page::document::{Block, Cell, Figure, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
@@ -89,7 +89,6 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                     .into(),
             ),
             Block::Table(errors_and_times(context, errors)?),
-            Block::Table(accuracy::table(&context.accuracy, context.quick)),
             Block::Table(ratios(context)?),
             Block::Text(
                 "Why the exact form costs a few times the literature formula and not the paper's 71 times: the \
@@ -246,7 +245,7 @@ fn ratios(context: &Context) -> Result<Table, Failure> {
 
 /// One point a formula: time of a call and largest error of the first curvature.
 fn picture(context: &Context, errors: &[Errors; 4]) -> Result<Figure, Failure> {
-    let [weingarten, appendix_b] = curvature::double_errors();
+    let [weingarten, appendix_b] = curvature::double_errors()?;
     let [literature, circular, fitted, exact] = errors.map(|errors| errors.largest);
     let groups: [(&str, Mark, Vec<Point>); 3] = [
         (

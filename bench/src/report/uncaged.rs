@@ -1,8 +1,5 @@
-//! The ball screw without cage: the scene against the exact whole screw, pairs of its balls against exact pairs, and what
-//! the papers' closed forms make of a ball.
+//! The ball screw without cage: the scene against the exact whole screw, pairs of its balls against exact pairs.
 
-mod closed_forms;
-mod figures;
 mod pairs;
 mod settings;
 
@@ -26,8 +23,6 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     ];
     blocks.extend(settings::blocks(context.quick));
     blocks.extend(pairs::blocks(context.quick));
-    blocks.extend(figures::blocks(context.quick)?);
-    blocks.push(Block::Figure(closed_forms::figure(context.quick)?));
     Ok(Section {
         title: "Ball screw without cage",
         blocks,

@@ -1,9 +1,8 @@
 //! What is timed.
 
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::TAU;
 use std::hint::black_box;
 
-use epas_design::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
 use epas_design::caged::Block;
 use epas_design::efficiency::DynamicCorrection;
 use epas_design::{CagedDesign, CagedFold};
@@ -13,18 +12,14 @@ use epas_friction::curvature::{
 use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
-use epas_friction::law::coefficient::OneCoefficient;
-use epas_friction::law::memory::{ProportionalElements, SLIP_4, SPIN_4};
-use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
-use epas_friction::scene::{
-    CagedBallScrew, CagedBallScrewConfiguration, WithMemory, WithMemoryConfiguration,
-    WithMemoryInputs,
-};
+use epas_friction::scene::CagedBallScrew;
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, FrictionModel, Inputs, Limits, RollingResistance, math,
 };
 use epas_reference::curvature as reference;
-use epas_reference::published::TABLE_A1;
+
+use crate::report::curvature::surface;
+use crate::study;
 
 use super::group::{Group, List};
 use super::kernels::{libm, micromath, own};
@@ -55,7 +50,7 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
     let mut race = Race::default();
     let mut list = List::new();
     curvatures(&mut race, &mut list, &design);
-    curvatures_in_double(&mut race, &mut list);
+    curvatures_in_double(&mut race, &mut list, &design);
     efficiencies(&mut race, &mut list, &design);
     ellipses(&mut race, &mut list, &design);
     caged_step(&mut race, &mut list, design)?;
@@ -125,10 +120,10 @@ fn curvatures(race: &mut Race, list: &mut List, design: &BallScrew) {
 }
 
 /// The same by the reference.
-fn curvatures_in_double(race: &mut Race, list: &mut List) {
-    let row = black_box(TABLE_A1[15]);
-    let surface = black_box(row.surface(reference::Groove::Screw));
-    let ball_radius = black_box(0.5 * row.ball_diameter);
+fn curvatures_in_double(race: &mut Race, list: &mut List, design: &BallScrew) {
+    let screw = surface(design, Groove::Screw, reference::Groove::Screw);
+    let surface = black_box(screw);
+    let ball_radius = black_box(f64::from(design.ball_radius()));
     Group::new(race, list, angle, |angle: f64| angle)
         .time("literature_f64", move |a| {
             reference::literature(surface.groove, surface.pitch_radius, ball_radius, a)
@@ -202,7 +197,7 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
     };
     let folded = black_box(folded);
     let mut model = FrictionModel::<CagedBallScrew>::new(&folded).map_err(refused)?;
-    let mut remembering = remembering(&caged, &folded).map_err(refused)?;
+    let mut remembering = study::remembering::<CagedBallScrew>(&caged, folded, 1000.0)?;
     let mut angle = 0.0;
     Group::new(
         race,
@@ -216,57 +211,9 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
     .time("step_caged", move |inputs| model.step(inputs))
     .time("step_caged_memory", move |inputs| {
         angle += 1e-3 * inputs.nut_speed;
-        remembering.step(WithMemoryInputs {
-            scene: inputs,
-            reading: angle % TAU,
-            load_age: 0.0,
-            temperature: 313.0,
-            temperature_age: 0.0,
-        })
+        remembering.step(study::fresh(inputs, angle % TAU))
     });
     Ok(())
-}
-
-type Remembering =
-    WithMemory<CagedBallScrew, ProportionalElements<8>, WrappedAngle, OneCoefficient>;
-
-/// A caged screw with elements for 1 kN.
-fn remembering(
-    caged: &CagedDesign,
-    folded: &CagedBallScrewConfiguration,
-) -> Result<FrictionModel<Remembering>, epas_friction::Error> {
-    let CagedDesign {
-        design,
-        friction,
-        clearance,
-        rolling_resistance,
-        loaded_balls,
-        ..
-    } = *caged;
-    let contact_load = ScrewContacts::of(&design).preloaded(1000.0, loaded_balls, clearance);
-    let breakaway = Breakaway::of(
-        &design,
-        &BreakawayConfiguration {
-            friction,
-            clearance,
-            rolling_resistance,
-            loaded_balls,
-            contact_load,
-        },
-    )?;
-    let elements = breakaway.elements(&Tables {
-        slip: &SLIP_4.elements,
-        spin: &SPIN_4.elements,
-        rolling_resistance: &[],
-    })?;
-    let sensor = WrappedAngle::new(WrappedAngleParameters {
-        lowest: -TAU,
-        period: 2.0 * TAU,
-        largest_turn: PI,
-    })?;
-    FrictionModel::new(&WithMemoryConfiguration::new(
-        *folded, friction, elements, sensor, 1000.0,
-    )?)
 }
 
 fn kernels(race: &mut Race, list: &mut List) {

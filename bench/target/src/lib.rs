@@ -1,9 +1,10 @@
-//! `target`: builds the firmware, runs it in QEMU, and prints what every function and scene costs there.
+//! Builds the firmware, runs it in QEMU, and prints what every function and scene costs there.
 
-mod budgets;
+// For a program: a failure is a sentence, whose causes the sentence names.
+#![allow(clippy::missing_errors_doc)]
+
 mod cycles;
 mod debugger;
-mod figures;
 mod image;
 mod log;
 mod longest;
@@ -17,8 +18,6 @@ mod watch;
 
 use std::io::{self, Write as _};
 
-pub use budgets::{Budget, budgets};
-pub use figures::Figures;
 use measure::measure;
 
 use epas_page::failure::Failure;
@@ -32,7 +31,8 @@ use epas_page::failure::Failure;
 /// Needs qemu-system-arm and the target thumbv7em-none-eabihf, and says which command adds them.
 // Each is a switch of the command line.
 #[allow(clippy::struct_excessive_bools)]
-#[derive(Debug, clap::Args)]
+#[derive(Debug, clap::Parser)]
+#[command(name = "epas-target", version)]
 pub struct Arguments {
     /// Print one JSON object instead of tables
     #[arg(long)]
@@ -56,46 +56,7 @@ pub struct Arguments {
     longest: bool,
 }
 
-/// Figures for a report, measured where that is possible.
-pub struct TargetFigures {
-    /// The figures.
-    pub figures: Figures,
-    /// Where they come from, in a sentence.
-    pub source: String,
-}
-
-impl TargetFigures {
-    /// Measures, or takes the stored figures: where a look is enough, or tools are missing.
-    pub fn new(quick: bool) -> Result<Self, Failure> {
-        if quick {
-            return Self::stored("");
-        }
-        Self::counted(tools::check())
-    }
-
-    /// Measures where the tools are there; else takes the stored figures and says what is missing.
-    fn counted(tools: Result<(), Failure>) -> Result<Self, Failure> {
-        match tools {
-            Ok(()) => Ok(Self {
-                figures: measure()?,
-                source: "Counted in this run.".into(),
-            }),
-            Err(Failure::Data(missing)) => Self::stored(&format!(
-                ", because nothing can be counted on this machine: {missing}"
-            )),
-            Err(other) => Err(other),
-        }
-    }
-
-    fn stored(why: &str) -> Result<Self, Failure> {
-        Ok(Self {
-            figures: stored::figures()?,
-            source: format!("Figures stored in bench/target.json{why}."),
-        })
-    }
-}
-
-/// Runs the subcommand.
+/// Runs the program.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.store_cases {
         return stored::write_cases();
@@ -104,8 +65,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         return print_longest();
     }
     if arguments.log {
-        io::stdout().lock().write_all(log::log()?.as_bytes())?;
-        return Ok(());
+        return log::log();
     }
     let figures = measure()?;
     if arguments.store {
@@ -121,7 +81,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     figures.require()?;
     if arguments.gate {
-        budgets::require(&figures)?;
+        epas_bench::counts::require(&figures)?;
         stored::gate(&figures)?;
     }
     Ok(())
@@ -143,23 +103,4 @@ fn print_longest() -> Result<(), Failure> {
         return Ok(());
     }
     Err(Failure::Data(beyond.join("\n")))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn where_tools_are_missing_the_stored_figures_say_so() {
-        let missing = Failure::Data("qemu-system-arm is not installed".into());
-        let found = TargetFigures::counted(Err(missing)).unwrap();
-        let stored = stored::figures().unwrap();
-        assert_eq!(found.figures.functions.len(), stored.functions.len());
-        assert_eq!(
-            found.source,
-            "Figures stored in bench/target.json, because nothing can be counted on this machine: qemu-system-arm is not installed."
-        );
-        // A fault of another kind is no reason to print old figures.
-        assert!(TargetFigures::counted(Err(Failure::BrokenPipe)).is_err());
-    }
 }

@@ -1,46 +1,66 @@
-//! The log of the debug firmware, decoded with the strings that stay in the ELF file.
+//! The log of the debug firmware, decoded by `defmt-print` with the strings that stay in the ELF file.
 
-use std::fmt::Write as _;
-use std::fs;
-
-use defmt_decoder::{DecodeError, Table};
+use std::io::{self, Write as _};
+use std::process::{Command, Stdio};
 
 use super::tools::{Built, Core, build, check};
 use epas_page::failure::Failure;
 
-/// Builds the firmware that logs, runs it, and gives its log, a line for each message.
-pub fn log() -> Result<String, Failure> {
+/// Builds the firmware that logs, runs it, and lets `defmt-print` print its log.
+pub fn log() -> Result<(), Failure> {
     check()?;
     let folder = match build(&["log"], Core::M4, "dev", "log")? {
         Built::In(folder) => folder,
         Built::Panics(said) => return Err(Failure::Data(said)),
     };
     let path = folder.join("log");
-    let image = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
-    let table = Table::parse(&image)
-        .map_err(|error| Failure::file("read", &path, &error))?
-        .ok_or_else(|| Failure::Data(format!("{} has no log strings", path.display())))?;
     let run = Core::M4.run(&path)?;
-    let mut decoder = table.new_stream_decoder();
-    decoder.received(&run.output);
-    let mut text = String::new();
-    loop {
-        match decoder.decode() {
-            Ok(frame) => {
-                let level = frame.level().map_or("", |level| level.as_str());
-                let _ = writeln!(text, "{level:5} {}", frame.display_message());
-            }
-            Err(DecodeError::UnexpectedEof) => break,
-            Err(DecodeError::Malformed) => {
-                return Err(Failure::Data(format!(
-                    "the log does not decode after\n{text}"
-                )));
-            }
-        }
-    }
+    printed("defmt-print", &path.to_string_lossy(), &run.output)?;
     if run.passed {
-        Ok(text)
+        Ok(())
     } else {
-        Err(Failure::Data(format!("the firmware failed:\n{text}")))
+        Err(Failure::Data("the firmware failed".into()))
+    }
+}
+
+/// Hands a log to the program that prints it with the strings of an image.
+fn printed(program: &str, image: &str, log: &[u8]) -> Result<(), Failure> {
+    let started = Command::new(program)
+        .args(["-e", image, "stdin"])
+        .stdin(Stdio::piped())
+        .spawn();
+    let mut printer = started.map_err(|error| match error.kind() {
+        io::ErrorKind::NotFound => Failure::Data(format!(
+            "{program} is not installed; this adds it:\n  cargo install defmt-print --locked"
+        )),
+        _ => Failure::from(error),
+    })?;
+    if let Some(mut input) = printer.stdin.take() {
+        input.write_all(log)?;
+    }
+    if printer.wait()?.success() {
+        Ok(())
+    } else {
+        Err(Failure::Data(format!(
+            "{program} does not decode the log of {image}"
+        )))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_missing_printer_is_named_and_a_failing_one_fails() {
+        let Err(Failure::Data(message)) = printed("no-such-printer", "log", &[]) else {
+            panic!("a program that is not there prints a log");
+        };
+        assert!(message.contains("cargo install defmt-print"), "{message}");
+        let Err(Failure::Data(message)) = printed("false", "log", &[]) else {
+            panic!("a log that does not decode passes");
+        };
+        assert!(message.contains("does not decode"), "{message}");
+        printed("true", "log", &[]).unwrap();
     }
 }

@@ -6,7 +6,7 @@ use epas_firmware::inputs::COUNTED;
 use epas_firmware::subjects::{PEERS, SUBJECTS};
 use rayon::prelude::*;
 
-use super::figures::{Figures, FunctionFigures, SceneFigures};
+use epas_bench::counts::{Figures, FunctionFigures, SceneFigures};
 use super::image::{Image, code};
 use super::longest::{Longest, longest};
 use super::scenes::SCENES;

@@ -129,7 +129,7 @@ mod tests {
     /// What is counted is what the README prints.
     #[test]
     fn the_readmes_example_is_the_one_that_is_counted() {
-        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let read = |path: &str| std::fs::read_to_string(root.join(path)).unwrap();
         let counted = read("bench/firmware/src/from_page.rs");
         let (_, code) = counted.split_once("\n\n").unwrap();
@@ -140,7 +140,7 @@ mod tests {
     /// Or nothing would be found of a module that was renamed, and a scene would seem to leave it out.
     #[test]
     fn every_module_stands_in_the_crate() {
-        let crate_root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../src");
+        let crate_root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src");
         for (scene, has, left_out) in SCENES {
             for module in left_out.iter().chain([&has]) {
                 let path = crate_root.join(format!("{}.rs", module.replace("::", "/")));

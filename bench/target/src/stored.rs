@@ -7,11 +7,11 @@ use epas_firmware::cases::{Sink, write};
 use epas_firmware::control_loop::ControlLoop;
 use epas_firmware::scenes::design;
 
-use super::figures::Figures;
+use epas_bench::counts::{self, Figures};
 use super::tools::firmware;
 use epas_page::failure::Failure;
 use epas_page::files::{self, Existing};
-use epas_cli::simulate::Manoeuvre;
+use epas_design::manoeuvre::Manoeuvre;
 
 /// Growth of a function's instructions that is let pass.
 const GROWTH: f64 = 1.05;
@@ -39,13 +39,15 @@ const TICKS: usize = 600;
 /// a kerb.
 fn manoeuvre() -> Result<Vec<u8>, Failure> {
     let refused = |error| Failure::Data(format!("the firmware's designs are refused: {error}"));
-    let trace = Manoeuvre::Kerb.trace(&design().map_err(refused)?)?;
+    let moments = Manoeuvre::Kerb
+        .of_nut(&design().map_err(refused)?)
+        .ok_or_else(|| Failure::Data("the firmware's design has no lead".into()))?;
     let record = |digest: u32| -> Vec<u8> {
-        let samples = trace.samples.iter().step_by(10).take(TICKS);
+        let samples = moments.iter().step_by(10).take(TICKS);
         [TICKS as u32, digest]
             .into_iter()
             .chain(samples.flat_map(|sample| {
-                [sample.nut_speed, sample.axial_load].map(|value| (value as f32).to_bits())
+                [sample.speed, sample.force].map(|value| (value as f32).to_bits())
             }))
             .flat_map(u32::to_le_bytes)
             .collect()
@@ -88,7 +90,7 @@ pub fn check_cases() -> Result<(), Failure> {
 }
 
 fn figures_path() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("target.json")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../target.json")
 }
 
 /// Stores figures.
@@ -98,16 +100,9 @@ pub fn write_figures(figures: &Figures) -> Result<(), Failure> {
     files::write(&figures_path(), &(json + "\n"), Existing::Replace)
 }
 
-/// The stored figures.
-pub fn figures() -> Result<Figures, Failure> {
-    let path = figures_path();
-    let text = fs::read_to_string(&path).map_err(|error| Failure::file("read", &path, &error))?;
-    serde_json::from_str(&text).map_err(|error| Failure::file("read", &path, &error))
-}
-
 /// Fails where a function has grown.
 pub fn gate(now: &Figures) -> Result<(), Failure> {
-    let grown = grown(&figures()?, now);
+    let grown = grown(&counts::stored()?, now);
     if grown.is_empty() {
         return Ok(());
     }

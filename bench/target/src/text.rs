@@ -2,8 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::budgets::budgets;
-use super::figures::Figures;
+use epas_bench::counts::{Figures, budgets};
 use super::measure::Beside;
 
 /// Everything as text.

@@ -23,7 +23,7 @@ const PATIENCE: Duration = Duration::from_secs(300);
 
 /// Folder of the firmware.
 pub fn firmware() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("firmware")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../firmware")
 }
 
 /// Checks that everything is there; else says which command adds it.

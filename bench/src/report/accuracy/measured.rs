@@ -16,7 +16,7 @@ use rand::RngExt as _;
 use rand_pcg::Pcg64;
 
 use super::{Accuracy, caged};
-use crate::exact_ring::{Comparison, Off};
+use crate::exact_ring::Off;
 use epas_page::failure::Failure;
 use crate::report::flagship::Flagship;
 use crate::report::stability::recorded_errors;
@@ -28,17 +28,17 @@ use crate::study::{self, turned_ball};
 const BALLS: usize = 24;
 const CONFORMITY: f32 = 0.56;
 
-/// Every quantity, in the order of the page.
+/// Every quantity, in the order of the page; of whole sweeps, or of samples of them.
 ///
 /// # Errors
 /// What is refused.
-pub fn measured(flagship: &Flagship) -> Result<Vec<Accuracy>, Failure> {
+pub fn measured(flagship: &Flagship, quick: bool) -> Result<Vec<Accuracy>, Failure> {
     const CURVATURES: &str =
         "curvature, relative: 31 catalogue sizes, both grooves, contact angles 0 to 70 degrees";
     const EFFICIENCIES: &str =
         "efficiency, absolute: friction to 0.3, lead to 60, contact 10 to 80 degrees";
-    let [literature, circular, fitted, exact] = curvature::catalogue_errors(false)?;
-    let [rolling, sliding, _] = efficiency::form_errors(false)?;
+    let [literature, circular, fitted, exact] = curvature::catalogue_errors(quick)?;
+    let [rolling, sliding, _] = efficiency::form_errors(quick)?;
     let mut found = vec![
         Accuracy::of("curvature_literature", CURVATURES, &literature),
         Accuracy::of("curvature_circular_groove", CURVATURES, &circular),
@@ -47,18 +47,18 @@ pub fn measured(flagship: &Flagship) -> Result<Vec<Accuracy>, Failure> {
         Accuracy::of(
             "contact_ellipse",
             "ratio, axes, deflection and pressure, relative: ratios of relative radii 1 to 1e5",
-            &hertz::largest_error(false)?,
+            &hertz::largest_error(quick)?,
         ),
         Accuracy::of("efficiency_rolling", EFFICIENCIES, &rolling),
         Accuracy::of("efficiency_sliding", EFFICIENCIES, &sliding),
-        caged::step()?,
+        caged::step(quick)?,
         Accuracy::of(
             "memory",
             "friction below breakaway over the limit, eight elements against the same in float64: random turns",
-            &memory()?,
+            &memory(quick)?,
         ),
     ];
-    found.extend(pressing(&flagship.comparison));
+    found.extend(pressing(flagship));
     found.push(Accuracy::of(
         "linear_ball",
         "speed deviation of the published formula, of v/2: side-force ratio to 0.8, deviations to 3 degrees",
@@ -70,13 +70,15 @@ pub fn measured(flagship: &Flagship) -> Result<Vec<Accuracy>, Failure> {
 }
 
 /// Torque and forces of 37 balls that press on each other.
-fn pressing(found: &Comparison) -> [Accuracy; 2] {
+fn pressing(flagship: &Flagship) -> [Accuracy; 2] {
+    let found = &flagship.comparison;
+    let turns = flagship.turns;
     let of = |name: &str, error: &str, off: &Off| {
         let [largest, rms, _] = off.relative();
         Accuracy {
             name: name.into(),
             error: format!(
-                "{error}: two turns against the exact whole screw, 50 N a ball, deviations of 1 and 0.5 degrees, friction 0.1, between balls too"
+                "{error}: {turns} turns against the exact whole screw, 50 N a ball, deviations of 1 and 0.5 degrees, friction 0.1, between balls too"
             ),
             largest,
             rms,
@@ -95,16 +97,35 @@ fn pressing(found: &Comparison) -> [Accuracy; 2] {
 }
 
 /// Elements in single precision against the same ones in double precision, over random turns.
-fn memory() -> Result<Errors, Failure> {
-    let mut errors = Errors::default();
+fn memory(quick: bool) -> Result<Errors, Failure> {
+    let [same, _] = elements(if quick { 5_000 } else { 50_000 })?;
+    Ok(same)
+}
+
+/// Eight elements against the hysteresis that they stand for, over random turns.
+///
+/// # Errors
+/// What is refused.
+pub fn memory_against_exact() -> Result<Errors, Failure> {
+    let [_, exact] = elements(20_000)?;
+    Ok(exact)
+}
+
+/// Errors against the same elements in double precision, and against the exact hysteresis.
+fn elements(ticks: usize) -> Result<[Errors; 2], Failure> {
+    let mut errors = [Errors::default(); 2];
     for (name, elements) in [("slip8", &SLIP_8.elements), ("spin8", &SPIN_8.elements)] {
-        follow(name, elements, &mut errors)?;
+        follow(name, elements, ticks, &mut errors)?;
     }
     Ok(errors)
 }
 
-fn follow(name: &str, backbone: &[BackboneElement], errors: &mut Errors) -> Result<(), Failure> {
-    const TICKS: usize = 50_000;
+fn follow(
+    name: &str,
+    backbone: &[BackboneElement],
+    ticks: usize,
+    errors: &mut [Errors; 2],
+) -> Result<(), Failure> {
     const STREAM: u128 = 8;
     let table = Table::named(name)
         .ok_or_else(|| Failure::Data(format!("the reference has no table {name}")))?;
@@ -116,7 +137,7 @@ fn follow(name: &str, backbone: &[BackboneElement], errors: &mut Errors) -> Resu
     let elements = ProportionalElements::<8>::new(1.0, &[part])?;
     let mut random = Pcg64::new(1, STREAM);
     let mut angle = vec![0.0_f64];
-    for _ in 0..TICKS {
+    for _ in 0..ticks {
         let size = 10_f64.powf(random.random_range(-6.0..=1.0));
         let place: f64 = angle.last().copied().unwrap_or(0.0);
         // Towards the start, so that the difference of two places is the turn.
@@ -135,16 +156,19 @@ fn follow(name: &str, backbone: &[BackboneElement], errors: &mut Errors) -> Resu
             backward: 1.0,
         },
     };
-    let exact = answers(&path, &Form::Proportional(table)).torque;
+    let answers = answers(&path, &Form::Proportional(table));
+    let same = answers.torque.iter();
+    let exact = answers.exact.iter().flatten();
     let limits = SlidingLimits {
         forward: 1.0,
         backward: 1.0,
         load: 1.0,
     };
     let mut state = ProportionalElements::<8>::VIRGIN;
-    for (tick, exact) in path.ticks().zip(exact.iter().skip(1)) {
-        let friction = elements.follow(&mut state, tick.turn as f32, &limits);
-        errors.add(f64::from(friction) - exact);
+    for (tick, (same, exact)) in path.ticks().zip(same.zip(exact).skip(1)) {
+        let friction = f64::from(elements.follow(&mut state, tick.turn as f32, &limits));
+        errors[0].add(friction - same);
+        errors[1].add(friction - exact);
     }
     Ok(())
 }

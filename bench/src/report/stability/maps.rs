@@ -7,7 +7,6 @@ use epas_reference::promises;
 use serde_json::Value;
 
 use epas_page::document::Cell;
-use epas_eval;
 use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::statistics::Errors;
 use crate::study::turned_ball;
@@ -459,7 +458,7 @@ enum Outcome {
 
 impl Map {
     fn outcome(&self, request: &str) -> Outcome {
-        let Some((in_loop, reference)) = eval::both(request) else {
+        let Some((in_loop, reference)) = epas_eval::both(request) else {
             return Outcome::Nothing;
         };
         let flagged = |flag: &str| reference.pointer(flag).and_then(Value::as_bool) == Some(true);

@@ -4,7 +4,6 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use epas_page::document::{Block, Cell, Figure, Table};
-use epas_eval;
 use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::statistics::Errors;
 
@@ -105,7 +104,7 @@ impl Found {
     fn of(request: &Value) -> Self {
         let request = request.to_string();
         let number = |of: &Value, place: &str| of.pointer(place).and_then(Value::as_f64);
-        let (in_loop, reference) = eval::both(&request).unwrap_or_default();
+        let (in_loop, reference) = epas_eval::both(&request).unwrap_or_default();
         let exact = number(&reference, "/contact_force/0");
         let torque = number(&reference, "/groove_torque");
         let (Some(exact), Some(torque)) = (exact, torque) else {

@@ -10,7 +10,6 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use epas_page::document::Figure;
-use epas_eval;
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
@@ -59,7 +58,7 @@ fn torques(lead: f64, load: f64, friction: f64) -> Result<[f64; 5], Failure> {
         "groove_radius": GROOVE_RADIUS, "contact_angle": FRAC_PI_4, "youngs_modulus": 2.1e11, "poisson_ratio": 0.28,
         "friction": friction, "clearance": 0.0, "axial_load": [load], "direction": 1,
     });
-    let both = eval::both(&request.to_string());
+    let both = epas_eval::both(&request.to_string());
     let of = |side: fn(&(Value, Value)) -> &Value| {
         both.as_ref()
             .and_then(|both| side(both)["torque"][0].as_f64())

@@ -102,12 +102,12 @@ mod tests {
     use epas_reference::promises;
 
     use super::*;
-    use crate::stored;
+    use crate::counts::stored;
 
     /// The stored counts are those of the crate's functions, each has one promise, and all promises hold.
     #[test]
     fn every_stored_count_keeps_its_promise() {
-        let figures = stored::figures().unwrap();
+        let figures = stored().unwrap();
         require(&figures).unwrap();
         let counted: BTreeSet<&str> = SUBJECTS.iter().map(|subject| subject.name).collect();
         let promised: Vec<&str> = PROMISES
@@ -144,7 +144,7 @@ mod tests {
     /// A promise far above what it is for says nothing.
     #[test]
     fn no_promise_of_cycles_is_far_above_its_count() {
-        let figures = stored::figures().unwrap();
+        let figures = stored().unwrap();
         let count = |name: &String| figures.function(name).unwrap().cycles_max;
         for promise in PROMISES.all() {
             let cycles = promise.cycles;
@@ -256,7 +256,7 @@ mod tests {
     /// README prints the stored cycles of each scene.
     #[test]
     fn readme_has_the_stored_cycles() {
-        let figures = stored::figures().unwrap();
+        let figures = stored().unwrap();
         let readme = include_str!("../../../README.md");
         for (scene, counted) in [
             ("`CagedBallScrew`", &["step_caged"] as &[&str]),
@@ -282,7 +282,7 @@ mod tests {
     /// The page of accuracy prints what was found: errors are within the promises, cycles are those that are stored.
     #[test]
     fn accuracy_page_is_within_the_promises() {
-        let figures = stored::figures().unwrap();
+        let figures = stored().unwrap();
         let page = include_str!("../../accuracy.md");
         let (_, table) = page.split_once("| formula | largest error |").unwrap();
         let rows: Vec<&str> = table
@@ -313,7 +313,7 @@ mod tests {
 
     #[test]
     fn a_broken_promise_fails() {
-        let mut figures = stored::figures().unwrap();
+        let mut figures = stored().unwrap();
         figures.functions[0].cycles_max += 1000;
         figures.functions.pop();
         let Err(Failure::Data(message)) = require(&figures) else {

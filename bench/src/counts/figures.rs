@@ -183,11 +183,11 @@ impl Figures {
 #[cfg(test)]
 mod tests {
     use epas_page::failure::Failure;
-    use crate::stored;
+    use crate::counts::stored;
 
     #[test]
     fn a_count_above_the_longest_path_fails() {
-        let stored = stored::figures().unwrap();
+        let stored = stored().unwrap();
         stored.require().unwrap();
         let mut figures = stored.clone();
         figures.functions[0].longest = Some(figures.functions[0].cycles_max - 1);
@@ -203,7 +203,7 @@ mod tests {
     /// The page of accuracy prints what is stored.
     #[test]
     fn accuracy_page_says_how_long_the_longest_paths_are() {
-        let figures = stored::figures().unwrap();
+        let figures = stored().unwrap();
         let of = |name: &str| {
             let entry = figures.function(name).unwrap();
             let longest = entry.longest.unwrap();

@@ -1,0 +1,21 @@
+//! What functions and scenes cost on a Cortex-M4F, as `epas-target` counted it: stored beside the code, compared in CI with a new count.
+
+mod budgets;
+mod figures;
+
+pub use budgets::{Budget, budgets, require};
+pub use figures::{Figures, FunctionFigures, SceneFigures};
+
+use epas_page::failure::Failure;
+
+/// The counts that stand in `bench/target.json`.
+const STORED: &str = include_str!("../target.json");
+
+/// The stored figures.
+///
+/// # Errors
+/// A file that is not what `epas-target --store` writes.
+pub fn stored() -> Result<Figures, Failure> {
+    serde_json::from_str(STORED)
+        .map_err(|error| Failure::Data(format!("bench/target.json: {error}")))
+}

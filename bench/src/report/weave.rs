@@ -1,0 +1,174 @@
+//! Three scenes over the same weave of the same screw, the caged one beside the exact ball.
+
+use epas_design::caged::Block;
+use epas_design::caged_scene::{block, fold_for};
+use epas_design::drawing::drawing;
+use epas_design::files::train::UncagedDesign;
+use epas_design::files::{Design, DesignSource};
+use epas_design::manoeuvre::{Manoeuvre, Moment};
+use epas_design::uncaged_scene::{Folded, configuration};
+use epas_friction::scene::CagedBallScrew;
+use epas_friction::{FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration};
+use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
+use epas_reference::friction::rolling_resistance::RollingResistance;
+
+use super::statistics::Errors;
+use crate::study::{fresh, remembering};
+use epas_page::failure::Failure;
+
+/// The screw of Lin 2019, Section 3.4.4: pitch circle of 33 mm, lead 20 mm, 37 balls.
+const DESIGN: &str = "lin-3.6";
+
+/// Ticks, s, and their number.
+const TICK: f64 = 1e-3;
+const TICKS: usize = 5000;
+
+/// Every so many ticks the exact ball is solved.
+const STRIDE: usize = 50;
+
+/// What the scenes say to one moment, N m.
+pub struct Row {
+    /// Time, s.
+    pub time: f64,
+    /// Speed of the nut, rad/s.
+    pub speed: f64,
+    /// Axial load, N.
+    pub load: f64,
+    /// Torque that holds the load.
+    pub load_torque: f64,
+    /// Friction of balls in a cage.
+    pub caged: f64,
+    /// The same with memory.
+    pub memory: f64,
+    /// Friction of 37 balls with memory: all of it, of the grooves, between balls.
+    pub balls: [f64; 3],
+}
+
+/// The weave.
+pub struct Weave {
+    /// Its moments.
+    pub rows: Vec<Row>,
+    /// Relative errors of the caged torque at the moments at which the exact ball was solved.
+    pub errors: Errors,
+    /// Moments at which a scene sets a flag: balls in a cage, the same with memory, 37 balls.
+    pub flagged: [usize; 3],
+}
+
+impl Weave {
+    /// Runs all three scenes.
+    pub fn new() -> Result<Self, Failure> {
+        let source: DesignSource = DESIGN.parse().map_err(Failure::Data)?;
+        let design = source.load()?;
+        let Some(balls) = design.uncaged else {
+            return Err(Failure::Data(format!("{DESIGN} says nothing of its balls")));
+        };
+        let moments = Manoeuvre::Weave
+            .of_nut(design.screw())
+            .ok_or_else(|| Failure::Data(format!("{DESIGN} has no lead")))?;
+        let moments = &moments[..TICKS];
+        let mean = moments.iter().map(|moment| moment.force.abs()).sum::<f64>() / TICKS as f64;
+        let mut weave = Self {
+            rows: Vec::new(),
+            errors: Errors::default(),
+            flagged: [0; 3],
+        };
+        weave.run(&design, &balls, moments, mean as f32)?;
+        weave.compare(&design, moments);
+        Ok(weave)
+    }
+
+    fn run(
+        &mut self,
+        design: &Design,
+        balls: &UncagedDesign,
+        moments: &[Moment],
+        mean_load: f32,
+    ) -> Result<(), Failure> {
+        let own = (design.caged.friction, design.caged.friction);
+        let Block::One(folded) = block(&fold_for(design, own).map_err(Failure::Data)?)? else {
+            return Err(Failure::Data("one friction coefficient is one node".into()));
+        };
+        let mut caged = FrictionModel::<CagedBallScrew>::new(&folded)?;
+        let mut memory = remembering::<CagedBallScrew>(&design.caged, folded, mean_load)?;
+        let row = row_of_37(design, balls)?;
+        let mut balls = remembering::<UncagedBallScrew<37>>(&balls.gear, row, mean_load)?;
+        let (mut angle, mut last) = (0.0, moments[0].speed);
+        for moment in moments {
+            angle += 0.5 * TICK * (last + moment.speed);
+            last = moment.speed;
+            let inputs = Inputs {
+                nut_speed: moment.speed as f32,
+                axial_load: moment.force as f32,
+            };
+            let reading = (angle % std::f64::consts::TAU) as f32;
+            let caged = caged.step(inputs);
+            let memory = memory.step(fresh(inputs, reading));
+            let balls = balls.step(fresh(inputs, reading));
+            let faults = [caged.faults, memory.faults, balls.faults];
+            for (flagged, faults) in self.flagged.iter_mut().zip(faults) {
+                *flagged += usize::from(faults.any());
+            }
+            self.rows.push(Row {
+                time: moment.time,
+                speed: moment.speed,
+                load: moment.force,
+                load_torque: caged.load_torque.into(),
+                caged: caged.friction_torque.into(),
+                memory: memory.friction_torque.into(),
+                balls: [balls.friction_torque, balls.groove_torque, balls.ball_torque]
+                    .map(f64::from),
+            });
+        }
+        Ok(())
+    }
+
+    /// The caged torque against the exact ball; near a reversal both pass with the speed by the same factor, which is no error of the law.
+    fn compare(&mut self, design: &Design, moments: &[Moment]) {
+        let caged = &design.caged;
+        let screws: Vec<LoadedScrew> = moments
+            .iter()
+            .step_by(STRIDE)
+            .map(|moment| LoadedScrew {
+                design: drawing(caged.design.parameters()),
+                clearance: caged.clearance.gap().into(),
+                friction: caged.friction.into(),
+                rolling: RollingResistance {
+                    hysteresis_loss: caged.rolling_resistance.hysteresis_loss.into(),
+                    lubricant_drag: caged.rolling_resistance.lubricant_drag.into(),
+                },
+                balls: caged.loaded_balls.into(),
+                axial_load: moment.force * moment.speed.signum(),
+            })
+            .collect();
+        let exact = LoadedScrew::solve_all(&screws, &|| ());
+        let reversal_speed = f64::from(caged.reversal_speed);
+        for (row, exact) in self.rows.iter().step_by(STRIDE).zip(exact) {
+            if let Ok(exact) = exact {
+                let factor = row.speed / row.speed.hypot(reversal_speed);
+                self.errors.add(row.caged / (factor * exact.torque()) - 1.0);
+            }
+        }
+    }
+}
+
+/// The row of 37 balls of a design.
+fn row_of_37(
+    design: &Design,
+    balls: &UncagedDesign,
+) -> Result<UncagedBallScrewConfiguration, Failure> {
+    let friction = (balls.gear.friction, balls.gear.friction);
+    let row = configuration(design, balls, friction, 0.0)?;
+    let Folded::One(folded) = row.folded else {
+        return Err(Failure::Data("one friction coefficient is one node".into()));
+    };
+    Ok(UncagedBallScrewConfiguration {
+        folded,
+        ball_friction: row.ball_friction,
+        turns: row.turns,
+        return_length: row.return_length,
+        screw_deviation: row.screw_deviation,
+        nut_deviation: row.nut_deviation,
+        load_shares: row.load_shares,
+        tick: TICK as f32,
+    })
+}
