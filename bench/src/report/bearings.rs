@@ -1,13 +1,13 @@
 //! Bearings: Figures 3.7, 3.14, 3.15 and 4.7 of Lin 2019.
 
 use epas_reference::ReferenceError;
-use epas_reference::bearing_study::{TurningLoad, variation};
+use epas_papers::bearing_study::{TurningLoad, variation};
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::{LinearBall, analytic_ball_slip};
-use epas_reference::friction::rotary_ball::RotaryConvention;
-use epas_reference::friction::rotary_bearing::Tilt;
-use epas_reference::published::balls::{analytic_force, linear_pair, symmetric_pair};
-use epas_reference::published::bearings::{DISPLACEMENTS, table_3_1, table_3_2};
+use epas_papers::rotary_ball::RotaryConvention;
+use epas_papers::rotary_bearing::Tilt;
+use epas_papers::published::balls::{analytic_force, linear_pair, symmetric_pair};
+use epas_papers::published::bearings::{DISPLACEMENTS, table_3_1, table_3_2};
 
 use super::context::Context;
 use super::statistics::evenly;
@@ -207,7 +207,7 @@ fn turning_load(quick: bool) -> Result<Figure, Failure> {
         };
         let points = study.sweep(steps)?;
         let [four, double] = variation(&points);
-        let curve = |value: fn(&epas_reference::bearing_study::TurningPoint) -> f64| {
+        let curve = |value: fn(&epas_papers::bearing_study::TurningPoint) -> f64| {
             points
                 .iter()
                 .map(|point| (point.angle.to_degrees(), value(point)))

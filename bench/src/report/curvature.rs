@@ -7,7 +7,7 @@ use epas_friction::curvature::{
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_friction::{BallScrew, CATALOGUE};
 use epas_reference::curvature::{self as reference, Surface};
-use epas_reference::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
+use epas_papers::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
 
 use super::context::Context;
 use super::statistics::{Errors, evenly};

@@ -1,9 +1,9 @@
 //! Contact kinematics: Figures 6 to 13 of Alberdi et al., traditional beside revised, and the table of
 //! printed against computed numbers.
 
-use epas_reference::kinematics::figures::{self, ConstraintRow, FieldPoint, Formulation};
+use epas_papers::kinematics::figures::{self, ConstraintRow, FieldPoint, Formulation};
 use epas_reference::kinematics::{ContactKinematics, Raceway, Revised};
-use epas_reference::published::kinematics::records;
+use epas_papers::published::kinematics::records;
 
 use super::context::Context;
 use crate::document::{Block, Cell, Figure, Section, Table};

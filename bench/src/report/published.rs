@@ -1,7 +1,7 @@
 //! Every printed number of the four papers beside the computed one.
 
-use epas_reference::published::records;
-use epas_reference::record::{Paper, Record, Verdict};
+use epas_papers::published::records;
+use epas_papers::record::{Paper, Record, Verdict};
 
 use super::context::Context;
 use crate::document::{Block, Cell, Section, Table};

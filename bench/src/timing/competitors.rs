@@ -24,7 +24,7 @@ use epas_friction::{
     BallScrew, CATALOGUE, Clearance, FrictionModel, Inputs, Limits, RollingResistance, math,
 };
 use epas_reference::curvature as reference;
-use epas_reference::published::TABLE_A1;
+use epas_papers::published::TABLE_A1;
 
 use super::group::{Group, List};
 use super::kernels::{libm, micromath, own};

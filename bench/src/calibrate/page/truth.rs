@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read as _};
 use std::path::Path;
 
-use epas_reference::rig::truth::MARK;
+use epas_rig::truth::MARK;
 
 use crate::files::standard;
 

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::whole_screw::WholeScrew;
-use epas_reference::published::balls::whole_screw;
+use epas_papers::published::balls::whole_screw;
 use rayon::prelude::*;
 
 use crate::document::{Block, Cell, Figure, Table};
