@@ -10,9 +10,9 @@ mod flagship;
 mod friction;
 mod hertz;
 mod kernels;
-mod provenance;
+pub mod provenance;
 mod stability;
-mod stages;
+pub mod stages;
 pub mod statistics;
 mod summary;
 pub mod times;
@@ -73,7 +73,10 @@ pub struct Arguments {
 }
 
 /// A number of rounds: a median is over one or more.
-fn rounds(text: &str) -> Result<usize, String> {
+///
+/// # Errors
+/// A text that is no such number.
+pub fn rounds(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(rounds) if (1..=MOST_ROUNDS).contains(&rounds) => Ok(rounds),
         _ => Err(format!("rounds are 1 to {MOST_ROUNDS}")),
@@ -81,13 +84,13 @@ fn rounds(text: &str) -> Result<usize, String> {
 }
 
 /// Makes a section.
-type MakeSection = fn(&Context) -> Result<Section, Failure>;
+pub type MakeSection<C> = fn(&C) -> Result<Section, Failure>;
 
 /// Heading of a part, whether it is unfolded, and its sections with a line on each.
-type Plan = (&'static str, bool, &'static [(MakeSection, &'static str)]);
+pub type Plan<C> = (&'static str, bool, &'static [(MakeSection<C>, &'static str)]);
 
 /// Every section, in the order of the report: what firmware steps first, then what it is made of.
-const PARTS: [Plan; 2] = [
+const PARTS: [Plan<Context>; 2] = [
     (
         "Friction",
         true,
@@ -153,7 +156,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         flagship: Flagship::new(quick),
         accuracy: Vec::new(),
     };
-    let made = provenance::lines(rounds);
+    let made = provenance::lines("epas-bench", rounds);
     for line in &made {
         epas_page::document::print_line(line)?;
     }
@@ -164,7 +167,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     context.accuracy = accuracy::measured(&context.flagship, quick)?;
     let errors = accuracy::section(&context.accuracy, quick)?;
     errors.print()?;
-    let mut parts = parts(&context, &stages)?;
+    let mut parts = parts(&PARTS, &context, &stages)?;
     let lead = |title, section| (title, section);
     let first = [
         lead("every formula: largest error beside the time of one call", summary),
@@ -187,9 +190,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Makes every part, saying which section it is at.
-fn parts(context: &Context, stages: &Stages) -> Result<Vec<Part>, Failure> {
-    PARTS
+/// Makes every part and prints each section when it is made, saying which one it is at.
+///
+/// # Errors
+/// What a section refuses; an output that is closed.
+pub fn parts<C>(plans: &[Plan<C>], context: &C, stages: &Stages) -> Result<Vec<Part>, Failure> {
+    plans
         .iter()
         .map(|&(title, open, sections)| {
             let sections = sections.iter().map(|(make, lead)| {

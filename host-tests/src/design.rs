@@ -4,7 +4,7 @@
 //! point, relative curvatures of ball and groove, contact modulus of their materials, exact ellipse.
 //! Whatever is compared with the reference starts from here, so that an error in any of these steps shows.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_4, TAU};
 
 use crate::curvature::{Groove, Surface};
 use crate::error::{ReferenceError, within};
@@ -33,6 +33,19 @@ pub struct BallScrewDesign {
 }
 
 impl BallScrewDesign {
+    /// The ball screw of Lin 2019, Tables 2.1 and 3.6. The groove radius is that of Table 2.1: that of Table 3.6, 0.56 ball diameters,
+    /// is 4 % less.
+    pub const LIN: Self = Self {
+        pitch_radius: 16.5e-3,
+        lead: 20e-3,
+        ball_radius: 2.778e-3,
+        screw_groove_radius: 3.254e-3,
+        nut_groove_radius: 3.254e-3,
+        contact_angle: FRAC_PI_4,
+        ball: Elastic::STEEL,
+        groove: Elastic::STEEL,
+    };
+
     /// Lead angle, rad.
     #[must_use]
     pub fn lead_angle(&self) -> f64 {

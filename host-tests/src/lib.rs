@@ -5,8 +5,6 @@
 //! the fast library that is measured against it. Each module names paper and equations; lengths are in
 //! m, forces in N, angles in rad unless a function is free of units.
 
-mod ball_motion;
-pub mod bearing_study;
 pub mod closed_loop;
 pub mod coefficient;
 pub mod curvature;
@@ -18,13 +16,9 @@ pub mod friction;
 pub mod hertz;
 pub mod kinematics;
 pub mod material;
-pub mod measured;
 pub mod presliding;
+#[cfg(feature = "promises")]
 pub mod promises;
-pub mod published;
-pub mod record;
-pub mod rig;
-pub mod rolling_ball;
 pub mod statics;
 pub mod steady_state;
 

@@ -10,10 +10,8 @@
 //! rolling start the ball goes to rolling, eq. (3). It stands here because the closed form (14) is its
 //! limit, not because a gear runs in it.
 
-pub(crate) mod ball;
+mod ball;
 mod equilibrium;
-mod stability;
 
 pub use ball::BallScrewState;
 pub use equilibrium::SteadyState;
-pub use stability::Growth;

@@ -9,7 +9,7 @@ use rand_pcg::Pcg64;
 use rayon::iter::Either;
 use rayon::prelude::*;
 
-use crate::exact_ring::{Case, Comparison, Off, compare};
+use epas_bench::exact_ring::{Case, Comparison, Off, compare};
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
 
@@ -189,7 +189,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             [over.largest, over.rms, over.mean, over.median, over.worst.0].map(|part| 100.0 * part);
         writeln!(
             stdout,
-            "{name:20} {:6} {largest:9.2} {rms:9.3} {mean:+9.3} {median:16.3} {worst:12.3}, epas-bench screws --screws 1 --first {}",
+            "{name:20} {:6} {largest:9.2} {rms:9.3} {mean:+9.3} {median:16.3} {worst:12.3}, epas-papers screws --screws 1 --first {}",
             over.screws, over.worst.1
         )?;
     }

@@ -4,9 +4,9 @@ use epas_bench::bindings::{
     self, Caged, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample, Trace,
     Uncaged,
 };
-use epas_reference::rig::course::Course;
-use epas_reference::rig::parameters::Parameters;
-use epas_reference::rig::{Rig, Sensors};
+use epas_rig::course::Course;
+use epas_rig::parameters::Parameters;
+use epas_rig::{Rig, Sensors};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;

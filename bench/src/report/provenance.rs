@@ -5,10 +5,10 @@ use std::process::Command;
 use std::time::SystemTime;
 
 /// The lines below the heading.
-pub fn lines(rounds: usize) -> Vec<String> {
+pub fn lines(program: &str, rounds: usize) -> Vec<String> {
     vec![
         format!(
-            "Made on {} by epas-bench {}, built by {}.",
+            "Made on {} by {program} {}, built by {}.",
             today(),
             env!("CARGO_PKG_VERSION"),
             env!("COMPILER"),

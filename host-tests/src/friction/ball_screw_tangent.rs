@@ -202,7 +202,7 @@ mod tests {
     use super::super::ball_screw_settle::settle;
     use super::super::patch::Integration;
     use crate::curvature::Groove;
-    use crate::published::balls::{SCREW, TRACK};
+    use crate::design::BallScrewDesign;
     use nalgebra::{SVector, Vector4};
 
     /// Against central differences of the balance, of a ball with three contacts and of one with four, both ways of the nut, off balance.
@@ -211,10 +211,11 @@ mod tests {
         for (clearance, direction, load) in
             [(0.0, 1.0, -50.0), (-3e-6, -1.0, 40.0), (2e-6, 1.0, 60.0)]
         {
+            const SCREW: BallScrewDesign = BallScrewDesign::LIN;
             let law = |groove| SCREW.contact(groove).unwrap().into();
             let angle = SCREW.contact_angle;
             let grooves = ElasticGrooves {
-                track: TRACK,
+                track: (&SCREW).into(),
                 screw_groove_radius: SCREW.screw_groove_radius,
                 nut_groove_radius: SCREW.nut_groove_radius,
                 arc_angles: [angle - 0.02, angle + 0.02, angle + 0.01, angle - 0.01],

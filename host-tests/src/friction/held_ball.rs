@@ -294,10 +294,9 @@ mod tests {
     use super::*;
     use crate::friction::ball_screw_row::{ElasticRow, RowBall};
     use crate::friction::caged_ball::CagedBall;
-    use crate::published::balls::SCREW;
 
     const BALL: HeldBall = HeldBall {
-        design: SCREW,
+        design: BallScrewDesign::LIN,
         clearance: -4e-7,
         friction: 0.08,
         rolling: RollingResistance::STEEL,
@@ -312,7 +311,7 @@ mod tests {
 
     fn row(balls: Vec<RowBall>, ball_friction: f64) -> ElasticRow {
         ElasticRow {
-            design: SCREW,
+            design: BallScrewDesign::LIN,
             clearance: BALL.clearance,
             friction: BALL.friction,
             ball_friction,
@@ -342,7 +341,7 @@ mod tests {
     #[test]
     fn without_deviation_it_is_a_caged_ball() {
         let caged = CagedBall {
-            design: SCREW,
+            design: BallScrewDesign::LIN,
             clearance: BALL.clearance,
             friction: BALL.friction,
             rolling: BALL.rolling,
@@ -446,7 +445,7 @@ mod tests {
                 rest_spin: STICK_SPIN,
             };
             let rows = placed.rows_of(&state).unwrap();
-            let radius = SCREW.ball_radius;
+            let radius = BallScrewDesign::LIN.ball_radius;
             let nut = radius * placed.power_in(&rows, &state.motion);
             let neighbours = radius
                 * (placed.rubbing.motion.dot(&state.motion)

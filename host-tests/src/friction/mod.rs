@@ -13,14 +13,11 @@
 //! |---|---|
 //! | [`maps`] | one contact whose velocity centre lies on the major axis: (3.16) to (3.18) in closed form and as a line integral |
 //! | [`patch`] | one contact with any velocity centre (ball screw), the exact reduction to one integral |
-//! | [`area`] | the same integrals over the area of the ellipse, without any reduction, as the check |
 //! | [`contact_law`] | size and stiffness of a Hertzian contact, exact and as the dissertation takes it |
 //! | [`planar`] | equilibrium of a ball whose contacts slip along the track only |
 //! | [`linear_ball`] | ball of a linear bearing, statics, the published analytical formulas |
 //! | [`isotonic`] | rows of balls that push each other, each answering a force in proportion, three ways |
 //! | [`chain`] | chains of touching balls in a linear bearing, with and without ball-to-ball friction |
-//! | [`rotary_ball`] | four-point rotary bearing, statics and friction (Tables 3.1 and 3.2) |
-//! | [`rotary_bearing`] | whole rotary bearing: load distribution and friction (section 4.3.1) |
 //! | [`ball_screw_ball`] | ball of a ball screw with given contacts, (3.65) to (3.69) |
 //! | [`ball_screw_grooves`] | the grooves as elastic arcs, (2.11) to (2.14) |
 //! | [`ball_screw_elastic`] | in-plane balance with elasticity, and two touching balls, (3.69) to (3.76) |
@@ -37,7 +34,6 @@
 //! Units: m, rad, s, N, W, Pa. Signs: the velocity of a contact is that of the ball minus that of
 //! the groove; forces and moments are those on the ball.
 
-pub mod area;
 pub mod ball_screw_ball;
 pub mod ball_screw_closed;
 pub mod ball_screw_efficiency;
@@ -66,11 +62,9 @@ pub mod held_ball;
 pub mod isotonic;
 pub mod linear_ball;
 pub mod maps;
-mod newton;
+pub mod newton;
 pub mod patch;
 pub mod planar;
 pub mod rolling_resistance;
-pub mod rotary_ball;
-pub mod rotary_bearing;
 mod train_newton;
 pub mod whole_screw;

@@ -3,15 +3,19 @@
 use nalgebra::{SMatrix, SVector};
 
 /// Value, gradient and Hessian at a point.
-pub(crate) struct Local<const N: usize> {
+pub struct Local<const N: usize> {
+    /// Value.
     pub value: f64,
+    /// Gradient.
     pub gradient: SVector<f64, N>,
+    /// Hessian.
     pub hessian: SMatrix<f64, N, N>,
 }
 
 /// Where the minimisation ended.
 #[derive(Clone, Copy)]
-pub(crate) struct Minimum<const N: usize> {
+pub struct Minimum<const N: usize> {
+    /// The best point found.
     pub point: SVector<f64, N>,
     /// Largest component of the gradient.
     pub residual: f64,
@@ -26,7 +30,7 @@ const MAX_ITERATIONS: usize = 100;
 /// A Newton step is taken when it lowers the value; when the value no longer changes above its rounding,
 /// when it lowers the gradient. Otherwise the step is halved, and then the Hessian shifted. Ends after at most 100 steps, at the
 /// best point found, which the caller judges by `residual`.
-pub(crate) fn minimise<const N: usize>(
+pub fn minimise<const N: usize>(
     start: SVector<f64, N>,
     tolerance: f64,
     f: impl Fn(&SVector<f64, N>) -> Local<N>,
@@ -85,13 +89,13 @@ pub(crate) fn minimise<const N: usize>(
 
 /// Stages of the smoothing at rest, each ten times finer: from 0.1 to 1e-8 of the spin scale, which is one. A finer one has no use:
 /// the stiffness of a contact at rest, its friction limit over the rest speed, would amplify rounding above the tolerance.
-pub(crate) const STAGES: usize = 8;
+pub const STAGES: usize = 8;
 
 /// Minimises a power that has kinks at rest: smoothed with a spin at rest that falls tenfold from 0.1 to 1e-8, each stage from the
 /// result of the last; once everything `moves` the power itself (`rest_spin = 0`) is minimised and the rest skipped.
 ///
 /// Returns the minimum and the rest spin of the power it belongs to.
-pub(crate) fn sharpen<const N: usize>(
+pub fn sharpen<const N: usize>(
     start: SVector<f64, N>,
     tolerance: f64,
     accept: f64,
@@ -128,7 +132,7 @@ pub(crate) fn sharpen<const N: usize>(
 ///
 /// The function has been asked for its value at the answer last: what it keeps belongs to the answer. That, and an end where there is no
 /// value, are why none of the roots crate's methods serves.
-pub(crate) fn root_between(
+pub fn root_between(
     (mut low, mut high): (f64, f64),
     (of_place, of_value): (f64, f64),
     mut f: impl FnMut(f64) -> Option<f64>,

@@ -124,7 +124,7 @@ impl PlanarContact {
 }
 
 /// Power of all contacts with gradient and Hessian, plus a linear `load . y`.
-pub(crate) fn dissipation(
+pub fn dissipation(
     contacts: &[PlanarContact],
     load: &Vector3<f64>,
     y: &Vector3<f64>,

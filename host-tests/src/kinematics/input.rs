@@ -108,7 +108,7 @@ impl KinematicsInput {
     }
 
     /// `cos beta cos beta' cos alpha_k + sin beta sin alpha_k`, the last factor of (22).
-    pub(super) fn surface_speed_factor(&self, raceway: Raceway) -> f64 {
+    pub fn surface_speed_factor(&self, raceway: Raceway) -> f64 {
         let alpha = self.contact(raceway).contact_angle;
         let (sin_beta, cos_beta) = self.pitch_angle.sin_cos();
         cos_beta * self.yaw_angle.cos() * alpha.cos() + sin_beta * alpha.sin()

@@ -6,7 +6,7 @@ pub enum Backbone {
     /// Slip across the path: `1 - (1 - z)^(3/2)` up to `z = 1` (Cattaneo 1938, Mindlin 1949), exact for a Hertzian contact of any
     /// ellipse.
     Slip,
-    /// Spin: `y / sqrt(1 + y^2)` with `y = 1.5 z`: within 0.004 of bristles ([`super::brush`]) on ellipses with axis ratios of 0.17 to 0.22, as balls
+    /// Spin: `y / sqrt(1 + y^2)` with `y = 1.5 z`: within 0.004 of bristles on ellipses with axis ratios of 0.17 to 0.22, as balls
     /// have in their grooves, within 0.033 on a circle.
     Spin,
 }

@@ -12,7 +12,6 @@
 //! | [`load_exact`] | exact hysteresis of a Hertzian contact under a changing load, by the method of dimensionality reduction |
 //! | [`elements`] | a few elements in place of either, with the energy that they store |
 //! | [`tables`] | angles and shares of elements that follow a backbone |
-//! | [`brush`] | bristles on a contact ellipse with slip across and spin, at rest and rolling |
 //! | [`physics`] | stiffness of a contact, and breakaway of a screw, from first principles |
 //! | [`answers`] | torques over a path, as asked for by a request or a stored case |
 //!
@@ -21,7 +20,6 @@
 
 pub mod answers;
 pub mod backbone;
-pub mod brush;
 pub mod elements;
 pub mod load_exact;
 pub mod masing;

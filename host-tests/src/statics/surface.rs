@@ -2,7 +2,7 @@
 
 use std::fmt::Debug;
 
-use super::geometry::{Contact, Geometry};
+use super::geometry::Geometry;
 
 /// How a groove surface deviates from its nominal arc at one azimuth and section angle.
 ///
@@ -140,34 +140,4 @@ impl SurfaceError for HarmonicError {
     fn keeps_the_arc(&self) -> bool {
         true
     }
-}
-
-/// A point of a groove surface with geometric errors, m: eq. (2.6) with (2.27), in the frame of the
-/// screw's axis. `errors` are those of this surface.
-#[must_use]
-pub fn surface_point(
-    geometry: &Geometry,
-    contact: Contact,
-    errors: &[&dyn SurfaceError],
-    azimuth: f64,
-    section_angle: f64,
-) -> nalgebra::Vector3<f64> {
-    let total = errors.iter().fold(Deviation::default(), |sum, error| {
-        sum + error.deviation(azimuth, section_angle)
-    });
-    let [outward, along] = contact.signs();
-    let radius = geometry.groove_radius - total.offset;
-    let centre = geometry.arc_centre(contact);
-    let (sin, cos) = section_angle.sin_cos();
-    let in_section = nalgebra::Vector2::new(
-        centre.x + total.shift[0] - outward * radius * cos,
-        centre.y + total.shift[1] - along * radius * sin,
-    );
-    let (sin_azimuth, cos_azimuth) = azimuth.sin_cos();
-    geometry.section_axes(azimuth).transpose() * in_section
-        + nalgebra::Vector3::new(
-            geometry.pitch_radius * cos_azimuth,
-            geometry.pitch_radius * sin_azimuth,
-            geometry.advance() * azimuth,
-        )
 }

@@ -36,7 +36,11 @@ impl BallScrewState {
         self.ball_mass() * self.pitch_radius * self.speed * self.speed / self.axial_load
     }
 
-    pub(crate) fn check(&self) -> Result<(), ReferenceError> {
+    /// Refuses inputs outside their ranges.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming the input.
+    pub fn check(&self) -> Result<(), ReferenceError> {
         within("lead_angle", self.lead_angle, 1e-6, 1.5)?;
         within("contact_angle", self.contact_angle, 0.01, 1.56)?;
         within("friction", self.friction, 0.0, 1.0)?;

@@ -4,7 +4,6 @@
 mod kit;
 
 mod linear_ball;
-mod rotary_bearing;
 mod screw_ball;
 mod train;
 mod two_point;

@@ -1,8 +1,8 @@
 //! Force, moment and power of one contact: three evaluations of the same integrals, and the laws they obey.
 
+use super::area::friction_over_area;
 use crate::kit::measured;
 use crate::kit::random::Random;
-use epas_reference::friction::area::friction_over_area;
 use epas_reference::friction::maps::FrictionMap;
 use epas_reference::friction::patch::{Patch, PatchVelocity};
 use serde_json::Value;

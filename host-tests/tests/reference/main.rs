@@ -4,23 +4,21 @@
 mod kit;
 
 mod answers_reference;
+mod area;
 mod ball_screw_efficiency_reference;
 mod ball_screw_reference;
 mod ball_screw_ring_reference;
 mod ball_screw_row_reference;
+mod brush;
 mod chain_reference;
 mod curvature_reference;
 mod friction_maps_reference;
+mod kinematics_cases;
 mod kinematics_reference;
 mod linear_ball_reference;
 mod load_shares;
 mod presliding_reference;
-mod published_records;
 mod recorded_runs;
-mod rolling_ball;
-mod rotary_reference;
 mod statics;
-mod statics_measured;
-mod statics_studies;
 mod steady_state;
 mod whole_screw_reference;

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
+use super::brush::{Brush, Motion};
 use epas_reference::presliding::Limits;
 use epas_reference::presliding::answers::{Form, Path, answers, work};
 use epas_reference::presliding::backbone::Backbone;
-use epas_reference::presliding::brush::{Brush, Motion};
 use epas_reference::presliding::elements::Elements;
 use epas_reference::presliding::load_exact::LoadExact;
 use epas_reference::presliding::masing::Masing;

@@ -9,8 +9,6 @@ use epas_reference::drag::{
     DeepGroove, RollingFilm, inlet_shear_heating, screw_torque, skf_rolling_moment, starvation,
 };
 
-use epas_reference::measured::cold::GREASE;
-
 use crate::kit::errors::Errors;
 use crate::kit::given;
 
@@ -258,29 +256,6 @@ fn drag_is_viscous() {
         let still = none.at_temperature(kelvin);
         assert_eq!(still.drag_torque(20.0, 5e3, 300.0), 0.0);
     }
-}
-
-/// The reference's own numbers of the default lubricant are the crate's.
-#[test]
-fn reference_has_the_default_lubricant() {
-    let law = defaults::COEFFICIENT;
-    for (celsius, _) in GREASE
-        .viscosities
-        .into_iter()
-        .chain([(0.0, 0.0), (80.0, 0.0)])
-    {
-        let found = f64::from(law.viscosity.at(celsius as f32 + ZERO));
-        assert!(
-            (found / GREASE.viscosity(celsius) - 1.0).abs() < 1e-5,
-            "{celsius}"
-        );
-    }
-    assert_eq!(f64::from(defaults::FLOODING) as f32, GREASE.flooding as f32);
-    assert_eq!(
-        [law.boundary, law.full_film],
-        GREASE.coefficients.map(|mu| mu as f32)
-    );
-    assert_eq!(law.half_share_speed, GREASE.half_share_speed as f32);
 }
 
 /// What the default says of itself: two digits.

@@ -5,9 +5,10 @@ use std::fs::File;
 use std::io::{BufRead, BufReader, Read as _};
 use std::path::Path;
 
-use epas_reference::rig::truth::MARK;
-
 use epas_page::files::standard;
+
+/// Start of a line above a trace's headings that says a parameter: `# truth: friction = 0.115`.
+const MARK: &str = "# truth: ";
 
 /// Bytes within which such lines stand.
 const LONGEST: u64 = 1 << 16;

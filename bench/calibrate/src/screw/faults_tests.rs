@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 use std::io::Cursor;
 
 use epas_friction::law::coefficient::DirectionalCoefficient;
-use epas_reference::rig::course::Course;
-use epas_reference::rig::parameters::Parameters;
-use epas_reference::rig::{self, Rig, Sensors};
+use epas_rig::course::Course;
+use epas_rig::parameters::Parameters;
+use epas_rig::{Rig, Sensors};
 
 use super::exact::{Grid, Spacing};
 use super::{Request, calibrate};
@@ -26,13 +26,13 @@ const TRUTH: [(&str, f64); 5] = [
     ("gain", 1.012),
 ];
 
-fn measured() -> rig::Trace {
+fn measured() -> epas_rig::Trace {
     let rig = Rig::new(Parameters::default(), Sensors::default()).unwrap();
     rig.run(&Course::vehicle().times(0.2), 3).unwrap()
 }
 
 /// The answer to a trace, or the word with which it is refused.
-fn said(trace: &rig::Trace) -> Result<Calibration, String> {
+fn said(trace: &epas_rig::Trace) -> Result<Calibration, String> {
     let mut text = String::from("time,nut_position,motor_torque,axial_load,temperature\n");
     for row in 0..trace.time.len() {
         writeln!(
@@ -190,7 +190,7 @@ fn a_clock_that_runs_free_is_interpolated() {
         };
         times.iter().map(place).collect()
     };
-    let slow = rig::Trace {
+    let slow = epas_rig::Trace {
         nut_position: at(&trace.nut_position),
         motor_torque: at(&trace.motor_torque),
         axial_load: at(&trace.axial_load),

@@ -2,10 +2,10 @@
 
 use std::io::Cursor;
 
-use epas_reference::rig::course::Course;
-use epas_reference::rig::parameters::Parameters;
-use epas_reference::rig::spoiled::Spoiling;
-use epas_reference::rig::{self, Rig, Sensors};
+use epas_rig::course::Course;
+use epas_rig::parameters::Parameters;
+use epas_rig::spoiled::Spoiling;
+use epas_rig::{Rig, Sensors};
 
 use super::{Request, calibrate};
 use crate::answer::Calibration;
@@ -14,7 +14,7 @@ use crate::trace::columns::{Frame, from_reader};
 use epas_design::files::DesignSource;
 
 /// What a calibration says to a trace: an answer, or the word with which it refuses.
-fn said(trace: &rig::Trace) -> Result<Calibration, String> {
+fn said(trace: &epas_rig::Trace) -> Result<Calibration, String> {
     let design = "lin-4.1".parse::<DesignSource>().unwrap().load().unwrap();
     let frame = Frame::of(&design, None);
     let mut text = Vec::new();

@@ -3,9 +3,9 @@
 use std::collections::BTreeMap;
 
 use epas_friction::Clearance;
-use epas_reference::rig::course::Course;
-use epas_reference::rig::parameters::Parameters;
-use epas_reference::rig::{Rig, Sensors};
+use epas_rig::course::Course;
+use epas_rig::parameters::Parameters;
+use epas_rig::{Rig, Sensors};
 use rayon::prelude::*;
 use statrs::statistics::Statistics;
 

@@ -3,10 +3,10 @@
 use std::time::Instant;
 
 use epas_reference::statics::cases::CaseStudy;
-use epas_reference::statics::studies::lash::{LashCurves, LashTest, Pattern, range, spread};
-use epas_reference::statics::studies::scaling::long_nut;
-use epas_reference::statics::studies::tie_rod::{TieRodLoad, TieRodLoads};
-use epas_reference::statics::studies::waviness::{Waviness, compare};
+use crate::load_studies::lash::{LashCurves, LashTest, Pattern, range, spread};
+use crate::load_studies::scaling::long_nut;
+use crate::load_studies::tie_rod::{TieRodLoad, TieRodLoads};
+use crate::load_studies::waviness::{Waviness, compare};
 
 use super::context::Context;
 use epas_page::document::{Block, Cell, Figure, Section, Table};

@@ -1,16 +1,16 @@
 //! Bearings: Figures 3.7, 3.14, 3.15 and 4.7 of Lin 2019.
 
 use epas_reference::ReferenceError;
-use epas_reference::bearing_study::{TurningLoad, variation};
+use crate::bearing_study::{TurningLoad, variation};
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::{LinearBall, analytic_ball_slip};
-use epas_reference::friction::rotary_ball::RotaryConvention;
-use epas_reference::friction::rotary_bearing::Tilt;
-use epas_reference::published::balls::{analytic_force, linear_pair, symmetric_pair};
-use epas_reference::published::bearings::{DISPLACEMENTS, table_3_1, table_3_2};
+use crate::rotary_ball::RotaryConvention;
+use crate::rotary_bearing::Tilt;
+use crate::published::balls::{analytic_force, linear_pair, symmetric_pair};
+use crate::published::bearings::{DISPLACEMENTS, table_3_1, table_3_2};
 
 use super::context::Context;
-use super::statistics::evenly;
+use epas_bench::report::statistics::evenly;
 use epas_page::document::{Block, Figure, Section};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
@@ -207,7 +207,7 @@ fn turning_load(quick: bool) -> Result<Figure, Failure> {
         };
         let points = study.sweep(steps)?;
         let [four, double] = variation(&points);
-        let curve = |value: fn(&epas_reference::bearing_study::TurningPoint) -> f64| {
+        let curve = |value: fn(&crate::bearing_study::TurningPoint) -> f64| {
             points
                 .iter()
                 .map(|point| (point.angle.to_degrees(), value(point)))

@@ -4,10 +4,10 @@
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
-use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
+use epas_friction::geometry::{Groove, GrooveProfile, HelixPath};
 use epas_friction::{BallScrew, CATALOGUE};
 use epas_reference::curvature::{self as reference, Surface};
-use epas_reference::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
+use crate::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
 
 use super::context::Context;
 use epas_bench::report::statistics::{Errors, evenly};

@@ -1,9 +1,9 @@
 //! Contact kinematics: Figures 6 to 13 of Alberdi et al., traditional beside revised, and the table of
 //! printed against computed numbers.
 
-use epas_reference::kinematics::figures::{self, ConstraintRow, FieldPoint, Formulation};
+use crate::kinematics::figures::{self, ConstraintRow, FieldPoint, Formulation};
 use epas_reference::kinematics::{ContactKinematics, Raceway, Revised};
-use epas_reference::published::kinematics::records;
+use crate::published::kinematics::records;
 
 use super::context::Context;
 use epas_page::document::{Block, Cell, Figure, Section, Table};

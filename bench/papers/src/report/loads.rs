@@ -4,7 +4,7 @@ mod shares;
 
 use std::sync::Arc;
 
-use epas_reference::published::loads::{case_1, case_2, case_3, with_error};
+use crate::published::loads::{case_1, case_2, case_3, with_error};
 use epas_reference::statics::cases::CaseStudy;
 use epas_reference::statics::contact::GrooveContact;
 use epas_reference::statics::shaft::ShaftModel;

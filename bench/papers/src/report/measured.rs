@@ -7,8 +7,8 @@ mod known;
 
 use epas_friction::defaults;
 use epas_reference::friction::rolling_resistance::RollingResistance;
-use epas_reference::measured::cold::Lubricant;
-use epas_reference::measured::{COUNT, Measured, Standing, Usual, records, studies};
+use crate::measured::cold::Lubricant;
+use crate::measured::{COUNT, Measured, Standing, Usual, records, studies};
 
 use super::context::Context;
 use epas_page::document::{Block, Cell, Section, Table};

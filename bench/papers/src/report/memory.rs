@@ -12,7 +12,7 @@ mod trial;
 use super::context::Context;
 use epas_page::document::{Block, Section};
 use epas_page::failure::Failure;
-use epas_papers::peers::candidates::{best, ours, published};
+use crate::peers::candidates::{best, ours, published};
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {

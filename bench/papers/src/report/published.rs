@@ -1,7 +1,7 @@
 //! Every printed number of the four papers beside the computed one.
 
-use epas_reference::published::records;
-use epas_reference::record::{Paper, Record, Verdict};
+use crate::published::records;
+use crate::record::{Paper, Record, Verdict};
 
 use super::context::Context;
 use epas_page::document::{Block, Cell, Section, Table};

@@ -1,7 +1,7 @@
 //! Friction over temperature: the grease's film lowers the coefficient in the cold, and its drag rises.
 
-use epas_reference::measured::Usual;
-use epas_reference::measured::cold::{
+use crate::measured::Usual;
+use crate::measured::cold::{
     Friction, LOADS, Lubricant, SPEEDS, STEERING, over_temperature,
 };
 

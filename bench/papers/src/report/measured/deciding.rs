@@ -1,6 +1,6 @@
 //! What decides the friction of a screw: friction coefficient and clearance, and the choice of both.
 
-use epas_reference::measured::studies::{CLEARANCES, Choice, DecidingRow, LOADS, TABLE_3_6};
+use crate::measured::studies::{CLEARANCES, Choice, DecidingRow, LOADS, TABLE_3_6};
 
 use super::known::known;
 use epas_page::document::{Block, Cell, Figure, Table};

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use epas_page::document::{Block, Cell, Table};
 use epas_page::failure::Failure;
-use epas_papers::peers::paths::STREAM;
+use crate::peers::paths::STREAM;
 
 /// Full friction, N m.
 const FRICTION: f32 = 0.04;

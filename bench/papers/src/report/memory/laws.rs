@@ -3,8 +3,8 @@
 use super::panel::PANEL;
 use epas_page::document::{Block, Cell, Figure, Table};
 use epas_page::failure::Failure;
-use epas_papers::peers::candidates::{Candidate, Cycles};
-use epas_papers::peers::compare::Comparison;
+use crate::peers::candidates::{Candidate, Cycles};
+use crate::peers::compare::Comparison;
 use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 use crate::report::context::Context;
 
@@ -79,7 +79,7 @@ pub fn shown(context: &Context, cycles: &Cycles) -> Cell {
 
 /// Cycles counted on the target.
 fn counted(context: &Context, cycles: &Cycles) -> Option<f64> {
-    let function = context.target.figures.function(cycles.counted?)?;
+    let function = context.counts.function(cycles.counted?)?;
     Some(function.cycles_max.into())
 }
 

@@ -3,7 +3,7 @@
 mod gear;
 mod rivals;
 
-use epas_reference::rig::parameters::Parameters;
+use epas_rig::parameters::Parameters;
 use rayon::prelude::*;
 
 use super::panel::PANEL;

@@ -4,11 +4,11 @@ use std::f64::consts::TAU;
 
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::whole_screw::WholeScrew;
-use epas_reference::published::balls::whole_screw;
+use crate::published::balls::whole_screw;
 use rayon::prelude::*;
 
 use epas_page::document::{Block, Cell, Figure, Table};
-use crate::exact_ring::{Case, exact, follow};
+use epas_bench::exact_ring::{Case, exact, follow};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 

@@ -1,8 +1,8 @@
 //! A gear whose friction is known: what was measured of it, and what a control unit knows of it tick by tick.
 
-use epas_reference::rig::course::{Course, Manoeuvre};
-use epas_reference::rig::parameters::Parameters;
-use epas_reference::rig::{self, Rig, Sensors};
+use epas_rig::course::{Course, Manoeuvre};
+use epas_rig::parameters::Parameters;
+use epas_rig::{Rig, Sensors};
 
 use epas_calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
 use epas_calibrate::trace::{Coordinate, Repairs, Trace};
@@ -31,7 +31,7 @@ pub struct Gear {
     /// How it becomes rows.
     pub rows: Rows,
     /// The trace on which models are judged, with what is true.
-    unseen: rig::Trace,
+    unseen: epas_rig::Trace,
     /// The same as the control unit knows it: counted angles, and a speed that tracks them.
     pub in_loop: (Trace, Motion),
 }
@@ -95,7 +95,7 @@ impl Gear {
 }
 
 /// A trace as a file of it would be read.
-fn measured(trace: &rig::Trace) -> Trace {
+fn measured(trace: &epas_rig::Trace) -> Trace {
     Trace {
         name: "rig".into(),
         coordinate: Coordinate::Rotation,

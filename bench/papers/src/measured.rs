@@ -1,0 +1,36 @@
+//! Measured and catalogue figures of real ball screws beside what the exact model computes: [`records`], and the
+//! studies behind them.
+//!
+//! No figure comes with all that the model needs: geometry, lubricant or seals are missing somewhere. So figures are
+//! bands, assumptions are stated, and each row says which parameter would have to be what to meet its figure. Nothing
+//! is fitted but where a row says so.
+
+pub mod catalogue;
+pub mod cold;
+mod figure;
+mod rows;
+mod rules;
+pub mod studies;
+
+use rayon::prelude::*;
+
+use epas_reference::error::ReferenceError;
+pub use figure::{Measured, Size, Source, Standing, Usual};
+
+/// All figures, computed in parallel. `step` is called after each of the [`COUNT`].
+///
+/// # Errors
+/// [`ReferenceError`] of a balance that is not found.
+pub fn records(usual: &Usual, step: &(dyn Fn() + Sync)) -> Result<Vec<Measured>, ReferenceError> {
+    rows::ROWS
+        .par_iter()
+        .map(|row| {
+            let record = row(usual);
+            step();
+            record
+        })
+        .collect()
+}
+
+/// Number of figures.
+pub const COUNT: usize = rows::ROWS.len();

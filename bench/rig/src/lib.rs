@@ -1,0 +1,327 @@
+//! A measured trace of a steering gear's screw, from the exact models, with everything known that a measurement hides.
+//!
+//! The nut is moved along a [`Course`]; the motor gives the torque
+//!
+//! `tau = J a + b w + offset + gain (L/2 pi) F + T_f + (S/S_ref) sum (c_k cos k th + s_k sin k th)`
+//!
+//! `T_f` is friction with a memory: dense elements ([`friction::Memory`]) under the limits of gross sliding, which the exact ball gives
+//! ([`sliding::SlidingTorque`]) for the load, the preload, the rolling resistance and the friction coefficient of the tick. Sensors add
+//! noise and count the angle. A [`Trace`] has the measured columns beside the truth.
+//!
+//! | file | what |
+//! |---|---|
+//! | [`parameters`] | screw, friction and drive; another physics |
+//! | [`course`] | manoeuvres: motion, load, temperature |
+//! | [`sliding`] | friction of gross sliding over load and friction coefficient |
+//! | [`friction`] | friction coefficient, limits, memory |
+//! | [`spoiled`] | traces of careless measurements |
+//!
+//! Same seed, same trace, on every machine that rounds sines alike.
+
+pub mod course;
+pub mod friction;
+pub mod parameters;
+pub mod sliding;
+pub mod spoiled;
+pub mod truth;
+
+use std::io::Write;
+use std::ops::Range;
+
+use rand_distr::{Distribution, StandardNormal};
+use rand_pcg::Pcg64;
+
+use course::{Course, Driven, Manoeuvre, STREAM};
+use epas_reference::closed_loop::ClosedLoop;
+use epas_reference::error::{ReferenceError, within};
+use friction::{Memory, Sliding, State};
+use parameters::Parameters;
+
+/// What sensors do to a trace.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sensors {
+    /// Standard deviation of the torque's noise over that of the torque.
+    pub torque_noise: f64,
+    /// Correlation of the torque's noise from one sample to the next, 0 (white) to less than 1.
+    pub colour: f64,
+    /// Standard deviation of the load's noise, N.
+    pub load_noise: f64,
+    /// Turn of the nut for one count of the encoder, rad; 0 for an angle without steps.
+    pub count: f64,
+}
+
+impl Default for Sensors {
+    /// 1 % on the torque, 8 N on the load, both white; 14 bits of the motor's turn behind a ratio of 2.5.
+    fn default() -> Self {
+        Self {
+            torque_noise: 0.01,
+            colour: 0.0,
+            load_noise: 8.0,
+            count: ClosedLoop::COUNT,
+        }
+    }
+}
+
+/// Measured columns, and the truth behind them; all of one length.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trace {
+    /// Time, s.
+    pub time: Vec<f64>,
+    /// Counted angle of the nut, rad.
+    pub nut_position: Vec<f64>,
+    /// Motor torque at the nut, N m.
+    pub motor_torque: Vec<f64>,
+    /// Axial load, N.
+    pub axial_load: Vec<f64>,
+    /// Temperature, K.
+    pub temperature: Vec<f64>,
+    /// Truth.
+    pub truth: Truth,
+    /// Which samples belong to which manoeuvre.
+    pub parts: Vec<(Manoeuvre, Range<usize>)>,
+}
+
+/// What a measurement does not show.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Truth {
+    /// Angle of the nut, rad.
+    pub position: Vec<f64>,
+    /// Its speed, rad/s.
+    pub speed: Vec<f64>,
+    /// Its acceleration, rad/s^2.
+    pub acceleration: Vec<f64>,
+    /// Axial load, N.
+    pub load: Vec<f64>,
+    /// Friction torque, N m.
+    pub friction: Vec<f64>,
+    /// Motor torque, N m.
+    pub torque: Vec<f64>,
+}
+
+/// A rig: a screw with its drive and sensors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Rig {
+    parameters: Parameters,
+    sensors: Sensors,
+    sliding: Sliding,
+}
+
+impl Rig {
+    /// Solves the balls of the screw: some hundred, in parallel.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming a parameter out of range.
+    pub fn new(parameters: Parameters, sensors: Sensors) -> Result<Self, ReferenceError> {
+        within("torque_noise", sensors.torque_noise, 0.0, 10.0)?;
+        within("colour", sensors.colour, 0.0, 0.999_999)?;
+        within("load_noise", sensors.load_noise, 0.0, 1e6)?;
+        within("count", sensors.count, 0.0, 1.0)?;
+        let sliding = Sliding::new(&parameters)?;
+        Memory::new(&parameters, &sliding)?;
+        within("backlash", parameters.backlash, 0.0, 1.0)?;
+        Ok(Self {
+            parameters,
+            sensors,
+            sliding,
+        })
+    }
+
+    /// What the rig is like.
+    #[must_use]
+    pub fn parameters(&self) -> &Parameters {
+        &self.parameters
+    }
+
+    /// Friction of gross sliding.
+    #[must_use]
+    pub fn sliding(&self) -> &Sliding {
+        &self.sliding
+    }
+
+    /// Runs a course.
+    ///
+    /// # Errors
+    /// [`ReferenceError`] naming what is wrong with the course, or `load` where it is beyond the screw's largest.
+    pub fn run(&self, course: &Course, seed: u64) -> Result<Trace, ReferenceError> {
+        let driven = course.driven(seed)?;
+        let truth = self.truth(course.tick, &driven)?;
+        let mut random = Pcg64::new(seed.into(), STREAM ^ 1);
+        let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
+        let Sensors {
+            torque_noise,
+            colour,
+            load_noise,
+            count,
+        } = self.sensors;
+        let size = torque_noise * deviation(&truth.torque);
+        let fresh = (1.0 - colour * colour).sqrt();
+        let mut noise = normal();
+        let motor_torque = truth
+            .torque
+            .iter()
+            .map(|torque| {
+                let measured = torque + size * noise;
+                noise = colour * noise + fresh * normal();
+                measured
+            })
+            .collect();
+        let counted = |angle: &f64| {
+            if count > 0.0 {
+                (angle / count).round() * count
+            } else {
+                *angle
+            }
+        };
+        Ok(Trace {
+            time: (0..truth.position.len())
+                .map(|tick| tick as f64 * course.tick)
+                .collect(),
+            nut_position: truth.position.iter().map(counted).collect(),
+            axial_load: truth
+                .load
+                .iter()
+                .map(|load| load + load_noise * normal())
+                .collect(),
+            motor_torque,
+            temperature: driven.temperature,
+            truth,
+            parts: driven.parts,
+        })
+    }
+
+    /// Motion, friction and torque without sensors.
+    fn truth(&self, tick: f64, driven: &Driven) -> Result<Truth, ReferenceError> {
+        let Parameters {
+            screw,
+            inertia,
+            viscous,
+            offset,
+            load_gain,
+            waves,
+            backlash,
+            ..
+        } = &self.parameters;
+        let Driven {
+            position,
+            load,
+            temperature,
+            ..
+        } = driven;
+        let speed = slopes(position, tick);
+        let acceleration = slopes(&speed, tick);
+        let reference_sum = screw.flank_sum(self.parameters.reference_axial_load);
+        let mut memory = Memory::new(&self.parameters, &self.sliding)?;
+        // In the middle of the play at the start.
+        let mut nut = position.first().copied().unwrap_or(0.0);
+        let (mut friction, mut torque) = (Vec::new(), Vec::new());
+        for index in 0..position.len() {
+            let (angle, load) = (position[index], load[index]);
+            within("load", load, -screw.largest_load, screw.largest_load)?;
+            let taken = nut.clamp(angle - 0.5 * backlash, angle + 0.5 * backlash);
+            let state = State {
+                turn: taken - nut,
+                speed: speed[index],
+                load,
+                temperature: temperature[index],
+            };
+            nut = taken;
+            let resisting = memory.follow(&self.sliding, &state);
+            let wavy: f64 = waves
+                .iter()
+                .map(|wave| {
+                    let (sin, cos) = (wave.order * angle).sin_cos();
+                    wave.cosine * cos + wave.sine * sin
+                })
+                .sum();
+            friction.push(resisting);
+            torque.push(
+                inertia * acceleration[index]
+                    + viscous * speed[index]
+                    + offset
+                    + load_gain * screw.reduced_lead() * load
+                    + resisting
+                    + screw.flank_sum(load) / reference_sum * wavy,
+            );
+        }
+        Ok(Truth {
+            position: position.clone(),
+            speed,
+            acceleration,
+            load: load.clone(),
+            friction,
+            torque,
+        })
+    }
+}
+
+impl Trace {
+    /// Number of samples.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.time.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.time.is_empty()
+    }
+
+    /// Samples of a manoeuvre, in all its parts.
+    pub fn samples_of(&self, manoeuvre: Manoeuvre) -> impl Iterator<Item = usize> {
+        self.parts
+            .iter()
+            .filter(move |(which, _)| *which == manoeuvre)
+            .flat_map(|(_, samples)| samples.clone())
+    }
+
+    /// Writes the measured columns as comma-separated values: `time,nut_position,motor_torque,axial_load,temperature`, in s, rad,
+    /// N m, N and K.
+    ///
+    /// # Errors
+    /// Whatever the output refuses.
+    pub fn write_csv(&self, out: impl Write) -> Result<(), csv::Error> {
+        let mut table = csv::Writer::from_writer(out);
+        table.write_record([
+            "time",
+            "nut_position",
+            "motor_torque",
+            "axial_load",
+            "temperature",
+        ])?;
+        for index in 0..self.len() {
+            table.write_record([
+                format!("{:.6}", self.time[index]),
+                format!("{:.9}", self.nut_position[index]),
+                format!("{:.7}", self.motor_torque[index]),
+                format!("{:.3}", self.axial_load[index]),
+                format!("{:.3}", self.temperature[index]),
+            ])?;
+        }
+        table.flush()?;
+        Ok(())
+    }
+}
+
+/// Slope at every sample, by its neighbours.
+fn slopes(values: &[f64], tick: f64) -> Vec<f64> {
+    let last = values.len().saturating_sub(1);
+    (0..values.len())
+        .map(|index| {
+            let (before, after) = (index.saturating_sub(1), (index + 1).min(last));
+            (values[after] - values[before]) / ((after - before).max(1) as f64 * tick)
+        })
+        .collect()
+}
+
+/// Standard deviation.
+fn deviation(values: &[f64]) -> f64 {
+    let count = values.len().max(1) as f64;
+    let mean = values.iter().sum::<f64>() / count;
+    (values
+        .iter()
+        .map(|value| (value - mean).powi(2))
+        .sum::<f64>()
+        / count)
+        .sqrt()
+}
