@@ -1,14 +1,14 @@
 //! Every state of the promised domain has an answer, the same from every start.
 
-use crate::kit::given;
-use crate::kit::promised::{self, Promised};
-use crate::kit::random::Random;
 use epas_friction::geometry::named;
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::friction::caged_ball::{CagedBall, CagedBallFriction};
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance;
+use epas_testkit::given;
+use epas_testkit::promised::{self, Promised};
+use epas_testkit::random::Random;
 
 /// Balance of power that [`epas_reference::friction::ball_screw_row::ElasticRow`] promises.
 const POWER_ERROR: f64 = 1e-8;

@@ -12,8 +12,8 @@ use epas_reference::measured::studies::{self, SCREWS};
 use epas_reference::measured::{self, Standing, Usual, catalogue};
 use gauss_quad::GaussLegendre;
 
-use crate::kit::errors::Errors;
-use crate::kit::given;
+use epas_testkit::errors::Errors;
+use epas_testkit::given;
 
 /// The crate's defaults, widened.
 fn usual() -> Usual {

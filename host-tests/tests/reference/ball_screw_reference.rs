@@ -1,7 +1,5 @@
 //! Ball of a ball screw: stored single balls and pairs, Table 3.7, given contacts, and the laws of the model.
 
-use crate::kit::designs::SCREW_TRACK as TRACK;
-use crate::kit::measured;
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_ball::{
     Groove, ScrewContact, ScrewMotion, ScrewTrack, motion_from, motion_with_contacts,
@@ -16,6 +14,8 @@ use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::ball_screw_train::{ScrewTrain, solve_screw_train};
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::linear_ball::EllipseLaw;
+use epas_testkit::designs::SCREW_TRACK as TRACK;
+use epas_testkit::measured;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_4, TAU};
 

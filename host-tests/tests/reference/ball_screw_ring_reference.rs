@@ -1,7 +1,5 @@
 //! Balls on a ring in elastic grooves: against rows and single balls, the laws of the model, and Figures 3.24 and 3.25 again.
 
-use crate::kit::measured;
-use crate::kit::random::Random;
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_ball::ScrewTrack;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
@@ -12,6 +10,8 @@ use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall};
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::whole_screw::WholeScrew;
 use epas_reference::published::balls::{SCREW, whole_screw};
+use epas_testkit::measured;
+use epas_testkit::random::Random;
 use std::f64::consts::{PI, TAU};
 
 const DEGREE: f64 = PI / 180.0;

@@ -1,7 +1,5 @@
 //! Rows of balls in elastic grooves: stored pairs with play and oversize, and the laws of the model.
 
-use crate::kit::measured;
-use crate::kit::random::Random;
 use epas_reference::ReferenceError;
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_elastic::{BallSlip, ElasticBalls, ScrewSupport};
@@ -9,6 +7,8 @@ use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
 use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
+use epas_testkit::measured;
+use epas_testkit::random::Random;
 use serde_json::Value;
 use std::f64::consts::TAU;
 

@@ -1,7 +1,7 @@
 //! Chains of touching balls: stored chains, Table 3.5, the linear model by three methods, and the laws of contact.
 
-use crate::kit::measured;
-use crate::kit::random::Random;
+use epas_testkit::measured;
+use epas_testkit::random::Random;
 use std::f64::consts::FRAC_PI_4;
 
 use epas_reference::ReferenceError;

@@ -1,9 +1,9 @@
 //! The reference's curvatures against 65-digit values, against each other, and against the printed
 //! tables and statistics of Bertolino et al. 2023.
 
-use crate::kit::measured;
 use epas_reference::curvature::{Groove, Surface, literature, profile};
 use epas_reference::published::{TABLE_A1, TABLE_A2, computed_errors};
+use epas_testkit::measured;
 use proptest::prelude::*;
 use serde_json::Value;
 

@@ -1,10 +1,10 @@
 //! Force, moment and power of one contact: three evaluations of the same integrals, and the laws they obey.
 
-use crate::kit::measured;
-use crate::kit::random::Random;
 use epas_reference::friction::area::friction_over_area;
 use epas_reference::friction::maps::FrictionMap;
 use epas_reference::friction::patch::{Patch, PatchVelocity};
+use epas_testkit::measured;
+use epas_testkit::random::Random;
 use serde_json::Value;
 
 fn golden(name: &str) -> Value {

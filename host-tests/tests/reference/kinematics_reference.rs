@@ -1,11 +1,11 @@
 //! The reference kinematics against first principles, the published numbers and golden cases.
 
-use crate::kit::measured;
-use crate::kit::random::Random;
 use epas_reference::kinematics::{
     HertzMean, KinematicsInput, MeanSlip, Raceway, Revised, RigidBody, Traditional, figures,
     friction_power, least_friction_power, mean_slip, operating, pitch_angle,
 };
+use epas_testkit::measured;
+use epas_testkit::random::Random;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -64,7 +64,12 @@ fn turn(left: f64, right: f64) -> f64 {
     (left - right + PI).rem_euclid(TAU) - PI
 }
 
-impl Random {
+/// Draws inputs.
+trait Drawn {
+    fn input(&mut self) -> KinematicsInput;
+}
+
+impl Drawn for Random {
     fn input(&mut self) -> KinematicsInput {
         let pitch_radius = self.between(5e-3, 60e-3);
         let ball_diameter = 2.0 * pitch_radius * self.between(0.04, 0.29);

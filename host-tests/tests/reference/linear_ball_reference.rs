@@ -1,11 +1,11 @@
 //! Ball of a linear bearing: stored cases, the dissertation's tables, and the laws of the model.
 
-use crate::kit::measured;
 use epas_reference::ReferenceError;
 use epas_reference::friction::linear_ball::{
     EllipseLaw, LinearBall, LinearMotion, PUBLISHED_FORCE_SLOPE, analytic_ball_slip,
     analytic_contact_force, contact_forces,
 };
+use epas_testkit::measured;
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_4;
 

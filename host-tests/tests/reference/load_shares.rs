@@ -11,7 +11,7 @@ use epas_reference::statics::{
     Served, ShaftModel, ShareError, ShareTable, ShareTables, StaticLoad, StaticSolution,
 };
 
-use crate::kit::random::Random;
+use epas_testkit::random::Random;
 
 const TOLERANCE: ShareError = ShareError::TOLERANCE;
 

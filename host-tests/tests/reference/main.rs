@@ -1,8 +1,5 @@
 //! The float64 reference against the papers' tables and against independent solutions.
 
-#[path = "../kit/mod.rs"]
-mod kit;
-
 mod answers_reference;
 mod ball_screw_efficiency_reference;
 mod ball_screw_reference;

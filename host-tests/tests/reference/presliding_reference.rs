@@ -13,7 +13,7 @@ use epas_reference::presliding::masing::Masing;
 use epas_reference::presliding::tables::{TABLES, Table};
 use serde_json::Value;
 
-use crate::kit::random::Random;
+use epas_testkit::random::Random;
 
 fn golden() -> Value {
     let text = include_str!(concat!(

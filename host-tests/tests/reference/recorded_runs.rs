@@ -27,7 +27,7 @@ fn source(command: &str) -> String {
         let (program, module) = (names.next().unwrap(), names.next().unwrap());
         root.join("tests")
             .join(program)
-            .join(format!("{module}.rs"))
+            .join(format!("{}.rs", module.replace("::", "/")))
     } else {
         root.join("..")
             .join(command.split_whitespace().next().unwrap())

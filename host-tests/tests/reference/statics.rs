@@ -1,7 +1,7 @@
 //! Static load distribution: the case studies of Lin 2019, laws, and hostile starts.
 
-use crate::kit::measured;
-use crate::kit::random::Random;
+use epas_testkit::measured;
+use epas_testkit::random::Random;
 use std::sync::Arc;
 
 use epas_reference::ReferenceError;

@@ -1,9 +1,9 @@
 //! The exact steady state against 17-digit values, its own equations, and the closed form it leads to.
 
-use crate::kit::measured;
 use epas_reference::ReferenceError;
 use epas_reference::efficiency::Screw;
 use epas_reference::steady_state::BallScrewState;
+use epas_testkit::measured;
 use serde_json::Value;
 
 fn golden(list: &str) -> Vec<Value> {

@@ -1,12 +1,12 @@
 //! Whole ball screw with recirculation: stored runs, the features of Figures 3.24 and 3.25, and the laws of contact.
 
-use crate::kit::designs::SCREW_TRACK;
-use crate::kit::measured;
 use epas_reference::friction::ball_screw_closed::ThreePointModel;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::linear_ball::EllipseLaw;
 use epas_reference::friction::whole_screw::WholeScrew;
+use epas_testkit::designs::SCREW_TRACK;
+use epas_testkit::measured;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_4, TAU};
 

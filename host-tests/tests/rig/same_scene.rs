@@ -18,8 +18,8 @@ use epas_reference::promises;
 use epas_reference::rig::friction::{Sliding, State};
 use epas_reference::rig::parameters::{Coefficient, Parameters};
 
-use crate::kit::errors::Errors;
-use crate::kit::remembering::at;
+use epas_testkit::errors::Errors;
+use epas_testkit::remembering::at;
 
 type Remembering =
     FrictionModel<WithMemory<CagedBallScrew<NODES>, LoadExactElements<8>, SpeedOverTick>>;
