@@ -6,6 +6,7 @@
 
 use std::f64::consts::TAU;
 
+use epas_design::uncaged_scene::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
 use epas_friction::{
@@ -19,7 +20,6 @@ use epas_reference::friction::ball_screw_ring::{
 };
 use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
-use epas_design::uncaged_scene::Folded;
 
 use epas_design::uncaged_scene::{LEAST_DEVIATION, MARGIN, folded, loads_holding};
 

@@ -87,7 +87,11 @@ pub fn rounds(text: &str) -> Result<usize, String> {
 pub type MakeSection<C> = fn(&C) -> Result<Section, Failure>;
 
 /// Heading of a part, whether it is unfolded, and its sections with a line on each.
-pub type Plan<C> = (&'static str, bool, &'static [(MakeSection<C>, &'static str)]);
+pub type Plan<C> = (
+    &'static str,
+    bool,
+    &'static [(MakeSection<C>, &'static str)],
+);
 
 /// Every section, in the order of the report: what firmware steps first, then what it is made of.
 const PARTS: [Plan<Context>; 2] = [
@@ -170,8 +174,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let mut parts = parts(&PARTS, &context, &stages)?;
     let lead = |title, section| (title, section);
     let first = [
-        lead("every formula: largest error beside the time of one call", summary),
-        lead("every scene and formula: error at the same state, flagged states counted", errors),
+        lead(
+            "every formula: largest error beside the time of one call",
+            summary,
+        ),
+        lead(
+            "every scene and formula: error at the same state, flagged states counted",
+            errors,
+        ),
     ];
     if let Some(part) = parts.first_mut() {
         part.sections.splice(0..0, first);

@@ -4,6 +4,7 @@ use std::f32::consts::{PI, TAU};
 use std::f64::consts::FRAC_PI_4;
 
 use epas_design::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
+use epas_design::uncaged_scene::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::ball::LinearBallParameters;
 use epas_friction::law::coefficient::OneCoefficient;
@@ -23,10 +24,9 @@ use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::material::Elastic;
-use epas_design::uncaged_scene::Folded;
 
-use epas_page::failure::Failure;
 use epas_design::uncaged_scene::folded;
+use epas_page::failure::Failure;
 
 /// Friction coefficient of balls and grooves.
 pub const FRICTION: f64 = 0.1;
@@ -195,7 +195,8 @@ pub fn whole_screw<const N: usize>() -> Result<FrictionModel<UncagedBallScrew<N>
 }
 
 /// A scene with a memory of eight elements, whose sensor reads an angle within a turn either way and whose friction coefficient is one.
-pub type Remembering<S> = FrictionModel<WithMemory<S, ProportionalElements<8>, WrappedAngle, OneCoefficient>>;
+pub type Remembering<S> =
+    FrictionModel<WithMemory<S, ProportionalElements<8>, WrappedAngle, OneCoefficient>>;
 
 /// The scene of a gear with the elements that its contacts have under an axial load, N.
 pub fn remembering<S>(

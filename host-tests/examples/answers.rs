@@ -4,18 +4,10 @@
 //! cargo run --release -p epas-reference --example answers -- [SEED] [SINGLE BALLS] [PAIRS]
 //! ```
 
-#[path = "../tests/kit"]
-#[allow(dead_code, reason = "shared with tests")]
-mod kit {
-    pub mod given;
-    pub mod promised;
-    pub mod random;
-}
+use epas_testkit::promised;
+use epas_testkit::random::Random;
 
 use std::time::{Duration, Instant};
-
-use kit::promised;
-use kit::random::Random;
 
 fn main() {
     let mut numbers = std::env::args()

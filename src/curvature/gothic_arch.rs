@@ -70,7 +70,7 @@ const LARGEST_RADIUS: f32 = 10.0;
 const LARGEST_OFFSET: f32 = 0.9;
 
 /// Groove radius relative to the path's radius of curvature, or to 1 / torsion, up to which the two curvatures never
-/// change places (swept: `tests/formulas/curvature`).
+/// change places (swept: `host-tests/tests/all/formulas/curvature`).
 const SURELY_APART: f32 = 0.5;
 
 impl GothicArch {

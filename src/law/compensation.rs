@@ -20,7 +20,7 @@
 //! elements ([`Deadband`](super::motion::Deadband)): that allows 0.95. Noise that passes shakes the elements, which works as an earlier
 //! breakaway would. Behind the play noise makes no torque at all; after a reversal friction is late by twice the play.
 //!
-//! The simulated loop in `host-tests/tests/scenes/compensation.rs` is quiet inside these bounds and hums outside.
+//! The simulated loop in `host-tests/tests/all/scenes/compensation.rs` is quiet inside these bounds and hums outside.
 
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::memory::BREAKAWAY;

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use epas_page::aside::say;
 use crate::answer::Calibration;
+use crate::controller::Controller;
 use crate::experiment::wanted;
 use crate::folder::{self, Folder, FolderArguments};
 use crate::outputs::{Outcome, OutputArguments, folder_name};
@@ -18,8 +18,8 @@ use crate::trace::{Coordinate, Trace};
 use crate::with_design;
 use crate::without_design::controller::SeenController;
 use crate::without_design::{self, Filters};
-use crate::controller::Controller;
 use epas_design::files::{Design, DesignSource, text};
+use epas_page::aside::say;
 use epas_page::failure::Failure;
 use epas_page::files::refuse_shared;
 use epas_traces::mdf4::{self, Mapping};

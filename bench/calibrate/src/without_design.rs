@@ -44,11 +44,11 @@ use crate::without_design::choice::{
 };
 use crate::without_design::drive::Drive;
 
+use crate::controller::Controller;
 use crate::without_design::closed_loop::size;
 use crate::without_design::controller::SeenController;
 use crate::without_design::slide::{AT_ONE_SPEED, LOSSES, Slide};
 use crate::without_design::terms::{LoadTerm, Terms};
-use crate::controller::Controller;
 use epas_page::failure::Failure;
 
 /// How a trace is filtered.

@@ -6,9 +6,9 @@ mod variables;
 use std::fs;
 use std::path::PathBuf;
 
+use description::describe;
 use epas_page::failure::Failure;
 use epas_page::files::{self, Existing, refuse_ending, refuse_same};
-use description::describe;
 use variables::Variables;
 
 /// An A2L file of the firmware's friction task: addresses and types from the debug information of the image.

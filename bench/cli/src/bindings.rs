@@ -1,16 +1,16 @@
 //! What bindings to other languages take of the program: designs, scenes over traces, `eval` without its command line.
 
-pub use epas_calibrate::controller::Controller;
-pub use epas_design::files::train::{LinearDesign, UncagedDesign};
-pub use epas_design::files::{Design, DesignSource, built_in, read as read_design, text};
-pub use epas_eval::fit_range;
-pub use epas_page::failure::Failure;
 pub use crate::simulate::bindings::{
     Balls, Built, Caged, CagedRow, Folded, Friction, Linear, LinearRow, LinearSample, Lines,
     MOST_BALLS, Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewConfiguration,
     ScrewSample, Trace, TrainRow, Uncaged, UncagedRow, Use, angle, coefficients, regime_name,
     remembering, wrapped,
 };
+pub use epas_calibrate::controller::Controller;
+pub use epas_design::files::train::{LinearDesign, UncagedDesign};
+pub use epas_design::files::{Design, DesignSource, built_in, read as read_design, text};
+pub use epas_eval::fit_range;
+pub use epas_page::failure::Failure;
 
 /// The answer of `eval` to one line, as one line without its end.
 pub fn eval(line: &str) -> String {

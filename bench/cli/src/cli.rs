@@ -4,10 +4,10 @@ use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::a2l;
 use crate::design;
-use epas_page::failure::Failure;
 use crate::fmu;
-use epas_page::progress::Working;
 use crate::simulate;
+use epas_page::failure::Failure;
+use epas_page::progress::Working;
 
 /// Friction of ball screws for electric power steering: a design to a block for firmware, simulation, single evaluations, calibration.
 ///

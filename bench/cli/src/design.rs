@@ -10,10 +10,10 @@ use clap::error::ErrorKind;
 
 use epas_design::files::train::no_row;
 use epas_design::files::{Design, DesignSource};
-use epas_page::failure::Failure;
-use epas_page::progress::Progress;
-use epas_page::files::{self, Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
 use epas_design::{caged_scene as caged, folds, uncaged_scene as uncaged};
+use epas_page::failure::Failure;
+use epas_page::files::{self, Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
+use epas_page::progress::Progress;
 use made::Made;
 
 /// Folds a design: solves it once, here, into the constants that firmware evaluates.
@@ -277,7 +277,8 @@ fn made(design: &Design, scene: Option<Scene>) -> Result<Made, Failure> {
         Scene::Uncaged => {
             let row = design.uncaged.as_ref();
             let fold = table.fold_uncaged(design, row).map_err(of_fold)?;
-            let folded = uncaged::certified(&fold, &|share| progress.share(share)).map_err(named)?;
+            let folded =
+                uncaged::certified(&fold, &|share| progress.share(share)).map_err(named)?;
             Ok(Made::Uncaged(Box::new(folded)))
         }
     }

@@ -24,11 +24,11 @@ use epas_friction::Faults;
 use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
+use description::{Version, description};
 use epas_design::files::DesignSource;
 use epas_page::failure::Failure;
 use epas_page::files::{Existing, Pending, ends, refuse_same, standard, told};
 use epas_traces::flags::FLAGS;
-use description::{Version, description};
 pub use library::mark;
 pub use running::{Moment, Running};
 pub use scene::SceneName;

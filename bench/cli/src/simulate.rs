@@ -36,13 +36,15 @@ use std::path::PathBuf;
 
 use clap::error::ErrorKind;
 
+use choice::{Chosen, SceneName, choose};
 use epas_design::files::train::LinearDesign;
 use epas_design::files::{self as designs, DesignSource};
 use epas_page::failure::Failure;
-use epas_page::files::{self, Existing, Pending, refuse_ending, refuse_same, refuse_shared, standard};
+use epas_page::files::{
+    self, Existing, Pending, refuse_ending, refuse_same, refuse_shared, standard,
+};
 use epas_traces::mdf4::Mapping;
 use epas_traces::source::Source;
-use choice::{Chosen, SceneName, choose};
 pub use manoeuvre::Manoeuvre;
 use output::write_table;
 use picture::Form;

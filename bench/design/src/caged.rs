@@ -14,7 +14,7 @@ use rayon::prelude::*;
 use crate::Failure;
 use crate::certificate::Certificate;
 use crate::curve::fitted;
-use crate::digest::digest;
+use crate::digest;
 pub use design::CagedDesign;
 pub(crate) use design::{FRICTION, in_range};
 pub(crate) use exact::Exact;
@@ -252,10 +252,10 @@ impl CagedFold {
         })
     }
 
-    /// The first eight bytes of the SHA-256 of [`ALGORITHM`] and all inputs.
+    /// FNV-1a over [`ALGORITHM`] and the numbers of all inputs, in a stated order: a name that changes changes no digest.
     #[must_use]
     pub fn digest(&self) -> u64 {
-        digest(ALGORITHM, self)
+        digest::of_caged(self)
     }
 }
 

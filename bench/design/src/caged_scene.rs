@@ -13,8 +13,8 @@ use epas_friction::scene::{
 use epas_friction::{Error, FrictionModel, Inputs, Outputs, Range, Refusal};
 use rayon::prelude::*;
 
-use crate::files::Design;
 use crate::Failure;
+use crate::files::Design;
 use crate::folds::{Folds, digest_of};
 
 /// Blocks that need no fold; of those that were folded 256 are kept.
@@ -69,10 +69,7 @@ pub fn certified(fold: &CagedFold, progress: &(dyn Fn(f64) + Sync)) -> Result<Fo
 ///
 /// # Errors
 /// What cannot be folded, with the reason.
-pub fn check_errors(
-    fold: &CagedFold,
-    progress: &(dyn Fn(f64) + Sync),
-) -> Result<(), Failure> {
+pub fn check_errors(fold: &CagedFold, progress: &(dyn Fn(f64) + Sync)) -> Result<(), Failure> {
     match FOLDS.get(fold.digest()) {
         Some(kept) => kept.map(drop),
         None => certified(fold, progress).map(drop),

@@ -33,8 +33,8 @@ use fits::Fits;
 use fold::FoldTable;
 use loads::{LoadCase, LoadsTable};
 use tables::{
-    ends, standard,
-    MaterialTable, from_text, groove_size, mark, material, parsed, radius, replace, text_of,
+    MaterialTable, ends, from_text, groove_size, mark, material, parsed, radius, replace, standard,
+    text_of,
 };
 use train::{LinearDesign, UncagedDesign, UncagedTable};
 

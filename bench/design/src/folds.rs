@@ -13,8 +13,8 @@ use crate::{CagedFold, UncagedFold};
 use epas_friction::Error;
 use rayon::prelude::*;
 
-use crate::files::{self, Design, DesignSource};
 use crate::Failure;
+use crate::files::{self, Design, DesignSource};
 use crate::{caged_scene as caged, uncaged_scene as uncaged};
 
 /// Blocks of the built-in designs.
@@ -205,7 +205,8 @@ pub fn store() -> Result<(), Failure> {
     let words = folded()?.into_iter().flat_map(|(_, words)| words);
     let bytes: Vec<u8> = words.flat_map(u32::to_le_bytes).collect();
     let path = path();
-    fs::write(&path, bytes).map_err(|error| Failure::Domain(format!("cannot write {}: {error}", path.display())))
+    fs::write(&path, bytes)
+        .map_err(|error| Failure::Domain(format!("cannot write {}: {error}", path.display())))
 }
 
 /// How many stored blocks have the bits of a new fold.

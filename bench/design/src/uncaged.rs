@@ -15,7 +15,7 @@ use rayon::prelude::*;
 
 use crate::Failure;
 use crate::caged::{APART, CagedDesign, Exact, FRICTION, LARGEST_LOAD, in_range};
-use crate::digest::digest;
+use crate::digest;
 use ball::{Balls, Speeds, exact_ball};
 pub use certificate::{RowFigures, UncagedCertificate, UncagedFigure};
 use fit::{Branch, Fit, Numbers};
@@ -293,10 +293,10 @@ impl UncagedFold {
         Ok(Fit::new(&samples, &weights, speeds.against_nut).branch())
     }
 
-    /// The first eight bytes of the SHA-256 of [`ALGORITHM`] and all inputs.
+    /// FNV-1a over [`ALGORITHM`] and the numbers of all inputs, in a stated order: a name that changes changes no digest.
     #[must_use]
     pub fn digest(&self) -> u64 {
-        digest(ALGORITHM, self)
+        digest::of_uncaged(self)
     }
 }
 

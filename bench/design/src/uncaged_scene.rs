@@ -9,10 +9,10 @@ use epas_friction::Error;
 use epas_friction::scene::FoldedBall;
 pub use epas_trains::{Folded, ScrewConfiguration};
 
+use crate::Failure;
 use crate::caged_scene::range_for;
 use crate::files::Design;
 use crate::files::train::UncagedDesign;
-use crate::Failure;
 use crate::folds::{Folds, digest_of};
 
 /// Laws that need no fold.

@@ -24,8 +24,8 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde_json::value::RawValue;
 
-use epas_page::failure::Failure;
 use answer::Answer;
+use epas_page::failure::Failure;
 use fields::{BadField, Fields};
 #[doc(hidden)]
 pub use groove_curvature::fit_range;

@@ -4,10 +4,6 @@
 //! sound one, sealed again: six bytes a change, which word and its bits.
 #![no_main]
 
-#[allow(dead_code)]
-#[path = "../../../host-tests/tests/kit/random.rs"]
-mod random;
-
 #[path = "../../firmware/src/gears/gear_33x20_ball.rs"]
 mod ball;
 #[path = "../../firmware/src/gears/gear_33x20_ball_range.rs"]
@@ -27,8 +23,8 @@ use epas_friction::{
     CagedBallScrew, DeviationMap, Error, Faults, FrictionModel, Inputs, Limits, LoadShare,
     LoadShares, Outputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
+use epas_testkit::random::Random;
 use libfuzzer_sys::fuzz_target;
-use random::Random;
 
 /// Balls of a screw without cage.
 const BALLS: usize = 7;

@@ -1,7 +1,7 @@
 //! Constructors: any numbers are refused with the field's name, or give an object whose answers are finite.
 #![no_main]
 
-#[path = "../../../host-tests/tests/kit/objects.rs"]
+#[path = "../../../host-tests/tests/all/objects.rs"]
 mod objects;
 
 use libfuzzer_sys::fuzz_target;

@@ -4,21 +4,14 @@
 //! differs by, sealed again.
 #![no_main]
 
-#[allow(dead_code)]
-#[path = "../../../host-tests/tests/kit/absurd.rs"]
-mod absurd;
-#[allow(dead_code)]
-#[path = "../../../host-tests/tests/kit/random.rs"]
-mod random;
-
 use std::fmt::Debug;
 
-use absurd::{Trial, accepted};
 use epas_friction::scene::{CagedBallScrew, StoredScene};
 use epas_friction::stored::crc32;
 use epas_friction::{ClosedFormScrew, FrictionModel, LinearBearingTrain, UncagedBallScrew};
+use epas_testkit::absurd::{Trial, accepted};
+use epas_testkit::random::Random;
 use libfuzzer_sys::fuzz_target;
-use random::Random;
 
 /// Bytes of a block before its state.
 const HEADER: usize = 16;

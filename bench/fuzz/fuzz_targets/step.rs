@@ -4,18 +4,11 @@
 //! from a sensor, as its bits.
 #![no_main]
 
-#[allow(dead_code)]
-#[path = "../../../host-tests/tests/kit/absurd.rs"]
-mod absurd;
-#[allow(dead_code)]
-#[path = "../../../host-tests/tests/kit/random.rs"]
-mod random;
-
-use absurd::{Trial, accepted};
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{ClosedFormScrew, LinearBearingTrain, UncagedBallScrew};
+use epas_testkit::absurd::{Trial, accepted};
+use epas_testkit::random::Random;
 use libfuzzer_sys::fuzz_target;
-use random::Random;
 
 fuzz_target!(|data: &[u8]| {
     let Some((seed, signals)) = data.split_first_chunk::<8>() else {

@@ -182,8 +182,8 @@ impl Figures {
 
 #[cfg(test)]
 mod tests {
-    use epas_page::failure::Failure;
     use crate::counts::stored;
+    use epas_page::failure::Failure;
 
     #[test]
     fn a_count_above_the_longest_path_fails() {

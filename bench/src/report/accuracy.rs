@@ -185,11 +185,6 @@ mod tests {
         assert_eq!(lines.len(), 4, "{lines:?}");
         assert!(lines[3].starts_with(&format!("  {}: stored", last.name)));
         assert_eq!(differing(&stored[1..], &stored).len(), 1);
-        assert!(
-            gate(&found)
-                .unwrap_err()
-                .message()
-                .contains("-- --store")
-        );
+        assert!(gate(&found).unwrap_err().message().contains("-- --store"));
     }
 }

@@ -2,9 +2,9 @@
 
 use super::accuracy::Accuracy;
 use super::flagship::Flagship;
-use epas_page::failure::Failure;
 use crate::counts::Figures;
 use crate::timing::Competition;
+use epas_page::failure::Failure;
 
 /// What every section works with.
 pub struct Context {

@@ -11,10 +11,10 @@ use rand_pcg::Pcg64;
 use super::context::Context;
 use super::curvature::{FORMS, catalogue_errors};
 use super::statistics::{Errors, evenly};
+use crate::counts::{Budget, Figures, budgets};
 use epas_page::document::{Block, Cell, Figure, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
-use crate::counts::{Budget, Figures, budgets};
 
 /// A formula or a backend: its error and its cycles.
 struct Point {

@@ -4,8 +4,8 @@ use epas_reference::promises::{self, Promise};
 
 use super::context::Context;
 use super::statistics::Errors;
-use super::weave::{Row, Weave};
 use super::times::time;
+use super::weave::{Row, Weave};
 use epas_page::document::{Block, Cell, Figure, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series, thin};

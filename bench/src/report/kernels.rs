@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use super::context::Context;
 use super::statistics::{Errors, evenly};
 use super::times::time;
+use crate::timing::kernels::{libm, micromath, own};
 use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
-use crate::timing::kernels::{libm, micromath, own};
 
 /// Inputs of a sweep.
 const INPUTS: usize = 400_000;

@@ -1,7 +1,7 @@
 //! Times and their ratios in a table: a number, or an upper limit where the time is below the resolution.
 
-use epas_page::document::Cell;
 use crate::timing::{Measure, Ratio, Spread};
+use epas_page::document::Cell;
 
 /// The median of a time, ns.
 pub fn time(measure: &Measure, decimals: usize) -> Cell {

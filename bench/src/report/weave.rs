@@ -19,9 +19,12 @@ use epas_page::failure::Failure;
 /// The screw of Lin 2019, Section 3.4.4: pitch circle of 33 mm, lead 20 mm, 37 balls.
 const DESIGN: &str = "lin-3.6";
 
-/// Ticks, s, and their number.
+/// Moments, s apart, and their number.
 const TICK: f64 = 1e-3;
 const TICKS: usize = 5000;
+
+/// Steps of the 37 balls from one moment to the next: at the largest speed of the nut a ball may not travel further than its room in one.
+const STEPS: usize = 4;
 
 /// Every so many ticks the exact ball is solved.
 const STRIDE: usize = 50;
@@ -92,18 +95,27 @@ impl Weave {
         let mut memory = remembering::<CagedBallScrew>(&design.caged, folded, mean_load)?;
         let row = row_of_37(design, balls)?;
         let mut balls = remembering::<UncagedBallScrew<37>>(&balls.gear, row, mean_load)?;
-        let (mut angle, mut last) = (0.0, moments[0].speed);
+        let (mut angle, mut last) = (0.0_f64, moments[0].speed);
         for moment in moments {
-            angle += 0.5 * TICK * (last + moment.speed);
+            // With the speed's mean over each step.
+            let share = |step: usize| (step as f64 + 0.5) / STEPS as f64;
+            let speeds = (0..STEPS).map(|step| last + share(step) * (moment.speed - last));
+            let mut row = None;
+            for speed in speeds {
+                angle += TICK / STEPS as f64 * speed;
+                let inputs = Inputs {
+                    nut_speed: moment.speed as f32,
+                    axial_load: moment.force as f32,
+                };
+                let reading = (angle % std::f64::consts::TAU) as f32;
+                row = Some((inputs, reading, balls.step(fresh(inputs, reading))));
+            }
             last = moment.speed;
-            let inputs = Inputs {
-                nut_speed: moment.speed as f32,
-                axial_load: moment.force as f32,
+            let Some((inputs, reading, balls)) = row else {
+                continue;
             };
-            let reading = (angle % std::f64::consts::TAU) as f32;
             let caged = caged.step(inputs);
             let memory = memory.step(fresh(inputs, reading));
-            let balls = balls.step(fresh(inputs, reading));
             let faults = [caged.faults, memory.faults, balls.faults];
             for (flagged, faults) in self.flagged.iter_mut().zip(faults) {
                 *flagged += usize::from(faults.any());
@@ -115,8 +127,12 @@ impl Weave {
                 load_torque: caged.load_torque.into(),
                 caged: caged.friction_torque.into(),
                 memory: memory.friction_torque.into(),
-                balls: [balls.friction_torque, balls.groove_torque, balls.ball_torque]
-                    .map(f64::from),
+                balls: [
+                    balls.friction_torque,
+                    balls.groove_torque,
+                    balls.ball_torque,
+                ]
+                .map(f64::from),
             });
         }
         Ok(())
@@ -169,6 +185,6 @@ fn row_of_37(
         screw_deviation: row.screw_deviation,
         nut_deviation: row.nut_deviation,
         load_shares: row.load_shares,
-        tick: TICK as f32,
+        tick: (TICK / STEPS as f64) as f32,
     })
 }

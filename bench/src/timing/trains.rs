@@ -14,8 +14,8 @@ use epas_friction::{Inputs, LoadShare, UncagedOutputs};
 use super::feed::{Feed, Taken};
 use super::group::{Group, List};
 use super::race::Race;
-use epas_page::failure::Failure;
 use crate::study;
+use epas_page::failure::Failure;
 
 /// Contact angles and forces of a ball, in the order BL, BR, TR, TL.
 #[derive(Clone, Copy)]

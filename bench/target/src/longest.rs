@@ -34,9 +34,9 @@ use object::Endianness;
 use object::read::elf::ElfFile32;
 
 use super::watch::Watch;
-use epas_page::failure::Failure;
 use code::Code;
 use context::Context;
+use epas_page::failure::Failure;
 use origin::Origins;
 use worst::Worst;
 

@@ -6,7 +6,6 @@ use epas_firmware::inputs::COUNTED;
 use epas_firmware::subjects::{PEERS, SUBJECTS};
 use rayon::prelude::*;
 
-use epas_bench::counts::{Figures, FunctionFigures, SceneFigures};
 use super::image::{Image, code};
 use super::longest::{Longest, longest};
 use super::scenes::SCENES;
@@ -14,6 +13,7 @@ use super::stored;
 use super::tools::{Built, Core, build, check};
 use super::trace::Calls;
 use super::watch::Watch;
+use epas_bench::counts::{Figures, FunctionFigures, SceneFigures};
 use epas_page::aside::say;
 use epas_page::failure::Failure;
 

@@ -7,11 +7,11 @@ use epas_firmware::cases::{Sink, write};
 use epas_firmware::control_loop::ControlLoop;
 use epas_firmware::scenes::design;
 
-use epas_bench::counts::{self, Figures};
 use super::tools::firmware;
+use epas_bench::counts::{self, Figures};
+use epas_design::manoeuvre::Manoeuvre;
 use epas_page::failure::Failure;
 use epas_page::files::{self, Existing};
-use epas_design::manoeuvre::Manoeuvre;
 
 /// Growth of a function's instructions that is let pass.
 const GROWTH: f64 = 1.05;

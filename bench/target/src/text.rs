@@ -2,8 +2,8 @@
 
 use std::fmt::Write as _;
 
-use epas_bench::counts::{Figures, budgets};
 use super::measure::Beside;
+use epas_bench::counts::{Figures, budgets};
 
 /// Everything as text.
 pub fn text(figures: &Figures) -> String {

@@ -4,9 +4,9 @@ use std::fs::File;
 use std::io::{self, Cursor, Read, Seek, SeekFrom};
 use std::path::Path;
 
+use crate::mdf4;
 use epas_page::failure::Failure;
 use epas_page::files::{Bounded, standard};
-use crate::mdf4;
 
 /// Where a trace comes from: a file, or standard input where the path is `-`.
 #[derive(Clone, Copy, Debug)]

@@ -12,9 +12,6 @@
 //! | `sagitta` | `kinematics::path` |
 //! | `preload` | `ball::preload` |
 
-#[path = "../kit/mod.rs"]
-mod kit;
-
 mod axis_ratio;
 mod backbones;
 mod cube_roots;

@@ -27,7 +27,7 @@
 //! of sliding there.
 //!
 //! `host-tests/tests/generators/backbones.rs` finds the least error of each size with its angles and weights, and holds the tables
-//! to theirs; `host-tests/tests/law/golden.rs` goes round the loops.
+//! to theirs; `host-tests/tests/all/law/golden.rs` goes round the loops.
 
 /// One element of a backbone.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -31,7 +31,7 @@ pub fn cramer_rao(jacobian: &DMatrix<f64>, autocovariance: &[f64]) -> Option<DMa
 }
 
 /// Inverse of an information, its parameters scaled to information 1 first.
-pub(in crate) fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+pub(crate) fn inverse(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let scales: Vec<f64> = information
         .diagonal()
         .iter()

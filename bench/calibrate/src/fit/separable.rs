@@ -33,7 +33,7 @@ use self::model::{Model, Point};
 use self::search::{FINE, Found, first, search};
 use crate::fit::problem::Separable;
 
-pub(in crate) use self::coordinates::{inner, inner_slope, outer};
+pub(crate) use self::coordinates::{inner, inner_slope, outer};
 pub use self::fixed::Fixed;
 pub use self::starts::{Outcome, Start, Verdict};
 

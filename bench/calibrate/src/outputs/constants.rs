@@ -5,9 +5,9 @@ use std::fmt::Write as _;
 
 use epas_design::Folded;
 
-use epas_design::caged_scene::{certified, fold_for};
 use crate::outputs::firmware::{ElementsNumbers, Numbers};
 use crate::page::shown::one_line;
+use epas_design::caged_scene::{certified, fold_for};
 use epas_design::files::Design;
 use epas_design::files::calibration::ElementsName;
 use epas_page::failure::Failure;
@@ -27,7 +27,8 @@ pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
     let fold = fold_for(design, coefficients)
         .map_err(|message| Failure::Data(format!("{}: {message}", design.name)))?;
     let progress = Progress::of_fold();
-    let folded = certified(&fold, &|share| progress.share(share)).map_err(|failure| failure.of(&design.name))?;
+    let folded = certified(&fold, &|share| progress.share(share))
+        .map_err(|failure| failure.of(&design.name))?;
     let mut text = format!(
         "// Ball screw {}, calibrated by trace {}.\n//\n\
          // For a crate that depends on `epas-friction`. Everything is checked when it is compiled: a number out of range\n\

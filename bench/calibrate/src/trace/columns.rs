@@ -17,9 +17,9 @@ use std::f64::consts::TAU;
 use std::io::{Read, Seek};
 use std::ops::Range;
 
-use epas_page::aside::say;
 use epas_design::files::Design;
 use epas_design::files::plausible::FASTEST;
+use epas_page::aside::say;
 use epas_page::failure::Failure;
 use epas_traces::mdf4::{self, Mapping};
 use epas_traces::source::Source;

@@ -1,6 +1,7 @@
 //! Models of friction on one trace without a design: each fitted as well as it can be, and scored on what was not fitted.
 
 use crate::answer::{Estimate, ModelScore};
+use crate::controller::Controller;
 use crate::fit::part::{Part, residual};
 use crate::fit::problem::Separable;
 use crate::fit::separable::{Fit, FitSettings, fit};
@@ -14,7 +15,6 @@ use crate::without_design::controller::SeenController;
 use crate::without_design::period::period;
 use crate::without_design::slide::Slide;
 use crate::without_design::terms::{LoadTerm, Terms};
-use crate::controller::Controller;
 use epas_page::failure::Failure;
 
 /// Share of the rows that is fitted where no other trace scores the models.

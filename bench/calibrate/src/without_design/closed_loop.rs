@@ -2,12 +2,12 @@
 
 use std::collections::VecDeque;
 
+use crate::mechanism::Mechanism;
 use crate::signals::Motion;
 use crate::trace::Trace;
 use crate::trace::known::KnownEffort;
 use crate::without_design::controller::SeenController;
 use crate::without_design::resistance::SlideResistance;
-use crate::mechanism::Mechanism;
 
 /// Steps of the mechanism in a tick: a quarter of a millisecond at 1 kHz.
 const STEPS: usize = 4;

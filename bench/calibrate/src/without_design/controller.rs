@@ -1,10 +1,10 @@
 //! A controller as a trace shows it: where it has its speed from, and what of the effort is not its own.
 
 use crate::checks::relation::root_mean_square as size;
+use crate::controller::Controller;
 use crate::signals::Motion;
 use crate::trace::Trace;
 use crate::trace::known::KnownEffort;
-use crate::controller::Controller;
 
 /// Where a controller has its speed from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

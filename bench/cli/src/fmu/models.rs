@@ -8,14 +8,14 @@ use super::parameters::Values;
 use super::rows::Row;
 use super::running::{ByAngle, Moving, Running};
 use super::scene::SceneName;
-use epas_design::caged_scene::CagedScene;
-use epas_design::files::Design;
-use epas_design::files::train::{LinearDesign, UncagedDesign, no_row};
 use crate::simulate::linear::Linear;
 use crate::simulate::memory::{self, Remembered, Remembering};
 use crate::simulate::nut::STEPS;
 use crate::simulate::remembering::{Sensor, Use, remembering};
 use crate::simulate::uncaged::Uncaged;
+use epas_design::caged_scene::CagedScene;
+use epas_design::files::Design;
+use epas_design::files::train::{LinearDesign, UncagedDesign, no_row};
 
 /// A screw whose balls do not touch.
 ///

@@ -4,11 +4,11 @@ use std::f64::consts::{PI, TAU};
 
 use epas_friction::{Inputs, Outputs, Refusal, Regime};
 
-use epas_design::caged_scene::CagedModel;
-use epas_calibrate::mechanism::Mechanism;
 use crate::simulate::memory;
 use crate::simulate::nut::{Nut, STEPS};
 use crate::simulate::remembering::{Remembers, Use};
+use epas_calibrate::mechanism::Mechanism;
+use epas_design::caged_scene::CagedModel;
 
 /// What a step is told.
 #[derive(Clone, Copy, Debug)]

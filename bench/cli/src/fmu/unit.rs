@@ -8,14 +8,14 @@ use super::parameters::{Values, changed_bearing, changed_screw, of_bearing, of_s
 use super::running::Running;
 use super::scene::SceneName;
 use super::variables::{Causality, Kind, TIME, Variable, inputs, outputs, parameter};
-use epas_design::caged_scene::{keep_words, words};
-use epas_design::files::train::{LinearDesign, no_row};
-use epas_design::files::{self as designs, Design, DesignSource};
-use epas_page::failure::Failure;
 use crate::simulate::linear::Linear;
 use crate::simulate::nut::Nut;
 use crate::simulate::remembering::coefficients;
+use epas_design::caged_scene::{keep_words, words};
+use epas_design::files::train::{LinearDesign, no_row};
+use epas_design::files::{self as designs, Design, DesignSource};
 use epas_design::uncaged_scene as uncaged;
+use epas_page::failure::Failure;
 
 /// Mean size of the load, N, where a design does not say one.
 const MEAN_LOAD: f32 = 1000.0;

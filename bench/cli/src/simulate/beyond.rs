@@ -9,8 +9,8 @@ use epas_trains::Folded;
 use super::summary::Lines;
 use epas_design::files::Design;
 use epas_design::files::train::UncagedDesign;
-use epas_page::failure::Failure;
 use epas_design::uncaged_scene as uncaged;
+use epas_page::failure::Failure;
 
 /// Loads within this of the largest that a block holds may be flagged: roundings of its logarithm.
 const ROUNDED: f32 = 0.999;
@@ -285,8 +285,8 @@ fn newtons(load: f32) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use epas_design::files::read;
     use crate::simulate::caged::fold;
+    use epas_design::files::read;
 
     const GEAR: &str = "nominal_diameter = 0.029\nlead = 0.007\nball_diameter = 4e-3\nconformity = 0.54\ncontact_angle = 0.7853982\n\
                         loaded_balls = 50\n";

@@ -24,15 +24,15 @@ use super::screw;
 use super::summary::Lines;
 use super::targets::targets;
 use super::trace::Temperature;
+use acting::{Acting, Torque, Wanted, moments, tick};
 use epas_calibrate::controller::Controller;
+use epas_calibrate::mechanism::Mechanism;
 use epas_design::files::Design;
 use epas_design::files::calibration::Calibrated;
 use epas_page::failure::Failure;
 use epas_page::files::{self, Existing, Pending, refuse_same};
 use epas_traces::mdf4::Mapping;
-use epas_calibrate::mechanism::Mechanism;
 use epas_traces::source::Source;
-use acting::{Acting, Torque, Wanted, moments, tick};
 pub use shown::columns;
 use shown::{drawn, record, summary};
 

@@ -4,8 +4,8 @@ use epas_friction::{Inputs, Outputs};
 
 use super::memory;
 use super::remembering::Remembers;
-use epas_design::files::Design;
 use epas_calibrate::mechanism::{Resistance, Step};
+use epas_design::files::Design;
 
 /// Steps in a tick.
 pub const STEPS: usize = 4;

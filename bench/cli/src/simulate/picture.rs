@@ -6,7 +6,9 @@ use epas_friction::Regime;
 
 use super::summary::regime_name;
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, BUCKETS, Chart, Mark, Panel, Series, Strip, render, thin_to, zoomable};
+use epas_page::plot::{
+    Axis, BUCKETS, Chart, Mark, Panel, Series, Strip, render, thin_to, zoomable,
+};
 
 /// Buckets of rows of a page, in which a reader looks closer.
 const FINE: usize = 4 * BUCKETS;

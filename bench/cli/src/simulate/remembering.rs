@@ -16,8 +16,8 @@ use epas_friction::{Error, FrictionModel, Inputs, Outputs, Refusal, Scene};
 
 use super::memory::{self, Remembered};
 use super::summary::Lines;
-use epas_design::caged_scene::CagedScene;
 use epas_calibrate::outputs::firmware::{ELEMENTS, ElementsNumbers, LawNumbers, Numbers};
+use epas_design::caged_scene::CagedScene;
 use epas_design::files::Design;
 use epas_design::files::calibration::ElementsName;
 use epas_page::failure::Failure;
@@ -177,7 +177,10 @@ where
 /// # Errors
 /// What the crate refuses, or cannot be folded.
 pub fn scene(design: &Design) -> Result<CagedScene, Failure> {
-    Ok(CagedScene::with_coefficients(design, coefficients(design)?)?)
+    Ok(CagedScene::with_coefficients(
+        design,
+        coefficients(design)?,
+    )?)
 }
 
 /// Least and largest friction coefficient of a design with its calibration.

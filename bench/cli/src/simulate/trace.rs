@@ -4,10 +4,10 @@ use std::io::{Read, Seek};
 
 use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
 
-use epas_page::aside::say;
 use epas_calibrate::trace::outliers::{self, LeftOut};
 use epas_calibrate::trace::table;
 use epas_design::files::calibration::TEMPERATURES;
+use epas_page::aside::say;
 use epas_page::failure::Failure;
 use epas_page::files::line_of;
 use epas_traces::front;

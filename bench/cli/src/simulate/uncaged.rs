@@ -22,9 +22,9 @@ use super::train::{Train, TrainRow, equal_step};
 use super::train_picture::{TrainPoint, draw};
 use epas_design::files::Design;
 use epas_design::files::train::UncagedDesign;
+use epas_design::{folds, uncaged_scene as uncaged};
 use epas_page::failure::Failure;
 use epas_page::progress::Working;
-use epas_design::{folds, uncaged_scene as uncaged};
 
 /// What is not known of a block that is folded for a run: measuring its errors takes twice as long as folding it.
 const NOT_MEASURED: &str = "folded for these loads, its errors are not measured here; `design --scene uncaged` measures those of its own loads, and \

@@ -4,12 +4,12 @@
 //! where the request needs more. Requests with the same screw, friction coefficient, clearance and largest deviations share a law, which takes some
 //! seconds to fold.
 
+use epas_design::uncaged_scene::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
 use epas_friction::train::Press;
 use epas_friction::{BallScrew, Clearance, Limits, RollingResistance};
 use epas_reference::friction::ball_screw_row::RowBall;
-use epas_design::uncaged_scene::Folded;
 use serde::Serialize;
 
 use super::super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};

@@ -1,5 +1,5 @@
 // Folded by epas-design; not to be edited.
-// digest of the inputs: 38d61d107eb8e136
+// digest of the inputs: f0452dcb8a58988c
 // pitch radius 0.0165 m, lead 0.02 m, ball radius 0.002778 m, contact angle 0.7853982 rad, clearance -0.0000004068737 m
 // holds for friction coefficients 0.075 to 0.075 and axial loads of 5 to 300 N a ball, both signs
 // and for deviations of the contact angles to 0.01745 rad on the screw and 0.00873 rad in the nut
@@ -18,7 +18,7 @@ pub static GEAR_33X20_BALL: epas_friction::scene::FoldedBall<1> =
 #[rustfmt::skip]
 #[allow(clippy::large_const_arrays, reason = "read while compiling alone")]
 const GEAR_33X20_BALL_BLOCK: [u32; 1430] = [
-    0x55415045, 0x00000003, 0x00000596, 0x00000001, 0x7eb8e136, 0x38d61d10,
+    0x55415045, 0x00000003, 0x00000596, 0x00000001, 0x8a58988c, 0xf0452dcb,
     0x3d99999a, 0x3ca3d70a, 0x3b360f1b, 0x3c89a906, 0x3bf3b828, 0x3f000000,
     0x42c80000, 0x469c4000, 0x41a00000, 0x3c8ef34d, 0x3c0f0846, 0x40fb6aa0,
     0x3d99999a, 0x4105b550, 0x38998bca, 0x3a80b740, 0x39cc0bf5, 0x38fb2d4d,
@@ -256,5 +256,5 @@ const GEAR_33X20_BALL_BLOCK: [u32; 1430] = [
     0xb98eebed, 0xb8805dd3, 0x425fb3db, 0xc044d935, 0xbeb1435e, 0x3ad55245,
     0x38d1ee23, 0x3876eec4, 0xb71d4730, 0xb6dd728f, 0xb59fe39a, 0xbb2e7daf,
     0x3fbf93cd, 0xbe3723df, 0x3decf797, 0xbaa35148, 0x3c8db81b, 0x40000000,
-    0x00000000, 0xb3e0a62d,
+    0x00000000, 0x3376fa21,
 ];

@@ -1,5 +1,5 @@
 // Folded by epas-design; not to be edited.
-// digest of the inputs: a1a920ad041acf18
+// digest of the inputs: 05c6e57ee54078bd
 // pitch radius 0.0165 m, lead 0.02 m, ball radius 0.002778 m, contact angle 0.7853982 rad, clearance -0.0000004068737 m
 // holds for friction coefficients 0.05 to 0.15 and axial loads of 5 to 300 N a ball, both signs
 // and for deviations of the contact angles to 0.01745 rad on the screw and 0.00873 rad in the nut
@@ -18,7 +18,7 @@ pub static GEAR_33X20_BALL_RANGE: epas_friction::scene::FoldedBall<3> =
 #[rustfmt::skip]
 #[allow(clippy::large_const_arrays, reason = "read while compiling alone")]
 const GEAR_33X20_BALL_RANGE_BLOCK: [u32; 4252] = [
-    0x55415045, 0x00000003, 0x0000109c, 0x00000003, 0x041acf18, 0xa1a920ad,
+    0x55415045, 0x00000003, 0x0000109c, 0x00000003, 0xe54078bd, 0x05c6e57e,
     0x3d99999a, 0x3ca3d70a, 0x3b360f1b, 0x3c89a906, 0x3bf3b828, 0x3f000000,
     0x42c80000, 0x469c4000, 0x41a00000, 0x3c8ef34d, 0x3c0f0846, 0x40fb6aa0,
     0x3d4ccccd, 0x4105b550, 0x3898b47f, 0x3a760c4c, 0x39c313cf, 0x38ee745c,
@@ -726,5 +726,5 @@ const GEAR_33X20_BALL_RANGE_BLOCK: [u32; 4252] = [
     0xba871cb8, 0xba1b25f8, 0xb9fd17d7, 0xb8d5f0e3, 0x41f34422, 0xc031a207,
     0xbf24c3a0, 0x3b0b6ac3, 0xb7547e8c, 0x37992428, 0xb6bda86a, 0xb6921bc9,
     0xb5321a90, 0xbb62e080, 0x4050cd37, 0x3f23d658, 0x3d9b701a, 0xbcefd446,
-    0x3ca9ef50, 0x00000000, 0x00000000, 0x4013df20,
+    0x3ca9ef50, 0x00000000, 0x00000000, 0x16eb7a12,
 ];

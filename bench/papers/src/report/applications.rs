@@ -2,11 +2,11 @@
 
 use std::time::Instant;
 
-use epas_reference::statics::cases::CaseStudy;
 use crate::load_studies::lash::{LashCurves, LashTest, Pattern, range, spread};
 use crate::load_studies::scaling::long_nut;
 use crate::load_studies::tie_rod::{TieRodLoad, TieRodLoads};
 use crate::load_studies::waviness::{Waviness, compare};
+use epas_reference::statics::cases::CaseStudy;
 
 use super::context::Context;
 use epas_page::document::{Block, Cell, Figure, Section, Table};

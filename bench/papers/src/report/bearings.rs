@@ -1,13 +1,13 @@
 //! Bearings: Figures 3.7, 3.14, 3.15 and 4.7 of Lin 2019.
 
-use epas_reference::ReferenceError;
 use crate::bearing_study::{TurningLoad, variation};
-use epas_reference::friction::chain::solve_chain;
-use epas_reference::friction::linear_ball::{LinearBall, analytic_ball_slip};
-use crate::rotary_ball::RotaryConvention;
-use crate::rotary_bearing::Tilt;
 use crate::published::balls::{analytic_force, linear_pair, symmetric_pair};
 use crate::published::bearings::{DISPLACEMENTS, table_3_1, table_3_2};
+use crate::rotary_ball::RotaryConvention;
+use crate::rotary_bearing::Tilt;
+use epas_reference::ReferenceError;
+use epas_reference::friction::chain::solve_chain;
+use epas_reference::friction::linear_ball::{LinearBall, analytic_ball_slip};
 
 use super::context::Context;
 use epas_bench::report::statistics::evenly;

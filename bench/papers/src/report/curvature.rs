@@ -1,21 +1,21 @@
 //! Groove curvature: Tables A1 and A2, Figures 8 to 11 of Bertolino et al. 2023, and the new forms in
 //! each.
 
+use crate::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
 use epas_friction::geometry::{Groove, GrooveProfile, HelixPath};
 use epas_friction::{BallScrew, CATALOGUE};
 use epas_reference::curvature::{self as reference, Surface};
-use crate::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
 
 use super::context::Context;
+use epas_bench::report::curvature::{FORMS, Forms, GROOVES, surface};
 use epas_bench::report::statistics::{Errors, evenly};
+use epas_bench::timing::Competition;
 use epas_page::document::{Block, Cell, Figure, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
-use epas_bench::report::curvature::{FORMS, Forms, GROOVES, surface};
-use epas_bench::timing::Competition;
 
 /// Errors of the four forms on one size, contact angles 0 to 70 degrees, relative to the curvature.
 fn size_errors(

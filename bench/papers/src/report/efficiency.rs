@@ -3,10 +3,10 @@
 
 use std::f64::consts::TAU;
 
+use crate::rolling_ball::RollingBall;
 use epas_design::efficiency::{DynamicCorrection, optimum_contact_angle, optimum_efficiency};
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_reference::efficiency::{self as reference, Screw};
-use crate::rolling_ball::RollingBall;
 use epas_reference::steady_state::BallScrewState;
 
 use super::context::Context;

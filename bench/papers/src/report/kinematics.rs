@@ -2,8 +2,8 @@
 //! printed against computed numbers.
 
 use crate::kinematics::figures::{self, ConstraintRow, FieldPoint, Formulation};
-use epas_reference::kinematics::{ContactKinematics, Raceway, Revised};
 use crate::published::kinematics::records;
+use epas_reference::kinematics::{ContactKinematics, Raceway, Revised};
 
 use super::context::Context;
 use epas_page::document::{Block, Cell, Figure, Section, Table};

@@ -5,10 +5,10 @@ mod deciding;
 mod efficiency;
 mod known;
 
-use epas_friction::defaults;
-use epas_reference::friction::rolling_resistance::RollingResistance;
 use crate::measured::cold::Lubricant;
 use crate::measured::{COUNT, Measured, Standing, Usual, records, studies};
+use epas_friction::defaults;
+use epas_reference::friction::rolling_resistance::RollingResistance;
 
 use super::context::Context;
 use epas_page::document::{Block, Cell, Section, Table};

@@ -10,9 +10,9 @@ mod panel;
 mod trial;
 
 use super::context::Context;
+use crate::peers::candidates::{best, ours, published};
 use epas_page::document::{Block, Section};
 use epas_page::failure::Failure;
-use crate::peers::candidates::{best, ours, published};
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {

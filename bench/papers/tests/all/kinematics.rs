@@ -8,8 +8,8 @@ use epas_reference::kinematics::{KinematicsInput, Raceway, Revised, operating};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use crate::kinematics_cases::{cases, input, number, random_input, side_of};
-use crate::kit::measured;
-use crate::kit::random::Random;
+use epas_testkit::measured;
+use epas_testkit::random::Random;
 
 const DEGREE: f64 = PI / 180.0;
 

@@ -1,6 +1,6 @@
 //! Applications of the static model: Lin 2019, chapter 4, in kind.
 
-use crate::kit::measured;
+use epas_testkit::measured;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use epas_papers::load_studies::lash::{LashTest, Pattern, range, spread};

@@ -1,17 +1,8 @@
 //! The papers' printed numbers, figures and studies against the exact models, first principles and stored cases.
 
-#[path = "../../../../host-tests/tests/kit"]
-#[allow(dead_code, reason = "shared with other programs of tests")]
-mod kit {
-    pub mod errors;
-    pub mod given;
-    pub mod measured;
-    pub mod random;
-}
-
 mod curvature;
 mod kinematics;
-#[path = "../../../../host-tests/tests/reference/kinematics_cases.rs"]
+#[path = "../../../../host-tests/tests/all/reference/kinematics_cases.rs"]
 mod kinematics_cases;
 mod load_studies;
 mod measured_figures;

@@ -8,8 +8,8 @@ use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 
-use crate::kit::errors::Errors;
-use crate::kit::given;
+use epas_testkit::errors::Errors;
+use epas_testkit::given;
 
 /// Zero of the Celsius scale, K.
 const ZERO: f32 = 273.15;

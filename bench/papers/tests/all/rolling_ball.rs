@@ -1,12 +1,12 @@
 //! The ball in time: where the equations of motion lead from a rolling start, against tabulated values,
 //! closed forms and the balance of power.
 
-use crate::kit::measured;
 use epas_papers::rolling_ball::{RollingBall, SMOOTHING};
 use epas_reference::ReferenceError;
 use epas_reference::curvature::Groove;
 use epas_reference::efficiency::Screw;
 use epas_reference::steady_state::BallScrewState;
+use epas_testkit::measured;
 use proptest::prelude::*;
 use serde_json::Value;
 

@@ -1,9 +1,9 @@
 //! Four-point rotary bearing: Tables 3.1 and 3.2, stored cases, Hertz constants, and the laws of the Coulomb model.
 
-use crate::kit::measured;
 use epas_papers::rotary_ball::{RotaryBearing, RotaryContacts, RotaryConvention};
 use epas_reference::ReferenceError;
 use epas_reference::friction::contact_law::{Eccentricity, HertzLaw};
+use epas_testkit::measured;
 use serde_json::Value;
 
 fn golden(name: &str) -> Value {

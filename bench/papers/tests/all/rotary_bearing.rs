@@ -1,10 +1,10 @@
 //! Whole rotary bearings: laws of load distribution, the case study of Figure 4.7, and hostile loads.
 
-use crate::kit::measured;
 use epas_papers::bearing_study::{TurningLoad, variation};
 use epas_papers::rotary_ball::{RotaryBearing, RotaryConvention};
 use epas_papers::rotary_bearing::{BallRow, LoadedBearing, Raceways, RingLoad, Tilt, distribute};
 use epas_reference::ReferenceError;
+use epas_testkit::measured;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 fn row(balls: usize, raceways: Raceways) -> BallRow {

@@ -1,6 +1,6 @@
 //! Measured groove surfaces: splines, point clouds, and the loads they give.
 
-use crate::kit::measured;
+use epas_testkit::measured;
 use std::fmt::Write as _;
 use std::sync::Arc;
 

@@ -19,7 +19,7 @@ use epas_reference::promises;
 use epas_rig::friction::{Sliding, State};
 use epas_rig::parameters::{Coefficient, Parameters};
 
-use crate::kit::errors::Errors;
+use epas_testkit::errors::Errors;
 
 type Remembering =
     FrictionModel<WithMemory<CagedBallScrew<NODES>, LoadExactElements<8>, SpeedOverTick>>;

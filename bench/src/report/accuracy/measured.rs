@@ -17,12 +17,12 @@ use rand_pcg::Pcg64;
 
 use super::{Accuracy, caged};
 use crate::exact_ring::Off;
-use epas_page::failure::Failure;
 use crate::report::flagship::Flagship;
 use crate::report::stability::recorded_errors;
 use crate::report::statistics::Errors;
 use crate::report::{curvature, efficiency, hertz, trains};
 use crate::study::{self, turned_ball};
+use epas_page::failure::Failure;
 
 /// Balls of the linear bearing, and their groove's conformity: Lin 2019, Table 3.3.
 const BALLS: usize = 24;

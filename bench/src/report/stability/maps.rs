@@ -6,10 +6,10 @@ use std::fmt::Write as _;
 use epas_reference::promises;
 use serde_json::Value;
 
-use epas_page::document::Cell;
-use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::statistics::Errors;
 use crate::study::turned_ball;
+use epas_page::document::Cell;
+use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 
 /// One formula over two of its inputs.
 pub struct Map {

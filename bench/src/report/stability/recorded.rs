@@ -2,10 +2,10 @@
 
 use serde::Deserialize;
 
-use epas_page::document::{Block, Cell, Table};
-use epas_page::failure::Failure;
 use crate::report::accuracy::Accuracy;
 use crate::report::statistics::Errors;
+use epas_page::document::{Block, Cell, Table};
+use epas_page::failure::Failure;
 
 /// The file.
 const RECORDED: &str = include_str!(concat!(

@@ -3,10 +3,10 @@
 use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE};
 use epas_reference::friction::linear_ball::LinearBall;
 
+use crate::study::{self, turned_ball};
 use epas_page::document::{Block, Cell, Figure, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
-use crate::study::{self, turned_ball};
 
 fn failure(error: epas_friction::Error) -> Failure {
     Failure::Data(error.to_string())

@@ -5,13 +5,13 @@ use std::time::Instant;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 use epas_reference::friction::chain::solve_chain;
 
-use epas_page::document::{Block, Cell, Figure, Table};
-use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 use crate::report::context::Context;
 use crate::report::times::{quartiles, time};
 use crate::study::{self, turned_ball};
 use crate::timing::Measure;
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// Balls of each timed train, and the keys of its forces, its tick and the tick of its scene.
 const TRAINS: [(u8, [&str; 3]); 9] = [

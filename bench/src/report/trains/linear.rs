@@ -4,13 +4,13 @@ use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE, SpeedDeviation};
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::LinearBall;
 
-use epas_page::document::{Block, Cell, Figure, Table};
-use epas_page::failure::Failure;
-use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 use crate::report::context::Context;
 use crate::report::statistics::{Errors, evenly};
 use crate::report::times::time;
 use crate::study::{self, turned_ball};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 
 /// Side-force ratios up to which errors are summed up; the ball changes to two-point rolling at 0.88 to
 /// 0.98.

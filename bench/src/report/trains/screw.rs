@@ -5,13 +5,13 @@ use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_reference::friction::ball_screw_ball::ScrewMotion;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 
-use epas_page::document::{Block, Cell, Figure, Table};
-use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 use crate::report::context::Context;
 use crate::report::statistics::Errors;
 use crate::report::times::time;
 use crate::study;
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// Axial loads on each ball, N.
 const LOADS: [f64; 3] = [10.0, 25.0, 50.0];

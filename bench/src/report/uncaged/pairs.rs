@@ -3,9 +3,9 @@
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
+use crate::report::statistics::Errors;
 use epas_page::document::{Block, Cell, Figure, Table};
 use epas_page::plot::{Axis, ColourMap, Colours, Panel};
-use crate::report::statistics::Errors;
 
 /// Deviation of one of the balls, degrees: it loads the third contact, or takes load from it. One law holds both.
 const DEVIATIONS: [f64; 2] = [1.0, -1.0];

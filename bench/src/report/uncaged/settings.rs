@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_PI_4;
 
 use rayon::prelude::*;
 
-use epas_page::document::{Block, Cell, Table};
 use crate::exact_ring::{Case, Comparison, Off, compare};
 use epas_design::uncaged_scene::MARGIN;
+use epas_page::document::{Block, Cell, Table};
 
 /// Balls of every screw of the table.
 const BALLS: usize = 16;

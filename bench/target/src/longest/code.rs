@@ -9,8 +9,8 @@ use object::read::elf::ElfFile32;
 use object::{Endianness, Object, ObjectSection, ObjectSymbol, SectionKind, SymbolKind};
 
 use super::flow::Flow;
-use epas_page::failure::Failure;
 use crate::cycles::Instruction;
+use epas_page::failure::Failure;
 
 /// A function of the image.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -10,8 +10,8 @@ use super::loops::loops;
 use super::origin::Origins;
 use super::paths::{Limit, longest};
 use super::steps::steps;
-use epas_page::failure::Failure;
 use crate::watch::{Bounded, Watch};
+use epas_page::failure::Failure;
 
 /// What is known of a function.
 #[derive(Clone)]

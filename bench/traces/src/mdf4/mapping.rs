@@ -7,9 +7,9 @@
 
 use std::path::Path;
 
+use crate::units::{self, Quantity, cut, quantity};
 use epas_page::failure::Failure;
 use epas_page::files::read_text;
-use crate::units::{self, Quantity, cut, quantity};
 
 /// Largest mapping file, bytes.
 const LARGEST: u64 = 1 << 20;

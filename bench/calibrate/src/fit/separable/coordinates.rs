@@ -33,7 +33,7 @@ struct Axis {
 pub(super) struct Coordinates(Vec<Axis>);
 
 /// The inner coordinate of a value.
-pub(in crate) fn inner(scale: Scale, value: f64) -> f64 {
+pub(crate) fn inner(scale: Scale, value: f64) -> f64 {
     match scale {
         Scale::Linear => value,
         Scale::Logarithmic => value.ln(),
@@ -41,7 +41,7 @@ pub(in crate) fn inner(scale: Scale, value: f64) -> f64 {
 }
 
 /// The value at an inner coordinate.
-pub(in crate) fn outer(scale: Scale, coordinate: f64) -> f64 {
+pub(crate) fn outer(scale: Scale, coordinate: f64) -> f64 {
     match scale {
         Scale::Linear => coordinate,
         Scale::Logarithmic => coordinate.exp(),
@@ -49,7 +49,7 @@ pub(in crate) fn outer(scale: Scale, coordinate: f64) -> f64 {
 }
 
 /// Slope of the inner coordinate over the value.
-pub(in crate) fn inner_slope(scale: Scale, value: f64) -> f64 {
+pub(crate) fn inner_slope(scale: Scale, value: f64) -> f64 {
     match scale {
         Scale::Linear => 1.0,
         Scale::Logarithmic => 1.0 / value,

@@ -2,9 +2,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 use crate::fit::problem::{Evaluation, LinearParameter};
-use crate::fit::toys::{
-    STRIBECK, Toy, close, free, hash, noise, positive, stribeck_toy, total,
-};
+use crate::fit::toys::{STRIBECK, Toy, close, free, hash, noise, positive, stribeck_toy, total};
 
 /// Without noise the truth comes back: differences of 1e-3 do not move a minimum whose residual is zero.
 #[test]

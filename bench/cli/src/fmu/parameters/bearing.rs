@@ -3,8 +3,8 @@
 use epas_friction::{LinearBearing, LinearBearingParameters};
 
 use super::named::{BALL, BOTH, GROOVE, Values, list, named};
-use epas_design::files::train::LinearDesign;
 use crate::fmu::variables::Variable;
+use epas_design::files::train::LinearDesign;
 
 /// Parameters of a linear bearing.
 pub fn of_bearing(design: &LinearDesign) -> Vec<Variable> {

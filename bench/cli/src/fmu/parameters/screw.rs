@@ -5,10 +5,10 @@ use epas_friction::{
 };
 
 use super::named::{BALL, GROOVE, NUT, SCREW, Values, list, named, single};
-use epas_design::files::Design;
-use epas_design::files::train::UncagedDesign;
 use crate::fmu::scene::SceneName;
 use crate::fmu::variables::{Choice, Kind, Variable, parameter};
+use epas_design::files::Design;
+use epas_design::files::train::UncagedDesign;
 
 /// What both scenes of a ball screw have; a built-in design has other numbers of its own where its balls press on each other.
 struct Common {

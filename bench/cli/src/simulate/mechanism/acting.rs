@@ -2,9 +2,9 @@
 
 use std::f64::consts::TAU;
 
+use crate::simulate::trace::{Sample, Temperature, read};
 use epas_page::failure::Failure;
 use epas_traces::mdf4::Mapping;
-use crate::simulate::trace::{Sample, Temperature, read};
 use epas_traces::source::Source;
 
 /// One moment of what acts.

@@ -3,12 +3,12 @@
 use std::f64::consts::{PI, TAU};
 
 use super::Row;
-use epas_page::failure::Failure;
-use epas_traces::flags;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 use crate::simulate::beyond::Beyond;
 use crate::simulate::picture::Form;
 use crate::simulate::summary::{Flags, Lines};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_traces::flags;
 
 /// Columns of the table.
 const COLUMNS: [&str; 9] = [

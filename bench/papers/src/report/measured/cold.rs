@@ -1,9 +1,7 @@
 //! Friction over temperature: the grease's film lowers the coefficient in the cold, and its drag rises.
 
 use crate::measured::Usual;
-use crate::measured::cold::{
-    Friction, LOADS, Lubricant, SPEEDS, STEERING, over_temperature,
-};
+use crate::measured::cold::{Friction, LOADS, Lubricant, SPEEDS, STEERING, over_temperature};
 
 use epas_page::document::{Block, Cell, Figure, Table};
 use epas_page::failure::Failure;

@@ -1,8 +1,8 @@
 //! Efficiency over lead and load: the exact model, the papers' closed forms, makers' rules.
 
-use epas_reference::friction::ball_screw_efficiency::ScrewFriction;
 use crate::measured::catalogue;
 use crate::measured::studies::{EfficiencyRow, FIT_LOAD};
+use epas_reference::friction::ball_screw_efficiency::ScrewFriction;
 
 use super::known::known;
 use epas_page::document::{Block, Cell, Figure, Table};

@@ -9,9 +9,9 @@ use rand_distr::{Distribution, Normal};
 use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
+use crate::peers::paths::STREAM;
 use epas_page::document::{Block, Cell, Table};
 use epas_page::failure::Failure;
-use crate::peers::paths::STREAM;
 
 /// Full friction, N m.
 const FRICTION: f32 = 0.04;

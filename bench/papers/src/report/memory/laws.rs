@@ -1,12 +1,12 @@
 //! Error and cost of every law under constant limits.
 
 use super::panel::PANEL;
-use epas_page::document::{Block, Cell, Figure, Table};
-use epas_page::failure::Failure;
 use crate::peers::candidates::{Candidate, Cycles};
 use crate::peers::compare::Comparison;
-use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 use crate::report::context::Context;
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 
 const COLUMNS: [&str; 14] = [
     "law",

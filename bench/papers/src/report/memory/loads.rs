@@ -4,15 +4,15 @@ use rayon::prelude::*;
 
 use super::laws::shown;
 use super::panel::PANEL;
-use epas_page::document::{Block, Cell, Figure, Table};
-use epas_page::failure::Failure;
 use crate::peers::candidates::{LOAD_EXACT, MULTIPLIED, PROPORTIONAL, under_load};
 use crate::peers::compare::{
     LOAD_CASES, errors_under_load, exact_under_load, least_loss, load_cycle, work_of_a_load_cycle,
 };
 use crate::peers::torques;
-use epas_page::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 use crate::report::context::Context;
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
 
 /// Tables and pictures.
 pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {

@@ -4,13 +4,13 @@ use epas_reference::presliding::Limits;
 use epas_reference::presliding::answers::Tick;
 
 use super::panel::PANEL;
-use epas_page::document::Figure;
-use epas_page::failure::Failure;
 use crate::peers::candidates::{Candidate, ours, published};
 use crate::peers::compare::turn_to;
 use crate::peers::fit::exact;
 use crate::peers::paths::Course;
 use crate::peers::torques;
+use epas_page::document::Figure;
+use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// Strokes with small loops inside large ones.

@@ -1,10 +1,10 @@
 //! What encoder noise does to friction by angle and by speed.
 
 use super::panel::PANEL;
-use epas_page::document::{Block, Cell, Figure, Table};
-use epas_page::failure::Failure;
 use crate::peers::candidates::{Candidate, ours};
 use crate::peers::noise::{AtRest, TICK, by_angle, by_speed, error_of_counts};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 
 /// Breakaway angles, rad.

@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
+use crate::published::balls::whole_screw;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::whole_screw::WholeScrew;
-use crate::published::balls::whole_screw;
 use rayon::prelude::*;
 
-use epas_page::document::{Block, Cell, Figure, Table};
 use epas_bench::exact_ring::{Case, exact, follow};
+use epas_page::document::{Block, Cell, Figure, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 

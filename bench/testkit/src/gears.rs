@@ -1,0 +1,356 @@
+//! Ordinary mechanisms, one of every scene.
+
+use core::f32::consts::TAU;
+
+use epas_friction::ball::pressed::{BallLaw, KNOTS};
+use epas_friction::scene::{
+    CagedBallScrew, CagedBallScrewConfiguration, CatalogueBall, FoldedBall,
+};
+use epas_friction::{
+    BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
+    DeviationMap, FrictionBranch, GrooveSize, Harmonic, Limits, LinearBearing,
+    LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
+    Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+};
+
+/// Balls of [`uncaged`], and of [`full`].
+pub const SCREW_BALLS: usize = 37;
+
+/// Balls of [`linear`].
+pub const LINEAR_BALLS: usize = 16;
+
+/// Two waves of 2.3 degrees a turn, Lin 2019, Fig. 3.23.
+static SCREW_MAP: DeviationMap = match DeviationMap::from_harmonics(
+    1,
+    &[Harmonic {
+        order: 2,
+        cosine: 0.0,
+        sine: 0.04014,
+    }],
+) {
+    Ok(map) => map,
+    Err(_) => panic!("a deviation is too large"),
+};
+
+static NUT_MAP: DeviationMap = match DeviationMap::from_harmonics(
+    1,
+    &[Harmonic {
+        order: 3,
+        cosine: 0.01,
+        sine: 0.02,
+    }],
+) {
+    Ok(map) => map,
+    Err(_) => panic!("a deviation is too large"),
+};
+
+/// A wave of so many periods in so many turns, rad, for as long as the program runs.
+pub fn wave(turns: u16, order: u8, cosine: f32, sine: f32) -> &'static DeviationMap {
+    let harmonic = Harmonic {
+        order,
+        cosine,
+        sine,
+    };
+    Box::leak(Box::new(
+        DeviationMap::from_harmonics(turns, &[harmonic]).unwrap(),
+    ))
+}
+
+/// Bounds of ordinary screws.
+pub const LIMITS: Limits = Limits {
+    nut_speed: 500.0,
+    axial_load: 20_000.0,
+    friction_torque: 5.0,
+};
+
+/// Oversize with which so many loaded balls press each flank of the nut with an axial force, N.
+pub fn oversize(design: &BallScrew, axial_preload: f32, loaded_balls: u16) -> Clearance {
+    let slope = design.contact_angle().sin * design.cos_lead_angle();
+    let contact_force = axial_preload / (f32::from(loaded_balls) * slope);
+    Clearance::of_preload(design, contact_force).unwrap()
+}
+
+/// Nodes of [`CagedScrew`].
+pub const NODES: usize = 5;
+
+/// A caged screw for a range of friction coefficients.
+pub type CagedScrew = CagedBallScrew<NODES>;
+
+/// Its configuration.
+pub type CagedConfiguration = CagedBallScrewConfiguration<NODES>;
+
+/// Axial preload of each flank of [`caged`], N.
+pub const CAGED_PRELOAD: f32 = 350.0;
+
+/// Blocks that the firmware has: the same bits on every machine.
+#[allow(dead_code, reason = "their words alone are read")]
+mod blocks {
+    include!("../../firmware/src/gears/gear_33x20_range.rs");
+    include!("../../firmware/src/gears/gear_33x20.rs");
+    include!("../../firmware/src/gears/gear_33x20_worn.rs");
+    pub(super) const RANGE: &[u32] = &GEAR_33X20_RANGE_BLOCK;
+    pub(super) const ONE: &[u32] = &GEAR_33X20_BLOCK;
+    pub(super) const WORN: &[u32] = &GEAR_33X20_WORN_BLOCK;
+}
+
+/// The screw of Lin 2019, chapter 3.6, caged, with 126 balls in the place of 36, and so [`CAGED_PRELOAD`]: friction coefficients of 0.05 to 0.15, 0.075
+/// at first.
+pub fn caged() -> CagedConfiguration {
+    CagedConfiguration {
+        loaded_balls: 126,
+        limits: LIMITS,
+        ..CagedBallScrewConfiguration::read(blocks::RANGE).unwrap()
+    }
+}
+
+/// The same screw for a friction coefficient of 0.075 alone.
+pub fn preloaded() -> CagedBallScrewConfiguration {
+    CagedBallScrewConfiguration {
+        limits: LIMITS,
+        ..CagedBallScrewConfiguration::read(blocks::ONE).unwrap()
+    }
+}
+
+/// The same screw with 2 um of play, for a friction coefficient of 0.075 alone.
+pub fn worn() -> CagedBallScrewConfiguration {
+    CagedBallScrewConfiguration {
+        limits: LIMITS,
+        ..CagedBallScrewConfiguration::read(blocks::WORN).unwrap()
+    }
+}
+
+/// Their design.
+pub fn caged_design() -> BallScrew {
+    BallScrew::new(DISSERTATION_DESIGNS[1].parameters).unwrap()
+}
+
+/// 32 x 20 x 6.35 with 300 N of preload on each flank, by a closed form.
+pub fn closed_form(branch: FrictionBranch) -> ClosedFormScrewConfiguration {
+    let design = CATALOGUE[15].design().unwrap();
+    ClosedFormScrewConfiguration {
+        design,
+        friction: 0.075,
+        rolling_tangent: 0.0,
+        branch,
+        clearance: oversize(&design, 300.0, 41),
+        loaded_balls: 41,
+        reversal_speed: 0.5,
+        limits: LIMITS,
+    }
+}
+
+/// Nodes of [`UncagedScrew`].
+pub const BALL_NODES: usize = 3;
+
+/// A screw without cage for a range of friction coefficients.
+pub type UncagedScrew<const N: usize> = UncagedBallScrew<N, BALL_NODES>;
+
+/// Its configuration.
+pub type UncagedConfiguration = UncagedBallScrewConfiguration<BALL_NODES>;
+
+/// Bounds of a screw without cage.
+const BALL_LIMITS: Limits = Limits {
+    friction_torque: 50.0,
+    ..LIMITS
+};
+
+/// The ball of the screw of Lin 2019, Table 3.6, that its neighbours press on, by the closed form: its bits do not change with what a host
+/// folds. The closed form knows nothing of what friction between balls does to their speeds; here it is that of a folded ball in its order.
+const fn ball_of(friction: f32) -> FoldedBall {
+    let Ok(design) = BallScrew::new(DISSERTATION_DESIGNS[1].parameters) else {
+        panic!("a design is out of range")
+    };
+    let ball = FoldedBall::of_catalogue(&CatalogueBall {
+        design,
+        friction,
+        clearance: Clearance::ZERO,
+        deviations: [0.0402, 0.0225],
+        axial_load: 300.0,
+        reversal_speed: 0.5,
+        limits: BALL_LIMITS,
+    });
+    let Ok(mut ball) = ball else {
+        panic!("a number of a ball is out of range")
+    };
+    let mut knot = 0;
+    while knot < 2 * KNOTS {
+        ball.law.nodes[0].branches[knot / KNOTS][knot % KNOTS]
+            .numbers
+            .grip = [-0.5, 0.12, -0.07];
+        knot += 1;
+    }
+    ball
+}
+
+/// That ball for one friction coefficient.
+pub static BALL: FoldedBall = ball_of(0.1);
+/// [`BALL`] for a range of friction coefficients.
+pub static BALL_RANGE: FoldedBall<BALL_NODES> = FoldedBall {
+    law: BallLaw {
+        nodes: [
+            ball_of(0.0667).law.nodes[0],
+            BALL.law.nodes[0],
+            ball_of(0.15).law.nodes[0],
+        ],
+        deviations: BALL.law.deviations,
+        lift_off: BALL.law.lift_off,
+    },
+    friction: BALL.friction,
+    lead: BALL.lead,
+    ball_radius: BALL.ball_radius,
+    path_radius: BALL.path_radius,
+    speed: BALL.speed,
+    reversal_speed: BALL.reversal_speed,
+    limits: BALL.limits,
+};
+
+/// A folded ball with other numbers, for as long as the program runs.
+pub fn changed<const NODES: usize>(
+    folded: &FoldedBall<NODES>,
+    change: impl FnOnce(&mut FoldedBall<NODES>),
+) -> &'static FoldedBall<NODES> {
+    let mut folded = *folded;
+    change(&mut folded);
+    Box::leak(Box::new(folded))
+}
+
+/// Two waves a turn as large as the folded ball takes, Lin 2019, Fig. 3.23.
+static BALL_SCREW_MAP: DeviationMap = match DeviationMap::from_harmonics(
+    1,
+    &[Harmonic {
+        order: 2,
+        cosine: 0.0,
+        sine: BALL_RANGE.law.deviations[0],
+    }],
+) {
+    Ok(map) => map,
+    Err(_) => panic!("a deviation is too large"),
+};
+
+static BALL_NUT_MAP: DeviationMap = match DeviationMap::from_harmonics(
+    1,
+    &[Harmonic {
+        order: 3,
+        cosine: 0.4 * BALL_RANGE.law.deviations[1],
+        sine: 0.8 * BALL_RANGE.law.deviations[1],
+    }],
+) {
+    Ok(map) => map,
+    Err(_) => panic!("a deviation is too large"),
+};
+
+/// Two waves a turn on the screw, as a share of the largest deviation that the folded ball of one friction coefficient takes.
+pub fn screw_wave(share: f32) -> &'static DeviationMap {
+    wave(1, 2, 0.0, share * BALL.law.deviations[0])
+}
+
+/// That ball with two and a half turns of 37 balls and a return.
+pub fn uncaged() -> UncagedConfiguration {
+    UncagedBallScrewConfiguration {
+        folded: &BALL_RANGE,
+        ball_friction: 0.1,
+        turns: 2.5,
+        return_length: 0.01,
+        screw_deviation: &BALL_SCREW_MAP,
+        nut_deviation: &BALL_NUT_MAP,
+        load_shares: LoadShares::EVEN,
+        tick: 1e-4,
+    }
+}
+
+/// [`uncaged`] with grooves that do not deviate.
+pub fn even() -> UncagedConfiguration {
+    UncagedBallScrewConfiguration {
+        screw_deviation: &DeviationMap::NONE,
+        nut_deviation: &DeviationMap::NONE,
+        ..uncaged()
+    }
+}
+
+/// Balls that nearly fill the track of [`uncaged`].
+pub const CROWD: usize = 48;
+
+/// [`uncaged`] with ticks long enough for a [`CROWD`] to close up.
+pub fn crowded() -> UncagedConfiguration {
+    UncagedBallScrewConfiguration {
+        folded: changed(&BALL_RANGE, |folded| folded.limits.nut_speed = 100.0),
+        tick: 5e-4,
+        ..uncaged()
+    }
+}
+
+/// The screw of Lin 2019, Table 3.6, whose two turns 37 balls fill, with a wave on its screw.
+pub fn full(screw_deviation: &'static DeviationMap, tick: f32) -> UncagedBallScrewConfiguration {
+    UncagedBallScrewConfiguration {
+        folded: changed(&BALL, |folded| {
+            folded.reversal_speed = 1e-3;
+            folded.limits = Limits {
+                nut_speed: 300.0,
+                axial_load: 20_000.0,
+                friction_torque: 50.0,
+            };
+        }),
+        ball_friction: 0.1,
+        turns: 2.0,
+        return_length: 0.0,
+        screw_deviation,
+        nut_deviation: &DeviationMap::NONE,
+        load_shares: LoadShares::EVEN,
+        tick,
+    }
+}
+
+/// Length of the loaded track of a screw without cage, m.
+pub fn loaded_length<const NODES: usize>(
+    configuration: &UncagedBallScrewConfiguration<NODES>,
+) -> f32 {
+    configuration.turns * TAU * configuration.folded.path_radius
+}
+
+/// Balls of 10 mm, Lin 2019, Table 3.3.
+pub fn linear() -> LinearBearingConfiguration {
+    LinearBearingConfiguration {
+        bearing: LinearBearing::new(LinearBearingParameters {
+            ball_radius: 0.005,
+            groove: GrooveSize::Conformity(0.56),
+            contact_angle: core::f32::consts::FRAC_PI_4,
+            ball_material: Material::STEEL,
+            groove_material: Material::STEEL,
+        })
+        .unwrap(),
+        friction: 0.1,
+        ball_friction: 0.1,
+        loaded_length: 0.12,
+        return_length: 0.05,
+        wavelength: 0.06,
+        rail_deviation: &SCREW_MAP,
+        carriage_deviation: &NUT_MAP,
+        load_shares: &[LoadShare::MEAN],
+        reversal_speed: 1e-3,
+        tick: 1e-4,
+        limits: LinearLimits {
+            speed: 3.0,
+            load: 20_000.0,
+            friction_force: 500.0,
+        },
+    }
+}
+
+/// [`linear`] with other balls on the same track.
+pub fn linear_of_smaller_balls() -> LinearBearingConfiguration {
+    LinearBearingConfiguration {
+        bearing: LinearBearing::new(LinearBearingParameters {
+            ball_radius: 0.0049,
+            ..*linear().bearing.parameters()
+        })
+        .unwrap(),
+        ..linear()
+    }
+}
+
+/// Phase of the groove that passes by, in units of 2^-32 of its period, and what is left of a unit: as a state prints them.
+pub fn printed_phase(state: &impl std::fmt::Debug) -> String {
+    let state = format!("{state:?}");
+    let (_, phase) = state.split_once("phase: ").unwrap();
+    phase.split_once('}').unwrap().0.to_owned()
+}

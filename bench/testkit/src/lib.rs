@@ -1,0 +1,16 @@
+//! What tests of several packages share.
+#![allow(
+    clippy::missing_panics_doc,
+    clippy::missing_errors_doc,
+    reason = "a test fails by a panic, and an error is its message"
+)]
+
+pub mod absurd;
+pub mod designs;
+pub mod errors;
+pub mod gears;
+pub mod given;
+pub mod measured;
+pub mod promised;
+pub mod random;
+pub mod remembering;

@@ -1,0 +1,300 @@
+//! One ball and pairs of balls in a linear bearing: published tables, tabulated cases, and the least
+//! exact dissipation found by an f64 minimiser.
+
+use crate::exact_ball::{ExactBall, ExactMap};
+use crate::golden;
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
+use epas_reference::promises;
+use epas_testkit::errors::Errors;
+use epas_testkit::measured;
+use epas_testkit::random::Random;
+use std::f64::consts::FRAC_PI_4;
+use std::sync::OnceLock;
+
+const BALL_RADIUS: f64 = 0.005;
+const AXIS_RATIO: f64 = 0.232_146_373_366_069_72;
+const PSI: f64 = 5.307e-4;
+const FRICTION: f64 = 0.1;
+
+/// The ball of Lin 2019, Table 3.3.
+fn parameters() -> LinearBallParameters {
+    LinearBallParameters {
+        ball_radius: BALL_RADIUS as f32,
+        contact_angle: FRAC_PI_4 as f32,
+        axis_ratio: AXIS_RATIO as f32,
+        semi_major_coefficient: (PSI * BALL_RADIUS.cbrt()) as f32,
+        friction: FRICTION as f32,
+    }
+}
+
+fn analytic() -> AnalyticLinearBall {
+    AnalyticLinearBall::new(&parameters(), PUBLISHED_SLOPE).unwrap()
+}
+
+/// The exact ball of the case study.
+fn exact(angles: [f64; 4], forces: [f64; 4]) -> ExactBall {
+    static MAP: OnceLock<ExactMap> = OnceLock::new();
+    ExactBall {
+        map: *MAP.get_or_init(|| ExactMap::new(AXIS_RATIO)),
+        friction: FRICTION,
+        semi_major: PSI * BALL_RADIUS.powf(-2.0 / 3.0),
+        angles,
+        forces,
+    }
+}
+
+/// Contact angles and forces where the bottom groove is turned: `N_y` = 100 N and `N_x = rho N_y` act on
+/// the top groove and give its contact forces, the ball's equilibrium gives those of the bottom.
+fn loaded(deviations: [f64; 4], rho: f64) -> ([f64; 4], [f64; 4]) {
+    let angles = deviations.map(|deviation| FRAC_PI_4 + deviation);
+    let [
+        (sin_bl, cos_bl),
+        (sin_br, cos_br),
+        (sin_tr, cos_tr),
+        (sin_tl, cos_tl),
+    ] = angles.map(f64::sin_cos);
+    // F_TR sin - F_TL sin = -N_x, F_TR cos + F_TL cos = N_y.
+    let determinant = sin_tr * cos_tl + sin_tl * cos_tr;
+    let top_right = 100.0 * (sin_tl - rho * cos_tl) / determinant;
+    let top_left = 100.0 * (sin_tr + rho * cos_tr) / determinant;
+    let across = top_right * sin_tr - top_left * sin_tl;
+    let down = top_right * cos_tr + top_left * cos_tl;
+    // F_BL sin - F_BR sin = across, F_BL cos + F_BR cos = down.
+    let determinant = sin_bl * cos_br + sin_br * cos_bl;
+    let bottom_left = (across * cos_br + down * sin_br) / determinant;
+    let bottom_right = (down * sin_bl - across * cos_bl) / determinant;
+    (
+        angles,
+        [
+            bottom_left.max(0.0),
+            bottom_right.max(0.0),
+            top_right.max(0.0),
+            top_left.max(0.0),
+        ],
+    )
+}
+
+/// The case of Lin 2019, Section 3.3.4: only the bottom groove is turned.
+fn turned(degrees: f64, rho: f64) -> ([f64; 4], [f64; 4]) {
+    let turn = degrees.to_radians();
+    loaded([-turn, turn, 0.0, 0.0], rho)
+}
+
+fn single(values: [f64; 4]) -> [f32; 4] {
+    values.map(|value| value as f32)
+}
+
+#[test]
+fn statics_of_the_case_study_are_those_of_the_tables() {
+    for case in golden::list("single") {
+        let (_, forces) = turned(
+            golden::number(&case, "theta_deg"),
+            golden::number(&case, "rho"),
+        );
+        for (force, given) in forces.into_iter().zip(golden::numbers(&case, "F")) {
+            // A dozen roundings, 1.1e-16 each, of loads of 100 N.
+            assert!((force - given).abs() < 1.4e-13, "{case}");
+        }
+    }
+}
+
+#[test]
+fn exact_minimiser_agrees_with_the_tabulated_balls() {
+    let (mut worst, mut worst_power) = (0.0_f64, 0.0_f64);
+    for case in golden::list("single") {
+        let (angles, forces) = turned(
+            golden::number(&case, "theta_deg"),
+            golden::number(&case, "rho"),
+        );
+        let (motion, dissipation) = exact(angles, forces).solve(0.0);
+        let eps = 2.0 * motion[0] - 1.0;
+        worst = worst.max((eps - golden::number(&case, "eps")).abs());
+        measured::assert_at(
+            "exact ball, speed deviation",
+            eps - golden::number(&case, "eps"),
+            format_args!("{case}\n{eps}"),
+        );
+        let power = golden::number(&case, "P_over_v");
+        worst_power = worst_power.max((dissipation / power - 1.0).abs());
+        measured::assert_at(
+            "exact ball, loss",
+            dissipation / power - 1.0,
+            format_args!("{case}\n{dissipation}"),
+        );
+    }
+    println!("minimiser against tables: deviation {worst:.1e}, loss {worst_power:.1e} relative");
+}
+
+#[test]
+fn table_3_4_velocity_deviations() {
+    // Case (a): ±0.75 % by the formula.
+    for (rho, formula) in [(-0.6, 0.0075), (0.6, -0.0075)] {
+        let (angles, forces) = turned(2.0, rho);
+        // The formula takes the two diagonals with the forces (1 ± rho)/sqrt 2.
+        let [_, _, right, left] = single(forces);
+        let found = analytic().speed_deviation(&single(angles), &[right, left, right, left]);
+        // Printed to 0.01 %: half a unit of the last digit.
+        assert!(
+            (f64::from(found.speed_deviation) - formula).abs() < 5e-5,
+            "{found:?}"
+        );
+    }
+}
+
+#[test]
+fn table_3_5_ball_to_ball_force() {
+    // 3.74 N by the formula.
+    let [rear, front] = [-0.6, 0.6].map(|rho| {
+        let (angles, forces) = turned(2.0, rho);
+        let [_, _, right, left] = single(forces);
+        analytic().speed_deviation(&single(angles), &[right, left, right, left])
+    });
+    // Half a unit of its last digit.
+    assert!((rear.contact_force(&front) - 3.745).abs() < 5e-4);
+    assert_eq!(front.contact_force(&rear), 0.0);
+}
+
+#[test]
+fn tabulated_single_balls() {
+    println!("speed deviation, in units of v/2");
+    for (name, near) in [
+        ("four-point", false),
+        ("next to the two-point switch", true),
+    ] {
+        let mut errors = Errors::of(format!("{name}, (3.43)"));
+        for case in golden::list("single") {
+            if case["near_two_point"].as_bool().unwrap() != near {
+                continue;
+            }
+            let (angles, forces) = turned(
+                golden::number(&case, "theta_deg"),
+                golden::number(&case, "rho"),
+            );
+            let eps = golden::number(&case, "eps");
+            let formula = analytic().speed_deviation(&single(angles), &single(forces));
+            errors.add(f64::from(formula.speed_deviation) - eps);
+        }
+        errors.assert_measured();
+    }
+}
+
+#[test]
+fn random_contact_angles_and_side_forces() {
+    let mut random = Random(1);
+    let mut errors = Errors::of("random linear ball, (3.43)");
+    for _ in 0..400 {
+        let deviations = [0; 4].map(|_| 3_f64.to_radians() * random.signed());
+        let rho = 0.8 * random.signed();
+        let (angles, forces) = loaded(deviations, rho);
+        let (motion, _) = exact(angles, forces).solve(0.0);
+        let eps = 2.0 * motion[0] - 1.0;
+        let formula = analytic().speed_deviation(&single(angles), &single(forces));
+        let error = f64::from(formula.speed_deviation) - eps;
+        errors.add_at(error, format_args!("deviations {deviations:?} rho {rho}"));
+    }
+    errors.assert_promised(promises::of("analytic_ball"));
+}
+
+#[test]
+fn side_force_sweep_up_to_two_point_rolling() {
+    println!("largest error in units of v/2 over |theta| <= 3 degrees");
+    println!("rho | (3.43) | largest deviation");
+    for rho in [
+        0.0, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.93, 0.96, 0.99,
+    ] {
+        let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+        for degrees in -3..=3 {
+            for side in [-1.0, 1.0] {
+                let (angles, forces) = turned(f64::from(degrees), side * rho);
+                let (motion, _) = exact(angles, forces).solve(0.0);
+                let eps = 2.0 * motion[0] - 1.0;
+                largest = largest.max(eps.abs());
+                let formula = analytic().speed_deviation(&single(angles), &single(forces));
+                worst = worst.max((f64::from(formula.speed_deviation) - eps).abs());
+            }
+        }
+        println!("{rho:.2} | {worst:.1e} | {largest:.1e}");
+        if rho <= 0.6 {
+            measured::assert("side force to 0.6, (3.43)", worst);
+        }
+    }
+}
+
+#[test]
+fn tabulated_pairs() {
+    for near in [false, true] {
+        let kind = if near {
+            "pairs near the switch"
+        } else {
+            "pairs"
+        };
+        let mut errors = Errors::of(format!("{kind}, (3.51)"));
+        for case in golden::list("pair") {
+            if (golden::number(&case, "rho").abs() > 0.8) != near {
+                continue;
+            }
+            let (degrees, rho) = (
+                golden::number(&case, "theta_deg"),
+                golden::number(&case, "rho"),
+            );
+            let pair = [turned(degrees, rho), turned(degrees, -rho)];
+            let [rear, front] =
+                pair.map(|(a, f)| analytic().speed_deviation(&single(a), &single(f)));
+            errors.add(f64::from(rear.contact_force(&front)) - golden::number(&case, "F_mu0"));
+        }
+        errors.assert_measured();
+    }
+}
+
+#[test]
+fn any_input_gives_a_finite_ball() {
+    let odd = [
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::MAX,
+        -1.0,
+        0.0,
+        1e-30,
+        0.785,
+        100.0,
+    ];
+    for (first, angle) in odd.into_iter().enumerate() {
+        for force in odd {
+            let mut angles = [0.785_f32; 4];
+            let mut forces = [70.0_f32; 4];
+            angles[first % 4] = angle;
+            forces[(first + 1) % 4] = force;
+            for all in [false, true] {
+                if all {
+                    (angles, forces) = ([angle; 4], [force; 4]);
+                }
+                let formula = analytic().speed_deviation(&angles, &forces);
+                assert!(formula.speed_deviation.is_finite() && formula.compliance.is_finite());
+            }
+        }
+    }
+}
+
+#[test]
+fn a_parameter_out_of_range_is_named() {
+    let good = parameters();
+    let with = |change: fn(&mut LinearBallParameters)| {
+        let mut parameters = good;
+        change(&mut parameters);
+        let error = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).unwrap_err();
+        error.field()
+    };
+    assert_eq!(with(|p| p.ball_radius = 0.0), "ball_radius");
+    assert_eq!(with(|p| p.contact_angle = f32::NAN), "contact_angle");
+    assert_eq!(with(|p| p.axis_ratio = 2.0), "axis_ratio");
+    assert_eq!(
+        with(|p| p.semi_major_coefficient = -1.0),
+        "semi_major_coefficient"
+    );
+    assert_eq!(with(|p| p.friction = f32::INFINITY), "friction");
+    assert_eq!(
+        AnalyticLinearBall::new(&good, 0.0).unwrap_err().field(),
+        "slope"
+    );
+}

@@ -1,0 +1,599 @@
+//! The train of balls: the pooling pass against exhaustive search, a general complementarity solver
+//! and stored chains; positions over many ticks.
+
+use epas_friction::train::{Press, Train};
+use epas_reference::friction::isotonic::isotonic_by_min_max;
+use epas_testkit::measured;
+use epas_testkit::random::Random;
+
+/// A train in float64, read from exactly what the pass was given.
+#[derive(Debug)]
+struct Case {
+    free: Vec<f64>,
+    compliance: Vec<f64>,
+    /// Closing speed allowed in front of ball j; infinite where nothing stands there.
+    room: Vec<f64>,
+}
+
+impl Case {
+    fn of<const N: usize>(free: &[f32; N], impedance: &[f32; N], room: &[f32; N]) -> Self {
+        let exact = |numbers: &[f32; N]| numbers.iter().map(|&x| f64::from(x)).collect();
+        Self {
+            free: exact(free),
+            compliance: impedance.iter().map(|&x| 1.0 / f64::from(x)).collect(),
+            room: exact(room),
+        }
+    }
+
+    fn balls(&self) -> usize {
+        self.free.len()
+    }
+
+    /// Speeds under given link forces: `v_j = u_j + Y_j (F_{j-1} - F_j)`.
+    fn speeds(&self, force: &[f64]) -> Vec<f64> {
+        let n = self.balls();
+        (0..n)
+            .map(|j| self.free[j] + self.compliance[j] * (force[(j + n - 1) % n] - force[j]))
+            .collect()
+    }
+
+    /// How far the distance in front of ball j stays open: `v_{j+1} - v_j + room_j`.
+    fn slack(&self, speed: &[f64], j: usize) -> f64 {
+        speed[(j + 1) % self.balls()] - speed[j] + self.room[j]
+    }
+
+    /// Every set of closed links is tried: the one whose forces are not negative and whose open links
+    /// do not overlap is the solution. Each set splits the train into arcs at a common offset speed.
+    fn exhaustive(&self) -> Vec<f64> {
+        let n = self.balls();
+        let tolerance = 1e-10 * self.free.iter().fold(1e-3, |m: f64, x| m.max(x.abs()));
+        for set in 0..(1_u32 << n) - 1 {
+            let closed = |j: usize| set >> j & 1 == 1;
+            if (0..n).any(|j| closed(j) && self.room[j].is_infinite()) {
+                continue;
+            }
+            let mut force = vec![0.0; n];
+            for start in (0..n).filter(|&j| !closed((j + n - 1) % n)) {
+                // Arc from `start` to the first ball with an open link in front, as (ball, offset to start).
+                let mut arc = vec![(start, 0.0)];
+                while let Some(&(ball, offset)) = arc.last().filter(|&&(ball, _)| closed(ball)) {
+                    arc.push(((ball + 1) % n, offset - self.room[ball]));
+                }
+                let weight: f64 = arc.iter().map(|&(j, _)| 1.0 / self.compliance[j]).sum();
+                let drive: f64 = arc
+                    .iter()
+                    .map(|&(j, offset)| (self.free[j] - offset) / self.compliance[j])
+                    .sum();
+                let mut push = 0.0;
+                for &(j, offset) in &arc[..arc.len() - 1] {
+                    push += (self.free[j] - offset - drive / weight) / self.compliance[j];
+                    force[j] = push;
+                }
+            }
+            let speed = self.speeds(&force);
+            if force.iter().all(|&f| f >= 0.0)
+                && (0..n).all(|j| self.slack(&speed, j) >= -tolerance)
+            {
+                return force;
+            }
+        }
+        panic!("no active set fits {self:?}");
+    }
+
+    /// Projected Gauss-Seidel on the complementarity problem, over-relaxed, until it stands still.
+    fn relaxation(&self) -> Vec<f64> {
+        let n = self.balls();
+        let mut force = vec![0.0_f64; n];
+        let omega = 2.0 / (1.0 + std::f64::consts::PI / n as f64);
+        for _ in 0..200_000 {
+            let mut moved = 0.0_f64;
+            let mut largest = 0.0_f64;
+            for j in 0..n {
+                let ahead = (j + 1) % n;
+                if self.room[j].is_infinite() || ahead == j {
+                    continue;
+                }
+                let behind = (j + n - 1) % n;
+                let v = self.free[j] + self.compliance[j] * (force[behind] - force[j]);
+                let w = self.free[ahead] + self.compliance[ahead] * (force[j] - force[ahead]);
+                let step = (v - w - self.room[j]) / (self.compliance[j] + self.compliance[ahead]);
+                let next = (force[j] + omega * step).max(0.0);
+                moved = moved.max((next - force[j]).abs());
+                largest = largest.max(next);
+                force[j] = next;
+            }
+            if moved <= 1e-13 * largest {
+                break;
+            }
+        }
+        force
+    }
+}
+
+/// Largest force error relative to the largest force of the train.
+fn force_error<const N: usize>(case: &Case, found: &Press<N>, exact: &[f64]) -> f64 {
+    let largest = exact.iter().fold(0.0, |m: f64, &f| m.max(f));
+    let worst = found
+        .forces()
+        .zip(exact)
+        .fold(0.0, |m: f64, (f, &e)| m.max((f64::from(f) - e).abs()));
+    // Where rooms all but let the balls go free, forces are small differences of what drives them.
+    let driving = case
+        .free
+        .iter()
+        .zip(&case.compliance)
+        .fold(0.0, |m: f64, (u, y)| m.max(u.abs() / y));
+    worst / largest.max(1e-2 * driving)
+}
+
+/// Speeds within rounding of 2^-24 of the largest one, a few times.
+fn check_speeds(case: &Case, found: &[f32], exact: &[f64]) {
+    let exact = case.speeds(exact);
+    for (ball, (&found, exact)) in found.iter().zip(exact).enumerate() {
+        // Free speeds reach 1e-2, and 2^-24 of that is 6e-10: room for the seventeen roundings of a sum over many balls.
+        assert!(
+            (f64::from(found) - exact).abs() < 1e-8,
+            "ball {ball}: speed {found} instead of {exact}: {case:?}"
+        );
+    }
+}
+
+/// A random train; `touching` is the share of closed gaps, `ring` whether the last ball meets the first,
+/// `spread` how far impedances are from their mean.
+fn random_train<const N: usize>(
+    random: &mut Random,
+    touching: f64,
+    ring: bool,
+    spread: f64,
+) -> ([f32; N], [f32; N], [f32; N]) {
+    let free = std::array::from_fn(|_| random.between(-1e-2, 1e-2) as f32);
+    let impedance = std::array::from_fn(|_| (4e3 * spread.powf(random.between(-1.0, 1.0))) as f32);
+    let room = std::array::from_fn(|j| {
+        if j + 1 == N && !ring {
+            f32::INFINITY
+        } else if random.between(0.0, 1.0) < touching {
+            0.0
+        } else {
+            // From contact to far out of reach.
+            (1e-2 * random.between(0.0, 1.0) * 10.0_f64.powf(random.between(-2.0, 4.0))) as f32
+        }
+    });
+    (free, impedance, room)
+}
+
+fn compare_with_exhaustive_search<const N: usize>(
+    random: &mut Random,
+    spread: f64,
+) -> (f64, usize) {
+    let (mut worst, mut joins) = (0.0_f64, 0);
+    for trial in 0..400 {
+        let (free, impedance, room) = random_train::<N>(
+            random,
+            [0.0, 0.5, 0.9, 1.0][trial % 4],
+            trial % 3 != 0,
+            spread,
+        );
+        let mut found = Press::new();
+        assert!(found.solve(&free, &impedance, &room));
+        let speed: Vec<_> = found.speeds().collect();
+        let case = Case::of(&free, &impedance, &room);
+        let exact = case.exhaustive();
+        check_speeds(&case, &speed, &exact);
+        let error = force_error(&case, &found, &exact);
+        measured::assert_at(
+            "press, exhaustive search",
+            error,
+            format_args!("N = {N}: error {error} for {case:?}, found {found:?}"),
+        );
+        assert!(found.joins() < N);
+        worst = worst.max(error);
+        joins = joins.max(found.joins());
+    }
+    (worst, joins)
+}
+
+/// Rounding: each force is a sum of at most N terms (v - u) / Y, each good to a few 2^-24 of the
+/// largest speed difference.
+#[test]
+fn forces_equal_an_exhaustive_search_over_all_sets_of_contacts() {
+    let random = &mut Random(1);
+    let results = [
+        compare_with_exhaustive_search::<1>(random, 2.0),
+        compare_with_exhaustive_search::<2>(random, 2.0),
+        compare_with_exhaustive_search::<3>(random, 2.0),
+        compare_with_exhaustive_search::<5>(random, 2.0),
+        compare_with_exhaustive_search::<8>(random, 2.0),
+        compare_with_exhaustive_search::<10>(random, 2.0),
+    ];
+    println!("largest force error over largest force, most joins: {results:?}");
+    // The sweep did reach the bound of N - 1 joins.
+    assert_eq!(results[4].1, 7);
+}
+
+/// Light balls between heavy ones, impedances that differ by up to a factor 1e6. What rounding of the
+/// common speed leaves would be 0.06 of the light balls' forces; taken out, 2^-24 of it remains beside
+/// the rounding of the sums.
+#[test]
+fn stiff_trains_keep_their_forces() {
+    let random = &mut Random(4);
+    let results = [
+        compare_with_exhaustive_search::<2>(random, 1e3),
+        compare_with_exhaustive_search::<4>(random, 1e3),
+        compare_with_exhaustive_search::<9>(random, 1e3),
+    ];
+    println!("largest force error over largest force, most joins: {results:?}");
+}
+
+fn compare_with_relaxation<const N: usize>(random: &mut Random, trials: usize) -> (f64, f64) {
+    let (mut worst, mut sum) = (0.0_f64, 0.0);
+    for trial in 0..trials {
+        let (free, impedance, room) = random_train::<N>(
+            random,
+            [0.3, 0.8, 0.97, 1.0][trial % 4],
+            trial % 2 == 0,
+            2.0,
+        );
+        let mut found = Press::new();
+        assert!(found.solve(&free, &impedance, &room));
+        let speed: Vec<_> = found.speeds().collect();
+        let case = Case::of(&free, &impedance, &room);
+        let exact = case.relaxation();
+        check_speeds(&case, &speed, &exact);
+        // A closed ring leaves the forces open by a constant: the least is zero by definition.
+        let least = if room.iter().all(|&room| room == 0.0) {
+            exact.iter().fold(f64::INFINITY, |m, &f| m.min(f))
+        } else {
+            0.0
+        };
+        let exact: Vec<f64> = exact.iter().map(|f| f - least).collect();
+        let error = force_error(&case, &found, &exact);
+        measured::assert_at(
+            "press, relaxation",
+            error,
+            format_args!("N = {N}, trial {trial}: error {error}, rooms {room:?}"),
+        );
+        worst = worst.max(error);
+        sum += error;
+    }
+    (worst, sum / trials as f64)
+}
+
+#[test]
+fn long_trains_agree_with_a_general_complementarity_solver() {
+    let random = &mut Random(2);
+    println!("N = 37: {:?}", compare_with_relaxation::<37>(random, 40));
+    println!("N = 64: {:?}", compare_with_relaxation::<64>(random, 40));
+}
+
+fn compare_with_isotonic_regression<const N: usize>(random: &mut Random, trials: usize) -> f64 {
+    let mut worst = 0.0_f64;
+    for trial in 0..trials {
+        let (free, impedance, room) = random_train::<N>(random, 1.0, false, 2.0);
+        let mut found = Press::new();
+        assert!(found.solve(&free, &impedance, &room));
+        let case = Case::of(&free, &impedance, &room);
+        let (speeds, forces) = isotonic_by_min_max(&case.free, &case.compliance);
+        for (ball, (found, exact)) in found.speeds().zip(&speeds).enumerate() {
+            // As in `check_speeds`. Measured: 4.1e-9.
+            assert!(
+                (f64::from(found) - exact).abs() < 1e-8,
+                "N = {N}, trial {trial}, ball {ball}: {found}, exactly {exact}"
+            );
+        }
+        let largest = forces.iter().fold(0.0_f64, |most, &force| most.max(force));
+        for (link, (found, exact)) in found.forces().zip(&forces).enumerate() {
+            let error = (f64::from(found) - exact).abs() / largest.max(1e-6);
+            worst = worst.max(error);
+            measured::assert_at(
+                "press, isotonic regression",
+                error,
+                format_args!("N = {N}, trial {trial}, link {link}: {found}, exactly {exact}"),
+            );
+        }
+    }
+    worst
+}
+
+/// Balls that all touch, in a row: the weighted isotonic regression, by the formula
+/// `v_j = max over i <= j of min over k >= j of the mean of i..k`.
+#[test]
+fn touching_rows_are_the_isotonic_regression() {
+    let random = &mut Random(5);
+    let worst = [
+        compare_with_isotonic_regression::<2>(random, 200),
+        compare_with_isotonic_regression::<16>(random, 100),
+        compare_with_isotonic_regression::<37>(random, 50),
+        compare_with_isotonic_regression::<64>(random, 50),
+    ];
+    println!("largest force error over largest force: {worst:?}");
+}
+
+/// Smallest distance of a train, and whether its balls still stand in their order: the distances and the
+/// balls add up to the track, once around.
+fn check_order<const N: usize>(train: &Train<N>, length: f64, pitch: f64) -> f64 {
+    let sum: f64 = train.gaps().map(f64::from).sum();
+    // Length, pitch and every distance are rounded to f32 once, 2^-24 of what adds up to the length: three roundings.
+    let rounding = 2e-7 * length;
+    assert!(
+        (sum + N as f64 * pitch - length).abs() < rounding,
+        "the balls fill {} of {length}",
+        sum + N as f64 * pitch
+    );
+    train
+        .gaps()
+        .fold(f64::INFINITY, |m, gap| m.min(f64::from(gap)))
+}
+
+/// A million ticks of 37 balls on a track they fill to 97.8 per cent, at speeds that vary along the
+/// track, with reversals and standstill: the balls neither overlap nor get lost.
+///
+/// Balls that press are set in contact exactly; others lose at most a unit of 2^-32 of the track each to
+/// rounding (1e-10 m here), so 1e-9 m is ten times what is left.
+#[test]
+fn a_million_ticks_leave_no_overlap() {
+    const N: usize = 37;
+    let (length, pitch) = (0.2248_f64, 0.00594_f64);
+    let mut train = Train::<N>::evenly_spaced(length as f32, pitch as f32).unwrap();
+    let (mut worst, mut pressing, mut most) = (f64::INFINITY, 0, 0);
+    let mut phase = 0.0_f64;
+    for tick in 0..1_000_000_u32 {
+        // One second each of forward, standstill, backward; slow and fast.
+        let way = match tick / 1000 % 4 {
+            0 => 2e-4,
+            1 => 0.0,
+            2 => -1.3e-4,
+            _ => 3.7e-6,
+        };
+        phase += way / length;
+        let sense = if way < 0.0 { -1.0_f32 } else { 1.0 };
+        let mut free = [0.0; N];
+        for (free, position) in free.iter_mut().zip(train.positions()) {
+            let at = f64::from(position) / 4_294_967_296.0 + phase;
+            *free = sense * (0.05 * (3.0 * std::f64::consts::TAU * at).sin()) as f32;
+        }
+        train.step(&free, &[1e3; N], way as f32);
+        let contacts = train.forces().filter(|&force| force > 0.0).count();
+        pressing += contacts;
+        most = most.max(contacts);
+        if tick % 64 == 0 {
+            worst = worst.min(check_order(&train, length, pitch));
+        }
+    }
+    worst = worst.min(check_order(&train, length, pitch));
+    println!(
+        "largest overlap {} m, contacts {pressing}, at most {most}",
+        -worst
+    );
+    assert!(worst > -1e-9, "overlap {worst} m");
+    assert!(most > 5 && pressing > 1_000_000, "the balls hardly met");
+}
+
+/// The same balls, numbered from another one, do the same.
+#[test]
+fn numbering_does_not_matter() {
+    const N: usize = 8;
+    // Whole parts of the track by powers of two, so that positions are exact.
+    let unit = 2_f32.powi(-10);
+    let (length, pitch) = (128.0 * unit, 8.0 * unit);
+    let gaps = [0.0, unit, 0.0, 0.0, 2.0 * unit, 0.0, 0.0, 0.0];
+    let last = length - 8.0 * pitch - 3.0 * unit;
+    // Balls meet and part: which of them is the fastest changes every 25 ticks.
+    let speed = |j: usize, tick: usize| 0.01 * (((j * 5 + tick / 25 * 3) % 8) as f32 - 3.5);
+    let mut one = Train::<N>::new(length, pitch, &gaps).unwrap();
+    // Ball 3 of the first is ball 0 of the second.
+    let mut turned = gaps;
+    turned[7] = last;
+    turned.rotate_left(3);
+    let mut other = Train::<N>::new(length, pitch, &turned).unwrap();
+    let mut pressing = std::collections::BTreeSet::new();
+    for tick in 0..2000 {
+        one.step(&std::array::from_fn(|j| speed(j, tick)), &[500.0; N], 5e-5);
+        other.step(
+            &std::array::from_fn(|j| speed((j + 3) % N, tick)),
+            &[500.0; N],
+            5e-5,
+        );
+        for j in 0..N {
+            let force = |train: &Train<N>, j| train.forces().nth(j).unwrap();
+            let (a, b) = (force(&one, (j + 3) % N), force(&other, j));
+            // Clusters join in the same order, wherever the numbers begin.
+            assert_eq!(a, b, "tick {tick}, ball {j}");
+        }
+        pressing.insert(one.forces().map(|force| force > 0.0).collect::<Vec<_>>());
+    }
+    let sets = pressing.len();
+    assert!(sets > 5, "{sets} sets of contacts");
+}
+
+/// One ball has nothing to press on; a full track moves as one, whatever its balls would do.
+#[test]
+fn a_single_ball_and_a_full_track() {
+    let mut single = Train::<1>::evenly_spaced(0.1, 0.01).unwrap();
+    let start = single.positions().next().unwrap();
+    for _ in 0..1000 {
+        single.step(&[0.1], &[1e3], 1e-3);
+    }
+    assert_eq!(
+        (single.forces().next(), single.speeds().next()),
+        (Some(0.0), Some(0.1))
+    );
+    // 1000 steps of 1.1 mm on 0.1 m: eleven times around; rounding of a travel of 4.3e7 units in f32.
+    let end = single.positions().next().unwrap();
+    // Half an ulp of that is 2 units: three roundings a step, of speed, travel and product.
+    assert!((end.wrapping_sub(start) as i32).abs() < 6_000);
+
+    let mut full = Train::<10>::evenly_spaced(0.1, 0.01).unwrap();
+    let free = [0.03, -0.02, 0.01, 0.0, 0.0, 0.05, -0.05, 0.02, 0.01, 0.05];
+    for _ in 0..1000 {
+        full.step(&free, &[1e3; 10], 1e-4);
+        for (j, speed) in full.speeds().enumerate() {
+            // Ten rounded pitches leave 6.0e-9 m of the track, 6e-5 of the travel of 1e-4 m, which balls take in the first tick.
+            // Measured: 2.7e-5 in that one.
+            assert!((speed - 0.01).abs() < 5e-5, "ball {j}: {speed}");
+        }
+        assert_eq!(full.forces().fold(1.0, f32::min), 0.0);
+    }
+}
+
+/// Balls at equal speeds, and balls that drift apart, press on none; at standstill those in contact do
+/// with what sets them in motion.
+#[test]
+fn equal_speeds_gaps_and_standstill() {
+    let mut train = Train::<4>::new(1.0, 0.01, &[0.0; 4]).unwrap();
+    train.step(&[0.01; 4], &[1e3; 4], 1e-3);
+    assert!(train.forces().eq([0.0; 4]));
+    train.step(&[-0.02, -0.01, 0.0, 0.01], &[1e3; 4], 1e-3);
+    assert!(train.forces().eq([0.0; 4]));
+    // Now the gaps are 1e-5 m: pushed together again they close, and then they press.
+    train.step(&[0.004, 0.002, 0.0, 0.0], &[1e3; 4], 1e-3);
+    assert!(train.forces().eq([0.0; 4]));
+    for _ in 0..20 {
+        train.step(&[0.004, 0.002, 0.0, 0.0], &[1e3; 4], 1e-3);
+    }
+    let pressed: Vec<_> = train.forces().collect();
+    assert!(pressed[0] > 0.9 && pressed[1] > 0.9 && pressed[3] == 0.0);
+    let places: Vec<_> = train.positions().collect();
+    for _ in 0..10 {
+        train.step(&[0.004, 0.002, 0.0, 0.0], &[1e3; 4], 0.0);
+    }
+    assert_eq!(places, train.positions().collect::<Vec<_>>());
+    assert_eq!(pressed, train.forces().collect::<Vec<_>>());
+    // Backwards the same speeds would drive them apart.
+    train.step(&[-0.004, -0.002, 0.0, 0.0], &[1e3; 4], -1e-3);
+    assert!(train.forces().eq([0.0; 4]));
+}
+
+/// Joins and forces of touching balls with impedance 1024 and these free speeds, in 64ths; the last ball has room for
+/// any speed in a row, none on a ring.
+fn joins_and_forces<const N: usize>(free: [f32; N], ring: bool) -> (usize, [f32; N]) {
+    let mut room = [0.0; N];
+    room[N - 1] = if ring { 0.0 } else { f32::INFINITY };
+    let mut press = Press::<N>::new();
+    assert!(press.solve(&free.map(|speed| speed / 64.0), &[1024.0; N], &room));
+    let mut forces = press.forces();
+    (
+        press.joins(),
+        std::array::from_fn(|_| forces.next().unwrap()),
+    )
+}
+
+/// Balls and clusters that are exactly as fast as the cluster ahead do not join it: the rule is strict, or contacts
+/// would be counted that carry no force. All numbers here are exact in binary: half a 64th times 1024 is 8.
+#[test]
+fn equal_speeds_join_nothing() {
+    for ring in [false, true] {
+        // Single balls.
+        assert_eq!(joins_and_forces([1.0; 6], ring), (0, [0.0; 6]));
+        // A single ball behind a pair with its speed, and one more behind that.
+        let pair = [0.5, 0.5, 1.0, 0.0];
+        assert_eq!(joins_and_forces(pair, ring), (1, [0.0, 0.0, 8.0, 0.0]));
+        // A pair behind a pair.
+        let pairs = [1.0, 0.0, 1.0, 0.0];
+        assert_eq!(joins_and_forces(pairs, ring), (2, [8.0, 0.0, 8.0, 0.0]));
+    }
+    // Across the place where the ring closes: the last ball runs into the first.
+    assert_eq!(
+        joins_and_forces([0.0, 0.5, 1.0], true),
+        (1, [0.0, 0.0, 8.0])
+    );
+}
+
+/// What the rule leaves out is no more than the last bit: the least speed more makes a contact.
+#[test]
+fn the_least_excess_of_speed_joins() {
+    let (joins, forces) = joins_and_forces([1.0 + f32::EPSILON, 1.0], false);
+    assert_eq!(joins, 1);
+    // Half of 2^-23 / 64 on an impedance of 1024.
+    assert_eq!(forces, [f32::EPSILON * 8.0, 0.0]);
+}
+
+/// Whatever comes in, forces and speeds are finite, forces not negative, and the next sound tick finds
+/// the balls in their order.
+#[test]
+fn absurd_inputs_do_no_harm() {
+    let wild = [
+        f32::NAN,
+        f32::INFINITY,
+        f32::NEG_INFINITY,
+        f32::MAX,
+        -f32::MAX,
+        f32::MIN_POSITIVE,
+        -0.0,
+        1e-45,
+        1.0,
+        -1.0,
+        1e4,
+    ];
+    let random = &mut Random(3);
+    let mut train = Train::<7>::new(0.1, 0.01, &[0.0, 0.0, 1e-4, 0.0, 1e-3, 0.0, 0.0]).unwrap();
+    for _ in 0..20_000 {
+        let mut pick = || wild[(random.between(0.0, 1.0) * wild.len() as f64) as usize];
+        let free = std::array::from_fn(|_| pick());
+        let impedance = std::array::from_fn(|_| pick());
+        let travel = pick();
+        train.step(&free, &impedance, travel);
+        for (force, speed) in train.forces().zip(train.speeds()) {
+            assert!(
+                force.is_finite() && force >= 0.0 && speed.is_finite(),
+                "{free:?} {impedance:?} {travel}: {train:?}"
+            );
+        }
+        assert!(check_order(&train, 0.1, 0.01) > -1e-8);
+    }
+}
+
+/// A travel beyond 3 % of the track counts as that, either way, and one that is no number as none.
+#[test]
+fn a_travel_without_bound_is_three_per_cent_of_the_track() {
+    for (travel, counts) in [
+        (0.9, 0.03),
+        (f32::INFINITY, 0.03),
+        (-0.031, -0.03),
+        (f32::NEG_INFINITY, -0.03),
+        (-0.029, -0.029),
+        (f32::NAN, 0.0),
+    ] {
+        let mut train = Train::<3>::evenly_spaced(1.0, 0.01).unwrap();
+        let before: Vec<u32> = train.positions().collect();
+        train.step(&[0.0; 3], &[1e3; 3], travel);
+        for (before, after) in before.into_iter().zip(train.positions()) {
+            let moved = f64::from(after.wrapping_sub(before) as i32) / 2_f64.powi(32);
+            // Rounding of a travel in f32: 6e-8 of it.
+            assert!((moved - counts).abs() < 1e-8, "{travel}: {moved}");
+        }
+    }
+}
+
+/// Balls of which nothing valid is known press on none, and the last one is foremost, as in a new train.
+#[test]
+fn what_is_not_valid_joins_nothing() {
+    let mut press = Press::<5>::new();
+    let behind_a_gap = [0.0, f32::INFINITY, 0.0, 0.0, 0.0];
+    let around_the_end = [0.1, 0.0, 0.3, 0.25, 0.2];
+    assert!(press.solve(&around_the_end, &[1e3; 5], &behind_a_gap));
+    assert_eq!(press.foremost(), 1);
+    assert!(!press.solve(&[f32::NAN; 5], &[1e3; 5], &behind_a_gap));
+    assert_eq!(press.foremost(), 4);
+    assert!(press.forces().chain(press.speeds()).eq([0.0; 10]));
+}
+
+/// What does not fit on the track is refused by name.
+#[test]
+fn bad_tracks_are_refused() {
+    let field = |result: Result<Train<5>, epas_friction::Error>| result.unwrap_err().field();
+    for bad in [f32::NAN, f32::INFINITY, 0.0, -1.0, 1e5] {
+        assert_eq!(field(Train::new(bad, 0.01, &[0.0; 5])), "length");
+        assert_eq!(field(Train::new(1.0, bad, &[0.0; 5])), "pitch");
+    }
+    assert_eq!(field(Train::new(1.0, 0.21, &[0.0; 5])), "pitch");
+    for bad in [f32::NAN, f32::INFINITY, -1e-3, 0.6] {
+        assert_eq!(
+            field(Train::new(1.0, 0.1, &[0.0, bad, 0.0, 0.0, 0.0])),
+            "gaps"
+        );
+    }
+    assert_eq!(
+        field(Train::new(1.0, 0.1, &[0.2, 0.2, 0.2, 0.0, 0.0])),
+        "gaps"
+    );
+}

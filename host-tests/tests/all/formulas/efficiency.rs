@@ -1,0 +1,622 @@
+//! Closed-form efficiency: the reference against 17-digit values, the crate against both, and the laws
+//! that bind efficiency, torque and self-locking.
+
+use epas_design::efficiency::{
+    DesignRequest, Duty, DynamicCorrection, optimum_contact_angle, optimum_efficiency,
+};
+use epas_friction::efficiency::{Drive, EfficiencyGeometry};
+use epas_friction::{CATALOGUE, Material};
+use epas_reference::efficiency::{self as reference, Screw};
+use epas_testkit::designs::SCREW_TRACK;
+use epas_testkit::measured;
+use proptest::prelude::*;
+use serde_json::Value;
+
+fn golden(list: &str) -> Vec<Value> {
+    let text = include_str!(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/golden/efficiency.json"
+    ));
+    let golden: Value = serde_json::from_str(text).unwrap();
+    golden[list].as_array().unwrap().clone()
+}
+
+fn number(case: &Value, name: &str) -> f64 {
+    case[name].as_str().unwrap().parse().unwrap()
+}
+
+fn maybe(case: &Value, name: &str) -> Option<f64> {
+    case[name].as_str().map(|text| text.parse().unwrap())
+}
+
+fn screw(case: &Value) -> Screw {
+    Screw {
+        lead_angle: number(case, "alpha"),
+        contact_angle: number(case, "beta"),
+        friction: number(case, "f"),
+        ball_ratio: number(case, "a"),
+        rolling_tangent: number(case, "t_rho"),
+    }
+}
+
+#[test]
+fn reference_equals_17_digit_values() {
+    for case in golden("closed_form") {
+        let screw = screw(&case);
+        let (alpha, f) = (screw.lead_angle, screw.friction);
+        for (computed, name) in [
+            (screw.root(), "R"),
+            (screw.sliding_drive(), "eta14"),
+            (screw.loss_drive(), "loss14"),
+            (screw.sliding_backdrive(), "eta17"),
+            (screw.loss_backdrive(), "loss17"),
+            (screw.rolling_screw(), "eta3"),
+            (screw.rolling_nut(), "eta4"),
+            (reference::optimum_efficiency(f), "optimum_eta"),
+            (
+                reference::normal_per_axial_load(alpha, screw.contact_angle),
+                "Q_per_Fa_20",
+            ),
+            (
+                reference::normal_per_torque(alpha, screw.contact_angle),
+                "Q_rm_per_M_21",
+            ),
+        ] {
+            let expected = number(&case, name);
+            // A dozen roundings of 1.1e-16, next to a lock border on a sum that cancels: absolute there.
+            let allowed = 1.4e-15 * expected.abs().max(1.0) * (1.0 + expected.abs());
+            assert!(
+                (computed - expected).abs() < allowed,
+                "{name} of {case}: {computed}"
+            );
+        }
+        for (computed, name) in [
+            (reference::optimum_drive(alpha, f), "optimum_beta_15"),
+            (reference::optimum_backdrive(alpha, f), "optimum_beta_18"),
+            (
+                reference::locking_border_drive(alpha, f),
+                "critical_beta_16",
+            ),
+            (
+                reference::locking_border_backdrive(alpha, f),
+                "critical_beta_19",
+            ),
+        ] {
+            match (computed, maybe(&case, name)) {
+                (Some(computed), Some(expected)) => {
+                    measured::assert_at(
+                        "optimum and locking angles in rad",
+                        computed - expected,
+                        format_args!("{name} of {case}"),
+                    );
+                }
+                (computed, expected) => assert_eq!(computed, expected, "{name} of {case}"),
+            }
+        }
+        assert_eq!(
+            screw.locked_drive(),
+            case["self_braking_16"].as_bool().unwrap()
+        );
+        assert_eq!(
+            screw.locked_backdrive(),
+            case["self_braking_19"].as_bool().unwrap()
+        );
+    }
+}
+
+/// An efficiency between 0 and 1 takes at most 5 roundings of 2^-24 beside those of sine, cosine and
+/// root, a loss, which has no subtraction, the same number relative to itself. Locked values grow
+/// without bound and are held relatively.
+#[test]
+fn crate_holds_over_all_cases() {
+    let (mut worst, mut worst_loss) = (0.0_f64, 0.0_f64);
+    for case in golden("closed_form") {
+        let exact = screw(&case);
+        let fast = EfficiencyGeometry::new(
+            exact.lead_angle as f32,
+            exact.contact_angle as f32,
+            exact.ball_ratio as f32,
+        )
+        .unwrap();
+        let (f, t) = (exact.friction as f32, exact.rolling_tangent as f32);
+        // The rounding of an angle near 90 degrees alone moves a value by more than the formula does:
+        // the reference, held above, takes the rounded numbers.
+        let rounded = Screw {
+            lead_angle: f64::from(exact.lead_angle as f32),
+            contact_angle: f64::from(exact.contact_angle as f32),
+            friction: f64::from(f),
+            ball_ratio: f64::from(exact.ball_ratio as f32),
+            rolling_tangent: f64::from(t),
+        };
+        for (computed, expected) in [
+            (fast.rolling_efficiency(f, t), rounded.rolling_screw()),
+            (fast.sliding_efficiency(f), rounded.sliding_drive()),
+            (
+                fast.sliding_backdrive_efficiency(f),
+                rounded.sliding_backdrive(),
+            ),
+        ] {
+            let error = (f64::from(computed) - expected).abs() / expected.abs().max(1.0);
+            assert!(
+                error < 6e-7,
+                "{expected} of {case}: {computed} errs by {error:e}"
+            );
+            worst = worst.max(error);
+        }
+        for (computed, expected) in [
+            (fast.sliding_loss(f), rounded.loss_drive()),
+            (fast.sliding_backdrive_loss(f), rounded.loss_backdrive()),
+        ] {
+            let error = (f64::from(computed) - expected).abs() / expected.max(f64::MIN_POSITIVE);
+            assert!(error < 6e-7, "loss of {case}: {error:e}");
+            worst_loss = worst_loss.max(error);
+        }
+        assert_eq!(
+            fast.locks(Drive::Driving, f),
+            case["self_braking_16"].as_bool().unwrap()
+        );
+        assert_eq!(
+            fast.locks(Drive::BackDriving, f),
+            case["self_braking_19"].as_bool().unwrap()
+        );
+        for (drive, name) in [
+            (Drive::Driving, "optimum_beta_15"),
+            (Drive::BackDriving, "optimum_beta_18"),
+        ] {
+            let best = optimum_contact_angle(drive, exact.lead_angle as f32, f).unwrap();
+            match (best.contact_angle, maybe(&case, name)) {
+                (Some(computed), Some(expected)) => {
+                    // Three roundings of 2^-24 of the angle, and three of its sine, which near 90 degrees count by
+                    // the inverse of its cosine.
+                    let steep = 2e-7 / (std::f64::consts::FRAC_PI_2 - expected).max(1e-3);
+                    assert!(
+                        (f64::from(computed) - expected).abs() < 2e-7 + steep,
+                        "{case}"
+                    );
+                }
+                (computed, expected) => {
+                    assert_eq!(computed.is_some(), expected.is_some(), "{name} of {case}");
+                }
+            }
+        }
+        let best = f64::from(optimum_efficiency(f));
+        // Five roundings of 2^-24.
+        assert!((best - number(&case, "optimum_eta")).abs() < 3e-7);
+        let per_load = f64::from(fast.normal_per_axial_load()) / number(&case, "Q_per_Fa_20");
+        let per_torque = f64::from(fast.normal_per_torque()) / number(&case, "Q_rm_per_M_21");
+        // Six roundings of 2^-24.
+        assert!(
+            (per_load - 1.0).abs() < 3.6e-7 && (per_torque - 1.0).abs() < 3.6e-7,
+            "{case}"
+        );
+    }
+    println!("efficiency {worst:.2e} absolute, loss {worst_loss:.2e} relative");
+}
+
+/// The first-order dynamic correction is the crate's `k1` to f32, and brings the closed form to the
+/// exact steady state: the part of second order in the dynamic number is left.
+#[test]
+fn dynamic_correction_reaches_the_exact_steady_state() {
+    for case in golden("exact") {
+        let fast = EfficiencyGeometry::new(
+            number(&case, "alpha") as f32,
+            number(&case, "beta") as f32,
+            (number(&case, "r_b") / number(&case, "r_m")) as f32,
+        )
+        .unwrap();
+        let correction = DynamicCorrection::new(&fast, number(&case, "f") as f32);
+        let expected = number(&case, "k1");
+        let error = f64::from(correction.coefficient()) - expected;
+        // The bracket of k1 cancels to some hundredths of its terms: beside a thirtieth, relative.
+        measured::assert_at(
+            "coefficient of the dynamic correction",
+            error / (expected.abs() + 1.0 / 30.0),
+            format_args!("{case}: {error:e}"),
+        );
+        let dynamic_number =
+            number(&case, "mass") * number(&case, "r_m") * number(&case, "omega").powi(2)
+                / number(&case, "f_a");
+        let corrected = f64::from(correction.efficiency(dynamic_number as f32));
+        let first_order = number(&case, "eta_dyn1");
+        measured::assert_at(
+            "corrected efficiency",
+            corrected - first_order,
+            format_args!("{case}: {corrected}"),
+        );
+        let left = (first_order - number(&case, "eta")).abs();
+        measured::assert_at(
+            "corrected efficiency",
+            ((corrected - number(&case, "eta")).abs() - left).max(0.0),
+            format_args!("{case}"),
+        );
+    }
+}
+
+/// Integrated from a rolling start, the ball's equations of motion lead to the rolling efficiency.
+#[test]
+fn rolling_efficiency_is_where_the_equations_of_motion_lead() {
+    for case in golden("rolling") {
+        let fast = EfficiencyGeometry::new(
+            number(&case, "alpha") as f32,
+            number(&case, "beta") as f32,
+            (4.37 / 24.3) as f32,
+        )
+        .unwrap();
+        let computed = f64::from(fast.rolling_efficiency(number(&case, "f") as f32, 0.0));
+        // 1.1e-7 of the integration and its regularised friction, and three roundings of 2^-24.
+        assert!(
+            (computed - number(&case, "eta")).abs() < 3e-7,
+            "{case}: {computed}"
+        );
+    }
+}
+
+prop_compose! {
+    fn angles()(
+        lead_angle in 0.01..1.0_f32,
+        contact_angle in 0.2..1.4_f32,
+        ball_ratio in 0.05..0.3_f32,
+        friction in 0.001..0.3_f32,
+    ) -> (f32, f32, f32, f32) {
+        (lead_angle, contact_angle, ball_ratio, friction)
+    }
+}
+
+proptest! {
+    /// Energy balance: the torque per load and the efficiency are two ways to say one thing,
+    /// `eta = ta r_m / (ta r_m + c)` driving and `eta = 1 - c / (ta r_m)` back-driving.
+    #[test]
+    fn torque_and_efficiency_balance((lead, contact, ratio, friction) in angles()) {
+        let screw = EfficiencyGeometry::new(lead, contact, ratio).unwrap();
+        let pitch_radius = 0.0165_f32;
+        let arm = f64::from(pitch_radius) * f64::from(lead).tan();
+        let cases = [
+            (
+                screw.rolling_torque_per_load(Drive::Driving, pitch_radius, friction, 0.0),
+                screw.rolling_torque_per_load(Drive::BackDriving, pitch_radius, friction, 0.0),
+                screw.rolling_efficiency(friction, 0.0),
+                screw.rolling_backdrive_efficiency(friction, 0.0),
+            ),
+            (
+                screw.sliding_torque_per_load(Drive::Driving, pitch_radius, friction),
+                screw.sliding_torque_per_load(Drive::BackDriving, pitch_radius, friction),
+                screw.sliding_efficiency(friction),
+                screw.sliding_backdrive_efficiency(friction),
+            ),
+        ];
+        // Eight roundings of 2^-24 in each of the two.
+        for (drive, backdrive, efficiency, backdrive_efficiency) in cases {
+            if drive > 0.0 && efficiency > 0.01 {
+                let balanced = arm / (arm + f64::from(drive));
+                prop_assert!((balanced - f64::from(efficiency)).abs() < 1e-6);
+            }
+            let balanced = 1.0 - f64::from(backdrive) / arm;
+            let allowed = 1e-6 * balanced.abs().max(1.0);
+            prop_assert!((balanced - f64::from(backdrive_efficiency)).abs() < allowed);
+        }
+    }
+
+    /// A screw locks exactly where its efficiency is not positive, but for the last rounding.
+    #[test]
+    fn locking_is_where_efficiency_ends((lead, contact, ratio, friction) in angles()) {
+        let screw = EfficiencyGeometry::new(lead, contact, ratio).unwrap();
+        for (drive, efficiency) in [
+            (Drive::Driving, screw.sliding_efficiency(friction)),
+            (Drive::BackDriving, screw.sliding_backdrive_efficiency(friction)),
+        ] {
+            if efficiency.abs() > 1e-6 {
+                prop_assert_eq!(screw.locks(drive, friction), efficiency < 0.0);
+            }
+        }
+    }
+
+    /// More friction never helps, and no friction loses nothing.
+    #[test]
+    fn efficiency_falls_with_friction((lead, contact, ratio, friction) in angles()) {
+        let screw = EfficiencyGeometry::new(lead, contact, ratio).unwrap();
+        prop_assert_eq!(screw.sliding_efficiency(0.0), 1.0);
+        prop_assert_eq!(screw.rolling_efficiency(0.0, 0.0), 1.0);
+        prop_assert!(screw.sliding_loss(friction) > screw.sliding_loss(0.9 * friction));
+        // In the range of use full sliding is the pessimistic one of the two.
+        if contact > 0.5 && friction < 0.15 {
+            prop_assert!(screw.sliding_loss(friction) > screw.rolling_loss(friction, 0.0));
+        }
+        let back = screw.rolling_backdrive_efficiency(friction, 0.0);
+        prop_assert!(back < screw.rolling_backdrive_efficiency(0.9 * friction, 0.0));
+    }
+
+    /// The optimum contact angle is one: a tenth of a degree to either side the efficiency is lower.
+    #[test]
+    fn optimum_is_a_maximum((lead, _, ratio, friction) in angles(), back in any::<bool>()) {
+        let drive = if back { Drive::BackDriving } else { Drive::Driving };
+        let best = optimum_contact_angle(drive, lead, friction).unwrap();
+        prop_assert_eq!(best.contact_angle.is_some(), lead <= best.largest_lead_angle);
+        let efficiency = |contact_angle: f64| {
+            let screw = Screw {
+                lead_angle: f64::from(lead),
+                contact_angle,
+                friction: f64::from(friction),
+                ball_ratio: f64::from(ratio),
+                rolling_tangent: 0.0,
+            };
+            if back { screw.sliding_backdrive() } else { screw.sliding_drive() }
+        };
+        if let Some(angle) = best.contact_angle {
+            let angle = f64::from(angle);
+            let top = efficiency(angle);
+            let step = 0.1_f64.to_radians();
+            prop_assert!(efficiency(angle - step) < top);
+            if angle + step < std::f64::consts::FRAC_PI_2 {
+                prop_assert!(efficiency(angle + step) < top);
+            }
+            // Six roundings of 2^-24; that of the angle counts by its square.
+            prop_assert!((top - f64::from(optimum_efficiency(friction))).abs() < 4e-7);
+        }
+    }
+}
+
+/// With rolling resistance the load back-drives with as much as it takes to drive with all friction reversed,
+/// `eta_B(f, t) = 1 / eta_D(-f, -t)`; a tangent that is negative or NaN counts as 0.
+#[test]
+fn back_driving_is_driving_with_all_friction_reversed() {
+    for lead_angle in [0.02_f32, 0.1, 0.5] {
+        for contact_angle in [0.5_f32, 0.8, 1.2] {
+            let fast = EfficiencyGeometry::new(lead_angle, contact_angle, 0.125).unwrap();
+            for friction in [0.01_f32, 0.1, 0.3] {
+                for rolling_tangent in [0.0_f32, 5e-4, 5e-3, 0.05] {
+                    let reversed = Screw {
+                        lead_angle: lead_angle.into(),
+                        contact_angle: contact_angle.into(),
+                        friction: -f64::from(friction),
+                        ball_ratio: 0.125,
+                        rolling_tangent: -f64::from(rolling_tangent),
+                    };
+                    let exact = 1.0 / reversed.rolling_screw();
+                    let found = fast.rolling_backdrive_efficiency(friction, rolling_tangent);
+                    // Derived: twelve roundings of 6e-8 in the loss, one of the difference.
+                    let bound = 6e-8 * (1.0 + 12.0 * (1.0 - exact).abs());
+                    let error = f64::from(found) - exact;
+                    assert!(error.abs() < bound, "{error:e} {reversed:?}");
+                }
+                let without = fast.rolling_efficiency(friction, 0.0);
+                for tangent in [-1e-3, -1.0, f32::NAN] {
+                    let error = fast.rolling_efficiency(friction, tangent) - without;
+                    // Derived: four roundings in either of the two.
+                    assert!(error.abs() < 8.0 * 6e-8, "{tangent} {error:e}");
+                }
+            }
+        }
+    }
+}
+
+/// Without lead a load moves nothing where rolling resists, and gives up what slip takes where it does not.
+#[test]
+fn back_driving_without_lead() {
+    for contact_angle in [0.5_f32, 0.8, 1.2] {
+        let fast = EfficiencyGeometry::new(0.0, contact_angle, 0.125).unwrap();
+        for friction in [0.01_f32, 0.1, 0.3] {
+            let exact = Screw {
+                lead_angle: 0.0,
+                contact_angle: contact_angle.into(),
+                friction: friction.into(),
+                ball_ratio: 0.125,
+                rolling_tangent: 0.0,
+            };
+            let found = f64::from(fast.rolling_backdrive_efficiency(friction, 0.0));
+            let error = found - exact.rolling_backdrive();
+            assert!(error.abs() < 1.2e-7, "{error:e}");
+            assert_eq!(
+                fast.rolling_backdrive_efficiency(friction, 1e-3),
+                f32::NEG_INFINITY
+            );
+        }
+    }
+}
+
+/// The rolling back-drive efficiency is the balance of work at the slipping contact.
+#[test]
+fn rolling_backdrive_equals_the_reference() {
+    for case in golden("closed_form") {
+        let exact = screw(&case);
+        let fast = EfficiencyGeometry::new(
+            exact.lead_angle as f32,
+            exact.contact_angle as f32,
+            exact.ball_ratio as f32,
+        )
+        .unwrap();
+        let computed = fast.rolling_backdrive_efficiency(exact.friction as f32, 0.0);
+        measured::assert_at(
+            "rolling back-drive efficiency",
+            f64::from(computed) - exact.rolling_backdrive(),
+            format_args!("{case}"),
+        );
+    }
+}
+
+/// 86.1 % at a friction of 0.075, "for all helix angles": up to 42.9 degrees driving, 47.1 back-driving.
+#[test]
+fn published_optimum_reproduces_within_its_range() {
+    // Printed to a tenth of a per cent: half a unit.
+    assert!((optimum_efficiency(0.075) - 0.861).abs() < 5e-4);
+    let largest = |drive| {
+        optimum_contact_angle(drive, 0.1, 0.075)
+            .unwrap()
+            .largest_lead_angle
+            .to_degrees()
+    };
+    // Printed to three decimals: half a unit, beside 2e-6 degrees of f32.
+    assert!((largest(Drive::Driving) - 42.855).abs() < 5e-4);
+    assert!((largest(Drive::BackDriving) - 47.145).abs() < 5e-4);
+    let steep = 50f32.to_radians();
+    assert!(
+        optimum_contact_angle(Drive::Driving, steep, 0.075)
+            .unwrap()
+            .contact_angle
+            .is_none()
+    );
+}
+
+#[test]
+fn design_procedure_returns_every_step_consistently() {
+    let request = DesignRequest {
+        duty: Duty::MoveAxialLoad(14_500.0),
+        lead_angle: 5f32.to_radians(),
+        friction: 0.075,
+        screw_length: 0.75,
+        pitch_radius: 14.5e-3,
+        ball_ratio: 0.14,
+        osculation: 0.96,
+        loaded_balls: 71,
+        rotation: 10.0,
+        material: Material::STEEL,
+    };
+    let figures = request.figures().unwrap();
+    let alpha = f64::from(request.lead_angle);
+    let beta = reference::optimum_drive(alpha, f64::from(0.075_f32)).unwrap();
+    let close = |computed: f32, exact: f64| {
+        measured::assert_at(
+            "design procedure",
+            f64::from(computed) / exact - 1.0,
+            format_args!("{computed} for {exact}"),
+        );
+    };
+    close(figures.contact_angle, beta);
+    close(figures.ball_radius, 0.14 * 14.5e-3);
+    close(figures.groove_radius, 0.14 * 14.5e-3 / 0.96);
+    close(
+        figures.contact_force,
+        14_500.0 / 71.0 * reference::normal_per_axial_load(alpha, beta),
+    );
+    close(figures.advance, 14.5e-3 * alpha.tan() * 10.0);
+    close(figures.lead, std::f64::consts::TAU * 14.5e-3 * alpha.tan());
+    close(
+        figures.sliding_efficiency,
+        reference::optimum_efficiency(f64::from(0.075_f32)),
+    );
+    assert!(figures.max_pressure_screw > figures.max_pressure_nut);
+    assert!(
+        (2e9..3e9).contains(&figures.max_pressure_nut),
+        "{figures:?}"
+    );
+
+    let torque = DesignRequest {
+        duty: Duty::DeliverTorque(16.0),
+        ..request
+    };
+    let delivered = torque.figures().unwrap();
+    let beta = reference::optimum_backdrive(alpha, f64::from(0.075_f32)).unwrap();
+    close(
+        delivered.contact_force,
+        16.0 / 71.0 / 14.5e-3 * reference::normal_per_torque(alpha, beta),
+    );
+}
+
+#[test]
+fn bad_requests_are_refused_by_name() {
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 1e30] {
+        let geometry = |lead, contact, ratio| {
+            EfficiencyGeometry::new(lead, contact, ratio)
+                .unwrap_err()
+                .field()
+        };
+        assert_eq!(geometry(bad, 0.7, 0.1), "lead_angle");
+        assert_eq!(geometry(0.1, bad, 0.1), "contact_angle");
+        assert_eq!(geometry(0.1, 0.7, bad), "ball_ratio");
+        let optimum = |lead, friction| {
+            optimum_contact_angle(Drive::Driving, lead, friction)
+                .unwrap_err()
+                .field()
+        };
+        assert_eq!(optimum(bad, 0.1), "lead_angle");
+        assert_eq!(optimum(0.1, bad), "friction");
+        let good = DesignRequest {
+            duty: Duty::MoveAxialLoad(1000.0),
+            lead_angle: 0.1,
+            friction: 0.075,
+            screw_length: 0.5,
+            pitch_radius: SCREW_TRACK.pitch_radius as f32,
+            ball_ratio: (SCREW_TRACK.ball_radius / SCREW_TRACK.pitch_radius) as f32,
+            osculation: 0.95,
+            loaded_balls: 30,
+            rotation: 1.0,
+            material: Material::STEEL,
+        };
+        let field = |request: DesignRequest| request.figures().unwrap_err().field();
+        assert_eq!(
+            field(DesignRequest {
+                duty: Duty::MoveAxialLoad(bad),
+                ..good
+            }),
+            "axial_load"
+        );
+        assert_eq!(
+            field(DesignRequest {
+                duty: Duty::DeliverTorque(bad),
+                ..good
+            }),
+            "torque"
+        );
+        assert_eq!(
+            field(DesignRequest {
+                lead_angle: bad,
+                ..good
+            }),
+            "lead_angle"
+        );
+        assert_eq!(
+            field(DesignRequest {
+                friction: bad,
+                ..good
+            }),
+            "friction"
+        );
+        assert_eq!(
+            field(DesignRequest {
+                screw_length: bad,
+                ..good
+            }),
+            "screw_length"
+        );
+        assert_eq!(
+            field(DesignRequest {
+                pitch_radius: bad,
+                ..good
+            }),
+            "pitch_radius"
+        );
+        assert_eq!(
+            field(DesignRequest {
+                ball_ratio: bad,
+                ..good
+            }),
+            "ball_ratio"
+        );
+        assert_eq!(
+            field(DesignRequest {
+                osculation: bad,
+                ..good
+            }),
+            "osculation"
+        );
+        let huge = if bad == -1.0 { -1e30 } else { bad };
+        assert_eq!(
+            field(DesignRequest {
+                rotation: huge,
+                ..good
+            }),
+            "rotation"
+        );
+        assert_eq!(
+            field(DesignRequest {
+                loaded_balls: 0,
+                ..good
+            }),
+            "loaded_balls"
+        );
+    }
+    assert!(EfficiencyGeometry::new(0.0, 0.7, 0.1).is_ok());
+    assert_eq!(
+        EfficiencyGeometry::of(&CATALOGUE[0].design().unwrap()).ball_ratio(),
+        7.144 / 125.0
+    );
+}

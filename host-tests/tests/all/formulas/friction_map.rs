@@ -1,0 +1,167 @@
+//! Friction of one contact: the library's maps against quadrature and against tabulated cases.
+
+use crate::exact_friction::quadrature;
+use crate::golden;
+use epas_friction::contact::FrictionMap;
+use epas_reference::promises;
+use epas_testkit::errors::Errors;
+use epas_testkit::measured;
+
+/// Offsets of both signs, dense about the rim, up to sliding.
+fn offsets() -> Vec<f32> {
+    let inside = (0..=100).map(|step| step as f32 / 100.0);
+    let outside = (0..=160).map(|step| 1.0 + 10_f32.powf(-4.0 + step as f32 / 20.0));
+    inside
+        .chain(outside)
+        .flat_map(|offset| [offset, -offset])
+        .collect()
+}
+
+#[test]
+fn maps_equal_the_contact_integral() {
+    println!("axis ratio | force max rms mean | moment | power | inside");
+    let mut all = <[Errors; 3]>::default();
+    for axis_ratio in [
+        0.05_f32,
+        0.08,
+        0.12,
+        0.18,
+        0.232_146_37,
+        0.3,
+        0.4,
+        0.5,
+        0.65,
+        0.8,
+        0.95,
+        1.0,
+    ] {
+        let map = FrictionMap::new(axis_ratio).unwrap();
+        let full_moment = quadrature(f64::from(axis_ratio), 0.0, 2000)[1];
+        let mut errors = <[Errors; 3]>::default();
+        let mut inside = 0.0_f64;
+        for offset in offsets() {
+            let exact = quadrature(f64::from(axis_ratio), f64::from(offset), 2000);
+            let fast = map.evaluate(offset);
+            // Power grows with the offset: its error is taken relative to it outside the contact.
+            let scale = f64::from(offset.abs()).max(1.0);
+            let error = [
+                f64::from(fast.force) - exact[0],
+                (f64::from(fast.moment) - exact[1]) / full_moment,
+                (f64::from(fast.power) - exact[2]) / scale,
+            ];
+            for ((sum, total), error) in errors.iter_mut().zip(&mut all).zip(error) {
+                sum.add(error);
+                total.add(error);
+            }
+            if offset.abs() <= 1.0 {
+                inside = error.iter().fold(inside, |max, e| max.max(e.abs()));
+            }
+            // Documented, see below. Measured: 7.8e-4, 1.7e-3 and 2.4e-4.
+            assert!(
+                error[0].abs() <= 1e-3 && error[1].abs() <= 2e-3 && error[2].abs() <= 1e-3,
+                "axis_ratio {axis_ratio} offset {offset}: {fast:?}, exact {exact:?}"
+            );
+        }
+        // The quartic is exact: what is left are roundings (6e-8 each) of terms up to 1.5.
+        measured::assert_at("friction map inside the contact", inside, axis_ratio);
+        println!(
+            "{axis_ratio:.3} | {} | inside {inside:.1e}",
+            errors
+                .map(|e| format!("{:.1e} {:.1e} {:+.1e}", e.largest, e.rms(), e.mean()))
+                .join(" | ")
+        );
+    }
+    // Documented errors of the maps: the two-term expansion outside the contact, continuous at its rim, is
+    // chosen for its cost within 1e-3, 2e-3 and 1e-3.
+    let [mut force, mut moment, mut power] = all;
+    force.assert_promised(promises::of("friction_map"));
+    force.name = "friction map, force".into();
+    moment.name = "friction map, moment".into();
+    power.name = "friction map, power".into();
+    for errors in [force, moment, power] {
+        errors.assert_measured();
+    }
+}
+
+#[test]
+fn maps_equal_the_tabulated_cases() {
+    for case in golden::list("maps") {
+        let axis_ratio = golden::number(&case, "k");
+        let map = FrictionMap::new(axis_ratio as f32).unwrap();
+        let full_moment = golden::number(&case, "p0");
+        let moment = f64::from(map.spin_moment()) - full_moment;
+        measured::assert("friction map, tabulated spin moment", moment);
+        let slope = f64::from(map.slope()) - 2.0 * golden::number(&case, "p2");
+        measured::assert("friction map, tabulated slope", slope);
+        let [offset, force, moment, power] =
+            ["kappa", "f", "M", "P"].map(|name| golden::numbers(&case, name));
+        for index in 0..offset.len() {
+            let fast = map.evaluate(offset[index] as f32);
+            // Over the documented errors of the maps.
+            let error = [
+                (f64::from(fast.force) - force[index]).abs() / 1e-3,
+                (f64::from(fast.moment) - moment[index]).abs() / (2e-3 * full_moment),
+                (f64::from(fast.power) - power[index]).abs() / (1e-3 * power[index].max(1.0)),
+            ];
+            assert!(
+                error.iter().all(|&e| e <= 1.0),
+                "axis_ratio {axis_ratio} offset {}: {fast:?}",
+                offset[index]
+            );
+        }
+    }
+}
+
+#[test]
+fn power_is_force_times_offset_and_moment() {
+    let map = FrictionMap::new(0.2321).unwrap();
+    for offset in offsets() {
+        let friction = map.evaluate(offset);
+        assert_eq!(friction.force, map.force(offset));
+        assert_eq!(friction.moment, map.moment(offset));
+        assert_eq!(friction.power, map.power(offset));
+        let sum = offset * friction.force + friction.moment;
+        // Derived: a product, a sum and the power itself are rounded, 6e-8 each of at most the power.
+        assert!(
+            (friction.power - sum).abs() <= 2e-7 * friction.power,
+            "{offset}"
+        );
+    }
+}
+
+#[test]
+fn an_axis_ratio_out_of_range_is_named() {
+    for axis_ratio in [0.0, 0.009, 1.001, f32::NAN, f32::INFINITY, -0.2] {
+        let error = FrictionMap::new(axis_ratio).unwrap_err();
+        assert_eq!(error.field(), "axis_ratio");
+    }
+}
+
+#[test]
+fn every_offset_gives_finite_friction_within_its_bounds() {
+    for axis_ratio in [0.01, 0.05, 0.232, 0.5, 1.0] {
+        let map = FrictionMap::new(axis_ratio).unwrap();
+        for offset in [
+            0.0,
+            -0.0,
+            f32::MIN_POSITIVE,
+            1.0,
+            -1.0,
+            1e8,
+            -1e30,
+            f32::MAX,
+            f32::INFINITY,
+            f32::NEG_INFINITY,
+            f32::NAN,
+        ] {
+            let friction = map.evaluate(offset);
+            // The force is 1 where all slides, to its roundings (1e-6 are sixteen of 6e-8). The moment is largest at the circle without
+            // slip, 3 pi/16 = 0.589. Offsets are cut at 2^30, 1.07e9, and the power is as large there.
+            assert!(friction.force.abs() <= 1.0 + 1e-6, "{axis_ratio} {offset}");
+            assert!(friction.moment >= 0.0 && friction.moment < 0.6);
+            assert!(friction.power >= map.spin_moment() && friction.power <= 1.1e9);
+        }
+        assert_eq!(map.force(f32::NEG_INFINITY), -1.0);
+        assert_eq!(map.force(f32::INFINITY), 1.0);
+    }
+}

@@ -1,0 +1,306 @@
+//! Designs: every field of every constructor with every kind of bad number; derived constants.
+
+use epas_friction::curvature::{GothicArch, LiteratureCurvature};
+use epas_friction::geometry::{ContactAngle, Groove, HelixPath};
+use epas_friction::{
+    BallScrew, BallScrewParameters, CATALOGUE, DISSERTATION_DESIGNS, Error, GrooveSize,
+    LinearBearing, LinearBearingParameters, Material,
+};
+use epas_testkit::designs::{LINEAR_BEARING, SCREW_GROOVE_RADIUS, SCREW_TRACK, screw};
+
+const BAD: [f32; 7] = [
+    f32::NAN,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    -1.0,
+    f32::MAX,
+    f32::MIN,
+    -1e-40,
+];
+
+fn good() -> BallScrewParameters {
+    *screw().parameters()
+}
+
+#[test]
+fn every_field_of_a_ball_screw_is_checked() {
+    let field = |parameters: BallScrewParameters| BallScrew::new(parameters).unwrap_err().field();
+    for bad in BAD {
+        assert_eq!(
+            field(BallScrewParameters {
+                pitch_radius: bad,
+                ..good()
+            }),
+            "pitch_radius"
+        );
+        assert_eq!(
+            field(BallScrewParameters {
+                lead: bad,
+                ..good()
+            }),
+            "lead"
+        );
+        assert_eq!(
+            field(BallScrewParameters {
+                ball_radius: bad,
+                ..good()
+            }),
+            "ball_radius"
+        );
+        assert_eq!(
+            field(BallScrewParameters {
+                contact_angle: bad,
+                ..good()
+            }),
+            "contact_angle"
+        );
+        for (size, name) in [
+            (GrooveSize::Conformity(bad), "conformity"),
+            (GrooveSize::Radius(bad), "groove_radius"),
+        ] {
+            assert_eq!(
+                field(BallScrewParameters {
+                    screw_groove: size,
+                    ..good()
+                }),
+                name
+            );
+            assert_eq!(
+                field(BallScrewParameters {
+                    nut_groove: size,
+                    ..good()
+                }),
+                name
+            );
+        }
+        for (material, name) in [
+            (
+                Material {
+                    youngs_modulus: bad,
+                    ..Material::STEEL
+                },
+                "youngs_modulus",
+            ),
+            (
+                Material {
+                    poisson_ratio: bad,
+                    ..Material::STEEL
+                },
+                "poisson_ratio",
+            ),
+            (
+                Material {
+                    density: bad,
+                    ..Material::STEEL
+                },
+                "density",
+            ),
+        ] {
+            assert_eq!(
+                field(BallScrewParameters {
+                    ball_material: material,
+                    ..good()
+                }),
+                name
+            );
+            assert_eq!(
+                field(BallScrewParameters {
+                    groove_material: material,
+                    ..good()
+                }),
+                name
+            );
+        }
+    }
+    for zero in [0.0, -0.0, 1e-30] {
+        assert_eq!(
+            field(BallScrewParameters {
+                pitch_radius: zero,
+                ..good()
+            }),
+            "pitch_radius"
+        );
+        assert_eq!(
+            field(BallScrewParameters {
+                ball_radius: zero,
+                ..good()
+            }),
+            "ball_radius"
+        );
+        assert_eq!(
+            field(BallScrewParameters {
+                contact_angle: zero,
+                ..good()
+            }),
+            "contact_angle"
+        );
+    }
+    for conformity in [0.5, 0.49, 0.500_4, 1.01] {
+        let parameters = BallScrewParameters {
+            nut_groove: GrooveSize::Conformity(conformity),
+            ..good()
+        };
+        assert_eq!(field(parameters), "conformity");
+    }
+}
+
+#[test]
+fn every_field_of_a_linear_bearing_is_checked() {
+    let linear = LINEAR_BEARING;
+    assert!(LinearBearing::new(linear).is_ok());
+    let field = |parameters| LinearBearing::new(parameters).unwrap_err().field();
+    for bad in BAD {
+        assert_eq!(
+            field(LinearBearingParameters {
+                ball_radius: bad,
+                ..linear
+            }),
+            "ball_radius"
+        );
+        assert_eq!(
+            field(LinearBearingParameters {
+                contact_angle: bad,
+                ..linear
+            }),
+            "contact_angle"
+        );
+        let groove = GrooveSize::Conformity(bad);
+        assert_eq!(
+            field(LinearBearingParameters { groove, ..linear }),
+            "conformity"
+        );
+    }
+}
+
+/// A thick ball in a wide groove on a thin screw: the groove reaches the axis.
+#[test]
+fn a_folded_screw_is_refused() {
+    let parameters = BallScrewParameters {
+        pitch_radius: 3e-3,
+        lead: 0.0,
+        ball_radius: 2.6e-3,
+        screw_groove: GrooveSize::Conformity(0.9),
+        contact_angle: 1.5,
+        ..good()
+    };
+    let error = BallScrew::new(parameters).unwrap_err();
+    assert!(matches!(error, Error::FoldedGroove { .. }));
+    assert_eq!(error.field(), "groove_radius");
+    assert!(!error.allowed().contains(error.value()));
+    // A long lead stretches the helix and unfolds it.
+    assert!(
+        BallScrew::new(BallScrewParameters {
+            lead: 50e-3,
+            ..parameters
+        })
+        .is_ok()
+    );
+}
+
+#[test]
+fn built_in_designs_are_all_valid_and_named_after_their_numbers() {
+    for size in CATALOGUE {
+        let design = size.design().unwrap();
+        let numbers: Vec<f32> = size
+            .name
+            .split('x')
+            .map(|part| part.parse().unwrap())
+            .collect();
+        // A rounding or two of up to 80 mm: 2^-24 of that is 5e-9.
+        assert!(
+            (design.pitch_radius() - 0.5e-3 * numbers[0]).abs() < 1e-8,
+            "{}",
+            size.name
+        );
+        // Likewise.
+        assert!(
+            (design.lead() - 1e-3 * numbers[1]).abs() < 1e-8,
+            "{}",
+            size.name
+        );
+        // A rounding or two of up to 8 mm: 2^-24 of that is 5e-10.
+        assert!(
+            (design.ball_radius() - 0.5e-3 * numbers[2]).abs() < 1e-9,
+            "{}",
+            size.name
+        );
+    }
+    for design in DISSERTATION_DESIGNS {
+        assert!(BallScrew::new(design.parameters).is_ok(), "{}", design.name);
+    }
+}
+
+/// The two ways to give a groove are one: conformity is groove radius over ball diameter.
+#[test]
+fn conformity_and_groove_radius_agree() {
+    let by_radius = BallScrew::new(good()).unwrap();
+    let conformity = (SCREW_GROOVE_RADIUS / (2.0 * SCREW_TRACK.ball_radius)) as f32;
+    let groove = GrooveSize::Conformity(conformity);
+    let by_conformity = BallScrew::new(BallScrewParameters {
+        screw_groove: groove,
+        nut_groove: groove,
+        ..good()
+    })
+    .unwrap();
+    for groove in [Groove::Screw, Groove::Nut] {
+        let (a, b) = (by_radius.clearance(groove), by_conformity.clearance(groove));
+        // The difference of radii keeps the two roundings of the radius, 2^-24 each: 7 times larger than itself here.
+        assert!((a / b - 1.0).abs() < 8.4e-7, "{a} {b}");
+    }
+}
+
+/// Lead and lead angle lead to the same path; its curvature and torsion are those of the reference.
+#[test]
+fn path_from_lead_equals_path_from_lead_angle() {
+    for size in CATALOGUE {
+        let parameters = size.parameters();
+        let tan = f64::from(parameters.lead)
+            / (std::f64::consts::TAU * f64::from(parameters.pitch_radius));
+        let path = HelixPath::from_lead(parameters.pitch_radius, parameters.lead);
+        let curvature = 1.0 / (f64::from(parameters.pitch_radius) * (1.0 + tan * tan));
+        // Six roundings.
+        assert!((f64::from(path.curvature) / curvature - 1.0).abs() < 4e-7);
+        assert!((f64::from(path.torsion) / (curvature * tan) - 1.0).abs() < 4e-7);
+    }
+}
+
+/// Without lead a ball screw is a ball bearing, and without offsets its curvature the literature's.
+#[test]
+fn zero_lead_is_a_bearing() {
+    // Races of Lin 2019, Table 3.1, with the groove radius of conformity 0.54.
+    let screw = &BallScrew::new(BallScrewParameters {
+        pitch_radius: 35e-3,
+        lead: 0.0,
+        ball_radius: 6.25e-3,
+        screw_groove: GrooveSize::Radius(6.75e-3),
+        nut_groove: GrooveSize::Radius(6.75e-3),
+        contact_angle: 0.785,
+        ..good()
+    })
+    .unwrap();
+    assert_eq!(screw.path().torsion, 0.0);
+    assert_eq!(screw.tan_lead_angle(), 0.0);
+    for groove in [Groove::Screw, Groove::Nut] {
+        let arch = GothicArch::of(screw, groove);
+        for degrees in [0.0_f32, 20.0, 45.0, 70.0] {
+            let angle = ContactAngle::new(degrees.to_radians());
+            // On the circle of radius r_m + zeta H through the arc's centre, with r_s for r_b.
+            let radius = 35e-3 + groove.sign() * screw.profile(groove).offset_h;
+            let circle = LiteratureCurvature::new(groove, radius, 6.75e-3).first(angle);
+            let exact = arch.principal(angle).kappa1;
+            // Eight roundings of 2^-24.
+            assert!(
+                (circle / exact - 1.0).abs() < 5e-7,
+                "{groove:?} at {degrees}"
+            );
+        }
+    }
+}
+
+#[test]
+fn mass_of_a_ball_is_its_volume_times_density() {
+    let design = BallScrew::new(good()).unwrap();
+    let expected = 7800.0 * 4.0 / 3.0 * std::f64::consts::PI * SCREW_TRACK.ball_radius.powi(3);
+    // Five roundings of 2^-24.
+    assert!((f64::from(design.ball_mass()) / expected - 1.0).abs() < 3e-7);
+}

@@ -1,0 +1,232 @@
+//! The contact ellipse: the reference against tabulated values, the crate against the reference.
+
+use epas_friction::geometry::Groove;
+use epas_friction::hertz::HertzContact;
+use epas_friction::{BallScrew, CATALOGUE, DISSERTATION_DESIGNS, LinearBearing};
+use epas_reference::curvature;
+use epas_reference::hertz::{self, Hertz};
+use epas_testkit::designs::LINEAR_BEARING;
+use epas_testkit::given;
+use epas_testkit::measured;
+use serde_json::Value;
+
+fn golden(name: &str) -> Value {
+    let text = match name {
+        "friction" => include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/golden/friction.json")),
+        _ => include_str!(concat!(
+            env!("CARGO_MANIFEST_DIR"),
+            "/golden/ballscrew.json"
+        )),
+    };
+    serde_json::from_str(text).unwrap()
+}
+
+#[test]
+fn reference_equals_tabulated_contacts() {
+    for case in golden("friction")["hertz"].as_array().unwrap() {
+        let field = |name: &str| case[name].as_f64().unwrap();
+        let contact = Hertz::new(field("R1"), field("R2"), field("Estar")).unwrap();
+        for (computed, name) in [
+            (contact.axis_ratio, "k"),
+            (contact.semi_major, "Ca"),
+            (contact.semi_minor, "Cb"),
+            (contact.deflection, "Cd"),
+            (contact.max_pressure, "Cp"),
+        ] {
+            measured::assert_at(
+                "tabulated contacts",
+                computed / field(name) - 1.0,
+                format_args!("{name} of {case}"),
+            );
+        }
+    }
+    for case in golden("friction")["ellipticity"].as_array().unwrap() {
+        let ratio = case["ratio"].as_f64().unwrap();
+        let expected = case["k"].as_f64().unwrap();
+        measured::assert(
+            "tabulated axis ratios",
+            hertz::axis_ratio(ratio).unwrap() / expected - 1.0,
+        );
+    }
+}
+
+/// Lin 2019, Table B.1 with the right curvatures (the first fundamental form taken into account):
+/// curvatures of the Weingarten map and the ellipse that follows. Lengths in mm, C in mm/N^(2/3).
+#[test]
+fn reference_equals_tabulated_ball_screw_contacts() {
+    let table = golden("ballscrew");
+    for (name, groove, groove_radius) in [
+        ("S_rG3.11136", curvature::Groove::Screw, 3.11136),
+        ("S_rG3.254", curvature::Groove::Screw, 3.254),
+        ("N_rG3.11136", curvature::Groove::Nut, 3.11136),
+        ("N_rG3.254", curvature::Groove::Nut, 3.254),
+    ] {
+        let offset = (groove_radius - 2.778) * std::f64::consts::FRAC_1_SQRT_2;
+        let surface = curvature::Surface {
+            groove,
+            pitch_radius: 16.5,
+            lead_angle: (20.0 / (std::f64::consts::TAU * 16.5)).atan(),
+            groove_radius,
+            offset_h: offset,
+            offset_l: offset,
+        };
+        let principal = surface.principal(std::f64::consts::FRAC_PI_4);
+        let along = 1.0 / (1.0 / 2.778 + principal.kappa1);
+        let across = 1.0 / (1.0 / 2.778 + principal.kappa2);
+        let modulus = hertz::contact_modulus((210e3, 0.28), (210e3, 0.28));
+        let contact = Hertz::new(along, across, modulus).unwrap();
+        let expected = &table["hertz"][name]["correct"];
+        // A dozen and a half roundings of 1.1e-16.
+        for (computed, key) in [(contact.semi_major, "Ca"), (contact.deflection, "C")] {
+            let expected = expected[key].as_f64().unwrap();
+            assert!(
+                (computed / expected - 1.0).abs() < 2e-15,
+                "{name} {key}: {computed}"
+            );
+        }
+    }
+}
+
+/// Equal relative radii `R` give a circle, in closed form: `a³ = 3 F R / (4 E*)`, `delta = a² / R`.
+#[test]
+fn equal_radii_give_a_circle() {
+    let (radius, modulus) = (0.01, 1e11);
+    let contact = Hertz::new(radius, radius, modulus).unwrap();
+    let expected = (3.0 * radius / (4.0 * modulus)).cbrt();
+    // A root and a few products: ten roundings of 1.1e-16.
+    assert!((contact.axis_ratio - 1.0).abs() < 1.2e-15);
+    assert!((contact.semi_major / expected - 1.0).abs() < 1.2e-15);
+    assert!((contact.deflection / (expected * expected / radius) - 1.0).abs() < 1.2e-15);
+    let fast = HertzContact::checked(radius as f32, radius as f32, modulus as f32).unwrap();
+    measured::assert(
+        "circle by the fitted axis ratio",
+        f64::from(fast.semi_major_coefficient()) / expected - 1.0,
+    );
+}
+
+/// The crate's constants over the whole range of radius ratios: the axis ratio's fit is within 1.02e-5
+/// and f32 adds 1e-6; semi-axes and pressure follow it with exponents of at most 1, the integrals are
+/// exact in f32.
+#[test]
+fn crate_holds_over_the_range_of_radius_ratios() {
+    let modulus = 113.9e9_f32;
+    let mut worst = [0.0_f64; 5];
+    let mut sum = [0.0_f64; 5];
+    let steps = 4000;
+    for step in 0..=steps {
+        let ratio = 10f64.powf(5.0 * f64::from(step) / f64::from(steps)) as f32;
+        let (small, large) = (2.5e-3_f32, (2.5e-3 * ratio).min(249.9));
+        let (first, second) = if step % 2 == 0 {
+            (small, large)
+        } else {
+            (large, small)
+        };
+        let fast = HertzContact::checked(first, second, modulus).unwrap();
+        let exact = Hertz::new(f64::from(first), f64::from(second), f64::from(modulus)).unwrap();
+        for (index, (computed, exact)) in [
+            (fast.axis_ratio(), exact.axis_ratio),
+            (fast.semi_major_coefficient(), exact.semi_major),
+            (fast.semi_minor_coefficient(), exact.semi_minor),
+            (fast.deflection_coefficient(), exact.deflection),
+            (fast.max_pressure_coefficient(), exact.max_pressure),
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let error = f64::from(computed) / exact - 1.0;
+            assert!(
+                error.abs() < 1.13e-5,
+                "ratio {ratio}: part {index} errs by {error:e}"
+            );
+            worst[index] = worst[index].max(error.abs());
+            sum[index] += error;
+        }
+    }
+    println!("max {worst:?}");
+    for total in sum {
+        measured::assert("contact constants, mean", total / f64::from(steps));
+    }
+}
+
+#[test]
+fn load_enters_with_its_powers_and_a_lost_contact_has_no_ellipse() {
+    let contact = HertzContact::of(&CATALOGUE[15].design().unwrap(), Groove::Nut);
+    for load in [0.001_f32, 1.0, 50.0, 14_500.0, 1e6] {
+        let ellipse = contact.at(load);
+        let root = f64::from(load).cbrt();
+        // Three roundings.
+        let close = |computed: f32, exact: f64| (f64::from(computed) / exact - 1.0).abs() < 2e-7;
+        assert!(close(
+            ellipse.semi_major,
+            f64::from(contact.semi_major_coefficient()) * root
+        ));
+        assert!(close(
+            ellipse.semi_minor,
+            f64::from(contact.semi_minor_coefficient()) * root
+        ));
+        assert!(close(
+            ellipse.deflection,
+            f64::from(contact.deflection_coefficient()) * root * root
+        ));
+        assert!(close(
+            ellipse.max_pressure,
+            f64::from(contact.max_pressure_coefficient()) * root
+        ));
+    }
+    for lost in [0.0, -0.0, -5.0, f32::NEG_INFINITY, f32::NAN] {
+        let ellipse = contact.at(lost);
+        assert_eq!(ellipse.semi_major, 0.0);
+        assert_eq!(ellipse.max_pressure, 0.0);
+    }
+}
+
+/// Designs give the same contact as their numbers taken through the reference's surface.
+#[test]
+fn designs_give_the_contact_of_their_surface() {
+    let dissertation = DISSERTATION_DESIGNS.map(|design| design.parameters);
+    let catalogue = CATALOGUE.map(|size| size.parameters());
+    for parameters in dissertation.into_iter().chain(catalogue) {
+        let design = BallScrew::new(parameters).unwrap();
+        for (groove, same) in [
+            (Groove::Screw, curvature::Groove::Screw),
+            (Groove::Nut, curvature::Groove::Nut),
+        ] {
+            let exact = given::ball_screw(&parameters).contact(same).unwrap();
+            let fast = HertzContact::of(&design, groove);
+            let error = f64::from(fast.semi_major_coefficient()) / exact.semi_major - 1.0;
+            // 1.13e-5 as above, and a few roundings of the curvatures.
+            assert!(error.abs() < 1.2e-5, "{parameters:?} {groove:?}: {error:e}");
+        }
+    }
+}
+
+/// Lin 2019, Table 3.3: a linear bearing with ball radius 5 mm and conformity 0.56 has an axis ratio of
+/// 0.2321.
+#[test]
+fn linear_bearing_of_table_3_3() {
+    let design = LinearBearing::new(LINEAR_BEARING).unwrap();
+    let contact = HertzContact::of_linear(&design);
+    // The fit's 1.02e-5 of it, and half a unit of the last digit.
+    assert!((contact.axis_ratio() - 0.232_146_4).abs() < 2.5e-6);
+}
+
+#[test]
+fn bad_radii_and_moduli_are_refused_by_name() {
+    for bad in [f32::NAN, f32::INFINITY, 0.0, -1.0, 1e-30, 1e30] {
+        let field = |first, second, modulus| {
+            HertzContact::checked(first, second, modulus)
+                .unwrap_err()
+                .field()
+        };
+        assert_eq!(field(bad, 0.01, 1e11), "relative_radius_1");
+        assert_eq!(field(0.01, bad, 1e11), "relative_radius_2");
+        assert_eq!(field(0.01, 0.02, bad), "contact_modulus");
+        assert!(Hertz::new(f64::from(bad), 0.01, 1e11).is_err());
+    }
+    assert_eq!(
+        HertzContact::checked(1e-3, 101.0, 1e11)
+            .unwrap_err()
+            .field(),
+        "relative_radius_2"
+    );
+}

@@ -1,0 +1,800 @@
+//! The in-loop kinematics (f32) against the float64 reference.
+
+use epas_friction::geometry::Groove;
+use epas_friction::hertz::HertzContact;
+use epas_friction::kinematics::{
+    ContactKinematics, ContactSlip, EllipticContact, KinematicsParameters,
+};
+use epas_friction::{BallScrew, CATALOGUE, Error, GrooveSize};
+use epas_reference::kinematics::{self as reference, KinematicsInput, Raceway, Revised, operating};
+use epas_reference::promises;
+use epas_testkit::errors::Errors;
+use epas_testkit::measured;
+use epas_testkit::random::Random;
+use serde_json::Value;
+use std::f64::consts::{PI, TAU};
+
+const DEGREE: f64 = PI / 180.0;
+
+fn golden_cases() -> Vec<(String, KinematicsInput)> {
+    let text = include_str!(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/golden/kinematics.json"
+    ));
+    let file: Value = serde_json::from_str(text).unwrap();
+    let cases = file["cases"].as_array().unwrap();
+    cases
+        .iter()
+        .map(|case| {
+            let number = |group: &str, key: &str| case[group][key].as_f64().unwrap();
+            let length = |group: &str, key: &str| 1e-3 * number(group, key);
+            let input = KinematicsInput {
+                ball_diameter: length("geom", "D"),
+                pitch_radius: length("geom", "r_m"),
+                lead_angle: number("geom", "psi"),
+                groove_radius_screw: length("geom", "r_i"),
+                groove_radius_nut: length("geom", "r_o"),
+                contact_angle_screw: number("state", "alpha_i"),
+                contact_angle_nut: number("state", "alpha_o"),
+                pitch_angle: number("state", "beta"),
+                yaw_angle: number("state", "betap"),
+                rolling_radius_screw: length("state", "rp_i"),
+                rolling_radius_nut: length("state", "rp_o"),
+                speed: number("state", "omega"),
+                semi_major_screw: length("inner", "a"),
+                semi_minor_screw: length("inner", "b"),
+                semi_major_nut: length("outer", "a"),
+                semi_minor_nut: length("outer", "b"),
+            };
+            (case["tag"].as_str().unwrap().to_owned(), input)
+        })
+        .collect()
+}
+
+/// Draws inputs.
+trait Drawn {
+    fn input(&mut self) -> KinematicsInput;
+}
+
+impl Drawn for Random {
+    /// The domain that the documentation of `ContactKinematics` states.
+    fn input(&mut self) -> KinematicsInput {
+        let pitch_radius = self.between(2e-3, 80e-3);
+        let ball_diameter = 2.0 * pitch_radius * self.between(0.04, 0.29);
+        let half = 0.5 * ball_diameter;
+        let contact_angle = self.between(10.0, 80.0) * DEGREE;
+        let [major_screw, major_nut] = [(); 2].map(|()| half * self.between(0.005, 0.3 - 1e-6));
+        // One in eight each: no lead; the customary axis and radii.
+        let special = self.between(0.0, 8.0);
+        let mut input = KinematicsInput {
+            ball_diameter,
+            pitch_radius,
+            lead_angle: self.between(0.0, 40.0) * DEGREE,
+            groove_radius_screw: ball_diameter * self.between(0.505, 0.58),
+            groove_radius_nut: ball_diameter * self.between(0.505, 0.58),
+            contact_angle_screw: contact_angle,
+            contact_angle_nut: contact_angle + self.between(-0.1, 0.1),
+            pitch_angle: contact_angle + self.between(-0.17, 0.17),
+            yaw_angle: self.between(-0.1, 0.1),
+            rolling_radius_screw: half * self.between(0.99, 1.01),
+            rolling_radius_nut: half * self.between(0.99, 1.01),
+            speed: self.between(-1000.0, 1000.0),
+            semi_major_screw: major_screw,
+            semi_minor_screw: major_screw * self.between(0.05, 0.3),
+            semi_major_nut: major_nut,
+            semi_minor_nut: major_nut * self.between(0.05, 0.3),
+        };
+        if special < 1.0 {
+            input.lead_angle = 0.0;
+        } else if special < 2.0 {
+            input.yaw_angle = 0.0;
+            input.rolling_radius_screw = half;
+            input.rolling_radius_nut = half;
+        }
+        input
+    }
+}
+
+fn parameters(input: &KinematicsInput) -> KinematicsParameters {
+    KinematicsParameters {
+        ball_diameter: input.ball_diameter as f32,
+        pitch_radius: input.pitch_radius as f32,
+        lead_angle: input.lead_angle as f32,
+        groove_radius_screw: input.groove_radius_screw as f32,
+        groove_radius_nut: input.groove_radius_nut as f32,
+        contact_angle_screw: input.contact_angle_screw as f32,
+        contact_angle_nut: input.contact_angle_nut as f32,
+        pitch_angle: input.pitch_angle as f32,
+        yaw_angle: input.yaw_angle as f32,
+        rolling_radius_screw: input.rolling_radius_screw as f32,
+        rolling_radius_nut: input.rolling_radius_nut as f32,
+        semi_major_screw: input.semi_major_screw as f32,
+        semi_minor_screw: input.semi_minor_screw as f32,
+        semi_major_nut: input.semi_major_nut as f32,
+        semi_minor_nut: input.semi_minor_nut as f32,
+    }
+}
+
+/// Set up with other contacts, which then become these.
+fn updated(given: &KinematicsParameters) -> ContactKinematics {
+    let mut kinematics = ContactKinematics::new(&KinematicsParameters {
+        contact_angle_screw: 0.99 * given.contact_angle_screw,
+        contact_angle_nut: 0.99 * given.contact_angle_nut,
+        semi_major_screw: 0.9 * given.semi_major_screw,
+        semi_minor_screw: 0.9 * given.semi_minor_screw,
+        semi_major_nut: 0.9 * given.semi_major_nut,
+        semi_minor_nut: 0.9 * given.semi_minor_nut,
+        ..*given
+    })
+    .unwrap();
+    let screw = EllipticContact {
+        contact_angle: given.contact_angle_screw,
+        semi_major: given.semi_major_screw,
+        semi_minor: given.semi_minor_screw,
+    };
+    let nut = EllipticContact {
+        contact_angle: given.contact_angle_nut,
+        semi_major: given.semi_major_nut,
+        semi_minor: given.semi_minor_nut,
+    };
+    assert!(kinematics.update(screw, nut));
+    kinematics
+}
+
+fn slip_of(ball: &epas_friction::kinematics::BallKinematics, raceway: Raceway) -> &ContactSlip {
+    match raceway {
+        Raceway::Screw => &ball.screw,
+        Raceway::Nut => &ball.nut,
+    }
+}
+
+/// A bias would show as a mean beside which the scatter is small. Tabulated cases share a few angles, and with
+/// them the rounding of their sines and cosines, 3e-8.
+fn assert_scattered(errors: &Errors, name: &str, bound: f64) {
+    print!("{name}: ");
+    errors.assert(bound, 0.4 * bound, 0.12 * bound);
+}
+
+fn turn(left: f64, right: f64) -> f64 {
+    (left - right + PI).rem_euclid(TAU) - PI
+}
+
+#[derive(Default)]
+struct Sweep {
+    orbital: Errors,
+    spin_speed: Errors,
+    entrainment: Errors,
+    rolling: Errors,
+    /// Rolling slip of contacts that came by an update.
+    updated: Errors,
+    side: Errors,
+    spin: Errors,
+    point: Errors,
+    slide_to_roll: Errors,
+    slide_angle: Errors,
+    slide_vector: Errors,
+    entrainment_angle: Errors,
+    spin_to_roll: Errors,
+}
+
+impl Sweep {
+    /// Compares one case; the reference takes the numbers before they are rounded to f32.
+    fn add(&mut self, input: &KinematicsInput, tag: &str) {
+        let exact = Revised::new(input).unwrap();
+        let wanted = exact.evaluate();
+        let kinematics = ContactKinematics::new(&parameters(input))
+            .unwrap_or_else(|error| panic!("{tag}: {error} {input:?}"));
+        let ball = kinematics.tick(input.speed as f32);
+        let updated = updated(&parameters(input)).tick(input.speed as f32);
+        let case = || format!("{tag} {input:?}");
+        if input.speed != 0.0 {
+            let relative = |found: f32, wanted: f64| f64::from(found) / wanted - 1.0;
+            self.orbital
+                .add_case(relative(ball.orbital_speed, wanted.orbital_speed), case);
+            self.spin_speed
+                .add_case(relative(ball.spin_speed, wanted.spin_speed), case);
+        }
+        for raceway in Raceway::BOTH {
+            let (found, wanted) = (slip_of(&ball, raceway), wanted.contact(raceway));
+            let coefficients = match raceway {
+                Raceway::Screw => kinematics.screw(),
+                Raceway::Nut => kinematics.nut(),
+            };
+            let contact = input.contact(raceway);
+            let scale = wanted.entrainment_speed;
+            let radius = 0.5 * input.ball_diameter;
+            if input.speed != 0.0 {
+                let scaled = |found: f32, wanted: f64| (f64::from(found) - wanted) / scale;
+                self.entrainment
+                    .add_case(scaled(found.entrainment_speed, scale), case);
+                self.rolling
+                    .add_case(scaled(found.rolling_slip, wanted.rolling_slip), case);
+                let updated = slip_of(&updated, raceway).rolling_slip;
+                self.updated
+                    .add_case(scaled(updated, wanted.rolling_slip), case);
+                self.side
+                    .add_case(scaled(found.side_slip, wanted.side_slip), case);
+                // Spin as the speed that it makes on the ball's radius, which no ellipse reaches.
+                self.spin
+                    .add_case(radius * scaled(found.spin, wanted.spin), case);
+                for (u, v) in [(0.5, -0.8), (-0.6, 0.7)] {
+                    let (x, y) = (u * contact.semi_minor, v * contact.semi_major);
+                    let slip = coefficients.slip_at(input.speed as f32, x as f32, y as f32);
+                    let exact = exact.slip(raceway, x, y);
+                    self.point.add_case(scaled(slip.rolling, exact[0]), case);
+                    self.point.add_case(scaled(slip.side, exact[1]), case);
+                }
+            }
+            let ratios = coefficients.ratios();
+            let difference = |found: f32, wanted: f64| f64::from(found) - wanted;
+            let srr = wanted.slide_to_roll;
+            self.slide_to_roll
+                .add_case(difference(ratios.slide_to_roll, srr), case);
+            let angle = wanted
+                .slide_angle
+                .map_or(0.0, |wanted| turn(ratios.slide_angle.into(), wanted));
+            self.slide_vector.add_case(angle * srr, case);
+            if srr > 0.01 {
+                self.slide_angle.add_case(angle, case);
+            }
+            self.entrainment_angle.add_case(
+                difference(ratios.entrainment_angle, wanted.entrainment_angle),
+                case,
+            );
+            self.spin_to_roll
+                .add_case(difference(ratios.spin_to_roll, wanted.spin_to_roll), case);
+        }
+    }
+
+    /// See the test of the golden cases for where the bounds come from.
+    fn assert(&self) {
+        assert_scattered(&self.orbital, "orbital speed, relative", 5e-7);
+        assert_scattered(&self.spin_speed, "spin speed, relative", 5e-7);
+        assert_scattered(&self.entrainment, "entrainment speed, relative", 5e-7);
+        assert_scattered(&self.rolling, "rolling slip / v_e", 4e-7);
+        assert_scattered(&self.side, "side slip / v_e", 2e-7);
+        assert_scattered(&self.spin, "spin D/2 / v_e", 4e-7);
+        assert_scattered(&self.point, "slip at a point / v_e", 4e-7);
+        assert_scattered(&self.slide_to_roll, "slide-to-roll, absolute", 4e-7);
+        assert_scattered(&self.slide_angle, "slide angle where SRR > 1 %, rad", 2e-5);
+        assert_scattered(&self.slide_vector, "slide angle times slide-to-roll", 4e-7);
+        assert_scattered(&self.entrainment_angle, "entrainment angle, rad", 1e-7);
+        assert_scattered(&self.spin_to_roll, "spin-to-roll, absolute", 1e-7);
+    }
+}
+
+/// Orbital and spin speed within 5e-7, slip within 4e-7 of the entrainment speed (2e-6 would do), ratios
+/// likewise (5e-6 would do). Some twenty roundings of 6e-8, those of the inputs among them, add up like
+/// a random walk to 3e-7; slip is formed without cancellation and is a small share of the speed.
+#[test]
+fn golden_cases_within_the_promise() {
+    let mut sweep = Sweep::default();
+    for (tag, input) in golden_cases() {
+        sweep.add(&input, &tag);
+        sweep.add(
+            &KinematicsInput {
+                lead_angle: 0.0,
+                ..input
+            },
+            &tag,
+        );
+        sweep.add(
+            &KinematicsInput {
+                speed: 0.0,
+                ..input
+            },
+            &tag,
+        );
+        // Yaw angles at which side slip vanishes at one contact.
+        for raceway in Raceway::BOTH {
+            if let Ok(yaw_angle) = reference::yaw_without_side_slip(&input, raceway) {
+                sweep.add(&KinematicsInput { yaw_angle, ..input }, &tag);
+            }
+        }
+    }
+    sweep.assert();
+}
+
+#[test]
+fn random_geometries() {
+    let mut sweep = Sweep::default();
+    let mut random = Random(0x5EED_1001);
+    for step in 0..200_000 {
+        sweep.add(&random.input(), &format!("random {step}"));
+    }
+    sweep.assert();
+    sweep.rolling.assert_promised(promises::of("kinematics"));
+    sweep
+        .updated
+        .assert_promised(promises::of("kinematics_update"));
+    sweep
+        .slide_to_roll
+        .assert_promised(promises::of("slip_ratios"));
+}
+
+/// Alberdi et al., sections 4.1 and 4.2, and yaw angles of section 4.3.2.
+#[test]
+fn published_values() {
+    let input = operating::table_two().unwrap();
+    let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
+    let ball = kinematics.tick(operating::SPEED as f32);
+    for slip in [ball.screw, ball.nut] {
+        // Printed to two decimals: half a unit.
+        assert!((slip.entrainment_speed - 1.00).abs() < 0.005);
+    }
+    let degrees = |radians: f32| f64::from(radians) / DEGREE;
+    let (screw, nut) = (kinematics.screw().ratios(), kinematics.nut().ratios());
+    // Likewise.
+    assert!((degrees(screw.entrainment_angle) - 1.19).abs() < 0.005);
+    measured::assert(
+        "published entrainment angle of the nut in degrees",
+        degrees(nut.entrainment_angle) - 0.87,
+    );
+    measured::assert(
+        "published slide-to-roll ratio in per cent",
+        100.0 * screw.slide_to_roll - 4.16,
+    );
+    for (yaw, side) in [(-2.291, "nut"), (3.105, "screw")] {
+        let turned = KinematicsInput {
+            yaw_angle: yaw * DEGREE,
+            ..input
+        };
+        let ball = ContactKinematics::new(&parameters(&turned)).unwrap();
+        let slip = if side == "nut" {
+            ball.per_speed().nut
+        } else {
+            ball.per_speed().screw
+        };
+        measured::assert_at(
+            "published yaw angles, side slip",
+            slip.side_slip / slip.entrainment_speed,
+            format_args!("{side}"),
+        );
+    }
+}
+
+/// Zeros of either sign are a point.
+#[test]
+fn a_contact_may_be_a_point() {
+    let given = parameters(&Random(0x5EED_100A).input());
+    let mut kinematics = ContactKinematics::new(&given).unwrap();
+    let point = |semi_major, semi_minor| EllipticContact {
+        contact_angle: given.contact_angle_screw,
+        semi_major,
+        semi_minor,
+    };
+    let minor = 0.2 * given.semi_major_nut;
+    let whole = point(given.semi_major_nut, minor);
+    for (contact, is_taken) in [
+        (point(0.0, -0.0), true),
+        (point(-0.0, 0.0), true),
+        (point(given.semi_major_screw, -0.0), true),
+        (point(given.semi_major_screw, -1e-9), false),
+        (point(-1e-9, -1e-9), false),
+    ] {
+        assert_eq!(kinematics.update(contact, whole), is_taken, "{contact:?}");
+    }
+}
+
+type Setter = fn(&mut KinematicsParameters, f32);
+
+const FIELDS: [(&str, Setter); 15] = [
+    ("ball_diameter", |p, v| p.ball_diameter = v),
+    ("pitch_radius", |p, v| p.pitch_radius = v),
+    ("lead_angle", |p, v| p.lead_angle = v),
+    ("groove_radius_screw", |p, v| p.groove_radius_screw = v),
+    ("groove_radius_nut", |p, v| p.groove_radius_nut = v),
+    ("contact_angle_screw", |p, v| p.contact_angle_screw = v),
+    ("contact_angle_nut", |p, v| p.contact_angle_nut = v),
+    ("pitch_angle", |p, v| p.pitch_angle = v),
+    ("yaw_angle", |p, v| p.yaw_angle = v),
+    ("rolling_radius_screw", |p, v| p.rolling_radius_screw = v),
+    ("rolling_radius_nut", |p, v| p.rolling_radius_nut = v),
+    ("semi_major_screw", |p, v| p.semi_major_screw = v),
+    ("semi_minor_screw", |p, v| p.semi_minor_screw = v),
+    ("semi_major_nut", |p, v| p.semi_major_nut = v),
+    ("semi_minor_nut", |p, v| p.semi_minor_nut = v),
+];
+
+const ODD: [f32; 16] = [
+    f32::NAN,
+    f32::INFINITY,
+    f32::NEG_INFINITY,
+    f32::MAX,
+    f32::MIN,
+    f32::MIN_POSITIVE,
+    1e-45,
+    0.0,
+    -0.0,
+    -1.0,
+    1e-20,
+    1e20,
+    1.0,
+    1e-3,
+    -1e-3,
+    3.0,
+];
+
+fn all_finite(kinematics: &ContactKinematics) -> bool {
+    let slip = |s: &ContactSlip| [s.rolling_slip, s.side_slip, s.spin, s.entrainment_speed];
+    let mut numbers = Vec::new();
+    for speed in [0.0, 100.0, -1e6, 1e6, 1e-38] {
+        let ball = kinematics.tick(speed);
+        numbers.extend([ball.orbital_speed, ball.spin_speed]);
+        numbers.extend(slip(&ball.screw));
+        numbers.extend(slip(&ball.nut));
+    }
+    for contact in [kinematics.screw(), kinematics.nut()] {
+        let r = contact.ratios();
+        numbers.extend([
+            r.entrainment_angle,
+            r.slide_to_roll,
+            r.slide_angle,
+            r.spin_to_roll,
+        ]);
+        for at in ODD {
+            let v = contact.slip_at(100.0, at, at);
+            numbers.extend([v.rolling, v.side]);
+        }
+    }
+    numbers.iter().all(|number| number.is_finite())
+}
+
+/// Each field with NaN, infinities, zeros, negative, huge and tiny numbers: an error that names it, or finite
+/// results.
+#[test]
+fn odd_parameters_are_refused_by_name_or_give_finite_numbers() {
+    let good = parameters(&operating::table_two().unwrap());
+    for (name, set) in FIELDS {
+        for value in ODD {
+            let mut given = good;
+            set(&mut given, value);
+            match ContactKinematics::new(&given) {
+                Ok(kinematics) => {
+                    assert!(value.is_finite(), "{name} {value}");
+                    assert!(all_finite(&kinematics), "{name} {value}");
+                }
+                Err(error) if value.is_finite() => {
+                    // A smaller ball or major axis can make another field the wrong one.
+                    assert!(!error.field().is_empty());
+                }
+                Err(error) => {
+                    assert_eq!(error.field(), name);
+                    assert!(matches!(error, Error::NotFinite { .. }));
+                }
+            }
+        }
+    }
+}
+
+/// The refusals that the physics asks for, each with its field and a range that would do.
+#[test]
+fn what_cannot_roll_is_refused() {
+    let good = parameters(&operating::table_two().unwrap());
+    let refused = |given: KinematicsParameters| ContactKinematics::new(&given).unwrap_err();
+    // Contact angle far from the pitch angle.
+    let error = refused(KinematicsParameters {
+        contact_angle_screw: -0.8,
+        ..good
+    });
+    assert_eq!(error.field(), "contact_angle_screw");
+    assert!(!error.allowed().contains(-0.8));
+    // The grip ends where the range says, but for the last of 24 halvings of less than half a turn (2e-7 rad)
+    // and the rounding of the angle (6e-8 rad).
+    let end = error.allowed().minimum;
+    for (angle, taken) in [(end, true), (end - 4e-7, false)] {
+        let given = KinematicsParameters {
+            contact_angle_screw: angle,
+            ..good
+        };
+        assert_eq!(ContactKinematics::new(&given).is_ok(), taken, "{angle}");
+    }
+    let error = refused(KinematicsParameters {
+        contact_angle_nut: -0.8,
+        ..good
+    });
+    assert_eq!(error.field(), "contact_angle_nut");
+    // A ball's diameter is twice a radius of 10 um to 1 m.
+    let error = refused(KinematicsParameters {
+        ball_diameter: 2.1,
+        ..good
+    });
+    assert_eq!(error.field(), "ball_diameter");
+    assert_eq!(
+        (error.allowed().minimum, error.allowed().maximum),
+        (2e-5, 2.0)
+    );
+    // Ellipse beyond 0.3 of the ball's radius, 1.191 mm.
+    assert!(
+        ContactKinematics::new(&KinematicsParameters {
+            semi_major_nut: 1.19e-3,
+            ..good
+        })
+        .is_ok()
+    );
+    let error = refused(KinematicsParameters {
+        semi_major_nut: 1.192e-3,
+        ..good
+    });
+    assert_eq!(error.field(), "semi_major_nut");
+    let error = refused(KinematicsParameters {
+        semi_minor_screw: 0.7e-3,
+        ..good
+    });
+    assert_eq!(error.field(), "semi_minor_screw");
+    // Rolling radius that folds the path: r' cos(alpha) cos^2(psi) beyond 0.9 r_m.
+    let small = KinematicsParameters {
+        pitch_radius: 4e-3,
+        ..good
+    };
+    let folded = KinematicsParameters {
+        rolling_radius_screw: 6e-3,
+        ..small
+    };
+    let error = refused(folded);
+    assert!(matches!(error, Error::FoldedGroove { .. }));
+    assert_eq!(error.field(), "rolling_radius_screw");
+    // Down to a quarter of the ball's diameter.
+    assert_eq!(error.allowed().minimum, 0.25 * small.ball_diameter);
+    let limit = error.allowed().maximum;
+    let (sin_lead, cos_lead) = f64::from(small.lead_angle).sin_cos();
+    let path_radius = f64::from(small.pitch_radius) * (1.0 + (sin_lead / cos_lead).powi(2));
+    let border = 0.9 * path_radius / f64::from(small.contact_angle_screw).cos();
+    // Ten roundings.
+    assert!(
+        (f64::from(limit) / border - 1.0).abs() < 6e-7,
+        "{limit} {border}"
+    );
+    for (factor, is_taken) in [(0.9999, true), (1.0001, false)] {
+        let made = ContactKinematics::new(&KinematicsParameters {
+            rolling_radius_screw: limit * factor,
+            ..small
+        });
+        assert_eq!(made.is_ok(), is_taken);
+    }
+    // A groove narrower than the ball.
+    let error = refused(KinematicsParameters {
+        groove_radius_nut: 3.9e-3,
+        ..good
+    });
+    assert_eq!(error.field(), "groove_radius_nut");
+}
+
+/// Slip along the direction of rolling has the angle 0 or pi, whatever the sign of a side slip of zero, on both raceways.
+#[test]
+fn slip_along_the_direction_of_rolling_has_an_angle_of_zero_or_pi() {
+    use std::f32::consts::PI;
+    let good = parameters(&operating::table_two().unwrap());
+    let mut against = 0;
+    for semi_major in [0.2e-3, 0.9e-3] {
+        for yaw_angle in [0.0, -0.0] {
+            let kinematics = ContactKinematics::new(&KinematicsParameters {
+                lead_angle: 0.0,
+                yaw_angle,
+                semi_major_screw: semi_major,
+                semi_major_nut: semi_major,
+                ..good
+            })
+            .unwrap();
+            for contact in [kinematics.screw(), kinematics.nut()] {
+                let angle = contact.ratios().slide_angle;
+                assert!(angle == 0.0 || angle == PI, "{angle}");
+                against += i32::from(angle == PI);
+            }
+        }
+    }
+    assert!(against > 0);
+}
+
+/// An update is the set-up with other contacts, bit for bit; a refused one changes nothing.
+#[test]
+fn update_is_set_up_again() {
+    let mut random = Random(0x5EED_1007);
+    for _ in 0..5000 {
+        let first = parameters(&random.input());
+        let other = random.input();
+        let ratio = f64::from(first.ball_diameter) / other.ball_diameter;
+        let contact = |angle: f32, major: f64, minor: f64| EllipticContact {
+            contact_angle: angle + 0.02,
+            semi_major: (major * ratio) as f32,
+            semi_minor: (minor * ratio) as f32,
+        };
+        let screw = contact(
+            first.contact_angle_screw,
+            other.semi_major_screw,
+            other.semi_minor_screw,
+        );
+        let nut = contact(
+            first.contact_angle_nut,
+            other.semi_major_nut,
+            other.semi_minor_nut,
+        );
+        let second = KinematicsParameters {
+            contact_angle_screw: screw.contact_angle,
+            contact_angle_nut: nut.contact_angle,
+            semi_major_screw: screw.semi_major,
+            semi_minor_screw: screw.semi_minor,
+            semi_major_nut: nut.semi_major,
+            semi_minor_nut: nut.semi_minor,
+            ..first
+        };
+        let mut kinematics = ContactKinematics::new(&first).unwrap();
+        assert!(kinematics.update(screw, nut));
+        assert_eq!(kinematics, ContactKinematics::new(&second).unwrap());
+
+        let before = kinematics;
+        for wrong in [f32::NAN, f32::INFINITY, -3.0, 3.0] {
+            for bad in [
+                EllipticContact {
+                    contact_angle: wrong,
+                    ..screw
+                },
+                EllipticContact {
+                    semi_major: wrong,
+                    ..screw
+                },
+                EllipticContact {
+                    semi_minor: wrong,
+                    ..screw
+                },
+            ] {
+                assert!(!kinematics.update(bad, nut));
+                assert!(!kinematics.update(screw, bad));
+            }
+        }
+        // The pitch angle is within 0.2 rad of the contact angle: the other flank is too far.
+        let far = EllipticContact {
+            contact_angle: screw.contact_angle - 1.55,
+            ..screw
+        };
+        if first.pitch_angle - far.contact_angle > 1.35 {
+            assert!(!kinematics.update(far, nut));
+        }
+        assert_eq!(kinematics, before);
+    }
+}
+
+/// In the loop a wrong speed counts as none.
+#[test]
+fn wrong_numbers_in_the_loop_count_as_zero() {
+    let kinematics = ContactKinematics::new(&parameters(&operating::table_two().unwrap())).unwrap();
+    let still = kinematics.tick(0.0);
+    assert_eq!(still.screw.entrainment_speed, 0.0);
+    for speed in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1.1e6, f32::MIN] {
+        assert_eq!(kinematics.tick(speed), still);
+    }
+    assert_eq!(
+        kinematics.tick(1e6).screw.entrainment_speed,
+        1e6 * kinematics.per_speed().screw.entrainment_speed
+    );
+    // Points off the ellipse touch nothing.
+    let screw = kinematics.screw();
+    for (x, y) in [
+        (f32::NAN, 0.0),
+        (0.0, f32::INFINITY),
+        (1e-3, 0.0),
+        (0.0, -1e-3),
+    ] {
+        let slip = screw.slip_at(100.0, x, y);
+        assert_eq!((slip.rolling, slip.side), (0.0, 0.0));
+    }
+}
+
+/// No load: an ellipse without extent. The ball rolls on a point; slip there is exact.
+#[test]
+fn unloaded_contact() {
+    let input = KinematicsInput {
+        semi_major_screw: 0.0,
+        semi_minor_screw: 0.0,
+        ..operating::table_two().unwrap()
+    };
+    let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
+    assert_eq!(kinematics.per_speed().screw.rolling_slip, 0.0);
+    assert_eq!(kinematics.screw().ratios().spin_to_roll, 0.0);
+    assert!(all_finite(&kinematics));
+}
+
+/// The parameters of a design are those that an engineer would type: angles and radii from the catalogue, the lead
+/// angle by the arc tangent, ellipses by Hertz.
+#[test]
+fn parameters_of_a_design_are_those_typed_in() {
+    const DESIGN: BallScrew = match CATALOGUE[15].design() {
+        Ok(design) => design,
+        Err(_) => panic!("the design is out of range"),
+    };
+    // A constant can take them.
+    const FOLDED: Result<KinematicsParameters, Error> =
+        KinematicsParameters::of(&DESIGN, 120.0, 110.0);
+    assert_eq!(FOLDED, KinematicsParameters::of(&DESIGN, 120.0, 110.0));
+
+    for size in &CATALOGUE {
+        let design = size.design().unwrap();
+        let given = design.parameters();
+        let found = KinematicsParameters::of(&design, 120.0, 110.0).unwrap();
+        let ellipse = |groove, load| HertzContact::of(&design, groove).at(load);
+        let (screw, nut) = (ellipse(Groove::Screw, 120.0), ellipse(Groove::Nut, 110.0));
+        let conformity = |size| match size {
+            GrooveSize::Conformity(conformity) => conformity,
+            GrooveSize::Radius(radius) => radius / (2.0 * given.ball_radius),
+        };
+        let typed = KinematicsParameters {
+            ball_diameter: 2.0 * given.ball_radius,
+            pitch_radius: given.pitch_radius,
+            lead_angle: given.lead.atan2(TAU as f32 * given.pitch_radius),
+            groove_radius_screw: conformity(given.screw_groove) * 2.0 * given.ball_radius,
+            groove_radius_nut: conformity(given.nut_groove) * 2.0 * given.ball_radius,
+            contact_angle_screw: given.contact_angle,
+            contact_angle_nut: given.contact_angle,
+            pitch_angle: given.contact_angle,
+            yaw_angle: 0.0,
+            rolling_radius_screw: given.ball_radius,
+            rolling_radius_nut: given.ball_radius,
+            semi_major_screw: screw.semi_major,
+            semi_minor_screw: screw.semi_minor,
+            semi_major_nut: nut.semi_major,
+            semi_minor_nut: nut.semi_minor,
+        };
+        // Each number within three roundings, 3 x 2^-24, the lead angle within 1.5e-7 rad.
+        for ((found, typed), (name, _)) in numbers(&found).iter().zip(numbers(&typed)).zip(FIELDS) {
+            let bound = 2e-7 * typed.abs() + if name == "lead_angle" { 1.5e-7 } else { 0.0 };
+            assert!((found - typed).abs() <= bound, "{name} {found} {typed}");
+        }
+        assert!(all_finite(&ContactKinematics::new(&found).unwrap()));
+
+        for load in [-1.0, 1.01e7, f32::NAN] {
+            let error = KinematicsParameters::of(&design, load, 1.0).unwrap_err();
+            assert_eq!(error.field(), "load_screw");
+            let error = KinematicsParameters::of(&design, 1.0, load).unwrap_err();
+            assert_eq!(error.field(), "load_nut");
+        }
+        // An ellipse that outgrows the ball is refused by the kinematics.
+        let crushed = KinematicsParameters::of(&design, 1e7, 1.0).unwrap();
+        let error = ContactKinematics::new(&crushed).unwrap_err();
+        assert_eq!(error.field(), "semi_major_screw");
+    }
+}
+
+/// The numbers in the order of [`FIELDS`].
+fn numbers(p: &KinematicsParameters) -> [f32; 15] {
+    [
+        p.ball_diameter,
+        p.pitch_radius,
+        p.lead_angle,
+        p.groove_radius_screw,
+        p.groove_radius_nut,
+        p.contact_angle_screw,
+        p.contact_angle_nut,
+        p.pitch_angle,
+        p.yaw_angle,
+        p.rolling_radius_screw,
+        p.rolling_radius_nut,
+        p.semi_major_screw,
+        p.semi_minor_screw,
+        p.semi_major_nut,
+        p.semi_minor_nut,
+    ]
+}
+
+/// The lead angle of a design against the arc tangent in f64, from no lead to the steepest helix, of 88.2 degrees: the
+/// longest lead on the smallest pitch radius.
+#[test]
+fn lead_angle_of_a_design() {
+    let mut worst = 0.0_f64;
+    for step in 0..=2000 {
+        let mut given = *CATALOGUE[15].design().unwrap().parameters();
+        given.pitch_radius = 1e-3;
+        given.ball_radius = 2e-4;
+        let angle = f64::from(step) / 2000.0 * 1.54;
+        given.lead = (TAU * f64::from(given.pitch_radius) * angle.tan()) as f32;
+        let Ok(design) = BallScrew::new(given) else {
+            assert!(given.lead > 0.2);
+            continue;
+        };
+        let truth = (f64::from(given.lead) / (TAU * f64::from(given.pitch_radius))).atan();
+        worst = worst.max((f64::from(design.lead_angle()) - truth).abs());
+    }
+    println!("lead angle within {worst:e} rad");
+    // Two roundings of the angle above 1 rad, 6e-8 each, two of the smaller of sine and cosine, up to 0.71: 3e-8 each over
+    // a cosine of 0.71. Measured: 1.9e-7.
+    assert!(worst < 2.1e-7, "{worst:e}");
+}

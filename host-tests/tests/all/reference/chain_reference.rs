@@ -1,0 +1,436 @@
+//! Chains of touching balls: stored chains, Table 3.5, the linear model by three methods, and the laws of contact.
+
+use epas_testkit::measured;
+use epas_testkit::random::Random;
+use std::f64::consts::FRAC_PI_4;
+
+use epas_reference::ReferenceError;
+use epas_reference::friction::chain::{LinearChain, solve_chain};
+use epas_reference::friction::isotonic::{
+    exhaustive_contacts, isotonic_by_min_max, pool_adjacent_violators,
+};
+use epas_reference::friction::linear_ball::{
+    EllipseLaw, LinearBall, PUBLISHED_FORCE_SLOPE, contact_forces,
+};
+use serde_json::Value;
+
+fn golden(name: &str) -> Value {
+    let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn list(value: &Value) -> Vec<f64> {
+    value
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|x| x.as_f64().unwrap())
+        .collect()
+}
+
+fn ball(deviations: [f64; 4], side_force_ratio: f64) -> LinearBall {
+    let contact_angles = deviations.map(|d| FRAC_PI_4 + d);
+    LinearBall {
+        ball_radius: 0.005,
+        friction: 0.1,
+        contact_angles,
+        contact_forces: contact_forces(contact_angles, 100.0 * side_force_ratio, 100.0),
+        ellipse: EllipseLaw {
+            semi_major_constant: 0.0005307 * 0.005_f64.cbrt(),
+            axis_ratio: 0.23214637336606972,
+        },
+    }
+}
+
+fn tilted(theta_degrees: f64, side_force_ratio: f64) -> LinearBall {
+    let theta = theta_degrees.to_radians();
+    ball([-theta, theta, 0.0, 0.0], side_force_ratio)
+}
+
+/// Equations (3.29) to (3.31) row by row from the forces of the solution, and the energy: power in = power lost.
+fn check_laws(
+    balls: &[LinearBall],
+    chain: &LinearChain,
+    ball_friction: f64,
+    speed: f64,
+    name: &str,
+) {
+    let n = balls.len();
+    let mut input = 0.0;
+    let mut loss = 0.0;
+    for (j, (ball, motion)) in balls.iter().zip(&chain.balls).enumerate() {
+        let r = ball.ball_radius;
+        let [bl, br, tr, tl] = ball.contact_angles;
+        let f = motion.contacts.map(|c| c.force);
+        let m = motion.contacts.map(|c| -c.moment / r);
+        let mut rows = [
+            f[0] + f[1] + f[2] + f[3],
+            -bl.cos() * f[0] - br.cos() * f[1]
+                + tr.cos() * f[2]
+                + tl.cos() * f[3]
+                + bl.sin() * m[0]
+                - br.sin() * m[1]
+                - tr.sin() * m[2]
+                + tl.sin() * m[3],
+            bl.sin() * f[0] - br.sin() * f[1] - tr.sin() * f[2]
+                + tl.sin() * f[3]
+                + bl.cos() * m[0]
+                + br.cos() * m[1]
+                - tr.cos() * m[2]
+                - tl.cos() * m[3],
+        ];
+        for k in [j.wrapping_sub(1), j] {
+            let Some(&force) = chain.contact_forces.get(k) else {
+                continue;
+            };
+            rows[0] += if k == j { -force } else { force };
+            let slip = [
+                chain.balls[k].roll + chain.balls[k + 1].roll,
+                chain.balls[k].yaw + chain.balls[k + 1].yaw,
+            ];
+            let size = slip[0].hypot(slip[1]);
+            rows[1] -= ball_friction * force * slip[0] / size;
+            rows[2] -= ball_friction * force * slip[1] / size;
+        }
+        for row in rows {
+            measured::assert_at(
+                &format!("balance of {name} in N"),
+                row,
+                format_args!("ball {j}: {rows:?}"),
+            );
+        }
+        input += (f[2] + f[3]) * speed;
+        loss += motion.power_loss;
+    }
+    loss += (0..n - 1)
+        .map(|j| ball_friction * chain.contact_forces[j] * chain.ball_slip[j])
+        .sum::<f64>();
+    // Up to 130 terms in another order, 1.1e-16 each.
+    assert!((loss - chain.power_loss()).abs() < 1.5e-14 * loss);
+    // Derived: unbalanced forces do work at speeds of the order of the track's, on three unknowns a ball; and the same roundings.
+    let unbalanced = 6.0 * n as f64 * chain.residual * speed.abs();
+    assert!(
+        (input - loss).abs() < 1.5e-14 * loss + unbalanced,
+        "input {input}, loss {loss}, unbalanced {unbalanced:e}"
+    );
+    for j in 0..n - 1 {
+        let gap_speed = chain.balls[j + 1].ball_speed - chain.balls[j].ball_speed;
+        assert!(gap_speed >= -1e-13 * speed.abs() && chain.contact_forces[j] >= 0.0);
+        // One of the two is zero. Measured: 0.0; a rounding of a speed times the largest force of 32 N would be 4e-15.
+        assert!(
+            (gap_speed * chain.contact_forces[j]).abs() < 1e-14 * speed.abs(),
+            "contact {j} pulls or parts under load"
+        );
+    }
+}
+
+#[test]
+fn stored_chains() {
+    let mut worst = [0.0_f64; 2];
+    for case in golden("friction")["chain"].as_array().unwrap() {
+        let deviations: [f64; 4] = list(&case["dbeta"]).try_into().unwrap();
+        let rho = list(&case["rho"]);
+        let balls: Vec<_> = rho.iter().map(|&rho| ball(deviations, rho)).collect();
+        for (ball_friction, force_key, eps_key, which) in [
+            (0.0, "F_mu0", "eps_mu0", 0),
+            (0.1, "F_mu0.1", "eps_mu0.1", 1),
+        ] {
+            let chain = solve_chain(&balls, ball_friction, 0.01).unwrap();
+            check_laws(&balls, &chain, ball_friction, 0.01, "stored chains");
+            for (force, stored) in chain.contact_forces.iter().zip(list(&case[force_key])) {
+                worst[which] = worst[which].max((force - stored).abs());
+                measured::assert_at(
+                    "stored chains, contact force in N",
+                    force - stored,
+                    format_args!("{rho:?} {force_key}: {force}, stored {stored}"),
+                );
+            }
+            for (motion, stored) in chain.balls.iter().zip(list(&case[eps_key])) {
+                let off = (motion.speed_deviation - stored).abs();
+                measured::assert_at(
+                    "stored chains, speed deviation",
+                    off,
+                    format_args!(
+                        "{rho:?} {eps_key}: {} stored {stored}",
+                        motion.speed_deviation
+                    ),
+                );
+            }
+        }
+        // The published closed form with the loads of both contacts of each diagonal.
+        let free: Vec<_> = balls
+            .iter()
+            .map(|b| b.analytic_speed_deviation(FRAC_PI_4))
+            .collect();
+        let compliance: Vec<_> = balls
+            .iter()
+            .map(|b| b.analytic_compliance(FRAC_PI_4, PUBLISHED_FORCE_SLOPE))
+            .collect();
+        let (speeds, forces) = pool_adjacent_violators(&free, &compliance);
+        println!("{:?} {:?}", free, list(&case["eps_analytic"]));
+        for (values, key) in [
+            (&free, "eps_analytic"),
+            (&compliance, "s"),
+            (&speeds, "x_analytic"),
+            (&forces, "F_analytic"),
+        ] {
+            for (value, stored) in values.iter().zip(list(&case[key])) {
+                measured::assert_at(
+                    "stored chains, closed form",
+                    (value - stored) / stored.abs().max(1.0),
+                    format_args!("{rho:?} {key}: {value}, stored {stored}"),
+                );
+            }
+        }
+    }
+    println!(
+        "largest difference of a force: {:e} N without, {:e} N with ball friction",
+        worst[0], worst[1]
+    );
+}
+
+#[test]
+fn stored_pairs() {
+    for case in golden("friction")["pair"].as_array().unwrap() {
+        let theta = case["theta_deg"].as_f64().unwrap();
+        let rho = case["rho"].as_f64().unwrap();
+        let balls = [tilted(theta, rho), tilted(theta, -rho)];
+        for (ball_friction, force_key, eps_key) in
+            [(0.0, "F_mu0", "eps_mu0"), (0.1, "F_mu0.1", "eps_mu0.1")]
+        {
+            let chain = solve_chain(&balls, ball_friction, 1.0).unwrap_or_else(|e| {
+                panic!("theta = {theta}, rho = {rho}, ball friction {ball_friction}: {e}")
+            });
+            let stuck = chain.balls.iter().any(|b| b.gap > 0.0);
+            check_laws(
+                &balls,
+                &chain,
+                ball_friction,
+                1.0,
+                if stuck {
+                    "sticking pairs"
+                } else {
+                    "stored pairs"
+                },
+            );
+            // Where a contact sticks, the stored values rest on a coarser smoothing.
+            let force = chain.contact_forces[0];
+            let stored = case[force_key].as_f64().unwrap();
+            let name = format!(
+                "theta = {theta}, rho = {rho}, ball friction {ball_friction}, stuck {stuck}"
+            );
+            if stuck {
+                println!("{name}: {force} stored {stored}");
+            }
+            measured::assert_at(
+                &format!("stored pairs, stuck {stuck}, contact force in N"),
+                force - stored,
+                format_args!("{name}: {force}, stored {stored}"),
+            );
+            for (motion, stored) in chain.balls.iter().zip(list(&case[eps_key])) {
+                measured::assert_at(
+                    &format!("stored pairs, stuck {stuck}, speed deviation"),
+                    motion.speed_deviation - stored,
+                    format_args!("{name}: {} stored {stored}", motion.speed_deviation),
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn table_3_5_contact_forces() {
+    // Published 4.01 N numerical; 4.023 N without and 4.065 N with friction between the balls reproduce it to 0.3 and 1.4 %.
+    let balls = [tilted(2.0, -0.6), tilted(2.0, 0.6)];
+    let without = solve_chain(&balls, 0.0, 0.01).unwrap().contact_forces[0];
+    let with = solve_chain(&balls, 0.1, 0.01).unwrap();
+    println!(
+        "{without} N, {} N, slip {}",
+        with.contact_forces[0],
+        with.ball_slip[0] / 0.01
+    );
+    // Half a unit of the last digit, here and below.
+    assert!((without - 4.023).abs() < 5e-4 && (with.contact_forces[0] - 4.065).abs() < 5e-4);
+    // (3.52) gives 1.4142 v.
+    assert!((with.ball_slip[0] / 0.01 - 1.406).abs() < 5e-4);
+    // Case (b), the mated top groove: no force.
+    let theta = 2.0_f64.to_radians();
+    let mated = [-0.6, 0.6].map(|rho| ball([-theta, theta, -theta, theta], rho));
+    assert!(solve_chain(&mated, 0.1, 0.01).unwrap().contact_forces[0] < 1e-12);
+    // Figure 3.15 at its edge, 3 deg and 0.6: ball-to-ball loss 85.1 % of the baseline.
+    let edge = [tilted(3.0, -0.6), tilted(3.0, 0.6)];
+    let base: f64 = edge.iter().map(|b| b.solve(0.01).unwrap().power_loss).sum();
+    let chain = solve_chain(&edge, 0.1, 0.01).unwrap();
+    println!(
+        "{} %, total over baseline {} %",
+        100.0 * chain.ball_loss / base,
+        100.0 * chain.power_loss() / base
+    );
+    // The published 185.2 % is the baseline with the ball-to-ball loss added; the grooves themselves lose 4 % more in contact.
+    assert!((1.0 + chain.ball_loss / base - 1.851).abs() < 5e-4);
+    assert!((chain.groove_loss / base - 1.044).abs() < 5e-4);
+}
+
+#[test]
+fn reversal_swaps_rear_and_front() {
+    let pair = [tilted(2.0, -0.6), tilted(2.0, 0.6)];
+    let swapped = [pair[1], pair[0]];
+    let forward = solve_chain(&pair, 0.1, 1.0).unwrap();
+    let backward = solve_chain(&swapped, 0.1, -1.0).unwrap();
+    // Mirrored: at most some roundings, 4e-16 N each.
+    assert!((forward.contact_forces[0] - backward.contact_forces[0]).abs() < 1e-13);
+    check_laws(&swapped, &backward, 0.1, -1.0, "reversed pairs");
+    assert_eq!(
+        solve_chain(&pair, 0.1, -1.0).unwrap().contact_forces[0],
+        0.0
+    );
+    assert_eq!(
+        solve_chain(&swapped, 0.1, 1.0).unwrap().contact_forces[0],
+        0.0
+    );
+}
+
+#[test]
+fn linear_model_three_ways() {
+    let mut random = Random(88172645463325252);
+    let mut worst = [0.0_f64; 2];
+    for n in 1..=9 {
+        for _ in 0..30 {
+            let free: Vec<_> = (0..n).map(|_| random.signed()).collect();
+            let compliance: Vec<_> = (0..n).map(|_| 10_f64.powf(random.signed())).collect();
+            let (x, f) = pool_adjacent_violators(&free, &compliance);
+            let (x2, f2) = isotonic_by_min_max(&free, &compliance);
+            let (x3, f3) = exhaustive_contacts(&free, &compliance).unwrap();
+            for j in 0..n {
+                worst[0] = worst[0].max((x[j] - x2[j]).abs()).max((x[j] - x3[j]).abs());
+            }
+            for j in 0..n - 1 {
+                worst[1] = worst[1].max((f[j] - f2[j]).abs()).max((f[j] - f3[j]).abs());
+            }
+        }
+    }
+    for n in [37, 64, 200] {
+        let free: Vec<_> = (0..n).map(|_| random.signed()).collect();
+        let compliance: Vec<_> = (0..n).map(|_| 10_f64.powf(random.signed())).collect();
+        let (x, f) = pool_adjacent_violators(&free, &compliance);
+        let (x2, f2) = isotonic_by_min_max(&free, &compliance);
+        let scale = f.iter().fold(0.0_f64, |m, f| m.max(*f));
+        // Two hundred terms in another order, 1.1e-16 each; forces add them up once more.
+        assert!(
+            x.iter().zip(&x2).all(|(a, b)| (a - b).abs() < 1e-13),
+            "n = {n}"
+        );
+        assert!(
+            f.iter()
+                .zip(&f2)
+                .all(|(a, b)| (a - b).abs() < 1e-13 * scale * f64::from(n)),
+            "n = {n}"
+        );
+    }
+    println!("speeds {:e}, forces {:e}", worst[0], worst[1]);
+    measured::assert_at(
+        "chains three ways, speed",
+        worst[0],
+        format_args!("{worst:?}"),
+    );
+    measured::assert_at(
+        "chains three ways, force",
+        worst[1],
+        format_args!("{worst:?}"),
+    );
+    // Equal speeds do not press; one ball has no neighbour; no ball no answer.
+    assert_eq!(
+        pool_adjacent_violators(&[0.3; 4], &[1.0; 4]),
+        (vec![0.3; 4], vec![0.0; 3])
+    );
+    assert_eq!(pool_adjacent_violators(&[0.3], &[2.0]), (vec![0.3], vec![]));
+    assert_eq!(pool_adjacent_violators(&[], &[]), (vec![], vec![]));
+    assert!(exhaustive_contacts(&[0.0; 17], &[1.0; 17]).is_none());
+}
+
+/// The exact chain has one solution: every other set of contacts violates it. Checked by solving the pieces of the chain that
+/// a set of contacts leaves, and comparing the total power: the accepted set minimises it among the feasible ones.
+#[test]
+fn long_chain_is_solved_and_balanced() {
+    let mut random = Random(42);
+    let balls: Vec<_> = (0..64)
+        .map(|_| {
+            let deviations = [0; 4].map(|_| 0.05 * random.signed());
+            ball(deviations, 0.6 * random.signed())
+        })
+        .collect();
+    for ball_friction in [0.0, 0.1] {
+        let chain = solve_chain(&balls, ball_friction, 0.02).unwrap();
+        check_laws(&balls, &chain, ball_friction, 0.02, "long chains");
+        let touching = chain.contact_forces.iter().filter(|f| **f > 0.0).count();
+        println!(
+            "{touching} contacts, largest {:.3} N, {} steps",
+            chain.contact_forces.iter().fold(0.0_f64, |m, f| m.max(*f)),
+            chain.iterations
+        );
+        assert!(touching > 10 && touching < 64);
+    }
+}
+
+#[test]
+fn hostile_chains_end() {
+    let pair = [tilted(2.0, -0.6), tilted(2.0, 0.6)];
+    // Without friction in the grooves there is no force, and the speeds are the limit.
+    let smooth = pair.map(|b| LinearBall { friction: 0.0, ..b });
+    let chain = solve_chain(&smooth, 0.1, 1.0).unwrap();
+    assert_eq!((chain.contact_forces[0], chain.power_loss()), (0.0, 0.0));
+    // Measured: 0.0; a deviation is a number near one less one, of which a unit of the last place is 2.2e-16.
+    assert!((chain.balls[0].speed_deviation - chain.balls[1].speed_deviation).abs() < 7e-16);
+    let rough = pair.map(|b| LinearBall { friction: 0.3, ..b });
+    let chain = solve_chain(&rough, 0.3, 1.0).unwrap();
+    check_laws(&rough, &chain, 0.3, 1.0, "rough pairs");
+    assert_eq!(
+        solve_chain(&pair, 0.1, 0.0),
+        Err(ReferenceError::Standstill)
+    );
+    assert!(solve_chain(&[], 0.1, 1.0).is_err());
+    assert!(solve_chain(&pair, f64::NAN, 1.0).is_err());
+    assert!(
+        solve_chain(
+            &[
+                pair[0],
+                LinearBall {
+                    ball_radius: 0.004,
+                    ..pair[1]
+                }
+            ],
+            0.1,
+            1.0
+        )
+        .is_err()
+    );
+    assert_eq!(
+        solve_chain(
+            &[
+                pair[0],
+                LinearBall {
+                    contact_forces: [0.0; 4],
+                    ..pair[1]
+                }
+            ],
+            0.1,
+            1.0
+        ),
+        Err(ReferenceError::Undriven)
+    );
+    // Through the switch to two-point contact.
+    for rho in [-0.99, -0.95, -0.93, -0.9, 0.92, 0.96] {
+        let balls = [
+            tilted(2.0, rho),
+            tilted(1.0, -rho),
+            tilted(-2.0, rho),
+            tilted(3.0, 0.3),
+        ];
+        for ball_friction in [0.0, 0.1] {
+            match solve_chain(&balls, ball_friction, 1.0) {
+                Ok(chain) => check_laws(&balls, &chain, ball_friction, 1.0, "chains at the switch"),
+                Err(error) => panic!("rho = {rho}, ball friction {ball_friction}: {error}"),
+            }
+        }
+    }
+}

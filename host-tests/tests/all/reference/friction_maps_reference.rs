@@ -1,0 +1,384 @@
+//! Force, moment and power of one contact: three evaluations of the same integrals, and the laws they obey.
+
+use super::area::friction_over_area;
+use epas_reference::friction::maps::FrictionMap;
+use epas_reference::friction::patch::{Patch, PatchVelocity};
+use epas_testkit::measured;
+use epas_testkit::random::Random;
+use serde_json::Value;
+
+fn golden(name: &str) -> Value {
+    let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn list(value: &Value) -> Vec<f64> {
+    value
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|x| x.as_f64().unwrap())
+        .collect()
+}
+
+/// The stored maps were computed with 30 digits; what remains is the rounding of a few hundred terms here.
+#[test]
+fn maps_agree_with_high_precision_values() {
+    for case in golden("friction")["maps"].as_array().unwrap() {
+        let k = case["k"].as_f64().unwrap();
+        let map = FrictionMap::new(k).unwrap();
+        let [p0, p2, p4] = map.coefficients();
+        for (name, value) in [("p0", p0), ("p2", p2), ("p4", p4)] {
+            let stored = case[name].as_f64().unwrap();
+            measured::assert_at(
+                "friction maps, coefficients",
+                value - stored,
+                format_args!("k = {k}: {name} = {value}, stored {stored}"),
+            );
+        }
+        let columns = ["kappa", "f", "M", "P", "df"].map(|name| list(&case[name]));
+        for (i, &x) in columns[0].iter().enumerate() {
+            let here = map.at(x);
+            let mirrored = map.at(-x);
+            assert_eq!(here.force, -mirrored.force);
+            assert_eq!(here.power, mirrored.power);
+            for (name, value, stored) in [
+                ("force", here.force, columns[1][i]),
+                ("moment", here.moment, columns[2][i]),
+                ("power", here.power, columns[3][i]),
+                ("slope", here.slope, columns[4][i]),
+            ] {
+                let error = (value - stored).abs();
+                measured::assert_at(
+                    &format!("friction maps, {name}"),
+                    error / (1.0 + x),
+                    format_args!(
+                        "FrictionMap::new({k}).at({x}).{name} = {value}, stored {stored}, off {error:e}"
+                    ),
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn closed_form_equals_the_line_integral() {
+    // 160 nodes resolve the branch point at distance k of the interval's end: 1e-13 for k >= 0.05.
+    let mut worst = [0.0_f64; 4];
+    for k in [0.05, 0.1, 0.2321, 0.5, 0.8, 0.97, 0.999, 1.0] {
+        let map = FrictionMap::new(k).unwrap();
+        for step in 0..=200 {
+            let x = 0.015 * f64::from(step);
+            let (one, two) = (map.at(x), map.by_line_integral(x));
+            let errors = [
+                one.force - two.force,
+                one.moment - two.moment,
+                one.power - two.power,
+                one.slope - two.slope,
+            ];
+            for (worst, error) in worst.iter_mut().zip(errors) {
+                *worst = worst.max(error.abs());
+            }
+        }
+    }
+    println!("force, moment, power, slope: {worst:?}");
+    measured::assert_at("line integral, force", worst[0], format_args!("{worst:?}"));
+    measured::assert_at("line integral, moment", worst[1], format_args!("{worst:?}"));
+    measured::assert_at("line integral, power", worst[2], format_args!("{worst:?}"));
+    measured::assert_at("line integral, slope", worst[3], format_args!("{worst:?}"));
+}
+
+#[test]
+fn area_quadrature_confirms_the_maps() {
+    // Twelve nodes on panels that halve towards the singular points converge like 5.8^-24 (1e-13 was measured).
+    let mut worst = 0.0_f64;
+    for k in [0.1, 0.2321, 0.5] {
+        let map = FrictionMap::new(k).unwrap();
+        let patch = Patch {
+            semi_major: 1.0,
+            semi_minor: k,
+            friction_limit: 1.0,
+        };
+        for x in [0.0, 0.05, 0.4, 0.9, 1.0, 1.05, 1.6, 5.0] {
+            // Slip along the minor axis V = kappa w a: the velocity centre lies on the major axis.
+            let velocity = PatchVelocity {
+                slip_major: 0.0,
+                slip_minor: x,
+                spin: 1.0,
+            };
+            let (power, gradient) = friction_over_area(&patch, velocity);
+            let value = map.at(x);
+            for (name, error) in [
+                ("power", power - value.power),
+                ("major", gradient[0]),
+                ("minor", gradient[1] - value.force),
+                ("moment", gradient[2] - value.moment),
+            ] {
+                worst = worst.max(error.abs());
+                measured::assert_at(
+                    "area quadrature, maps",
+                    error / (1.0 + x),
+                    format_args!("k = {k}, offset = {x}: {name} off by {error:e}"),
+                );
+            }
+        }
+    }
+    println!("largest difference {worst:e}");
+}
+
+#[test]
+fn area_quadrature_confirms_the_general_reduction() {
+    let mut worst = 0.0_f64;
+    let patch = Patch {
+        semi_major: 0.26e-3,
+        semi_minor: 0.055e-3,
+        friction_limit: 3.6,
+    };
+    let (a, b) = (patch.semi_major, patch.semi_minor);
+    for (e, angle) in [
+        (0.0, 0.0),
+        (0.3, 0.7),
+        (0.8, 2.1),
+        (0.99, 1.2),
+        (1.0, 0.4),
+        (1.02, 2.5),
+        (1.7, 1.0),
+        (30.0, 0.2),
+    ] {
+        for spin in [4.0, -4.0] {
+            let (x, y): (f64, f64) = (e * f64::cos(angle) * a, e * f64::sin(angle) * b);
+            let velocity = PatchVelocity {
+                slip_major: spin * y,
+                slip_minor: -spin * x,
+                spin,
+            };
+            let (power, gradient) = friction_over_area(&patch, velocity);
+            let exact = patch.friction(velocity);
+            let scales = [
+                patch.friction_limit,
+                patch.friction_limit,
+                patch.friction_limit * a,
+            ];
+            for i in 0..3 {
+                let error = (gradient[i] - exact.gradient[i]).abs() / scales[i];
+                worst = worst.max(error);
+                measured::assert_at(
+                    "area quadrature, any direction",
+                    error,
+                    format_args!(
+                        "e = {e}, angle = {angle}, spin = {spin}: component {i} off by {error:e}"
+                    ),
+                );
+            }
+            let error = (power - exact.power).abs() / (patch.friction_limit * a * 4.0 * (1.0 + e));
+            worst = worst.max(error);
+            measured::assert_at(
+                "area quadrature, any direction",
+                error,
+                format_args!("e = {e}, angle = {angle}, spin = {spin}: power off by {error:e}"),
+            );
+        }
+    }
+    println!("largest difference {worst:e}");
+}
+
+#[test]
+fn reduction_and_maps_agree_where_both_hold() {
+    let mut worst = 0.0_f64;
+    for k in [0.1, 0.25, 0.5, 1.0] {
+        let map = FrictionMap::new(k).unwrap();
+        let patch = Patch {
+            semi_major: 2.0,
+            semi_minor: 2.0 * k,
+            friction_limit: 3.0,
+        };
+        for exponent in -12..=24 {
+            let x = 10_f64.powf(0.25 * f64::from(exponent));
+            let value = map.at(x);
+            let exact = patch.friction(PatchVelocity {
+                slip_major: 0.0,
+                slip_minor: x * 5.0 * 2.0,
+                spin: 5.0,
+            });
+            let errors = [
+                exact.gradient[1] / 3.0 - value.force,
+                exact.gradient[2] / 6.0 - value.moment,
+                (exact.power / (6.0 * 5.0) - value.power) / (1.0 + x),
+                exact.gradient[0] / 3.0,
+            ];
+            for error in errors {
+                worst = worst.max(error.abs());
+                measured::assert_at(
+                    "reduction and maps",
+                    error,
+                    format_args!("k = {k}, offset = {x}: {errors:?}"),
+                );
+            }
+        }
+    }
+    println!("largest difference {worst:e}");
+}
+
+#[test]
+fn stored_friction_of_the_ball_screw_contact() {
+    // Stored with 12 digits from a 48-point rule; mm, N, rad/s. [N, a, b, mu, V1, V2, w] -> [f1, f2, M, P]
+    for case in golden("ballscrew")["friction"].as_array().unwrap() {
+        let args = list(&case["args"]);
+        let out = list(&case["out"]);
+        let patch = Patch {
+            semi_major: args[1],
+            semi_minor: args[2],
+            friction_limit: args[0] * args[3],
+        };
+        let velocity = PatchVelocity {
+            slip_major: args[4],
+            slip_minor: args[5],
+            spin: args[6],
+        };
+        let here = patch.friction(velocity);
+        let values = [
+            -here.gradient[0],
+            -here.gradient[1],
+            -here.gradient[2],
+            here.power,
+        ];
+        for (value, stored) in values.iter().zip(&out) {
+            measured::assert_at(
+                "friction of the contacts of a screw",
+                value - stored,
+                format_args!("{args:?}: {values:?}, stored {out:?}"),
+            );
+        }
+        println!("{values:?} {out:?}");
+    }
+}
+
+/// Energy: the power is minus force times slip minus moment times spin (degree one), and is never negative.
+/// Convexity: the Hessian is that of the gradient (finite differences), has no negative eigenvalue, and vanishes along the velocity.
+#[test]
+fn power_is_convex_and_homogeneous() {
+    let patch = Patch {
+        semi_major: 0.3e-3,
+        semi_minor: 0.08e-3,
+        friction_limit: 5.0,
+    };
+    let a = patch.semi_major;
+    let mut random = Random(1);
+    for _ in 0..200 {
+        let scale = 10_f64.powf(2.0 * random.signed());
+        let v = [
+            scale * a * random.signed(),
+            scale * a * random.signed(),
+            random.signed(),
+        ];
+        let velocity = |v: [f64; 3]| PatchVelocity {
+            slip_major: v[0],
+            slip_minor: v[1],
+            spin: v[2],
+        };
+        let here = patch.friction(velocity(v));
+        let energy: f64 = here.gradient.iter().zip(v).map(|(f, v)| f * v).sum();
+        assert!(here.power > 0.0);
+        measured::assert_at(
+            "power of a contact, homogeneous",
+            energy / here.power - 1.0,
+            format_args!("{v:?}: energy {energy}, power {}", here.power),
+        );
+        let lengths = [1.0, 1.0, 1.0 / a];
+        let speed = v[0].hypot(v[1]).hypot(a * v[2]);
+        for i in 0..3 {
+            let along: f64 = here.hessian[i].iter().zip(v).map(|(h, v)| h * v).sum();
+            measured::assert_at(
+                "Hessian of a contact along its velocity",
+                along * lengths[i] / patch.friction_limit,
+                format_args!("{v:?}: row {i} along the velocity {along:e}"),
+            );
+            for j in 0..3 {
+                let step = 1e-5 * speed * lengths[j];
+                let (mut up, mut down) = (v, v);
+                up[j] += step;
+                down[j] -= step;
+                let slope = (patch.friction(velocity(up)).gradient[i]
+                    - patch.friction(velocity(down)).gradient[i])
+                    / (2.0 * step);
+                let error = (slope - here.hessian[i][j]).abs() * lengths[i] * lengths[j] * speed
+                    / patch.friction_limit;
+                measured::assert_at(
+                    "Hessian of a contact by differences",
+                    error,
+                    format_args!(
+                        "{v:?}: Hessian {i} {j}: {} by differences {slope}",
+                        here.hessian[i][j]
+                    ),
+                );
+            }
+        }
+        let h = nalgebra::Matrix3::from_fn(|i, j| here.hessian[i][j] * lengths[i] * lengths[j]);
+        let eigen = h.symmetric_eigenvalues();
+        // Convex. Measured: -4.2e-16.
+        assert!(eigen.min() > -2e-15 * eigen.max(), "{v:?}: {eigen}");
+    }
+}
+
+#[test]
+fn limits_and_bad_input_of_the_maps() {
+    assert!(FrictionMap::new(0.0).is_err());
+    assert!(FrictionMap::new(1.1).is_err());
+    assert!(FrictionMap::new(f64::NAN).is_err());
+    let map = FrictionMap::new(0.25).unwrap();
+    let sliding = map.at(f64::INFINITY);
+    assert_eq!((sliding.force, sliding.moment), (1.0, 0.0));
+    assert!(map.at(f64::NAN).force.is_nan());
+    // Far away: force 1 - q/x^2, moment 2 q/x with q = k^2/10, next terms of order x^-4 and x^-3.
+    let (x, q) = (1e4, 0.00625);
+    // What is left is x^-2.
+    assert!((map.at(x).moment * x / (2.0 * q) - 1.0).abs() < 1e-8);
+    // A difference of 6e-11 from one is known to 1.1e-16 of one, twice: 4e-6 at worst.
+    assert!(((1.0 - map.at(x).force) * x * x / q - 1.0).abs() < 1e-6);
+    // The slope stays continuous where the closed form takes over, and the circle is the limit of the ellipse.
+    // A slope below one times 1e-12.
+    assert!((map.at(1.0).force - map.at(1.0 + 1e-12).force).abs() < 1e-12);
+    let (circle, near) = (
+        FrictionMap::new(1.0).unwrap(),
+        FrictionMap::new(1.0 - 1e-9).unwrap(),
+    );
+    for x in [0.0, 0.5, 1.5, 10.0] {
+        // Measured: 1.3e-10, an eighth of what the axis ratios differ by.
+        assert!((circle.at(x).force - near.at(x).force).abs() < 2e-10);
+    }
+    // Circle: kf = 3 pi/8 and k3 = 3 pi/32. Measured: 0.0; a unit of the last place is 2.2e-16.
+    assert!((circle.initial_slope() - 0.375 * std::f64::consts::PI).abs() < 7e-16);
+    let rest = Patch {
+        semi_major: 1.0,
+        semi_minor: 0.3,
+        friction_limit: 1.0,
+    }
+    .friction(PatchVelocity::default());
+    assert_eq!((rest.power, rest.gradient), (0.0, [0.0; 3]));
+    let unloaded = Patch {
+        semi_major: 1.0,
+        semi_minor: 0.3,
+        friction_limit: 0.0,
+    }
+    .friction(PatchVelocity {
+        slip_major: 1.0,
+        slip_minor: 0.0,
+        spin: 0.0,
+    });
+    assert_eq!(unloaded.power, 0.0);
+    let sliding = Patch {
+        semi_major: 1.0,
+        semi_minor: 0.3,
+        friction_limit: 2.0,
+    }
+    .friction(PatchVelocity {
+        slip_major: 3.0,
+        slip_minor: -4.0,
+        spin: 0.0,
+    });
+    // Some ten roundings of 1.1e-16 of ten.
+    assert!(
+        (sliding.power - 10.0).abs() < 1e-14 && (sliding.gradient[1] + 1.6).abs() < 1e-14,
+        "{sliding:?}"
+    );
+}

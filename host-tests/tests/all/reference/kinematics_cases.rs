@@ -1,0 +1,85 @@
+//! Inputs of contact kinematics: the stored cases, and random ones.
+
+use std::f64::consts::PI;
+
+use epas_reference::kinematics::{KinematicsInput, Raceway};
+use serde_json::Value;
+
+use epas_testkit::random::Random;
+
+const DEGREE: f64 = PI / 180.0;
+
+/// The stored cases.
+pub fn cases() -> Vec<Value> {
+    let text = include_str!("../../../golden/kinematics.json");
+    let file: Value = serde_json::from_str(text).unwrap();
+    file["cases"].as_array().unwrap().clone()
+}
+
+/// A number of a case.
+pub fn number(value: &Value, path: &[&str]) -> f64 {
+    path.iter()
+        .fold(value, |value, key| &value[key])
+        .as_f64()
+        .unwrap()
+}
+
+/// Lengths stay in millimetres: the model is homogeneous in length, and every number of the case is
+/// then the one that it was computed from.
+pub fn input(case: &Value) -> KinematicsInput {
+    let geometry = |key| number(case, &["geom", key]);
+    let state = |key| number(case, &["state", key]);
+    KinematicsInput {
+        ball_diameter: geometry("D"),
+        pitch_radius: geometry("r_m"),
+        lead_angle: geometry("psi"),
+        groove_radius_screw: geometry("r_i"),
+        groove_radius_nut: geometry("r_o"),
+        contact_angle_screw: state("alpha_i"),
+        contact_angle_nut: state("alpha_o"),
+        pitch_angle: state("beta"),
+        yaw_angle: state("betap"),
+        rolling_radius_screw: state("rp_i"),
+        rolling_radius_nut: state("rp_o"),
+        speed: state("omega"),
+        semi_major_screw: number(case, &["inner", "a"]),
+        semi_minor_screw: number(case, &["inner", "b"]),
+        semi_major_nut: number(case, &["outer", "a"]),
+        semi_minor_nut: number(case, &["outer", "b"]),
+    }
+}
+
+/// Name of a raceway in a case.
+pub const fn side_of(raceway: Raceway) -> &'static str {
+    match raceway {
+        Raceway::Screw => "inner",
+        Raceway::Nut => "outer",
+    }
+}
+
+/// A random input.
+pub fn random_input(random: &mut Random) -> KinematicsInput {
+    let pitch_radius = random.between(5e-3, 60e-3);
+    let ball_diameter = 2.0 * pitch_radius * random.between(0.04, 0.29);
+    let half = 0.5 * ball_diameter;
+    let contact_angle = random.between(10.0, 80.0) * DEGREE;
+    let [major_screw, major_nut] = [(); 2].map(|()| half * random.between(0.01, 0.3));
+    KinematicsInput {
+        ball_diameter,
+        pitch_radius,
+        lead_angle: random.between(-40.0, 40.0) * DEGREE,
+        groove_radius_screw: ball_diameter * random.between(0.505, 0.58),
+        groove_radius_nut: ball_diameter * random.between(0.505, 0.58),
+        contact_angle_screw: contact_angle,
+        contact_angle_nut: contact_angle + random.between(-0.1, 0.1),
+        pitch_angle: contact_angle + random.between(-0.15, 0.15),
+        yaw_angle: random.between(-0.1, 0.1),
+        rolling_radius_screw: half * random.between(0.99, 1.01),
+        rolling_radius_nut: half * random.between(0.99, 1.01),
+        speed: random.between(-400.0, 400.0),
+        semi_major_screw: major_screw,
+        semi_minor_screw: major_screw * random.between(0.05, 0.3),
+        semi_major_nut: major_nut,
+        semi_minor_nut: major_nut * random.between(0.05, 0.3),
+    }
+}

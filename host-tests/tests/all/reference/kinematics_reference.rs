@@ -1,0 +1,342 @@
+//! The reference kinematics against first principles, the published numbers and golden cases.
+
+use super::kinematics_cases::{cases, input, number, random_input, side_of};
+use epas_reference::kinematics::{KinematicsInput, Raceway, Revised, operating};
+use epas_testkit::measured;
+use epas_testkit::random::Random;
+use std::f64::consts::{PI, TAU};
+
+const DEGREE: f64 = PI / 180.0;
+
+/// Difference of two angles, -pi and pi being one.
+fn turn(left: f64, right: f64) -> f64 {
+    (left - right + PI).rem_euclid(TAU) - PI
+}
+
+/// The golden cases are correct to one unit in the last place; twelve digits remain after some twenty
+/// operations in float64, slip counted against the entrainment speed.
+#[test]
+fn golden_cases_within_1e_12() {
+    let mut worst = 0.0_f64;
+    for case in cases() {
+        let tag = case["tag"].as_str().unwrap();
+        let revised = Revised::new(&input(&case)).unwrap();
+        let ball = revised.evaluate();
+        let mut check = |name: &str, found: f64, wanted: f64, scale: f64| {
+            let error = (found - wanted).abs() / scale;
+            worst = worst.max(error);
+            measured::assert_at(
+                "golden kinematics",
+                error,
+                format_args!("{tag}: {name} {found} for {wanted}: {error:e}"),
+            );
+        };
+        let orbital = number(&case, &["omega_m_over_omega"]);
+        let spin = number(&case, &["omega_R_over_omega"]);
+        check("omega_m", revised.orbital_ratio(), orbital, orbital);
+        check("omega_R", revised.spin_ratio(), spin, spin);
+        for raceway in Raceway::BOTH {
+            let golden = |key| number(&case, &[side_of(raceway), key]);
+            let contact = ball.contact(raceway);
+            let entrainment = golden("ve");
+            let radius = 0.5 * revised.input().ball_diameter;
+            check("v_e", contact.entrainment_speed, entrainment, entrainment);
+            check("roll", contact.rolling_slip, golden("roll"), entrainment);
+            check("side", contact.side_slip, golden("side"), entrainment);
+            check(
+                "spin",
+                contact.spin * radius,
+                golden("spin") * radius,
+                entrainment,
+            );
+            let [v_x, v_y] = revised.entrainment(raceway);
+            let speed = revised.input().speed;
+            check("v_e,x", speed * v_x, golden("ve_x"), entrainment);
+            check("v_e,y", speed * v_y, golden("ve_y"), entrainment);
+            check("SRR", contact.slide_to_roll, golden("SRR"), 1.0);
+            check(
+                "gamma",
+                contact.entrainment_angle,
+                golden("gamma_atan2"),
+                1.0,
+            );
+            check("S_p", contact.spin_to_roll, golden("S_p"), 1.0);
+            // An angle is known as well as the slip that it belongs to.
+            let phi = turn(contact.slide_angle.unwrap(), golden("phi_atan2"));
+            check("phi", phi * golden("SRR"), 0.0, 1.0);
+            let deficit = radius - revised.distance(raceway, 0.0);
+            check("D/2 - S", deficit, golden("S0_deficit"), radius);
+            let [slip_x, slip_y] = revised.slip(raceway, golden("x"), golden("y"));
+            check("slip x", slip_x, golden("slip_x"), entrainment);
+            check("slip y", slip_y, golden("slip_y"), entrainment);
+        }
+    }
+    println!("golden cases: largest error {worst:.1e}");
+}
+
+/// Rolling slip is small beside the speeds that (31) subtracts. From its zero it keeps its digits: 1e-12
+/// of itself wherever it is not itself a cancellation of rolling radius and sagitta.
+#[test]
+fn rolling_slip_keeps_its_own_digits() {
+    let mut naive_worst = 0.0_f64;
+    for case in cases() {
+        let revised = Revised::new(&input(&case)).unwrap();
+        for raceway in Raceway::BOTH {
+            let golden = number(&case, &[side_of(raceway), "roll_over_omega"]);
+            let contact = revised.input().contact(raceway);
+            let excess = (contact.rolling_radius - 0.5 * revised.input().ball_diameter).abs();
+            if excess < 1e-9 {
+                let error = (revised.rolling_slip(raceway, 0.0) / golden - 1.0).abs();
+                measured::assert_at(
+                    "rolling slip, its own digits",
+                    error,
+                    format_args!("{}: {error:e}", case["tag"]),
+                );
+                naive_worst = naive_worst
+                    .max((revised.rolling_slip_as_printed(raceway, 0.0) / golden - 1.0).abs());
+            }
+        }
+    }
+    println!("rolling slip as printed in float64: relative error {naive_worst:.1e}");
+}
+
+/// Harris' kinematics of an angular-contact ball bearing with its inner ring turning, in the form of
+/// speeds: the helix of no lead is a bearing.
+#[test]
+fn zero_lead_is_a_bearing() {
+    let mut random = Random(0x5EED_0003);
+    for _ in 0..2000 {
+        let mut input = random_input(&mut random);
+        input.lead_angle = 0.0;
+        input.yaw_angle = 0.0;
+        input.rolling_radius_screw = 0.5 * input.ball_diameter;
+        input.rolling_radius_nut = 0.5 * input.ball_diameter;
+        let ball = Revised::new(&input).unwrap().evaluate();
+        let gamma = 0.5 * input.ball_diameter / input.pitch_radius;
+        let (inner, outer) = (input.contact_angle_screw, input.contact_angle_nut);
+        let beta = input.pitch_angle;
+        // omega_m / omega = [1 + (1 + g cos ao) cos(ai - b) / ((1 - g cos ai) cos(ao - b))]^-1
+        let ratio = (1.0 + gamma * outer.cos()) * (inner - beta).cos()
+            / ((1.0 - gamma * inner.cos()) * (outer - beta).cos());
+        let orbital = input.speed / (1.0 + ratio);
+        measured::assert(
+            "bearing of zero lead, speeds",
+            ball.orbital_speed / orbital - 1.0,
+        );
+        let spin_speed = orbital * (1.0 + gamma * outer.cos()) / (gamma * (outer - beta).cos());
+        measured::assert(
+            "bearing of zero lead, speeds",
+            ball.spin_speed / spin_speed - 1.0,
+        );
+        // Spin: relative rotation of ring and ball about the contact normal.
+        let inner_spin = (orbital - input.speed) * inner.sin() + spin_speed * (beta - inner).sin();
+        let outer_spin = -orbital * outer.sin() - spin_speed * (beta - outer).sin();
+        for (spin, wanted) in [(ball.screw.spin, inner_spin), (ball.nut.spin, outer_spin)] {
+            measured::assert_at(
+                "bearing of zero lead, spin",
+                (spin - wanted) / spin_speed,
+                format_args!("{input:?}"),
+            );
+        }
+        assert_eq!((ball.screw.side_slip, ball.nut.side_slip), (0.0, 0.0));
+        let straight_back = ball.screw.slide_angle.unwrap();
+        assert!(straight_back == 0.0 || straight_back == PI);
+    }
+}
+
+/// Side slip at both contacts adds up to `-omega sin psi` whatever the axis of rotation: a rearrangement of
+/// sums of products, so a few roundings. Spin likewise for equal contact angles.
+#[test]
+fn neither_side_slip_nor_spin_can_vanish_at_both_contacts() {
+    let mut random = Random(0x5EED_0004);
+    for _ in 0..5000 {
+        let mut input = random_input(&mut random);
+        let revised = Revised::new(&input).unwrap();
+        let ball = revised.evaluate();
+        let sum: f64 = Raceway::BOTH
+            .map(|raceway| ball.contact(raceway).side_slip / revised.distance(raceway, 0.0))
+            .iter()
+            .sum();
+        let wanted = -input.speed * input.lead_angle.sin();
+        measured::assert_at(
+            "sum of both side slips",
+            (sum - wanted) / input.speed,
+            format_args!("{input:?}"),
+        );
+
+        input.contact_angle_nut = input.contact_angle_screw;
+        let ball = Revised::new(&input).unwrap().evaluate();
+        let wanted = -input.speed * input.lead_angle.cos() * input.contact_angle_screw.sin();
+        let sum = ball.screw.spin + ball.nut.spin;
+        measured::assert_at(
+            "sum of both spins",
+            (sum - wanted) / ball.spin_speed,
+            format_args!("{input:?}"),
+        );
+    }
+}
+
+/// With `eps = D / d_m cos alpha cos^2 psi`: `omega_m / omega = (1 - eps) / 2`, `v_e` and the side
+/// slip-to-roll ratio in closed form, at the ball's own radius (no ellipse).
+#[test]
+fn equal_contact_angles_have_closed_forms() {
+    let mut random = Random(0x5EED_0005);
+    for _ in 0..2000 {
+        let mut input = random_input(&mut random);
+        input.contact_angle_nut = input.contact_angle_screw;
+        input.rolling_radius_screw = 0.5 * input.ball_diameter;
+        input.rolling_radius_nut = 0.5 * input.ball_diameter;
+        input.yaw_angle = 0.0;
+        for axis in [
+            &mut input.semi_major_screw,
+            &mut input.semi_minor_screw,
+            &mut input.semi_major_nut,
+            &mut input.semi_minor_nut,
+        ] {
+            *axis = 0.0;
+        }
+        let ball = Revised::new(&input).unwrap().evaluate();
+        let gamma = 0.5 * input.ball_diameter / input.pitch_radius;
+        let (sine, cosine) = input.lead_angle.sin_cos();
+        let eps = gamma * input.contact_angle_screw.cos() * cosine * cosine;
+        measured::assert(
+            "equal contact angles, orbital speed",
+            ball.orbital_speed / input.speed - 0.5 * (1.0 - eps),
+        );
+        for raceway in Raceway::BOTH {
+            let contact = ball.contact(raceway);
+            assert_eq!(contact.rolling_slip, 0.0);
+            let rolling = contact.entrainment_speed * contact.entrainment_angle.cos();
+            let wanted =
+                input.speed.abs() * input.pitch_radius * (1.0 - eps * eps) / (2.0 * cosine);
+            measured::assert_at(
+                "equal contact angles, rolling speed",
+                rolling / wanted - 1.0,
+                format_args!("{input:?}"),
+            );
+            let side_ratio = contact.side_slip.abs() / rolling;
+            let wanted = gamma * (sine * cosine).abs() / (1.0 - raceway.sign() * eps);
+            measured::assert_at(
+                "equal contact angles, side slip",
+                side_ratio - wanted,
+                format_args!("{input:?}"),
+            );
+            let angle = contact.entrainment_angle.tan().abs();
+            measured::assert_at(
+                "equal contact angles, side slip",
+                angle - 0.5 * wanted,
+                format_args!("{input:?}"),
+            );
+        }
+    }
+}
+
+/// Contact ellipses of the golden cases are those of exact Hertz theory with (9) and (10).
+#[test]
+fn contact_ellipse_of_the_published_screw() {
+    let cosine = operating::LEAD_ANGLE.cos();
+    for (raceway, a, b) in [
+        (Raceway::Screw, 0.601080947980393e-3, 0.08288466900521317e-3),
+        (Raceway::Nut, 0.5858084960826777e-3, 0.09748010125556548e-3),
+    ] {
+        let ellipse = operating::ellipse(
+            raceway,
+            operating::CONTACT_ANGLE,
+            cosine * cosine,
+            operating::CONTACT_LOAD,
+        )
+        .unwrap();
+        measured::assert_at(
+            "ellipses of the published screw",
+            ellipse.semi_major / a - 1.0,
+            format_args!("{ellipse:?}"),
+        );
+        measured::assert_at(
+            "ellipses of the published screw",
+            ellipse.semi_minor / b - 1.0,
+            format_args!("{ellipse:?}"),
+        );
+    }
+    let ball = operating::loaded_ball(1500.0, operating::SPEED).unwrap();
+    measured::assert(
+        "contact angle of the published screw in degrees",
+        ball.input.contact_angle_screw / DEGREE - 41.02,
+    );
+    // Printed to a tenth: half a unit.
+    assert!((ball.load_screw - 154.7).abs() < 0.05, "{ball:?}");
+    assert_eq!(operating::ellipse(Raceway::Nut, 0.7, 1.0, 0.0), None);
+}
+
+/// Bad numbers are refused with the field named, and never panic.
+#[test]
+fn wrong_input_is_refused_by_name() {
+    type Setter = fn(&mut KinematicsInput, f64);
+    let fields: [(&str, Setter); 16] = [
+        ("ball_diameter", |i, v| i.ball_diameter = v),
+        ("pitch_radius", |i, v| i.pitch_radius = v),
+        ("lead_angle", |i, v| i.lead_angle = v),
+        ("groove_radius_screw", |i, v| i.groove_radius_screw = v),
+        ("groove_radius_nut", |i, v| i.groove_radius_nut = v),
+        ("contact_angle_screw", |i, v| i.contact_angle_screw = v),
+        ("contact_angle_nut", |i, v| i.contact_angle_nut = v),
+        ("pitch_angle", |i, v| i.pitch_angle = v),
+        ("yaw_angle", |i, v| i.yaw_angle = v),
+        ("rolling_radius_screw", |i, v| i.rolling_radius_screw = v),
+        ("rolling_radius_nut", |i, v| i.rolling_radius_nut = v),
+        ("speed", |i, v| i.speed = v),
+        ("semi_major_screw", |i, v| i.semi_major_screw = v),
+        ("semi_minor_screw", |i, v| i.semi_minor_screw = v),
+        ("semi_major_nut", |i, v| i.semi_major_nut = v),
+        ("semi_minor_nut", |i, v| i.semi_minor_nut = v),
+    ];
+    let good = operating::table_two().unwrap();
+    for (name, set) in fields {
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let mut input = good;
+            set(&mut input, value);
+            assert_eq!(Revised::new(&input).unwrap_err().field(), Some(name));
+        }
+    }
+    let far = KinematicsInput {
+        contact_angle_nut: -1.0,
+        ..good
+    };
+    let error = Revised::new(&far).unwrap_err();
+    assert_eq!(error.field(), Some("contact_angle_nut"));
+    assert!(
+        error
+            .to_string()
+            .starts_with("contact_angle_nut: -1 must be")
+    );
+    let folded = KinematicsInput {
+        rolling_radius_screw: 30e-3,
+        ..good
+    };
+    assert_eq!(
+        Revised::new(&folded).unwrap_err().field(),
+        Some("rolling_radius_screw")
+    );
+}
+
+/// Slip at standstill is zero, its ratios are not.
+#[test]
+fn standstill_has_ratios() {
+    let moving = operating::table_two().unwrap();
+    let still = KinematicsInput {
+        speed: 0.0,
+        ..moving
+    };
+    let (moving, still) = (
+        Revised::new(&moving).unwrap(),
+        Revised::new(&still).unwrap(),
+    );
+    for raceway in Raceway::BOTH {
+        let (ball, at_rest) = (moving.evaluate(), still.evaluate());
+        let (running, resting) = (ball.contact(raceway), at_rest.contact(raceway));
+        assert_eq!(resting.slide_to_roll, running.slide_to_roll);
+        assert_eq!(resting.slide_angle, running.slide_angle);
+        assert_eq!(resting.entrainment_angle, running.entrainment_angle);
+        assert_eq!(resting.spin_to_roll, running.spin_to_roll);
+        assert_eq!(resting.entrainment_speed, 0.0);
+    }
+}

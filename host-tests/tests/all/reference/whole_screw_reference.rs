@@ -1,0 +1,298 @@
+//! Whole ball screw with recirculation: stored runs, the features of Figures 3.24 and 3.25, and the laws of contact.
+
+use epas_reference::friction::ball_screw_closed::ThreePointModel;
+use epas_reference::friction::ball_screw_elastic::BallSlip;
+use epas_reference::friction::contact_law::HertzLaw;
+use epas_reference::friction::linear_ball::EllipseLaw;
+use epas_reference::friction::whole_screw::WholeScrew;
+use epas_testkit::designs::SCREW_TRACK;
+use epas_testkit::measured;
+use serde_json::Value;
+use std::f64::consts::{FRAC_PI_4, TAU};
+
+fn golden(name: &str) -> Value {
+    let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
+}
+
+fn list(value: &Value) -> Vec<f64> {
+    value
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|x| x.as_f64().unwrap())
+        .collect()
+}
+
+fn law(side: &str, groove_radius: &str) -> HertzLaw {
+    let all = golden("ballscrew");
+    let stored = &all["hertz"][format!("{side}_rG{groove_radius}")]["correct"];
+    let value = |key: &str| stored[key].as_f64().unwrap() * 1e-3;
+    HertzLaw {
+        ellipse: EllipseLaw {
+            semi_major_constant: value("Ca"),
+            axis_ratio: value("Cb") / value("Ca"),
+        },
+        compliance: value("C"),
+    }
+}
+
+fn screw(groove_radius: &str, theta_degrees: f64, ball_slip: BallSlip) -> WholeScrew {
+    WholeScrew {
+        model: ThreePointModel {
+            track: SCREW_TRACK,
+            screw: law("S", groove_radius),
+            nut: law("N", groove_radius),
+            friction: 0.1,
+            contact_angle: FRAC_PI_4,
+        },
+        balls: 37,
+        turns: 2.0,
+        axial_load: -1500.0,
+        nut_speed: TAU,
+        deviation: theta_degrees.to_radians(),
+        cycles: 2.0,
+        ball_friction: 0.1,
+        ball_slip,
+    }
+}
+
+/// Peak of the ball torque over the groove torque, in per cent, its nut angle, and the angle where it first returns to zero.
+fn peak_and_release(
+    run: &[epas_reference::friction::whole_screw::WholeScrewState],
+) -> (f64, f64, f64) {
+    let (mut peak, mut at, mut release) = (0.0, 0.0, f64::NAN);
+    for state in run.iter().filter(|s| s.nut_angle < TAU) {
+        let share = 100.0 * state.ball_torque / state.main_torque;
+        if share > peak {
+            (peak, at) = (share, state.nut_angle.to_degrees());
+            release = f64::NAN;
+        }
+        if peak > 1.0 && state.ball_torque == 0.0 && release.is_nan() {
+            release = state.nut_angle.to_degrees();
+        }
+    }
+    (peak, at, release)
+}
+
+#[test]
+fn stored_runs() {
+    let all = golden("ballscrew");
+    for (theta, key) in [(2.0, "theta2"), (2.5, "theta2.5")] {
+        let stored = &all["whole_screw"][key];
+        let [groove, between, contacts] =
+            ["T_groove", "T_b2b", "ncontact"].map(|name| list(&stored[name]));
+        // The stored runs take one step of 3.6 degrees of nut angle at a time, count the main contacts as groove torque, and the
+        // slip between balls with the total spin.
+        let run = screw("3.254", theta, BallSlip::Total)
+            .simulate(2.0 * TAU, 200, 1)
+            .unwrap();
+        let mut worst = [0.0_f64; 2];
+        for (i, state) in run.iter().enumerate() {
+            let errors = [
+                state.main_torque * 1e3 / groove[i] - 1.0,
+                state.ball_torque * 1e3 - between[i],
+            ];
+            worst = [worst[0].max(errors[0].abs()), worst[1].max(errors[1].abs())];
+            // N mm. The stored compliances rest on a 48-point rule, 1e-6 off.
+            measured::assert_at(
+                "whole screw, stored groove torque",
+                errors[0],
+                format_args!(
+                    "{key} step {i}: groove {} stored {}",
+                    state.main_torque * 1e3,
+                    groove[i]
+                ),
+            );
+            measured::assert_at(
+                "whole screw, stored ball torque in N mm",
+                errors[1],
+                format_args!(
+                    "{key} step {i}: balls {} stored {}",
+                    state.ball_torque * 1e3,
+                    between[i]
+                ),
+            );
+            assert_eq!(state.contacts(), contacts[i] as usize, "{key} step {i}");
+        }
+        println!(
+            "{key}: groove {:e} relative, balls {:e} N mm",
+            worst[0], worst[1]
+        );
+    }
+}
+
+/// Peak against amplitude: 26/48/63/107 % at 108/104/97/94 degrees, released from 248/266/274/299 degrees. The published 49.6 % at
+/// 126 degrees and release at 306 degrees are not met by one amplitude: Figure 3.23 gives none in the text.
+#[test]
+fn figure_3_25_peaks_against_amplitude() {
+    for (theta, peak, at, release) in [
+        (2.0, 26.0, 108.0, 248.0),
+        (2.3, 48.0, 104.0, 266.0),
+        (2.5, 63.0, 97.0, 274.0),
+        (3.0, 107.0, 94.0, 299.0),
+    ] {
+        let run = screw("3.254", theta, BallSlip::Total)
+            .simulate(2.0 * TAU, 200, 1)
+            .unwrap();
+        let found = peak_and_release(&run);
+        println!("{theta} deg: {found:?}, table {peak} {at} {release}");
+        // Half a unit of the last digit, here and below.
+        assert!((found.0 - peak).abs() < 0.5, "{theta} deg: {found:?}");
+        assert!(
+            (found.1 - at).abs() < 0.5 && (found.2 - release).abs() < 0.5,
+            "{theta} deg: {found:?}"
+        );
+        // The relative slip between balls is 12 per cent less, and so is their torque.
+        let relative = peak_and_release(
+            &screw("3.254", theta, BallSlip::Orbiting)
+                .simulate(2.0 * TAU, 200, 1)
+                .unwrap(),
+        );
+        measured::assert_at(
+            "whole screw, torque by the relative slip",
+            relative.0 / found.0 - 0.88,
+            format_args!("{relative:?}"),
+        );
+    }
+}
+
+/// Figure 3.24: four groups of contacts, one per cycle of the deviation, then release, then a second, lower build-up; groove
+/// torque nearly constant.
+#[test]
+fn four_groups_release_and_build_up_again() {
+    let run = screw("3.254", 2.3, BallSlip::Orbiting)
+        .simulate(2.0 * TAU, 200, 10)
+        .unwrap();
+    let peak = run
+        .iter()
+        .filter(|s| s.nut_angle < TAU)
+        .max_by(|a, b| a.ball_torque.total_cmp(&b.ball_torque))
+        .unwrap();
+    let pressed: Vec<bool> = peak.contact_forces.iter().map(|f| *f > 0.0).collect();
+    let groups = (0..37)
+        .filter(|&j| pressed[j] && !pressed[(j + 36) % 37])
+        .count();
+    println!("{groups} groups, {} contacts", peak.contacts());
+    assert_eq!(groups, 4);
+    let second = run
+        .iter()
+        .filter(|s| s.nut_angle > TAU)
+        .map(|s| s.ball_torque)
+        .fold(0.0, f64::max);
+    // Measured: 0.259.
+    assert!(
+        second > 0.2 * peak.ball_torque && second < 0.35 * peak.ball_torque,
+        "{second} {}",
+        peak.ball_torque
+    );
+    let grooves: Vec<_> = run
+        .iter()
+        .map(epas_reference::friction::whole_screw::WholeScrewState::groove_torque)
+        .collect();
+    let (low, high) = grooves
+        .iter()
+        .fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(*t), h.max(*t)));
+    measured::assert_at(
+        "whole screw, groove torque over a turn",
+        high / low - 1.0,
+        format_args!("{low} {high}"),
+    );
+    let occupation = screw("3.254", 2.3, BallSlip::Orbiting).occupation();
+    // Printed to three decimals: half a unit.
+    assert!((occupation - 0.978).abs() < 5e-4, "{occupation}");
+}
+
+#[test]
+fn balls_never_overlap_and_forces_only_push() {
+    for (theta, speed) in [(2.5, TAU), (-2.5, TAU), (3.0, -TAU), (3.0, 0.1)] {
+        for load in [-1500.0, 1500.0] {
+            let one = WholeScrew {
+                nut_speed: speed,
+                axial_load: load,
+                ..screw("3.254", theta, BallSlip::Orbiting)
+            };
+            let run = one.simulate(2.0 * TAU, 150, 4).unwrap();
+            for state in &run {
+                // Roundings of azimuths. Measured: 2.7e-15.
+                assert!(
+                    state.smallest_gap > -9e-15,
+                    "theta {theta}, speed {speed}, load {load}: {:e}",
+                    state.smallest_gap
+                );
+                assert!(
+                    state
+                        .contact_forces
+                        .iter()
+                        .all(|f| *f >= 0.0 && f.is_finite())
+                );
+                assert!(state.ball_torque * speed >= 0.0 && state.groove_torque() * speed > 0.0);
+                // Balls that press are equally fast at the end of the substep; here within the gap they still close.
+                // Measured: 1.3e-13.
+                for j in 0..37 {
+                    let closing = (state.speeds[j] - state.speeds[(j + 1) % 37]) * speed.signum();
+                    if state.contact_forces[j] > 0.0 {
+                        assert!(closing > -4e-13 * speed.abs(), "pressing balls part");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn refinement_converges() {
+    // The mean ball torque over the first turn, against the step: first order in the step of the contact's closing.
+    let mean = |substeps: usize| {
+        let run = screw("3.254", 2.5, BallSlip::Orbiting)
+            .simulate(TAU, 100, substeps)
+            .unwrap();
+        run.iter().map(|s| s.ball_torque).sum::<f64>() / run.len() as f64
+    };
+    let [coarse, middle, fine] = [1, 8, 64].map(mean);
+    println!("{coarse} {middle} {fine}");
+    measured::assert("whole screw, eight steps", middle / fine - 1.0);
+    measured::assert("whole screw, one step", coarse / fine - 1.0);
+}
+
+#[test]
+fn bad_input_is_named() {
+    let good = screw("3.254", 2.0, BallSlip::Orbiting);
+    assert!(
+        WholeScrew { balls: 39, ..good }
+            .simulate(1.0, 10, 1)
+            .is_err()
+    );
+    assert!(
+        WholeScrew {
+            nut_speed: 0.0,
+            ..good
+        }
+        .simulate(1.0, 10, 1)
+        .is_err()
+    );
+    assert!(
+        WholeScrew {
+            axial_load: 0.0,
+            ..good
+        }
+        .simulate(1.0, 10, 1)
+        .is_err()
+    );
+    assert!(
+        WholeScrew {
+            deviation: f64::NAN,
+            ..good
+        }
+        .simulate(1.0, 10, 1)
+        .is_err()
+    );
+    assert!(good.simulate(1.0, 0, 1).is_err());
+    let even = WholeScrew {
+        deviation: 0.0,
+        ..good
+    }
+    .simulate(TAU, 20, 1)
+    .unwrap();
+    assert!(even.iter().all(|s| s.ball_torque == 0.0));
+}

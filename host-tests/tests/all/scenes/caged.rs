@@ -1,0 +1,267 @@
+//! What a caged screw promises: certificates of blocks that `epas-design` folds, each of 2,048 states that were not fitted; and laws that
+//! hold for all of them.
+
+use epas_testkit::errors::Errors;
+use std::sync::LazyLock;
+
+use epas_design::caged::Block;
+use epas_design::{CagedDesign, CagedFold, Failure, Figure, Folded};
+use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
+use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
+use epas_friction::{
+    BallScrew, BallScrewParameters, CATALOGUE, Clearance, DISSERTATION_DESIGNS, FrictionModel,
+    Inputs, Limits, Outputs, Regime, defaults,
+};
+use epas_reference::promises;
+
+/// Friction coefficients and clearances, m, that the designs take in turn.
+const FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
+const CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 20e-6];
+
+/// Every `step`-th design to a diameter of 63 mm, with its name.
+fn designs(step: usize) -> impl Iterator<Item = (&'static str, BallScrewParameters)> {
+    let sizes = CATALOGUE
+        .iter()
+        .chain(&FINE_LEAD_SIZES)
+        .chain(&STEERING_SIZES)
+        .map(|size| (size.name, size.parameters()));
+    let designs = DISSERTATION_DESIGNS
+        .iter()
+        .map(|design| (design.name, design.parameters));
+    sizes
+        .chain(designs)
+        .filter(|(_, parameters)| parameters.pitch_radius < 35e-3)
+        .step_by(step)
+}
+
+fn fold(parameters: BallScrewParameters, clearance: f32, friction: f32) -> CagedFold {
+    let design = BallScrew::new(parameters).unwrap();
+    CagedFold::of(CagedDesign {
+        design,
+        friction,
+        rolling_resistance: defaults::ROLLING_RESISTANCE,
+        clearance: Clearance::new(clearance).unwrap().checked(&design).unwrap(),
+        loaded_balls: 37,
+        reversal_speed: 0.5,
+        limits: Limits {
+            nut_speed: 1e3,
+            axial_load: 1e5,
+            friction_torque: 100.0,
+        },
+    })
+}
+
+/// Errors of a block's certificate: every state has an exact answer, and none is flagged.
+fn certified(folded: &Folded, errors: &mut Errors, line: &str) {
+    let [torque] = &folded.certificate.figures;
+    let Figure {
+        largest,
+        rms,
+        mean,
+        states,
+        flagged,
+        unsolved,
+        worst_load,
+        worst_friction,
+        ..
+    } = *torque;
+    assert_eq!((flagged, unsolved), (0.0, 0), "{line}");
+    println!("{line}: {largest:.1e} {rms:.1e} {mean:+.1e}, {worst_load} N, {worst_friction}");
+    errors.add_figures([largest, rms, mean], states as f64, || {
+        format!("{line}, {worst_load} N, {worst_friction}")
+    });
+}
+
+/// A block for one friction coefficient.
+#[test]
+fn folded_step() {
+    let mut errors = Errors::of("folded step");
+    for (place, (name, parameters)) in designs(2).enumerate() {
+        let clearance = CLEARANCES[place % CLEARANCES.len()];
+        let friction = FRICTIONS[place % FRICTIONS.len()];
+        let line = format!("{name}, {clearance} m, {friction}");
+        let folded = fold(parameters, clearance, friction).folded().unwrap();
+        certified(&folded, &mut errors, &line);
+    }
+    errors.assert_promised(promises::of("step_caged"));
+}
+
+/// A block for a range of friction coefficients, in and between its nodes; a range that it cannot hold to 3 % is refused.
+#[test]
+fn folded_step_between_nodes() {
+    let mut errors = Errors::of("folded step, friction between nodes");
+    let (mut blocks, mut refused) = (0, 0);
+    for (place, (name, parameters)) in designs(6).enumerate() {
+        let clearance = CLEARANCES[place % CLEARANCES.len()];
+        let line = format!("{name}, {clearance} m");
+        let range = CagedFold {
+            friction: Some([0.05, 0.15]),
+            ..fold(parameters, clearance, 0.1)
+        };
+        match range.folded() {
+            Ok(folded) => certified(&folded, &mut errors, &line),
+            Err(Failure::Domain(reason)) => {
+                refused += 1;
+                println!("{line}: {reason}");
+            }
+            Err(failure) => panic!("{line}: {failure}"),
+        }
+        blocks += 1;
+    }
+    assert!(2 * refused <= blocks, "{refused} of {blocks} refused");
+    errors.assert_promised(promises::of("step_caged_range"));
+}
+
+/// Screws of all leads, with preload, without, and with play; loads to 300 N a ball.
+static SCREWS: LazyLock<Vec<CagedBallScrewConfiguration>> = LazyLock::new(|| {
+    let sizes = [10_usize, 15, 22, 30].map(|size| CATALOGUE[size].parameters());
+    let steering = [DISSERTATION_DESIGNS[2].parameters];
+    sizes
+        .into_iter()
+        .chain(steering)
+        .zip(
+            [-5e-6, 0.0, 5e-6, -1e-6, 1e-6]
+                .into_iter()
+                .zip([0.05, 0.15, 0.1, 0.15, 0.1]),
+        )
+        .map(|(parameters, (clearance, friction))| one(&fold(parameters, clearance, friction)))
+        .collect()
+});
+
+/// The block of a fold for one friction coefficient.
+fn one(fold: &CagedFold) -> CagedBallScrewConfiguration {
+    match fold.block().unwrap() {
+        Block::One(block) => CagedBallScrewConfiguration {
+            reversal_speed: 1e-6,
+            ..block
+        },
+        Block::Range(_) => unreachable!("one friction coefficient"),
+    }
+}
+
+fn step(model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, load_per_ball: f32) -> Outputs {
+    model.step(Inputs {
+        nut_speed,
+        axial_load: 37.0 * load_per_ball,
+    })
+}
+
+/// What the motor gives is what the load takes and what friction takes; a load that friction holds does not turn the nut.
+#[test]
+fn power_balances() {
+    for screw in SCREWS.iter() {
+        let mut model = FrictionModel::new(screw).unwrap();
+        for load in [-300.0_f32, -3.0, 3.0, 300.0] {
+            let outputs = step(&mut model, 20.0, load);
+            let friction = f64::from(outputs.friction_torque);
+            let work = f64::from(outputs.load_torque);
+            let expected = if load > 0.0 {
+                work / (work + friction)
+            } else {
+                1.0 + friction / work
+            };
+            // Derived: five roundings of 2^-24 of numbers up to the efficiency's own size or 1.
+            let allowed = 3e-7 * expected.abs().max(1.0);
+            assert!((f64::from(outputs.efficiency) - expected).abs() < allowed);
+            let regime = match (load > 0.0, expected > 0.0) {
+                (true, _) => Regime::Driving,
+                (false, true) => Regime::BackDriving,
+                (false, false) => Regime::Locked,
+            };
+            assert_eq!(outputs.regime, regime);
+        }
+    }
+}
+
+/// Without a load friction is that of the preload, which a load of a hundredth of a newton hardly changes; without a preload there is none.
+#[test]
+fn without_a_load_friction_is_that_of_the_preload() {
+    for screw in SCREWS.iter() {
+        let mut model = FrictionModel::new(screw).unwrap();
+        let idle = step(&mut model, 20.0, 0.0).friction_torque;
+        if screw.law.lift_off > 0.0 {
+            for load in [0.01, -0.01] {
+                let little = step(&mut model, 20.0, load).friction_torque;
+                assert!((little / idle - 1.0).abs() < 1e-2, "{idle} {little}");
+            }
+            assert!(idle > 0.0);
+        } else {
+            assert_eq!(idle, 0.0);
+        }
+    }
+}
+
+/// Nothing jumps where the load passes through zero or the speed through standstill.
+#[test]
+fn friction_is_continuous() {
+    for screw in SCREWS.iter() {
+        let mut model = FrictionModel::new(&CagedBallScrewConfiguration {
+            reversal_speed: 0.2,
+            ..*screw
+        })
+        .unwrap();
+        let full = step(&mut model, 300.0, 100.0).friction_torque;
+        let mut last = step(&mut model, 300.0, -100.0).friction_torque;
+        for place in -999..=1000_i16 {
+            let torque = step(&mut model, 300.0, 0.1 * f32::from(place)).friction_torque;
+            // The load's own step is 1e-3 of the whole.
+            assert!(
+                (torque - last).abs() < 4e-3 * full,
+                "{place} {torque} {last} {full}"
+            );
+            last = torque;
+        }
+        let back = step(&mut model, -300.0, 100.0)
+            .friction_torque
+            .abs()
+            .max(full);
+        let mut last = step(&mut model, -2.0, 100.0).friction_torque;
+        for place in -199..=200_i16 {
+            let torque = step(&mut model, 0.01 * f32::from(place), 100.0).friction_torque;
+            // Derived: the slope at standstill is 1 over the reversal speed, of which a step is 0.05.
+            assert!((torque - last).abs() < 0.0501 * back);
+            last = torque;
+        }
+        assert_eq!(step(&mut model, 0.0, 100.0).friction_torque, 0.0);
+    }
+}
+
+/// A screw of zero lead is a bearing: no torque of the load, but friction.
+#[test]
+fn zero_lead_is_a_bearing() {
+    let flat = BallScrewParameters {
+        lead: 0.0,
+        ..CATALOGUE[15].parameters()
+    };
+    let mut model = FrictionModel::new(&one(&fold(flat, 0.0, 0.1))).unwrap();
+    for load in [50.0, -50.0] {
+        let outputs = step(&mut model, 10.0, load);
+        assert_eq!((outputs.load_torque, outputs.efficiency), (0.0, 0.0));
+        assert!(outputs.friction_torque > 0.0 && outputs.friction_torque < 0.1);
+        assert_eq!(outputs.regime, Regime::Driving);
+    }
+}
+
+/// At one diameter the efficiency rises with the lead, driving and driven, as makers print it.
+#[test]
+fn efficiency_rises_with_the_lead() {
+    for gap in [-1e-6, 0.0] {
+        let mut last = [f32::MIN; 3];
+        for lead in [4e-3, 6e-3, 10e-3, 20e-3, 40e-3] {
+            let parameters = BallScrewParameters {
+                lead,
+                ..DISSERTATION_DESIGNS[1].parameters
+            };
+            let mut model = FrictionModel::new(&one(&fold(parameters, gap, 0.1))).unwrap();
+            for (load, last) in [50.0, -50.0, 150.0].into_iter().zip(&mut last) {
+                let efficiency = step(&mut model, 10.0, load).efficiency;
+                assert!(
+                    efficiency > *last,
+                    "{gap} {load} {lead}: {efficiency} {last}"
+                );
+                *last = efficiency;
+            }
+        }
+        assert!(last.into_iter().all(|efficiency| efficiency > 0.9));
+    }
+}

@@ -1,0 +1,395 @@
+//! The ball screw by a closed form in the loop: energy, signs, continuity, bad input.
+
+use epas_friction::efficiency::EfficiencyGeometry;
+use epas_friction::{
+    BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
+    DISSERTATION_DESIGNS, Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
+};
+use epas_reference::efficiency::Screw;
+use epas_testkit::gears::oversize;
+use epas_testkit::measured;
+use proptest::prelude::*;
+
+fn configuration() -> ClosedFormScrewConfiguration {
+    ClosedFormScrewConfiguration {
+        design: BallScrew::new(DISSERTATION_DESIGNS[2].parameters).unwrap(),
+        friction: 0.075,
+        rolling_tangent: 0.0,
+        branch: FrictionBranch::Rolling,
+        clearance: Clearance::ZERO,
+        loaded_balls: 71,
+        reversal_speed: 0.2,
+        limits: Limits {
+            nut_speed: 500.0,
+            axial_load: 20_000.0,
+            friction_torque: 50.0,
+        },
+    }
+}
+
+fn model(configuration: &ClosedFormScrewConfiguration) -> FrictionModel<ClosedFormScrew> {
+    FrictionModel::new(configuration).unwrap()
+}
+
+fn step(model: &mut FrictionModel<ClosedFormScrew>, nut_speed: f32, axial_load: f32) -> Outputs {
+    model.step(Inputs {
+        nut_speed,
+        axial_load,
+    })
+}
+
+/// Far from the reversal the friction torque is the closed-form efficiency's, in both directions and
+/// both branches: `T = F lead/2pi (1/eta - 1)` driving, `F lead/2pi (1 - eta)` back-driving.
+#[test]
+fn torque_is_the_efficiency_of_the_reference() {
+    let designs = DISSERTATION_DESIGNS.map(|design| design.parameters);
+    let sizes = CATALOGUE.map(|size| size.parameters());
+    for parameters in designs.into_iter().chain(sizes) {
+        for branch in [FrictionBranch::Rolling, FrictionBranch::Sliding] {
+            let design = BallScrew::new(parameters).unwrap();
+            let mut model = model(&ClosedFormScrewConfiguration {
+                design,
+                branch,
+                ..configuration()
+            });
+            let lead = f64::from(parameters.lead);
+            let pitch_radius = f64::from(parameters.pitch_radius);
+            let screw = Screw {
+                lead_angle: (lead / (std::f64::consts::TAU * pitch_radius)).atan(),
+                contact_angle: f64::from(parameters.contact_angle),
+                friction: f64::from(0.075_f32),
+                ball_ratio: f64::from(parameters.ball_radius) / pitch_radius,
+                rolling_tangent: 0.0,
+            };
+            let (drive, backdrive) = match branch {
+                FrictionBranch::Rolling => (screw.rolling_screw(), screw.rolling_backdrive()),
+                FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
+            };
+            let arm = lead / std::f64::consts::TAU;
+            for (speed, load) in [(100.0, 900.0), (-100.0, -900.0)] {
+                let outputs = step(&mut model, speed, load);
+                let expected = 900.0 * arm * (1.0 / drive - 1.0);
+                let computed = f64::from(outputs.friction_torque * speed.signum());
+                // A dozen roundings, and 2e-6 of blending at 500 times the reversal speed.
+                assert!(
+                    (computed / expected - 1.0).abs() < 4e-6,
+                    "{parameters:?}: {computed}"
+                );
+                // Some roundings of 6e-8, and a quarter of the blending at most.
+                assert!((f64::from(outputs.efficiency) - drive).abs() < 7e-7);
+                assert_eq!(outputs.regime, Regime::Driving);
+                let outputs = step(&mut model, speed, -load);
+                let expected = 900.0 * arm * (1.0 - backdrive);
+                let computed = f64::from(outputs.friction_torque * speed.signum());
+                assert!(
+                    (computed / expected - 1.0).abs() < 4e-6,
+                    "{parameters:?}: {computed}"
+                );
+                // The blending's 2e-6 of friction over load.
+                assert!(
+                    (f64::from(outputs.efficiency) - backdrive).abs()
+                        < 2.2e-6 * (1.0 - backdrive).max(1.0)
+                );
+                let expected = if backdrive > 0.0 {
+                    Regime::BackDriving
+                } else {
+                    Regime::Locked
+                };
+                assert_eq!(outputs.regime, expected);
+            }
+        }
+    }
+}
+
+prop_compose! {
+    fn situation()(
+        size in 0..31_usize,
+        friction in 0.0..0.3_f32,
+        rolling_tangent in prop_oneof![Just(0.0_f32), 0.0..0.01_f32],
+        sliding in any::<bool>(),
+        preload in prop_oneof![Just(0.0_f32), 1.0..2000.0_f32],
+        speed in -300.0..300.0_f32,
+        load in -15_000.0..15_000.0_f32,
+    ) -> (ClosedFormScrewConfiguration, f32, f32) {
+        let branch = if sliding { FrictionBranch::Sliding } else { FrictionBranch::Rolling };
+        let design = CATALOGUE[size].design().unwrap();
+        let clearance = if preload > 0.0 { oversize(&design, preload, 71) } else { Clearance::ZERO };
+        let configuration = ClosedFormScrewConfiguration {
+            design, friction, rolling_tangent, branch, clearance,
+            ..configuration()
+        };
+        (configuration, speed, load)
+    }
+}
+
+proptest! {
+    /// Friction takes power, never gives it, and never more than its limit.
+    #[test]
+    fn friction_dissipates((configuration, speed, load) in situation()) {
+        let outputs = step(&mut model(&configuration), speed, load);
+        prop_assert!(outputs.friction_torque * speed >= 0.0);
+        prop_assert!(outputs.friction_torque.abs() <= configuration.limits.friction_torque);
+        prop_assert!(outputs.efficiency <= 1.0);
+    }
+
+    /// Turning everything round turns the torques round, to the bit.
+    #[test]
+    fn odd_under_reversal_of_speed_and_load((configuration, speed, load) in situation()) {
+        let mut model = model(&configuration);
+        let forward = step(&mut model, speed, load);
+        let backward = step(&mut model, -speed, -load);
+        prop_assert_eq!(forward.friction_torque, -backward.friction_torque);
+        prop_assert_eq!(forward.load_torque, -backward.load_torque);
+        prop_assert_eq!(forward.efficiency, backward.efficiency);
+        prop_assert_eq!(forward.regime, backward.regime);
+    }
+
+    /// Power balance: what the motor gives is what the load takes and what friction takes.
+    #[test]
+    fn efficiency_is_work_out_over_work_in((configuration, speed, load) in situation()) {
+        prop_assume!(speed.abs() > 50.0 && load.abs() > 10.0);
+        let outputs = step(&mut model(&configuration), speed, load);
+        prop_assume!(!outputs.faults.any());
+        let load_power = f64::from(outputs.load_torque) * f64::from(speed);
+        let friction_power = f64::from(outputs.friction_torque) * f64::from(speed);
+        let expected = if load_power > 0.0 {
+            load_power / (load_power + friction_power)
+        } else {
+            1.0 + friction_power / load_power
+        };
+        // The blending leaves 1 - 2 (0.2/50)²/2 of the torque, 1.6e-5, and f32 a dozen roundings of 2^-24.
+        let allowed = 1.7e-5 * expected.abs().max(1.0);
+        prop_assert!((f64::from(outputs.efficiency) - expected).abs() < allowed);
+    }
+
+    /// More load, more friction: strictly without preload, not less with it.
+    #[test]
+    fn friction_rises_with_load((configuration, speed, load) in situation()) {
+        prop_assume!(speed.abs() > 1.0);
+        let mut model = model(&configuration);
+        let light = step(&mut model, speed, 0.9 * load);
+        let heavy = step(&mut model, speed, load);
+        if configuration.clearance == Clearance::ZERO {
+            prop_assert!(
+                heavy.friction_torque.abs() >= 0.99 * light.friction_torque.abs()
+            );
+        }
+    }
+
+    /// Through zero speed the torque is continuous: a small step of speed is a small step of torque.
+    #[test]
+    fn continuous_through_zero_speed((configuration, _, load) in situation()) {
+        // A torque limit would cut the full torque, but not the slope at standstill.
+        let limits = Limits { friction_torque: 1e6, ..configuration.limits };
+        let mut model = model(&ClosedFormScrewConfiguration { limits, ..configuration });
+        let full = step(&mut model, 300.0, load).friction_torque.abs()
+            .max(step(&mut model, -300.0, load).friction_torque.abs());
+        let mut last = step(&mut model, -2.0, load).friction_torque;
+        for tick in -199..=200_i16 {
+            let torque = step(&mut model, f32::from(tick) * 0.01, load).friction_torque;
+            // Derived: the torque is `s (A + s B)` with |B| <= A. Its slope, (A + 2 s B) (1 - s²)^(3/2) over the width, is
+            // nowhere more than A + |B|, the full torque, over the width; a step is 0.05 of the width. Measured: 0.04993.
+            prop_assert!((torque - last).abs() <= 0.0501 * full + 1e-6);
+            last = torque;
+        }
+        prop_assert_eq!(step(&mut model, 0.0, load).friction_torque, 0.0);
+    }
+
+    /// Whatever comes in, what goes out is finite, and the next sound tick is as if nothing had been.
+    #[test]
+    fn any_bits_give_a_finite_flagged_output_and_leave_no_trace(
+        (configuration, speed, load) in situation(),
+        speed_bits in any::<u32>(),
+        load_bits in any::<u32>(),
+    ) {
+        let mut touched = model(&configuration);
+        let wild = Inputs {
+            nut_speed: f32::from_bits(speed_bits),
+            axial_load: f32::from_bits(load_bits),
+        };
+        let outputs = touched.step(wild);
+        prop_assert!(outputs.friction_torque.is_finite() && outputs.load_torque.is_finite());
+        prop_assert!((-1e6..=1.0).contains(&outputs.efficiency));
+        let limits = configuration.limits;
+        let sound = wild.nut_speed.abs() <= limits.nut_speed
+            && wild.axial_load.abs() <= limits.axial_load;
+        prop_assert!(sound || outputs.faults.any());
+        let mut fresh = model(&configuration);
+        prop_assert_eq!(step(&mut touched, speed, load), step(&mut fresh, speed, load));
+    }
+}
+
+#[test]
+fn faults_are_named_and_counted() {
+    let mut model = model(&configuration());
+    let nan = step(&mut model, f32::NAN, 1.0);
+    assert_eq!(nan.faults, Faults::SPEED_NOT_FINITE);
+    assert_eq!((nan.friction_torque, nan.load_torque), (0.0, 0.0));
+    let both = step(&mut model, f32::INFINITY, f32::NEG_INFINITY);
+    assert_eq!(
+        both.faults,
+        Faults::SPEED_NOT_FINITE | Faults::LOAD_NOT_FINITE
+    );
+    let fast = step(&mut model, 501.0, 1000.0);
+    assert_eq!(fast.faults, Faults::SPEED_RANGE);
+    assert_eq!(model.faulted_ticks(), 3);
+    let at_limit = step(&mut model, 500.0, 1000.0);
+    assert_eq!(at_limit.friction_torque, fast.friction_torque);
+    assert_eq!(model.faulted_ticks(), 0);
+    assert_eq!(step(&mut model, 1.0, -20_001.0).faults, Faults::LOAD_RANGE);
+    model.reset();
+    assert_eq!(model.faulted_ticks(), 0);
+}
+
+/// A screw that locks in driving holds the load with the friction limit, flagged, and still lowers it.
+#[test]
+fn a_locked_drive_is_said_and_bounded() {
+    // Contact angle 20 degrees, lead angle 60: f R = 0.99 > Sb = 0.34 at f = 0.5.
+    let mut parameters = CATALOGUE[30].parameters();
+    parameters.contact_angle = 20f32.to_radians();
+    parameters.lead = std::f32::consts::TAU * parameters.pitch_radius * 60f32.to_radians().tan();
+    let design = BallScrew::new(parameters).unwrap();
+    assert!(EfficiencyGeometry::of(&design).locks(epas_friction::efficiency::Drive::Driving, 0.5));
+    let mut model = model(&ClosedFormScrewConfiguration {
+        design,
+        friction: 0.5,
+        branch: FrictionBranch::Sliding,
+        ..configuration()
+    });
+    let driven = step(&mut model, 100.0, 1000.0);
+    assert_eq!(driven.regime, Regime::Locked);
+    assert!(driven.faults.contains(Faults::FRICTION_LIMIT));
+    measured::assert(
+        "locked drive, friction torque in N m",
+        driven.friction_torque - 50.0,
+    );
+    // That of the torques in the row, of which one is cut.
+    let load_torque = driven.load_torque;
+    assert_eq!(
+        driven.efficiency,
+        load_torque / (load_torque + driven.friction_torque)
+    );
+    let lowered = step(&mut model, -100.0, 1000.0);
+    assert!(lowered.friction_torque < 0.0 && !lowered.faults.any());
+    // Nothing is cut where nothing is put out.
+    let still = step(&mut model, 0.0, 1000.0);
+    assert!(still.friction_torque == 0.0 && !still.faults.any());
+}
+
+/// A self-locking fine lead: the load does not turn it, the motor has to push it down.
+#[test]
+fn a_self_locking_lead_is_locked_when_back_driven() {
+    let mut parameters = CATALOGUE[0].parameters();
+    parameters.lead = 0.1e-3;
+    let mut model = model(&ClosedFormScrewConfiguration {
+        design: BallScrew::new(parameters).unwrap(),
+        friction: 0.2,
+        rolling_tangent: 0.01,
+        ..configuration()
+    });
+    let lowered = step(&mut model, -50.0, 1000.0);
+    assert_eq!(lowered.regime, Regime::Locked);
+    assert!(lowered.efficiency < 0.0);
+    // The motor's torque has the sign of the motion.
+    assert!((lowered.load_torque + lowered.friction_torque) < 0.0);
+    assert_eq!(step(&mut model, 50.0, 1000.0).regime, Regime::Driving);
+}
+
+/// Two Hertzian flanks: the polynomial sum against the solution of their equations, to 0.8 %.
+#[test]
+fn preload_is_that_of_two_hertzian_flanks() {
+    let preload = 500.0_f32;
+    let clearance = oversize(&configuration().design, preload, 71);
+    let mut model = model(&ClosedFormScrewConfiguration {
+        clearance,
+        branch: FrictionBranch::Rolling,
+        ..configuration()
+    });
+    // Torque per load from the two directions beyond lift-off.
+    let drive = step(&mut model, 400.0, 10_000.0).friction_torque / 10_000.0;
+    let backdrive = step(&mut model, 400.0, -10_000.0).friction_torque / 10_000.0;
+    let mut worst = 0.0_f64;
+    for tenth in 0..=40 {
+        let load = 0.1 * f64::from(tenth) * f64::from(preload);
+        // F1^(2/3) + F2^(2/3) = 2 Fp^(2/3) with F1 = F + F2, by bisection on F2.
+        let (mut low, mut high) = (0.0_f64, f64::from(preload));
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            let sum = (load + middle).powf(2.0 / 3.0) + middle.powf(2.0 / 3.0);
+            if sum > 2.0 * f64::from(preload).powf(2.0 / 3.0) {
+                high = middle;
+            } else {
+                low = middle;
+            }
+        }
+        let expected = f64::from(drive) * (load + low) + f64::from(backdrive) * low;
+        let computed = f64::from(step(&mut model, 400.0, load as f32).friction_torque);
+        worst = worst.max((computed / expected - 1.0).abs());
+    }
+    println!("preload: {worst:.2e}");
+    measured::assert_at("preload of two flanks", worst, format_args!("{worst:e}"));
+}
+
+#[test]
+fn every_field_of_the_configuration_is_checked() {
+    let good = configuration();
+    let field = |configuration: ClosedFormScrewConfiguration| {
+        FrictionModel::<ClosedFormScrew>::new(&configuration)
+            .unwrap_err()
+            .field()
+    };
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 1e30] {
+        assert_eq!(
+            field(ClosedFormScrewConfiguration {
+                friction: bad,
+                ..good
+            }),
+            "friction"
+        );
+        assert_eq!(
+            field(ClosedFormScrewConfiguration {
+                rolling_tangent: bad,
+                ..good
+            }),
+            "rolling_tangent"
+        );
+        assert_eq!(
+            field(ClosedFormScrewConfiguration {
+                reversal_speed: bad,
+                ..good
+            }),
+            "reversal_speed"
+        );
+        let limits = |limits| field(ClosedFormScrewConfiguration { limits, ..good });
+        assert_eq!(
+            limits(Limits {
+                nut_speed: bad,
+                ..good.limits
+            }),
+            "nut_speed"
+        );
+        assert_eq!(
+            limits(Limits {
+                axial_load: bad,
+                ..good.limits
+            }),
+            "axial_load"
+        );
+        assert_eq!(
+            limits(Limits {
+                friction_torque: bad,
+                ..good.limits
+            }),
+            "friction_torque"
+        );
+    }
+    for bad in [0.0, 1e-30] {
+        assert_eq!(
+            field(ClosedFormScrewConfiguration {
+                reversal_speed: bad,
+                ..good
+            }),
+            "reversal_speed"
+        );
+    }
+}

@@ -1,0 +1,583 @@
+//! Compensation of friction in the loop: motor, delay, encoder and exact friction.
+
+use std::convert::Infallible;
+
+use embedded_hal::pwm::{ErrorType, SetDutyCycle};
+use epas_friction::hal::{FaultReaction, FeedForwardConfiguration, FrictionFeedForward};
+use epas_friction::law::Elements;
+use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
+use epas_friction::law::compensation::CompensationMargin;
+use epas_friction::law::memory::{LoadExactElements, Part, ProportionalElements, SLIP_8};
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
+use epas_friction::scene::{
+    Freshness, SceneOutputs, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
+};
+use epas_friction::{Faults, FrictionModel, Inputs, Outputs, UncagedOutputs};
+use epas_reference::closed_loop::{ClosedLoop, Swing};
+
+use epas_testkit::gears::{CAGED_PRELOAD, CagedConfiguration, CagedScrew, caged};
+use epas_testkit::random::Random;
+use epas_testkit::remembering::at;
+
+const TEMPERATURE: f32 = 313.15;
+
+/// A bridge that turns the duty into a torque again.
+struct Bridge(u16);
+
+impl Bridge {
+    const SCALE: u16 = u16::MAX - 1;
+
+    /// Torque of a duty, N m, where all of it is `full_torque`.
+    fn torque(duty: u16, full_torque: f32) -> f64 {
+        let duty = f64::from(duty) / f64::from(Self::SCALE);
+        f64::from(full_torque) * (2.0 * duty - 1.0)
+    }
+}
+
+impl ErrorType for Bridge {
+    type Error = Infallible;
+}
+
+impl SetDutyCycle for Bridge {
+    fn max_duty_cycle(&self) -> u16 {
+        Self::SCALE
+    }
+
+    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
+        self.0 = duty;
+        Ok(())
+    }
+}
+
+type Caged<E> = FrictionModel<WithMemory<CagedScrew, E, Deadband<CountSensor>>>;
+
+/// Preload of both flanks, N, as the scene counts it.
+const PRELOAD: f64 = 2.0 * std::f64::consts::SQRT_2 * CAGED_PRELOAD as f64;
+
+/// A model whose elements follow the counts beyond a play, rad, at this preload over their reference.
+fn model<E: Elements + Copy>(elements: E, play: f64, load: f64) -> Caged<E> {
+    let scene = caged();
+    let counts = CountSensor::new(CountSensorParameters {
+        period: 16384,
+        turn_per_count: ClosedLoop::COUNT as f32,
+        largest_turn: 0.5,
+    })
+    .unwrap();
+    Caged::new(&WithMemoryConfiguration {
+        scene,
+        elements,
+        angle: Deadband::new(counts, play as f32).unwrap(),
+        reference_load: (PRELOAD / load) as f32,
+        play: 0.0,
+        coefficient: CoefficientLaw::constant(scene.friction).unwrap(),
+        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
+        freshness: Freshness::DEFAULT,
+    })
+    .unwrap()
+}
+
+fn still(reading: u32) -> WithMemoryInputs<Inputs, u32> {
+    at(
+        Inputs {
+            nut_speed: 0.0,
+            axial_load: 0.0,
+        },
+        reading,
+        TEMPERATURE,
+    )
+}
+
+/// Full friction of the model, N m: by the preload alone, the same in both directions.
+fn full_friction() -> f32 {
+    let mut model = model(slip(0.05, 1e-3), 0.0, 1.0);
+    model.step(still(0));
+    model.step(still(3000));
+    let forward = model.step(still(3000)).friction_torque;
+    model.step(still(0));
+    assert_eq!(model.step(still(0)).friction_torque, -forward);
+    forward
+}
+
+/// Elements of both forms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Form {
+    Proportional,
+    /// At this load over the reference.
+    LoadExact(f64),
+}
+
+/// A true friction, a model that is off by these ratios, and a loop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Case {
+    form: Form,
+    /// Breakaway angle of the true friction, rad.
+    breakaway: f64,
+    /// True breakaway angle over the model's, and the model's full friction over the true one.
+    earlier: f64,
+    friction_ratio: f64,
+    share: f32,
+    /// Play beyond the noise, over the breakaway angle.
+    play: f64,
+    /// Ticks of the motor in a second; the model steps once in a millisecond.
+    rate: u32,
+    delay: usize,
+    /// Speed at the start, rad/s.
+    kick: f64,
+    /// Torque that swings for half a second, over the true friction.
+    push: f64,
+    /// Standard deviation of the angle, counts; no angle is off by more than three of them.
+    noise: f64,
+}
+
+impl Case {
+    fn margin(&self) -> CompensationMargin {
+        CompensationMargin {
+            breakaway_angle: (self.breakaway / self.earlier) as f32,
+            largest_breakaway_angle: self.breakaway as f32,
+            friction_ratio: self.friction_ratio as f32,
+            play: (self.play * self.breakaway) as f32,
+        }
+    }
+
+    /// Breakaway angle in counts.
+    fn counts(&self) -> f64 {
+        self.breakaway / ClosedLoop::COUNT
+    }
+
+    /// Motor, screw, delay and encoder, with a full friction, N m, of the model.
+    fn plant(&self, full: f32) -> ClosedLoop {
+        ClosedLoop {
+            inertia: 4e-4,
+            friction: f64::from(full) / self.friction_ratio,
+            breakaway: self.breakaway,
+            count: ClosedLoop::COUNT,
+            tick: 1.0 / f64::from(self.rate),
+            delay: self.delay,
+            kick: self.kick,
+            push: self.push * f64::from(full) / self.friction_ratio,
+            settling: 2.0,
+            watched: 1.0,
+        }
+    }
+
+    fn swing(&self) -> Swing {
+        let full = full_friction();
+        let angle = self.breakaway / self.earlier;
+        match self.form {
+            Form::Proportional => self.swing_of(slip(full, angle as f32), 1.0),
+            // Full friction grows with the load, breakaway with its power 2/3.
+            Form::LoadExact(load) => {
+                let limit = full / load as f32;
+                let angle = angle / load.cbrt().powi(2);
+                let elements = LoadExactElements::<8>::new(limit, angle as f32, 4.0);
+                self.swing_of(elements.unwrap(), load)
+            }
+        }
+    }
+
+    fn swing_of<E: Elements + Copy>(&self, elements: E, load: f64) -> Swing {
+        let full = full_friction();
+        let count = ClosedLoop::COUNT;
+        // A count is off by half of one, and by the noise.
+        let noise_width = if self.noise > 0.0 {
+            (0.5 + 3.0 * self.noise) * count
+        } else {
+            0.0
+        };
+        let play = (noise_width + self.play * self.breakaway).max(0.0);
+        let mut model = model(elements, play, load);
+        let mut stage = stage(4.0 * full, self.share);
+        let mut random = Random(7);
+        let mut tick = 0;
+        self.plant(full).run(
+            || 0.5 + self.noise * (random.signed() + random.signed() + random.signed()),
+            |count| {
+                let reading = count.rem_euclid(16384) as u32;
+                let outputs = if tick % (self.rate / 1000) == 0 {
+                    model.step(still(reading))
+                } else {
+                    model.between(reading)
+                };
+                tick += 1;
+                let Ok(applied) = stage.apply(&outputs);
+                assert!(!applied.neutral && !applied.saturated);
+                Bridge::torque(applied.duty, 4.0 * full)
+            },
+        )
+    }
+}
+
+/// A bridge with the share as it is: what a margin forbids is tried here too.
+fn stage(full_torque: f32, share: f32) -> FrictionFeedForward<Bridge> {
+    let configuration = FeedForwardConfiguration {
+        full_torque,
+        largest_torque: full_torque,
+        share,
+        reaction: FaultReaction::NeutralOnAnyFault,
+    };
+    FrictionFeedForward::new(Bridge(0), &configuration).unwrap()
+}
+
+fn slip(limit: f32, breakaway_angle: f32) -> ProportionalElements<8> {
+    let part = Part {
+        backbone: &SLIP_8.elements,
+        share: 1.0,
+        breakaway_angle,
+    };
+    ProportionalElements::new(limit, &[part]).unwrap()
+}
+
+/// Runs cases on two threads.
+fn all_are(cases: &[Case], good: impl Fn(&Case, &Swing) -> bool + Sync) {
+    let check = |cases: &[Case]| {
+        let bad = cases.iter().filter_map(|case| {
+            let swing = case.swing();
+            (!good(case, &swing)).then(|| format!("{case:?}: {swing:?}"))
+        });
+        bad.collect::<Vec<_>>()
+    };
+    let (first, second) = cases.split_at(cases.len() / 2);
+    let bad = std::thread::scope(|scope| {
+        let other = scope.spawn(|| check(second));
+        let mut bad = check(first);
+        bad.extend(other.join().unwrap());
+        bad
+    });
+    let (count, all) = (bad.len(), cases.len());
+    assert!(bad.is_empty(), "{count} of {all}: {}", bad.join("\n"));
+}
+
+const QUIET: Case = Case {
+    form: Form::Proportional,
+    breakaway: 2e-3,
+    earlier: 1.0,
+    friction_ratio: 1.0,
+    share: 0.95,
+    play: 0.05,
+    rate: 20_000,
+    delay: 1,
+    kick: 1.0,
+    push: 0.0,
+    noise: 0.0,
+};
+
+const FORMS: [Form; 4] = [
+    Form::Proportional,
+    Form::LoadExact(1.0),
+    Form::LoadExact(0.4),
+    Form::LoadExact(2.0),
+];
+
+/// Ratio of breakaway angles, ratio of frictions, play over breakaway.
+const MARGINS: [(f64, f64, f64); 6] = [
+    (1.0, 1.0, 0.05),
+    (0.8, 1.0, 0.041),
+    (1.02, 1.0, 0.1),
+    (1.1, 1.0, 0.05),
+    (1.2, 1.1, 0.1),
+    (1.7, 1.0, 0.2),
+];
+
+/// Two seconds after a kick, or one and a half after a shaking steering wheel and with a noisy angle, nothing moves but what is
+/// left of the last swing in the contacts: less than a count and an eighth of a breakaway angle from end to end. At every rate, delay and
+/// breakaway, with the largest share that each margin allows.
+#[test]
+fn quiet_within_the_margin() {
+    let loops = [
+        (1000, 1),
+        (1000, 2),
+        (1000, 3),
+        (10_000, 2),
+        (20_000, 1),
+        (20_000, 3),
+    ];
+    let mut cases = Vec::new();
+    for breakaway in [0.5e-3, 2e-3, 10e-3] {
+        for (rate, delay) in loops {
+            for (earlier, friction_ratio, play) in MARGINS {
+                for form in FORMS {
+                    for (kick, push, noise) in [(1.0, 0.0, 0.0), (0.0, 0.5, 0.3)] {
+                        let case = Case {
+                            form,
+                            breakaway,
+                            earlier,
+                            friction_ratio,
+                            play,
+                            rate,
+                            delay,
+                            kick,
+                            push,
+                            noise,
+                            ..QUIET
+                        };
+                        let share = case.margin().largest_share().unwrap();
+                        cases.push(Case { share, ..case });
+                    }
+                }
+            }
+        }
+    }
+    all_are(&cases, |case, swing| {
+        swing.counts < 1.0 + 0.125 * case.counts()
+    });
+}
+
+/// At rest nothing at all moves, however noisy the angle is within the play.
+#[test]
+fn noise_within_the_play_moves_nothing() {
+    let mut cases = Vec::new();
+    for breakaway in [0.5e-3, 2e-3, 10e-3] {
+        for rate in [1000, 20_000] {
+            for form in FORMS {
+                for noise in [0.3, 1.0] {
+                    cases.push(Case {
+                        form,
+                        breakaway,
+                        rate,
+                        kick: 0.0,
+                        noise,
+                        ..QUIET
+                    });
+                }
+            }
+        }
+    }
+    all_are(&cases, |_, swing| swing.counts == 0.0);
+}
+
+/// With all of the friction put out nothing stops the nut any more.
+#[test]
+fn all_of_the_friction_never_comes_to_rest() {
+    let mut cases = Vec::new();
+    for breakaway in [0.5e-3, 2e-3, 10e-3] {
+        for rate in [1000, 20_000] {
+            for form in FORMS {
+                let case = Case {
+                    form,
+                    breakaway,
+                    rate,
+                    share: 1.0,
+                    ..QUIET
+                };
+                assert_eq!(refused(&case), "share");
+                cases.push(case);
+            }
+        }
+    }
+    all_are(&cases, |_, swing| {
+        swing.counts > 2000.0 && swing.speed > 0.5
+    });
+}
+
+/// Without a play, less friction and less stiffness than there are do not keep the loop quiet: with 0.92 of the friction and
+/// 0.97 of the stiffness it swings by more than two breakaway angles for ever, because the model loses more than the contact does.
+#[test]
+fn an_early_breakaway_hums_without_a_play() {
+    let mut cases = Vec::new();
+    for (earlier, share, loops) in [
+        (1.05, 0.924, &[(10_000, 1), (20_000, 1), (20_000, 3)][..]),
+        (
+            1.11,
+            0.95,
+            &[(1000, 1), (10_000, 1), (20_000, 1), (20_000, 3)],
+        ),
+    ] {
+        for &(rate, delay) in loops {
+            for breakaway in [5e-3, 10e-3] {
+                for form in FORMS {
+                    let case = Case {
+                        form,
+                        breakaway,
+                        earlier,
+                        share,
+                        play: 0.0,
+                        rate,
+                        delay,
+                        kick: 0.0,
+                        push: 0.5,
+                        ..QUIET
+                    };
+                    assert_eq!(refused(&case), "play");
+                    cases.push(case);
+                }
+            }
+        }
+    }
+    all_are(&cases, |case, swing| swing.counts > 2.0 * case.counts());
+}
+
+/// Noise that reaches the elements makes a loop hum from rest that a play keeps quiet.
+#[test]
+fn noise_without_a_play_hums() {
+    let mut cases = Vec::new();
+    for (breakaway, rate) in [(1e-3, 10_000), (1e-3, 20_000), (2e-3, 20_000)] {
+        for form in [
+            Form::Proportional,
+            Form::LoadExact(1.0),
+            Form::LoadExact(0.4),
+        ] {
+            let noise = 0.3;
+            let case = Case {
+                form,
+                breakaway,
+                rate,
+                kick: 0.0,
+                noise,
+                ..QUIET
+            };
+            // None at all.
+            let play = -(0.5 + 3.0 * noise) / case.counts();
+            cases.push(Case { play, ..case });
+        }
+    }
+    all_are(&cases, |case, swing| swing.counts > 2.0 * case.counts());
+}
+
+/// The field with which the margin refuses a case.
+fn refused(case: &Case) -> &'static str {
+    let error = case.margin().checked_share(case.share).unwrap_err();
+    error.field()
+}
+
+/// Every loop with a friction without memory, which follows the speed as `w / sqrt(w² + w_s²)`, swings for ever.
+#[test]
+fn friction_by_the_speed_hums() {
+    let scene = caged();
+    let full = full_friction();
+    for (rate, reversal_speed) in [(1000, 0.5), (1000, 0.2), (10_000, 0.5), (20_000, 0.5)] {
+        for breakaway in [2e-3, 10e-3] {
+            let mut model = FrictionModel::<CagedScrew>::new(&CagedConfiguration {
+                reversal_speed,
+                ..scene
+            })
+            .unwrap();
+            let mut stage = stage(4.0 * full, 0.95);
+            let mut last = 0;
+            let swing = Case {
+                breakaway,
+                rate,
+                ..QUIET
+            }
+            .plant(full)
+            .run(
+                || 0.5,
+                |count| {
+                    let turn = (count - last) as f64 * ClosedLoop::COUNT;
+                    last = count;
+                    let outputs = model.step(Inputs {
+                        nut_speed: (turn * f64::from(rate)) as f32,
+                        axial_load: 0.0,
+                    });
+                    let Ok(applied) = stage.apply(&outputs);
+                    Bridge::torque(applied.duty, 4.0 * full)
+                },
+            );
+            // Measured: 21 to 1527 counts, 0.44 to 1.9 rad/s.
+            assert!(
+                swing.counts > 15.0 && swing.speed > 0.3,
+                "{rate} {reversal_speed} {breakaway}: {swing:?}"
+            );
+        }
+    }
+}
+
+/// Torque and flags of a screw without cage are put out as those of a caged one.
+#[test]
+fn outputs_of_both_screws_are_put_out_alike() {
+    let mut stage = stage(1.0, 0.5);
+    for (torque, faults) in [
+        (0.3, Faults::NONE),
+        (-2.5, Faults::NONE),
+        (0.3, Faults::LOAD_RANGE),
+        (f32::NAN, Faults::NONE),
+    ] {
+        let caged = Outputs {
+            friction_torque: torque,
+            faults,
+            ..Outputs::SAFE
+        };
+        let uncaged = UncagedOutputs {
+            friction_torque: torque,
+            faults,
+            ..UncagedOutputs::SAFE
+        };
+        assert_eq!(stage.apply_uncaged(&uncaged), stage.apply(&caged));
+    }
+}
+
+/// The stage takes what the margin allows, and names what it does not.
+#[test]
+fn a_share_beyond_the_margin_is_named_with_its_range() {
+    let margin = CompensationMargin {
+        breakaway_angle: 2e-3,
+        largest_breakaway_angle: 2e-3,
+        friction_ratio: 1.0,
+        play: 1e-4,
+    };
+    let with = |share, margin: CompensationMargin| {
+        let configuration = FeedForwardConfiguration {
+            full_torque: 1.0,
+            largest_torque: 1.0,
+            share,
+            reaction: FaultReaction::NeutralOnAnyFault,
+        };
+        FrictionFeedForward::with_memory(Bridge(0), &configuration, &margin).map(|_| ())
+    };
+    assert_eq!(margin.largest_share(), Ok(0.95));
+    assert_eq!(with(0.95, margin), Ok(()));
+    let refused = |share, margin| {
+        let error = with(share, margin).unwrap_err();
+        (error.field(), error.allowed().maximum)
+    };
+    assert_eq!(refused(0.96, margin), ("share", 0.95));
+    assert_eq!(refused(f32::NAN, margin), ("share", 0.95));
+    // 0.8 / (4 - 8 (0.05 - 0.04) - 3.2 / 1.25) = 0.8 / 1.36. Measured: 4.2e-8, roundings.
+    let early = CompensationMargin {
+        largest_breakaway_angle: 2.5e-3,
+        play: 1.25e-4,
+        ..margin
+    };
+    let (field, largest) = refused(0.6, early);
+    assert_eq!(field, "share");
+    approx::assert_relative_eq!(largest, 0.8 / 1.36, epsilon = 0.0, max_relative = 1.2e-7);
+    // 0.97 / 1.25, where the play is wide. Measured: 1.1e-7.
+    let wide = CompensationMargin {
+        play: 1e-3,
+        ..early
+    };
+    let share = wide.largest_share().unwrap();
+    approx::assert_relative_eq!(share, 0.776, epsilon = 0.0, max_relative = 3e-7);
+    // 0.95 / 1.25: friction that may be a fifth less. Measured: 1.3e-8.
+    let less = CompensationMargin {
+        friction_ratio: 1.25,
+        ..margin
+    };
+    let share = less.largest_share().unwrap();
+    approx::assert_relative_eq!(share, 0.76, epsilon = 0.0, max_relative = 1.2e-7);
+    // A motor of half the torque that is asked for: still no more than all.
+    let weak = CompensationMargin {
+        friction_ratio: 0.5,
+        ..margin
+    };
+    assert_eq!(weak.checked_share(1.0), Ok(1.0));
+    assert_eq!(weak.checked_share(1.01).unwrap_err().field(), "share");
+
+    type Spoil = fn(&mut CompensationMargin, f32);
+    let fields: [(&str, Spoil, &[f32]); 4] = [
+        ("breakaway_angle", |m, x| m.breakaway_angle = x, &[0.0, 2e3]),
+        (
+            "largest_breakaway_angle",
+            |m, x| m.largest_breakaway_angle = x,
+            &[0.0, 2e3],
+        ),
+        ("friction_ratio", |m, x| m.friction_ratio = x, &[0.0, 11.0]),
+        ("play", |m, x| m.play = x, &[0.0, 7.9e-5, 2e3]),
+    ];
+    for (name, spoil, values) in fields {
+        for &value in [f32::NAN, f32::INFINITY, -1.0].iter().chain(values) {
+            let mut spoiled = margin;
+            spoil(&mut spoiled, value);
+            assert_eq!(with(0.1, spoiled).unwrap_err().field(), name, "{value}");
+        }
+    }
+}

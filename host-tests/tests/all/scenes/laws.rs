@@ -1,0 +1,337 @@
+//! Laws that hold for every mechanism, on random ones.
+
+use epas_friction::curvature::GothicArch;
+use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
+use epas_friction::hertz::HertzContact;
+use epas_friction::train::Press;
+use epas_friction::{
+    BallScrew, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, DeviationMap,
+    FrictionModel, GrooveSize, Inputs, LinearBearingConfiguration, LinearBearingTrain,
+    LinearInputs, LinearLimits, LoadShares, Regime, UncagedBallScrew,
+    UncagedBallScrewConfiguration,
+};
+use epas_testkit::absurd::{Trial, accepted};
+use epas_testkit::gears::{SCREW_BALLS, UncagedScrew, changed, even};
+use epas_testkit::random::Random;
+use proptest::prelude::*;
+
+/// A screw by a closed form without preload whose torque limit does not bind below its lock.
+fn closed_form(seed: u64) -> FrictionModel<ClosedFormScrew> {
+    closed_form_configuration(seed).1
+}
+
+fn closed_form_configuration(
+    seed: u64,
+) -> (ClosedFormScrewConfiguration, FrictionModel<ClosedFormScrew>) {
+    let mut random = Random(seed);
+    loop {
+        let (configuration, ..) = accepted::<ClosedFormScrew>(&mut random);
+        let mut configuration = ClosedFormScrewConfiguration {
+            clearance: Clearance::ZERO,
+            ..configuration
+        };
+        configuration.limits.nut_speed = 1e3;
+        configuration.limits.axial_load = 1e6;
+        configuration.limits.friction_torque = 1e6;
+        // From 500 rad/s on the blend is one.
+        configuration.reversal_speed = configuration.reversal_speed.min(1e-2);
+        if let Ok(model) = FrictionModel::new(&configuration) {
+            return (configuration, model);
+        }
+    }
+}
+
+/// A screw without cage, whose grooves do not deviate and whose balls all carry the same load.
+fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> {
+    static NONE: DeviationMap = DeviationMap::NONE;
+    let mut random = Random(seed);
+    // Each try leaves a folded ball for as long as the program runs.
+    for _ in 0..1_000 {
+        let (configuration, ..) = accepted::<UncagedBallScrew<7>>(&mut random);
+        let configuration = UncagedBallScrewConfiguration {
+            folded: changed(configuration.folded, |folded| {
+                folded.limits.friction_torque = 1e6;
+            }),
+            ball_friction,
+            screw_deviation: &NONE,
+            nut_deviation: &NONE,
+            load_shares: LoadShares::EVEN,
+            ..configuration
+        };
+        if let Ok(model) = FrictionModel::new(&configuration) {
+            return model;
+        }
+    }
+    panic!("no screw without cage of a thousand has a model");
+}
+
+/// A linear bearing without deviations; its limits.
+fn linear(seed: u64, ball_friction: f32) -> (FrictionModel<LinearBearingTrain<5>>, LinearLimits) {
+    static NONE: DeviationMap = DeviationMap::NONE;
+    let mut random = Random(seed);
+    loop {
+        let (configuration, ..) = accepted::<LinearBearingTrain<5>>(&mut random);
+        let mut configuration = LinearBearingConfiguration {
+            ball_friction,
+            rail_deviation: &NONE,
+            carriage_deviation: &NONE,
+            ..configuration
+        };
+        configuration.limits.friction_force = 1e6;
+        if let Ok(model) = FrictionModel::new(&configuration) {
+            return (model, configuration.limits);
+        }
+    }
+}
+
+fn inputs(nut_speed: f32, axial_load: f32) -> Inputs {
+    Inputs {
+        nut_speed,
+        axial_load,
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn friction_reverses_with_speed_and_load(seed: u64, speed in -1e3_f32..1e3, load in -1e6_f32..1e6) {
+        let mut model = closed_form(seed);
+        let (there, back) = (model.step(inputs(speed, load)), model.step(inputs(-speed, -load)));
+        prop_assert_eq!(there.friction_torque, -back.friction_torque);
+        prop_assert_eq!(there.load_torque, -back.load_torque);
+
+        let mut model = uncaged(seed, 0.1);
+        let there = model.step(inputs(0.01 * speed, 0.01 * load));
+        model.reset();
+        let back = model.step(inputs(-0.01 * speed, -0.01 * load));
+        prop_assert_eq!(there.friction_torque, -back.friction_torque);
+    }
+
+    #[test]
+    fn friction_grows_with_load(seed: u64, speed in -1e3_f32..1e3, load in 0.0_f32..9e5, more in 1.0_f32..2.0) {
+        let mut model = closed_form(seed);
+        for sign in [1.0, -1.0] {
+            let light = model.step(inputs(speed, sign * load));
+            let heavy = model.step(inputs(speed, sign * load * more));
+            prop_assert!(heavy.friction_torque.abs() >= light.friction_torque.abs());
+        }
+        // A gear that a host has folded, within its loads: random numbers need not grow.
+        let closed = UncagedBallScrewConfiguration { return_length: 0.0, ..even() };
+        let mut model = FrictionModel::<UncagedScrew<SCREW_BALLS>>::new(&closed).unwrap();
+        for sign in [1.0, -1.0] {
+            let light = model.step(inputs(0.01 * speed, 5e-3 * sign * load));
+            let heavy = model.step(inputs(0.01 * speed, 5e-3 * sign * load * more));
+            prop_assert!(heavy.friction_torque.abs() >= light.friction_torque.abs());
+        }
+    }
+
+    #[test]
+    fn work_in_is_work_out_and_loss(seed: u64, speed in 5e2_f32..1e3, load in 1.0_f32..1e6) {
+        let mut model = closed_form(seed);
+        let driving = model.step(inputs(speed, load));
+        if driving.regime == Regime::Driving && !driving.faults.any() && driving.load_torque > 0.0 {
+            let (load, loss) = (f64::from(driving.load_torque), f64::from(driving.friction_torque));
+            // Some thirty roundings of 2^-24: near its lock a screw magnifies those of the loss.
+            prop_assert!((f64::from(driving.efficiency) * (load + loss) - load).abs() <= 2e-6 * (load + loss));
+        }
+        let back = model.step(inputs(speed, -load));
+        if back.regime == Regime::BackDriving && !back.faults.any() {
+            let (load, loss) = (-f64::from(back.load_torque), f64::from(back.friction_torque));
+            prop_assert!((f64::from(back.efficiency) * load - (load - loss)).abs() <= 2e-6 * load);
+        }
+    }
+
+    #[test]
+    fn no_unit_of_length_is_special(seed: u64, angle in 0.0_f32..1.5, power in -20_i32..20) {
+        // A power of two scales without rounding: every digit must stay.
+        let scale = 2.0_f32.powi(power);
+        let mut random = Random(seed);
+        let radius = random.size(5e-3, 0.1);
+        let lead = radius * random.size(1e-3, 10.0);
+        let groove = radius * random.within(0.02, 0.3);
+        let (h, l) = (0.1 * groove * random.unit(), 0.1 * groove * random.unit());
+        let side = random.of(&[Groove::Screw, Groove::Nut]);
+        let angle = ContactAngle::new(angle);
+        let principal = |scale: f32| {
+            let path = HelixPath::from_lead(scale * radius, scale * lead);
+            let profile = GrooveProfile {
+                groove_radius: scale * groove,
+                offset_h: scale * h,
+                offset_l: scale * l,
+            };
+            GothicArch::checked(side, &path, &profile, angle).map(|arch| arch.principal(angle))
+        };
+        if let (Ok(one), Ok(other)) = (principal(1.0), principal(scale)) {
+            prop_assert_eq!(one.kappa1, other.kappa1 * scale);
+            prop_assert_eq!(one.kappa2, other.kappa2 * scale);
+        }
+        // Of the ellipse: lengths by 8, loads by 64, pressures as they were.
+        let (first, second) = (radius, radius * random.size(1.0, 50.0));
+        let load = random.size(1.0, 1e4);
+        let small = HertzContact::checked(first, second, 2e11).unwrap().at(load);
+        let large = HertzContact::checked(8.0 * first, 8.0 * second, 2e11).unwrap().at(64.0 * load);
+        // Both differ by powers of two, but for three roundings of 2^-24.
+        prop_assert!((small.max_pressure / large.max_pressure - 1.0).abs() < 2e-7);
+        prop_assert!((8.0 * small.semi_major / large.semi_major - 1.0).abs() < 2e-7);
+    }
+
+    #[test]
+    fn a_linear_bearing_reverses_and_grows_with_load(
+        seed: u64, speed in -1.0_f32..1.0, normal in 0.0_f32..0.5, side in -1.0_f32..1.0, more in 1.0_f32..2.0,
+    ) {
+        let (mut model, limits) = linear(seed, 0.3);
+        let inputs = |speed: f32, more: f32, side: f32| LinearInputs {
+            speed: speed * limits.speed,
+            normal_load: more * normal * limits.load,
+            side_load: more * side * normal * limits.load,
+        };
+        let there = model.step(inputs(speed, 1.0, side));
+        model.reset();
+        let back = model.step(inputs(-speed, 1.0, side));
+        prop_assert_eq!(there.friction_force, -back.friction_force);
+        // Mirrored, the diagonals change places.
+        model.reset();
+        let mirrored = model.step(inputs(speed, 1.0, -side));
+        // Three roundings of 2^-24: sums in another order.
+        prop_assert!((there.friction_force - mirrored.friction_force).abs() <= 2e-7 * there.friction_force.abs());
+        model.reset();
+        let heavy = model.step(inputs(speed, more, side));
+        prop_assert!(heavy.friction_force.abs() >= there.friction_force.abs() * (1.0 - 1e-5));
+        // Of balls alike none presses; what there is comes from the grooves.
+        prop_assert_eq!((there.contacts, there.ball_force), (0, 0.0));
+        prop_assert!(there.faults.any() || there.friction_force == there.groove_force);
+    }
+
+    #[test]
+    fn no_size_of_a_screw_is_special(
+        seed: u64, speed in -1e3_f32..1e3, load in -1e3_f32..1e3, power in -1_i32..2,
+    ) {
+        // Eight times the size under 64 times the load: the same stresses and angles, 512 times the torque.
+        // A power of two scales without rounding but in roots, series and the floors of tiny loads.
+        let scale = 8.0_f32.powi(power);
+        let mut random = Random(seed);
+        let enlarged = |design: &BallScrew| {
+            let mut parameters = *design.parameters();
+            parameters.pitch_radius *= scale;
+            parameters.lead *= scale;
+            parameters.ball_radius *= scale;
+            for groove in [&mut parameters.screw_groove, &mut parameters.nut_groove] {
+                if let GrooveSize::Radius(radius) = groove {
+                    *radius *= scale;
+                }
+            }
+            BallScrew::new(parameters)
+        };
+        let torque = scale * scale * scale;
+        // Cube roots of loads and the series of the ellipse err by some 1e-5, differently in each octave.
+        let alike = |one: f32, other: f32| {
+            (one * torque - other).abs() <= 2e-4 * (one * torque).abs() + 1e-30
+        };
+
+        let (mut configuration, ..) = accepted::<ClosedFormScrew>(&mut random);
+        configuration.clearance = Clearance::ZERO;
+        configuration.limits.nut_speed = 1e3;
+        configuration.limits.axial_load = 1e6;
+        configuration.limits.friction_torque = 1e6;
+        let small = FrictionModel::<ClosedFormScrew>::new(&configuration);
+        let large = enlarged(&configuration.design).and_then(|design| {
+            FrictionModel::<ClosedFormScrew>::new(&ClosedFormScrewConfiguration { design, ..configuration })
+        });
+        if let (Ok(mut small), Ok(mut large)) = (small, large) {
+            let one = small.step(inputs(speed, load));
+            let other = large.step(inputs(speed, scale * scale * load));
+            let faults = one.faults.any() || other.faults.any();
+            prop_assert!(faults || alike(one.friction_torque, other.friction_torque), "{one:?} {other:?}");
+            // Half of what the torques may differ by.
+            prop_assert!(faults || (one.efficiency - other.efficiency).abs() <= 1e-4 * one.efficiency.abs());
+        }
+
+        // A folded ball has lengths alone: under the same load torques grow as they do, to the bit.
+        let (configuration, ..) = accepted::<UncagedBallScrew<7>>(&mut random);
+        let of_size = |scale: f32| {
+            let folded = changed(configuration.folded, |folded| {
+                folded.limits.axial_load = 1e6;
+                folded.limits.friction_torque = 1e6;
+                for length in [
+                    &mut folded.lead, &mut folded.ball_radius, &mut folded.path_radius, &mut folded.speed,
+                ] {
+                    *length *= scale;
+                }
+                for knot in folded.law.nodes.iter_mut().flat_map(|node| node.branches.as_flattened_mut()) {
+                    let numbers = &mut knot.numbers;
+                    numbers.torque = numbers.torque.map(|arm| arm * scale);
+                    numbers.slope *= scale;
+                    numbers.rubbing *= scale;
+                }
+            });
+            FrictionModel::<UncagedBallScrew<7>>::new(&UncagedBallScrewConfiguration {
+                folded,
+                return_length: configuration.return_length * scale,
+                ..configuration
+            })
+        };
+        if let (Ok(mut small), Ok(mut large)) = (of_size(1.0), of_size(scale)) {
+            let nut_speed = 1e-3 * speed * configuration.folded.limits.nut_speed;
+            for _ in 0..20 {
+                let (one, other) = [&mut small, &mut large].map(|model| model.step(inputs(nut_speed, load))).into();
+                prop_assert_eq!(one.groove_torque * scale, other.groove_torque);
+                prop_assert_eq!(one.ball_torque * scale, other.ball_torque);
+                prop_assert_eq!(one.largest_contact_force, other.largest_contact_force);
+            }
+        }
+    }
+
+    #[test]
+    fn scenes_reduce_to_simpler_ones(seed: u64, speed in -10.0_f32..10.0, load in -1e4_f32..1e4) {
+        // Without friction between balls nothing is lost there.
+        let outputs = uncaged(seed, 0.0).step(inputs(speed, load));
+        prop_assert_eq!(outputs.ball_torque, 0.0);
+        // Balls that are alike do not press on each other, with as much friction between them as every ball of the lot takes.
+        let outputs = uncaged(seed, 0.1).step(inputs(speed, load));
+        prop_assert_eq!(outputs.contacts, 0);
+        prop_assert!(outputs.faults.any() || outputs.friction_torque == outputs.groove_torque);
+        // One ball has no neighbour, whatever the grooves do.
+        let mut random = Random(seed);
+        let (configuration, mut model, _) = accepted::<UncagedBallScrew<1>>(&mut random);
+        let limits = configuration.folded.limits;
+        let sensors = [
+            speed.clamp(-limits.nut_speed, limits.nut_speed),
+            load.clamp(-limits.axial_load, limits.axial_load),
+            0.0,
+        ];
+        let outputs = model.step(UncagedBallScrew::<1>::inputs(sensors));
+        prop_assert_eq!((outputs.contacts, outputs.ball_torque), (0, 0.0));
+        let (_, mut model, _) = accepted::<LinearBearingTrain<1>>(&mut random);
+        let outputs = model.step(LinearBearingTrain::<1>::inputs([1e-7, 1.0, 0.0]));
+        prop_assert_eq!((outputs.contacts, outputs.ball_force), (0, 0.0));
+    }
+
+    #[test]
+    fn pushes_scale_and_only_dissipate(
+        free in prop::array::uniform9(-0.05_f32..0.05),
+        impedance in prop::array::uniform9(1.0_f32..1e6),
+        room in prop::array::uniform9(0.0_f32..0.02),
+    ) {
+        let mut press = Press::<9>::new();
+        prop_assert!(press.solve(&free, &impedance, &room));
+        let forces: Vec<f32> = press.forces().collect();
+        // Twice the impedance is twice the force, to the bit.
+        let mut stiff = Press::<9>::new();
+        prop_assert!(stiff.solve(&free, &impedance.map(|y| 2.0 * y), &room));
+        prop_assert!(stiff.forces().zip(&forces).all(|(twice, once)| twice == 2.0 * once));
+        // No ball ends faster than the fastest or slower than the slowest would run.
+        let fastest = free.iter().copied().fold(f32::MIN, f32::max);
+        let slowest = free.iter().copied().fold(f32::MAX, f32::min);
+        for speed in press.speeds() {
+            prop_assert!(speed <= fastest + 1e-6 && speed >= slowest - 1e-6);
+        }
+        // Forces push ahead and back alike, and are there only where the room is used up.
+        let speeds: Vec<f32> = press.speeds().collect();
+        for j in 0..9 {
+            let closing = speeds[j] - speeds[(j + 1) % 9];
+            prop_assert!(closing <= room[j] + 1e-6);
+            prop_assert!(forces[j] == 0.0 || closing >= room[j] - 1e-6);
+        }
+    }
+}

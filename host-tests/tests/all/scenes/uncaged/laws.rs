@@ -1,0 +1,350 @@
+//! Laws of a screw without cage, tick by tick: balances of the balls, where the torque comes from, mirrors, and what is no matter.
+
+use std::f64::consts::TAU;
+
+use epas_friction::ball::pressed::{BallNumbers, FreeMotion};
+use epas_friction::{
+    DeviationMap, Faults, FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedOutputs,
+};
+
+use epas_testkit::gears::{self, BALL, SCREW_BALLS, screw_wave, wave};
+use epas_testkit::measured;
+
+const TICK: f32 = 1e-3;
+
+type Model = FrictionModel<UncagedBallScrew<SCREW_BALLS>>;
+
+fn inputs(nut_speed: f32, axial_load: f32) -> Inputs {
+    Inputs {
+        nut_speed,
+        axial_load,
+    }
+}
+
+/// Two turns that 37 balls fill, with waves on screw and nut.
+fn configuration(ball_friction: f32) -> UncagedBallScrewConfiguration {
+    UncagedBallScrewConfiguration {
+        ball_friction,
+        nut_deviation: wave(1, 3, 0.0, 0.9 * BALL.law.deviations[1]),
+        ..gears::full(screw_wave(0.9), TICK)
+    }
+}
+
+/// What a tick made of its balls.
+struct Tick {
+    outputs: UncagedOutputs,
+    /// Axial load of a ball, N, and the branch of the law.
+    load: f32,
+    branch: usize,
+    /// Numbers of all balls, and what each does on its own.
+    numbers: BallNumbers,
+    free: Vec<FreeMotion>,
+    speeds: Vec<f64>,
+    forces: Vec<f64>,
+    /// Whether two balls have met in it.
+    meets: bool,
+}
+
+/// A tick with what the law says of every ball where it began. The deviations are those of a crate's map, of which nothing is said here.
+fn tick(
+    model: &mut Model,
+    configuration: &UncagedBallScrewConfiguration,
+    inputs: Inputs,
+    angle: f64,
+) -> Tick {
+    let law = &configuration.folded.law;
+    let way = inputs.nut_speed.signum();
+    let train = &model.state().circuit.train;
+    let gaps: Vec<f32> = train.gaps().collect();
+    let load = law.load_of(inputs.axial_load / SCREW_BALLS as f32);
+    let branch = usize::from(way * inputs.axial_load < 0.0);
+    let numbers = law.numbers(load, branch, law.interval(configuration.folded.friction));
+    let turns = f64::from(configuration.turns);
+    let free = train
+        .positions()
+        .map(|position| {
+            let place = f64::from(position) / 2_f64.powi(32) * turns;
+            let phase = |turns: f64| (turns.rem_euclid(1.0) * 2_f64.powi(32)) as u32;
+            let screw = configuration
+                .screw_deviation
+                .at(phase(place + angle / std::f64::consts::TAU));
+            let nut = configuration.nut_deviation.at(phase(place));
+            numbers.at([
+                way * screw / law.deviations[0],
+                way * nut / law.deviations[1],
+            ])
+        })
+        .collect();
+    let outputs = model.step(inputs);
+    let train = &model.state().circuit.train;
+    let forces: Vec<f64> = train.forces().map(f64::from).collect();
+    // The list of contacts has each pair that presses, at its rear ball.
+    let contacts = train.contacts();
+    assert_eq!(contacts.len(), usize::from(outputs.contacts));
+    for contact in &contacts {
+        let ball = usize::from(contact.ball);
+        assert!(contact.force > 0.0 && f64::from(contact.force) == forces[ball]);
+        assert_eq!(train.positions().nth(ball), Some(contact.position));
+    }
+    Tick {
+        outputs,
+        load: inputs.axial_load / SCREW_BALLS as f32,
+        branch,
+        numbers,
+        free,
+        speeds: train.speeds().map(f64::from).collect(),
+        meets: forces
+            .iter()
+            .zip(&gaps)
+            .any(|(force, gap)| *force > 0.0 && *gap > 1e-9),
+        forces,
+    }
+}
+
+/// Ticks of a screw that turns to and fro under a load that changes its sign.
+fn ticks(ball_friction: f32, mut check: impl FnMut(&Tick, f32)) {
+    let configuration = configuration(ball_friction);
+    let mut model = Model::new(&configuration).unwrap();
+    let mut angle = 0.0;
+    for (speed, load) in [
+        (10.0, 4000.0),
+        (10.0, -3000.0),
+        (-30.0, -3000.0),
+        (-30.0, 5000.0),
+    ] {
+        for _ in 0..300 {
+            let found = tick(&mut model, &configuration, inputs(speed, load), angle);
+            angle += f64::from(speed) * f64::from(TICK);
+            check(&found, speed.signum());
+        }
+    }
+}
+
+/// Every ball is in balance: the push of its neighbours is what changes its speed, and what their friction on it takes.
+#[test]
+fn every_ball_is_in_balance() {
+    for ball_friction in [0.0, 0.1] {
+        let mut pressing = 0;
+        ticks(ball_friction, |tick, way| {
+            let largest = tick.forces.iter().copied().fold(0.0, f64::max);
+            for ball in 0..SCREW_BALLS {
+                let behind = tick.forces[(ball + SCREW_BALLS - 1) % SCREW_BALLS];
+                let ahead = tick.forces[ball];
+                let free = &tick.free[ball];
+                let change = tick.speeds[ball] - f64::from(way * free.speed);
+                let grip = f64::from(way * ball_friction * free.grip);
+                let needed = f64::from(free.impedance) * change + grip * (behind + ahead);
+                // Places on a map to 2^-20 of a period change a free speed; forces add up to a cluster's roundings.
+                let size = largest + f64::from(free.impedance) * 0.01;
+                let error = (behind - ahead - needed) / size;
+                measured::assert("screw without cage, balance of a ball", error);
+            }
+            pressing += u32::from(tick.outputs.contacts);
+        });
+        assert!(pressing > 1000, "{pressing}");
+    }
+}
+
+/// A mean friction force between balls above 0.05 `mu W` is flagged, and only this where the law holds all else.
+#[test]
+fn balls_that_rub_hard_are_flagged() {
+    let law = &BALL.law;
+    let friction = law.interval(BALL.friction);
+    let [mut hard, mut lightly] = [0, 0];
+    for ball_friction in [0.0, 0.1, 0.3, 0.6] {
+        ticks(ball_friction, |tick, _| {
+            let load = law.load_of(tick.load);
+            let mean = tick.forces.iter().sum::<f64>() / SCREW_BALLS as f64;
+            let rubbing = f64::from(ball_friction) * mean;
+            let over = rubbing / f64::from(friction.friction() * load);
+            let flagged = tick.outputs.faults.contains(Faults::BEYOND_MODEL);
+            if over > 0.0501 {
+                assert!(flagged, "{over}");
+                hard += 1;
+            } else if over < 0.0499 {
+                let grip: f32 = tick.numbers.grip.iter().map(|part| part.abs()).sum();
+                let held =
+                    law.holds_forces(load, tick.branch, friction) && ball_friction * grip <= 0.3;
+                assert_eq!(flagged, !held, "{over}");
+                lightly += u32::from(rubbing > 0.0 && held);
+            }
+        });
+    }
+    assert!(hard > 300 && lightly > 300, "{hard} {lightly}");
+}
+
+/// The torque is what the balls lose: each in its grooves at its speed, and all of them between them; forces between them do no work, but in
+/// a tick in which two of them meet.
+#[test]
+fn the_torque_is_what_the_balls_lose() {
+    let half_speed = 0.5 * f64::from(BALL.speed);
+    for ball_friction in [0.0, 0.1] {
+        ticks(ball_friction, |tick, way| {
+            let mut grooves = 0.0;
+            for (ball, free) in tick.free.iter().enumerate() {
+                let x = f64::from(way) * tick.speeds[ball] - f64::from(free.speed);
+                let push = f64::from(free.impedance) * x;
+                grooves += f64::from(free.torque)
+                    + (f64::from(tick.numbers.slope)
+                        + half_speed * f64::from(tick.numbers.work) * push)
+                        * x;
+            }
+            let found = f64::from(way * tick.outputs.groove_torque);
+            measured::assert(
+                "screw without cage, losses of all grooves",
+                found / grooves - 1.0,
+            );
+            let rubbing = f64::from(ball_friction * tick.numbers.rubbing);
+            let balls = rubbing * tick.forces.iter().sum::<f64>();
+            let found = f64::from(way * tick.outputs.ball_torque);
+            // The sum of 37 forces, and three products: 40 roundings of 2^-24.
+            assert!((found - balls).abs() <= 2.4e-6 * balls, "{found} {balls}");
+            let work: f64 = (0..SCREW_BALLS)
+                .map(|ball| {
+                    tick.forces[ball] * (tick.speeds[(ball + 1) % SCREW_BALLS] - tick.speeds[ball])
+                })
+                .sum();
+            if !tick.meets {
+                // Balls that press are equally fast: to the last digit of a speed of a hundredth.
+                let most = 1e-8 * tick.forces.iter().sum::<f64>();
+                assert!(work.abs() <= most, "{work} {most}");
+            }
+        });
+    }
+}
+
+/// A screw in a mirror: direction and load turned round, waves that a mirror leaves as they are, balls at mirrored places.
+#[test]
+fn a_mirrored_screw_has_the_mirrored_torque() {
+    const BALLS: usize = SCREW_BALLS;
+    let configuration = UncagedBallScrewConfiguration {
+        // Whole turns, in which both waves are odd about the start.
+        turns: 2.0,
+        nut_deviation: wave(1, 3, 0.0, 0.9 * BALL.law.deviations[1]),
+        ..gears::full(screw_wave(0.9), TICK)
+    };
+    // Every tick rounds a ball's travel to whole units of its position, by up to half a unit, its mirror image's the other way: after `n` ticks
+    // two balls and their images are up to `2 n` units closer or further apart, and where they meet they press by what takes these units
+    // from the speed of a tick.
+    let law = &configuration.folded.law;
+    let interval = law.interval(configuration.folded.friction);
+    let track = 2.0 * TAU * f64::from(configuration.folded.path_radius);
+    let travel = 10.0 * f64::from(TICK) * f64::from(configuration.folded.speed);
+    let units = 2.0 * track / 2_f64.powi(32) / travel;
+    let mut pressing = 0;
+    for load in [4000.0, -4000.0] {
+        let numbers = law.numbers(
+            law.load_of(load / BALLS as f32),
+            usize::from(load < 0.0),
+            interval,
+        );
+        let impedance: f32 = numbers.impedance.map(f32::abs).iter().sum();
+        let [mut there, mut back] = [(); 2]
+            .map(|()| FrictionModel::<UncagedBallScrew<BALLS>>::new(&configuration).unwrap());
+        for tick in 1..=600 {
+            let allowed = f64::from(tick) * units * f64::from(impedance);
+            let one = there.step(inputs(10.0, load));
+            let other = back.step(inputs(-10.0, -load));
+            // Both sums of the balls' torques round at every ball, in another order; forces that differ rub.
+            let sum = f64::from(one.friction_torque) + f64::from(other.friction_torque);
+            let ulp = 2_f64.powi(-23) * f64::from(one.friction_torque.abs());
+            let rounding = BALLS as f64 * ulp;
+            let rubs = allowed * f64::from(configuration.ball_friction * numbers.rubbing);
+            assert!(sum.abs() <= rounding + rubs, "{load} N: {sum} N m");
+            let forces = |model: &FrictionModel<UncagedBallScrew<BALLS>>| -> Vec<f32> {
+                model.state().circuit.train.forces().collect()
+            };
+            let (one, other) = (forces(&there), forces(&back));
+            for ball in 0..BALLS {
+                // Ball `j` stands where ball `-j` does in the mirror, and presses on the one that is then behind.
+                let mirrored = other[(2 * BALLS - ball - 1) % BALLS];
+                let error = f64::from(one[ball]) - f64::from(mirrored);
+                assert!(
+                    error.abs() <= allowed,
+                    "{load} N, ball {ball}: {error} N, {allowed} allowed"
+                );
+                pressing += u32::from(one[ball] > 0.0);
+            }
+        }
+    }
+    assert!(pressing > 1000, "{pressing}");
+}
+
+/// Balls have no numbers: a state whose balls are counted from another one on goes on as it would have.
+#[test]
+fn which_ball_is_the_first_is_no_matter() {
+    /// Header of a block, and what a train carries over.
+    const TRAIN: usize = 16 + 4;
+    const BALL_BYTES: usize = 9;
+    let configuration = configuration(0.1);
+    let mut model = Model::new(&configuration).unwrap();
+    for _ in 0..200 {
+        model.step(inputs(10.0, 4000.0));
+    }
+    let mut block = vec![0; Model::STATE_BYTES];
+    model.export(&mut block).unwrap();
+    for turned in [1, 17, 36] {
+        let mut other = block.clone();
+        let balls = TRAIN + 1..TRAIN + 1 + BALL_BYTES * SCREW_BALLS;
+        other[balls].rotate_left(turned * BALL_BYTES);
+        let foremost = usize::from(block[TRAIN]) + SCREW_BALLS - turned;
+        other[TRAIN] = (foremost % SCREW_BALLS) as u8;
+        let body = other.len() - 4;
+        let checksum = crc32fast::hash(&other[..body]);
+        other[body..].copy_from_slice(&checksum.to_le_bytes());
+        let mut renumbered = Model::new(&configuration).unwrap();
+        renumbered.import(&other).unwrap();
+        let mut model = model;
+        let mut pressing = 0;
+        for _ in 0..300 {
+            let expected = model.step(inputs(10.0, 4000.0));
+            let found = renumbered.step(inputs(10.0, 4000.0));
+            let error = f64::from(found.friction_torque / expected.friction_torque - 1.0);
+            measured::assert("screw without cage, counted from another ball", error);
+            pressing += u32::from(found.contacts);
+        }
+        assert!(pressing > 1000, "{pressing}");
+    }
+}
+
+/// Grooves that do not deviate press no ball, from the first tick on.
+#[test]
+fn without_deviation_no_ball_presses() {
+    let configuration = UncagedBallScrewConfiguration {
+        screw_deviation: &DeviationMap::NONE,
+        nut_deviation: &DeviationMap::NONE,
+        ..configuration(0.1)
+    };
+    for speed in [6.0, -6.0] {
+        let mut model = Model::new(&configuration).unwrap();
+        let mut first = None;
+        for _ in 0..3000 {
+            let outputs = model.step(inputs(speed, 1500.0));
+            assert_eq!((outputs.contacts, outputs.ball_torque), (0, 0.0));
+            assert!(outputs.groove_torque * speed > 0.0);
+            assert_eq!(outputs.friction_torque, outputs.groove_torque);
+            // The first tick is as good as any other.
+            assert_eq!(*first.get_or_insert(outputs), outputs);
+        }
+    }
+}
+
+/// Balls without friction between them press harder: it takes a part of what they push with.
+#[test]
+fn balls_without_friction_between_them_still_press() {
+    let mut rough = Model::new(&configuration(0.1)).unwrap();
+    let mut smooth = Model::new(&configuration(0.0)).unwrap();
+    let (mut pressed, mut differs) = (0, 0);
+    for _ in 0..1500 {
+        let (with, without) = (
+            rough.step(inputs(3.0, 3000.0)),
+            smooth.step(inputs(3.0, 3000.0)),
+        );
+        assert_eq!(without.ball_torque, 0.0);
+        assert!(with.ball_torque >= 0.0);
+        pressed += u32::from(without.contacts);
+        differs += u32::from(with.largest_contact_force != without.largest_contact_force);
+    }
+    assert!(pressed > 1000 && differs > 500, "{pressed} {differs}");
+}

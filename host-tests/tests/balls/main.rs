@@ -1,9 +1,0 @@
-//! One ball between its grooves, and rows of balls that push each other, against float64.
-
-#[path = "../kit/mod.rs"]
-mod kit;
-
-mod linear_ball;
-mod screw_ball;
-mod train;
-mod two_point;
