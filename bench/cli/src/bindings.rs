@@ -4,7 +4,7 @@ pub use crate::simulate::bindings::{
     Balls, Built, Caged, CagedRow, Folded, Friction, Linear, LinearRow, LinearSample, Lines,
     MOST_BALLS, Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewConfiguration,
     ScrewSample, Trace, TrainRow, Uncaged, UncagedRow, Use, angle, coefficients, regime_name,
-    remembering, wrapped,
+    remembering, trace, wrapped,
 };
 pub use epas_calibrate::controller::Controller;
 pub use epas_design::files::train::{LinearDesign, UncagedDesign};

@@ -11,6 +11,7 @@ mod a2l;
 pub mod bindings;
 mod cli;
 mod design;
+pub mod design_study;
 pub mod fmu;
 pub mod simulate;
 

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::path::Path;
 use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
-use epas_bench::fmu::{Causality, Moment, RESOURCE, Running, Stored, Unit, Variable};
+use epas_cli::fmu::{Causality, Moment, RESOURCE, Running, Stored, Unit, Variable};
 
 use crate::BALLS;
 use crate::kinds::Phase;
@@ -15,7 +15,7 @@ use crate::state::Snapshot;
 pub type Said = Result<Option<String>, String>;
 
 /// The flag of accuracy alone: nothing is wrong with the inputs.
-const ACCURACY: u32 = epas_bench::fmu::ACCURACY;
+const ACCURACY: u32 = epas_cli::fmu::ACCURACY;
 
 /// Most ticks of one communication step.
 const MOST_TICKS: f64 = 1e7;
@@ -257,7 +257,7 @@ impl Instance {
         if faults == 0 {
             return None;
         }
-        let words = epas_bench::fmu::fault_words(faults);
+        let words = epas_cli::fmu::fault_words(faults);
         let inputs: Vec<String> = self
             .unit
             .places(Causality::Input)

@@ -1,6 +1,6 @@
 //! Where an instance is, and which types a caller asks for.
 
-use epas_bench::fmu::Kind;
+use epas_cli::fmu::Kind;
 
 /// Where an instance is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

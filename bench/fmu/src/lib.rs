@@ -2,7 +2,7 @@
 //!
 //! `instance` is a unit while a simulation has it: its phase, its values, its model. `registry` keeps instances by handles that are
 //! numbers and no addresses, so that a handle that was freed, or never given, is told from one that lives. `boundary` is the one folder
-//! with pointers: every exported function. What a unit computes stands in `epas_bench::fmu`, and is what `simulate` computes.
+//! with pointers: every exported function. What a unit computes stands in `epas_cli::fmu`, and is what `simulate` computes.
 
 mod boundary;
 mod instance;
@@ -17,7 +17,7 @@ const ROW: usize = balls(option_env!("EPAS_FMU_BALLS"));
 /// The same for the models, which have at least one.
 pub const BALLS: usize = if ROW == 0 { 1 } else { ROW };
 
-/// Tells the program that packs this library which one it is, see `epas_bench::fmu::mark`.
+/// Tells the program that packs this library which one it is, see `epas_cli::fmu::mark`.
 #[used]
 static MARK: [u8; 29] = {
     let mut mark = *b"epas-friction row of 00 balls";

@@ -8,11 +8,11 @@ fuzz_target!(|data: &[u8]| {
     match data {
         [b'#', text @ ..] => {
             if let Ok(text) = std::str::from_utf8(text) {
-                let _ = epas_bench::untrusted::design(text);
+                let _ = epas_cli::untrusted::design(text);
             }
         }
         trace => {
-            let _ = epas_bench::untrusted::trace(trace);
+            let _ = epas_cli::untrusted::trace(trace);
         }
     }
 });

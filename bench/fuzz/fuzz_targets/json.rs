@@ -4,5 +4,5 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|line: &str| {
-    epas_bench::untrusted::request(line);
+    epas_cli::untrusted::request(line);
 });

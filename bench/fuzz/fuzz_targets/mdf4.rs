@@ -4,5 +4,5 @@
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {
-    let _ = epas_bench::untrusted::measurement(data);
+    let _ = epas_cli::untrusted::measurement(data);
 });

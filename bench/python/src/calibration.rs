@@ -3,16 +3,16 @@
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
-use epas_bench::bindings::{Controller, Failure};
-use epas_bench::calibrate::answer::{Calibration, Estimate, ModelScore};
-use epas_bench::calibrate::page::picture::Picture;
-use epas_bench::calibrate::screw::Request;
-use epas_bench::calibrate::screw::choice::Wanted;
-use epas_bench::calibrate::signals::{RowSettings, SmoothingSettings};
-use epas_bench::calibrate::trace::Trace;
-use epas_bench::calibrate::trace::columns::{self, Frame};
-use epas_bench::calibrate::with_design;
-use epas_bench::calibrate::without_design::{self, Filters};
+use epas_calibrate::answer::{Calibration, Estimate, ModelScore};
+use epas_calibrate::page::picture::Picture;
+use epas_calibrate::screw::Request;
+use epas_calibrate::screw::choice::Wanted;
+use epas_calibrate::signals::{RowSettings, SmoothingSettings};
+use epas_calibrate::trace::Trace;
+use epas_calibrate::trace::columns::{self, Frame};
+use epas_calibrate::with_design;
+use epas_calibrate::without_design::{self, Filters};
+use epas_cli::bindings::{Controller, Failure};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 

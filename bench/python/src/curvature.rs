@@ -286,7 +286,7 @@ pub fn fitted_curvature<'py>(
 
 /// The default range of the fit, or as much more as puts this contact angle well inside.
 fn fit_range(contact_angle: f32) -> f32 {
-    epas_bench::bindings::fit_range(contact_angle)
+    epas_cli::bindings::fit_range(contact_angle)
 }
 
 /// First principal curvature of a groove with a circular section, a closed form.

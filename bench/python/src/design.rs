@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use epas_bench::bindings::{self, DesignSource, LinearDesign as Linear};
+use epas_cli::bindings::{self, DesignSource, LinearDesign as Linear};
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use pyo3::exceptions::PyTypeError;

@@ -1,6 +1,6 @@
 //! Errors as exceptions that carry field, value and range.
 
-use epas_bench::bindings::Failure;
+use epas_cli::bindings::Failure;
 use epas_reference::ReferenceError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -245,6 +245,12 @@ impl From<ReferenceError> for Refused {
             this.0.field = Some(field.into());
         }
         this
+    }
+}
+
+impl From<epas_design::Failure> for Refused {
+    fn from(failure: epas_design::Failure) -> Self {
+        Failure::from(failure).into()
     }
 }
 

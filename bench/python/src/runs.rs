@@ -1,6 +1,6 @@
 //! Whole traces as the command `simulate` runs them, and the float64 reference over them; single evaluations of `eval`.
 
-use epas_bench::bindings::{
+use epas_cli::bindings::{
     self, Caged, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample, Trace,
     Uncaged,
 };
@@ -343,9 +343,8 @@ pub fn manoeuvre<'py>(
             return Err(refused(py, Refused::value("name", message)));
         }
     };
-    let trace = manoeuvre
-        .trace(design.inner.screw())
-        .map_err(|failure| refused(py, failure))?;
+    let trace =
+        bindings::trace(manoeuvre, design.inner.screw()).map_err(|failure| refused(py, failure))?;
     let of = |value: fn(&ScrewSample) -> f64| {
         PyArray1::from_vec(py, trace.samples.iter().map(value).collect())
     };

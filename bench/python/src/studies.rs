@@ -1,11 +1,11 @@
 //! Studies of many designs and of many traces, in parts that any engine may run anywhere.
 
-use epas_bench::calibrate::screw::Request;
-use epas_bench::calibrate::sums::Sums;
-use epas_bench::calibrate::trace::columns::Frame;
-use epas_bench::calibrate::with_design;
-use epas_bench::calibrate::without_design::{self, Filters};
-use epas_rows::design_study::{Design as StudiedDesign, Duty, figures};
+use epas_calibrate::screw::Request;
+use epas_calibrate::sums::Sums;
+use epas_calibrate::trace::columns::Frame;
+use epas_calibrate::with_design;
+use epas_calibrate::without_design::{self, Filters};
+use epas_cli::design_study::{Design as StudiedDesign, Duty, figures};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 

@@ -4,7 +4,7 @@ pub use epas_trains::{Balls, Built, Folded, MOST_BALLS, ScrewConfiguration};
 
 pub use super::caged::{Caged, CagedRow, wrapped};
 pub use super::linear::{Linear, LinearRow};
-pub use super::manoeuvre::Manoeuvre;
+pub use super::manoeuvre::{Manoeuvre, trace};
 pub use super::memory::{Remembered, angle};
 pub use super::reference::{Friction, ReferenceModel};
 pub use super::remembering::{Remembers, Use, coefficients, remembering};

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use epas_bench::bindings::{self, Design as Inner, Failure};
-use epas_bench::caged::{self, CagedModel, CagedScene, fold_for};
+use epas_cli::bindings::{self, Design as Inner, Failure};
+use epas_design::caged_scene::{self as caged, CagedModel, CagedScene, fold_for};
 use epas_friction::{FrictionBranch, Inputs};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;

@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use epas_bench::bindings::{self, Failure, Remembers, Use, coefficients, remembering, wrapped};
-use epas_bench::caged;
+use epas_cli::bindings::{self, Failure, Remembers, Use, coefficients, remembering, wrapped};
+use epas_design::caged_scene as caged;
 use epas_friction::{Inputs, Outputs, Refusal};
 use pyo3::prelude::*;
 

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use epas_bench::bindings::{
+use epas_cli::bindings::{
     self, Balls, Built, Failure, Folded, Linear, MOST_BALLS, ScrewConfiguration, Uncaged,
     UncagedDesign,
 };
-use epas_bench::uncaged::{configuration_with, fold_for, folded, read};
 use epas_design::uncaged::UncagedBlock;
+use epas_design::uncaged_scene::{configuration_with, fold_for, folded, read};
 use epas_friction::{Error, Inputs, LinearInputs, LinearOutputs, UncagedOutputs};
 use pyo3::prelude::*;
 
