@@ -8,8 +8,10 @@ use serde::Serialize;
 /// What is wrong with a request, and in which field.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BadField {
-    field: String,
-    message: String,
+    /// The field, or "request" for the line as a whole.
+    pub field: String,
+    /// What is wrong with it.
+    pub message: String,
 }
 
 impl BadField {
