@@ -152,6 +152,7 @@ pub use train::ScrewNumbers;
 ///
 /// It is null for a clearance outside -0.02 to 0.05 ball radii, and for a design that cannot be folded. A request takes about a
 /// second.
+#[expect(clippy::doc_markdown, reason = "the text of the help, which has no markdown")]
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
@@ -199,6 +200,9 @@ struct Reply<'a> {
 }
 
 /// Answers every request of the file or of stdin.
+///
+/// # Errors
+/// A file that cannot be read, an output that cannot be written, or a request that was refused.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let output = BufWriter::new(io::stdout().lock());
     let all_good = match &arguments.file {

@@ -55,7 +55,7 @@ pub type Answer = Both<Box<RawValue>, Box<RawValue>>;
 
 impl<InLoop: Serialize, Reference: Serialize> Both<InLoop, Reference> {
     /// Both in JSON.
-    pub fn json(&self) -> Result<Answer, BadField> {
+    pub(crate) fn json(&self) -> Result<Answer, BadField> {
         Ok(Both {
             in_loop: json(&self.in_loop)?,
             reference: json(&self.reference)?,

@@ -16,7 +16,7 @@ pub struct BadField {
 
 impl BadField {
     /// The field named, with what is wrong with it.
-    pub fn new(field: impl Into<String>, message: impl Into<String>) -> Self {
+    pub(crate) fn new(field: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
             field: field.into(),
             message: message.into(),
@@ -24,12 +24,12 @@ impl BadField {
     }
 
     /// The line as a whole is wrong.
-    pub fn request(message: impl Into<String>) -> Self {
+    pub(crate) fn request(message: impl Into<String>) -> Self {
         Self::new("request", message)
     }
 
     /// This error with the place in a list where it was found.
-    pub fn of_ball(self, index: usize) -> Self {
+    pub(crate) fn of_ball(self, index: usize) -> Self {
         Self {
             message: format!("ball {index} (counted from 0): {}", self.message),
             ..self
@@ -37,7 +37,7 @@ impl BadField {
     }
 
     /// This error under the name that the request has for the field.
-    pub fn renamed(self, from: &str, to: &str) -> Self {
+    pub(crate) fn renamed(self, from: &str, to: &str) -> Self {
         if self.field == from {
             Self {
                 field: to.into(),
