@@ -9,8 +9,8 @@ use super::sample::{Numbers, ask};
 use super::{Map, PLAIN};
 
 /// The first of a list; none where there is none.
-fn first(list: &Option<Vec<f64>>) -> Option<f64> {
-    list.as_ref()?.first().copied()
+fn first(list: Option<&Vec<f64>>) -> Option<f64> {
+    list?.first().copied()
 }
 
 /// Every map.
@@ -242,8 +242,8 @@ pub const MAPS: [Map; 18] = [
         at: |side, degrees| {
             ask(&linear([(degrees, side)]), |f, r| {
                 Numbers::of(
-                    first(&f.analytic.speed_deviation),
-                    first(&r.speed_deviation),
+                    first(f.analytic.speed_deviation.as_ref()),
+                    first(r.speed_deviation.as_ref()),
                 )
             })
         },
@@ -257,8 +257,11 @@ pub const MAPS: [Map; 18] = [
         y: ("deviation (deg)", 0.5, 3.0),
         at: |balls, degrees| {
             ask(&rising_row(balls, degrees), |f, r| {
-                Numbers::of(first(&f.scene.contact_force), first(&r.contact_force))
-                    .over(first(&r.contact_force))
+                Numbers::of(
+                    first(f.scene.contact_force.as_ref()),
+                    first(r.contact_force.as_ref()),
+                )
+                .over(first(r.contact_force.as_ref()))
             })
         },
         value: ("/scene/contact_force/0", "/contact_force/0"),
