@@ -143,7 +143,7 @@ impl Found {
         Ok(Self {
             exact: if on_two { Exact::OnTwo } else { Exact::OnMore },
             force: off(force(&law.found), exact).filter(|_| forceful),
-            torque: off(law.found.groove_torque, torque),
+            torque: off(finite(law.found.groove_torque), torque),
             closed_form: off(force(&in_loop.closed_form), exact).filter(|_| forceful),
             flagged: law.flagged == Some(true),
             request: request.line()?,
@@ -151,9 +151,14 @@ impl Found {
     }
 }
 
+/// None too for what is no number.
+fn finite(number: Option<f64>) -> Option<f64> {
+    number.filter(|number| number.is_finite())
+}
+
 /// Force between the two balls.
 fn force(row: &Row) -> Option<f64> {
-    row.contact_force.as_ref()?.first().copied()
+    finite(row.contact_force.as_ref()?.first().copied())
 }
 
 /// Pairs of a line of the map, for each of [`DEVIATIONS`].
