@@ -12,6 +12,7 @@ use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
 pub use bad::{BadField, in_range};
+use values::list;
 pub use values::{Object, OneOrMany, Value};
 pub(crate) use values::{request, same};
 
@@ -125,47 +126,6 @@ impl<'a> Fields<'a> {
         self.values
             .remove(field)
             .ok_or_else(|| BadField::new(field, "is missing"))
-    }
-}
-
-/// A JSON list of `1..=largest` numbers.
-fn list(field: &str, raw: &RawValue, largest: usize) -> Result<Vec<f64>, BadField> {
-    let Ok(values) = serde_json::from_str::<Vec<&RawValue>>(raw.get()) else {
-        return Err(BadField::new(
-            field,
-            format!("must be a list of numbers, not {}", shown(raw)),
-        ));
-    };
-    refuse_count(field, values.len(), largest)?;
-    values.into_iter().map(|raw| number(field, raw)).collect()
-}
-
-/// Refuses a list that is empty or too long.
-fn refuse_count(field: &str, count: usize, largest: usize) -> Result<(), BadField> {
-    if (1..=largest).contains(&count) {
-        Ok(())
-    } else {
-        let message = format!("{count} of them; allowed: 1 to {largest}");
-        Err(BadField::new(field, message))
-    }
-}
-
-/// A JSON number as float64. What is beyond its range reads as infinity and is refused here, so that
-/// the field can be named.
-fn number(field: &str, raw: &RawValue) -> Result<f64, BadField> {
-    let text = raw.get();
-    if !text.starts_with(|first: char| first == '-' || first.is_ascii_digit()) {
-        return Err(BadField::new(
-            field,
-            format!("must be a number, not {}", shown(raw)),
-        ));
-    }
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(BadField::new(
-            field,
-            format!("{} is beyond the range of float64", shown(raw)),
-        )),
     }
 }
 

@@ -152,7 +152,10 @@ pub use train::ScrewNumbers;
 ///
 /// It is null for a clearance outside -0.02 to 0.05 ball radii, and for a design that cannot be folded. A request takes about a
 /// second.
-#[expect(clippy::doc_markdown, reason = "the text of the help, which has no markdown")]
+#[expect(
+    clippy::doc_markdown,
+    reason = "the text of the help, which has no markdown"
+)]
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -

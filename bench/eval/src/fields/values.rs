@@ -2,7 +2,7 @@
 
 use serde_json::value::RawValue;
 
-use super::{BadField, Fields, number, refuse_count, shown};
+use super::{BadField, Fields, shown};
 use crate::train::LARGEST_TRAIN;
 
 /// A number for all, or one for each.
@@ -130,3 +130,44 @@ macro_rules! same {
     };
 }
 pub(crate) use same;
+
+/// A JSON list of `1..=largest` numbers.
+pub fn list(field: &str, raw: &RawValue, largest: usize) -> Result<Vec<f64>, BadField> {
+    let Ok(values) = serde_json::from_str::<Vec<&RawValue>>(raw.get()) else {
+        return Err(BadField::new(
+            field,
+            format!("must be a list of numbers, not {}", shown(raw)),
+        ));
+    };
+    refuse_count(field, values.len(), largest)?;
+    values.into_iter().map(|raw| number(field, raw)).collect()
+}
+
+/// Refuses a list that is empty or too long.
+fn refuse_count(field: &str, count: usize, largest: usize) -> Result<(), BadField> {
+    if (1..=largest).contains(&count) {
+        Ok(())
+    } else {
+        let message = format!("{count} of them; allowed: 1 to {largest}");
+        Err(BadField::new(field, message))
+    }
+}
+
+/// A JSON number as float64. What is beyond its range reads as infinity and is refused here, so that
+/// the field can be named.
+fn number(field: &str, raw: &RawValue) -> Result<f64, BadField> {
+    let text = raw.get();
+    if !text.starts_with(|first: char| first == '-' || first.is_ascii_digit()) {
+        return Err(BadField::new(
+            field,
+            format!("must be a number, not {}", shown(raw)),
+        ));
+    }
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() => Ok(value),
+        _ => Err(BadField::new(
+            field,
+            format!("{} is beyond the range of float64", shown(raw)),
+        )),
+    }
+}
