@@ -14,32 +14,42 @@ mod request;
 
 use serde::Serialize;
 
-use super::answer::Answer;
-use super::fields::{BadField, Fields};
-use folded::FoldedRow;
-use request::{Request, Row};
+use super::fields::BadField;
+use super::model::{Both, Model};
+pub use folded::FoldedRow;
+pub use request::{Ball, Request, Row};
 
 /// What the crate computes: by the law of its scene, and by a closed form.
-#[derive(Default, Serialize)]
-struct InLoop {
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct InLoop {
+    /// By the law of the scene.
     #[serde(flatten)]
-    law: FoldedRow,
-    closed_form: Row,
+    pub law: FoldedRow,
+    /// By the closed form, which no scene runs.
+    pub closed_form: Row,
 }
 
-/// Answers one request.
-pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
-    let request = Request::read(&mut fields)?;
-    fields.finish()?;
-    request.check()?;
-    if request.nut_speed == 0.0 {
-        // Coulomb friction has no direction at rest.
-        return Answer::both(&InLoop::default(), &Row::default());
+impl Model for Request {
+    const NAME: &'static str = "ball_screw_pair";
+    type InLoop = InLoop;
+    type Reference = Row;
+
+    fn evaluate(&self) -> Result<Both<InLoop, Row>, BadField> {
+        self.check()?;
+        if self.nut_speed == 0.0 {
+            // Coulomb friction has no direction at rest.
+            return Ok(Both {
+                in_loop: InLoop::default(),
+                reference: Row::default(),
+            });
+        }
+        let design = self.design()?;
+        Ok(Both {
+            in_loop: InLoop {
+                law: folded::row(self, &design),
+                closed_form: closed_form::row(self, &design)?,
+            },
+            reference: self.reference()?,
+        })
     }
-    let design = request.design()?;
-    let in_loop = InLoop {
-        law: folded::row(&request, &design),
-        closed_form: closed_form::row(&request, &design)?,
-    };
-    Answer::both(&in_loop, &request.reference()?)
 }

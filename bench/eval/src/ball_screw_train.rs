@@ -7,17 +7,14 @@ mod contacts;
 
 use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
-use epas_friction::{BallScrew, Error};
-use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
 use epas_reference::friction::ball_screw_train::solve_screw_train;
 use epas_reference::friction::linear_ball::EllipseLaw;
-use epas_reference::material::Elastic;
 use serde::Serialize;
 
-use super::answer::Answer;
-use super::fields::{BadField, Fields, in_range};
-use super::train::{LARGEST_TRAIN, ScrewNumbers, solved};
+use super::fields::{BadField, Fields, Object, in_range, request};
+use super::model::{Answer, Both};
+use super::train::{ScrewNumbers, of_contact, solved};
 use closed_form::ClosedRow;
 use contacts::{Given, Ways};
 
@@ -38,17 +35,17 @@ struct Row {
     power_loss: Option<f64>,
 }
 
-struct Request {
-    pitch_radius: f64,
-    lead: f64,
-    ball_radius: f64,
-    groove_radius: f64,
-    youngs_modulus: f64,
-    poisson_ratio: f64,
-    friction: f64,
-    nut_speed: f64,
-    balls: Vec<Vec<Contact>>,
+request! {
+    struct Request {
+        screw: ScrewNumbers = ScrewNumbers::read,
+        friction: f64,
+        nut_speed: f64,
+        balls: Vec<Contacts>,
+    }
 }
+
+/// Contacts of a ball.
+struct Contacts(Vec<Contact>);
 
 struct Contact {
     groove: Groove,
@@ -58,69 +55,65 @@ struct Contact {
 
 /// Answers one request.
 pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
-    let request = Request {
-        pitch_radius: fields.number("pitch_radius")?,
-        lead: fields.number("lead")?,
-        ball_radius: fields.number("ball_radius")?,
-        groove_radius: fields.number("groove_radius")?,
-        youngs_modulus: fields.number("youngs_modulus")?,
-        poisson_ratio: fields.number("poisson_ratio")?,
-        friction: fields.number("friction")?,
-        nut_speed: fields.number("nut_speed")?,
-        balls: fields.balls(LARGEST_TRAIN, contacts)?,
-    };
+    let request = Request::read(&mut fields)?;
     fields.finish()?;
     request.check()?;
-    Answer::both(&request.in_loop()?, &request.reference()?)
+    Both {
+        in_loop: request.in_loop()?,
+        reference: request.reference()?,
+    }
+    .json()
 }
 
-fn contacts(mut ball: Fields) -> Result<Vec<Contact>, BadField> {
-    let mut given = ball.object("contacts")?;
-    ball.finish()?;
-    let mut contacts = Vec::new();
-    for (name, groove) in FLANKS {
-        if let Some(mut contact) = given.optional_object(name)? {
-            contacts.push(Contact {
-                groove,
-                load: contact.number("load")?,
-                angle: contact.number("contact_angle")?,
-            });
-            contact.finish()?;
+impl Object for Contacts {
+    fn read(ball: &mut Fields) -> Result<Self, BadField> {
+        let mut given = ball.object("contacts")?;
+        ball.finish()?;
+        let mut contacts = Vec::new();
+        for (name, groove) in FLANKS {
+            if let Some(mut contact) = given.optional_object(name)? {
+                contacts.push(Contact {
+                    groove,
+                    load: contact.get("load")?,
+                    angle: contact.get("contact_angle")?,
+                });
+                contact.finish()?;
+            }
         }
+        given.finish()?;
+        if contacts.len() < 2 {
+            return Err(BadField::new(
+                "contacts",
+                format!("{} of them; a ball has two to four", contacts.len()),
+            ));
+        }
+        Ok(Self(contacts))
     }
-    given.finish()?;
-    if contacts.len() < 2 {
-        return Err(BadField::new(
-            "contacts",
-            format!("{} of them; a ball has two to four", contacts.len()),
-        ));
-    }
-    Ok(contacts)
 }
 
 impl Request {
     fn check(&self) -> Result<(), BadField> {
-        in_range("pitch_radius", self.pitch_radius, 1e-4, 10.0)?;
-        in_range("lead", self.lead, 0.0, 20.0 * self.pitch_radius)?;
+        in_range("pitch_radius", self.screw.pitch_radius, 1e-4, 10.0)?;
+        in_range("lead", self.screw.lead, 0.0, 20.0 * self.screw.pitch_radius)?;
         in_range(
             "ball_radius",
-            self.ball_radius,
+            self.screw.ball_radius,
             1e-5,
-            0.8 * self.pitch_radius,
+            0.8 * self.screw.pitch_radius,
         )?;
-        let diameter = 2.0 * self.ball_radius;
+        let diameter = 2.0 * self.screw.ball_radius;
         in_range(
             "groove_radius",
-            self.groove_radius,
+            self.screw.groove_radius,
             f64::from(SMALLEST_CONFORMITY) * diameter,
             f64::from(LARGEST_CONFORMITY) * diameter,
         )?;
-        in_range("youngs_modulus", self.youngs_modulus, 1e6, 1e13)?;
-        in_range("poisson_ratio", self.poisson_ratio, 0.0, 0.5)?;
+        in_range("youngs_modulus", self.screw.youngs_modulus, 1e6, 1e13)?;
+        in_range("poisson_ratio", self.screw.poisson_ratio, 0.0, 0.5)?;
         in_range("friction", self.friction, 1e-6, 0.5)?;
         in_range("nut_speed", self.nut_speed, -1e6, 1e6)?;
         for (index, ball) in self.balls.iter().enumerate() {
-            for contact in ball {
+            for contact in &ball.0 {
                 in_range("load", contact.load, 0.0, 1e7)
                     .and_then(|_| in_range("contact_angle", contact.angle, 0.05, 1.5))
                     .map_err(|error| error.of_ball(index))?;
@@ -145,7 +138,7 @@ impl Request {
             .iter()
             .map(|ball| {
                 let mut given = [None; 4];
-                for contact in ball {
+                for contact in &ball.0 {
                     given[contact.groove as usize] =
                         Some((contact.load as f32, contact.angle as f32));
                 }
@@ -153,7 +146,7 @@ impl Request {
             })
             .collect();
         let given = contacts::Row::of(&balls)?;
-        let design = self.design(given.nominal).ok()?;
+        let design = self.screw.design(given.nominal).ok()?;
         let ways = Ways {
             friction: self.friction as f32,
             nut_speed: self.nut_speed as f32,
@@ -163,25 +156,17 @@ impl Request {
 
     /// Whether the crate takes the screw, with the mean contact angle for its nominal one.
     fn check_design(&self) -> Result<(), BadField> {
-        let angles = || self.balls.iter().flatten().map(|contact| contact.angle);
+        let angles = || {
+            self.balls
+                .iter()
+                .flat_map(|ball| &ball.0)
+                .map(|contact| contact.angle)
+        };
         let mean = angles().sum::<f64>() / angles().count() as f64;
-        let design = self.design(mean as f32)?;
+        let design = self.screw.design(mean as f32)?;
         ScrewRow::new(&design, self.friction as f32, GrooveFit::Zero)
             .map(drop)
             .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
-    }
-
-    /// The screw with a nominal contact angle.
-    fn design(&self, contact_angle: f32) -> Result<BallScrew, Error> {
-        ScrewNumbers {
-            pitch_radius: self.pitch_radius,
-            lead: self.lead,
-            ball_radius: self.ball_radius,
-            groove_radius: self.groove_radius,
-            youngs_modulus: self.youngs_modulus,
-            poisson_ratio: self.poisson_ratio,
-        }
-        .design(contact_angle)
     }
 
     /// Nothing moves; forces between balls are undefined.
@@ -198,16 +183,17 @@ impl Request {
             return Ok(self.standstill());
         }
         let track = ScrewTrack {
-            pitch_radius: self.pitch_radius,
-            lead: self.lead,
-            ball_radius: self.ball_radius,
+            pitch_radius: self.screw.pitch_radius,
+            lead: self.screw.lead,
+            ball_radius: self.screw.ball_radius,
         };
         let balls = self
             .balls
             .iter()
             .enumerate()
             .map(|(index, ball)| {
-                ball.iter()
+                ball.0
+                    .iter()
                     .map(|contact| {
                         Ok(ScrewContact {
                             groove: contact.groove,
@@ -239,27 +225,8 @@ impl Request {
     /// Ellipse of a contact, from the principal curvatures of the groove there: its arc meets the ball
     /// at the contact's own angle.
     fn ellipse(&self, contact: &Contact) -> Result<EllipseLaw, BadField> {
-        let material = Elastic {
-            youngs_modulus: self.youngs_modulus,
-            poisson_ratio: self.poisson_ratio,
-        };
-        let design = BallScrewDesign {
-            pitch_radius: self.pitch_radius,
-            lead: self.lead,
-            ball_radius: self.ball_radius,
-            screw_groove_radius: self.groove_radius,
-            nut_groove_radius: self.groove_radius,
-            contact_angle: contact.angle,
-            ball: material,
-            groove: material,
-        };
-        let hertz = design.contact(contact.groove.part()).map_err(|error| {
-            BadField::from(error)
-                .renamed("offset_h", "groove_radius")
-                .renamed("relative_radius_1", "pitch_radius")
-                .renamed("relative_radius_2", "groove_radius")
-                .renamed("contact_modulus", "youngs_modulus")
-        })?;
+        let design = self.screw.exact(contact.angle);
+        let hertz = design.contact(contact.groove.part()).map_err(of_contact)?;
         Ok(hertz.into())
     }
 }

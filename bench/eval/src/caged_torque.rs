@@ -12,9 +12,9 @@ use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance as Rolling;
 use serde::Serialize;
 
-use super::answer::Answer;
-use super::fields::{BadField, Fields, in_range};
-use super::train::ScrewNumbers;
+use super::fields::{BadField, Fields, in_range, request};
+use super::model::{Both, Model};
+use super::train::{ScrewNumbers, of_contact};
 use epas_design::caged_scene::unchecked;
 
 /// Most loads of a request.
@@ -29,47 +29,52 @@ const SMALLEST_LOAD: f64 = 1e-3;
 /// Least load that a law can be folded for, N; below it the torque is in proportion to the load.
 const LEAST_FOLDED: f32 = 0.01;
 
-/// One ball of a screw with a cage.
-struct Request {
-    numbers: ScrewNumbers,
-    contact_angle: f64,
-    friction: f64,
-    clearance: f64,
-    axial_load: Vec<f64>,
-    direction: f64,
+request! {
+    /// One ball of a screw with a cage.
+    #[derive(Clone, Debug, Serialize)]
+    pub struct Request {
+        /// The screw.
+        #[serde(flatten)]
+        screw: ScrewNumbers = ScrewNumbers::read,
+        /// Nominal contact angle, rad, 0.25 to 1.3.
+        contact_angle: f64,
+        /// Friction coefficient, 1e-3 to 0.5.
+        friction: f64,
+        /// Radial gap of every contact at the centred ball, m, -0.05 to 0.2 ball radii.
+        clearance: f64,
+        /// Axial loads, N, 1 to 1000 of them, up to 1e5 either way; above 0 they oppose the travel of a nut that turns forward.
+        axial_load: Vec<f64> = |fields: &mut Fields| fields.list("axial_load", LONGEST),
+        /// 1 where the nut turns forward, or -1.
+        direction: f64,
+    }
 }
 
-/// One torque for each load; none where it was not found.
-#[derive(Serialize)]
-struct Torques {
-    torque: Option<Vec<Option<f64>>>,
+/// Friction torques of one ball on the nut.
+#[derive(Clone, Debug, Serialize)]
+pub struct Torques {
+    /// One for each load, N m, none where it was not found; none at all where there is no law.
+    pub torque: Option<Vec<Option<f64>>>,
+}
+
+impl Model for Request {
+    const NAME: &'static str = "caged_torque";
+    type InLoop = Torques;
+    type Reference = Torques;
+
+    fn evaluate(&self) -> Result<Both<Torques, Torques>, BadField> {
+        self.check()?;
+        let reference = self.reference()?;
+        let in_loop = self.in_loop()?;
+        Ok(Both { in_loop, reference })
+    }
 }
 
 impl Request {
-    fn take(fields: &mut Fields) -> Result<Self, BadField> {
-        let numbers = ScrewNumbers {
-            pitch_radius: fields.number("pitch_radius")?,
-            lead: fields.number("lead")?,
-            ball_radius: fields.number("ball_radius")?,
-            groove_radius: fields.number("groove_radius")?,
-            youngs_modulus: fields.number("youngs_modulus")?,
-            poisson_ratio: fields.number("poisson_ratio")?,
-        };
-        Ok(Self {
-            numbers,
-            contact_angle: fields.number("contact_angle")?,
-            friction: fields.number("friction")?,
-            clearance: fields.number("clearance")?,
-            axial_load: fields.list("axial_load", LONGEST)?,
-            direction: fields.number("direction")?,
-        })
-    }
-
     fn check(&self) -> Result<(), BadField> {
-        self.numbers.check()?;
+        self.screw.check()?;
         in_range("contact_angle", self.contact_angle, 0.25, 1.3)?;
         in_range("friction", self.friction, 1e-3, 0.5)?;
-        let radius = self.numbers.ball_radius;
+        let radius = self.screw.ball_radius;
         in_range("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
         for &load in &self.axial_load {
             in_range("axial_load", load, -LARGEST_LOAD, LARGEST_LOAD)?;
@@ -101,13 +106,7 @@ impl Request {
             }
             asked.sort_by(|(one, _), (other, _)| other.abs().total_cmp(&one.abs()));
             let loads: Vec<f64> = asked.iter().map(|(load, _)| *load).collect();
-            let found = self.ball().along(&loads).map_err(|error| {
-                BadField::from(error)
-                    .renamed("offset_h", "groove_radius")
-                    .renamed("relative_radius_1", "pitch_radius")
-                    .renamed("relative_radius_2", "groove_radius")
-                    .renamed("contact_modulus", "youngs_modulus")
-            })?;
+            let found = self.ball().along(&loads).map_err(of_contact)?;
             for ((load, place), found) in asked.into_iter().zip(found) {
                 // Without a preload the torque ends with the load, in proportion.
                 let share = if preloaded {
@@ -125,7 +124,7 @@ impl Request {
 
     fn ball(&self) -> CagedBall {
         CagedBall {
-            design: self.numbers.exact(self.contact_angle),
+            design: self.screw.exact(self.contact_angle),
             clearance: self.clearance,
             friction: self.friction,
             rolling: Rolling::NONE,
@@ -137,7 +136,7 @@ impl Request {
     fn in_loop(&self) -> Result<Torques, BadField> {
         const NONE: Torques = Torques { torque: None };
         let design = self
-            .numbers
+            .screw
             .design(self.contact_angle as f32)
             .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))?;
         let Ok(clearance) =
@@ -195,13 +194,4 @@ impl Request {
             torque: Some(torque.collect()),
         })
     }
-}
-
-/// Answers one request.
-pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
-    let request = Request::take(&mut fields)?;
-    fields.finish()?;
-    request.check()?;
-    let reference = request.reference()?;
-    Answer::both(&request.in_loop()?, &reference)
 }

@@ -1,117 +1,137 @@
 //! `contact_kinematics`: slip, spin and entrainment of the two contacts of a ball, at their centres.
 
-use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
-use epas_reference::kinematics::{self as reference, KinematicsInput, Revised};
+use epas_friction::kinematics::{ContactKinematics, ContactSlip, KinematicsParameters, SlipRatios};
+use epas_reference::kinematics::{self as exact, KinematicsInput, Revised};
 use serde::Serialize;
 
-use super::answer::Answer;
-use super::fields::{BadField, Fields, in_range};
+use super::fields::{BadField, in_range, request, same};
+use super::model::{Both, Model};
 
-#[derive(Serialize)]
-struct Ball {
-    orbital_speed: f64,
-    spin_speed: f64,
-    screw: Contact,
-    nut: Contact,
+request! {
+    /// A ball between screw and nut, and how it spins.
+    #[derive(Clone, Debug, Serialize)]
+    pub struct Request {
+        /// Ball diameter, m.
+        ball_diameter: f64,
+        /// Pitch radius, m.
+        pitch_radius: f64,
+        /// Lead angle, rad, within a right angle.
+        lead_angle: f64,
+        /// Groove radius of the screw, m.
+        groove_radius_screw: f64,
+        /// Groove radius of the nut, m.
+        groove_radius_nut: f64,
+        /// Contact angle at the screw, rad, within a right angle.
+        contact_angle_screw: f64,
+        /// Contact angle at the nut, rad, within a right angle.
+        contact_angle_nut: f64,
+        /// Pitch angle of the ball's spin, rad.
+        pitch_angle: f64,
+        /// Yaw angle of the ball's spin, rad.
+        yaw_angle: f64,
+        /// Rolling radius at the screw, m.
+        rolling_radius_screw: f64,
+        /// Rolling radius at the nut, m.
+        rolling_radius_nut: f64,
+        /// Speed of the screw, rad/s, up to 1e6 either way.
+        speed: f64,
+        /// Semi-major axis of the contact at the screw, m.
+        semi_major_screw: f64,
+        /// Semi-minor axis of the contact at the screw, m.
+        semi_minor_screw: f64,
+        /// Semi-major axis of the contact at the nut, m.
+        semi_major_nut: f64,
+        /// Semi-minor axis of the contact at the nut, m.
+        semi_minor_nut: f64,
+    }
 }
 
-#[derive(Serialize)]
-struct Contact {
-    rolling_slip: f64,
-    side_slip: f64,
-    spin: f64,
-    entrainment_speed: f64,
-    entrainment_angle: f64,
-    slide_to_roll: f64,
-    /// None where nothing slides.
-    slide_angle: Option<f64>,
-    spin_to_roll: f64,
+/// Motion of the ball.
+#[derive(Clone, Debug, Serialize)]
+pub struct Ball {
+    /// Speed of its centre about the axis, rad/s.
+    pub orbital_speed: f64,
+    /// Speed about its own centre, rad/s.
+    pub spin_speed: f64,
+    /// Contact at the screw.
+    pub screw: Contact,
+    /// Contact at the nut.
+    pub nut: Contact,
 }
 
-/// Answers one request.
-pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
-    let input = KinematicsInput {
-        ball_diameter: fields.number("ball_diameter")?,
-        pitch_radius: fields.number("pitch_radius")?,
-        lead_angle: fields.number("lead_angle")?,
-        groove_radius_screw: fields.number("groove_radius_screw")?,
-        groove_radius_nut: fields.number("groove_radius_nut")?,
-        contact_angle_screw: fields.number("contact_angle_screw")?,
-        contact_angle_nut: fields.number("contact_angle_nut")?,
-        pitch_angle: fields.number("pitch_angle")?,
-        yaw_angle: fields.number("yaw_angle")?,
-        rolling_radius_screw: fields.number("rolling_radius_screw")?,
-        rolling_radius_nut: fields.number("rolling_radius_nut")?,
-        speed: fields.number("speed")?,
-        semi_major_screw: fields.number("semi_major_screw")?,
-        semi_minor_screw: fields.number("semi_minor_screw")?,
-        semi_major_nut: fields.number("semi_major_nut")?,
-        semi_minor_nut: fields.number("semi_minor_nut")?,
-    };
-    fields.finish()?;
-    in_range("speed", input.speed, -1e6, 1e6)?;
-    let in_loop = in_loop(&input)?;
-    let reference = Revised::new(&input)?.evaluate();
-    Answer::both(
-        &in_loop,
-        &Ball {
-            orbital_speed: reference.orbital_speed,
-            spin_speed: reference.spin_speed,
-            screw: reference.screw.into(),
-            nut: reference.nut.into(),
-        },
-    )
+/// Motion at the centre of a contact.
+#[derive(Clone, Debug, Serialize)]
+pub struct Contact {
+    /// Slip in the direction of rolling, m/s.
+    pub rolling_slip: f64,
+    /// Slip across it, m/s.
+    pub side_slip: f64,
+    /// Spin, rad/s.
+    pub spin: f64,
+    /// Entrainment speed, m/s.
+    pub entrainment_speed: f64,
+    /// Direction of entrainment, rad.
+    pub entrainment_angle: f64,
+    /// Slip over entrainment speed.
+    pub slide_to_roll: f64,
+    /// Direction of slip, rad; none where nothing slides.
+    pub slide_angle: Option<f64>,
+    /// Spin over rolling.
+    pub spin_to_roll: f64,
 }
 
-fn in_loop(input: &KinematicsInput) -> Result<Ball, BadField> {
-    let model = ContactKinematics::new(&KinematicsParameters {
-        ball_diameter: input.ball_diameter as f32,
-        pitch_radius: input.pitch_radius as f32,
-        lead_angle: input.lead_angle as f32,
-        groove_radius_screw: input.groove_radius_screw as f32,
-        groove_radius_nut: input.groove_radius_nut as f32,
-        contact_angle_screw: input.contact_angle_screw as f32,
-        contact_angle_nut: input.contact_angle_nut as f32,
-        pitch_angle: input.pitch_angle as f32,
-        yaw_angle: input.yaw_angle as f32,
-        rolling_radius_screw: input.rolling_radius_screw as f32,
-        rolling_radius_nut: input.rolling_radius_nut as f32,
-        semi_major_screw: input.semi_major_screw as f32,
-        semi_minor_screw: input.semi_minor_screw as f32,
-        semi_major_nut: input.semi_major_nut as f32,
-        semi_minor_nut: input.semi_minor_nut as f32,
-    })?;
-    let ball = model.tick(input.speed as f32);
-    let contact = |slip: epas_friction::kinematics::ContactSlip,
-                   ratios: epas_friction::kinematics::SlipRatios| Contact {
-        rolling_slip: slip.rolling_slip.into(),
-        side_slip: slip.side_slip.into(),
-        spin: slip.spin.into(),
-        entrainment_speed: slip.entrainment_speed.into(),
-        entrainment_angle: ratios.entrainment_angle.into(),
-        slide_to_roll: ratios.slide_to_roll.into(),
-        slide_angle: (ratios.slide_to_roll > 0.0).then(|| ratios.slide_angle.into()),
-        spin_to_roll: ratios.spin_to_roll.into(),
-    };
-    Ok(Ball {
-        orbital_speed: ball.orbital_speed.into(),
-        spin_speed: ball.spin_speed.into(),
-        screw: contact(ball.screw, model.screw().ratios()),
-        nut: contact(ball.nut, model.nut().ratios()),
-    })
+impl Model for Request {
+    const NAME: &'static str = "contact_kinematics";
+    type InLoop = Ball;
+    type Reference = Ball;
+
+    fn evaluate(&self) -> Result<Both<Ball, Ball>, BadField> {
+        in_range("speed", self.speed, -1e6, 1e6)?;
+        let in_loop = self.in_loop()?;
+        let input = same!(KinematicsInput {
+            ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut,
+            contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw,
+            rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut,
+            semi_minor_nut
+        } of self);
+        let ball = Revised::new(&input)?.evaluate();
+        let reference = same!(Ball { orbital_speed, spin_speed, screw, nut } of ball);
+        Ok(Both { in_loop, reference })
+    }
 }
 
-impl From<reference::ContactKinematics> for Contact {
-    fn from(contact: reference::ContactKinematics) -> Self {
-        Self {
-            rolling_slip: contact.rolling_slip,
-            side_slip: contact.side_slip,
-            spin: contact.spin,
-            entrainment_speed: contact.entrainment_speed,
-            entrainment_angle: contact.entrainment_angle,
-            slide_to_roll: contact.slide_to_roll,
-            slide_angle: contact.slide_angle,
-            spin_to_roll: contact.spin_to_roll,
-        }
+impl Request {
+    fn in_loop(&self) -> Result<Ball, BadField> {
+        let model = ContactKinematics::new(&same!(KinematicsParameters {
+            ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut,
+            contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw,
+            rolling_radius_nut, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut
+        } of self, as f32))?;
+        let ball = model.tick(self.speed as f32);
+        let contact = |slip: ContactSlip, ratios: SlipRatios| Contact {
+            rolling_slip: slip.rolling_slip.into(),
+            side_slip: slip.side_slip.into(),
+            spin: slip.spin.into(),
+            entrainment_speed: slip.entrainment_speed.into(),
+            entrainment_angle: ratios.entrainment_angle.into(),
+            slide_to_roll: ratios.slide_to_roll.into(),
+            slide_angle: (ratios.slide_to_roll > 0.0).then(|| ratios.slide_angle.into()),
+            spin_to_roll: ratios.spin_to_roll.into(),
+        };
+        Ok(Ball {
+            orbital_speed: ball.orbital_speed.into(),
+            spin_speed: ball.spin_speed.into(),
+            screw: contact(ball.screw, model.screw().ratios()),
+            nut: contact(ball.nut, model.nut().ratios()),
+        })
+    }
+}
+
+impl From<exact::ContactKinematics> for Contact {
+    fn from(contact: exact::ContactKinematics) -> Self {
+        same!(Self {
+            rolling_slip, side_slip, spin, entrainment_speed, entrainment_angle, slide_to_roll, slide_angle,
+            spin_to_roll,
+        } of contact)
     }
 }

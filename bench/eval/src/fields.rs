@@ -1,86 +1,20 @@
 //! The fields of one request, taken one by one; what is left over is refused.
 
+mod bad;
+mod values;
+
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 use std::fmt;
 
-use epas_reference::ReferenceError;
-use serde::Serialize;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 
-/// What is wrong with a request, and in which field.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct BadField {
-    field: String,
-    message: String,
-}
-
-impl BadField {
-    /// The field named, with what is wrong with it.
-    pub fn new(field: impl Into<String>, message: impl Into<String>) -> Self {
-        Self {
-            field: field.into(),
-            message: message.into(),
-        }
-    }
-
-    /// The line as a whole is wrong.
-    pub fn request(message: impl Into<String>) -> Self {
-        Self::new("request", message)
-    }
-
-    /// This error with the place in a list where it was found.
-    pub fn of_ball(self, index: usize) -> Self {
-        Self {
-            message: format!("ball {index} (counted from 0): {}", self.message),
-            ..self
-        }
-    }
-
-    /// This error under the name that the request has for the field.
-    pub fn renamed(self, from: &str, to: &str) -> Self {
-        if self.field == from {
-            Self {
-                field: to.into(),
-                ..self
-            }
-        } else {
-            self
-        }
-    }
-}
-
-impl From<epas_friction::Error> for BadField {
-    fn from(error: epas_friction::Error) -> Self {
-        Self::new(error.field(), error.to_string())
-    }
-}
-
-impl From<ReferenceError> for BadField {
-    fn from(error: ReferenceError) -> Self {
-        Self::new(error.field().unwrap_or("request"), error.to_string())
-    }
-}
-
-/// `value`, where it is within `minimum..=maximum`.
-pub fn in_range(field: &str, value: f64, minimum: f64, maximum: f64) -> Result<f64, BadField> {
-    if (minimum..=maximum).contains(&value) {
-        Ok(value)
-    } else {
-        Err(BadField::new(
-            field,
-            format!("{field} = {value} is out of range; allowed: {minimum} to {maximum}"),
-        ))
-    }
-}
-
-/// A number for all, or one for each.
-pub enum OneOrMany {
-    One(f64),
-    Many(Vec<f64>),
-}
+pub use bad::{BadField, in_range};
+use values::list;
+pub use values::{Object, OneOrMany, Value};
+pub(crate) use values::{request, same};
 
 /// The fields of one request that have not been taken yet.
 pub struct Fields<'a> {
@@ -114,22 +48,15 @@ impl<'a> Fields<'a> {
         self.take("id").map(drop)
     }
 
-    /// Takes a list of exactly `N` numbers.
-    pub fn numbers<const N: usize>(&mut self, field: &str) -> Result<[f64; N], BadField> {
-        let raw = self.take(field)?;
-        let values: Option<Vec<&RawValue>> = serde_json::from_str(raw.get()).ok();
-        let values: Option<[&RawValue; N]> = values.and_then(|values| values.try_into().ok());
-        let Some(values) = values else {
-            return Err(BadField::new(
-                field,
-                format!("must be a list of {N} numbers, not {}", shown(raw)),
-            ));
-        };
-        let mut numbers = [0.0; N];
-        for (to, raw) in numbers.iter_mut().zip(values) {
-            *to = number(field, raw)?;
-        }
-        Ok(numbers)
+    /// Takes a value.
+    pub fn get<T: Value<'a>>(&mut self, field: &str) -> Result<T, BadField> {
+        T::take(self, field)
+    }
+
+    /// Takes a number that may be left out, and counts as this one then.
+    pub fn or(&mut self, field: &str, default: f64) -> Result<f64, BadField> {
+        self.get::<Option<f64>>(field)
+            .map(|number| number.unwrap_or(default))
     }
 
     /// Takes a list of `1..=largest` numbers.
@@ -145,38 +72,6 @@ impl<'a> Fields<'a> {
     ) -> Result<Option<Vec<f64>>, BadField> {
         let raw = self.values.remove(field);
         raw.map(|raw| list(field, raw, largest)).transpose()
-    }
-
-    /// Takes the list `balls` of `1..=largest` objects, each read by `one`.
-    pub fn balls<T>(
-        &mut self,
-        largest: usize,
-        one: impl Fn(Fields<'a>) -> Result<T, BadField>,
-    ) -> Result<Vec<T>, BadField> {
-        let field = "balls";
-        let raw = self.take(field)?;
-        let values: Option<Vec<&RawValue>> = serde_json::from_str(raw.get()).ok();
-        let Some(values) = values else {
-            return Err(BadField::new(
-                field,
-                format!("must be a list of objects, not {}", shown(raw)),
-            ));
-        };
-        if values.is_empty() || values.len() > largest {
-            return Err(BadField::new(
-                field,
-                format!("{} of them; allowed: 1 to {largest}", values.len()),
-            ));
-        }
-        values
-            .into_iter()
-            .enumerate()
-            .map(|(index, raw)| {
-                Self::nested(field, raw)
-                    .and_then(&one)
-                    .map_err(|error| error.of_ball(index))
-            })
-            .collect()
     }
 
     /// Takes an object.
@@ -202,38 +97,6 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// Takes a number; any that float64 can hold.
-    pub fn number(&mut self, field: &str) -> Result<f64, BadField> {
-        number(field, self.take(field)?)
-    }
-
-    /// Takes a number that may be left out.
-    pub fn optional_number(&mut self, field: &str) -> Result<Option<f64>, BadField> {
-        self.values
-            .remove(field)
-            .map(|raw| number(field, raw))
-            .transpose()
-    }
-
-    /// Takes a number, or a list of any length, that may be left out.
-    pub fn optional_number_or_numbers(
-        &mut self,
-        field: &str,
-    ) -> Result<Option<OneOrMany>, BadField> {
-        let Some(raw) = self.values.remove(field) else {
-            return Ok(None);
-        };
-        match serde_json::from_str::<Vec<&RawValue>>(raw.get()) {
-            Ok(values) => values
-                .into_iter()
-                .map(|raw| number(field, raw))
-                .collect::<Result<_, _>>()
-                .map(OneOrMany::Many),
-            Err(_) => number(field, raw).map(OneOrMany::One),
-        }
-        .map(Some)
-    }
-
     /// Takes a name and gives what stands beside it.
     pub fn choice<T: Copy>(&mut self, field: &str, choices: &[(&str, T)]) -> Result<T, BadField> {
         let raw = self.take(field)?;
@@ -252,9 +115,9 @@ impl<'a> Fields<'a> {
     }
 
     /// Refuses every field that is left.
-    pub fn finish(self) -> Result<(), BadField> {
-        match self.values.into_keys().next() {
-            Some(field) => Err(BadField::new(beginning(&field), "is unknown to this model")),
+    pub fn finish(&self) -> Result<(), BadField> {
+        match self.values.keys().next() {
+            Some(field) => Err(BadField::new(beginning(field), "is unknown to this model")),
             None => Ok(()),
         }
     }
@@ -263,42 +126,6 @@ impl<'a> Fields<'a> {
         self.values
             .remove(field)
             .ok_or_else(|| BadField::new(field, "is missing"))
-    }
-}
-
-/// A JSON list of `1..=largest` numbers.
-fn list(field: &str, raw: &RawValue, largest: usize) -> Result<Vec<f64>, BadField> {
-    let Ok(values) = serde_json::from_str::<Vec<&RawValue>>(raw.get()) else {
-        return Err(BadField::new(
-            field,
-            format!("must be a list of numbers, not {}", shown(raw)),
-        ));
-    };
-    if values.is_empty() || values.len() > largest {
-        return Err(BadField::new(
-            field,
-            format!("{} of them; allowed: 1 to {largest}", values.len()),
-        ));
-    }
-    values.into_iter().map(|raw| number(field, raw)).collect()
-}
-
-/// A JSON number as float64. What is beyond its range reads as infinity and is refused here, so that
-/// the field can be named.
-fn number(field: &str, raw: &RawValue) -> Result<f64, BadField> {
-    let text = raw.get();
-    if !text.starts_with(|first: char| first == '-' || first.is_ascii_digit()) {
-        return Err(BadField::new(
-            field,
-            format!("must be a number, not {}", shown(raw)),
-        ));
-    }
-    match text.parse::<f64>() {
-        Ok(value) if value.is_finite() => Ok(value),
-        _ => Err(BadField::new(
-            field,
-            format!("{} is beyond the range of float64", shown(raw)),
-        )),
     }
 }
 
@@ -390,7 +217,7 @@ mod tests {
         };
         let taken = fields
             .refuse_duplicate()
-            .and_then(|()| fields.number("load"))
+            .and_then(|()| fields.get::<f64>("load"))
             .and_then(|_| fields.finish());
         taken.unwrap_err()
     }

@@ -4,49 +4,66 @@ use epas_friction::hertz::HertzContact;
 use epas_reference::hertz::Hertz;
 use serde::Serialize;
 
-use super::answer::Answer;
-use super::fields::{BadField, Fields, in_range};
+use super::fields::{BadField, in_range, request};
+use super::model::{Both, Model};
 
-#[derive(Serialize)]
-struct Ellipse {
-    axis_ratio: f64,
-    semi_major: f64,
-    semi_minor: f64,
-    deflection: f64,
-    max_pressure: f64,
+request! {
+    /// Two bodies that touch.
+    #[derive(Clone, Debug, Serialize)]
+    pub struct Request {
+        /// Relative radius of curvature in one principal plane, m.
+        relative_radius_1: f64,
+        /// Relative radius of curvature in the other, m.
+        relative_radius_2: f64,
+        /// Normal force, N, 1e-12 to 1e9.
+        load: f64,
+        /// Contact modulus, Pa.
+        contact_modulus: f64,
+    }
 }
 
-/// Answers one request.
-pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
-    let relative_radius_1 = fields.number("relative_radius_1")?;
-    let relative_radius_2 = fields.number("relative_radius_2")?;
-    let load = fields.number("load")?;
-    let contact_modulus = fields.number("contact_modulus")?;
-    fields.finish()?;
+/// The contact ellipse.
+#[derive(Clone, Debug, Serialize)]
+pub struct Ellipse {
+    /// Minor over major axis.
+    pub axis_ratio: f64,
+    /// Semi-major axis, m.
+    pub semi_major: f64,
+    /// Semi-minor axis, m.
+    pub semi_minor: f64,
+    /// Approach of the bodies, m.
+    pub deflection: f64,
+    /// Largest pressure, Pa.
+    pub max_pressure: f64,
+}
 
-    in_range("load", load, 1e-12, 1e9)?;
-    let contact = HertzContact::checked(
-        relative_radius_1 as f32,
-        relative_radius_2 as f32,
-        contact_modulus as f32,
-    )?;
-    let ellipse = contact.at(load as f32);
-    let in_loop = Ellipse {
-        axis_ratio: contact.axis_ratio().into(),
-        semi_major: ellipse.semi_major.into(),
-        semi_minor: ellipse.semi_minor.into(),
-        deflection: ellipse.deflection.into(),
-        max_pressure: ellipse.max_pressure.into(),
-    };
+impl Model for Request {
+    const NAME: &'static str = "hertz";
+    type InLoop = Ellipse;
+    type Reference = Ellipse;
 
-    let contact = Hertz::new(relative_radius_1, relative_radius_2, contact_modulus)?;
-    let ellipse = contact.at(load);
-    let reference = Ellipse {
-        axis_ratio: contact.axis_ratio,
-        semi_major: ellipse.semi_major,
-        semi_minor: ellipse.semi_minor,
-        deflection: ellipse.deflection,
-        max_pressure: ellipse.max_pressure,
-    };
-    Answer::both(&in_loop, &reference)
+    fn evaluate(&self) -> Result<Both<Ellipse, Ellipse>, BadField> {
+        in_range("load", self.load, 1e-12, 1e9)?;
+        let (r1, r2) = (self.relative_radius_1, self.relative_radius_2);
+        let modulus = self.contact_modulus;
+        let contact = HertzContact::checked(r1 as f32, r2 as f32, modulus as f32)?;
+        let ellipse = contact.at(self.load as f32);
+        let in_loop = Ellipse {
+            axis_ratio: contact.axis_ratio().into(),
+            semi_major: ellipse.semi_major.into(),
+            semi_minor: ellipse.semi_minor.into(),
+            deflection: ellipse.deflection.into(),
+            max_pressure: ellipse.max_pressure.into(),
+        };
+        let contact = Hertz::new(r1, r2, modulus)?;
+        let ellipse = contact.at(self.load);
+        let reference = Ellipse {
+            axis_ratio: contact.axis_ratio,
+            semi_major: ellipse.semi_major,
+            semi_minor: ellipse.semi_minor,
+            deflection: ellipse.deflection,
+            max_pressure: ellipse.max_pressure,
+        };
+        Ok(Both { in_loop, reference })
+    }
 }

@@ -1,20 +1,20 @@
 //! `eval`: one JSON object a line in, one a line out, in order.
 
-mod answer;
-mod ball_screw_pair;
+pub mod ball_screw_pair;
 mod ball_screw_train;
-mod caged_torque;
-mod contact_kinematics;
-mod efficiency;
+pub mod caged_torque;
+pub mod contact_kinematics;
+pub mod efficiency;
 mod fields;
-mod friction_map;
-mod groove_curvature;
-mod hertz;
-mod linear_train;
+pub mod friction_map;
+pub mod groove_curvature;
+pub mod hertz;
+pub mod linear_train;
 mod lines;
+mod model;
 mod presliding;
 mod static_load;
-mod steady_state;
+pub mod steady_state;
 mod train;
 
 use std::fs::File;
@@ -24,12 +24,15 @@ use std::path::{Path, PathBuf};
 use serde::Serialize;
 use serde_json::value::RawValue;
 
-use answer::Answer;
 use epas_page::failure::Failure;
-use fields::{BadField, Fields};
+pub use fields::BadField;
+use fields::Fields;
 #[doc(hidden)]
 pub use groove_curvature::fit_range;
 use lines::{Line, Lines};
+use model::{Answer, answer};
+pub use model::{Both, Model};
+pub use train::ScrewNumbers;
 
 /// Evaluates one model per line: JSON objects in, JSON objects out, in order.
 ///
@@ -149,29 +152,42 @@ use lines::{Line, Lines};
 ///
 /// It is null for a clearance outside -0.02 to 0.05 ball radii, and for a design that cannot be folded. A request takes about a
 /// second.
+#[expect(
+    clippy::doc_markdown,
+    reason = "the text of the help, which has no markdown"
+)]
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// File with the requests; stdin without it or for -
     file: Option<PathBuf>,
 }
 
-/// A model: takes the fields it needs, refuses what is left over, and computes.
-type Model = fn(Fields) -> Result<Answer, BadField>;
+/// Reads a request from its fields, refuses what is left over, and answers it.
+type Door = fn(Fields) -> Result<Answer, BadField>;
 
 /// Every model by its name.
-const MODELS: [(&str, Model); 12] = [
-    ("groove_curvature", groove_curvature::evaluate),
-    ("efficiency", efficiency::evaluate),
-    ("steady_state", steady_state::evaluate),
-    ("hertz", hertz::evaluate),
-    ("contact_kinematics", contact_kinematics::evaluate),
-    ("friction_map", friction_map::evaluate),
-    ("linear_train", linear_train::evaluate),
+const MODELS: [(&str, Door); 12] = [
+    (
+        groove_curvature::Request::NAME,
+        answer::<groove_curvature::Request>,
+    ),
+    (efficiency::Request::NAME, answer::<efficiency::Request>),
+    (steady_state::Request::NAME, answer::<steady_state::Request>),
+    (hertz::Request::NAME, answer::<hertz::Request>),
+    (
+        contact_kinematics::Request::NAME,
+        answer::<contact_kinematics::Request>,
+    ),
+    (friction_map::Request::NAME, answer::<friction_map::Request>),
+    (linear_train::Request::NAME, answer::<linear_train::Request>),
     ("static_load", static_load::evaluate),
     ("ball_screw_train", ball_screw_train::evaluate),
-    ("ball_screw_pair", ball_screw_pair::evaluate),
+    (
+        ball_screw_pair::Request::NAME,
+        answer::<ball_screw_pair::Request>,
+    ),
     ("presliding", presliding::evaluate),
-    ("caged_torque", caged_torque::evaluate),
+    (caged_torque::Request::NAME, answer::<caged_torque::Request>),
 ];
 
 /// A line of the output.
@@ -187,6 +203,9 @@ struct Reply<'a> {
 }
 
 /// Answers every request of the file or of stdin.
+///
+/// # Errors
+/// A file that cannot be read, an output that cannot be written, or a request that was refused.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let output = BufWriter::new(io::stdout().lock());
     let all_good = match &arguments.file {
@@ -219,13 +238,8 @@ fn answer_all(input: impl Read, path: &Path, mut output: impl Write) -> Result<b
         };
         let reply = match line {
             Line::Blank => continue,
-            Line::Text(text) => answer(text),
-            Line::Unreadable(message) => Reply {
-                id: None,
-                in_loop: None,
-                reference: None,
-                error: Some(BadField::request(message)),
-            },
+            Line::Text(text) => Reply::to(text),
+            Line::Unreadable(message) => Reply::of(None, Err(BadField::request(message))),
         };
         all_good &= reply.error.is_none();
         serde_json::to_writer(&mut output, &reply).map_err(io::Error::from)?;
@@ -235,46 +249,41 @@ fn answer_all(input: impl Read, path: &Path, mut output: impl Write) -> Result<b
     Ok(all_good)
 }
 
-/// Answers one request.
-fn answer(line: &str) -> Reply<'_> {
-    let (id, result) = match Fields::parse(line) {
-        Ok(fields) => match fields.id() {
-            Ok(id) => (id, evaluate(fields)),
-            Err(error) => (None, Err(error)),
-        },
-        Err(error) => (None, Err(error)),
-    };
-    match result {
-        Ok(Answer { in_loop, reference }) => Reply {
+impl<'a> Reply<'a> {
+    /// The reply to one line.
+    fn to(line: &'a str) -> Self {
+        let read = Fields::parse(line).and_then(|fields| Ok((fields.id()?, fields)));
+        match read {
+            Ok((id, fields)) => Self::of(id, evaluate(fields)),
+            Err(error) => Self::of(None, Err(error)),
+        }
+    }
+
+    fn of(id: Option<&'a RawValue>, result: Result<Answer, BadField>) -> Self {
+        let (answer, error) = match result {
+            Ok(answer) => (Some(answer), None),
+            Err(error) => (None, Some(error)),
+        };
+        let (in_loop, reference) = answer
+            .map(|answer| (answer.in_loop, answer.reference))
+            .unzip();
+        Self {
             id,
             in_loop,
             reference,
-            error: None,
-        },
-        Err(error) => Reply {
-            id,
-            in_loop: None,
-            reference: None,
-            error: Some(error),
-        },
+            error,
+        }
     }
-}
-
-/// In-loop and reference answer to a line; none where it is refused.
-pub fn both(line: &str) -> Option<(serde_json::Value, serde_json::Value)> {
-    let reply = answer(line);
-    let value = |raw: Option<Box<RawValue>>| serde_json::from_str(raw?.get()).ok();
-    Some((value(reply.in_loop)?, value(reply.reference)?))
 }
 
 /// The answer to one line, as a line of the output without its end.
 pub fn answer_line(line: &str) -> String {
-    serde_json::to_string(&answer(line)).unwrap_or_default()
+    serde_json::to_string(&Reply::to(line)).unwrap_or_default()
 }
 
 /// Answers one line; whether it was a good request.
 pub fn accepts(line: &str) -> bool {
-    answer(line).error.is_none()
+    Reply::to(line).error.is_none()
 }
 
 fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {

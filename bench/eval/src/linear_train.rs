@@ -10,79 +10,89 @@ use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
 use epas_reference::hertz::{Hertz, contact_modulus};
 use serde::Serialize;
 
-use super::answer::Answer;
-use super::fields::{BadField, Fields, in_range};
+use super::fields::{BadField, Fields, in_range, request};
+use super::model::{Both, Model};
 use super::train::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row, solved};
 
 /// Contact angles are taken at most this far from the nominal one, rad.
 const LARGEST_ANGLE_DEVIATION: f64 = 0.3;
 
-#[derive(Serialize)]
-struct InLoop {
+/// What the crate finds.
+#[derive(Clone, Debug, Serialize)]
+pub struct InLoop {
     /// What the scene runs: the closed form with the exact slope of the contact.
-    scene: Row,
+    pub scene: Row,
     /// The closed form with the printed slope.
-    analytic: Row,
+    pub analytic: Row,
 }
 
-#[derive(Serialize)]
-struct Row {
-    /// None, as the next, where balls run further from nominal rolling than the crate counts.
-    speed_deviation: Option<Vec<f64>>,
-    contact_force: Option<Vec<f64>>,
+/// A row by a closed form; none where balls run further from nominal rolling than the crate counts.
+#[derive(Clone, Debug, Serialize)]
+pub struct Row {
+    /// Speed of each ball over that of nominal rolling, less one.
+    pub speed_deviation: Option<Vec<f64>>,
+    /// Force between each ball and the next, N.
+    pub contact_force: Option<Vec<f64>>,
 }
 
-#[derive(Serialize)]
-struct Reference {
-    speed_deviation: Option<Vec<f64>>,
-    contact_force: Option<Vec<f64>>,
-    power_loss: Option<f64>,
+/// What the reference finds; none where there is no solution.
+#[derive(Clone, Debug, Serialize)]
+pub struct Reference {
+    /// Speed of each ball over that of nominal rolling, less one.
+    pub speed_deviation: Option<Vec<f64>>,
+    /// Force between each ball and the next, N.
+    pub contact_force: Option<Vec<f64>>,
+    /// Power lost, W.
+    pub power_loss: Option<f64>,
 }
 
-struct Request {
-    ball_radius: f64,
-    conformity: f64,
-    nominal_contact_angle: f64,
-    youngs_modulus: f64,
-    poisson_ratio: f64,
-    friction: f64,
-    ball_friction: f64,
-    speed: f64,
-    balls: Vec<Ball>,
+request! {
+    /// A row of touching balls.
+    #[derive(Clone, Debug, Serialize)]
+    pub struct Request {
+        /// Ball radius, m.
+        ball_radius: f64,
+        /// Groove radius over ball diameter.
+        conformity: f64,
+        /// Nominal contact angle, rad, 0.05 to 1.5.
+        nominal_contact_angle: f64,
+        /// Young's modulus of balls and grooves, Pa.
+        youngs_modulus: f64,
+        /// Poisson's ratio.
+        poisson_ratio: f64,
+        /// Friction coefficient in the grooves, 1e-6 to 1.
+        friction: f64,
+        /// Friction coefficient between balls, 0 to 1.
+        ball_friction: f64 = |fields: &mut Fields| fields.or("ball_friction", 0.0),
+        /// Speed of the track, m/s, up to 1e6 either way.
+        speed: f64,
+        /// Rear to front, 1 to 64 of them.
+        balls: Vec<Ball>,
+    }
 }
 
-/// Contact angles and forces in the order BL, BR, TR, TL.
-struct Ball {
-    contact_angles: [f64; 4],
-    contact_forces: [f64; 4],
+request! {
+    /// A ball, in the order BL, BR, TR, TL.
+    #[derive(Clone, Debug, Serialize)]
+    pub struct Ball {
+        /// Contact angles, rad, within 0.3 of the nominal one.
+        contact_angles: [f64; 4],
+        /// Contact forces, N, 0 to 1e7; 0 is a lost contact.
+        contact_forces: [f64; 4],
+    }
 }
 
-/// Answers one request.
-pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
-    let request = Request {
-        ball_radius: fields.number("ball_radius")?,
-        conformity: fields.number("conformity")?,
-        nominal_contact_angle: fields.number("nominal_contact_angle")?,
-        youngs_modulus: fields.number("youngs_modulus")?,
-        poisson_ratio: fields.number("poisson_ratio")?,
-        friction: fields.number("friction")?,
-        ball_friction: fields.optional_number("ball_friction")?.unwrap_or(0.0),
-        speed: fields.number("speed")?,
-        balls: fields.balls(LARGEST_TRAIN, Ball::read)?,
-    };
-    fields.finish()?;
-    request.check()?;
-    Answer::both(&request.in_loop()?, &request.reference()?)
-}
+impl Model for Request {
+    const NAME: &'static str = "linear_train";
+    type InLoop = InLoop;
+    type Reference = Reference;
 
-impl Ball {
-    fn read(mut fields: Fields) -> Result<Self, BadField> {
-        let ball = Self {
-            contact_angles: fields.numbers("contact_angles")?,
-            contact_forces: fields.numbers("contact_forces")?,
-        };
-        fields.finish()?;
-        Ok(ball)
+    fn evaluate(&self) -> Result<Both<InLoop, Reference>, BadField> {
+        self.check()?;
+        Ok(Both {
+            in_loop: self.in_loop()?,
+            reference: self.reference()?,
+        })
     }
 }
 

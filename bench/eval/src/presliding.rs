@@ -16,8 +16,8 @@ use epas_reference::presliding::answers::{Form as Asked, Path as Ticks, answers}
 use epas_reference::presliding::tables::Table;
 use serde::Serialize;
 
-use super::answer::Answer;
 use super::fields::{BadField, Fields, in_range};
+use super::model::{Answer, Both};
 
 /// Most values of `angle`.
 const LONGEST: usize = 100_000;
@@ -79,7 +79,7 @@ impl Path {
         for &load in loads.iter().flatten() {
             in_range("load", load, 0.0, LARGEST)?;
         }
-        let limit_ratio = fields.numbers("limit_ratio")?;
+        let limit_ratio = fields.get::<[f64; 2]>("limit_ratio")?;
         for ratio in limit_ratio {
             in_range("limit_ratio", ratio, 0.0, LARGEST)?;
         }
@@ -155,18 +155,25 @@ pub fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
             fields.finish()?;
             let table = Table::named(name)
                 .ok_or_else(|| BadField::new("table", "is unknown to the reference"))?;
-            let in_loop = path.proportional(elements)?;
-            Answer::both(&in_loop, &path.exact(&Asked::Proportional(table)))
+            Both {
+                in_loop: path.proportional(elements)?,
+                reference: path.exact(&Asked::Proportional(table)),
+            }
+            .json()
         }
         Form::LoadExact => {
-            let largest_load = fields.number("largest_load")?;
+            let largest_load = fields.get::<f64>("largest_load")?;
             fields.finish()?;
             let elements = LoadExactElements::<8>::new(1.0, 1.0, largest_load as f32)?;
             let asked = Asked::LoadExact {
                 count: BY_LOAD,
                 largest_load,
             };
-            Answer::both(&path.torques(&elements), &path.exact(&asked))
+            Both {
+                in_loop: path.torques(&elements),
+                reference: path.exact(&asked),
+            }
+            .json()
         }
     }
 }

@@ -6,7 +6,9 @@ use epas_reference::ReferenceError;
 use epas_reference::design::BallScrewDesign;
 use epas_reference::material::Elastic;
 
-use super::fields::{BadField, in_range};
+use serde::Serialize;
+
+use super::fields::{BadField, in_range, request};
 
 /// Most balls in a row of a request.
 pub const LARGEST_TRAIN: usize = 64;
@@ -43,19 +45,28 @@ pub fn contact_forces<const N: usize>(press: &Press<N>) -> [f32; N] {
     forces
 }
 
-/// The numbers of a ball screw in a request, SI; both grooves are alike.
-pub struct ScrewNumbers {
-    pub pitch_radius: f64,
-    pub lead: f64,
-    pub ball_radius: f64,
-    pub groove_radius: f64,
-    pub youngs_modulus: f64,
-    pub poisson_ratio: f64,
+request! {
+    /// The numbers of a ball screw in a request; both grooves are alike.
+    #[derive(Clone, Debug, Serialize)]
+    pub struct ScrewNumbers {
+        /// Pitch radius, m, 1e-4 to 10.
+        pitch_radius: f64,
+        /// Lead, m, 0 to 20 pitch radii.
+        lead: f64,
+        /// Ball radius, m, 1e-5 to 0.8 pitch radii.
+        ball_radius: f64,
+        /// Radius of the grooves' arcs, m, 1.002 to 1.999 ball radii.
+        groove_radius: f64,
+        /// Young's modulus of balls and grooves, Pa, 1e6 to 1e13.
+        youngs_modulus: f64,
+        /// Poisson's ratio, 0 to 0.49.
+        poisson_ratio: f64,
+    }
 }
 
 impl ScrewNumbers {
     /// Refuses what is out of range.
-    pub fn check(&self) -> Result<(), BadField> {
+    pub(crate) fn check(&self) -> Result<(), BadField> {
         in_range("pitch_radius", self.pitch_radius, 1e-4, 10.0)?;
         in_range("lead", self.lead, 0.0, 20.0 * self.pitch_radius)?;
         let radius = self.ball_radius;
@@ -73,7 +84,7 @@ impl ScrewNumbers {
     }
 
     /// The reference's design with a nominal contact angle.
-    pub const fn exact(&self, contact_angle: f64) -> BallScrewDesign {
+    pub(crate) const fn exact(&self, contact_angle: f64) -> BallScrewDesign {
         let material = Elastic {
             youngs_modulus: self.youngs_modulus,
             poisson_ratio: self.poisson_ratio,
@@ -91,7 +102,7 @@ impl ScrewNumbers {
     }
 
     /// The crate's design with a nominal contact angle.
-    pub fn design(&self, contact_angle: f32) -> Result<BallScrew, Error> {
+    pub(crate) fn design(&self, contact_angle: f32) -> Result<BallScrew, Error> {
         let material = Material {
             youngs_modulus: self.youngs_modulus as f32,
             poisson_ratio: self.poisson_ratio as f32,
@@ -109,6 +120,16 @@ impl ScrewNumbers {
             groove_material: material,
         })
     }
+}
+
+/// A refusal of the reference under the names that a request has for the numbers of a contact.
+pub fn of_contact(error: impl Into<BadField>) -> BadField {
+    error
+        .into()
+        .renamed("offset_h", "groove_radius")
+        .renamed("relative_radius_1", "pitch_radius")
+        .renamed("relative_radius_2", "groove_radius")
+        .renamed("contact_modulus", "youngs_modulus")
 }
 
 /// The solution, `None` where there is none; an input out of range is a bad request.

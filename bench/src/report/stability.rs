@@ -75,7 +75,9 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
         ),
         Block::Table(Table {
             name: "stability",
-            caption: "Worst cases over the maps below".into(),
+            caption: "Worst cases over the maps below. Apart from the inputs that are compared, points are counted that crate or reference \
+                      refuse, those where the reference has no number or none that counts, and those where the crate alone has none"
+                .into(),
             columns: maps::COLUMNS.map(String::from).to_vec(),
             rows,
         }),

@@ -22,7 +22,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
         Block::Table(flagship(context)?),
     ];
     blocks.extend(settings::blocks(context.quick));
-    blocks.extend(pairs::blocks(context.quick));
+    blocks.extend(pairs::blocks(context.quick)?);
     Ok(Section {
         title: "Ball screw without cage",
         blocks,

@@ -99,7 +99,7 @@ fn fitted(
         // A load along z: SL and NR carry, and SR or NL is the third contact.
         let share = loads[1].max(loads[2]) / loads[0];
         let sine = (2.0 * request.contact_angle as f32).sin();
-        let offset = (request.groove_radius - request.ball_radius) as f32;
+        let offset = (request.screw.groove_radius - request.screw.ball_radius) as f32;
         // Play `g` takes `4 g/(D sin^2(2 beta))` of the main load from the third contact: all that it has?
         if 4.0 * clearance > share * offset * sine * sine {
             return Ok(ScrewRow::new(design, friction, GrooveFit::Play)?);

@@ -9,11 +9,10 @@ use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
 use epas_friction::train::Press;
 use epas_friction::{BallScrew, Clearance, Limits, RollingResistance};
-use epas_reference::friction::ball_screw_row::RowBall;
 use serde::Serialize;
 
 use super::super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};
-use super::request::{Request, Row};
+use super::request::{Ball, Request, Row};
 use epas_design::uncaged_scene::{LEAST_DEVIATION, folded, loads_holding};
 
 /// Limits that no request meets.
@@ -24,12 +23,13 @@ const LIMITS: Limits = Limits {
 };
 
 /// What the law finds.
-#[derive(Default, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct FoldedRow {
+    /// The row; it has no loads.
     #[serde(flatten)]
-    found: Row,
+    pub found: Row,
     /// Whether a step under these loads is flagged, because the law does not hold the forces.
-    flagged: Option<bool>,
+    pub flagged: Option<bool>,
 }
 
 /// What the law finds; nothing where the clearance is not among those of the crate, for loads of both signs in one row, and where no law
@@ -49,7 +49,7 @@ pub fn row(request: &Request, design: &BallScrew) -> FoldedRow {
 /// The law of the request's box.
 fn law(request: &Request, design: &BallScrew) -> Option<&'static FoldedBall> {
     let clearance = Clearance::new(request.clearance as f32).ok()?;
-    let largest = |of: fn(&RowBall) -> f64| {
+    let largest = |of: fn(&Ball) -> f64| {
         let sizes = request.balls.iter().map(|ball| of(ball).abs() as f32);
         sizes.fold(0.0, f32::max)
     };

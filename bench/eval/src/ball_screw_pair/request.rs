@@ -5,76 +5,70 @@ use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
 use epas_reference::friction::patch::Integration;
 use serde::Serialize;
 
-use crate::fields::{BadField, Fields, in_range};
-use crate::train::{LARGEST_TRAIN, ScrewNumbers, solved};
+use crate::fields::{BadField, Fields, in_range, request, same};
+use crate::train::{ScrewNumbers, of_contact, solved};
 
 /// Largest deviation of the arc centres, rad.
 const LARGEST_DEVIATION: f64 = 0.2;
 
-/// A quantity that was not found is none.
-#[derive(Default, Serialize)]
+/// A row of balls; a quantity that was not found is none.
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Row {
-    /// Orbital over nut speed, no neighbour pressing.
+    /// Orbital over nut speed of each ball, no neighbour pressing.
     pub free_speed: Option<Vec<f64>>,
+    /// Force between each ball and the next, N.
     pub contact_force: Option<Vec<f64>>,
+    /// Friction torque of the grooves on the nut, N m.
     pub groove_torque: Option<f64>,
+    /// The same, no neighbour pressing.
     pub groove_torque_free: Option<f64>,
-    /// SL, SR, NL, NR, no neighbour pressing.
+    /// Loads of SL, SR, NL and NR, N, no neighbour pressing.
     pub loads: Option<Vec<[f64; 4]>>,
 }
 
-/// A row of balls in a ball screw.
-pub struct Request {
-    pub pitch_radius: f64,
-    pub lead: f64,
-    pub ball_radius: f64,
-    pub groove_radius: f64,
-    pub contact_angle: f64,
-    pub youngs_modulus: f64,
-    pub poisson_ratio: f64,
-    pub friction: f64,
-    pub ball_friction: f64,
-    pub clearance: f64,
-    pub nut_speed: f64,
-    pub balls: Vec<RowBall>,
+request! {
+    /// A row of balls in a ball screw.
+    #[derive(Clone, Debug, Serialize)]
+    pub struct Request {
+        /// The screw.
+        #[serde(flatten)]
+        screw: ScrewNumbers = ScrewNumbers::read,
+        /// Nominal contact angle, rad, 0.25 to 1.3.
+        contact_angle: f64,
+        /// Friction coefficient in the grooves, 1e-3 to 0.5.
+        friction: f64,
+        /// Friction coefficient between balls, 0 to 0.5.
+        ball_friction: f64 = |fields: &mut Fields| fields.or("ball_friction", 0.0),
+        /// Radial gap of every contact at the centred ball, m, -0.05 to 0.2 ball radii.
+        clearance: f64,
+        /// Speed of the nut, rad/s, up to 1e6 either way.
+        nut_speed: f64,
+        /// Rear to front in the direction of orbiting, 2 to 64 of them.
+        balls: Vec<Ball>,
+    }
 }
 
-fn ball(mut given: Fields) -> Result<RowBall, BadField> {
-    let ball = RowBall {
-        screw_deviation: given.number("screw_deviation")?,
-        nut_deviation: given.number("nut_deviation")?,
-        axial_load: given.number("axial_load")?,
-    };
-    given.finish()?;
-    Ok(ball)
+request! {
+    /// A ball of the row.
+    #[derive(Clone, Debug, Serialize)]
+    pub struct Ball {
+        /// How far the screw's groove is turned, rad, up to 0.2 either way.
+        screw_deviation: f64,
+        /// How far the nut's groove is turned, rad, up to 0.2 either way.
+        nut_deviation: f64,
+        /// Axial load, N, up to 1e6 either way.
+        axial_load: f64,
+    }
 }
 
 impl Request {
-    /// Reads a request; what else stands in it is left.
-    pub fn read(fields: &mut Fields) -> Result<Self, BadField> {
-        Ok(Self {
-            pitch_radius: fields.number("pitch_radius")?,
-            lead: fields.number("lead")?,
-            ball_radius: fields.number("ball_radius")?,
-            groove_radius: fields.number("groove_radius")?,
-            contact_angle: fields.number("contact_angle")?,
-            youngs_modulus: fields.number("youngs_modulus")?,
-            poisson_ratio: fields.number("poisson_ratio")?,
-            friction: fields.number("friction")?,
-            ball_friction: fields.optional_number("ball_friction")?.unwrap_or(0.0),
-            clearance: fields.number("clearance")?,
-            nut_speed: fields.number("nut_speed")?,
-            balls: fields.balls(LARGEST_TRAIN, ball)?,
-        })
-    }
-
     /// Refuses what is out of range.
-    pub fn check(&self) -> Result<(), BadField> {
-        self.numbers().check()?;
+    pub(super) fn check(&self) -> Result<(), BadField> {
+        self.screw.check()?;
         in_range("contact_angle", self.contact_angle, 0.25, 1.3)?;
         in_range("friction", self.friction, 1e-3, 0.5)?;
         in_range("ball_friction", self.ball_friction, 0.0, 0.5)?;
-        let radius = self.ball_radius;
+        let radius = self.screw.ball_radius;
         in_range("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
         in_range("nut_speed", self.nut_speed, -1e6, 1e6)?;
         if self.balls.len() < 2 {
@@ -91,23 +85,21 @@ impl Request {
     }
 
     /// What the float64 reference finds; nothing where it has no solution.
-    pub fn reference(&self) -> Result<Row, BadField> {
+    pub(super) fn reference(&self) -> Result<Row, BadField> {
         let row = ElasticRow {
-            design: self.numbers().exact(self.contact_angle),
+            design: self.screw.exact(self.contact_angle),
             clearance: self.clearance,
             friction: self.friction,
             ball_friction: self.ball_friction,
             nut_speed: self.nut_speed,
-            balls: self.balls.clone(),
+            balls: self
+                .balls
+                .iter()
+                .map(|ball| same!(RowBall { screw_deviation, nut_deviation, axial_load } of ball))
+                .collect(),
             integration: Integration::Coarse,
         };
-        let found = solved(row.solve()).map_err(|error| {
-            error
-                .renamed("offset_h", "groove_radius")
-                .renamed("relative_radius_1", "pitch_radius")
-                .renamed("relative_radius_2", "groove_radius")
-                .renamed("contact_modulus", "youngs_modulus")
-        })?;
+        let found = solved(row.solve()).map_err(of_contact)?;
         Ok(found.map_or_else(Row::default, |row| self.answer(&row)))
     }
 
@@ -128,20 +120,9 @@ impl Request {
         }
     }
 
-    const fn numbers(&self) -> ScrewNumbers {
-        ScrewNumbers {
-            pitch_radius: self.pitch_radius,
-            lead: self.lead,
-            ball_radius: self.ball_radius,
-            groove_radius: self.groove_radius,
-            youngs_modulus: self.youngs_modulus,
-            poisson_ratio: self.poisson_ratio,
-        }
-    }
-
     /// The crate's design.
-    pub fn design(&self) -> Result<BallScrew, BadField> {
-        self.numbers()
+    pub(super) fn design(&self) -> Result<BallScrew, BadField> {
+        self.screw
             .design(self.contact_angle as f32)
             .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
     }

@@ -1,11 +1,15 @@
 //! Pairs of balls over load, friction and clearance: the folded law against the exact pair.
 
+use std::f64::consts::FRAC_PI_4;
+
+use epas_eval::ball_screw_pair::{Ball, Request, Row};
+use epas_eval::{BadField, Both, Model, ScrewNumbers};
+use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::failure::Failure;
+use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 use rayon::prelude::*;
-use serde_json::{Value, json};
 
 use crate::report::statistics::Errors;
-use epas_page::document::{Block, Cell, Figure, Table};
-use epas_page::plot::{Axis, ColourMap, Colours, Panel};
 
 /// Deviation of one of the balls, degrees: it loads the third contact, or takes load from it. One law holds both.
 const DEVIATIONS: [f64; 2] = [1.0, -1.0];
@@ -41,21 +45,36 @@ impl Over {
     }
 
     /// The pair of Table 3.6's screw with friction at a place of the axis.
-    fn request(self, load: f64, place: f64, degrees: f64, reversed: bool) -> Value {
+    fn request(self, load: f64, place: f64, degrees: f64, reversed: bool) -> Request {
         let (friction, clearance) = match self {
             Self::Friction => (place, 0.0),
             Self::Clearance => (0.1, 1e-6 * place),
         };
-        let ball = |degrees: f64| json!({"screw_deviation": degrees.to_radians(), "nut_deviation": 0.0, "axial_load": -load});
+        let ball = |degrees: f64| Ball {
+            screw_deviation: degrees.to_radians(),
+            nut_deviation: 0.0,
+            axial_load: -load,
+        };
         let mut balls = vec![ball(0.0), ball(degrees)];
         if reversed {
             balls.reverse();
         }
-        json!({
-            "id": 0, "model": "ball_screw_pair", "pitch_radius": 16.5e-3, "lead": 20e-3, "ball_radius": 2.778e-3,
-            "groove_radius": 3.254e-3, "contact_angle": std::f64::consts::FRAC_PI_4, "youngs_modulus": 2.1e11,
-            "poisson_ratio": 0.28, "friction": friction, "clearance": clearance, "nut_speed": 1.0, "balls": balls,
-        })
+        Request {
+            screw: ScrewNumbers {
+                pitch_radius: 16.5e-3,
+                lead: 20e-3,
+                ball_radius: 2.778e-3,
+                groove_radius: 3.254e-3,
+                youngs_modulus: 2.1e11,
+                poisson_ratio: 0.28,
+            },
+            contact_angle: FRAC_PI_4,
+            friction,
+            ball_friction: 0.0,
+            clearance,
+            nut_speed: 1.0,
+            balls,
+        }
     }
 }
 
@@ -87,87 +106,94 @@ enum Exact {
 }
 
 impl Found {
-    fn new(over: Over, load: f64, place: f64, degrees: f64) -> Self {
+    fn new(over: Over, load: f64, place: f64, degrees: f64) -> Result<Self, BadField> {
         // The faster ball is behind where they press.
         let mut last = Self::default();
         for reversed in [degrees < 0.0, degrees > 0.0] {
-            let found = Self::of(&over.request(load, place, degrees, reversed));
+            let found = Self::of(&over.request(load, place, degrees, reversed))?;
             match found.exact {
-                Exact::OnTwo | Exact::OnMore => return found,
+                Exact::OnTwo | Exact::OnMore => return Ok(found),
                 Exact::Unsolved => last = found,
                 Exact::Apart => (),
             }
         }
-        last
+        Ok(last)
     }
 
-    fn of(request: &Value) -> Self {
-        let request = request.to_string();
-        let number = |of: &Value, place: &str| of.pointer(place).and_then(Value::as_f64);
-        let (in_loop, reference) = epas_eval::both(&request).unwrap_or_default();
-        let exact = number(&reference, "/contact_force/0");
-        let torque = number(&reference, "/groove_torque");
-        let (Some(exact), Some(torque)) = (exact, torque) else {
-            return Self {
+    fn of(request: &Request) -> Result<Self, BadField> {
+        let Both { in_loop, reference } = request.evaluate()?;
+        let (Some(exact), Some(torque), Some(loads)) =
+            (force(&reference), reference.groove_torque, &reference.loads)
+        else {
+            return Ok(Self {
                 exact: Exact::Unsolved,
-                request,
+                request: request.line()?,
                 ..Self::default()
-            };
+            });
         };
         if exact <= 0.0 {
-            return Self::default();
+            return Ok(Self::default());
         }
-        let off = |place: &str, over: f64| Some(number(&in_loop, place)? / over - 1.0);
-        let on_two = reference["loads"].as_array().is_some_and(|balls| {
-            balls.iter().any(|loads| {
-                (0..4)
-                    .filter(|&contact| loads[contact].as_f64() > Some(0.0))
-                    .count()
-                    < 3
-            })
-        });
+        let off = |found: Option<f64>, exact: f64| Some(found? / exact - 1.0);
+        let on_two = loads
+            .iter()
+            .any(|loads| loads.iter().filter(|load| **load > 0.0).count() < 3);
         let forceful = exact >= LEAST_FORCE;
-        Self {
+        let law = &in_loop.law;
+        Ok(Self {
             exact: if on_two { Exact::OnTwo } else { Exact::OnMore },
-            force: off("/contact_force/0", exact).filter(|_| forceful),
-            torque: off("/groove_torque", torque),
-            closed_form: off("/closed_form/contact_force/0", exact).filter(|_| forceful),
-            flagged: in_loop["flagged"] == true,
-            request,
-        }
+            force: off(force(&law.found), exact).filter(|_| forceful),
+            torque: off(finite(law.found.groove_torque), torque),
+            closed_form: off(force(&in_loop.closed_form), exact).filter(|_| forceful),
+            flagged: law.flagged == Some(true),
+            request: request.line()?,
+        })
     }
 }
 
+/// None too for what is no number.
+fn finite(number: Option<f64>) -> Option<f64> {
+    number.filter(|number| number.is_finite())
+}
+
+/// Force between the two balls.
+fn force(row: &Row) -> Option<f64> {
+    finite(row.contact_force.as_ref()?.first().copied())
+}
+
 /// Pairs of a line of the map, for each of [`DEVIATIONS`].
-fn line(over: Over, place: f64, columns: usize) -> [Vec<Found>; 2] {
+fn line(over: Over, place: f64, columns: usize) -> Result<[Vec<Found>; 2], BadField> {
     let load = |column: usize| {
         let share = (column as f64 + 0.5) / columns as f64;
         10f64.powf(LOADS.0 + (LOADS.1 - LOADS.0) * share)
     };
     // The first pair has the law folded that all of the line share.
-    let _ = Found::new(over, load(0), place, DEVIATIONS[0]);
-    DEVIATIONS.map(|degrees| {
+    Found::new(over, load(0), place, DEVIATIONS[0])?;
+    let errors = |degrees: f64| -> Result<Vec<Found>, BadField> {
         (0..columns)
             .into_par_iter()
             .map(|column| Found::new(over, load(column), place, degrees))
             .collect()
-    })
+    };
+    let [more, less] = DEVIATIONS;
+    Ok([errors(more)?, errors(less)?])
 }
 
 /// Table and figure.
-pub fn blocks(quick: bool) -> Vec<Block> {
+pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
     let (columns, lines) = if quick { (8, 2) } else { (26, 6) };
     let mut panels = Vec::new();
     let mut rows = Vec::new();
     for over in Over::ALL {
         let (_, low, high) = over.axis();
-        let found: Vec<[Vec<Found>; 2]> = (0..lines)
+        let found: Result<Vec<[Vec<Found>; 2]>, BadField> = (0..lines)
             .into_par_iter()
             .map(|number| {
                 let share = (f64::from(number) + 0.5) / f64::from(lines);
                 line(over, low + (high - low) * share, columns)
             })
             .collect();
+        let found = found.map_err(|error| Failure::Data(error.to_string()))?;
         for (sign, degrees) in DEVIATIONS.into_iter().enumerate() {
             let grid: Vec<&[Found]> = found.iter().map(|line| line[sign].as_slice()).collect();
             for (quantity, value) in QUANTITIES {
@@ -178,7 +204,7 @@ pub fn blocks(quick: bool) -> Vec<Block> {
             }
         }
     }
-    vec![
+    Ok(vec![
         Block::Table(Table {
             name: "exact_pairs",
             caption: format!(
@@ -202,7 +228,7 @@ pub fn blocks(quick: bool) -> Vec<Block> {
             columns: 2,
             size: (540, 400),
         }),
-    ]
+    ])
 }
 
 /// A quantity and its error.

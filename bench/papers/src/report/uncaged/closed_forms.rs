@@ -7,8 +7,9 @@ use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
 use rayon::prelude::*;
-use serde_json::{Value, json};
 
+use epas_eval::caged_torque::{Request, Torques};
+use epas_eval::{Model, ScrewNumbers};
 use epas_page::document::Figure;
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
@@ -53,16 +54,27 @@ fn design(lead: f64) -> Result<BallScrew, epas_friction::Error> {
 fn torques(lead: f64, load: f64, friction: f64) -> Result<[f64; 5], Failure> {
     let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
     let design = design(lead).map_err(failure)?;
-    let request = json!({
-        "id": 0, "model": "caged_torque", "pitch_radius": PITCH_RADIUS, "lead": lead, "ball_radius": BALL_RADIUS,
-        "groove_radius": GROOVE_RADIUS, "contact_angle": FRAC_PI_4, "youngs_modulus": 2.1e11, "poisson_ratio": 0.28,
-        "friction": friction, "clearance": 0.0, "axial_load": [load], "direction": 1,
-    });
-    let both = epas_eval::both(&request.to_string());
-    let of = |side: fn(&(Value, Value)) -> &Value| {
-        both.as_ref()
-            .and_then(|both| side(both)["torque"][0].as_f64())
-            .map_or(f64::NAN, |torque| torque / load)
+    let request = Request {
+        screw: ScrewNumbers {
+            pitch_radius: PITCH_RADIUS,
+            lead,
+            ball_radius: BALL_RADIUS,
+            groove_radius: GROOVE_RADIUS,
+            youngs_modulus: 2.1e11,
+            poisson_ratio: 0.28,
+        },
+        contact_angle: FRAC_PI_4,
+        friction,
+        clearance: 0.0,
+        axial_load: vec![load],
+        direction: 1.0,
+    };
+    let both = request
+        .evaluate()
+        .map_err(|error| Failure::Data(error.to_string()))?;
+    let of = |torques: &Torques| {
+        let torque = torques.torque.as_ref().and_then(|torques| torques[0]);
+        torque.map_or(f64::NAN, |torque| torque / load)
     };
     let closed = |fit: GrooveFit| -> Result<f64, Failure> {
         let row = ScrewRow::new(&design, friction as f32, fit).map_err(failure)?;
@@ -76,8 +88,8 @@ fn torques(lead: f64, load: f64, friction: f64) -> Result<[f64; 5], Failure> {
         0.0,
     );
     Ok([
-        of(|both| &both.1),
-        of(|both| &both.0),
+        of(&both.reference),
+        of(&both.in_loop),
         closed(GrooveFit::Zero)?,
         closed(GrooveFit::Play)?,
         rolling.into(),
