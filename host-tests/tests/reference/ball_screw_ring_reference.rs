@@ -213,15 +213,18 @@ fn balls_meet_and_part_without_overlap() {
 /// Turned about the radial direction: the nut's other way, loads of the other sign, deviations mirrored along the track. Torque is odd.
 #[test]
 fn torque_is_odd_under_mirror() {
-    for clearance in [-3e-6, 0.0, 4e-6] {
+    let pressing = [-3e-6, 0.0, 4e-6].map(|clearance| {
         compare_with_mirrored(ElasticRing {
             clearance,
             ..short_ring(5, 0.1)
-        });
-    }
+        })
+    });
+    println!("{pressing:?}");
+    assert!(pressing.contains(&true));
 }
 
-fn compare_with_mirrored(ring: ElasticRing) {
+/// Whether balls press on the way.
+fn compare_with_mirrored(ring: ElasticRing) -> bool {
     let mut mirrored = ring.clone();
     let length = TAU * ring.turns;
     let places: Vec<f64> = (0..5)
@@ -250,13 +253,13 @@ fn compare_with_mirrored(ring: ElasticRing) {
     mirrored.places = places;
     let here = run(&ring, &steady_samples(TAU, -250.0, 2.0, 20));
     let there = run(&mirrored, &steady_samples(-TAU, 250.0, 2.0, 20));
-    assert!(here.iter().any(|state| state.pressing() > 0));
     for (a, b) in here.iter().zip(&there) {
         // Equations that agree term by term, solved to 1e-12 of the loads, and events located to rounding.
         measured::assert("mirrored ring, torque", b.torque() / a.torque() + 1.0);
         let difference = a.largest_force() - b.largest_force();
         measured::assert("mirrored ring, force in N", difference);
     }
+    here.iter().any(|state| state.pressing() > 0)
 }
 
 /// What counts is the nut's angle: other speeds in other times give the same balls and torques.
