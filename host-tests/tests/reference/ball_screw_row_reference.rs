@@ -440,12 +440,23 @@ fn random_rows_have_an_answer_whole() {
     assert!(answered(4, 20, 16) >= 0.95);
 }
 
-/// Over all that the inputs allow, a row has an answer that meets every balance, or a named error.
+/// Over all that the inputs allow, a row has an answer that meets every balance, or a named error. A sample of the rows.
 #[test]
 fn extreme_rows_are_answered_or_named() {
+    solve_extreme_rows(2, 1);
+}
+
+#[test]
+#[ignore = "half a minute"]
+fn extreme_rows_are_answered_or_named_whole() {
+    // Measured: 8 of 16. Loads of 1e5 N and turned grooves leave many without a place.
+    solve_extreme_rows(16, 6);
+}
+
+fn solve_extreme_rows(rows: usize, least: usize) {
     let all = golden();
     let mut random = Random(5);
-    let (mut solved, rows) = (0, 16);
+    let mut solved = 0;
     for _ in 0..rows {
         let mut row = random_row(&mut random, &all, 2);
         let radius = row.design.ball_radius;
@@ -472,6 +483,5 @@ fn extreme_rows_are_answered_or_named() {
         }
     }
     println!("{solved} of {rows} rows beyond all reason");
-    // Measured: 8 of 16. Loads of 1e5 N and turned grooves leave many without a place.
-    assert!(solved >= 6, "{solved}");
+    assert!(solved >= least, "{solved}");
 }
