@@ -1,7 +1,7 @@
 //! Friction torque of gross sliding over load and friction coefficient, by the exact ball.
 //!
 //! A ball is solved exactly ([`LoadedScrew`]) at a grid of loads and coefficients; between them a cubic runs through four loads,
-//! and a polynomial through all coefficients. `host-tests/tests/rig` compares it with balls that are solved off the grid.
+//! and a polynomial through all coefficients. `bench/rig/tests` compares it with balls that are solved off the grid.
 
 use super::parameters::Screw;
 use epas_reference::error::{ReferenceError, within};

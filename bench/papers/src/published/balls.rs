@@ -12,13 +12,12 @@ use epas_reference::friction::ball_screw_elastic::{BallSlip, ElasticBalls, Screw
 use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::contact_law::HertzLaw;
-use epas_reference::friction::linear_ball::{LinearBall, analytic_contact_force, contact_forces};
+use epas_reference::friction::linear_ball::{
+    LinearBall, PUBLISHED_FORCE_SLOPE, analytic_contact_force, contact_forces,
+};
 use epas_reference::friction::maps::FrictionMap;
 use epas_reference::friction::whole_screw::{WholeScrew, WholeScrewState};
 use epas_reference::material::Elastic;
-
-/// Slope of the friction force in (3.35) as the dissertation picks it from a plot.
-pub const FORCE_SLOPE: f64 = 1.38;
 
 /// Ball radius of Table 3.3, m.
 const LINEAR_BALL_RADIUS: f64 = 5e-3;
@@ -91,7 +90,7 @@ pub fn analytic_force(pair: &[LinearBall; 2]) -> f64 {
         pair.each_ref()
             .map(|ball| ball.analytic_speed_deviation(FRAC_PI_4)),
         pair.each_ref()
-            .map(|ball| ball.analytic_compliance(FRAC_PI_4, FORCE_SLOPE)),
+            .map(|ball| ball.analytic_compliance(FRAC_PI_4, PUBLISHED_FORCE_SLOPE)),
     )
 }
 

@@ -123,7 +123,7 @@ fn lash_curves_rise() {
 #[test]
 fn tie_rod_angle_loads_the_ball_screw_more_than_the_bearing() {
     let load = TieRodLoad::default();
-    let angles = [0.0, 0.1, 0.2, 18_f64.to_radians()];
+    let angles = [0.0, 0.2, 18_f64.to_radians()];
     let points = load.over(&angles, &quietly).unwrap();
     for point in &points {
         measured::assert_at(
@@ -159,7 +159,7 @@ fn tie_rod_angle_loads_the_ball_screw_more_than_the_bearing() {
         "{even:?}"
     );
     let of = |index: usize| points[index].largest();
-    let ratios = [0, 1].map(|body| of(3)[body] / of(0)[body]);
+    let ratios = [0, 1].map(|body| of(2)[body] / of(0)[body]);
     println!(
         "largest load at 18 degrees over 0: ball screw {:.2}, bearing {:.2}",
         ratios[0], ratios[1]
@@ -171,7 +171,7 @@ fn tie_rod_angle_loads_the_ball_screw_more_than_the_bearing() {
     );
     assert!(ratios[0] > 1.5 * ratios[1]);
     for body in [0, 1] {
-        assert!((1..4).all(|index| of(index)[body] > of(index - 1)[body]));
+        assert!((1..3).all(|index| of(index)[body] > of(index - 1)[body]));
     }
     assert_eq!(
         load.over(&angles, &|| false),

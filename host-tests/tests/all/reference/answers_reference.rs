@@ -45,13 +45,22 @@ fn solve_all(seed: u64, count: usize, balls: usize) {
     }
 }
 
+/// A sample of the single balls.
 #[test]
 fn every_single_ball_has_an_answer() {
-    solve_all(11, 400, 1);
+    solve_all(11, 40, 1);
+}
+
+/// A sample of the pairs.
+#[test]
+fn every_pair_has_an_answer() {
+    solve_all(12, 8, 2);
 }
 
 #[test]
-fn every_pair_has_an_answer() {
+#[ignore = "hundreds of balls"]
+fn every_ball_has_an_answer_whole() {
+    solve_all(11, 400, 1);
     solve_all(12, 60, 2);
 }
 
@@ -75,11 +84,21 @@ fn along(ball: &CagedBall, loads: &[f64], line: &str) -> Vec<CagedBallFriction> 
         .collect()
 }
 
-/// Loads rising, loads falling, and each load from nothing: three paths to one state.
+/// Loads rising, loads falling, and each load from nothing: three paths to one state. A sample of the states.
 #[test]
 fn all_paths_lead_to_one_answer() {
+    compare_paths(5);
+}
+
+#[test]
+#[ignore = "forty balls"]
+fn all_paths_lead_to_one_answer_whole() {
+    compare_paths(40);
+}
+
+fn compare_paths(balls: usize) {
     let mut random = Random(13);
-    for _ in 0..40 {
+    for _ in 0..balls {
         let state = promised::row(&mut random, 1);
         let (ball, side) = caged(&state);
         let line = state.line();

@@ -1,4 +1,4 @@
-//! Ball of a ball screw: stored single balls and pairs, Table 3.7, given contacts, and the laws of the model.
+//! Ball of a ball screw: stored single balls and pairs, given contacts, and the laws of the model.
 
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_ball::{
@@ -371,48 +371,6 @@ fn stored_pairs() {
     }
 }
 
-/// Table 3.7: 1.92 and 2.89 N, friction up by 39.2 and 60.2 %, under 50 N on each ball, the groove radius of Table 2.1, and the screw held
-/// at its frictionless place: 4 to 5 % low; with the screw free the forces are 0.8 and 1.4 % low.
-#[test]
-fn table_3_7_contact_forces() {
-    for (theta, held, free, increase, published) in [
-        (2.0, 1.835, 1.905, 37.9, 1.92),
-        (3.0, 2.742, 2.849, 57.3, 2.89),
-    ] {
-        let balls = pair("3.254", theta, 0.0, BallSlip::Total);
-        // The frictionless place of the pair without deviation.
-        let place = pair("3.254", 0.0, 0.0, BallSlip::Total)
-            .frictionless(-100.0)
-            .unwrap()
-            .1;
-        let at_place = ScrewSupport::Displacement(place);
-        let fixed = balls.solve(at_place).unwrap();
-        let grown = 100.0
-            * ((fixed.groove_loss() + fixed.ball_loss)
-                / balls.solve_apart(at_place).unwrap().groove_loss()
-                - 1.0);
-        let floating = balls.solve(ScrewSupport::Load(-100.0)).unwrap();
-        println!(
-            "{theta} deg: held {} N, free {} N, increase {grown} %",
-            fixed.contact_force, floating.contact_force
-        );
-        // Half a unit of the last digit, here and below.
-        assert!(
-            (fixed.contact_force - held).abs() < 5e-4,
-            "{}",
-            fixed.contact_force
-        );
-        assert!(
-            (floating.contact_force - free).abs() < 5e-4,
-            "{}",
-            floating.contact_force
-        );
-        assert!((grown - increase).abs() < 0.05, "{grown}");
-        // 1.4 per cent low, as said above.
-        assert!((floating.contact_force / published - 1.0).abs() < 0.015);
-    }
-}
-
 #[test]
 fn given_contacts_decide_the_orbital_speed() {
     let mut worst = [0.0_f64; 3];
@@ -780,40 +738,6 @@ fn hostile_input_converges_or_is_named() {
     );
     assert!(solve_screw_train(&TRACK, &[], 0.1, 0.1, 1.0).is_err());
 
-    let mut solved = 0;
-    let mut refused = Vec::new();
-    for load in [-1e-2, -1.0, -100.0, -1000.0, 30.0, 1e4] {
-        for friction in [0.01, 0.05, 0.1, 0.2, 0.3] {
-            for oversize in [-30e-6, 0.0, 5e-6] {
-                let balls = ElasticBalls {
-                    grooves: vec![grooves("3.254", 0.0, oversize)],
-                    friction,
-                    ball_friction: 0.0,
-                    nut_speed: 1.0,
-                    ball_slip: BallSlip::Orbiting,
-                };
-                match balls.solve(ScrewSupport::Load(load)) {
-                    Ok(motion) => {
-                        solved += 1;
-                        let ball = &motion.balls[0];
-                        let (_, _, input) = friction_sums(ball, 1.0);
-                        assert!(ball.power_loss > 0.0);
-                        measured::assert(
-                            "hostile balls of a screw, power balance",
-                            input / ball.power_loss - 1.0,
-                        );
-                    }
-                    Err(error) => refused.push(format!(
-                        "{load} N, friction {friction}, oversize {oversize}: {error}"
-                    )),
-                }
-            }
-        }
-    }
-    assert!(
-        refused.is_empty() && solved == 90,
-        "{solved} solved, refused: {refused:#?}"
-    );
     // A millinewton with 30 micrometres of play: solved to the solver's 1e-6 of the load, or refused with the force left over,
     // which is no more than the load. Measured: refused, with 1.2e-4 N.
     let loose = ElasticBalls {
@@ -845,5 +769,57 @@ fn hostile_input_converges_or_is_named() {
         single("3.254", 0.1, 1.0)
             .solve(ScrewSupport::Load(f64::NAN))
             .is_err()
+    );
+}
+
+/// A sample of the loads and friction coefficients.
+#[test]
+fn hostile_loads_are_solved() {
+    solve_hostile_loads(&[-1e-2, -1000.0, 1e4], &[0.01, 0.3]);
+}
+
+#[test]
+#[ignore = "ninety balls"]
+fn hostile_loads_are_solved_whole() {
+    solve_hostile_loads(
+        &[-1e-2, -1.0, -100.0, -1000.0, 30.0, 1e4],
+        &[0.01, 0.05, 0.1, 0.2, 0.3],
+    );
+}
+
+fn solve_hostile_loads(loads: &[f64], frictions: &[f64]) {
+    let mut solved = 0;
+    let mut refused = Vec::new();
+    for &load in loads {
+        for &friction in frictions {
+            for oversize in [-30e-6, 0.0, 5e-6] {
+                let balls = ElasticBalls {
+                    grooves: vec![grooves("3.254", 0.0, oversize)],
+                    friction,
+                    ball_friction: 0.0,
+                    nut_speed: 1.0,
+                    ball_slip: BallSlip::Orbiting,
+                };
+                match balls.solve(ScrewSupport::Load(load)) {
+                    Ok(motion) => {
+                        solved += 1;
+                        let ball = &motion.balls[0];
+                        let (_, _, input) = friction_sums(ball, 1.0);
+                        assert!(ball.power_loss > 0.0);
+                        measured::assert(
+                            "hostile balls of a screw, power balance",
+                            input / ball.power_loss - 1.0,
+                        );
+                    }
+                    Err(error) => refused.push(format!(
+                        "{load} N, friction {friction}, oversize {oversize}: {error}"
+                    )),
+                }
+            }
+        }
+    }
+    assert!(
+        refused.is_empty() && solved == 3 * loads.len() * frictions.len(),
+        "{solved} solved, refused: {refused:#?}"
     );
 }

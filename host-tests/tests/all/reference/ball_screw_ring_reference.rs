@@ -1,4 +1,4 @@
-//! Balls on a ring in elastic grooves: against rows and single balls, the laws of the model, and Figures 3.24 and 3.25 again.
+//! Balls on a ring in elastic grooves: against rows and single balls, and the laws of the model.
 
 use epas_reference::ReferenceError;
 use epas_reference::design::BallScrewDesign;
@@ -213,7 +213,18 @@ fn balls_meet_and_part_without_overlap() {
 /// Turned about the radial direction: the nut's other way, loads of the other sign, deviations mirrored along the track. Torque is odd.
 #[test]
 fn torque_is_odd_under_mirror() {
-    let ring = short_ring(5, 0.1);
+    let pressing = [-3e-6, 0.0, 4e-6].map(|clearance| {
+        compare_with_mirrored(ElasticRing {
+            clearance,
+            ..short_ring(5, 0.1)
+        })
+    });
+    println!("{pressing:?}");
+    assert!(pressing.contains(&true));
+}
+
+/// Whether balls press on the way.
+fn compare_with_mirrored(ring: ElasticRing) -> bool {
     let mut mirrored = ring.clone();
     let length = TAU * ring.turns;
     let places: Vec<f64> = (0..5)
@@ -242,13 +253,13 @@ fn torque_is_odd_under_mirror() {
     mirrored.places = places;
     let here = run(&ring, &steady_samples(TAU, -250.0, 2.0, 20));
     let there = run(&mirrored, &steady_samples(-TAU, 250.0, 2.0, 20));
-    assert!(here.iter().any(|state| state.pressing() > 0));
     for (a, b) in here.iter().zip(&there) {
         // Equations that agree term by term, solved to 1e-12 of the loads, and events located to rounding.
         measured::assert("mirrored ring, torque", b.torque() / a.torque() + 1.0);
         let difference = a.largest_force() - b.largest_force();
         measured::assert("mirrored ring, force in N", difference);
     }
+    here.iter().any(|state| state.pressing() > 0)
 }
 
 /// What counts is the nut's angle: other speeds in other times give the same balls and torques.
@@ -356,16 +367,26 @@ fn balls_of_the_return_carry_nothing() {
 }
 
 /// A gap changes by what its balls' speeds differ by, whatever the part of a step in which balls pass between load and return: their speed
-/// jumps there, and a jump over a short travel is no rate of change that others could meet by.
+/// jumps there, and a jump over a short travel is no rate of change that others could meet by. A sample of the steps.
 #[test]
 fn gaps_change_as_balls_move() {
+    follow_gaps(&[93, 101]);
+}
+
+#[test]
+#[ignore = "twenty rings"]
+fn gaps_change_as_balls_move_whole() {
+    follow_gaps(&(90..110).collect::<Vec<_>>());
+}
+
+fn follow_gaps(numbers_of_steps: &[usize]) {
     let mut ring = short_ring(8, 0.0);
     let track = ScrewTrack::from(&SCREW);
     let length = 8.2 * pitch();
     ring.turns = 0.9 * length / TAU;
     ring.return_length = 0.1 * length * track.path_radius();
     let (mut passed, mut worst) = (0, 0.0_f64);
-    for steps in 90..110 {
+    for &steps in numbers_of_steps {
         let states = run(&ring, &steady_samples(TAU, -400.0, TAU, steps));
         for pair in states.windows(2) {
             let travel = pair[1].nut_angle - pair[0].nut_angle;
@@ -381,7 +402,8 @@ fn gaps_change_as_balls_move() {
         passed += crossings(&states);
     }
     println!("{passed} crossings, {worst:e} rad beyond");
-    assert!(passed > 250, "{passed}");
+    // Measured: 13 a ring.
+    assert!(passed > 11 * numbers_of_steps.len(), "{passed}");
     // Measured: 1.4e-4, of gaps of 1e-2 rad; 2e-2 where a rate came from a jump.
     assert!(worst < 3e-4, "{worst:e}");
 }
@@ -414,7 +436,7 @@ fn steps_converge() {
         let last = &states[steps].balls;
         last.iter().map(|ball| ball.place).collect::<Vec<_>>()
     };
-    let fine = places(1280);
+    let fine = places(640);
     let off = |steps: usize| {
         let there = places(steps);
         let pairs = there.iter().zip(&fine);
@@ -532,7 +554,7 @@ fn published(degrees: f64) -> ElasticRing {
 /// Rings over designs, fits, loads of either sign, deviations of both grooves, returns and changes on the way: every state has an answer.
 #[test]
 #[ignore = "minutes"]
-fn random_rings_have_an_answer() {
+fn random_rings_have_an_answer_whole() {
     let mut random = Random(7);
     let (mut failed, mut states) = (0, 0);
     for _ in 0..60 {

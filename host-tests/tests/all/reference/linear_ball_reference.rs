@@ -1,10 +1,7 @@
-//! Ball of a linear bearing: stored cases, the dissertation's tables, and the laws of the model.
+//! Ball of a linear bearing: stored cases and the laws of the model.
 
 use epas_reference::ReferenceError;
-use epas_reference::friction::linear_ball::{
-    EllipseLaw, LinearBall, LinearMotion, PUBLISHED_FORCE_SLOPE, analytic_ball_slip,
-    analytic_contact_force, contact_forces,
-};
+use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, LinearMotion, contact_forces};
 use epas_testkit::measured;
 use serde_json::Value;
 use std::f64::consts::FRAC_PI_4;
@@ -185,88 +182,6 @@ fn stored_single_balls() {
         "largest differences: speed deviation {:e}, force {:e} N, moment {:e} N",
         worst[0], worst[1], worst[2]
     );
-}
-
-#[test]
-fn table_3_4_speed_deviations() {
-    // Case (a): 0.87 % and -0.79 % numerical, 0.75 % analytical; digits of the table.
-    let (rear, front) = (tilted(2.0, -0.6), tilted(2.0, 0.6));
-    let eps = [&rear, &front].map(|b| b.solve(0.01).unwrap().speed_deviation);
-    println!("numerical {:.6} % {:.6} %", 100.0 * eps[0], 100.0 * eps[1]);
-    // Half a unit of the last digit, here and below.
-    assert!(
-        (eps[0] - 0.0087).abs() < 0.5e-4 && (eps[1] + 0.0079).abs() < 0.5e-4,
-        "{eps:?}"
-    );
-    // With the text's symmetrical loads the two deviations would be opposite and equal, 0.8092 %.
-    let symmetric = |rho: f64| {
-        let (up, down) = (
-            100.0 * (1.0 - rho) / 2.0_f64.sqrt(),
-            100.0 * (1.0 + rho) / 2.0_f64.sqrt(),
-        );
-        LinearBall {
-            contact_forces: [up, down, up, down],
-            ..tilted(2.0, rho)
-        }
-    };
-    let eps = [-0.6, 0.6].map(|rho| symmetric(rho).solve(0.01).unwrap().speed_deviation);
-    assert!(
-        // Half a unit of the last digit of 0.8092 %.
-        (eps[0] - 0.008092).abs() < 5e-7,
-        "{eps:?}"
-    );
-    measured::assert(
-        "symmetrical linear balls, sum of deviations",
-        eps[0] + eps[1],
-    );
-    let analytic = symmetric(-0.6).analytic_speed_deviation(FRAC_PI_4);
-    println!("analytical {:.6} %", 100.0 * analytic);
-    // Half a unit of the last digit of 0.7536 %.
-    assert!((analytic - 0.007536).abs() < 5e-7, "{analytic}");
-    // Case (b): the mated top groove, exactly zero for any load.
-    let theta = 2.0_f64.to_radians();
-    for rho in [-0.6, 0.0, 0.6] {
-        let mated = ball([-theta, theta, -theta, theta], rho);
-        let eps = mated.solve(0.01).unwrap().speed_deviation;
-        measured::assert_at("mated groove, speed deviation", eps, rho);
-        assert!(mated.analytic_speed_deviation(FRAC_PI_4).abs() < 1e-15);
-    }
-}
-
-#[test]
-fn table_3_5_analytical_force() {
-    // 3.74 N; the four-force form gives 3.745 N with the slope 1.38 of the text.
-    let balls = [-0.6, 0.6].map(|rho| {
-        let (up, down) = (
-            100.0 * (1.0 - rho) / 2.0_f64.sqrt(),
-            100.0 * (1.0 + rho) / 2.0_f64.sqrt(),
-        );
-        LinearBall {
-            contact_forces: [up, down, up, down],
-            ..tilted(2.0, rho)
-        }
-    });
-    let eps = balls.map(|b| b.analytic_speed_deviation(FRAC_PI_4));
-    let s = balls.map(|b| b.analytic_compliance(FRAC_PI_4, PUBLISHED_FORCE_SLOPE));
-    let force = analytic_contact_force(eps, s);
-    println!("{force}");
-    // Half a unit of the last digit.
-    assert!((force - 3.745).abs() < 5e-4, "{force}");
-    let exact = balls.map(|b| {
-        b.analytic_compliance(
-            FRAC_PI_4,
-            epas_reference::friction::maps::FrictionMap::new(b.ellipse.axis_ratio)
-                .unwrap()
-                .initial_slope(),
-        )
-    });
-    measured::assert(
-        "closed form with the exact slope, contact force in N",
-        analytic_contact_force(eps, exact) - 3.912,
-    );
-    assert_eq!(analytic_contact_force([eps[1], eps[0]], s), 0.0);
-    // A few roundings of 1.1e-16.
-    assert!((analytic_ball_slip(FRAC_PI_4, 1.0) - 2.0_f64.sqrt()).abs() < 1e-15);
 }
 
 /// The corrected factor tan b0 of (3.43): the derivative of the speed by each contact angle at 30, 45 and 60 degrees.

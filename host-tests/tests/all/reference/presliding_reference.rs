@@ -258,7 +258,7 @@ fn a_stack_of_turning_points_is_a_thousand_elements() {
         // Chords err by 0.167 / N^2 = 2e-8 on first loading and by twice that on a branch, in which errors of the turning points before add up;
         // measured: 8.1e-8 (slip), 3.6e-7 (spin).
         for (backbone, bound) in [(Backbone::Slip, 1e-7), (Backbone::Spin, 1e-5)] {
-            let angle = wander(&mut random, 20_000);
+            let angle = wander(&mut random, 4_000);
             let path = Path {
                 angle: &angle,
                 load: None,
@@ -284,7 +284,7 @@ fn a_contact_under_constant_load_is_masings() {
         let mut masing = Masing::new(Backbone::Slip, Limits::UNIT);
         let mut contact = LoadExact::new();
         let mut last = 0.0;
-        for angle in wander(&mut random, 20_000).into_iter().skip(1) {
+        for angle in wander(&mut random, 4_000).into_iter().skip(1) {
             let expected = load * masing.follow(angle / breakaway);
             let found = contact.follow(angle - last, Limits::UNIT, load);
             last = angle;
@@ -297,8 +297,19 @@ fn a_contact_under_constant_load_is_masings() {
     }
 }
 
+/// A sample: 3000 elements.
 #[test]
 fn dense_elements_converge_to_the_closed_form_under_changing_load() {
+    compare_dense_elements(false);
+}
+
+#[test]
+#[ignore = "24,000 elements"]
+fn dense_elements_converge_to_the_closed_form_under_changing_load_whole() {
+    compare_dense_elements(true);
+}
+
+fn compare_dense_elements(convergence: bool) {
     let golden = golden();
     for case in golden["cases"].as_array().unwrap() {
         let case = Case::new(case);
@@ -308,10 +319,15 @@ fn dense_elements_converge_to_the_closed_form_under_changing_load() {
         let path = case.path();
         let exact = path.exact(&case.form).unwrap();
         let off = |count| apart(&exact, &path.torque(Elements::dense(count, largest_load)));
-        let (some, many) = (off(3000), off(24_000));
-        // Largest load 4.2: measured 3.0e-6 and 3.2e-8. The midpoint rule's error falls by 64, but for steps of the line that move between elements.
-        assert!(some < 4e-6 && many < 4e-8);
-        assert!(many <= some / 20.0 || some < 1e-12);
+        let some = off(3000);
+        // Largest load 4.2: measured 3.0e-6, and 3.2e-8 below. The midpoint rule's error falls by 64, but for steps of the line that move
+        // between elements.
+        assert!(some < 4e-6);
+        if convergence {
+            let many = off(24_000);
+            assert!(many < 4e-8);
+            assert!(many <= some / 20.0 || some < 1e-12);
+        }
         assert!(apart(&exact, &answers(&path, &case.form).exact.unwrap()) < 2e-6);
     }
 }
@@ -364,18 +380,30 @@ fn spin_follows_its_backbone_on_narrow_ellipses() {
 }
 
 /// Rolling carries bent bristles out of the contact and unbent ones in: torque falls short of that of a contact at rest, and of Coulomb friction in the end. It matters
-/// where breakaway takes a large part of the contact's length.
+/// where breakaway takes a large part of the contact's length. A sample of the contacts.
 #[test]
 fn rolling_changes_little_before_breakaway() {
-    // Screw, load, axis ratio, path of rolling at breakaway over the contact's length, largest loss on the way, loss in the end; measured.
-    for (name, ratio, rolled, largest, steady) in [
-        ("lin-3.6, 300 N", 0.215, 0.0454, 0.00013, 0.00013),
-        ("lin-3.6, 1 kN", 0.215, 0.0678, 0.00071, 0.00071),
-        ("lin-3.6, 5 kN", 0.215, 0.1159, 0.00435, 0.00435),
-        ("lin-4.1, 300 N", 0.173, 0.1325, 0.00659, 0.00659),
-        ("lin-4.1, 1 kN", 0.173, 0.1979, 0.02116, 0.02116),
-        ("lin-4.1, 5 kN", 0.173, 0.3384, 0.08215, 0.08215),
-    ] {
+    compare_rolling(&ROLLING[2..3]);
+}
+
+#[test]
+#[ignore = "six contacts"]
+fn rolling_changes_little_before_breakaway_whole() {
+    compare_rolling(&ROLLING);
+}
+
+/// Screw, load, axis ratio, path of rolling at breakaway over the contact's length, largest loss on the way, loss in the end; measured.
+const ROLLING: [(&str, f64, f64, f64, f64); 6] = [
+    ("lin-3.6, 300 N", 0.215, 0.0454, 0.00013, 0.00013),
+    ("lin-3.6, 1 kN", 0.215, 0.0678, 0.00071, 0.00071),
+    ("lin-3.6, 5 kN", 0.215, 0.1159, 0.00435, 0.00435),
+    ("lin-4.1, 300 N", 0.173, 0.1325, 0.00659, 0.00659),
+    ("lin-4.1, 1 kN", 0.173, 0.1979, 0.02116, 0.02116),
+    ("lin-4.1, 5 kN", 0.173, 0.3384, 0.08215, 0.08215),
+];
+
+fn compare_rolling(contacts: &[(&str, f64, f64, f64, f64)]) {
+    for &(name, ratio, rolled, largest, steady) in contacts {
         let cells = 600;
         let mut still = Brush::new(ratio, 41, cells, 2.0 / 3.0);
         let mut rolling = still.clone();

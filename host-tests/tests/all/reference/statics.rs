@@ -16,7 +16,11 @@ use epas_reference::statics::{
 use serde_json::Value;
 
 fn golden() -> Value {
-    serde_json::from_str(include_str!("../../../golden/ballscrew.json")).unwrap()
+    serde_json::from_str(include_str!(concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/golden/ballscrew.json"
+    )))
+    .unwrap()
 }
 
 fn list(value: &Value) -> Vec<f64> {

@@ -1,4 +1,4 @@
-//! Whole ball screw with recirculation: stored runs, the features of Figures 3.24 and 3.25, and the laws of contact.
+//! Whole ball screw with recirculation: stored runs, the features of Figure 3.24, and the laws of contact.
 
 use epas_reference::friction::ball_screw_closed::ThreePointModel;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
@@ -57,24 +57,6 @@ fn screw(groove_radius: &str, theta_degrees: f64, ball_slip: BallSlip) -> WholeS
     }
 }
 
-/// Peak of the ball torque over the groove torque, in per cent, its nut angle, and the angle where it first returns to zero.
-fn peak_and_release(
-    run: &[epas_reference::friction::whole_screw::WholeScrewState],
-) -> (f64, f64, f64) {
-    let (mut peak, mut at, mut release) = (0.0, 0.0, f64::NAN);
-    for state in run.iter().filter(|s| s.nut_angle < TAU) {
-        let share = 100.0 * state.ball_torque / state.main_torque;
-        if share > peak {
-            (peak, at) = (share, state.nut_angle.to_degrees());
-            release = f64::NAN;
-        }
-        if peak > 1.0 && state.ball_torque == 0.0 && release.is_nan() {
-            release = state.nut_angle.to_degrees();
-        }
-    }
-    (peak, at, release)
-}
-
 #[test]
 fn stored_runs() {
     let all = golden("ballscrew");
@@ -118,41 +100,6 @@ fn stored_runs() {
         println!(
             "{key}: groove {:e} relative, balls {:e} N mm",
             worst[0], worst[1]
-        );
-    }
-}
-
-/// Peak against amplitude: 26/48/63/107 % at 108/104/97/94 degrees, released from 248/266/274/299 degrees. The published 49.6 % at
-/// 126 degrees and release at 306 degrees are not met by one amplitude: Figure 3.23 gives none in the text.
-#[test]
-fn figure_3_25_peaks_against_amplitude() {
-    for (theta, peak, at, release) in [
-        (2.0, 26.0, 108.0, 248.0),
-        (2.3, 48.0, 104.0, 266.0),
-        (2.5, 63.0, 97.0, 274.0),
-        (3.0, 107.0, 94.0, 299.0),
-    ] {
-        let run = screw("3.254", theta, BallSlip::Total)
-            .simulate(2.0 * TAU, 200, 1)
-            .unwrap();
-        let found = peak_and_release(&run);
-        println!("{theta} deg: {found:?}, table {peak} {at} {release}");
-        // Half a unit of the last digit, here and below.
-        assert!((found.0 - peak).abs() < 0.5, "{theta} deg: {found:?}");
-        assert!(
-            (found.1 - at).abs() < 0.5 && (found.2 - release).abs() < 0.5,
-            "{theta} deg: {found:?}"
-        );
-        // The relative slip between balls is 12 per cent less, and so is their torque.
-        let relative = peak_and_release(
-            &screw("3.254", theta, BallSlip::Orbiting)
-                .simulate(2.0 * TAU, 200, 1)
-                .unwrap(),
-        );
-        measured::assert_at(
-            "whole screw, torque by the relative slip",
-            relative.0 / found.0 - 0.88,
-            format_args!("{relative:?}"),
         );
     }
 }
