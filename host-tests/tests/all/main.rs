@@ -16,3 +16,4 @@ mod formulas;
 mod law;
 mod scenes;
 mod stiffness;
+mod stored_folds;
