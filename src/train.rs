@@ -91,5 +91,6 @@ pub(crate) use grip::{Grip, LARGEST_GRIP, limited_grip};
 pub(crate) use intake::Intake;
 pub use positions::{BallContact, Train};
 pub use press::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
+pub(crate) use stored::BALL_BYTES;
 pub use track::LARGEST_TRAVEL;
 pub(crate) use track::Track;

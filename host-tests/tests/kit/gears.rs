@@ -246,6 +246,7 @@ pub fn uncaged() -> UncagedConfiguration {
     UncagedBallScrewConfiguration {
         folded: &BALL_RANGE,
         ball_friction: 0.1,
+        balls: SCREW_BALLS as u16,
         turns: 2.5,
         return_length: 0.01,
         screw_deviation: &BALL_SCREW_MAP,
@@ -271,6 +272,7 @@ pub const CROWD: usize = 48;
 pub fn crowded() -> UncagedConfiguration {
     UncagedBallScrewConfiguration {
         folded: changed(&BALL_RANGE, |folded| folded.limits.nut_speed = 100.0),
+        balls: CROWD as u16,
         tick: 5e-4,
         ..uncaged()
     }
@@ -288,6 +290,7 @@ pub fn full(screw_deviation: &'static DeviationMap, tick: f32) -> UncagedBallScr
             };
         }),
         ball_friction: 0.1,
+        balls: SCREW_BALLS as u16,
         turns: 2.0,
         return_length: 0.0,
         screw_deviation,
@@ -317,6 +320,7 @@ pub fn linear() -> LinearBearingConfiguration {
         .unwrap(),
         friction: 0.1,
         ball_friction: 0.1,
+        balls: LINEAR_BALLS as u16,
         loaded_length: 0.12,
         return_length: 0.05,
         wavelength: 0.06,

@@ -5,6 +5,7 @@ mod kit;
 
 mod borders;
 mod caged;
+mod capacity;
 mod closed_form;
 mod compensation;
 mod extreme;
