@@ -7,9 +7,9 @@ pub use crate::eval::fit_range;
 pub use crate::failure::Failure;
 pub use crate::simulate::bindings::{
     Balls, Built, Caged, CagedRow, Folded, Friction, Linear, LinearRow, LinearSample, Lines,
-    MOST_BALLS, Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewConfiguration,
-    ScrewSample, Trace, TrainRow, Uncaged, UncagedRow, Use, angle, coefficients, regime_name,
-    remembering, wrapped,
+    Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewConfiguration, ScrewSample,
+    Trace, TrainRow, Uncaged, UncagedRow, Use, angle, coefficients, regime_name, remembering,
+    wrapped,
 };
 
 /// The answer of `eval` to one line, as one line without its end.

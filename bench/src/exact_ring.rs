@@ -6,6 +6,7 @@
 
 use std::f64::consts::TAU;
 
+use epas_design::uncaged::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
 use epas_friction::{
@@ -19,7 +20,6 @@ use epas_reference::friction::ball_screw_ring::{
 };
 use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
-use epas_trains::Folded;
 
 use crate::uncaged::{LEAST_DEVIATION, MARGIN, folded, loads_holding};
 
@@ -242,6 +242,7 @@ impl<const N: usize> Followed<N> {
         let model = FrictionModel::new(&UncagedBallScrewConfiguration {
             folded,
             ball_friction: case.ball_friction as f32,
+            balls: N as u16,
             turns: (case.loaded * turns) as f32,
             return_length: return_length as f32,
             screw_deviation: wave(case.screw)?,

@@ -2,6 +2,7 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use epas_design::uncaged::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::ball::LinearBallParameters;
 use epas_friction::{
@@ -17,7 +18,6 @@ use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::material::Elastic;
-use epas_trains::Folded;
 
 use crate::failure::Failure;
 use crate::uncaged::folded;
@@ -179,6 +179,7 @@ pub fn whole_screw<const N: usize>() -> Result<FrictionModel<UncagedBallScrew<N>
     Ok(FrictionModel::new(&UncagedBallScrewConfiguration {
         folded,
         ball_friction: FRICTION as f32,
+        balls: N as u16,
         turns: (2.0 * N as f32 / 37.0).max(0.11),
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,

@@ -3,17 +3,17 @@
 //! Folding takes some seconds. A law is folded once, and that of a built-in design never: `folds`. It is kept as long as the program
 //! runs, because models refer to it: five kilobytes for one friction coefficient, fifteen for a range.
 
-use epas_design::uncaged::{NODES, UncagedBlock};
+use epas_design::uncaged::{Folded, NODES, UncagedBlock};
 use epas_design::{FoldedUncaged, UncagedFold};
 use epas_friction::Error;
 use epas_friction::scene::FoldedBall;
-use epas_trains::{Folded, ScrewConfiguration};
 
 use crate::caged::{range_for, shown};
 use crate::designs::Design;
 use crate::designs::train::UncagedDesign;
 use crate::failure::Failure;
 use crate::folds::{Folds, digest_of};
+use crate::simulate::balls::ScrewConfiguration;
 
 /// Laws that need no fold.
 static FOLDS: Folds<Folded> = Folds::new(usize::MAX, |words| Ok(leaked(&block_of(words)?)));
@@ -159,6 +159,7 @@ pub const fn configuration_with(row: &UncagedDesign, folded: Folded) -> ScrewCon
     ScrewConfiguration {
         folded,
         ball_friction: row.ball_friction,
+        balls: row.balls as u16,
         turns: row.turns,
         return_length: row.return_length,
         screw_deviation: row.screw_deviation,
@@ -252,8 +253,8 @@ mod tests {
             tick: 1e-4,
             ..configuration_with(&row, Folded::One(law))
         };
-        let plain = epas_trains::Configuration::Plain(made);
-        let mut model = epas_trains::screw(row.balls, &plain).unwrap().unwrap();
+        let plain = crate::simulate::balls::Configuration::Plain(made);
+        let mut model = crate::simulate::balls::screw(&plain).unwrap();
         let found = model.step(epas_friction::Inputs {
             nut_speed: 10.0,
             axial_load: 400.0,

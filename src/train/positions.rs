@@ -76,7 +76,7 @@ impl<const N: usize> Train<N> {
         in_range("balls", gaps.len() as f32, 1.0, N as f32)?;
         let track = Track::new(length, pitch, gaps.len())?;
         let mut free = (1_u64 << 32) - gaps.len() as u64 * u64::from(track.pitch());
-        let mut train = Self::at_rest(track, gaps.len());
+        let mut train = Self::spread(track, gaps.len());
         let mut next = 0_u32;
         for (ball, &gap) in train.press.balls_mut().iter_mut().zip(gaps) {
             ball.set_position(next);
@@ -106,13 +106,9 @@ impl<const N: usize> Train<N> {
         let less_one = count.wrapping_neg().checked_div(count).unwrap_or_default();
         let step = less_one.wrapping_add(1);
         let mut train = Self::at_rest(track, balls);
-        // Over all places, not the balls alone: the compiler knows how many.
+        // Over all places, beyond the balls too: the compiler knows how many.
         for (index, ball) in train.press.places.iter_mut().enumerate() {
-            ball.set_position(if index < balls {
-                step.wrapping_mul(index as u32)
-            } else {
-                0
-            });
+            ball.set_position(step.wrapping_mul(index as u32));
         }
         train
     }

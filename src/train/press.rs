@@ -81,7 +81,7 @@ impl InputCheck {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Press<const N: usize> {
-    /// Those beyond the count stay idle.
+    /// Those beyond the count are not read.
     pub(super) places: [Ball; N],
     /// 1 to `N`.
     count: u8,

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use epas_design::UncagedFold;
 use epas_friction::{Error, Inputs, Outputs, UncagedOutputs};
 use epas_reference::promises;
-use epas_trains::{Built, ScrewConfiguration};
 
+use super::balls::{Built, ScrewConfiguration, screw as screw_of};
 use super::beyond::Beyond;
 use super::exact_screw::exact_screw;
 use super::manoeuvre::Manoeuvre;
@@ -112,7 +112,7 @@ impl Uncaged {
         };
         let friction = self.balls.gear.friction;
         let whole = memory::whole(configuration, remembered, tick, friction)?;
-        epas_trains::screw(self.balls.balls, &whole)
+        screw_of(&whole)
     }
 }
 

@@ -1,24 +1,12 @@
 //! A ball screw whose balls press on each other.
 
+use epas_design::uncaged::Folded;
 use epas_friction::scene::{FoldedBall, UncagedBallScrew, UncagedBallScrewConfiguration};
 use epas_friction::{DeviationMap, FrictionModel, Inputs, LoadShares, UncagedOutputs};
 
-use crate::balls::{Built, Configuration};
-use crate::memory::{Remembering, RememberingConfiguration};
-use crate::number::with_balls;
-use crate::row::{Row, pressing};
-
-/// Friction coefficients of a block for a range of them.
-pub const NODES: usize = 3;
-
-/// What a host has folded of a screw's ball, for one friction coefficient or a range of them.
-#[derive(Clone, Copy, Debug)]
-pub enum Folded {
-    /// One friction coefficient.
-    One(&'static FoldedBall<1>),
-    /// A range of them.
-    Range(&'static FoldedBall<NODES>),
-}
+use super::memory::{Remembering, RememberingConfiguration};
+use super::row::{Row, pressing};
+use super::{Built, CAPACITY, Configuration};
 
 /// What is set for a screw beside what a host has folded of its ball: see [`UncagedBallScrewConfiguration`].
 #[derive(Clone, Copy, Debug)]
@@ -27,6 +15,8 @@ pub struct ScrewConfiguration {
     pub folded: Folded,
     /// Friction coefficient of ball and ball.
     pub ball_friction: f32,
+    /// Balls in the circuit, 1 to 64.
+    pub balls: u16,
     /// Turns of the loaded track.
     pub turns: f32,
     /// Length of the return, m.
@@ -43,13 +33,14 @@ pub struct ScrewConfiguration {
 
 impl ScrewConfiguration {
     /// The scene's configuration, with one of the blocks.
-    const fn with<const N: usize>(
+    pub(crate) const fn with<const N: usize>(
         &self,
         folded: &'static FoldedBall<N>,
     ) -> UncagedBallScrewConfiguration<N> {
         UncagedBallScrewConfiguration {
             folded,
             ball_friction: self.ball_friction,
+            balls: self.balls,
             turns: self.turns,
             return_length: self.return_length,
             screw_deviation: self.screw_deviation,
@@ -60,37 +51,36 @@ impl ScrewConfiguration {
     }
 }
 
-/// A screw for a range of friction coefficients.
-type RangeScrew<const N: usize> = UncagedBallScrew<N, NODES>;
-
-/// A ball screw with so many balls, 1 to 64.
+/// A ball screw.
 ///
 /// # Errors
 /// [`epas_friction::Error`] naming a field out of range.
-pub fn screw(
-    balls: u8,
-    configuration: &Configuration<ScrewConfiguration>,
-) -> Built<Inputs, UncagedOutputs> {
+pub fn screw(configuration: &Configuration<ScrewConfiguration>) -> Built<Inputs, UncagedOutputs> {
     match configuration {
         Configuration::Plain(plain) => match plain.folded {
-            Folded::One(folded) => {
-                with_balls!(plain, UncagedBallScrew, balls, &plain.with(folded))
-            }
-            Folded::Range(folded) => {
-                with_balls!(plain, RangeScrew, balls, &plain.with(folded))
-            }
+            Folded::One(folded) => of_plain(&plain.with(folded)),
+            Folded::Range(folded) => of_plain(&plain.with(folded)),
         },
         Configuration::Remembering(whole) => match whole.scene.folded {
-            Folded::One(folded) => {
-                let scene = whole.scene.with(folded);
-                with_balls!(remembering, UncagedBallScrew, balls, &around(whole, scene))
-            }
-            Folded::Range(folded) => {
-                let scene = whole.scene.with(folded);
-                with_balls!(remembering, RangeScrew, balls, &around(whole, scene))
-            }
+            Folded::One(folded) => of_remembering(&around(whole, whole.scene.with(folded))),
+            Folded::Range(folded) => of_remembering(&around(whole, whole.scene.with(folded))),
         },
     }
+}
+
+fn of_plain<const NODES: usize>(
+    configuration: &UncagedBallScrewConfiguration<NODES>,
+) -> Built<Inputs, UncagedOutputs> {
+    let model = FrictionModel::<UncagedBallScrew<CAPACITY, NODES>>::new(configuration)?;
+    Ok(Box::new(model))
+}
+
+fn of_remembering<const NODES: usize>(
+    configuration: &RememberingConfiguration<UncagedBallScrewConfiguration<NODES>>,
+) -> Built<Inputs, UncagedOutputs> {
+    let model =
+        FrictionModel::<Remembering<UncagedBallScrew<CAPACITY, NODES>>>::new(configuration)?;
+    Ok(Box::new(model))
 }
 
 /// The same memory around another scene.
