@@ -422,7 +422,7 @@ pub struct LinearOutputs {
 pub const EPAS_LINEAR_STATE_BYTES: u32 = 613u32;
 
 /// Size of `epas_linear_t` in words of eight bytes.
-pub const EPAS_LINEAR_WORDS: usize = 282;
+pub const EPAS_LINEAR_WORDS: usize = 283;
 
 /// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]
