@@ -2,6 +2,7 @@
 
 mod borders;
 pub mod caged;
+mod capacity;
 mod closed_form;
 mod compensation;
 mod extreme;

@@ -106,7 +106,7 @@ fn light_balls_between_heavy_ones_whole() {
 /// A track with `spare` of a ball left, run for `ticks` with free speeds that change now and then.
 fn full_track<const N: usize>(spare: f32, ticks: u32, random: &mut Random) {
     let pitch = 1.0 / (N as f32 + spare);
-    let mut train = Train::<N>::evenly_spaced(1.0, pitch).unwrap();
+    let mut train = Train::<N>::evenly_spaced(1.0, pitch, N).unwrap();
     let before: f64 = train.gaps().map(f64::from).sum();
     let mut free = [0.0; N];
     let mut impedance = [1e3; N];
@@ -148,6 +148,7 @@ fn tracks_full_and_almost_full_keep_every_ball() {
 /// A gear turning to and fro for `ticks`, checked all along.
 fn long_run<const N: usize>(ticks: u64, every: u64) {
     let mut configuration = gears::uncaged();
+    configuration.balls = N as u16;
     configuration.turns = 2.5 * N as f32 / 37.0;
     let mut model = FrictionModel::<gears::UncagedScrew<N>>::new(&configuration).unwrap();
     // A rotation for the sine of speed and load, renewed now and then.
@@ -204,7 +205,7 @@ fn a_thousand_million_ticks() {
 fn the_row_goes_as_far_as_the_nut_turns() {
     // Without deviations balls keep their distances and the row advances by the sum of travels: f32
     // rounds each to 6e-8 of itself.
-    let mut train = Train::<8>::evenly_spaced(0.25, 0.01).unwrap();
+    let mut train = Train::<8>::evenly_spaced(0.25, 0.01, 8).unwrap();
     let start: Vec<u32> = train.positions().collect();
     let travel = 3.7e-5_f32;
     let ticks = 3_000_000_u32;

@@ -80,6 +80,7 @@ impl Case {
             bearing: self.bearing(),
             friction: self.friction as f32,
             ball_friction: self.ball_friction as f32,
+            balls: BALLS as u16,
             loaded_length: LOADED as f32,
             return_length: 0.0,
             wavelength: LOADED as f32,

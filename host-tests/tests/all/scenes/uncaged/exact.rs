@@ -100,6 +100,7 @@ pub fn screw<const NODES: usize>(
     UncagedBallScrewConfiguration {
         folded,
         ball_friction,
+        balls: BALLS as u16,
         turns: 0.8463,
         return_length: 0.0,
         screw_deviation: wave(1, 3, 0.0, DEVIATIONS[0]),
