@@ -1128,7 +1128,7 @@ typedef struct epas_memory_t {
 } epas_memory_t;
 
 /**
- * A ball screw that was folded on a host: the words that `epas-bench design` writes into a header, or those of a calibration page. They are
+ * A ball screw that was folded on a host: the words that `epas design` writes into a header, or those of a calibration page. They are
  * read while a model is made or swapped, or a folded ball is decoded, and need not stay.
  */
 typedef struct epas_block_t {
@@ -1255,7 +1255,7 @@ typedef struct epas_memory_configuration_t {
     struct epas_coefficient_t coefficient;
     /**
      * Friction of gross sliding for which the two breakaway angles hold, N m, 1e-9 to 1e9. This number and the next three follow from the
-     * design: `epas-bench simulate --memory` prints them, at the mean load of its trace.
+     * design: `epas simulate --memory` prints them, at the mean load of its trace.
      */
     float reference_torque;
     /**

@@ -123,7 +123,7 @@ pub struct Outputs {
     pub faults: u32,
 }
 
-/// A ball screw that was folded on a host: the words that `epas-bench design` writes into a header, or those of a calibration page. They are
+/// A ball screw that was folded on a host: the words that `epas design` writes into a header, or those of a calibration page. They are
 /// read while a model is made or swapped, or a folded ball is decoded, and need not stay.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
