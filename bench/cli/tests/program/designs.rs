@@ -8,7 +8,7 @@ use crate::{Run, run_in};
 
 /// Folder of the files, in the tree.
 fn designs() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("designs")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../designs")
 }
 
 /// A place with the files where the page has them.
@@ -33,9 +33,7 @@ fn said(folder: &Path, arguments: &str) -> Run {
 fn the_commands_of_the_page_run() {
     let place = place();
     let page = fs::read_to_string(designs().join("README.md")).unwrap();
-    let commands = page
-        .lines()
-        .filter_map(|line| line.strip_prefix("epas-bench "));
+    let commands = page.lines().filter_map(|line| line.strip_prefix("epas "));
     let mut used = BTreeSet::new();
     for command in commands {
         let command = command.split('#').next().unwrap().trim_end();

@@ -7,14 +7,11 @@ mod calibrated;
 mod design;
 mod designs;
 mod eval;
-mod friction_task;
 mod help;
 mod loads;
 mod pairs;
-mod report;
 mod simulate;
 mod simulate_trains;
-mod target;
 mod trains;
 mod untrusted;
 
@@ -37,7 +34,7 @@ fn run_in(folder: &Path, arguments: &[&str], input: &str) -> Run {
 
 /// Runs the program in a folder with some input and some variables of its environment changed.
 fn run_with(folder: &Path, arguments: &[&str], input: &str, variables: &[(&str, &Path)]) -> Run {
-    let mut child = Command::new(env!("CARGO_BIN_EXE_epas-bench"))
+    let mut child = Command::new(env!("CARGO_BIN_EXE_epas"))
         .args(arguments)
         .current_dir(folder)
         .envs(variables.iter().copied())
@@ -73,7 +70,7 @@ fn run(arguments: &[&str], input: &str) -> Run {
 fn help_names_every_subcommand() {
     let help = run(&["--help"], "");
     assert_eq!(help.code, 0);
-    for subcommand in ["report", "simulate", "design", "eval", "target"] {
+    for subcommand in ["simulate", "design", "eval", "calibrate", "fmu", "a2l"] {
         assert!(help.stdout.contains(subcommand));
         assert_eq!(run(&[subcommand, "--help"], "").code, 0);
     }
@@ -127,9 +124,6 @@ fn numbers_below_zero_are_told_their_range() {
             "calibrate --wanted nonsense --design lin-4.1",
             "allowed: friction, ",
         ),
-        ("report --rounds -1", "rounds are 1 to"),
-        ("report --rounds 0", "rounds are 1 to"),
-        ("screws --screws -1", "1..=100000"),
     ] {
         let run = run(&arguments.split(' ').collect::<Vec<_>>(), "");
         assert_eq!(run.code, 2, "{arguments}");
@@ -143,7 +137,7 @@ fn numbers_below_zero_are_told_their_range() {
 #[test]
 fn a_full_error_output_is_no_panic() {
     let full = std::fs::File::create("/dev/full").unwrap();
-    let status = Command::new(env!("CARGO_BIN_EXE_epas-bench"))
+    let status = Command::new(env!("CARGO_BIN_EXE_epas"))
         .args(["calibrate", "none.csv"])
         .stderr(full)
         .status()
@@ -181,7 +175,6 @@ fn wrong_usage_ends_with_code_2() {
             "--scene",
             "uncaged",
         ],
-        &["report", "--output"],
     ] {
         let run = run(arguments, "");
         assert_eq!(run.code, 2, "{arguments:?}: {}", run.stderr);
