@@ -5,6 +5,8 @@
 //! | [`Press`] | forces between balls from their free speeds, impedances and rooms: one exact pass |
 //! | [`Train`] | the balls' positions on a closed track, and a tick that moves them |
 //!
+//! `N` of the types is the number of balls that there is room for, 1 to 255; a train has 1 to `N`, from when it is made on.
+//!
 //! A ball is known here by two numbers alone, the speed at which it would run on its own and the force that
 //! changes this speed by one, its impedance. Where the numbers come from is not its concern. [`Press`] says what is
 //! solved; this page says how, file by file, for whoever reviews it.
@@ -91,5 +93,6 @@ pub(crate) use grip::{Grip, LARGEST_GRIP, limited_grip};
 pub(crate) use intake::Intake;
 pub use positions::{BallContact, Train};
 pub use press::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
+pub(crate) use stored::BALL_BYTES;
 pub use track::LARGEST_TRAVEL;
 pub(crate) use track::Track;

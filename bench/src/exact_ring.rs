@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use epas_design::uncaged_scene::Folded;
+use epas_design::uncaged::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
 use epas_friction::{
@@ -255,6 +255,7 @@ impl<const N: usize> Followed<N> {
         let model = FrictionModel::new(&UncagedBallScrewConfiguration {
             folded,
             ball_friction: case.ball_friction as f32,
+            balls: N as u16,
             turns: (case.loaded * turns) as f32,
             return_length: return_length as f32,
             screw_deviation: wave(case.screw)?,

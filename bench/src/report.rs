@@ -86,12 +86,20 @@ pub fn rounds(text: &str) -> Result<usize, String> {
 /// Makes a section.
 pub type MakeSection<C> = fn(&C) -> Result<Section, Failure>;
 
-/// Heading of a part, whether it is unfolded, and its sections with a line on each.
-pub type Plan<C> = (
-    &'static str,
-    bool,
-    &'static [(MakeSection<C>, &'static str)],
-);
+/// A section, a line on it, and its share of the time in any unit.
+pub type PlannedSection<C> = (MakeSection<C>, &'static str, f64);
+
+/// Heading of a part, whether it is unfolded, and its sections.
+pub type Plan<C> = (&'static str, bool, &'static [PlannedSection<C>]);
+
+/// Shares of the time of all sections of some parts.
+pub fn shares<C>(plans: &[Plan<C>]) -> impl Iterator<Item = f64> {
+    let sections = plans.iter().flat_map(|(_, _, sections)| *sections);
+    sections.map(|(_, _, share)| *share)
+}
+
+/// Shares of the stages before the sections: times, 37 balls, formulas, errors.
+const BEFORE: [f64; 4] = [2.0, 3.5, 0.1, 6.0];
 
 /// Every section, in the order of the report: what firmware steps first, then what it is made of.
 const PARTS: [Plan<Context>; 2] = [
@@ -102,18 +110,22 @@ const PARTS: [Plan<Context>; 2] = [
             (
                 friction::section,
                 "torque over a manoeuvre, its error and its cost",
+                4.5,
             ),
             (
                 uncaged::section,
                 "37 balls against the exact whole screw; pairs; settings",
+                12.5,
             ),
             (
                 stability::section,
                 "worst cases over whole domains, known limits, every promise",
+                5.0,
             ),
             (
                 cortex_m::section,
                 "instructions, modelled cycles, flash, RAM and stack of every function",
+                0.2,
             ),
         ],
     ),
@@ -124,12 +136,18 @@ const PARTS: [Plan<Context>; 2] = [
             (
                 trains::section,
                 "how balls are driven apart or together, and what rubbing costs",
+                0.6,
             ),
             (
                 hertz::section,
                 "the contact ellipse against elliptic integrals",
+                0.1,
             ),
-            (kernels::section, "roots and angles in single precision"),
+            (
+                kernels::section,
+                "roots and angles in single precision",
+                0.2,
+            ),
         ],
     ),
 ];
@@ -148,8 +166,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .unwrap_or(if quick { ROUNDS } else { FULL_ROUNDS });
     // A folder that cannot be written to is found before anything is computed.
     folder::check(&arguments.output, arguments.force)?;
-    let sections: usize = PARTS.iter().map(|(_, _, sections)| sections.len()).sum();
-    let stages = Stages::new(sections + 4);
+    let stages = Stages::new(BEFORE.into_iter().chain(shares(&PARTS)).collect());
     stages.next("times on this machine");
     let competition = compete(rounds)?;
     stages.next("37 balls beside the exact whole screw");
@@ -172,13 +189,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let errors = accuracy::section(&context.accuracy, quick)?;
     errors.print()?;
     let mut parts = parts(&PARTS, &context, &stages)?;
-    let lead = |title, section| (title, section);
     let first = [
-        lead(
+        (
             "every formula: largest error beside the time of one call",
             summary,
         ),
-        lead(
+        (
             "every scene and formula: error at the same state, flagged states counted",
             errors,
         ),
@@ -208,7 +224,7 @@ pub fn parts<C>(plans: &[Plan<C>], context: &C, stages: &Stages) -> Result<Vec<P
     plans
         .iter()
         .map(|&(title, open, sections)| {
-            let sections = sections.iter().map(|(make, lead)| {
+            let sections = sections.iter().map(|(make, lead, _)| {
                 stages.next(lead);
                 let section = make(context)?;
                 section.print()?;

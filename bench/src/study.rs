@@ -4,7 +4,7 @@ use std::f32::consts::{PI, TAU};
 use std::f64::consts::FRAC_PI_4;
 
 use epas_design::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts, Tables};
-use epas_design::uncaged_scene::Folded;
+use epas_design::uncaged::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::ball::LinearBallParameters;
 use epas_friction::law::coefficient::OneCoefficient;
@@ -185,6 +185,7 @@ pub fn whole_screw<const N: usize>() -> Result<FrictionModel<UncagedBallScrew<N>
     Ok(FrictionModel::new(&UncagedBallScrewConfiguration {
         folded,
         ball_friction: FRICTION as f32,
+        balls: N as u16,
         turns: (2.0 * N as f32 / 37.0).max(0.11),
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,

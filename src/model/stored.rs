@@ -7,6 +7,7 @@ use crate::law::Elements;
 use crate::law::motion::NutAngle;
 use crate::scene::{CoefficientFor, Scene, Sliding, StoredScene, WithMemory, WithMemoryConstants};
 use crate::stored::{Block, Fingerprint, Fingerprinted, Label, OVERHEAD, Refusal, Stored};
+use crate::train::BALL_BYTES;
 
 impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// Bytes of a block that holds the state: see [`stored`](crate::stored) for its layout.
@@ -104,12 +105,14 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     fn block(&self) -> Block {
         let mut fingerprint = Fingerprint::default();
         S::fingerprint(self.constants.borrow(), &mut fingerprint);
+        let balls = S::balls(&self.state);
         let label = Label {
             kind: S::KIND,
-            balls: S::BALLS,
+            balls,
             fingerprint,
         };
-        Block::new(label, <S::State as Stored>::BYTES)
+        let missing = usize::from(S::BALLS.saturating_sub(balls));
+        Block::new(label, <S::State as Stored>::BYTES - missing * BALL_BYTES)
     }
 
     /// Reads a block into a copy of the state.

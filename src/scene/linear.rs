@@ -20,7 +20,7 @@ pub use configuration::LinearBearingConfiguration;
 pub use inputs::{LinearInputs, LinearLimits};
 pub use step::LinearFriction;
 
-/// A linear bearing without cage, with `N` balls in one circuit, in four-point contact: the published
+/// A linear bearing without cage, with up to `N` balls in one circuit, in four-point contact: the published
 /// closed form for every ball ([`AnalyticLinearBall`]), with its corrections.
 ///
 /// Unflagged, with one groove that deviates by up to 3 degrees: the speed of a ball alone is within 7.5e-3 of `v/2` at
@@ -54,7 +54,7 @@ pub struct LinearState<const N: usize> {
     friction: f32,
 }
 
-/// Constants of a linear bearing with `N` balls.
+/// Constants of a linear bearing with up to `N` balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearConstants<const N: usize> {
@@ -191,7 +191,11 @@ impl<const N: usize> LinearConstants<N> {
         let circuit = attempt!(configuration.circuit(&limits, N));
         let (ball, grooves) = attempt!(configuration.friction());
         let angle = bearing.contact_angle();
-        let per_ball = per_loaded_ball(configuration.loaded_length, configuration.return_length, N);
+        let per_ball = per_loaded_ball(
+            configuration.loaded_length,
+            configuration.return_length,
+            configuration.balls,
+        );
         Ok(Self {
             circuit,
             friction,

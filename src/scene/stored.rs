@@ -12,8 +12,13 @@ use crate::stored::{Fingerprint, Port, Refusal, Stored};
 pub trait StoredScene: Scene<State: Stored + Copy> {
     /// Number of the kind of scene in a block.
     const KIND: u16;
+    /// Most balls in the circuit, 0 without one.
+    const BALLS: u16 = 0;
+
     /// Balls in the circuit, 0 without one.
-    const BALLS: u16;
+    fn balls(_: &Self::State) -> u16 {
+        0
+    }
 
     /// Takes in all of the constants that a state's numbers are read with: geometry, elasticity, circuit, friction coefficient
     /// and clearance. Limits, the reversal speed, the tick, loads' shares and deviations may change from one ignition to

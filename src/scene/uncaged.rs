@@ -24,7 +24,7 @@ pub use closed_form::CatalogueBall;
 pub use configuration::{FoldedBall, UncagedBallScrewConfiguration};
 pub use step::UncagedFriction;
 
-/// A ball screw without cage, with `N` balls in one circuit: friction of the grooves and between balls, by the folded law of one ball, for
+/// A ball screw without cage, with up to `N` balls in one circuit: friction of the grooves and between balls, by the folded law of one ball, for
 /// `NODES` friction coefficients.
 ///
 /// Every ball is evaluated in every tick, at its position, under the load of this tick: nothing settles after a start, a reversal or a step of the
@@ -55,7 +55,7 @@ pub struct UncagedState<const N: usize> {
     friction: FrictionInterval,
 }
 
-/// Constants of a ball screw without cage, with `N` balls.
+/// Constants of a ball screw without cage, with up to `N` balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedConstants<const N: usize, const NODES: usize = 1> {
@@ -155,6 +155,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let UncagedBallScrewConfiguration {
             folded,
             ball_friction,
+            balls,
             return_length,
             screw_deviation,
             nut_deviation,
@@ -180,7 +181,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         attempt!(screw_deviation.checked("screw_deviation", screw));
         attempt!(nut_deviation.checked("nut_deviation", nut));
         let units = circuit.deviation_units();
-        let per_ball = per_loaded_ball(configuration.loaded_length(), return_length, N);
+        let per_ball = per_loaded_ball(configuration.loaded_length(), return_length, balls);
         Ok(Self {
             law,
             friction: law.interval(friction),

@@ -56,11 +56,11 @@ impl<const N: usize> Train<N> {
     /// [`LARGEST_TRAVEL`](super::LARGEST_TRAVEL) of the track as that. Speeds and impedances as in
     /// [`Press::solve`](super::Press::solve), whose answer is returned: where it is false, all balls move with the
     /// nominal speed and press on none.
-    pub fn step(&mut self, free: &[f32; N], impedance: &[f32; N], travel: f32) -> bool {
-        let mut check = InputCheck::default();
+    pub fn step(&mut self, free: &[f32], impedance: &[f32], travel: f32) -> bool {
+        let mut check = InputCheck::of_lists(self.press.balls().len(), [free, impedance]);
         let (travel, mut ahead) = self.begin(travel);
         let inputs = free.iter().zip(impedance);
-        for (ball, (&speed, &impedance)) in self.press.balls.iter_mut().zip(inputs).rev() {
+        for (ball, (&speed, &impedance)) in self.press.balls_mut().iter_mut().zip(inputs).rev() {
             check.add(speed, impedance);
             ahead.take_in(ball, speed, impedance);
         }
@@ -73,7 +73,7 @@ impl<const N: usize> Train<N> {
     pub(crate) fn intake(&mut self, travel: f32) -> Intake<'_, N> {
         let (travel, ahead) = self.begin(travel);
         Intake {
-            left: N,
+            left: self.balls().min(N),
             travel,
             ahead,
             train: self,
@@ -84,7 +84,7 @@ impl<const N: usize> Train<N> {
     #[inline(always)]
     fn begin(&self, travel: f32) -> (f32, Ahead) {
         let travel = self.track.in_units(travel);
-        let first = self.press.balls.first().map_or(0, Ball::position);
+        let first = self.press.balls().first().map_or(0, Ball::position);
         let ahead = Ahead {
             rooms: Rooms::behind(first, self.track, travel),
             // Not known before the first ball comes, at the end: `complete` puts it in.
@@ -107,14 +107,15 @@ impl<const N: usize> Train<N> {
     /// it first and the ball in front of it last: these two pairs alone may overlap by rounding.
     #[inline(always)]
     fn complete(&mut self, rooms: &Rooms) {
-        let last = N - 1;
-        let press = &mut self.press;
-        for index in [last, press.foremost()] {
+        let last = usize::from(self.press.last());
+        let foremost = self.press.foremost();
+        let balls = self.press.balls_mut();
+        for index in [last, foremost] {
             let ahead = if index == last { 0 } else { index + 1 };
-            let Some(&ahead) = press.balls.get(ahead) else {
+            let Some(&ahead) = balls.get(ahead) else {
                 continue;
             };
-            if let Some(ball) = press.balls.get_mut(index) {
+            if let Some(ball) = balls.get_mut(index) {
                 let room = rooms.without_overlap(ball.position(), ahead.position());
                 ball.set_slack(room + (ahead.free_speed() - ball.free_speed()));
             }
@@ -141,7 +142,7 @@ impl<const N: usize> Intake<'_, N> {
     #[inline(always)]
     pub(crate) fn next_ball(&mut self) -> Option<FreeBall<'_>> {
         self.left = self.left.checked_sub(1)?;
-        let ball = self.train.press.balls.get_mut(self.left)?;
+        let ball = self.train.press.places.get_mut(self.left)?;
         Some(FreeBall {
             ball,
             ahead: &mut self.ahead,

@@ -4,9 +4,9 @@ use super::ball::Ball;
 use super::press::Press;
 use super::track::OVERLAP;
 use super::track::Track;
-use crate::error::{Error, in_range};
+use crate::error::{Error, attempt, in_range};
 
-/// Balls on a closed track, which they fill in part: positions, distances, forces, from tick to tick.
+/// Up to `N` balls on a closed track, which they fill in part: positions, distances, forces, from tick to tick.
 ///
 /// Positions are integers, in units of the track's length over 2³² (a tenth of a nanometre on half a
 /// metre): they wrap around where the track closes, and distances that open and close for hours do not
@@ -49,62 +49,75 @@ pub struct BallContact {
 }
 
 impl<const N: usize> Train<N> {
-    /// Whether its balls stand on this track.
+    /// How many balls it has.
+    #[must_use]
+    pub const fn balls(&self) -> usize {
+        self.press.count() as usize
+    }
+
+    /// Whether it has as many balls, on this track.
     ///
     /// # Errors
-    /// [`Error`] naming `length` or `pitch`, m, where they stand on another one.
-    pub(crate) const fn is_on(&self, track: &Track) -> Result<(), Error> {
+    /// [`Error`] naming `balls`, or `length` or `pitch`, m, where they stand on another track.
+    pub(crate) const fn is_on(&self, track: &Track, balls: u16) -> Result<(), Error> {
+        let own = self.balls() as f32;
+        attempt!(in_range("balls", balls as f32, own, own));
         self.track.is_same(track)
     }
 
     /// Balls on a closed track of `length`, m, that stand `pitch`, m, from centre to centre in contact:
-    /// on a straight track the ball diameter, on a helix the arc over it. Ball 0 starts at 0; `gaps[j]`,
-    /// m, is left in front of ball `j`, in front of the last one whatever is left.
+    /// on a straight track the ball diameter, on a helix the arc over it. There are as many balls as gaps: ball 0 starts at 0;
+    /// `gaps[j]`, m, is left in front of ball `j`, in front of the last one whatever is left.
     ///
     /// # Errors
-    /// [`Error`] naming `length` (1e-4 to 1e4), `pitch` (1e-6 of the length to its `N`-th part) or
+    /// [`Error`] naming `balls` (1 to `N`), `length` (1e-4 to 1e4), `pitch` (1e-6 of the length to that over the balls) or
     /// `gaps` (each zero or more, the last one not counted, all no more than the balls leave).
-    pub fn new(length: f32, pitch: f32, gaps: &[f32; N]) -> Result<Self, Error> {
-        let track = Track::new(length, pitch, N)?;
-        let mut free = (1_u64 << 32) - N as u64 * u64::from(track.pitch());
-        let mut positions = [0; N];
+    pub fn new(length: f32, pitch: f32, gaps: &[f32]) -> Result<Self, Error> {
+        in_range("balls", gaps.len() as f32, 1.0, N as f32)?;
+        let track = Track::new(length, pitch, gaps.len())?;
+        let mut free = (1_u64 << 32) - gaps.len() as u64 * u64::from(track.pitch());
+        let mut train = Self::spread(track, gaps.len());
         let mut next = 0_u32;
-        for (position, &gap) in positions.iter_mut().zip(gaps) {
-            *position = next;
+        for (ball, &gap) in train.press.balls_mut().iter_mut().zip(gaps) {
+            ball.set_position(next);
             let largest = free as f32 / track.units_per_metre();
             let gap = (in_range("gaps", gap, 0.0, largest)? * track.units_per_metre()) as u64;
             let gap = if gap > free { free } else { gap };
             free -= gap;
             next = next.wrapping_add(track.pitch()).wrapping_add(gap as u32);
         }
-        Ok(Self::at(positions, track))
+        Ok(train)
     }
 
-    /// Balls at equal distances.
+    /// As many balls at equal distances.
     ///
     /// # Errors
     /// As [`Train::new`].
-    pub fn evenly_spaced(length: f32, pitch: f32) -> Result<Self, Error> {
-        Ok(Self::spread(Track::new(length, pitch, N)?))
+    pub fn evenly_spaced(length: f32, pitch: f32, balls: usize) -> Result<Self, Error> {
+        in_range("balls", balls as f32, 1.0, N as f32)?;
+        Ok(Self::spread(Track::new(length, pitch, balls)?, balls))
     }
 
-    /// Balls at equal distances on a track that was checked for this number of balls.
-    pub(crate) fn spread(track: Track) -> Self {
-        let step = (1_u64 << 32) / N as u64;
-        Self::at(
-            core::array::from_fn(|ball| (ball as u64 * step) as u32),
-            track,
-        )
-    }
-
-    fn at(positions: [u32; N], track: Track) -> Self {
-        let mut press = Press::new();
-        for (ball, position) in press.balls.iter_mut().zip(positions) {
-            ball.set_position(position);
+    /// Balls at equal distances, their number and the track checked.
+    #[inline(always)]
+    pub(crate) fn spread(track: Track, balls: usize) -> Self {
+        // 2^32 over the balls, in 32 bits.
+        let count = balls as u32;
+        let less_one = count.wrapping_neg().checked_div(count).unwrap_or_default();
+        let step = less_one.wrapping_add(1);
+        let mut train = Self::at_rest(track, balls);
+        // Over all places, beyond the balls too: the compiler knows how many.
+        for (index, ball) in train.press.places.iter_mut().enumerate() {
+            ball.set_position(step.wrapping_mul(index as u32));
         }
+        train
+    }
+
+    #[inline(always)]
+    const fn at_rest(track: Track, balls: usize) -> Self {
         Self {
             carried: 0.0,
-            press,
+            press: Press::of(balls as u8),
             track,
         }
     }
@@ -113,7 +126,7 @@ impl<const N: usize> Train<N> {
     /// units of 2^-32.
     #[inline]
     pub fn positions(&self) -> impl Iterator<Item = u32> + '_ {
-        self.press.balls.iter().map(Ball::position)
+        self.press.balls().iter().map(Ball::position)
     }
 
     /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
@@ -167,7 +180,7 @@ mod tests {
     #[test]
     fn an_overlap_by_rounding_is_a_gap_just_below_zero() {
         let mut train = Train::<2>::new(1.0, 0.01, &[0.0; 2]).unwrap();
-        let rear = &mut train.press.balls[0];
+        let rear = &mut train.press.balls_mut()[0];
         rear.set_position(rear.position().wrapping_add(3));
         // Three of 2^32 units to a metre.
         let gap = train.gaps().next().unwrap();

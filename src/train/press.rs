@@ -6,6 +6,7 @@ use super::pool::pool;
 use super::rubbing::settle_rubbing;
 use super::settle::{Pressing, settle};
 use super::track::Motion;
+use crate::error::{Error, attempt, in_range};
 
 /// Largest free speed that counts, a relative deviation: that of a ball that stands, or runs twice as fast as a nominal one.
 pub const LARGEST_FREE_SPEED: f32 = 1.0;
@@ -15,7 +16,7 @@ pub const LARGEST_FREE_SPEED: f32 = 1.0;
 pub const IMPEDANCE_RANGE: (f32, f32) = (1e-9, 1e9);
 
 /// Whether all free speeds and impedances count, in integers and without a branch for each.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy)]
 pub(super) struct InputCheck {
     /// The sign bit is set where a number does not count.
     outside: u32,
@@ -38,6 +39,15 @@ impl InputCheck {
             | MOST.wrapping_sub(impedance);
     }
 
+    /// For lists of numbers that each have to have one for each ball.
+    #[inline(always)]
+    pub(super) fn of_lists<const LISTS: usize>(balls: usize, lists: [&[f32]; LISTS]) -> Self {
+        let complete = lists.iter().all(|list| list.len() == balls);
+        Self {
+            outside: if complete { 0 } else { 1 << 31 },
+        }
+    }
+
     /// Whether all that was taken in counts.
     #[inline(always)]
     pub(super) fn passed(self) -> bool {
@@ -45,7 +55,7 @@ impl InputCheck {
     }
 }
 
-/// Speeds and forces of a train of `N` balls, 1 to 255, which touch or may touch.
+/// Speeds and forces of a train of up to `N` balls, 1 to 255, which touch or may touch.
 ///
 /// Balls stand in a row, ball `j + 1` in front of ball `j`. Left alone, ball `j` runs at its free speed
 /// `u_j`; a net push `P` makes it run at `u_j + Y_j P` with its compliance `Y_j`. The speed at which a
@@ -71,32 +81,75 @@ impl InputCheck {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Press<const N: usize> {
-    pub(super) balls: [Ball; N],
+    /// Those beyond the count are not read.
+    pub(super) places: [Ball; N],
+    /// 1 to `N`.
+    count: u8,
     pub(super) foremost: u8,
 }
 
 impl<const N: usize> Press<N> {
     const BALLS_FIT: () = assert!(N >= 1 && N <= 255, "a train has 1 to 255 balls");
 
-    /// A train at rest, without forces.
+    /// A train of `N` balls at rest, without forces.
     #[must_use]
     pub const fn new() -> Self {
+        Self::of(N as u8)
+    }
+
+    /// The same with as many balls.
+    ///
+    /// # Errors
+    /// [`Error`] naming `balls` (1 to `N`).
+    pub const fn with_balls(balls: usize) -> Result<Self, Error> {
+        attempt!(in_range("balls", balls as f32, 1.0, N as f32));
+        Ok(Self::of(balls as u8))
+    }
+
+    /// With a number of balls that has been checked.
+    #[inline(always)]
+    pub(crate) const fn of(count: u8) -> Self {
         let () = Self::BALLS_FIT;
         Self {
-            balls: [Ball::IDLE; N],
-            foremost: (N - 1) as u8,
+            places: [Ball::IDLE; N],
+            count,
+            foremost: count.saturating_sub(1),
         }
+    }
+
+    #[inline(always)]
+    pub(super) fn balls(&self) -> &[Ball] {
+        self.places
+            .get(..usize::from(self.count))
+            .unwrap_or_default()
+    }
+
+    #[inline(always)]
+    pub(super) fn balls_mut(&mut self) -> &mut [Ball] {
+        self.places
+            .get_mut(..usize::from(self.count))
+            .unwrap_or_default()
+    }
+
+    pub(super) const fn count(&self) -> u8 {
+        self.count
+    }
+
+    /// Index of the last ball.
+    #[inline(always)]
+    pub(super) const fn last(&self) -> u8 {
+        self.count.saturating_sub(1)
     }
 
     /// Force between ball `j` and the ball in front of it, in the unit of speed times impedance; zero
     /// where they do not press. The last one acts between the last ball and the first.
     pub fn forces(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
-        self.balls.iter().map(Ball::force)
+        self.balls().iter().map(Ball::force)
     }
 
     /// Actual speed of each ball.
     pub fn speeds(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
-        self.balls.iter().map(Ball::speed)
+        self.balls().iter().map(Ball::speed)
     }
 
     /// Index of a ball that does not press on the one in front of it: the last one unless that does, as it can on a
@@ -106,17 +159,17 @@ impl<const N: usize> Press<N> {
         self.foremost as usize
     }
 
-    /// Joins that the last pass needed, at most `N - 1`: what of its cost depends on data.
+    /// Joins that the last pass needed, at most one less than the balls: what of its cost depends on data.
     #[must_use]
     pub fn joins(&self) -> usize {
         let mut joins = 0;
         let mut front = self.foremost();
-        let mut left = N;
+        let mut left = usize::from(self.count);
         while left > 0 {
-            let others = self.balls.get(front).map_or(0, Ball::others);
+            let others = self.balls().get(front).map_or(0, Ball::others);
             joins += others;
             for _ in 0..=others {
-                front = if front == 0 { N - 1 } else { front - 1 };
+                front = front.checked_sub(1).unwrap_or(usize::from(self.last()));
                 left = left.saturating_sub(1);
             }
         }
@@ -125,13 +178,13 @@ impl<const N: usize> Press<N> {
 
     /// Finds actual speeds and forces from free speeds, impedances `1/Y` and rooms.
     ///
-    /// `room[j]` belongs to ball `j` and the one in front of it, the last one to the last ball and the
-    /// first: infinite on an open track. Zero or less is contact, NaN none. A ring without any room
+    /// Each list has a number for each ball. `room[j]` belongs to ball `j` and the one in front of it, the last one to the last
+    /// ball and the first: infinite on an open track. Zero or less is contact, NaN none. A ring without any room
     /// moves as one at the weighted mean speed; its forces are known but for a constant, and the least one
     /// is taken as zero. A ball that nothing drives has a small impedance: it goes along with its
     /// neighbours and presses on none.
     ///
-    /// Returns whether all speeds lie within [`LARGEST_FREE_SPEED`] and all impedances within
+    /// Returns whether all balls have their numbers, all speeds lie within [`LARGEST_FREE_SPEED`] and all impedances within
     /// [`IMPEDANCE_RANGE`]; where not, all speeds and forces are zero.
     ///
     /// Largest error of a force over the largest force: 6e-7 for impedances that differ by up to a factor 4,
@@ -139,11 +192,11 @@ impl<const N: usize> Press<N> {
     /// exhaustive search with up to 9 balls (over a hundredth of what drives the fastest ball where that is
     /// more). Exact otherwise: no iteration, at most `N - 1` joins, one division for each cluster of two or
     /// more balls. Cost for 37 balls: 7,200 modelled cycles.
-    pub fn solve(&mut self, free: &[f32; N], impedance: &[f32; N], room: &[f32; N]) -> bool {
-        let mut check = InputCheck::default();
+    pub fn solve(&mut self, free: &[f32], impedance: &[f32], room: &[f32]) -> bool {
+        let mut check = InputCheck::of_lists(usize::from(self.count), [free, impedance, room]);
         let mut ahead = free.first().copied().unwrap_or(0.0);
         let inputs = free.iter().zip(impedance).zip(room);
-        for (ball, ((&speed, &impedance), &room)) in self.balls.iter_mut().zip(inputs).rev() {
+        for (ball, ((&speed, &impedance), &room)) in self.balls_mut().iter_mut().zip(inputs).rev() {
             check.add(speed, impedance);
             let room = if room < 0.0 { 0.0 } else { room };
             ball.take_in(speed, impedance, room + (ahead - speed));
@@ -164,17 +217,18 @@ impl<const N: usize> Press<N> {
     /// most 0.3 in size. Forces and cost as in [`Self::solve`].
     pub fn solve_rubbing(
         &mut self,
-        free: &[f32; N],
-        impedance: &[f32; N],
-        room: &[f32; N],
-        grip: &[f32; N],
+        free: &[f32],
+        impedance: &[f32],
+        room: &[f32],
+        grip: &[f32],
     ) -> bool {
-        let mut check = InputCheck::default();
+        let lists = [free, impedance, room, grip];
+        let mut check = InputCheck::of_lists(usize::from(self.count), lists);
         let mut ahead = free.first().copied().unwrap_or(0.0);
         let inputs = free.iter().zip(impedance).zip(room);
         let inputs = inputs.zip(grip);
         for (ball, (((&speed, &impedance), &room), &grip)) in
-            self.balls.iter_mut().zip(inputs).rev()
+            self.balls_mut().iter_mut().zip(inputs).rev()
         {
             check.add(speed, impedance);
             let room = if room < 0.0 { 0.0 } else { room };
@@ -196,7 +250,7 @@ impl<const N: usize> Press<N> {
     #[inline(always)]
     pub(super) fn join<const RUBBED: bool>(&mut self, valid: bool) {
         if valid {
-            self.foremost = pool::<RUBBED>(&mut self.balls) as u8;
+            self.foremost = pool::<RUBBED>(self.balls_mut()) as u8;
         } else {
             self.let_go();
         }
@@ -206,11 +260,11 @@ impl<const N: usize> Press<N> {
     #[cold]
     #[inline(never)]
     fn let_go(&mut self) {
-        for ball in &mut self.balls {
+        for ball in self.balls_mut() {
             ball.take_in(0.0, 1.0, 0.0);
             ball.stand_alone();
         }
-        self.foremost = (N - 1) as u8;
+        self.foremost = self.last();
     }
 
     /// Speeds and forces of the clusters, and where the balls go.
@@ -218,9 +272,9 @@ impl<const N: usize> Press<N> {
     pub(super) fn settle<const RUBBED: bool>(&mut self, motion: Motion) -> Pressing {
         let foremost = self.foremost();
         if RUBBED {
-            settle_rubbing(&mut self.balls, foremost, motion)
+            settle_rubbing(self.balls_mut(), foremost, motion)
         } else {
-            settle(&mut self.balls, foremost, motion)
+            settle(self.balls_mut(), foremost, motion)
         }
     }
 }

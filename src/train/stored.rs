@@ -7,15 +7,19 @@ use super::track::Track;
 use crate::error::Range;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
+/// Bytes that a ball takes.
+pub(crate) const BALL_BYTES: usize = Ball::BYTES;
+
 impl<const N: usize> Stored for Train<N> {
-    const BYTES: usize = 4 + 1 + N * Ball::BYTES;
+    const BYTES: usize = 4 + 1 + N * BALL_BYTES;
 
     /// The track stays that of the constants.
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         port.number("carried", &mut self.carried, Range::new(-1.0, 1.0))?;
-        port.count("foremost", &mut self.press.foremost, (N - 1) as u8)?;
+        let last = self.press.last();
+        port.count("foremost", &mut self.press.foremost, last)?;
         self.press
-            .balls
+            .balls_mut()
             .iter_mut()
             .try_for_each(|ball| ball.exchange(port))
     }
@@ -35,7 +39,8 @@ impl<const N: usize> Train<N> {
             .enumerate()
             .map(|(index, (position, ahead))| {
                 let gap = self.track.gap(position, ahead);
-                let rounds = index + 1 == N || index == self.press.foremost();
+                let rounds =
+                    index == usize::from(self.press.last()) || index == self.press.foremost();
                 let gap = if rounds && gap > u32::MAX - OVERLAP {
                     i64::from(gap.cast_signed())
                 } else {

@@ -15,7 +15,7 @@ static epas_linear_t linear;
 /* ---- Stack ------------------------------------------------------------------------------------------- */
 
 #define PAINT 0x5AFE5AFEu
-#define PAINTED_WORDS 8192u
+#define PAINTED_WORDS 4096u
 
 /* Bytes of stack that a step may take. */
 #define STEP_STACK 640u

@@ -680,6 +680,11 @@ extern "C" {
 #define EPAS_FIELD_DRAG_HEATING 100u
 
 /**
+ * `balls`
+ */
+#define EPAS_FIELD_BALLS 101u
+
+/**
  * Samples in a period of a deviation.
  */
 #define EPAS_DEVIATION_SAMPLES 64
@@ -852,20 +857,19 @@ extern "C" {
 #define EPAS_MEMORY_WORDS 265
 
 /**
- * Balls in the circuit of `epas_screw_t` and `epas_screw_range_t`, return included. A screw with another number needs the library
- * built with that number.
+ * Most balls in a circuit, return included. A larger number needs the library built with that number.
  */
-#define EPAS_SCREW_BALLS 37
+#define EPAS_MOST_BALLS 64
 
 /**
- * Bytes of a state of `epas_screw_t`, as `epas_screw_export` writes it.
+ * Bytes of a state of `epas_screw_t` with `EPAS_MOST_BALLS`, as `epas_screw_export` writes it; fewer balls take the first of them.
  */
-#define EPAS_SCREW_STATE_BYTES 370u
+#define EPAS_SCREW_STATE_BYTES 613u
 
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 175
+#define EPAS_SCREW_WORDS 284
 
 /**
  * Friction coefficients of a folded ball for a range of them.
@@ -873,30 +877,24 @@ extern "C" {
 #define EPAS_SCREW_RANGE_NODES 3
 
 /**
- * Bytes of a state of `epas_screw_range_t`, as `epas_screw_range_export` writes it.
+ * Bytes of a state of `epas_screw_range_t`; as `EPAS_SCREW_STATE_BYTES`.
  */
-#define EPAS_SCREW_RANGE_STATE_BYTES 370u
+#define EPAS_SCREW_RANGE_STATE_BYTES 613u
 
 /**
  * Size of `epas_screw_range_t` in words of eight bytes.
  */
-#define EPAS_SCREW_RANGE_WORDS 176
+#define EPAS_SCREW_RANGE_WORDS 285
 
 /**
- * Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
- * library built with that number.
+ * Bytes of a state of `epas_linear_t`; as `EPAS_SCREW_STATE_BYTES`.
  */
-#define EPAS_LINEAR_BALLS 32
-
-/**
- * Bytes of a state of this scene, as `epas_linear_export` writes it.
- */
-#define EPAS_LINEAR_STATE_BYTES 325u
+#define EPAS_LINEAR_STATE_BYTES 613u
 
 /**
  * Size of `epas_linear_t` in words of eight bytes.
  */
-#define EPAS_LINEAR_WORDS 154
+#define EPAS_LINEAR_WORDS 283
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
@@ -1130,7 +1128,7 @@ typedef struct epas_memory_t {
 } epas_memory_t;
 
 /**
- * A ball screw that was folded on a host: the words that `epas-bench design` writes into a header, or those of a calibration page. They are
+ * A ball screw that was folded on a host: the words that `epas design` writes into a header, or those of a calibration page. They are
  * read while a model is made or swapped, or a folded ball is decoded, and need not stay.
  */
 typedef struct epas_block_t {
@@ -1257,7 +1255,7 @@ typedef struct epas_memory_configuration_t {
     struct epas_coefficient_t coefficient;
     /**
      * Friction of gross sliding for which the two breakaway angles hold, N m, 1e-9 to 1e9. This number and the next three follow from the
-     * design: `epas-bench simulate --memory` prints them, at the mean load of its trace.
+     * design: `epas simulate --memory` prints them, at the mean load of its trace.
      */
     float reference_torque;
     /**
@@ -1569,6 +1567,10 @@ typedef struct epas_screw_circuit_t {
      */
     float ball_friction;
     /**
+     * Balls in the circuit, return included, 1 to `EPAS_MOST_BALLS`.
+     */
+    uint32_t balls;
+    /**
      * Turns of the loaded track, 0.1 to 100.
      */
     float turns;
@@ -1761,6 +1763,10 @@ typedef struct epas_linear_configuration_t {
      * Coulomb friction coefficient of ball and ball, 0 to 1.
      */
     float ball_friction;
+    /**
+     * Balls in the circuit, return included, 1 to `EPAS_MOST_BALLS`.
+     */
+    uint32_t balls;
     /**
      * Length of the loaded track, m, 1e-4 to 100.
      */
@@ -2241,7 +2247,7 @@ uint32_t epas_closed_form_swap(struct epas_closed_form_t *place,
                                struct epas_failure_t *failure);
 
 /**
- * Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place, of a folded ball for one friction coefficient. Set-up only. Where it fails,
+ * Makes a ball screw in the place, of a folded ball for one friction coefficient. Set-up only. Where it fails,
  * every step is refused until it succeeds. `failure` may be NULL.
  */
 uint32_t epas_screw_init(struct epas_screw_t *place,
@@ -2281,7 +2287,7 @@ uint32_t epas_screw_swap(struct epas_screw_t *place,
                          struct epas_failure_t *failure);
 
 /**
- * Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place, with a friction coefficient that changes; as `epas_screw_init`.
+ * Makes a ball screw in the place, with a friction coefficient that changes; as `epas_screw_init`.
  */
 uint32_t epas_screw_range_init(struct epas_screw_range_t *place,
                                const struct epas_screw_range_configuration_t *configuration,
@@ -2324,7 +2330,7 @@ uint32_t epas_screw_range_set_friction(struct epas_screw_range_t *place,
                                        struct epas_failure_t *failure);
 
 /**
- * Makes a linear bearing of `EPAS_LINEAR_BALLS` balls in the place. Set-up only. Where it fails, every step is
+ * Makes a linear bearing in the place. Set-up only. Where it fails, every step is
  * refused until it succeeds. `failure` may be NULL.
  */
 uint32_t epas_linear_init(struct epas_linear_t *place,
@@ -2372,7 +2378,7 @@ uint32_t epas_caged_export(const struct epas_caged_t *place,
                            uint32_t length);
 
 /**
- * Takes the state of a block over, of the same lead and the exact length: before the first step. A block that is
+ * Takes the state of a block over, of the same lead: before the first step. What follows the block in `bytes` is not read. A block that is
  * foreign, old or damaged is refused, and the model is as it was. Outside the interrupt.
  */
 uint32_t epas_caged_import(struct epas_caged_t *place,

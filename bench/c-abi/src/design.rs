@@ -7,10 +7,11 @@ use epas_friction::{
 
 use crate::status::{
     EPAS_FIELD_BALL_DENSITY, EPAS_FIELD_BALL_POISSON_RATIO, EPAS_FIELD_BALL_YOUNGS_MODULUS,
-    EPAS_FIELD_GROOVE_DENSITY, EPAS_FIELD_GROOVE_POISSON_RATIO, EPAS_FIELD_GROOVE_YOUNGS_MODULUS,
-    EPAS_FIELD_LOADED_BALLS, EPAS_FIELD_NUT_CONFORMITY, EPAS_FIELD_SCREW_CONFORMITY, Failure,
+    EPAS_FIELD_BALLS, EPAS_FIELD_GROOVE_DENSITY, EPAS_FIELD_GROOVE_POISSON_RATIO,
+    EPAS_FIELD_GROOVE_YOUNGS_MODULUS, EPAS_FIELD_LOADED_BALLS, EPAS_FIELD_NUT_CONFORMITY,
+    EPAS_FIELD_SCREW_CONFORMITY, Failure,
 };
-use crate::types::{BallScrew, LinearBearing, Material};
+use crate::types::{BallScrew, EPAS_MOST_BALLS, LinearBearing, Material};
 
 /// Largest number of balls that carry load in a nut.
 const MOST_LOADED_BALLS: u16 = 1000;
@@ -105,13 +106,17 @@ pub(crate) fn clearance(gap: f32) -> Result<Clearance, Failure> {
 
 /// The crate's number of loaded balls.
 pub(crate) fn loaded_balls(count: u32) -> Result<u16, Failure> {
+    counted(EPAS_FIELD_LOADED_BALLS, count, MOST_LOADED_BALLS)
+}
+
+/// The crate's number of balls in a circuit.
+pub(crate) fn balls(count: u32) -> Result<u16, Failure> {
+    counted(EPAS_FIELD_BALLS, count, EPAS_MOST_BALLS as u16)
+}
+
+fn counted(field: u32, count: u32, most: u16) -> Result<u16, Failure> {
     match u16::try_from(count) {
-        Ok(balls) if (1..=MOST_LOADED_BALLS).contains(&balls) => Ok(balls),
-        _ => Err(Failure::count(
-            EPAS_FIELD_LOADED_BALLS,
-            count,
-            1,
-            u32::from(MOST_LOADED_BALLS),
-        )),
+        Ok(balls) if (1..=most).contains(&balls) => Ok(balls),
+        _ => Err(Failure::count(field, count, 1, u32::from(most))),
     }
 }

@@ -2,12 +2,12 @@
 
 use epas_friction::{LinearBearingConfiguration, LinearBearingTrain, LinearLimits};
 
-use crate::design::linear_bearing;
+use crate::design::{balls, linear_bearing};
 use crate::scene::{CScene, InHeader, Pointers, Tables, TrackPointers, regime};
 use crate::status::Failure;
 use crate::tables::NoTable;
 use crate::types::{
-    EPAS_FAULT_CALL, EPAS_LINEAR_BALLS, EPAS_LINEAR_STATE_BYTES, EPAS_REGIME_STANDING,
+    EPAS_FAULT_CALL, EPAS_LINEAR_STATE_BYTES, EPAS_MOST_BALLS, EPAS_REGIME_STANDING,
     LinearConfiguration, LinearInputs, LinearOutputs, LinearPlace,
 };
 use crate::version::mark;
@@ -24,7 +24,7 @@ impl InHeader for Linear {
 }
 
 impl CScene for Linear {
-    type Scene = LinearBearingTrain<EPAS_LINEAR_BALLS>;
+    type Scene = LinearBearingTrain<EPAS_MOST_BALLS>;
     type Folded = NoTable;
     type Inputs = LinearInputs;
     type Outputs = LinearOutputs;
@@ -59,6 +59,7 @@ impl CScene for Linear {
             bearing: linear_bearing(&configuration.bearing)?,
             friction: configuration.friction,
             ball_friction: configuration.ball_friction,
+            balls: balls(configuration.balls)?,
             loaded_length: configuration.loaded_length,
             return_length: configuration.return_length,
             wavelength: configuration.wavelength,

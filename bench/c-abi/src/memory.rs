@@ -94,7 +94,7 @@ pub struct MemoryConfiguration {
     /// The friction coefficient in the loop.
     pub coefficient: Coefficient,
     /// Friction of gross sliding for which the two breakaway angles hold, N m, 1e-9 to 1e9. This number and the next three follow from the
-    /// design: `epas-bench simulate --memory` prints them, at the mean load of its trace.
+    /// design: `epas simulate --memory` prints them, at the mean load of its trace.
     pub reference_torque: f32,
     /// Share of slip across the ball path in the friction, 1e-6 to 0.999999; the rest is spin of the contacts.
     pub slip_share: f32,

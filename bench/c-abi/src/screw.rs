@@ -3,11 +3,12 @@
 use epas_friction::scene::FoldedBall;
 use epas_friction::{Error, LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration};
 
+use crate::design::balls;
 use crate::scene::{CScene, InHeader, Pointers, Tables, TrackPointers, regime, screw_inputs};
 use crate::status::{EPAS_FIELD_FOLDED, EPAS_NULL_POINTER, Failure};
 use crate::tables::{PlacedTable, Table};
 use crate::types::{
-    EPAS_FAULT_CALL, EPAS_REGIME_STANDING, EPAS_SCREW_BALLS, EPAS_SCREW_RANGE_NODES,
+    EPAS_FAULT_CALL, EPAS_MOST_BALLS, EPAS_REGIME_STANDING, EPAS_SCREW_RANGE_NODES,
     EPAS_SCREW_RANGE_STATE_BYTES, EPAS_SCREW_STATE_BYTES, Inputs, ScrewCircuit, ScrewConfiguration,
     ScrewOutputs, ScrewPlace, ScrewRangeConfiguration, ScrewRangePlace,
 };
@@ -66,7 +67,7 @@ where
     Self: InHeader<Configuration: OfNodes<NODES>>,
     FoldedBall<NODES>: Table,
 {
-    type Scene = UncagedBallScrew<EPAS_SCREW_BALLS, NODES>;
+    type Scene = UncagedBallScrew<EPAS_MOST_BALLS, NODES>;
     type Folded = FoldedBall<NODES>;
     type Inputs = Inputs;
     type Outputs = ScrewOutputs;
@@ -105,6 +106,7 @@ where
         Ok(UncagedBallScrewConfiguration {
             folded: tables.folded.ok_or_else(none)?,
             ball_friction: circuit.ball_friction,
+            balls: balls(circuit.balls)?,
             turns: circuit.turns,
             return_length: circuit.return_length,
             screw_deviation: tables.track.passing,

@@ -244,10 +244,12 @@ pub const EPAS_FIELD_FOLDED: u32 = 98u32;
 pub const EPAS_FIELD_DRAG_TORQUE: u32 = 99u32;
 /// `coefficient.drag_heating`
 pub const EPAS_FIELD_DRAG_HEATING: u32 = 100u32;
+/// `balls`
+pub const EPAS_FIELD_BALLS: u32 = 101u32;
 
 /// Number, name in C, and the crate's name: empty where only this layer names the field. A field to which the crate
 /// gives a name of its own in each scene has a row for each.
-const FIELDS: [(u32, &CStr, &str); 102] = [
+const FIELDS: [(u32, &CStr, &str); 103] = [
     (EPAS_FIELD_PITCH_RADIUS, c"pitch_radius", "pitch_radius"),
     (EPAS_FIELD_LEAD, c"lead", "lead"),
     (EPAS_FIELD_BALL_RADIUS, c"ball_radius", "ball_radius"),
@@ -289,6 +291,7 @@ const FIELDS: [(u32, &CStr, &str); 102] = [
     (EPAS_FIELD_BRANCH, c"branch", ""),
     (EPAS_FIELD_CLEARANCE, c"clearance", "clearance"),
     (EPAS_FIELD_LOADED_BALLS, c"loaded_balls", "loaded_balls"),
+    (EPAS_FIELD_BALLS, c"balls", "balls"),
     (EPAS_FIELD_CONTACT_FORCE, c"contact force", "contact_force"),
     (EPAS_FIELD_TURNS, c"turns", "turns"),
     (EPAS_FIELD_LOADED_LENGTH, c"loaded_length", "loaded_length"),

@@ -123,7 +123,7 @@ pub struct Outputs {
     pub faults: u32,
 }
 
-/// A ball screw that was folded on a host: the words that `epas-bench design` writes into a header, or those of a calibration page. They are
+/// A ball screw that was folded on a host: the words that `epas design` writes into a header, or those of a calibration page. They are
 /// read while a model is made or swapped, or a folded ball is decoded, and need not stay.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
@@ -212,9 +212,8 @@ pub const EPAS_MEMORY_STATE_BYTES: u32 = 124u32;
 /// Size of `epas_memory_t` in words of eight bytes.
 pub const EPAS_MEMORY_WORDS: usize = 265;
 
-/// Balls in the circuit of `epas_screw_t` and `epas_screw_range_t`, return included. A screw with another number needs the library
-/// built with that number.
-pub const EPAS_SCREW_BALLS: usize = 37;
+/// Most balls in a circuit, return included. A larger number needs the library built with that number.
+pub const EPAS_MOST_BALLS: usize = 64;
 
 /// The circuit of a ball screw whose balls press on each other.
 #[derive(Clone, Copy, Debug)]
@@ -222,6 +221,8 @@ pub const EPAS_SCREW_BALLS: usize = 37;
 pub struct ScrewCircuit {
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
+    /// Balls in the circuit, return included, 1 to `EPAS_MOST_BALLS`.
+    pub balls: u32,
     /// Turns of the loaded track, 0.1 to 100.
     pub turns: f32,
     /// Length of the return, m, 0 to 10: there balls carry no load.
@@ -263,11 +264,11 @@ pub struct ScrewRangeConfiguration {
     pub circuit: ScrewCircuit,
 }
 
-/// Bytes of a state of `epas_screw_t`, as `epas_screw_export` writes it.
-pub const EPAS_SCREW_STATE_BYTES: u32 = 370u32;
+/// Bytes of a state of `epas_screw_t` with `EPAS_MOST_BALLS`, as `epas_screw_export` writes it; fewer balls take the first of them.
+pub const EPAS_SCREW_STATE_BYTES: u32 = 613u32;
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 175;
+pub const EPAS_SCREW_WORDS: usize = 284;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other, with one friction coefficient; as
 /// `epas_caged_t`.
@@ -281,11 +282,11 @@ pub struct ScrewPlace {
 /// Friction coefficients of a folded ball for a range of them.
 pub const EPAS_SCREW_RANGE_NODES: usize = 3;
 
-/// Bytes of a state of `epas_screw_range_t`, as `epas_screw_range_export` writes it.
-pub const EPAS_SCREW_RANGE_STATE_BYTES: u32 = 370u32;
+/// Bytes of a state of `epas_screw_range_t`; as `EPAS_SCREW_STATE_BYTES`.
+pub const EPAS_SCREW_RANGE_STATE_BYTES: u32 = 613u32;
 
 /// Size of `epas_screw_range_t` in words of eight bytes.
-pub const EPAS_SCREW_RANGE_WORDS: usize = 176;
+pub const EPAS_SCREW_RANGE_WORDS: usize = 285;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other and whose friction coefficient changes; as
 /// `epas_caged_t`.
@@ -318,10 +319,6 @@ pub struct ScrewOutputs {
     /// What was wrong with this tick, a sum of `EPAS_FAULT_...`; 0 for nothing.
     pub faults: u32,
 }
-
-/// Balls in the circuit of `epas_linear_t`, return included. A bearing with another number needs the
-/// library built with that number.
-pub const EPAS_LINEAR_BALLS: usize = 32;
 
 /// A linear ball bearing with gothic-arch grooves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -361,6 +358,8 @@ pub struct LinearConfiguration {
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
+    /// Balls in the circuit, return included, 1 to `EPAS_MOST_BALLS`.
+    pub balls: u32,
     /// Length of the loaded track, m, 1e-4 to 100.
     pub loaded_length: f32,
     /// Length of the return, m, 0 to 100: there balls carry no load.
@@ -419,11 +418,11 @@ pub struct LinearOutputs {
     pub faults: u32,
 }
 
-/// Bytes of a state of this scene, as `epas_linear_export` writes it.
-pub const EPAS_LINEAR_STATE_BYTES: u32 = 325u32;
+/// Bytes of a state of `epas_linear_t`; as `EPAS_SCREW_STATE_BYTES`.
+pub const EPAS_LINEAR_STATE_BYTES: u32 = 613u32;
 
 /// Size of `epas_linear_t` in words of eight bytes.
-pub const EPAS_LINEAR_WORDS: usize = 154;
+pub const EPAS_LINEAR_WORDS: usize = 283;
 
 /// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]

@@ -141,7 +141,7 @@ static void screw_range(void)
     check(ticks == 0u, "no faulted ticks");
 
     /* The next ignition: the friction coefficient that was set is there again. */
-    check(epas_screw_range_export(&place, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
+    check(epas_screw_range_export(&place, block, 369u) == EPAS_STATE_LENGTH, "no room");
     check(epas_screw_range_export(&place, block, sizeof block) == EPAS_OK, "export");
     check(epas_screw_range_import(&next, block, sizeof block) == EPAS_OK, "import");
     (void)epas_screw_range_step(&place, &inputs, &wanted);

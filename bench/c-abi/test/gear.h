@@ -1,4 +1,4 @@
-/* Written by `cargo run -p epas-c-check -- --write`; do not edit. Folded ball screws, as `epas-bench design` writes
+/* Written by `cargo run -p epas-c-check -- --write`; do not edit. Folded ball screws, as `epas design` writes
  * them: those of bench/firmware/src/gears. */
 #ifndef GEAR_BLOCK_H
 #define GEAR_BLOCK_H

@@ -117,6 +117,9 @@ static void inputs(void)
           "no force, flagged");
 }
 
+/* Bytes of a screw's state with its 37 balls. */
+#define STATE_OF_37_BALLS 370u
+
 /* A block that is taken over gives the same ticks; one that is refused changes nothing. */
 static void states(void)
 {
@@ -139,7 +142,7 @@ static void states(void)
     }
     check(epas_screw_import(&next, block, sizeof block) == EPAS_NOT_A_STATE, "a block of zeros");
     check(epas_screw_export(&screw, NULL, sizeof block) == EPAS_NULL_POINTER, "no block");
-    check(epas_screw_export(&screw, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "no room");
+    check(epas_screw_export(&screw, block, STATE_OF_37_BALLS - 1u) == EPAS_STATE_LENGTH, "no room");
     check(epas_screw_export(&screw, block, sizeof block) == EPAS_OK, "export");
     block[100] ^= 1u;
     check(epas_screw_import(&next, block, sizeof block) == EPAS_STATE_DAMAGED, "a damaged block");
@@ -147,7 +150,8 @@ static void states(void)
     block[4]++;
     check(epas_screw_import(&next, block, sizeof block) == EPAS_STATE_VERSION, "a block of another version");
     block[4]--;
-    check(epas_screw_import(&next, block, sizeof block - 1u) == EPAS_STATE_LENGTH, "a short block");
+    check(epas_screw_import(&next, block, STATE_OF_37_BALLS - 1u) == EPAS_STATE_LENGTH, "a short block");
+    check(epas_screw_import(&next, block, STATE_OF_37_BALLS) == EPAS_OK, "the block alone");
     check(epas_screw_import(&next, block, sizeof block) == EPAS_OK, "import");
     for (tick = 0u; tick < 50u; tick++) {
         (void)epas_screw_step(&screw, &inputs, &one);
@@ -412,6 +416,12 @@ static void train_fields(void)
     wrong.circuit.ball_friction = 1.5f;
     status = epas_screw_init(&screw, &wrong, &failure);
     check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BALL_FRICTION, "ball_friction");
+
+    wrong = test_screw_configuration;
+    wrong.circuit.balls = EPAS_MOST_BALLS + 1u;
+    status = epas_screw_init(&screw, &wrong, &failure);
+    check_failure(status, &failure, EPAS_OUT_OF_RANGE, EPAS_FIELD_BALLS, "balls");
+    check((failure.value == 65.0f) && (failure.minimum == 1.0f) && (failure.maximum == 64.0f), "more balls than there is room for");
 
     /* A deviation larger than any that was folded. */
     check(epas_deviation_from_harmonics(&large, 1u, &large_wave, 1u, NULL) == EPAS_OK, "a large deviation");

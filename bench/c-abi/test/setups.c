@@ -95,6 +95,7 @@ epas_folded_ball_t test_spare_ball;
 #define CIRCUIT \
     { \
         .ball_friction = 0.1f, \
+        .balls = 37u, \
         .turns = 1.8f, \
         .return_length = 20e-3f, \
         .screw_deviation = &screw_deviation, \
@@ -120,6 +121,7 @@ epas_linear_configuration_t test_linear_configuration = {
     },
     .friction = 0.1f,
     .ball_friction = 0.12f,
+    .balls = 32u,
     .loaded_length = 0.2f,
     .return_length = 0.13f,
     .wavelength = 0.05f,

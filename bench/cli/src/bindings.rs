@@ -2,13 +2,13 @@
 
 pub use crate::simulate::bindings::{
     Balls, Built, Caged, CagedRow, Folded, Friction, Linear, LinearRow, LinearSample, Lines,
-    MOST_BALLS, Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewConfiguration,
-    ScrewSample, Trace, TrainRow, Uncaged, UncagedRow, Use, angle, coefficients, regime_name,
-    remembering, trace, wrapped,
+    Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewSample, Trace, TrainRow, Uncaged,
+    UncagedRow, Use, angle, coefficients, regime_name, remembering, trace, wrapped,
 };
 pub use epas_calibrate::controller::Controller;
 pub use epas_design::files::train::{LinearDesign, UncagedDesign};
 pub use epas_design::files::{Design, DesignSource, built_in, read as read_design, text};
+pub use epas_design::uncaged_scene::ScrewConfiguration;
 pub use epas_eval::fit_range;
 pub use epas_page::failure::Failure;
 

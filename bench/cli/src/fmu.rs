@@ -29,7 +29,7 @@ use epas_design::files::DesignSource;
 use epas_page::failure::Failure;
 use epas_page::files::{Existing, Pending, ends, refuse_same, standard, told};
 use epas_traces::flags::FLAGS;
-pub use library::mark;
+pub use library::MARK;
 pub use running::{Moment, Running};
 pub use scene::SceneName;
 pub use unit::{Stored, Unit};
@@ -74,7 +74,7 @@ pub struct Arguments {
     /// Where the unit goes
     #[arg(long, value_name = "OUT.fmu", required_unless_present = "list")]
     output: Option<PathBuf>,
-    /// Shared library that was built before, in place of building one: EPAS_FMU_BALLS=BALLS cargo build --release --package epas-fmu
+    /// Shared library that was built before, in place of building one: cargo build --release --package epas-fmu
     #[arg(long, value_name = "LIBRARY")]
     library: Option<PathBuf>,
     /// Replace a file that exists
@@ -119,10 +119,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     )?;
     let unit = Unit::new(scene, design)?;
     let place = library::place(arguments.fmi)?;
-    let balls = unit.stored.balls;
     let (library, from) = match &arguments.library {
-        Some(path) => (library::read(path, balls)?, path.clone()),
-        None => library::build(balls)?,
+        Some(path) => (library::read(path)?, path.clone()),
+        None => library::build()?,
     };
     let file = packed(&unit, arguments.fmi, &place, &library)?;
     let mut pending = Pending::new(output, existing)?;

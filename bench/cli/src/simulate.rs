@@ -1,5 +1,6 @@
 //! `simulate`: the in-loop model over a trace of speed and load.
 
+pub mod balls;
 mod beyond;
 #[doc(hidden)]
 pub mod bindings;

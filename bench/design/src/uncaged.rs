@@ -96,6 +96,15 @@ pub enum UncagedBlock {
     Range(FoldedBall<NODES>),
 }
 
+/// The same that models refer to as long as a program runs.
+#[derive(Clone, Copy, Debug)]
+pub enum Folded {
+    /// One friction coefficient.
+    One(&'static FoldedBall<1>),
+    /// A range of them.
+    Range(&'static FoldedBall<NODES>),
+}
+
 /// Values of one number under each load, with the weights of the squares of their errors.
 #[derive(Clone, Debug)]
 struct Column {

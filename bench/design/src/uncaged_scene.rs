@@ -3,17 +3,62 @@
 //! Folding takes some seconds. A law is folded once, and that of a built-in design never: `folds`. It is kept as long as the program
 //! runs, because models refer to it: five kilobytes for one friction coefficient, fifteen for a range.
 
+pub use crate::uncaged::Folded;
 use crate::uncaged::{NODES, UncagedBlock};
 use crate::{FoldedUncaged, UncagedFold};
 use epas_friction::Error;
-use epas_friction::scene::FoldedBall;
-pub use epas_trains::{Folded, ScrewConfiguration};
+use epas_friction::scene::{FoldedBall, UncagedBallScrewConfiguration};
+use epas_friction::{DeviationMap, LoadShares};
 
 use crate::Failure;
 use crate::caged_scene::range_for;
 use crate::files::Design;
 use crate::files::train::UncagedDesign;
 use crate::folds::{Folds, digest_of};
+
+/// What is set for a screw beside what a host has folded of its ball: see [`UncagedBallScrewConfiguration`].
+#[derive(Clone, Copy, Debug)]
+pub struct ScrewConfiguration {
+    /// What a host has folded.
+    pub folded: Folded,
+    /// Friction coefficient of ball and ball.
+    pub ball_friction: f32,
+    /// Balls in the circuit, 1 to 64.
+    pub balls: u16,
+    /// Turns of the loaded track.
+    pub turns: f32,
+    /// Length of the return, m.
+    pub return_length: f32,
+    /// Deviation along the screw's groove.
+    pub screw_deviation: &'static DeviationMap,
+    /// Deviation along the nut's groove.
+    pub nut_deviation: &'static DeviationMap,
+    /// Loads of the balls over their mean.
+    pub load_shares: LoadShares,
+    /// Time between two ticks, s.
+    pub tick: f32,
+}
+
+impl ScrewConfiguration {
+    /// The scene's configuration, with one of the blocks.
+    #[must_use]
+    pub const fn with<const N: usize>(
+        &self,
+        folded: &'static FoldedBall<N>,
+    ) -> UncagedBallScrewConfiguration<N> {
+        UncagedBallScrewConfiguration {
+            folded,
+            ball_friction: self.ball_friction,
+            balls: self.balls,
+            turns: self.turns,
+            return_length: self.return_length,
+            screw_deviation: self.screw_deviation,
+            nut_deviation: self.nut_deviation,
+            load_shares: self.load_shares,
+            tick: self.tick,
+        }
+    }
+}
 
 /// Laws that need no fold.
 static FOLDS: Folds<Folded> = Folds::new(usize::MAX, |words| Ok(leaked(&block_of(words)?)));
@@ -162,6 +207,7 @@ pub const fn configuration_with(row: &UncagedDesign, folded: Folded) -> ScrewCon
     ScrewConfiguration {
         folded,
         ball_friction: row.ball_friction,
+        balls: row.balls as u16,
         turns: row.turns,
         return_length: row.return_length,
         screw_deviation: row.screw_deviation,
@@ -175,6 +221,7 @@ pub const fn configuration_with(row: &UncagedDesign, folded: Folded) -> ScrewCon
 mod tests {
     use super::*;
     use crate::files::read as read_design;
+    use epas_friction::{FrictionModel, UncagedBallScrew};
 
     /// 29 x 7 x 4 with 16 balls, on half a turn.
     fn design(more: &str) -> Design {
@@ -255,8 +302,7 @@ mod tests {
             tick: 1e-4,
             ..configuration_with(&row, Folded::One(law))
         };
-        let plain = epas_trains::Configuration::Plain(made);
-        let mut model = epas_trains::screw(row.balls, &plain).unwrap().unwrap();
+        let mut model = FrictionModel::<UncagedBallScrew<16>>::new(&made.with(law)).unwrap();
         let found = model.step(epas_friction::Inputs {
             nut_speed: 10.0,
             axial_load: 400.0,

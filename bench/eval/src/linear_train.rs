@@ -184,7 +184,7 @@ impl Request {
         if direction == 0.0 {
             return Row::of(&free, &[0.0; LARGEST_TRAIN], count);
         }
-        let mut press = Press::new();
+        let mut press = Press::<LARGEST_TRAIN>::new();
         let forward = free.map(|deviation| direction * deviation);
         if !pressed(&mut press, &forward, &compliance, &room_of_a_row(count)) {
             return Row::NONE;

@@ -246,7 +246,7 @@ impl Contexts {
             screw_tick: screw_row.at(10.0, 100.0),
             screw_row,
             press: Press::new(),
-            train: Train::evenly_spaced(0.2248, 0.00594)?,
+            train: Train::evenly_spaced(0.2248, 0.00594, BALLS)?,
             uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
             uncaged_shares: FrictionModel::new(&black_box(uncaged_shares_configuration()?))?,
             uncaged_range: {

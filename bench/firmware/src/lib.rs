@@ -2,7 +2,7 @@
 //! What the firmware runs: every function that belongs into a control loop, with inputs spread over its
 //! domain, and the results that a host found for them.
 //!
-//! The host's program (`epas-bench target`) uses the same library: it writes the stored cases, and knows
+//! The host's program (`epas-target`) uses the same library: it writes the stored cases, and knows
 //! by name what it counts.
 
 pub mod cases;

@@ -443,6 +443,7 @@ pub const fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Er
     Ok(UncagedBallScrewConfiguration {
         folded: &GEAR_33X20_BALL,
         ball_friction: 0.1,
+        balls: BALLS as u16,
         turns: 2.0,
         return_length: 0.0,
         screw_deviation: &SCREW_DEVIATION,
@@ -485,6 +486,7 @@ pub const fn uncaged_range_configuration() -> Result<UncagedBallScrewConfigurati
     Ok(UncagedBallScrewConfiguration {
         folded: &GEAR_33X20_BALL_RANGE,
         ball_friction: even.ball_friction,
+        balls: even.balls,
         turns: even.turns,
         return_length: even.return_length,
         screw_deviation: even.screw_deviation,
@@ -503,6 +505,7 @@ pub const fn linear_configuration() -> Result<LinearBearingConfiguration, Error>
         bearing: BEARING,
         friction: 0.1,
         ball_friction: 0.1,
+        balls: ROW as u16,
         loaded_length: 0.16,
         return_length: 0.09,
         wavelength: 0.1,

@@ -165,7 +165,7 @@ def check(program, scene, design, arguments, manoeuvre, version):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", required=True, help="path of epas-bench")
+    parser.add_argument("--program", required=True, help="path of epas")
     parser.add_argument("--folder", required=True, help="an empty folder to work in")
     parser.add_argument("--scene", help="this scene alone")
     arguments = parser.parse_args()

@@ -6,7 +6,6 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use epas_cli::fmu::{Causality, Moment, RESOURCE, Running, Stored, Unit, Variable};
 
-use crate::BALLS;
 use crate::kinds::Phase;
 pub use crate::kinds::Wanted;
 use crate::state::Snapshot;
@@ -114,7 +113,7 @@ impl Instance {
     /// Checks parameters and makes the model.
     pub fn exit_initialization(&mut self, call: &str) -> Said {
         self.refuse_unless(call, &[Phase::Initializing])?;
-        self.running = Some(self.unit.start::<BALLS>(&self.values)?);
+        self.running = Some(self.unit.start(&self.values)?);
         self.phase = Phase::Stepping;
         Ok(None)
     }
@@ -334,7 +333,7 @@ impl Instance {
         let running = match &snapshot.model {
             None => None,
             Some(block) => {
-                let mut running = self.unit.start::<BALLS>(&snapshot.values)?;
+                let mut running = self.unit.start(&snapshot.values)?;
                 running.load(block)?;
                 Some(running)
             }

@@ -204,6 +204,7 @@ where
         Some(FrictionModel::new(&UncagedBallScrewConfiguration {
             folded: Box::leak(Box::new(*self)),
             ball_friction: random.of(&[0.0, 0.12, 0.6]),
+            balls: BALLS as u16,
             turns: if turns > 0.1 { turns } else { 0.2 },
             return_length: random.of(&[0.0, 0.01]),
             screw_deviation: &MAPS[random.below(3)],

@@ -16,7 +16,7 @@ use std::path::PathBuf;
 
 use epas_bench::counts;
 use epas_bench::report::stages::Stages;
-use epas_bench::report::{Plan, parts, provenance};
+use epas_bench::report::{Plan, parts, provenance, shares};
 use epas_bench::timing::compete;
 use epas_page::document::{Document, print_line};
 use epas_page::failure::Failure;
@@ -50,28 +50,38 @@ const PARTS: [Plan<Context>; 3] = [
             (
                 published::section,
                 "every printed number that can be computed, and what did not reproduce",
+                1.0,
             ),
             (
                 curvature::section,
                 "radius of curvature of helical grooves: Tables A1 and A2, Figures 8 to 11",
+                1.0,
             ),
             (
                 efficiency::section,
                 "rolling and full sliding, driving and back-driving",
+                1.0,
             ),
             (
                 kinematics::section,
                 "slip, spin and entrainment at the contacts",
+                1.0,
             ),
-            (loads::section, "shares of the balls in the axial load"),
-            (bearings::section, "rotary and linear bearings of Lin 2019"),
+            (loads::section, "shares of the balls in the axial load", 1.0),
+            (
+                bearings::section,
+                "rotary and linear bearings of Lin 2019",
+                1.0,
+            ),
             (
                 applications::section,
                 "lash, tie rod and wavy grooves of Lin 2019, chapter 4",
+                1.0,
             ),
             (
                 uncaged::section,
                 "whole screws of Lin 2019; closed forms of a ball",
+                1.0,
             ),
         ],
     ),
@@ -81,6 +91,7 @@ const PARTS: [Plan<Context>; 3] = [
         &[(
             measured::section,
             "figures of real screws beside the model; what decides the friction of a screw",
+            1.0,
         )],
     ),
     (
@@ -89,6 +100,7 @@ const PARTS: [Plan<Context>; 3] = [
         &[(
             memory::section,
             "reversals: loops, rival laws, changing loads, noise, compensation",
+            1.0,
         )],
     ),
 ];
@@ -99,8 +111,7 @@ const PARTS: [Plan<Context>; 3] = [
 /// A model that is refused, a folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     folder::check(&arguments.output, arguments.force)?;
-    let sections: usize = PARTS.iter().map(|(_, _, sections)| sections.len()).sum();
-    let stages = Stages::new(sections + 1);
+    let stages = Stages::new(std::iter::once(1.0).chain(shares(&PARTS)).collect());
     let made = provenance::lines("epas-papers", ROUNDS);
     for line in &made {
         print_line(line)?;

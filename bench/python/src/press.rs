@@ -1,5 +1,6 @@
 //! Balls of a row that press on each other.
 
+use epas_friction::Error;
 use epas_friction::train::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
 use pyo3::prelude::*;
 
@@ -47,7 +48,7 @@ pub fn contact_forces<'py>(
     };
     let mut forces = room(arguments.len() / balls * (balls - 1))?;
     let rows = Rows {
-        row: row(balls),
+        row: Row::new(balls).map_err(|error| refused(py, error))?,
         forces: &mut forces,
     };
     arguments.map_blocks::<f32, _, 0>(py, rows)?;
@@ -56,7 +57,7 @@ pub fn contact_forces<'py>(
 
 /// Rows one after the other, with the forces that were found.
 struct Rows<'a> {
-    row: Box<dyn Row>,
+    row: Row,
     forces: &'a mut Vec<f32>,
 }
 
@@ -86,62 +87,43 @@ impl Kernel<f32, 2, 0> for Rows<'_> {
 }
 
 /// A row that is filled with balls as they come.
-trait Row: Send {
-    /// Takes in balls; the last one of a row lets them press.
-    fn add(&mut self, speeds: &[f32], impedances: &[f32], forces: &mut Vec<f32>);
-}
-
-/// A row of so many balls.
-fn row(balls: usize) -> Box<dyn Row> {
-    match balls {
-        0..=8 => Box::new(RowOf::<8>::new(balls)),
-        9..=16 => Box::new(RowOf::<16>::new(balls)),
-        17..=24 => Box::new(RowOf::<24>::new(balls)),
-        25..=32 => Box::new(RowOf::<32>::new(balls)),
-        33..=40 => Box::new(RowOf::<40>::new(balls)),
-        41..=48 => Box::new(RowOf::<48>::new(balls)),
-        _ => Box::new(RowOf::<MOST>::new(balls)),
-    }
-}
-
-/// A row with room for `N` balls; what is beyond its balls touches nothing.
-struct RowOf<const N: usize> {
-    balls: usize,
+struct Row {
     place: usize,
-    free: [f32; N],
-    impedance: [f32; N],
-    room: [f32; N],
-    press: Press<N>,
+    free: Vec<f32>,
+    impedance: Vec<f32>,
+    room: Vec<f32>,
+    press: Press<MOST>,
 }
 
-impl<const N: usize> RowOf<N> {
-    fn new(balls: usize) -> Self {
-        let mut room = [f32::INFINITY; N];
-        room[..balls - 1].fill(0.0);
-        Self {
-            balls,
-            place: 0,
-            free: [0.0; N],
-            impedance: [1.0; N],
-            room,
-            press: Press::new(),
+impl Row {
+    /// A row of so many balls.
+    fn new(balls: usize) -> Result<Self, Error> {
+        let mut room = vec![0.0; balls];
+        if let Some(last) = room.last_mut() {
+            *last = f32::INFINITY;
         }
+        Ok(Self {
+            place: 0,
+            free: vec![0.0; balls],
+            impedance: vec![1.0; balls],
+            room,
+            press: Press::with_balls(balls)?,
+        })
     }
-}
 
-impl<const N: usize> Row for RowOf<N> {
+    /// Takes in balls; the last one of a row lets them press.
     fn add(&mut self, mut speeds: &[f32], mut impedances: &[f32], forces: &mut Vec<f32>) {
         while !speeds.is_empty() {
-            let end = self.balls.min(self.place + speeds.len());
+            let end = self.free.len().min(self.place + speeds.len());
             let count = end - self.place;
             self.free[self.place..end].copy_from_slice(&speeds[..count]);
             self.impedance[self.place..end].copy_from_slice(&impedances[..count]);
             (speeds, impedances) = (&speeds[count..], &impedances[count..]);
             self.place = end;
-            if end == self.balls {
+            if end == self.free.len() {
                 self.place = 0;
                 self.press.solve(&self.free, &self.impedance, &self.room);
-                forces.extend(self.press.forces().take(self.balls - 1));
+                forces.extend(self.press.forces().take(end - 1));
             }
         }
     }

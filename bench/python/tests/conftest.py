@@ -1,4 +1,4 @@
-"""What the package is held against: the program ``epas-bench``, built from the same tree."""
+"""What the package is held against: the program ``epas``, built from the same tree."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ Ask = Callable[[str, list[dict[str, Any]]], list[dict[str, Any]]]
 @pytest.fixture(scope="session")
 def program() -> str:
     """Path of the program."""
-    path = os.environ.get("EPAS_BENCH", str(ROOT / "target" / "release" / "epas-bench"))
+    path = os.environ.get("EPAS", str(ROOT / "target" / "release" / "epas"))
     if not os.path.exists(path):
-        pytest.skip(f"{path} is not built: cargo build --release -p epas-bench")
+        pytest.skip(f"{path} is not built: cargo build --release -p epas")
     return path
 
 

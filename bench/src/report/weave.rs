@@ -6,7 +6,7 @@ use epas_design::drawing::drawing;
 use epas_design::files::train::UncagedDesign;
 use epas_design::files::{Design, DesignSource};
 use epas_design::manoeuvre::{Manoeuvre, Moment};
-use epas_design::uncaged_scene::{Folded, configuration};
+use epas_design::uncaged_scene::{Folded, ScrewConfiguration, configuration};
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration};
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
@@ -177,14 +177,9 @@ fn row_of_37(
     let Folded::One(folded) = row.folded else {
         return Err(Failure::Data("one friction coefficient is one node".into()));
     };
-    Ok(UncagedBallScrewConfiguration {
-        folded,
-        ball_friction: row.ball_friction,
-        turns: row.turns,
-        return_length: row.return_length,
-        screw_deviation: row.screw_deviation,
-        nut_deviation: row.nut_deviation,
-        load_shares: row.load_shares,
+    let row = ScrewConfiguration {
         tick: (TICK / STEPS as f64) as f32,
-    })
+        ..row
+    };
+    Ok(row.with(folded))
 }

@@ -136,7 +136,7 @@ fn step<const N: usize>(
     let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
     // As full as the screw of Lin 2019, Section 3.4.4.
     let (length, pitch) = (5.68e-3 * N as f32, 5.555e-3);
-    let mut train = black_box(Train::<N>::evenly_spaced(length, pitch).map_err(failure)?);
+    let mut train = black_box(Train::<N>::evenly_spaced(length, pitch, N).map_err(failure)?);
     Group::new(race, list, |share| share as f32, |share: f32| share).time(of_train, move |share| {
         let mut free = [0.0; N];
         for (free, position) in free.iter_mut().zip(train.positions()) {

@@ -683,6 +683,7 @@ where
         UncagedBallScrewConfiguration {
             folded,
             ball_friction: random.of(&[0.0, 0.1, 0.1, 1.0]) * random.unit(),
+            balls: N as u16,
             turns: if random.one_in(4) {
                 random.size(0.1, 100.0)
             } else {
@@ -786,6 +787,7 @@ impl<const N: usize> Trial for LinearBearingTrain<N> {
         LinearBearingConfiguration {
             friction: random.size(1e-6, 1.0),
             ball_friction: random.within(0.0, 1.0),
+            balls: N as u16,
             loaded_length: loaded,
             return_length: match random.below(4) {
                 0 => 0.0,

@@ -249,6 +249,7 @@ pub fn uncaged() -> UncagedConfiguration {
     UncagedBallScrewConfiguration {
         folded: &BALL_RANGE,
         ball_friction: 0.1,
+        balls: SCREW_BALLS as u16,
         turns: 2.5,
         return_length: 0.01,
         screw_deviation: &BALL_SCREW_MAP,
@@ -274,6 +275,7 @@ pub const CROWD: usize = 48;
 pub fn crowded() -> UncagedConfiguration {
     UncagedBallScrewConfiguration {
         folded: changed(&BALL_RANGE, |folded| folded.limits.nut_speed = 100.0),
+        balls: CROWD as u16,
         tick: 5e-4,
         ..uncaged()
     }
@@ -291,6 +293,7 @@ pub fn full(screw_deviation: &'static DeviationMap, tick: f32) -> UncagedBallScr
             };
         }),
         ball_friction: 0.1,
+        balls: SCREW_BALLS as u16,
         turns: 2.0,
         return_length: 0.0,
         screw_deviation,
@@ -320,6 +323,7 @@ pub fn linear() -> LinearBearingConfiguration {
         .unwrap(),
         friction: 0.1,
         ball_friction: 0.1,
+        balls: LINEAR_BALLS as u16,
         loaded_length: 0.12,
         return_length: 0.05,
         wavelength: 0.06,

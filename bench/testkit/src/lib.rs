@@ -8,6 +8,7 @@
 pub mod absurd;
 pub mod designs;
 pub mod errors;
+pub mod folded;
 pub mod gears;
 pub mod given;
 pub mod measured;

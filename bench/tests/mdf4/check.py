@@ -272,7 +272,7 @@ def written():
             assert found.unit == units.get(name, found.unit), name
         assert file.masters_db and file.get("efficiency").unit == ""
         history = file.file_history[0]
-        assert "epas-bench" in history.comment, history.comment
+        assert "epas" in history.comment, history.comment
     # Ours back into the program: what it says of its own columns is what it reads.
     again, _ = simulated(FOLDER / "out.mf4")
     expected, _ = simulated(FOLDER / "out.csv")

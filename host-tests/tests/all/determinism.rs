@@ -297,7 +297,10 @@ fn slow_courses_give_the_stored_bits() {
             |_, _| (),
         ));
         hashes.push(course::<gears::UncagedScrew<9>>(
-            &configuration,
+            &gears::UncagedConfiguration {
+                balls: 9,
+                ..configuration
+            },
             screw,
             |model, leg| model.set_friction(0.07 + 0.003 * leg as f32).unwrap(),
         ));

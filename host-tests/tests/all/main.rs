@@ -17,3 +17,4 @@ mod law;
 mod reference;
 mod scenes;
 mod stiffness;
+mod stored_folds;

@@ -1,7 +1,8 @@
 //! Whole mechanisms: what a step gives, promises, and survives.
 
 mod borders;
-mod caged;
+pub mod caged;
+mod capacity;
 mod closed_form;
 mod compensation;
 mod extreme;
@@ -21,4 +22,4 @@ mod stiff;
 mod stored;
 mod swapped;
 mod two_point_rolling;
-mod uncaged;
+pub mod uncaged;

@@ -7,7 +7,6 @@ use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
 impl<const NODES: usize> StoredScene for CagedBallScrew<NODES> {
     const KIND: u16 = 4;
-    const BALLS: u16 = 0;
 
     /// The friction coefficient has a meaning of its own; only its range has to fit, which [`Self::complete`] sees to.
     fn fingerprint(constants: &CagedConstants<NODES>, fingerprint: &mut Fingerprint) {

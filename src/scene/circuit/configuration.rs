@@ -24,6 +24,8 @@ const LARGEST_ADVANCE: f32 = 0.499;
 
 /// What a scene knows of its circuit. "Motion" is the nut's angle, rad, or the carriage's travel, m.
 pub(crate) struct CircuitConfiguration {
+    /// Balls of the circuit.
+    pub(crate) balls: u16,
     /// Loaded part of the track, m.
     pub(crate) loaded_length: f32,
     /// The same in turns of the maps.
@@ -56,6 +58,7 @@ pub(crate) struct CircuitConfiguration {
 pub(crate) struct Circuit {
     pub(super) zone: LoadedZone,
     pub(super) track: Track,
+    balls: u16,
     /// Travel of the balls along the track in a tick, over the speed of the motion: negative, because the track runs
     /// along with the body that moves.
     travel: f32,
@@ -63,7 +66,7 @@ pub(crate) struct Circuit {
     advance: f32,
 }
 
-/// What a tick changes in a circuit of `N` balls.
+/// What a tick changes in a circuit of up to `N` balls.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CircuitState<const N: usize> {
@@ -77,11 +80,12 @@ impl CircuitConfiguration {
     ///
     /// # Errors
     /// [`Error`] naming `return_length`, `length`, `pitch`, `load_shares` or `tick`.
-    pub(crate) const fn folded(&self, balls: usize) -> Result<Circuit, Error> {
+    pub(crate) const fn folded(&self, most: usize) -> Result<Circuit, Error> {
         let longest = LONGEST_RETURN * self.loaded_length;
         attempt!(in_range("return_length", self.return_length, 0.0, longest));
         let length = self.loaded_length + self.return_length;
-        let track = attempt!(Track::new(length, self.pitch, balls));
+        attempt!(in_range("balls", self.balls as f32, 1.0, most as f32));
+        let track = attempt!(Track::new(length, self.pitch, self.balls as usize));
         let zone = attempt!(LoadedZone::new(
             self.loaded_turns,
             length / self.turn_length,
@@ -97,6 +101,7 @@ impl CircuitConfiguration {
         Ok(Circuit {
             zone,
             track,
+            balls: self.balls,
             travel: -self.travel_per_motion * tick,
             advance: zone.phase_per_turn() * tick / self.motion_per_turn,
         })
@@ -104,7 +109,7 @@ impl CircuitConfiguration {
 }
 
 /// 1 / number of loaded balls, where so many balls are spread evenly over loaded track and return.
-pub(crate) const fn per_loaded_ball(loaded_length: f32, return_length: f32, balls: usize) -> f32 {
+pub(crate) const fn per_loaded_ball(loaded_length: f32, return_length: f32, balls: u16) -> f32 {
     (loaded_length + return_length) / (loaded_length * balls as f32)
 }
 
@@ -143,7 +148,7 @@ impl<const N: usize> CircuitState<N> {
     /// Balls at equal distances, before the first tick.
     pub(crate) fn new(circuit: &Circuit) -> Self {
         Self {
-            train: Train::spread(circuit.track),
+            train: Train::spread(circuit.track, usize::from(circuit.balls)),
             phase: Phase::default(),
         }
     }
@@ -153,7 +158,7 @@ impl<const N: usize> CircuitState<N> {
     /// # Errors
     /// [`Error`] naming `length` or `pitch`, m.
     pub(crate) const fn is_on(&self, circuit: &Circuit) -> Result<(), Error> {
-        self.train.is_on(&circuit.track)
+        self.train.is_on(&circuit.track, circuit.balls)
     }
 
     /// Phase of the passing groove, in units of 2^-32 of its period.

@@ -6,7 +6,6 @@ use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
 impl StoredScene for ClosedFormScrew {
     const KIND: u16 = 5;
-    const BALLS: u16 = 0;
 
     /// Nothing of the constants is in the state.
     fn fingerprint(_: &ClosedFormScrewConstants, fingerprint: &mut Fingerprint) {

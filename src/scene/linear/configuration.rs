@@ -21,6 +21,8 @@ pub struct LinearBearingConfiguration {
     pub friction: f32,
     /// Coulomb friction coefficient of ball and ball, 0 to 1.
     pub ball_friction: f32,
+    /// Balls in the circuit, 1 to the `N` of the model.
+    pub balls: u16,
     /// Length of the loaded track, m, 1e-4 to 100.
     pub loaded_length: f32,
     /// Length of the return, m, 0 to 100, up to 250 times the loaded track: there balls carry no load.
@@ -46,11 +48,11 @@ pub struct LinearBearingConfiguration {
 }
 
 impl LinearBearingConfiguration {
-    /// The circuit's part, checked and folded for so many balls.
+    /// The circuit's part, checked and folded for a model of so many balls at most.
     pub(super) const fn circuit(
         &self,
         limits: &LinearLimits,
-        balls: usize,
+        most: usize,
     ) -> Result<Circuit, Error> {
         let Self {
             loaded_length,
@@ -66,6 +68,7 @@ impl LinearBearingConfiguration {
         let shortest = if shortest > 1e-4 { shortest } else { 1e-4 };
         attempt!(in_range("wavelength", wavelength, shortest, 100.0));
         CircuitConfiguration {
+            balls: self.balls,
             loaded_length,
             loaded_turns: loaded_length / wavelength,
             return_length,
@@ -80,7 +83,7 @@ impl LinearBearingConfiguration {
             tick,
             largest_speed: limits.speed,
         }
-        .folded(balls)
+        .folded(most)
     }
 
     /// The ball, and what it loses in the grooves, with the deviations of both checked.

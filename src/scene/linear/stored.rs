@@ -12,6 +12,10 @@ impl<const N: usize> StoredScene for LinearBearingTrain<N> {
     const KIND: u16 = 3;
     const BALLS: u16 = N as u16;
 
+    fn balls(state: &LinearState<N>) -> u16 {
+        state.circuit.train.balls() as u16
+    }
+
     fn fingerprint(constants: &LinearConstants<N>, fingerprint: &mut Fingerprint) {
         constants.circuit.fingerprint(fingerprint);
         fingerprint.numbers(&[

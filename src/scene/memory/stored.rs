@@ -24,6 +24,10 @@ where
     const KIND: u16 = MEMORY + S::KIND;
     const BALLS: u16 = S::BALLS;
 
+    fn balls(state: &WithMemoryState<S, E, A, L>) -> u16 {
+        S::balls(&state.scene)
+    }
+
     fn fingerprint(
         constants: &WithMemoryConstants<S::Constants, E, A, L>,
         fingerprint: &mut Fingerprint,

@@ -223,6 +223,7 @@ mod tests {
             FrictionModel::<UncagedBallScrew<37>>::new(&UncagedBallScrewConfiguration {
                 folded: &BALL,
                 ball_friction: 0.1,
+                balls: 37,
                 turns: 2.0,
                 return_length: 0.0,
                 screw_deviation: &DeviationMap::NONE,

@@ -41,6 +41,8 @@ pub struct UncagedBallScrewConfiguration<const NODES: usize = 1> {
     /// Coulomb friction coefficient of ball and ball, 0 to 1; and so that friction of its neighbours takes no more than 0.3 of their force on a
     /// ball.
     pub ball_friction: f32,
+    /// Balls in the circuit, 1 to the `N` of the model.
+    pub balls: u16,
     /// Turns of the loaded track, 0.1 to 100.
     pub turns: f32,
     /// Length of the return, m, 0 to 10, up to 250 times the loaded track, and 1000 turns with it: there
@@ -60,8 +62,8 @@ pub struct UncagedBallScrewConfiguration<const NODES: usize = 1> {
 }
 
 impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
-    /// The circuit's part, checked and folded for so many balls.
-    pub(super) const fn circuit(&self, limits: &Limits, balls: usize) -> Result<Circuit, Error> {
+    /// The circuit's part, checked and folded for a model of so many balls at most.
+    pub(super) const fn circuit(&self, limits: &Limits, most: usize) -> Result<Circuit, Error> {
         let Self {
             turns,
             return_length,
@@ -90,6 +92,7 @@ impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
         let longest = LONGEST_TRACK * per_turn - loaded_length;
         attempt!(in_range("return_length", return_length, 0.0, longest));
         CircuitConfiguration {
+            balls: self.balls,
             loaded_length,
             loaded_turns: turns,
             return_length,
@@ -103,7 +106,7 @@ impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
             tick,
             largest_speed: limits.nut_speed,
         }
-        .folded(balls)
+        .folded(most)
     }
 
     /// Length of the loaded track, m.

@@ -54,7 +54,8 @@ struct Common {
     branch: usize,
     /// -1 where the nut turns backward, else 1.
     direction: f32,
-    /// What a ball does under the mean load, its grip with the friction between balls and the sign of the direction.
+    /// What a ball does under the mean load, its grip with the friction between balls; both its free speed and its grip with the sign of
+    /// the direction.
     numbers: BallNumbers,
     /// Whether a train takes all of this grip, within the largest deviations.
     holds_grip: bool,
@@ -77,9 +78,14 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let travel = self.circuit.travel(nut_speed);
         let mut balls = state.circuit.train.intake(travel);
         let torque = if self.even {
-            self.take_in(&mut balls, phase, axial_load, &common, |_, deviations| {
-                common.numbers.at(deviations)
-            })
+            let numbers = common.numbers;
+            self.take_in(
+                &mut balls,
+                phase,
+                axial_load,
+                &common,
+                move |_, deviations| numbers.at(deviations),
+            )
         } else {
             let friction = state.friction;
             self.take_in(
@@ -92,6 +98,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                     let motion = self.law.at(load, common.branch, friction, deviations);
                     let grip = common.direction * self.ball_friction * motion.grip;
                     FreeMotion {
+                        speed: common.direction * motion.speed,
                         grip: limited_grip(grip),
                         ..motion
                     }
@@ -141,6 +148,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let limited = if holds_grip { 1.0 } else { LARGEST_GRIP / size };
         let ball_friction = direction * self.ball_friction * limited;
         numbers.grip = numbers.grip.map(|grip| ball_friction * grip);
+        numbers.free = numbers.free.map(|free| direction * free);
         Common {
             mean,
             load,
@@ -152,8 +160,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     }
 
     /// Gives each ball its free speed and impedance, a loaded one by `motion` from its share of the load and its deviations; returns the sum of their
-    /// torques, N m.
-    #[inline(always)]
+    /// torques, N m. Not inlined: what the rest of a step holds would take its registers.
+    #[inline(never)]
     fn take_in(
         &self,
         balls: &mut Intake<'_, N>,
@@ -167,7 +175,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         } = common;
         let shares = self.shares(axial_load);
         let units = self.units.map(|unit| direction * unit);
-        let idle = direction * numbers.free[0];
+        let idle = numbers.free[0];
         let mut torque = 0.0;
         while let Some(ball) = balls.next_ball() {
             let Some(loaded) = self.circuit.loaded_ball(ball.position(), phase, shares) else {
@@ -178,7 +186,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             let motion = motion(loaded.load.share(), deviations);
             torque += motion.torque;
             let grip = Grip::within(motion.grip);
-            ball.put_rubbed(direction * motion.speed, motion.impedance, grip);
+            ball.put_rubbed(motion.speed, motion.impedance, grip);
         }
         torque
     }

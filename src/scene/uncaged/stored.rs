@@ -12,6 +12,10 @@ impl<const N: usize, const NODES: usize> StoredScene for UncagedBallScrew<N, NOD
     const KIND: u16 = 6;
     const BALLS: u16 = N as u16;
 
+    fn balls(state: &UncagedState<N>) -> u16 {
+        state.circuit.train.balls() as u16
+    }
+
     /// The friction coefficient has a meaning of its own; only its range has to fit, which [`Self::complete`] sees to.
     fn fingerprint(constants: &UncagedConstants<N, NODES>, fingerprint: &mut Fingerprint) {
         constants.circuit.fingerprint(fingerprint);

@@ -78,7 +78,7 @@ pub fn words_of<const NODES: usize>(ball: &FoldedBall<NODES>) -> Outcome<Vec<u32
 /// A header with arrays.
 fn header(guard: &str, arrays: &[(&str, &[u32])]) -> Outcome<String> {
     let mut text = format!(
-        "/* Written by `cargo run -p epas-c-check -- --write`; do not edit. Folded ball screws, as `epas-bench design` writes\n\
+        "/* Written by `cargo run -p epas-c-check -- --write`; do not edit. Folded ball screws, as `epas design` writes\n\
          \x20* them: those of bench/firmware/src/gears. */\n#ifndef {guard}\n#define {guard}\n\n#include <stdint.h>\n"
     );
     for (name, words) in arrays {
@@ -117,7 +117,7 @@ pub fn of_tests() -> Outcome<String> {
     )
 }
 
-/// The blocks of the README's examples: each the header that `epas-bench design` writes.
+/// The blocks of the README's examples: each the header that `epas design` writes.
 pub fn of_examples() -> Outcome<[(&'static str, String); 2]> {
     let screw = words_of(&GEAR_33X20_BALL_RANGE)?;
     Ok([

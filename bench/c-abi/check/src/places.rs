@@ -10,7 +10,7 @@ use epas_friction::{
 };
 
 use crate::outcome::Outcome;
-use crate::setups::{BALL_NODES, NODES, Remembering};
+use crate::setups::{BALL_NODES, MOST_BALLS, NODES, Remembering};
 
 /// As the library keeps a model.
 #[repr(C)]
@@ -52,18 +52,18 @@ fn needed() -> [(&'static str, &'static str, usize); 8] {
         ),
         (
             "EPAS_SCREW_WORDS",
-            "`epas_screw_t` (37 balls)",
-            words::<UncagedBallScrew<37>>(),
+            "`epas_screw_t` (up to 64 balls)",
+            words::<UncagedBallScrew<MOST_BALLS>>(),
         ),
         (
             "EPAS_SCREW_RANGE_WORDS",
-            "`epas_screw_range_t` (37 balls)",
-            words::<UncagedBallScrew<37, BALL_NODES>>(),
+            "`epas_screw_range_t` (up to 64 balls)",
+            words::<UncagedBallScrew<MOST_BALLS, BALL_NODES>>(),
         ),
         (
             "EPAS_LINEAR_WORDS",
-            "`epas_linear_t` (32 balls)",
-            words::<LinearBearingTrain<32>>(),
+            "`epas_linear_t` (up to 64 balls)",
+            words::<LinearBearingTrain<MOST_BALLS>>(),
         ),
         (
             "EPAS_ADAPTATION_WORDS",
@@ -95,10 +95,8 @@ const TABLES: [(&str, usize); 4] = [
 pub fn check(root: &Path, write: bool) -> Outcome<()> {
     let file = root.join("src/types.rs");
     let mut types = fs::read_to_string(&file)?;
-    if defined(&types, "EPAS_SCREW_BALLS") != Some(37)
-        || defined(&types, "EPAS_LINEAR_BALLS") != Some(32)
-    {
-        // Not the numbers of the stored cases: the library's build alone can tell.
+    if defined(&types, "EPAS_MOST_BALLS") != Some(MOST_BALLS) {
+        // Another number: the library's build alone can tell.
         return Ok(());
     }
     for (name, object, words) in needed() {

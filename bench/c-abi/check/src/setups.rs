@@ -164,6 +164,8 @@ fn kept<T>(value: T) -> &'static T {
 }
 
 /// Friction coefficients of a folded ball for a range of them.
+/// Most balls of the header.
+pub const MOST_BALLS: usize = 64;
 pub const BALL_NODES: usize = 3;
 
 /// The ball screw of Lin 2019, chapter 3.6, without cage, with two waves of deviation a turn on the screw and a triangle on the nut: less than 1
@@ -183,6 +185,7 @@ fn without_cage<const NODES: usize>(
     Ok(UncagedBallScrewConfiguration {
         folded,
         ball_friction: 0.1,
+        balls: 37,
         turns: 1.8,
         return_length: 20e-3,
         screw_deviation: kept(DeviationMap::from_harmonics(
@@ -209,61 +212,63 @@ fn without_cage<const NODES: usize>(
 /// Its model, with the angle of its nut.
 fn with_angle<const NODES: usize>(
     folded: &'static FoldedBall<NODES>,
-) -> Result<FrictionModel<UncagedBallScrew<37, NODES>>, Error> {
+) -> Result<FrictionModel<UncagedBallScrew<MOST_BALLS, NODES>>, Error> {
     let configuration = without_cage(folded)?;
-    let mut model = FrictionModel::<UncagedBallScrew<37, NODES>>::new(&configuration)?;
+    let mut model = FrictionModel::<UncagedBallScrew<MOST_BALLS, NODES>>::new(&configuration)?;
     model.set_nut_angle(1.25);
     Ok(model)
 }
 
 /// The screw without cage, with one friction coefficient.
-pub fn screw() -> Result<FrictionModel<UncagedBallScrew<37>>, Error> {
+pub fn screw() -> Result<FrictionModel<UncagedBallScrew<MOST_BALLS>>, Error> {
     with_angle(&gears::GEAR_33X20_BALL)
 }
 
 /// What it goes on with: worn.
-pub fn worn_screw() -> Result<UncagedConstants<37>, Error> {
+pub fn worn_screw() -> Result<UncagedConstants<MOST_BALLS>, Error> {
     UncagedConstants::new(&without_cage(&gears::GEAR_33X20_BALL_WORN)?)
 }
 
 /// The screw without cage, for a range of friction coefficients.
-pub fn screw_range() -> Result<FrictionModel<UncagedBallScrew<37, BALL_NODES>>, Error> {
+pub fn screw_range() -> Result<FrictionModel<UncagedBallScrew<MOST_BALLS, BALL_NODES>>, Error> {
     with_angle(&gears::GEAR_33X20_BALL_RANGE)
 }
 
 /// A linear bearing with balls of 10 mm.
-pub fn linear() -> Result<FrictionModel<LinearBearingTrain<32>>, Error> {
-    let mut model = FrictionModel::<LinearBearingTrain<32>>::new(&LinearBearingConfiguration {
-        bearing: LinearBearing::new(LinearBearingParameters {
-            ball_radius: 5e-3,
-            groove: GrooveSize::Conformity(0.52),
-            contact_angle: std::f32::consts::FRAC_PI_4,
-            ball_material: Material::STEEL,
-            groove_material: Material::STEEL,
-        })?,
-        friction: 0.1,
-        ball_friction: 0.12,
-        loaded_length: 0.2,
-        return_length: 0.13,
-        wavelength: 0.05,
-        rail_deviation: kept(DeviationMap::from_harmonics(
-            1,
-            &[Harmonic {
-                order: 1,
-                cosine: 0.01,
-                sine: 0.02,
-            }],
-        )?),
-        carriage_deviation: &DeviationMap::NONE,
-        load_shares: &[LoadShare::MEAN],
-        reversal_speed: 1e-3,
-        tick: 1e-3,
-        limits: LinearLimits {
-            speed: 2.0,
-            load: 5_000.0,
-            friction_force: 50.0,
-        },
-    })?;
+pub fn linear() -> Result<FrictionModel<LinearBearingTrain<MOST_BALLS>>, Error> {
+    let mut model =
+        FrictionModel::<LinearBearingTrain<MOST_BALLS>>::new(&LinearBearingConfiguration {
+            bearing: LinearBearing::new(LinearBearingParameters {
+                ball_radius: 5e-3,
+                groove: GrooveSize::Conformity(0.52),
+                contact_angle: std::f32::consts::FRAC_PI_4,
+                ball_material: Material::STEEL,
+                groove_material: Material::STEEL,
+            })?,
+            friction: 0.1,
+            ball_friction: 0.12,
+            balls: 32,
+            loaded_length: 0.2,
+            return_length: 0.13,
+            wavelength: 0.05,
+            rail_deviation: kept(DeviationMap::from_harmonics(
+                1,
+                &[Harmonic {
+                    order: 1,
+                    cosine: 0.01,
+                    sine: 0.02,
+                }],
+            )?),
+            carriage_deviation: &DeviationMap::NONE,
+            load_shares: &[LoadShare::MEAN],
+            reversal_speed: 1e-3,
+            tick: 1e-3,
+            limits: LinearLimits {
+                speed: 2.0,
+                load: 5_000.0,
+                friction_force: 50.0,
+            },
+        })?;
     model.set_carriage_position(0.0125);
     Ok(model)
 }

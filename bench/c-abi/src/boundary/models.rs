@@ -150,9 +150,18 @@ pub(super) unsafe fn import<C: CScene>(place: *mut C::Place, bytes: *const u8, l
             let bytes = unsafe { core::slice::from_raw_parts(bytes, length as usize) };
             placed
                 .model
-                .import(bytes)
+                .import(whole(bytes))
                 .map_or_else(refused, |()| EPAS_OK)
         }
         Err(status) => status,
     }
+}
+
+/// The block at the begin of a place for one of the most balls: as long as it says itself.
+fn whole(bytes: &[u8]) -> &[u8] {
+    const SHORTEST: usize = 20;
+    let length = bytes.get(10..).and_then(<[u8]>::first_chunk);
+    let length = length.map_or(0, |length| usize::from(u16::from_le_bytes(*length)));
+    let block = bytes.get(..length).unwrap_or(bytes);
+    if length < SHORTEST { bytes } else { block }
 }

@@ -162,7 +162,7 @@ pub unsafe extern "C" fn epas_closed_form_swap(
     unsafe { swap::<ClosedForm>(place, configuration, failure) }
 }
 
-/// Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place, of a folded ball for one friction coefficient. Set-up only. Where it fails,
+/// Makes a ball screw in the place, of a folded ball for one friction coefficient. Set-up only. Where it fails,
 /// every step is refused until it succeeds. `failure` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_screw_init(
@@ -223,7 +223,7 @@ pub unsafe extern "C" fn epas_screw_swap(
     unsafe { swap::<Screw<1>>(place, configuration, failure) }
 }
 
-/// Makes a ball screw of `EPAS_SCREW_BALLS` balls in the place, with a friction coefficient that changes; as `epas_screw_init`.
+/// Makes a ball screw in the place, with a friction coefficient that changes; as `epas_screw_init`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_screw_range_init(
     place: *mut ScrewRangePlace,
@@ -293,7 +293,7 @@ pub unsafe extern "C" fn epas_screw_range_set_friction(
     unsafe { change::<ScrewRange>(place, |model| model.set_friction(friction), failure) }
 }
 
-/// Makes a linear bearing of `EPAS_LINEAR_BALLS` balls in the place. Set-up only. Where it fails, every step is
+/// Makes a linear bearing in the place. Set-up only. Where it fails, every step is
 /// refused until it succeeds. `failure` may be NULL.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_linear_init(
@@ -367,7 +367,7 @@ pub unsafe extern "C" fn epas_caged_export(
     unsafe { export::<Caged<1>>(place, bytes, length) }
 }
 
-/// Takes the state of a block over, of the same lead and the exact length: before the first step. A block that is
+/// Takes the state of a block over, of the same lead: before the first step. What follows the block in `bytes` is not read. A block that is
 /// foreign, old or damaged is refused, and the model is as it was. Outside the interrupt.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_caged_import(

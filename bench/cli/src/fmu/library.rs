@@ -8,10 +8,8 @@ use std::process::{Command, Stdio};
 use super::description::{LIBRARY, Version};
 use epas_page::failure::Failure;
 
-/// What a library of so many balls carries, so that one of another build is noticed.
-pub fn mark(balls: u8) -> String {
-    format!("epas-friction row of {balls:02} balls")
-}
+/// What the library carries, so that another file is noticed.
+pub const MARK: &[u8; 21] = b"epas-friction's units";
 
 /// Folder of its sources below a checkout.
 const SOURCES: &str = "bench/fmu";
@@ -28,10 +26,10 @@ fn sources() -> Option<PathBuf> {
 }
 
 /// How a library is built before, for a program that stands alone.
-fn how(balls: u8) -> String {
+fn how() -> String {
     format!(
         "the unit's library is built from the sources of epas-friction, and this program stands without them. In a checkout: \
-         EPAS_FMU_BALLS={balls} cargo build --release --package epas-fmu; then here: --library CHECKOUT/target/release/{DLL_PREFIX}epas_fmu{DLL_SUFFIX}"
+         cargo build --release --package epas-fmu; then here: --library CHECKOUT/target/release/{DLL_PREFIX}epas_fmu{DLL_SUFFIX}"
     )
 }
 
@@ -66,30 +64,28 @@ pub fn place(version: Version) -> Result<String, Failure> {
 /// A library that was built before; its bytes.
 ///
 /// # Errors
-/// A file that cannot be read, or is the library of another number of balls.
-pub fn read(path: &Path, balls: u8) -> Result<Vec<u8>, Failure> {
+/// A file that cannot be read, or is another library.
+pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let bytes = fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
-    if marked(&bytes, balls) {
+    if marked(&bytes) {
         return Ok(bytes);
     }
     Err(Failure::Data(format!(
-        "{} is no library of a unit with {balls} balls (0 without a row of balls): EPAS_FMU_BALLS={balls} cargo build --release --package epas-fmu builds it",
+        "{} is no library of a unit: cargo build --release --package epas-fmu builds it",
         path.display()
     )))
 }
 
-fn marked(bytes: &[u8], balls: u8) -> bool {
-    let mark = mark(balls);
-    let mut windows = bytes.windows(mark.len());
-    windows.any(|window| window == mark.as_bytes())
+fn marked(bytes: &[u8]) -> bool {
+    bytes.windows(MARK.len()).any(|window| window == MARK)
 }
 
-/// Builds the library for a row of so many balls; its bytes, and the folder of its sources.
+/// Builds the library; its bytes, and the folder of its sources.
 ///
 /// # Errors
 /// Where there are no sources, or cargo or its build fails.
-pub fn build(balls: u8) -> Result<(Vec<u8>, PathBuf), Failure> {
-    let sources = sources().ok_or_else(|| Failure::Data(how(balls)))?;
+pub fn build() -> Result<(Vec<u8>, PathBuf), Failure> {
+    let sources = sources().ok_or_else(|| Failure::Data(how()))?;
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
     // That of the program itself, so that what both depend on is compiled once.
     let target = std::env::var_os("CARGO_TARGET_DIR")
@@ -106,7 +102,6 @@ pub fn build(balls: u8) -> Result<(Vec<u8>, PathBuf), Failure> {
         .arg("--target-dir")
         .arg(&target)
         .current_dir(&sources)
-        .env("EPAS_FMU_BALLS", balls.to_string())
         .stdin(Stdio::null())
         .output()
         .map_err(|error| {
@@ -124,11 +119,5 @@ pub fn build(balls: u8) -> Result<(Vec<u8>, PathBuf), Failure> {
         .join("release")
         .join(format!("{DLL_PREFIX}epas_fmu{DLL_SUFFIX}"));
     let bytes = fs::read(&path).map_err(|error| Failure::file("read", &path, &error))?;
-    if marked(&bytes, balls) {
-        Ok((bytes, sources))
-    } else {
-        Err(Failure::Data(
-            "another unit was built at the same time; once more, please".into(),
-        ))
-    }
+    Ok((bytes, sources))
 }

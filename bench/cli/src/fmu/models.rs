@@ -1,13 +1,14 @@
 //! Models of a unit, of a design whose numbers have been changed.
 
+use epas_design::uncaged::Folded;
 use epas_friction::scene::{FoldedBall, UncagedBallScrewConfiguration};
 use epas_friction::{Error, FrictionModel, LinearBearingTrain, UncagedBallScrew};
-use epas_trains::{Folded, NODES};
 
 use super::parameters::Values;
 use super::rows::Row;
 use super::running::{ByAngle, Moving, Running};
 use super::scene::SceneName;
+use crate::simulate::balls::CAPACITY;
 use crate::simulate::linear::Linear;
 use crate::simulate::memory::{self, Remembered, Remembering};
 use crate::simulate::nut::STEPS;
@@ -68,14 +69,11 @@ where
     }
 }
 
-/// What turns with the nut. Of `N` so that it is compiled with the library of the unit, as are rows of balls.
+/// What turns with the nut.
 ///
 /// # Errors
 /// The parameter that is wrong, its value and what is allowed.
-pub fn mechanism<const N: usize>(
-    design: &Design,
-    values: &Values<'_>,
-) -> Result<Box<dyn Running>, String> {
+pub fn mechanism(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running>, String> {
     let tick = checked_tick(values)?;
     let moving = Moving {
         told: [
@@ -106,7 +104,7 @@ pub fn row(design: &Design) -> Result<Uncaged, String> {
 ///
 /// # Errors
 /// The parameter that is wrong, its value and what is allowed.
-pub fn uncaged<const N: usize>(
+pub fn uncaged(
     design: &Design,
     scene: SceneName,
     values: &Values<'_>,
@@ -124,13 +122,13 @@ pub fn uncaged<const N: usize>(
         .map_err(|failure| failure.message().to_owned())?
         .folded
     {
-        Folded::One(folded) => row_of::<N, 1>(&row.balls, folded, remembered.as_ref(), tick),
-        Folded::Range(folded) => row_of::<N, NODES>(&row.balls, folded, remembered.as_ref(), tick),
+        Folded::One(folded) => row_of(&row.balls, folded, remembered.as_ref(), tick),
+        Folded::Range(folded) => row_of(&row.balls, folded, remembered.as_ref(), tick),
     }
 }
 
 /// The same by a law of its ball.
-fn row_of<const N: usize, const K: usize>(
+fn row_of<const K: usize>(
     balls: &UncagedDesign,
     folded: &'static FoldedBall<K>,
     remembered: Option<&Remembered>,
@@ -139,6 +137,7 @@ fn row_of<const N: usize, const K: usize>(
     let configuration = UncagedBallScrewConfiguration {
         folded,
         ball_friction: balls.ball_friction,
+        balls: balls.balls.into(),
         turns: balls.turns,
         return_length: balls.return_length,
         screw_deviation: balls.screw_deviation,
@@ -149,11 +148,14 @@ fn row_of<const N: usize, const K: usize>(
     if let Some(remembered) = remembered {
         let speed = memory::speed(tick).map_err(said)?;
         let model = memory::configuration(configuration, remembered, speed, balls.gear.friction)
-            .and_then(|whole| FrictionModel::<Remembering<UncagedBallScrew<N, K>>>::new(&whole))
+            .and_then(|whole| {
+                FrictionModel::<Remembering<UncagedBallScrew<CAPACITY, K>>>::new(&whole)
+            })
             .map_err(said)?;
         Ok(Box::new(Row { model, motion: 0.0 }))
     } else {
-        let model = FrictionModel::<UncagedBallScrew<N, K>>::new(&configuration).map_err(said)?;
+        let model =
+            FrictionModel::<UncagedBallScrew<CAPACITY, K>>::new(&configuration).map_err(said)?;
         Ok(Box::new(Row { model, motion: 0.0 }))
     }
 }
@@ -162,7 +164,7 @@ fn row_of<const N: usize, const K: usize>(
 ///
 /// # Errors
 /// The parameter that is wrong, its value and what is allowed.
-pub fn linear<const N: usize>(
+pub fn linear(
     design: LinearDesign,
     scene: SceneName,
     values: &Values<'_>,
@@ -178,11 +180,14 @@ pub fn linear<const N: usize>(
         let friction = configuration.friction;
         let speed = memory::speed(configuration.tick).map_err(said)?;
         let model = memory::configuration(configuration, &remembered, speed, friction)
-            .and_then(|whole| FrictionModel::<Remembering<LinearBearingTrain<N>>>::new(&whole))
+            .and_then(|whole| {
+                FrictionModel::<Remembering<LinearBearingTrain<CAPACITY>>>::new(&whole)
+            })
             .map_err(said)?;
         Ok(Box::new(Row { model, motion: 0.0 }))
     } else {
-        let model = FrictionModel::<LinearBearingTrain<N>>::new(&configuration).map_err(said)?;
+        let model =
+            FrictionModel::<LinearBearingTrain<CAPACITY>>::new(&configuration).map_err(said)?;
         Ok(Box::new(Row { model, motion: 0.0 }))
     }
 }

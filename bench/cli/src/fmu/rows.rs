@@ -111,7 +111,8 @@ macro_rules! balls {
 
             fn export(&self) -> Result<Vec<u8>, Refusal> {
                 let mut block = vec![0; Self::STATE_BYTES];
-                Self::export(self, &mut block)?;
+                let length = Self::export(self, &mut block)?;
+                block.truncate(length);
                 Ok(block)
             }
 
@@ -127,7 +128,8 @@ macro_rules! balls {
 
             fn export(&self) -> Result<Vec<u8>, Refusal> {
                 let mut block = vec![0; Self::STATE_BYTES];
-                Self::export(self, &mut block)?;
+                let length = Self::export(self, &mut block)?;
+                block.truncate(length);
                 Ok(block)
             }
 

@@ -43,11 +43,7 @@ fn with(unit: &Unit, name: &str, value: f64) -> Vec<f64> {
 
 /// Starts a model; what it says where it is refused.
 fn start(unit: &Unit, values: &[f64]) -> Result<(), String> {
-    match unit.stored.balls {
-        0 => unit.start::<1>(values).map(drop),
-        12 => unit.start::<12>(values).map(drop),
-        _ => unit.start::<37>(values).map(drop),
-    }
+    unit.start(values).map(drop)
 }
 
 /// Elements with their attributes.
@@ -167,16 +163,6 @@ fn a_wrong_parameter_is_told_with_its_value_and_range() {
             "{scene:?} {name}: {message}"
         );
     }
-}
-
-#[test]
-fn a_library_for_another_number_of_balls_says_so() {
-    let unit = unit(SceneName::Uncaged);
-    let message = unit.start::<12>(&unit.starts()).err().unwrap();
-    assert!(
-        message.contains("12") && message.contains("37"),
-        "{message}"
-    );
 }
 
 #[test]

@@ -211,30 +211,24 @@ impl Unit {
         }
     }
 
-    /// A model with the values of parameters, for a row of `N` balls where the scene has one.
+    /// A model with the values of parameters.
     ///
     /// # Errors
     /// The parameter that is wrong, its value and what is allowed.
-    pub fn start<const N: usize>(&self, values: &[f64]) -> Result<Box<dyn Running>, String> {
+    pub fn start(&self, values: &[f64]) -> Result<Box<dyn Running>, String> {
         let (scene, values) = (self.stored.scene, self.values(values));
-        if scene.has_row() && usize::from(self.stored.balls) != N {
-            return Err(format!(
-                "this library was built for {N} balls, and the unit has {}",
-                self.stored.balls
-            ));
-        }
         match &self.source {
             Source::Screw(design) => {
                 let design = changed_screw(design, scene, &values)?;
                 match scene {
                     SceneName::Caged => models::caged(&design),
                     SceneName::CagedWithMemory => models::caged_with_memory(&design, &values),
-                    SceneName::Mechanism => models::mechanism::<N>(&design, &values),
-                    _ => models::uncaged::<N>(&design, scene, &values),
+                    SceneName::Mechanism => models::mechanism(&design, &values),
+                    _ => models::uncaged(&design, scene, &values),
                 }
             }
             Source::Bearing(design) => {
-                models::linear::<N>(changed_bearing(design, &values)?, scene, &values)
+                models::linear(changed_bearing(design, &values)?, scene, &values)
             }
         }
     }

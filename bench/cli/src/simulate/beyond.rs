@@ -2,9 +2,9 @@
 
 use std::fmt::Write as _;
 
+use epas_design::uncaged::Folded;
 use epas_design::{CagedFold, UncagedFold};
 use epas_friction::{Faults, Inputs};
-use epas_trains::Folded;
 
 use super::summary::Lines;
 use epas_design::files::Design;

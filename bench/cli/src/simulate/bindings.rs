@@ -1,7 +1,8 @@
 //! What bindings to other languages take of a simulation: traces, scenes with their models and rows.
 
-pub use epas_trains::{Balls, Built, Folded, MOST_BALLS, ScrewConfiguration};
+pub use epas_design::uncaged::Folded;
 
+pub use super::balls::{Balls, Built};
 pub use super::caged::{Caged, CagedRow, wrapped};
 pub use super::linear::{Linear, LinearRow};
 pub use super::manoeuvre::{Manoeuvre, trace};

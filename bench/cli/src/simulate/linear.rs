@@ -2,8 +2,8 @@
 
 use epas_friction::{Error, LinearInputs, LinearOutputs};
 use epas_reference::promises;
-use epas_trains::{Built, bearing};
 
+use super::balls::{Built, bearing};
 use super::beyond::Beyond;
 use super::manoeuvre::{Manoeuvre, linear_trace};
 use super::memory::{self, Remembered};
@@ -66,7 +66,7 @@ impl Linear {
         configuration.tick = tick;
         let friction = configuration.friction;
         let whole = memory::whole(configuration, remembered, tick, friction)?;
-        bearing(self.design.balls, &whole)
+        bearing(&whole)
     }
 }
 

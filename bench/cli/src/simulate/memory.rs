@@ -9,9 +9,9 @@ use epas_friction::law::memory::{Hysteresis, SLIP_4, SPIN_4, SPIN_8};
 use epas_friction::law::motion::{SpeedOverTick, WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{Freshness, WithMemoryConfiguration};
 use epas_friction::{BallScrew, Clearance, Error, LinearBearingConfiguration, RollingResistance};
-use epas_trains::Configuration;
-pub use epas_trains::{ELEMENTS, Elements, Remembering, TEMPERATURE, fresh};
 
+use super::balls::Configuration;
+pub use super::balls::{ELEMENTS, Elements, Remembering, TEMPERATURE, fresh};
 use super::summary::Lines;
 use super::trace::{Sample, Trace};
 

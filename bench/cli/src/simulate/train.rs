@@ -1,7 +1,6 @@
-//! Models of scenes with a train, for any number of balls, over a trace of equal steps.
+//! Models of scenes with a train, over a trace of equal steps.
 
-use epas_trains::{Balls, Built, MOST_BALLS};
-
+use super::balls::{Balls, Built};
 use super::trace::{Sample, SceneSample, Trace};
 use epas_page::failure::Failure;
 
@@ -37,18 +36,13 @@ impl<S: SceneSample, Outputs> Train<S, Outputs> {
         let mut ticks = 1;
         loop {
             match build((step / f64::from(ticks)) as f32) {
-                Ok(Some(model)) => {
+                Ok(model) => {
                     return Ok(Self {
                         model,
                         ticks,
                         step,
                         motion: 0.0,
                     });
-                }
-                Ok(None) => {
-                    return Err(Failure::Data(format!(
-                        "balls is out of range; allowed: 1 to {MOST_BALLS}"
-                    )));
                 }
                 Err(error) if error.field() == "tick" => {
                     if error.value() > error.allowed().maximum && ticks < MOST_TICKS {

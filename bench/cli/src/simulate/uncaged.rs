@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use epas_design::UncagedFold;
 use epas_friction::{Error, Inputs, Outputs, UncagedOutputs};
 use epas_reference::promises;
-use epas_trains::{Built, ScrewConfiguration};
 
+use super::balls::{Built, screw as screw_of};
 use super::beyond::Beyond;
 use super::exact_screw::exact_screw;
 use super::manoeuvre::{Manoeuvre, trace};
@@ -22,6 +22,7 @@ use super::train::{Train, TrainRow, equal_step};
 use super::train_picture::{TrainPoint, draw};
 use epas_design::files::Design;
 use epas_design::files::train::UncagedDesign;
+use epas_design::uncaged_scene::ScrewConfiguration;
 use epas_design::{folds, uncaged_scene as uncaged};
 use epas_page::failure::Failure;
 use epas_page::progress::Working;
@@ -117,7 +118,7 @@ impl Uncaged {
         };
         let friction = self.balls.gear.friction;
         let whole = memory::whole(configuration, remembered, tick, friction)?;
-        epas_trains::screw(self.balls.balls, &whole)
+        screw_of(&whole)
     }
 }
 

@@ -424,6 +424,7 @@ impl LinearFile {
                 bearing,
                 friction: self.friction.unwrap_or(defaults::FRICTION),
                 ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
+                balls: self.balls.into(),
                 loaded_length: self.loaded_length,
                 return_length: self.return_length.unwrap_or(0.0),
                 wavelength: self.wavelength.unwrap_or(self.loaded_length),

@@ -45,7 +45,7 @@ pub fn row(request: &Request, design: &BallScrew) -> Result<Row, BadField> {
         loads.push(contacts.forces.map(f64::from));
     }
     let count = request.balls.len();
-    let mut press = Press::new();
+    let mut press = Press::<LARGEST_TRAIN>::new();
     let presses = pressed(&mut press, &free, &compliance, &room_of_a_row(count));
     Ok(Row {
         free_speed: Some(free_speed),

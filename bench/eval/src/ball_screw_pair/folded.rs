@@ -4,7 +4,7 @@
 //! where the request needs more. Requests with the same screw, friction coefficient, clearance and largest deviations share a law, which takes some
 //! seconds to fold.
 
-use epas_design::uncaged_scene::Folded;
+use epas_design::uncaged::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
 use epas_friction::train::Press;
@@ -120,7 +120,12 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
         grip[ball] = motion.grip * request.ball_friction as f32;
     }
     let mut press = Press::<LARGEST_TRAIN>::new();
-    if !press.solve_rubbing(&free, &impedance, &room_of_a_row(count), &grip) {
+    if !press.solve_rubbing(
+        &free,
+        &impedance,
+        &room_of_a_row::<LARGEST_TRAIN>(count),
+        &grip,
+    ) {
         return None;
     }
     let free_torque: f64 = motions.iter().map(|motion| f64::from(motion.torque)).sum();

@@ -135,8 +135,8 @@ fn run(
         let along = tick.nominal_speed() + ball.speed_deviation;
         orbital_speed.push(f64::from(nut_speed) * f64::from(along / path));
     }
-    let mut press = Press::new();
-    if !press.solve(&free, &impedance, &room_of_a_row(count)) {
+    let mut press = Press::<LARGEST_TRAIN>::new();
+    if !press.solve(&free, &impedance, &room_of_a_row::<LARGEST_TRAIN>(count)) {
         return None;
     }
     let forces = contact_forces(&press);

@@ -136,7 +136,7 @@ def eval(model: str, **fields: Any) -> dict[str, Any]:
     Args:
         model: "groove_curvature", "efficiency", "steady_state", "hertz", "contact_kinematics", "friction_map", "linear_train",
             "static_load", "ball_screw_train", "ball_screw_pair" or "presliding".
-        fields: what the model needs; ``epas-bench eval --help`` lists them.
+        fields: what the model needs; ``epas eval --help`` lists them.
 
     Returns:
         dict: ``in_loop`` and ``reference``.

@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use epas_cli::bindings::{
-    self, Balls, Built, Failure, Folded, Linear, MOST_BALLS, ScrewConfiguration, Uncaged,
-    UncagedDesign,
+    self, Balls, Built, Failure, Folded, Linear, ScrewConfiguration, Uncaged, UncagedDesign,
 };
 use epas_design::uncaged::UncagedBlock;
 use epas_design::uncaged_scene::{configuration_with, fold_for, folded, read};
@@ -25,17 +24,10 @@ fn model<I, O>(
     built: Built<I, O>,
     limit: (&str, f32),
 ) -> PyResult<Box<dyn Balls<I, O>>> {
-    match built {
-        Ok(Some(model)) => Ok(model),
-        Ok(None) => {
-            let message = format!("balls is out of range; allowed: 1 to {MOST_BALLS}");
-            Err(refused(py, Refused::value("balls", message)))
-        }
-        Err(error) => {
-            let (limit, value) = limit;
-            Err(refused(py, Refused::from(error).tick_of(limit, value)))
-        }
-    }
+    built.map_err(|error| {
+        let (limit, value) = limit;
+        refused(py, Refused::from(error).tick_of(limit, value))
+    })
 }
 
 /// What a row of balls is made from, beside its design's own numbers.

@@ -185,6 +185,7 @@ fn linear_step() -> Result<Accuracy, Failure> {
         })?,
         friction: study::FRICTION as f32,
         ball_friction: study::FRICTION as f32,
+        balls: BALLS as u16,
         loaded_length: 0.26,
         return_length: 0.0,
         wavelength: 0.1,

@@ -168,6 +168,7 @@ pub const LOOPS: &[Row] = &[
     ),
     // What the compiler calls to clear and to move memory.
     row("compiler_builtins::arm::__aeabi_memset4", Bound::Stores),
+    row("compiler_builtins::arm::__aeabi_memcpy4", Bound::Stores),
     row(
         "compiler_builtins::mem::impls::copy_forward::copy_forward_aligned_words",
         Bound::Stores,

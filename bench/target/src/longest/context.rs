@@ -49,6 +49,8 @@ impl Context {
             Some(register) => match argument(steps, call, register) {
                 Argument::Constant(bytes) => Some(bytes),
                 Argument::Inherited => self.bytes,
+                // A function of memory passes on no more than it was called with.
+                Argument::Unknown if self.bytes.is_some() => self.bytes,
                 Argument::Unknown => {
                     return Err(format!(
                         "{name} is called with a length that only the run knows at {call:#x}"

@@ -173,7 +173,7 @@ fn compare_with_exhaustive_search<const N: usize>(
             trial % 3 != 0,
             spread,
         );
-        let mut found = Press::new();
+        let mut found = Press::<N>::new();
         assert!(found.solve(&free, &impedance, &room));
         let speed: Vec<_> = found.speeds().collect();
         let case = Case::of(&free, &impedance, &room);
@@ -233,7 +233,7 @@ fn compare_with_relaxation<const N: usize>(random: &mut Random, trials: usize) -
             trial % 2 == 0,
             2.0,
         );
-        let mut found = Press::new();
+        let mut found = Press::<N>::new();
         assert!(found.solve(&free, &impedance, &room));
         let speed: Vec<_> = found.speeds().collect();
         let case = Case::of(&free, &impedance, &room);
@@ -269,7 +269,7 @@ fn compare_with_isotonic_regression<const N: usize>(random: &mut Random, trials:
     let mut worst = 0.0_f64;
     for trial in 0..trials {
         let (free, impedance, room) = random_train::<N>(random, 1.0, false, 2.0);
-        let mut found = Press::new();
+        let mut found = Press::<N>::new();
         assert!(found.solve(&free, &impedance, &room));
         let case = Case::of(&free, &impedance, &room);
         let (speeds, forces) = isotonic_by_min_max(&case.free, &case.compliance);
@@ -333,7 +333,7 @@ fn check_order<const N: usize>(train: &Train<N>, length: f64, pitch: f64) -> f64
 fn a_million_ticks_leave_no_overlap() {
     const N: usize = 37;
     let (length, pitch) = (0.2248_f64, 0.00594_f64);
-    let mut train = Train::<N>::evenly_spaced(length as f32, pitch as f32).unwrap();
+    let mut train = Train::<N>::evenly_spaced(length as f32, pitch as f32, N).unwrap();
     let (mut worst, mut pressing, mut most) = (f64::INFINITY, 0, 0);
     let mut phase = 0.0_f64;
     for tick in 0..1_000_000_u32 {
@@ -387,9 +387,13 @@ fn numbering_does_not_matter() {
     let mut other = Train::<N>::new(length, pitch, &turned).unwrap();
     let mut pressing = std::collections::BTreeSet::new();
     for tick in 0..2000 {
-        one.step(&std::array::from_fn(|j| speed(j, tick)), &[500.0; N], 5e-5);
+        one.step(
+            &std::array::from_fn::<_, N, _>(|j| speed(j, tick)),
+            &[500.0; N],
+            5e-5,
+        );
         other.step(
-            &std::array::from_fn(|j| speed((j + 3) % N, tick)),
+            &std::array::from_fn::<_, N, _>(|j| speed((j + 3) % N, tick)),
             &[500.0; N],
             5e-5,
         );
@@ -408,7 +412,7 @@ fn numbering_does_not_matter() {
 /// One ball has nothing to press on; a full track moves as one, whatever its balls would do.
 #[test]
 fn a_single_ball_and_a_full_track() {
-    let mut single = Train::<1>::evenly_spaced(0.1, 0.01).unwrap();
+    let mut single = Train::<1>::evenly_spaced(0.1, 0.01, 1).unwrap();
     let start = single.positions().next().unwrap();
     for _ in 0..1000 {
         single.step(&[0.1], &[1e3], 1e-3);
@@ -422,7 +426,7 @@ fn a_single_ball_and_a_full_track() {
     // Half an ulp of that is 2 units: three roundings a step, of speed, travel and product.
     assert!((end.wrapping_sub(start) as i32).abs() < 6_000);
 
-    let mut full = Train::<10>::evenly_spaced(0.1, 0.01).unwrap();
+    let mut full = Train::<10>::evenly_spaced(0.1, 0.01, 10).unwrap();
     let free = [0.03, -0.02, 0.01, 0.0, 0.0, 0.05, -0.05, 0.02, 0.01, 0.05];
     for _ in 0..1000 {
         full.step(&free, &[1e3; 10], 1e-4);
@@ -528,8 +532,8 @@ fn absurd_inputs_do_no_harm() {
     let mut train = Train::<7>::new(0.1, 0.01, &[0.0, 0.0, 1e-4, 0.0, 1e-3, 0.0, 0.0]).unwrap();
     for _ in 0..20_000 {
         let mut pick = || wild[(random.between(0.0, 1.0) * wild.len() as f64) as usize];
-        let free = std::array::from_fn(|_| pick());
-        let impedance = std::array::from_fn(|_| pick());
+        let free: [f32; 7] = std::array::from_fn(|_| pick());
+        let impedance: [f32; 7] = std::array::from_fn(|_| pick());
         let travel = pick();
         train.step(&free, &impedance, travel);
         for (force, speed) in train.forces().zip(train.speeds()) {
@@ -553,7 +557,7 @@ fn a_travel_without_bound_is_three_per_cent_of_the_track() {
         (-0.029, -0.029),
         (f32::NAN, 0.0),
     ] {
-        let mut train = Train::<3>::evenly_spaced(1.0, 0.01).unwrap();
+        let mut train = Train::<3>::evenly_spaced(1.0, 0.01, 3).unwrap();
         let before: Vec<u32> = train.positions().collect();
         train.step(&[0.0; 3], &[1e3; 3], travel);
         for (before, after) in before.into_iter().zip(train.positions()) {
@@ -582,18 +586,18 @@ fn what_is_not_valid_joins_nothing() {
 fn bad_tracks_are_refused() {
     let field = |result: Result<Train<5>, epas_friction::Error>| result.unwrap_err().field();
     for bad in [f32::NAN, f32::INFINITY, 0.0, -1.0, 1e5] {
-        assert_eq!(field(Train::new(bad, 0.01, &[0.0; 5])), "length");
-        assert_eq!(field(Train::new(1.0, bad, &[0.0; 5])), "pitch");
+        assert_eq!(field(Train::<5>::new(bad, 0.01, &[0.0; 5])), "length");
+        assert_eq!(field(Train::<5>::new(1.0, bad, &[0.0; 5])), "pitch");
     }
-    assert_eq!(field(Train::new(1.0, 0.21, &[0.0; 5])), "pitch");
+    assert_eq!(field(Train::<5>::new(1.0, 0.21, &[0.0; 5])), "pitch");
     for bad in [f32::NAN, f32::INFINITY, -1e-3, 0.6] {
         assert_eq!(
-            field(Train::new(1.0, 0.1, &[0.0, bad, 0.0, 0.0, 0.0])),
+            field(Train::<5>::new(1.0, 0.1, &[0.0, bad, 0.0, 0.0, 0.0])),
             "gaps"
         );
     }
     assert_eq!(
-        field(Train::new(1.0, 0.1, &[0.2, 0.2, 0.2, 0.0, 0.0])),
+        field(Train::<5>::new(1.0, 0.1, &[0.2, 0.2, 0.2, 0.0, 0.0])),
         "gaps"
     );
 }

@@ -1,10 +1,8 @@
 //! What a caged screw promises: certificates of blocks that `epas-design` folds, each of 2,048 states that were not fitted; and laws that
 //! hold for all of them.
 
-use epas_testkit::errors::Errors;
 use std::sync::LazyLock;
 
-use epas_design::caged::Block;
 use epas_design::{CagedDesign, CagedFold, Failure, Figure, Folded};
 use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
 use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
@@ -13,6 +11,8 @@ use epas_friction::{
     Inputs, Limits, Outputs, Regime, defaults,
 };
 use epas_reference::promises;
+use epas_testkit::errors::Errors;
+use epas_testkit::folded;
 
 /// Friction coefficients and clearances, m, that the designs take in turn.
 const FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
@@ -72,11 +72,10 @@ fn certified(folded: &Folded, errors: &mut Errors, line: &str) {
     });
 }
 
-/// A block for one friction coefficient.
-#[test]
-fn folded_step() {
+/// A block for one friction coefficient, of some of every second design.
+fn folded_steps(taken: impl Fn(usize) -> bool) {
     let mut errors = Errors::of("folded step");
-    for (place, (name, parameters)) in designs(2).enumerate() {
+    for (place, (name, parameters)) in designs(2).enumerate().filter(|(place, _)| taken(*place)) {
         let clearance = CLEARANCES[place % CLEARANCES.len()];
         let friction = FRICTIONS[place % FRICTIONS.len()];
         let line = format!("{name}, {clearance} m, {friction}");
@@ -86,12 +85,25 @@ fn folded_step() {
     errors.assert_promised(promises::of("step_caged"));
 }
 
-/// A block for a range of friction coefficients, in and between its nodes; a range that it cannot hold to 3 % is refused.
+/// Four designs: preload, neither preload nor play, little play and much; the flattest lead and the steepest; a steering gear. All twenty in
+/// `folded_step_whole`.
 #[test]
-fn folded_step_between_nodes() {
+fn folded_step() {
+    folded_steps(|place| [0, 9, 13, 17].contains(&place));
+}
+
+#[test]
+#[ignore = "whole sweep: cargo test -p epas-reference --test all -- --ignored _whole"]
+fn folded_step_whole() {
+    folded_steps(|_| true);
+}
+
+/// A block for a range of friction coefficients, in and between its nodes, of some of every sixth design; a range that it cannot hold to 3 %
+/// is refused.
+fn folded_steps_between_nodes(taken: impl Fn(usize) -> bool) {
     let mut errors = Errors::of("folded step, friction between nodes");
     let (mut blocks, mut refused) = (0, 0);
-    for (place, (name, parameters)) in designs(6).enumerate() {
+    for (place, (name, parameters)) in designs(6).enumerate().filter(|(place, _)| taken(*place)) {
         let clearance = CLEARANCES[place % CLEARANCES.len()];
         let line = format!("{name}, {clearance} m");
         let range = CagedFold {
@@ -112,8 +124,20 @@ fn folded_step_between_nodes() {
     errors.assert_promised(promises::of("step_caged_range"));
 }
 
+/// One design; all seven in `folded_step_between_nodes_whole`.
+#[test]
+fn folded_step_between_nodes() {
+    folded_steps_between_nodes(|place| place == 1);
+}
+
+#[test]
+#[ignore = "whole sweep: cargo test -p epas-reference --test all -- --ignored _whole"]
+fn folded_step_between_nodes_whole() {
+    folded_steps_between_nodes(|_| true);
+}
+
 /// Screws of all leads, with preload, without, and with play; loads to 300 N a ball.
-static SCREWS: LazyLock<Vec<CagedBallScrewConfiguration>> = LazyLock::new(|| {
+fn screws() -> impl Iterator<Item = CagedFold> {
     let sizes = [10_usize, 15, 22, 30].map(|size| CATALOGUE[size].parameters());
     let steering = [DISSERTATION_DESIGNS[2].parameters];
     sizes
@@ -124,18 +148,47 @@ static SCREWS: LazyLock<Vec<CagedBallScrewConfiguration>> = LazyLock::new(|| {
                 .into_iter()
                 .zip([0.05, 0.15, 0.1, 0.15, 0.1]),
         )
-        .map(|(parameters, (clearance, friction))| one(&fold(parameters, clearance, friction)))
+        .map(|(parameters, (clearance, friction))| fold(parameters, clearance, friction))
+}
+
+static SCREWS: LazyLock<Vec<CagedBallScrewConfiguration>> =
+    LazyLock::new(|| screws().map(|fold| one(&fold)).collect());
+
+/// A screw without lead.
+fn bearing() -> CagedFold {
+    let flat = BallScrewParameters {
+        lead: 0.0,
+        ..CATALOGUE[15].parameters()
+    };
+    fold(flat, 0.0, 0.1)
+}
+
+/// Leads, m, and clearances, m, of one diameter.
+const LEADS: [f32; 5] = [4e-3, 6e-3, 10e-3, 20e-3, 40e-3];
+const GAPS: [f32; 2] = [-1e-6, 0.0];
+
+fn of_lead(gap: f32, lead: f32) -> CagedFold {
+    let parameters = BallScrewParameters {
+        lead,
+        ..DISSERTATION_DESIGNS[1].parameters
+    };
+    fold(parameters, gap, 0.1)
+}
+
+/// What of all these is stored.
+pub fn folds() -> Vec<CagedFold> {
+    let leads = GAPS.map(|gap| LEADS.map(|lead| of_lead(gap, lead)));
+    screws()
+        .chain([bearing()])
+        .chain(leads.into_iter().flatten())
         .collect()
-});
+}
 
 /// The block of a fold for one friction coefficient.
 fn one(fold: &CagedFold) -> CagedBallScrewConfiguration {
-    match fold.block().unwrap() {
-        Block::One(block) => CagedBallScrewConfiguration {
-            reversal_speed: 1e-6,
-            ..block
-        },
-        Block::Range(_) => unreachable!("one friction coefficient"),
+    CagedBallScrewConfiguration {
+        reversal_speed: 1e-6,
+        ..folded::caged(fold)
     }
 }
 
@@ -229,11 +282,7 @@ fn friction_is_continuous() {
 /// A screw of zero lead is a bearing: no torque of the load, but friction.
 #[test]
 fn zero_lead_is_a_bearing() {
-    let flat = BallScrewParameters {
-        lead: 0.0,
-        ..CATALOGUE[15].parameters()
-    };
-    let mut model = FrictionModel::new(&one(&fold(flat, 0.0, 0.1))).unwrap();
+    let mut model = FrictionModel::new(&one(&bearing())).unwrap();
     for load in [50.0, -50.0] {
         let outputs = step(&mut model, 10.0, load);
         assert_eq!((outputs.load_torque, outputs.efficiency), (0.0, 0.0));
@@ -245,14 +294,10 @@ fn zero_lead_is_a_bearing() {
 /// At one diameter the efficiency rises with the lead, driving and driven, as makers print it.
 #[test]
 fn efficiency_rises_with_the_lead() {
-    for gap in [-1e-6, 0.0] {
+    for gap in GAPS {
         let mut last = [f32::MIN; 3];
-        for lead in [4e-3, 6e-3, 10e-3, 20e-3, 40e-3] {
-            let parameters = BallScrewParameters {
-                lead,
-                ..DISSERTATION_DESIGNS[1].parameters
-            };
-            let mut model = FrictionModel::new(&one(&fold(parameters, gap, 0.1))).unwrap();
+        for lead in LEADS {
+            let mut model = FrictionModel::new(&one(&of_lead(gap, lead))).unwrap();
             for (load, last) in [50.0, -50.0, 150.0].into_iter().zip(&mut last) {
                 let efficiency = step(&mut model, 10.0, load).efficiency;
                 assert!(

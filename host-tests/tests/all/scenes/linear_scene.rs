@@ -64,6 +64,7 @@ fn configuration() -> LinearBearingConfiguration {
         bearing: bearing(),
         friction: FRICTION as f32,
         ball_friction: 0.08,
+        balls: BALLS as u16,
         loaded_length: LOADED as f32,
         return_length: RETURN as f32,
         wavelength: WAVELENGTH as f32,
@@ -384,6 +385,7 @@ fn limits_hold_to_their_last_number() {
 fn the_shortest_wavelength_is_that_of_the_track() {
     let with = |loaded_length: f32, wavelength: f32| {
         FrictionModel::<LinearBearingTrain<4>>::new(&LinearBearingConfiguration {
+            balls: 4,
             loaded_length,
             return_length: 0.0,
             wavelength,

@@ -78,10 +78,12 @@ const fn closed_form(branch: FrictionBranch, clearance: Clearance) -> ClosedForm
 
 const fn uncaged<const NODES: usize>(
     folded: &'static FoldedBall<NODES>,
+    balls: u16,
 ) -> UncagedBallScrewConfiguration<NODES> {
     UncagedBallScrewConfiguration {
         folded,
         ball_friction: 0.1,
+        balls,
         turns: 2.0,
         return_length: 0.03,
         screw_deviation: &WAVES,
@@ -105,6 +107,7 @@ const fn linear() -> LinearBearingConfiguration {
         })),
         friction: 0.1,
         ball_friction: 0.15,
+        balls: 24,
         loaded_length: 0.16,
         return_length: 0.09,
         wavelength: 0.06,
@@ -142,10 +145,11 @@ static PRELOADED_BALL: FoldedBall = FoldedBall {
     },
     ..BALL
 };
-static ONE: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(&BALL)));
+static ONE: UncagedConstants<37> = folded(UncagedConstants::new(&uncaged(&BALL, 37)));
 static RANGE: UncagedConstants<37, BALL_NODES> =
-    folded(UncagedConstants::new(&uncaged(&BALL_RANGE)));
-static PRELOADED: UncagedConstants<24> = folded(UncagedConstants::new(&uncaged(&PRELOADED_BALL)));
+    folded(UncagedConstants::new(&uncaged(&BALL_RANGE, 37)));
+static PRELOADED: UncagedConstants<24> =
+    folded(UncagedConstants::new(&uncaged(&PRELOADED_BALL, 24)));
 static CARRIAGE: LinearConstants<24> = folded(LinearConstants::new(&linear()));
 
 /// `Debug` prints the shortest text that reads back as the same number, and the sign of a zero: equal texts
@@ -224,9 +228,9 @@ fn a_folded_closed_form_is_the_one_set_up_at_run_time() {
 
 #[test]
 fn a_folded_ball_screw_without_cage_is_the_one_set_up_at_run_time() {
-    same_gear::<UncagedBallScrew<37>>(&ONE, &uncaged(&BALL), nut);
-    same_gear::<UncagedScrew<37>>(&RANGE, &uncaged(&BALL_RANGE), nut);
-    same_gear::<UncagedBallScrew<24>>(&PRELOADED, &uncaged(&PRELOADED_BALL), nut);
+    same_gear::<UncagedBallScrew<37>>(&ONE, &uncaged(&BALL, 37), nut);
+    same_gear::<UncagedScrew<37>>(&RANGE, &uncaged(&BALL_RANGE, 37), nut);
+    same_gear::<UncagedBallScrew<24>>(&PRELOADED, &uncaged(&PRELOADED_BALL, 24), nut);
 }
 
 #[test]
@@ -259,9 +263,9 @@ fn a_refused_gear_names_its_field() {
     const BAD: Result<UncagedConstants<37>, Error> =
         UncagedConstants::new(&UncagedBallScrewConfiguration {
             tick: 0.1,
-            ..uncaged(&BALL)
+            ..uncaged(&BALL, 37)
         });
-    const CROWDED: Result<UncagedConstants<60>, Error> = UncagedConstants::new(&uncaged(&BALL));
+    const CROWDED: Result<UncagedConstants<60>, Error> = UncagedConstants::new(&uncaged(&BALL, 60));
     const HASTY: Result<LinearConstants<24>, Error> =
         LinearConstants::new(&LinearBearingConfiguration {
             limits: LinearLimits {

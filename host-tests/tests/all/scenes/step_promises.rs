@@ -265,7 +265,7 @@ fn train() {
         let free: [f32; 37] = std::array::from_fn(|_| (0.02 * random.signed()) as f32);
         let impedance: [f32; 37] =
             std::array::from_fn(|_| 10_f64.powf(3.0 * random.signed()) as f32);
-        let mut train = Train::new(1.0, 0.005, &[0.0; 37]).unwrap();
+        let mut train = Train::<37>::new(1.0, 0.005, &[0.0; 37]).unwrap();
         train.step(&free, &impedance, 1e-6);
         let exact = |numbers: &[f32]| numbers.iter().map(|&x| f64::from(x)).collect::<Vec<_>>();
         let compliance: Vec<f64> = exact(&impedance).iter().map(|x| 1.0 / x).collect();
@@ -357,6 +357,7 @@ fn linear_step() {
         .unwrap(),
         friction: 0.1,
         ball_friction: 0.1,
+        balls: 24,
         loaded_length: 0.26,
         return_length: 0.0,
         wavelength: 0.1,

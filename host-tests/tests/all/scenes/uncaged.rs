@@ -2,7 +2,7 @@
 
 mod blocks;
 mod course;
-mod exact;
+pub mod exact;
 mod laws;
 mod running;
 mod setting;

@@ -139,6 +139,7 @@ fn foreign_and_old_blocks_are_refused() {
 
 fn uncaged_of_seven() -> UncagedConfiguration {
     UncagedConfiguration {
+        balls: 7,
         turns: 1.0,
         ..uncaged()
     }

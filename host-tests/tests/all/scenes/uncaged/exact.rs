@@ -3,7 +3,6 @@
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use epas_design::uncaged::UncagedBlock;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
 use epas_friction::{
@@ -17,6 +16,7 @@ use epas_reference::friction::ball_screw_ring::{
 use epas_reference::friction::patch::Integration;
 
 use epas_testkit::errors::Errors;
+use epas_testkit::folded;
 use epas_testkit::gears::wave;
 use epas_testkit::given;
 
@@ -69,32 +69,28 @@ pub fn fold(clearance: Clearance, friction: Option<[f32; 2]>) -> UncagedFold {
     }
 }
 
-fn one(clearance: Clearance) -> FoldedBall {
-    match fold(clearance, None).block().unwrap() {
-        UncagedBlock::One(block) => block,
-        UncagedBlock::Range(_) => unreachable!("one coefficient was asked for"),
-    }
-}
-
 /// Oversize with which each contact of a ball is pressed with 15 N.
 pub fn oversize() -> Clearance {
     Clearance::of_preload(&design(), 15.0).unwrap()
 }
 
+/// What of all these is stored.
+pub fn folds() -> [UncagedFold; 3] {
+    [
+        fold(Clearance::ZERO, None),
+        fold(oversize(), None),
+        fold(Clearance::ZERO, Some([0.075, 0.15])),
+    ]
+}
+
 /// Balls without play and preload, for a friction coefficient of 0.1.
-pub static PLAIN: LazyLock<FoldedBall> = LazyLock::new(|| one(Clearance::ZERO));
+pub static PLAIN: LazyLock<FoldedBall> = LazyLock::new(|| folded::uncaged(&folds()[0]));
 
 /// The same with [`oversize`].
-pub static PRELOADED: LazyLock<FoldedBall> = LazyLock::new(|| one(oversize()));
+pub static PRELOADED: LazyLock<FoldedBall> = LazyLock::new(|| folded::uncaged(&folds()[1]));
 
 /// Balls without play and preload, for friction coefficients of 0.075 to 0.15.
-pub static RANGE: LazyLock<FoldedBall<3>> =
-    LazyLock::new(
-        || match fold(Clearance::ZERO, Some([0.075, 0.15])).block().unwrap() {
-            UncagedBlock::Range(block) => block,
-            UncagedBlock::One(_) => unreachable!("a range was asked for"),
-        },
-    );
+pub static RANGE: LazyLock<FoldedBall<3>> = LazyLock::new(|| folded::uncaged(&folds()[2]));
 
 /// A screw that [`BALLS`] nearly fill, with waves as large as was folded for on both grooves.
 pub fn screw<const NODES: usize>(
@@ -104,6 +100,7 @@ pub fn screw<const NODES: usize>(
     UncagedBallScrewConfiguration {
         folded,
         ball_friction,
+        balls: BALLS as u16,
         turns: 0.8463,
         return_length: 0.0,
         screw_deviation: wave(1, 3, 0.0, DEVIATIONS[0]),

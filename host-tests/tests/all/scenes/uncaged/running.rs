@@ -105,6 +105,7 @@ fn a_return_without_load_takes_its_share_of_the_balls() {
 #[test]
 fn a_zone_that_was_empty_is_loaded_again() {
     let configuration = UncagedBallScrewConfiguration {
+        balls: 4,
         turns: 1.0,
         return_length: 0.5,
         ..gears::even()

@@ -244,6 +244,7 @@ fn at_a_node_a_range_is_the_block_of_one() {
         let mut one = Model::new(&UncagedBallScrewConfiguration {
             folded: changed(&folded, |_| ()),
             ball_friction: whole.ball_friction,
+            balls: whole.balls,
             turns: whole.turns,
             return_length: whole.return_length,
             screw_deviation: whole.screw_deviation,

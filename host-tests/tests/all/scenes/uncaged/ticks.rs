@@ -17,8 +17,11 @@ const EVENTS: [&str; 4] = [
     "load step to ten times",
 ];
 
-/// Compared ticks of an event, the first of which is that in which it happens.
+/// Ticks of an event that may be compared, the first of which is that in which it happens.
 const COMPARED: u32 = 30;
+
+/// Every so many of them are, by default; all in the tests whose names end in `_whole`.
+const SAMPLE: u32 = 6;
 
 /// Turn of the nut from one event to the next, rad.
 const TURN: f32 = 1.0;
@@ -43,7 +46,7 @@ impl<const NODES: usize> Case<NODES> {
 
     /// The screw through all events: it starts and turns round under the load, which then grows by half, and from a fifth to ten times
     /// this.
-    fn through_events(&self) -> [Found; 4] {
+    fn through_events(&self, stride: u32) -> [Found; 4] {
         let Self { speed, load, .. } = *self;
         let mut beside = Beside::new(self.screw, self.clearance);
         beside.set_friction(self.friction);
@@ -67,6 +70,10 @@ impl<const NODES: usize> Case<NODES> {
             turn = TURN;
             let mut found = Found::default();
             for tick in 0..COMPARED {
+                if tick % stride != 0 {
+                    beside.run(after);
+                    continue;
+                }
                 let pair = beside.step(after);
                 found.add(&pair, || {
                     format!("{}, {}, tick {tick}", self.line(), EVENTS[event])
@@ -81,10 +88,10 @@ impl<const NODES: usize> Case<NODES> {
 ///
 /// Where two balls meet within a tick the crate lets them press with the part of their force that the tick has left, and the exact ring, which
 /// stands where the tick begins, not at all: these ticks count by themselves, and their share is printed.
-fn all_events<const NODES: usize>(name: &str, cases: &[Case<NODES>]) -> Found {
+fn all_events<const NODES: usize>(name: &str, cases: &[Case<NODES>], stride: u32) -> Found {
     let mut by_event = [(); 4].map(|()| Found::default());
     for case in cases {
-        for (sum, found) in by_event.iter_mut().zip(&case.through_events()) {
+        for (sum, found) in by_event.iter_mut().zip(&case.through_events(stride)) {
             sum.join(found);
         }
     }
@@ -156,38 +163,34 @@ fn cases(
 
 const EVEN: (LoadShares, f32) = (LoadShares::EVEN, 1.0);
 
-#[test]
-fn ticks_of_even_loads_regression() {
+fn ticks_of_even_loads(stride: u32) {
     let of = |ball_friction| cases(&PLAIN, ball_friction, Clearance::ZERO, EVEN);
-    let mut found = all_events("even loads, smooth balls", &of(0.0));
-    found.join(&all_events("even loads, rubbing balls", &of(0.1)));
+    let mut found = all_events("even loads, smooth balls", &of(0.0), stride);
+    found.join(&all_events("even loads, rubbing balls", &of(0.1), stride));
     found
         .torque_apart
         .assert_promised(promises::of("step_uncaged"));
 }
 
-#[test]
-fn ticks_of_own_loads_regression() {
+fn ticks_of_own_loads(stride: u32) {
     let of = |ball_friction| cases(&PLAIN, ball_friction, Clearance::ZERO, (uneven(), 0.7));
-    let mut found = all_events("own loads, smooth balls", &of(0.0));
-    found.join(&all_events("own loads, rubbing balls", &of(0.1)));
+    let mut found = all_events("own loads, smooth balls", &of(0.0), stride);
+    found.join(&all_events("own loads, rubbing balls", &of(0.1), stride));
     found
         .torque_apart
         .assert_promised(promises::of("step_uncaged_shares"));
 }
 
-#[test]
-fn ticks_with_preload_regression() {
+fn ticks_with_preload(stride: u32) {
     let cases = cases(&PRELOADED, 0.1, oversize(), EVEN);
-    let found = all_events("preload, rubbing balls", &cases);
+    let found = all_events("preload, rubbing balls", &cases, stride);
     found
         .torque_apart
         .assert_promised(promises::of("step_uncaged"));
 }
 
 /// Between the nodes, which stand at equal distances in octaves: halfway, where the error is largest, and near the ends.
-#[test]
-fn ticks_between_nodes_regression() {
+fn ticks_between_nodes(stride: u32) {
     let range: &'static FoldedBall<3> = &RANGE;
     let [low, middle, high] = range.law.frictions();
     let cases: Vec<_> = QUADRANTS
@@ -207,8 +210,52 @@ fn ticks_between_nodes_regression() {
             load,
         })
         .collect();
-    let found = all_events("between nodes", &cases);
+    let found = all_events("between nodes", &cases, stride);
     found
         .torque_apart
         .assert_promised(promises::of("step_uncaged_range"));
+}
+
+#[test]
+fn ticks_of_even_loads_regression() {
+    ticks_of_even_loads(SAMPLE);
+}
+
+#[test]
+#[ignore = "whole sweep: cargo test -p epas-reference --test all -- --ignored _whole"]
+fn ticks_of_even_loads_regression_whole() {
+    ticks_of_even_loads(1);
+}
+
+#[test]
+fn ticks_of_own_loads_regression() {
+    ticks_of_own_loads(SAMPLE);
+}
+
+#[test]
+#[ignore = "whole sweep: cargo test -p epas-reference --test all -- --ignored _whole"]
+fn ticks_of_own_loads_regression_whole() {
+    ticks_of_own_loads(1);
+}
+
+#[test]
+fn ticks_with_preload_regression() {
+    ticks_with_preload(SAMPLE);
+}
+
+#[test]
+#[ignore = "whole sweep: cargo test -p epas-reference --test all -- --ignored _whole"]
+fn ticks_with_preload_regression_whole() {
+    ticks_with_preload(1);
+}
+
+#[test]
+fn ticks_between_nodes_regression() {
+    ticks_between_nodes(SAMPLE);
+}
+
+#[test]
+#[ignore = "whole sweep: cargo test -p epas-reference --test all -- --ignored _whole"]
+fn ticks_between_nodes_regression_whole() {
+    ticks_between_nodes(1);
 }

@@ -1,10 +1,24 @@
-//! A row of balls as a program holds it, whatever its number.
+//! A row of balls as a program holds it: with memory or without, for one friction coefficient or a range.
+
+mod bearing;
+mod memory;
+mod row;
+mod screw;
 
 use epas_friction::{Error, Refusal};
 
-use crate::memory::RememberingConfiguration;
+pub use bearing::bearing;
+use memory::RememberingConfiguration;
+pub use memory::{ELEMENTS, Elements, Remembering, TEMPERATURE, fresh};
+pub use screw::screw;
 
-/// The in-loop model of a scene, whatever its number of balls.
+/// Most balls of a row: one compiled model serves all numbers up to it.
+pub const MOST_BALLS: u8 = 64;
+
+/// The same as the capacity of a model.
+pub const CAPACITY: usize = MOST_BALLS as usize;
+
+/// The in-loop model of a scene.
 pub trait Balls<Inputs, Outputs>: Send + Sync {
     /// One tick.
     fn step(&mut self, inputs: Inputs) -> Outputs;
@@ -36,8 +50,8 @@ pub trait Balls<Inputs, Outputs>: Send + Sync {
     fn copied(&self) -> Box<dyn Balls<Inputs, Outputs>>;
 }
 
-/// A model as it is built, none for a number of balls that is out of range.
-pub type Built<Inputs, Outputs> = Result<Option<Box<dyn Balls<Inputs, Outputs>>>, Error>;
+/// A model as it is built.
+pub type Built<Inputs, Outputs> = Result<Box<dyn Balls<Inputs, Outputs>>, Error>;
 
 /// A scene's configuration, without memory or with it.
 #[derive(Clone, Copy, Debug)]

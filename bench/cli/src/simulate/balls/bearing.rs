@@ -4,24 +4,24 @@ use epas_friction::{
     FrictionModel, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, LinearOutputs,
 };
 
-use crate::balls::{Built, Configuration};
-use crate::memory::Remembering;
-use crate::number::with_balls;
-use crate::row::{Row, pressing};
+use super::memory::Remembering;
+use super::row::{Row, pressing};
+use super::{Built, CAPACITY, Configuration};
 
-/// A linear bearing with so many balls, 1 to 64.
+/// A linear bearing.
 ///
 /// # Errors
 /// [`epas_friction::Error`] naming a field out of range.
 pub fn bearing(
-    balls: u8,
     configuration: &Configuration<LinearBearingConfiguration>,
 ) -> Built<LinearInputs, LinearOutputs> {
     match configuration {
-        Configuration::Plain(plain) => with_balls!(plain, LinearBearingTrain, balls, plain),
-        Configuration::Remembering(whole) => {
-            with_balls!(remembering, LinearBearingTrain, balls, whole)
-        }
+        Configuration::Plain(plain) => Ok(Box::new(
+            FrictionModel::<LinearBearingTrain<CAPACITY>>::new(plain)?,
+        )),
+        Configuration::Remembering(whole) => Ok(Box::new(FrictionModel::<
+            Remembering<LinearBearingTrain<CAPACITY>>,
+        >::new(whole)?)),
     }
 }
 

@@ -88,25 +88,34 @@ fn sliding(axial_load: f32) -> Inputs {
     }
 }
 
-/// The goal for every design: largest 0.6 %, rms 0.2 %, on states that were not fitted, no state flagged or left out. Small and large balls,
-/// steep and flat leads, preload, play and two contacts.
+/// The goal for every design: largest 0.6 %, rms 0.2 %, on states that were not fitted, no state flagged or left out.
+fn holds_its_accuracy(folded: &Folded, line: &str) {
+    let [torque] = &folded.certificate.figures;
+    println!("{line}: {torque:?}");
+    assert!(torque.largest <= 6e-3, "{line}: {}", torque.largest);
+    assert!(torque.rms <= 2e-3, "{line}: {}", torque.rms);
+    assert!(torque.mean.abs() <= 5e-4, "{line}: {}", torque.mean);
+    assert_eq!((torque.states, torque.unsolved), (2048, 0), "{line}");
+    assert_eq!(torque.flagged, 0.0, "{line}");
+}
+
+/// A steering gear. Others in `blocks_hold_their_accuracy_whole`, and by the table of promises in `scenes::caged::folded_step` of epas-reference.
 #[test]
 fn blocks_hold_their_accuracy() {
+    holds_its_accuracy(&STEERING, "lin-4.1");
+}
+
+/// Small and large balls, steep and flat leads, preload, play and two contacts.
+#[test]
+#[ignore = "whole sweep: cargo test -p epas-design --test all -- --ignored _whole"]
+fn blocks_hold_their_accuracy_whole() {
     for (size, clearance, friction) in [
-        ("lin-4.1", -1e-6, 0.1),
         ("lin-2.1", 0.0, 0.05),
         ("20x50x3.5", 5e-6, 0.15),
         ("63x25x9.525", 20e-6, 0.1),
         ("160x25x12.7", -5e-6, 0.05),
     ] {
-        let folded = folded(size, clearance, friction);
-        let [torque] = &folded.certificate.figures;
-        println!("{size} {clearance:e} {friction}: {torque:?}");
-        assert!(torque.largest <= 6e-3, "{size}: {}", torque.largest);
-        assert!(torque.rms <= 2e-3, "{size}: {}", torque.rms);
-        assert!(torque.mean.abs() <= 5e-4, "{size}: {}", torque.mean);
-        assert_eq!((torque.states, torque.unsolved), (2048, 0), "{size}");
-        assert_eq!(torque.flagged, 0.0, "{size}");
+        holds_its_accuracy(&folded(size, clearance, friction), size);
     }
 }
 
@@ -327,29 +336,6 @@ fn a_block_is_read_as_it_was_written() {
         (other.digest, &other.certificate),
         (STEERING.digest, &STEERING.certificate)
     );
-}
-
-/// A digest tells every input apart.
-#[test]
-fn the_digest_is_that_of_all_inputs() {
-    let digest = |fold: CagedFold| fold.digest();
-    let fold = CagedFold::of(gear("lin-4.1", -1e-6, 0.1));
-    let mut seen = vec![digest(fold)];
-    let mut more_balls = fold;
-    more_balls.gear.loaded_balls += 1;
-    let mut less_load = fold;
-    less_load.axial_load = [5.0, 299.0];
-    let mut range = fold;
-    range.friction = Some([0.05, 0.15]);
-    for other in [
-        more_balls,
-        less_load,
-        range,
-        CagedFold::of(gear("lin-4.1", -1.1e-6, 0.1)),
-    ] {
-        assert!(!seen.contains(&digest(other)));
-        seen.push(digest(other));
-    }
 }
 
 /// Text forms hold the words and say what they are.

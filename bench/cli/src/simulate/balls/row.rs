@@ -6,8 +6,8 @@ use epas_friction::stored::Stored;
 use epas_friction::train::Train;
 use epas_friction::{Error, FrictionModel, Refusal};
 
-use crate::balls::Balls;
-use crate::memory::{Remembering, fresh};
+use super::Balls;
+use super::memory::{Remembering, fresh};
 
 /// A scene with a row of balls.
 pub trait Row:
@@ -36,7 +36,8 @@ pub fn pressing<const N: usize>(train: &Train<N>) -> u64 {
 
 fn exported<S: StoredScene>(model: &FrictionModel<S>) -> Result<Vec<u8>, Refusal> {
     let mut block = vec![0; FrictionModel::<S>::STATE_BYTES];
-    model.export(&mut block)?;
+    let length = model.export(&mut block)?;
+    block.truncate(length);
     Ok(block)
 }
 
