@@ -7,7 +7,7 @@ use epas_friction::scene::{CagedConstants, FoldedBall};
 use serde_json::Value;
 
 use super::eval::number;
-use super::{Run, run_in};
+use super::{Run, STORED, run_in};
 
 /// A steering screw, without its friction coefficient.
 const DESIGN: &str = "nominal_diameter = 0.028\nlead = 0.007\nball_diameter = 3.969e-3\nconformity = 0.54\n\
@@ -139,7 +139,7 @@ fn refusals_name_their_reason_and_leave_nothing() {
     }
     // Simulation with a cage takes the file: its balls feel no deviations.
     let fold = "[fold]\nscrew_deviation = 0.01\n";
-    fs::write(folder.join("screw.toml"), format!("{DESIGN}{fold}")).unwrap();
+    fs::write(folder.join("screw.toml"), format!("{STORED}{fold}")).unwrap();
     let arguments = "simulate --design screw.toml --manoeuvre kerb --output kerb.csv";
     let all: Vec<_> = arguments.split(' ').collect();
     assert_eq!(run_in(folder, &all, "").code, 0);

@@ -20,6 +20,36 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+/// The built-in design `lin-4.1` as a file: its block comes with the program, and none is folded for it.
+const STORED: &str = "\
+pitch_radius = 0.0145
+lead = 0.007
+ball_radius = 2e-3
+groove_radius = 2.16e-3
+contact_angle = 0.7853982
+friction = 0.075
+clearance = 0
+loaded_balls = 71
+reversal_speed = 0.5
+";
+
+/// `lin-3.6` without a cage, likewise.
+const STORED_UNCAGED: &str = "\
+pitch_radius = 0.0165
+lead = 0.02
+ball_radius = 2.778e-3
+conformity = 0.56
+contact_angle = 0.7853982
+friction = 0.1
+clearance = 0
+loaded_balls = 37
+reversal_speed = 0.5
+[uncaged]
+balls = 37
+turns = 2
+screw_deviation = [{ order = 2, sine = 0.04014 }]
+";
+
 /// How a run of the program ended.
 struct Run {
     code: i32,
