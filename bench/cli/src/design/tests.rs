@@ -1,7 +1,6 @@
 //! A block in every format, and what is said of it.
 
 use std::fs;
-use std::path::Path;
 
 use epas_friction::scene::{CagedBallScrew, CagedConstants};
 use epas_friction::{FrictionModel, Inputs};

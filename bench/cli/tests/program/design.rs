@@ -62,7 +62,8 @@ fn a_block_goes_to_standard_output() {
 
 /// Balls that press on each other have a block of their own, over the deviations of their grooves.
 #[test]
-fn a_block_without_cage_holds_deviations() {
+#[ignore = "folds and certifies a ball that others press: twenty seconds"]
+fn a_block_without_cage_holds_deviations_whole() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let row = "[uncaged]\nballs = 20\nturns = 1\nscrew_deviation = [{ order = 1, sine = 2e-3 }]\n";
@@ -100,9 +101,6 @@ fn a_block_without_cage_holds_deviations() {
             "{figure}"
         );
     }
-    let run = design(folder, "lin-4.1 --scene uncaged");
-    assert_eq!(run.code, 1);
-    assert!(run.stderr.contains("[uncaged]"), "{}", run.stderr);
 }
 
 /// What cannot be folded says why, and leaves nothing.
@@ -160,6 +158,7 @@ fn outputs_of_a_block_are_safe() {
         ("screw.toml --output gear.csv", 1, ".bin"),
         ("screw.toml --output gear.h --format rust", 1, ".rs"),
         ("lin-3.3", 1, "linear"),
+        ("lin-4.1 --scene uncaged", 1, "[uncaged]"),
         ("absent.toml", 1, "absent.toml"),
         ("screw.toml --output gear.dat", 2, "--format"),
         ("screw.toml --format rust --json", 2, "--output"),

@@ -4,8 +4,6 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use tempfile::TempDir;
-
 use crate::{Run, run_in};
 
 /// Folder of the files, in the tree.
@@ -14,7 +12,7 @@ fn designs() -> PathBuf {
 }
 
 /// A place with the files where the page has them.
-fn place() -> TempDir {
+fn place() -> tempfile::TempDir {
     let place = tempfile::tempdir().unwrap();
     let folder = place.path().join("bench/designs");
     fs::create_dir_all(&folder).unwrap();
@@ -182,43 +180,26 @@ fn a_load_beyond_the_static_limit_gets_a_word() {
 const PLAY: &str = "nominal_diameter = 0.028\nlead = 0.007\nball_diameter = 3.969e-3\nconformity = 0.54\ncontact_angle = 0.7853982\n\
                     loaded_balls = 60\nclearance = 2e-5\n";
 
-/// A design whose block is not held to its bound.
-fn far_off() -> TempDir {
-    let place = tempfile::tempdir().unwrap();
-    let fold = "[fold]\nfriction = [0.02, 0.3]\naxial_load = [0.5, 300]\n";
-    fs::write(place.path().join("gear.toml"), format!("{PLAY}{fold}")).unwrap();
-    place
-}
-
-/// The sentence with which a run ends.
-fn refusal(place: &TempDir, arguments: &str) -> String {
-    let run = said(place.path(), arguments);
-    assert_eq!(run.code, 1, "{}", run.stdout);
-    let line = run.stderr.lines().find(|line| line.starts_with("error"));
-    line.unwrap_or_else(|| panic!("{}", run.stderr)).to_owned()
-}
-
-/// What is folded for a simulation is held to the bound of a block, and nothing is written. (The whole: that `design` says the same.)
-#[test]
-fn a_block_that_is_far_off_is_refused() {
-    let place = far_off();
-    let sentence = refusal(
-        &place,
-        "simulate --design gear.toml --manoeuvre weave --output out.csv",
-    );
-    assert!(sentence.contains("narrow the domain"), "{sentence}");
-    assert!(!place.path().join("out.csv").exists());
-}
-
-/// What `design` refuses, `simulate` refuses with the same sentence.
+/// What `design` refuses, `simulate` refuses with the same sentence, and writes nothing. (The tests of `epas-design` hold what is refused.)
 #[test]
 #[ignore = "folds a range of coefficients twice"]
 fn a_block_that_is_far_off_is_refused_alike_whole() {
-    let place = far_off();
-    let design = refusal(&place, "design gear.toml");
-    assert!(design.contains("narrow the domain"));
-    let simulate = "simulate --design gear.toml --manoeuvre weave --output out.csv";
-    assert_eq!(design, refusal(&place, simulate));
+    let place = tempfile::tempdir().unwrap();
+    let fold = "[fold]\nfriction = [0.02, 0.3]\naxial_load = [0.5, 300]\n";
+    fs::write(place.path().join("gear.toml"), format!("{PLAY}{fold}")).unwrap();
+    let [design, simulate] = [
+        "design gear.toml",
+        "simulate --design gear.toml --manoeuvre weave --output out.csv",
+    ]
+    .map(|arguments| said(place.path(), arguments));
+    let sentence = |run: &Run| {
+        let line = run.stderr.lines().find(|line| line.starts_with("error"));
+        line.unwrap_or_else(|| panic!("{}", run.stdout)).to_owned()
+    };
+    assert_eq!((design.code, simulate.code), (1, 1));
+    assert!(sentence(&design).contains("narrow the domain"));
+    assert_eq!(sentence(&design), sentence(&simulate));
+    assert!(!place.path().join("out.csv").exists());
 }
 
 /// Samples above the block say so with their loads; a manoeuvre is scaled to what the block holds, and a trace is not; one in degrees is asked for.
