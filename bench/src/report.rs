@@ -59,7 +59,7 @@ pub struct Arguments {
     #[arg(long)]
     full: bool,
     /// Timing rounds on this machine [default: 120; 1500 with --full]
-    #[arg(long, value_parser = rounds)]
+    #[arg(long, value_parser = rounds, allow_negative_numbers = true)]
     rounds: Option<usize>,
     /// Store the errors that README and bench/accuracy.md print, and do nothing else
     #[arg(long, exclusive = true)]

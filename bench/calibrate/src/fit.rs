@@ -17,5 +17,5 @@ pub mod profile;
 pub mod separable;
 pub mod telling;
 #[cfg(test)]
-pub mod toys;
+pub(crate) mod toys;
 pub mod uncertainty;

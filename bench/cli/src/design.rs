@@ -1,6 +1,8 @@
 //! `design`: a ball screw solved once, on this machine, into the constants that firmware evaluates, with a certificate of their errors.
 
 mod made;
+#[cfg(test)]
+mod tests;
 
 use std::io::{self, IsTerminal as _, Write};
 use std::path::{Path, PathBuf};
@@ -253,6 +255,15 @@ fn built_in(store: bool) -> Result<(), Failure> {
     Ok(())
 }
 
+/// The scene that is asked for, or that of balls which press where the table has deviations.
+fn chosen(table: &epas_design::files::fold::FoldTable, asked: Option<Scene>) -> Scene {
+    asked.unwrap_or(if table.says_deviations() {
+        Scene::Uncaged
+    } else {
+        Scene::Caged
+    })
+}
+
 /// Folds the ball of a scene.
 fn made(design: &Design, scene: Option<Scene>) -> Result<Made, Failure> {
     let table = &design.fold;
@@ -260,12 +271,7 @@ fn made(design: &Design, scene: Option<Scene>) -> Result<Made, Failure> {
     let of_fold = |message: String| failure(format!("fold: {message}"));
     let named = |error: epas_design::Failure| error.of(&design.name);
     let progress = Progress::of_fold();
-    let scene = scene.unwrap_or(if table.says_deviations() {
-        Scene::Uncaged
-    } else {
-        Scene::Caged
-    });
-    match scene {
+    match chosen(table, scene) {
         Scene::Caged => {
             let fold = table.fold(design).map_err(of_fold)?;
             let folded = caged::certified(&fold, &|share| progress.share(share)).map_err(named)?;
@@ -326,22 +332,4 @@ fn next(out: &mut dyn Write, target: Option<&Target>, made: &Made, words: usize)
     let name = constant(path.file_stem().unwrap_or_default());
     writeln!(out, "\nwrote {}; in firmware:", path.display())?;
     made.next(out, *format, (&file, &name), words)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_constant_is_named_after_its_file() {
-        for (name, wanted) in [
-            ("gear", "GEAR"),
-            ("lin-4.1", "LIN_4_1"),
-            ("29x7x4", "GEAR_29X7X4"),
-            ("_ä", "GEAR___"),
-            ("", "GEAR_"),
-        ] {
-            assert_eq!(constant(name.as_ref()), wanted);
-        }
-    }
 }

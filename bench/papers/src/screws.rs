@@ -1,4 +1,4 @@
-//! `screws`: random whole screws in the loop against the exact ones.
+//! `epas-papers screws`: random whole screws in the loop against the exact ones.
 
 use std::f64::consts::TAU;
 use std::io::{self, Write as _};
@@ -39,10 +39,10 @@ const DESIGNS: [(f64, f64, f64, f64); 10] = [
 #[derive(Debug, Parser)]
 pub struct Arguments {
     /// Screws.
-    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(1..=100_000), allow_negative_numbers = true)]
     screws: u32,
     /// Number of the first one: a screw is made from its number alone.
-    #[arg(long, default_value_t = 0)]
+    #[arg(long, default_value_t = 0, allow_negative_numbers = true)]
     first: u32,
 }
 

@@ -68,7 +68,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     let mut blocks = vec![
         Block::Text(
             "Errors over whole domains, to their edges: what is promised holds on the domain that the promise \
-             names, a part of the map. The last column, in stability.csv, is a line for `epas-bench eval` that reproduces the worst \
+             names, a part of the map. The last column, in stability.csv, is a line for `epas eval` that reproduces the worst \
              case: the error is that between the values at the two places of its answer, over a third one of \
              the reference where one is named."
                 .into(),

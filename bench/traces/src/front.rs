@@ -167,6 +167,3 @@ pub fn number(cell: &[u8], separator: u8) -> Option<Result<f64, ()>> {
     };
     Some(number.map_err(|_| ()))
 }
-
-#[cfg(test)]
-mod tests;

@@ -310,7 +310,7 @@ harmonics = [{ order = 1, cosine = 1.5e-3, sine = -1e-3 }, { order = 2, sine = 8
     /// The program's tests compile the stored text, and run it.
     #[test]
     fn the_stored_constants_are_what_is_written() {
-        let stored = include_str!("../../../tests/program/calibrated_constants.rs");
+        let stored = include_str!("../../../cli/tests/program/calibrated_constants.rs");
         let text = of(&format!("{DESIGN}{CALIBRATION}"));
         assert!(
             text == stored,

@@ -10,6 +10,8 @@
 //! plain position or speed is the nut's beside a torque, and the carriage's beside a force.
 
 #[cfg(test)]
+mod tables;
+#[cfg(test)]
 mod tests;
 
 use std::borrow::Cow;

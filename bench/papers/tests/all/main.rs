@@ -6,6 +6,7 @@ mod kinematics;
 mod kinematics_cases;
 mod load_studies;
 mod measured_figures;
+mod program;
 mod published_records;
 mod rolling_ball;
 mod rotary_ball;

@@ -3,13 +3,11 @@
 use std::fs;
 use std::path::Path;
 
-use epas_friction::FrictionModel;
-use epas_friction::Inputs;
-use epas_friction::scene::{CagedBallScrew, CagedConstants, FoldedBall};
+use epas_friction::scene::{CagedConstants, FoldedBall};
 use serde_json::Value;
 
 use super::eval::number;
-use super::{Run, run_in};
+use super::{Run, STORED, run_in};
 
 /// A steering screw, without its friction coefficient.
 const DESIGN: &str = "nominal_diameter = 0.028\nlead = 0.007\nball_diameter = 3.969e-3\nconformity = 0.54\n\
@@ -45,105 +43,12 @@ fn words_of_bytes(bytes: &[u8]) -> Vec<u32> {
         .collect()
 }
 
-/// Every format holds the same words, of the same design the same bits; what they say is what `--json` says.
+/// On standard output the block stands alone, and the certificate beside it.
 #[test]
-fn every_format_is_the_same_block() {
+fn a_block_goes_to_standard_output() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    fs::write(
-        folder.join("screw.toml"),
-        format!("friction = 0.1\n{DESIGN}"),
-    )
-    .unwrap();
-    let asked = [
-        ("screw.toml --output gear.rs", "gear.rs"),
-        ("screw.toml --output gear.h", "gear.h"),
-        ("screw.toml --output block.toml", "block.toml"),
-        ("screw.toml --output page.dat --format binary", "page.dat"),
-    ];
-    for (arguments, file) in asked {
-        let run = design(folder, arguments);
-        assert_eq!(run.code, 0, "{}", run.stderr);
-        assert!(
-            run.stdout.contains("caged_torque") && run.stdout.contains(file),
-            "{}",
-            run.stdout
-        );
-        // The type that a struct or a static takes.
-        let typed = "let mut model: FrictionModel<CagedBallScrew, &'static CagedConstants> = FrictionModel::of(&GEAR);";
-        assert_eq!(
-            run.stdout.contains(typed),
-            file == "gear.rs",
-            "{}",
-            run.stdout
-        );
-    }
-    let text = |name: &str| fs::read_to_string(folder.join(name)).unwrap();
-    let block = words_of_bytes(&fs::read(folder.join("page.dat")).unwrap());
-    let read: toml::Table = toml::from_str(&text("block.toml")).unwrap();
-    let listed: Vec<u32> = read["words"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|word| word.as_integer().unwrap() as u32)
-        .collect();
-    assert_eq!(listed, block);
-    assert_eq!(words(&text("gear.rs")), block);
-    assert_eq!(words(&text("gear.h")), block);
-    assert!(text("gear.rs").contains("pub static GEAR: "));
-    assert!(text("gear.h").contains("GEAR_BLOCK["));
-
-    let constants = CagedConstants::<1>::from_block(&listed).unwrap();
-    let mut model = FrictionModel::<CagedBallScrew, _>::of(&constants);
-    let outputs = model.step(Inputs {
-        nut_speed: 50.0,
-        axial_load: 6_000.0,
-    });
-    assert!(outputs.friction_torque > 0.1 && !outputs.faults.any());
-
-    let run = design(folder, "screw.toml --json");
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    let said: Value = serde_json::from_str(&run.stdout).unwrap();
-    let keys: Vec<_> = said.as_object().unwrap().keys().cloned().collect();
-    let mut wanted = [
-        "version",
-        "digest",
-        "bytes",
-        "domain",
-        "certificate",
-        "seed",
-        "two_answers",
-        "unsolved",
-        "seconds",
-    ];
-    wanted.sort_unstable();
-    let mut keys: Vec<_> = keys.iter().map(String::as_str).collect();
-    keys.sort_unstable();
-    assert_eq!(keys, wanted);
-    assert_eq!(number(&said["version"]), f64::from(block[1]));
-    assert_eq!(number(&said["bytes"]) as usize, 4 * block.len());
-    assert_eq!(said["digest"], read["digest"].as_str().unwrap());
-    assert_eq!(
-        said["domain"]["axial_load"],
-        serde_json::json!([5.0, 300.0])
-    );
-    let friction = &said["domain"]["friction"];
-    assert!((number(&friction[0]) - 0.1).abs() < 1e-8 && friction[0] == friction[1]);
-    let figure = &said["certificate"][0];
-    assert_eq!(figure["quantity"], "caged_torque");
-    assert_eq!(figure["unit"], "relative");
-    assert!(number(&figure["states"]) >= 2_000.0 && number(&figure["flagged"]) == 0.0);
-    let (largest, rms) = (number(&figure["largest"]), number(&figure["rms"]));
-    assert!(rms < largest && largest < 0.006, "{figure}");
-    assert!(number(&figure["mean"]).abs() <= rms);
-}
-
-/// On standard output the block stands alone, and the certificate beside it; a range of coefficients has its own number of nodes.
-#[test]
-fn a_range_of_coefficients_goes_to_standard_output() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let fold = "[fold]\nfriction = [0.08, 0.12]\naxial_load = [50, 200]\nseed = 7\n";
+    let fold = "[fold]\naxial_load = [50, 200]\nseed = 7\n";
     fs::write(folder.join("screw.toml"), format!("{DESIGN}{fold}")).unwrap();
     let run = design(folder, "screw.toml --format rust");
     assert_eq!(run.code, 0, "{}", run.stderr);
@@ -151,13 +56,14 @@ fn a_range_of_coefficients_goes_to_standard_output() {
     assert!(run.stdout.contains("pub static SCREW: "));
     assert!(run.stderr.contains("seed 7"), "{}", run.stderr);
     assert!(run.stderr.contains("50 to 200 N"), "{}", run.stderr);
-    CagedConstants::<5>::from_block(&words(&run.stdout)).unwrap();
+    CagedConstants::<1>::from_block(&words(&run.stdout)).unwrap();
     assert_eq!(names(folder), ["screw.toml"]);
 }
 
 /// Balls that press on each other have a block of their own, over the deviations of their grooves.
 #[test]
-fn a_block_without_cage_holds_deviations() {
+#[ignore = "folds and certifies a ball that others press: twenty seconds"]
+fn a_block_without_cage_holds_deviations_whole() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
     let row = "[uncaged]\nballs = 20\nturns = 1\nscrew_deviation = [{ order = 1, sine = 2e-3 }]\n";
@@ -195,33 +101,6 @@ fn a_block_without_cage_holds_deviations() {
             "{figure}"
         );
     }
-    // A deviation in the table says that balls press, and needs no row of balls; without either there is none.
-    let fold = format!("{fold}nut_deviation = 1e-3\n");
-    fs::write(folder.join("pair.toml"), format!("{DESIGN}{fold}")).unwrap();
-    let run = design(folder, "pair.toml");
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    assert!(run.stdout.contains("ring_torque"), "{}", run.stdout);
-    let run = design(folder, "lin-4.1 --scene uncaged");
-    assert_eq!(run.code, 1);
-    assert!(run.stderr.contains("[uncaged]"), "{}", run.stderr);
-}
-
-/// One coefficient of the table is the one that is folded.
-#[test]
-fn the_table_gives_the_coefficient() {
-    let folder = tempfile::tempdir().unwrap();
-    let folder = folder.path();
-    let fold = "[fold]\nfriction = 0.05\naxial_load = [100, 120]\n";
-    fs::write(
-        folder.join("screw.toml"),
-        format!("friction = 0.1\n{DESIGN}{fold}"),
-    )
-    .unwrap();
-    let run = design(folder, "screw.toml --json");
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    let said: Value = serde_json::from_str(&run.stdout).unwrap();
-    let friction = number(&said["domain"]["friction"][1]);
-    assert!((friction - 0.05).abs() < 1e-8);
 }
 
 /// What cannot be folded says why, and leaves nothing.
@@ -258,19 +137,19 @@ fn refusals_name_their_reason_and_leave_nothing() {
     }
     // Simulation with a cage takes the file: its balls feel no deviations.
     let fold = "[fold]\nscrew_deviation = 0.01\n";
-    fs::write(folder.join("screw.toml"), format!("{DESIGN}{fold}")).unwrap();
+    fs::write(folder.join("screw.toml"), format!("{STORED}{fold}")).unwrap();
     let arguments = "simulate --design screw.toml --manoeuvre kerb --output kerb.csv";
     let all: Vec<_> = arguments.split(' ').collect();
     assert_eq!(run_in(folder, &all, "").code, 0);
 }
 
-/// A file that is there stays, and an output is not called what it is not.
+/// A file that is there stays, and an output is not called what it is not. What replaces it is of the table's coefficient.
 #[test]
 fn outputs_of_a_block_are_safe() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let fold = "[fold]\naxial_load = [100, 120]\n";
-    let text = format!("{DESIGN}{fold}");
+    let fold = "[fold]\nfriction = 0.05\naxial_load = [100, 120]\n";
+    let text = format!("friction = 0.1\n{DESIGN}{fold}");
     fs::write(folder.join("screw.toml"), &text).unwrap();
     fs::write(folder.join("gear.rs"), "mine").unwrap();
     for (arguments, code, word) in [
@@ -279,6 +158,7 @@ fn outputs_of_a_block_are_safe() {
         ("screw.toml --output gear.csv", 1, ".bin"),
         ("screw.toml --output gear.h --format rust", 1, ".rs"),
         ("lin-3.3", 1, "linear"),
+        ("lin-4.1 --scene uncaged", 1, "[uncaged]"),
         ("absent.toml", 1, "absent.toml"),
         ("screw.toml --output gear.dat", 2, "--format"),
         ("screw.toml --format rust --json", 2, "--output"),
@@ -298,8 +178,12 @@ fn outputs_of_a_block_are_safe() {
     assert_eq!(fs::read_to_string(folder.join("screw.toml")).unwrap(), text);
     let run = design(folder, "screw.toml --output gear.rs --force");
     assert_eq!(run.code, 0, "{}", run.stderr);
-    let block = words(&fs::read_to_string(folder.join("gear.rs")).unwrap());
-    CagedConstants::<1>::from_block(&block).unwrap();
+    // The type that a struct or a static takes.
+    let typed = "let mut model: FrictionModel<CagedBallScrew, &'static CagedConstants> = FrictionModel::of(&GEAR);";
+    assert!(run.stdout.contains(typed), "{}", run.stdout);
+    let text = fs::read_to_string(folder.join("gear.rs")).unwrap();
+    assert!(text.contains("friction coefficient 0.05"), "{text}");
+    CagedConstants::<1>::from_block(&words(&text)).unwrap();
 }
 
 /// Each block that the program brings with it has the bits of a new fold.

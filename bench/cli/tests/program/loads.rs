@@ -7,7 +7,7 @@ use std::path::Path;
 use epas_friction::LoadShare;
 use tempfile::tempdir;
 
-use super::{Run, run, run_in};
+use super::{Run, STORED_UNCAGED, run, run_in};
 
 mod pasted {
     include!("load_shares.rs");
@@ -102,9 +102,12 @@ fn a_table_goes_into_the_design_file() {
         again.stderr
     );
 
+    // The scene takes the table of its own balls.
+    let made = loads(path, &["--design", "lin-3.6", "--output", "37.toml"]);
+    assert_eq!(made.code, 0, "{}", made.stderr);
+    let table = fs::read_to_string(path.join("37.toml")).unwrap();
     let list = table.split_once("[uncaged]\n").unwrap().1;
-    let whole = format!("{DESIGN}{list}");
-    fs::write(path.join("whole.toml"), whole).unwrap();
+    fs::write(path.join("whole.toml"), format!("{STORED_UNCAGED}{list}")).unwrap();
     let run = run_in(
         path,
         &[
@@ -245,17 +248,13 @@ fn a_trace_gets_the_tables_it_needs() {
     assert!(said.contains("One table"), "{said}");
     assert!(text.contains("\nload_shares = ["));
 
-    let made = loads(
-        path,
-        &[
-            "--design",
-            "screw.toml",
-            "--input",
-            "wide.csv",
-            "--output",
-            "shares.toml",
-        ],
-    );
+    fs::write(
+        path.join("uncaged.toml"),
+        format!("{STORED_UNCAGED}{LOADS}"),
+    )
+    .unwrap();
+    let arguments = "--design uncaged.toml --input wide.csv --output shares.toml";
+    let made = loads(path, &arguments.split(' ').collect::<Vec<_>>());
     assert!(
         words(&made.stdout).contains("one table does not serve"),
         "{}",
@@ -263,7 +262,7 @@ fn a_trace_gets_the_tables_it_needs() {
     );
     let table = fs::read_to_string(path.join("shares.toml")).unwrap();
     let lists = table.split_once("[uncaged]\n").unwrap().1;
-    fs::write(path.join("whole.toml"), format!("{DESIGN}{lists}")).unwrap();
+    fs::write(path.join("whole.toml"), format!("{STORED_UNCAGED}{lists}")).unwrap();
     let friction = |design: &str, trace: &str| {
         let run = run_in(
             path,
@@ -276,10 +275,10 @@ fn a_trace_gets_the_tables_it_needs() {
         assert_eq!(run.code, 0, "{}", run.stderr);
         fs::read_to_string(path.join("out.csv")).unwrap()
     };
-    trace("push.csv", &[5000.0; 20]);
-    trace("pull.csv", &[-5000.0; 20]);
+    trace("push.csv", &[1000.0; 20]);
+    trace("pull.csv", &[-1000.0; 20]);
     let same = lists.split_once("# ").unwrap().0;
-    fs::write(path.join("same.toml"), format!("{DESIGN}{same}")).unwrap();
+    fs::write(path.join("same.toml"), format!("{STORED_UNCAGED}{same}")).unwrap();
     assert_eq!(
         friction("whole.toml", "push.csv"),
         friction("same.toml", "push.csv")

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tempfile::{TempDir, tempdir};
 
-use super::{Run, run, run_in};
+use super::{Run, STORED, run, run_in};
 
 const TRACE: &str = "time,nut_speed,axial_load\n0,10,1000\n0.001,0,-1000\n0.002,-10,1000\n";
 
@@ -26,6 +26,13 @@ fn folder() -> TempDir {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("trace.csv"), TRACE).unwrap();
     fs::write(folder.path().join("design.toml"), DESIGN).unwrap();
+    folder
+}
+
+/// The same, and the design's block is stored.
+fn stored_folder() -> TempDir {
+    let folder = folder();
+    fs::write(folder.path().join("design.toml"), STORED).unwrap();
     folder
 }
 
@@ -70,7 +77,7 @@ fn the_list_holds_every_built_in_design() {
 
 #[test]
 fn standard_input_and_output_are_a_dash() {
-    let folder = folder();
+    let folder = stored_folder();
     let run = simulate(
         folder.path(),
         &[
@@ -104,10 +111,10 @@ fn standard_input_and_output_are_a_dash() {
         "--output",
         "-",
     ];
-    let run = run_in(folder.path(), &design, DESIGN);
+    let run = run_in(folder.path(), &design, STORED);
     assert_eq!((run.code, run.stdout), (0, table), "{}", run.stderr);
     let both = ["simulate", "--design", "-", "--input", "-"];
-    let run = run_in(folder.path(), &both, DESIGN);
+    let run = run_in(folder.path(), &both, STORED);
     assert!(
         run.code == 1 && run.stderr.contains("can be read once"),
         "{}",
@@ -118,7 +125,7 @@ fn standard_input_and_output_are_a_dash() {
 
 #[test]
 fn a_mapping_comes_from_standard_input_too() {
-    let folder = folder();
+    let folder = stored_folder();
     let measured = [
         "simulate",
         "--design",
@@ -186,67 +193,78 @@ fn a_name_that_is_near_is_suggested() {
     );
 }
 
-/// The f32 model is within a few 2^-24 of the same scene in float64.
-#[test]
-fn manoeuvres_run_beside_the_reference() {
-    for manoeuvre in ["parking", "weave", "kerb"] {
-        let folder = tempdir().unwrap();
-        let run = simulate(
-            folder.path(),
-            &[
-                "--manoeuvre",
-                manoeuvre,
-                "--output",
-                "out.csv",
-                "--plot",
-                "out.svg",
-                "--reference",
-            ],
-        );
-        assert_eq!(run.code, 0, "{}", run.stderr);
-        assert_eq!(files(folder.path()), ["out.csv", "out.svg"]);
-        let svg = fs::read_to_string(folder.path().join("out.svg")).unwrap();
-        assert!(svg.starts_with("<svg") && svg.contains("friction torque (N m)"));
+/// The model runs over a manoeuvre beside one ball in exact balance.
+fn runs_beside_the_reference(manoeuvre: &str) {
+    let folder = tempdir().unwrap();
+    let run = simulate(
+        folder.path(),
+        &[
+            "--manoeuvre",
+            manoeuvre,
+            "--output",
+            "out.csv",
+            "--plot",
+            "out.svg",
+            "--reference",
+        ],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(files(folder.path()), ["out.csv", "out.svg"]);
+    let svg = fs::read_to_string(folder.path().join("out.svg")).unwrap();
+    assert!(svg.starts_with("<svg") && svg.contains("friction torque (N m)"));
 
-        let mut reader = csv::Reader::from_path(folder.path().join("out.csv")).unwrap();
-        let heads: Vec<_> = reader.headers().unwrap().iter().map(String::from).collect();
-        assert_eq!(
-            heads,
-            [
-                "time",
-                "nut_speed",
-                "axial_load",
-                "friction_torque",
-                "load_torque",
-                "efficiency",
-                "regime",
-                "faults",
-                "fault_words",
-                "reference_friction_torque",
-                "reference_efficiency",
-            ]
-        );
-        let mut largest = 0.0_f64;
-        let mut worst = 0.0_f64;
-        let mut count = 0;
-        for record in reader.records() {
-            let record = record.unwrap();
-            let number = |index: usize| record[index].parse::<f64>().unwrap();
-            assert_eq!(&record[7], "0");
-            assert_eq!(&record[8], "");
-            largest = largest.max(number(9).abs());
-            worst = worst.max((number(3) - number(9)).abs());
-            // The law over the load and the slip maps against a ball with exact integrals: 1.1 % of the friction, which is a
-            // tenth of the work.
-            assert!((number(5) - number(10)).abs() < 3e-3, "{record:?}");
-            count += 1;
-        }
-        assert!(
-            count > 5000 && worst < 1.5e-2 * largest,
-            "{worst:e} of {largest}"
-        );
-        assert!(run.stdout.contains("peak friction torque"));
-        assert!(run.stdout.contains("f64 is one ball in elastic balance\n"));
+    let mut reader = csv::Reader::from_path(folder.path().join("out.csv")).unwrap();
+    let heads: Vec<_> = reader.headers().unwrap().iter().map(String::from).collect();
+    assert_eq!(
+        heads,
+        [
+            "time",
+            "nut_speed",
+            "axial_load",
+            "friction_torque",
+            "load_torque",
+            "efficiency",
+            "regime",
+            "faults",
+            "fault_words",
+            "reference_friction_torque",
+            "reference_efficiency",
+        ]
+    );
+    let mut largest = 0.0_f64;
+    let mut worst = 0.0_f64;
+    let mut count = 0;
+    for record in reader.records() {
+        let record = record.unwrap();
+        let number = |index: usize| record[index].parse::<f64>().unwrap();
+        assert_eq!(&record[7], "0");
+        assert_eq!(&record[8], "");
+        largest = largest.max(number(9).abs());
+        worst = worst.max((number(3) - number(9)).abs());
+        // The law over the load and the slip maps against a ball with exact integrals: 1.1 % of the friction, which is a
+        // tenth of the work.
+        assert!((number(5) - number(10)).abs() < 3e-3, "{record:?}");
+        count += 1;
+    }
+    assert!(
+        count > 5000 && worst < 1.5e-2 * largest,
+        "{worst:e} of {largest}"
+    );
+    assert!(run.stdout.contains("peak friction torque"));
+    assert!(run.stdout.contains("f64 is one ball in elastic balance\n"));
+}
+
+/// One manoeuvre. (The whole: each.)
+#[test]
+fn a_manoeuvre_runs_beside_the_reference() {
+    runs_beside_the_reference("weave");
+}
+
+#[test]
+#[ignore = "the exact ball over two more manoeuvres"]
+fn manoeuvres_run_beside_the_reference_whole() {
+    for manoeuvre in ["parking", "kerb"] {
+        runs_beside_the_reference(manoeuvre);
     }
 }
 
@@ -531,7 +549,7 @@ fn a_design_without_lead_is_a_bearing() {
 fn a_mechanism_tells_one_moment_in_a_row() {
     const INERTIA: f64 = 1e-3;
     const TICK: f64 = 1e-4;
-    let folder = folder();
+    let folder = stored_folder();
     let rows = (0..100).map(|tick| format!("{},{},1000\n", f64::from(tick) * TICK, 4.0));
     let trace: String = std::iter::once("time,motor_torque,axial_load\n".to_owned())
         .chain(rows)
@@ -599,10 +617,8 @@ fn column(table: &str, name: &str) -> Vec<String> {
 /// stiffness and breakaway.
 #[test]
 fn friction_remembers_where_it_is_asked_for() {
-    let folder = folder();
-    // Far below the speed of the trace: without memory friction is full there.
-    let design = format!("{DESIGN}reversal_speed = 0.5\n");
-    fs::write(folder.path().join("design.toml"), design).unwrap();
+    let folder = stored_folder();
+    // The design's reversal speed is far below the speed of the trace: without memory friction is full there.
     // Forward, back by little, forward again, and back for good; 1 kHz.
     let rows = (0..400).map(|tick| {
         let speed = match tick {

@@ -2,9 +2,10 @@
 
 use std::io::Cursor;
 
-use epas_calibrate::trace::Trace;
-use epas_calibrate::trace::columns::from_reader;
 use epas_page::failure::Failure;
+
+use super::from_reader;
+use crate::trace::Trace;
 
 fn read(text: &[u8]) -> Result<Trace, String> {
     from_reader(Cursor::new(text), "trace", None).map_err(|failure| match failure {

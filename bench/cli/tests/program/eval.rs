@@ -19,7 +19,7 @@ pub fn ask(requests: &[String]) -> (i32, Vec<Value>) {
 }
 
 pub fn golden(name: &str) -> Value {
-    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../host-tests/golden/");
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../host-tests/golden/");
     serde_json::from_str(&fs::read_to_string(format!("{folder}{name}")).unwrap()).unwrap()
 }
 
@@ -655,7 +655,7 @@ fn nothing_in_nothing_out() {
 fn a_closed_pipe_is_quiet() {
     use std::io::Write;
     use std::process::{Command, Stdio};
-    let mut child = Command::new(env!("CARGO_BIN_EXE_epas-bench"))
+    let mut child = Command::new(env!("CARGO_BIN_EXE_epas"))
         .arg("eval")
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
