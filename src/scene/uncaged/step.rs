@@ -79,31 +79,21 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let mut balls = state.circuit.train.intake(travel);
         let torque = if self.even {
             let numbers = common.numbers;
-            self.take_in(
-                &mut balls,
-                phase,
-                axial_load,
-                &common,
-                move |_, deviations| numbers.at(deviations),
-            )
+            let motion = move |_, deviations| numbers.at(deviations);
+            self.take_in(&mut balls, phase, axial_load, &common, motion)
         } else {
             let friction = state.friction;
-            self.take_in(
-                &mut balls,
-                phase,
-                axial_load,
-                &common,
-                |share, deviations| {
-                    let load = self.law.load_of(common.mean * share);
-                    let motion = self.law.at(load, common.branch, friction, deviations);
-                    let grip = common.direction * self.ball_friction * motion.grip;
-                    FreeMotion {
-                        speed: common.direction * motion.speed,
-                        grip: limited_grip(grip),
-                        ..motion
-                    }
-                },
-            )
+            let motion = |share, deviations| {
+                let load = self.law.load_of(common.mean * share);
+                let motion = self.law.at(load, common.branch, friction, deviations);
+                let grip = common.direction * self.ball_friction * motion.grip;
+                FreeMotion {
+                    speed: common.direction * motion.speed,
+                    grip: limited_grip(grip),
+                    ..motion
+                }
+            };
+            self.take_in(&mut balls, phase, axial_load, &common, motion)
         };
         let pressing = balls.press_rubbing();
         state.circuit.advance(&self.circuit, nut_speed);
