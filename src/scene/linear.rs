@@ -90,6 +90,7 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
         LinearConstants::new(configuration)
     }
 
+    #[inline(always)]
     fn initial_state(constants: &LinearConstants<N>) -> LinearState<N> {
         LinearState {
             circuit: CircuitState::new(&constants.circuit),

@@ -101,6 +101,7 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
         UncagedConstants::new(configuration)
     }
 
+    #[inline(always)]
     fn initial_state(constants: &UncagedConstants<N, NODES>) -> UncagedState<N> {
         UncagedState {
             circuit: CircuitState::new(&constants.circuit),

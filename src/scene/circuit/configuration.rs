@@ -146,6 +146,7 @@ impl Circuit {
 
 impl<const N: usize> CircuitState<N> {
     /// Balls at equal distances, before the first tick.
+    #[inline(always)]
     pub(crate) fn new(circuit: &Circuit) -> Self {
         Self {
             train: Train::spread(circuit.track, usize::from(circuit.balls)),
