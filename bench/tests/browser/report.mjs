@@ -1,7 +1,7 @@
-// Opens the report and the page of a simulation in Chromium, wide and narrow, light and dark, and tries what a reader does:
+// Opens the report, the papers' page and the page of a simulation in Chromium, wide and narrow, light and dark, and tries what a reader does:
 // contents, folds, looking closer. Fails with a list of what does not hold.
 //
-//   node report.mjs REPORT.html SIMULATION.html SCREENSHOTS
+//   node report.mjs REPORT.html PAPERS.html SIMULATION.html SCREENSHOTS
 //
 // needs playwright-core beside it and /usr/bin/chromium.
 import { mkdirSync } from "node:fs";
@@ -9,7 +9,7 @@ import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
-const [report, simulation, shots] = process.argv.slice(2).map((path) => resolve(path));
+const [report, papers, simulation, shots] = process.argv.slice(2).map((path) => resolve(path));
 const SCREEN = 900;
 const SCREENS = 12;
 const SMALLEST_TEXT = 10;
@@ -97,7 +97,7 @@ const later = async (browser) => {
 const contents = async (page, width, where) => {
   const narrow = width < 960;
   const links = await page.locator("nav a").all();
-  require(links.length > 10, `${where}: ${links.length} links in the contents`);
+  require(links.length >= 9, `${where}: ${links.length} links in the contents`);
   for (const [index, link] of links.entries()) {
     if (index % 3 !== 1) continue;
     if (narrow) await page.locator("nav > button").click();
@@ -129,22 +129,22 @@ const look = async (page, where) => {
   for (const each of found) require(false, `${where}: ${each}`);
 };
 
-const reading = async (browser, width, scheme) => {
-  const where = `report, ${width} px, ${scheme}`;
-  const page = await open(browser, report, width, scheme, where);
+const reading = async (browser, name, width, scheme) => {
+  const where = `${name}, ${width} px, ${scheme}`;
+  const page = await open(browser, { report, papers }[name], width, scheme, where);
   const screens = (await page.evaluate(() => document.documentElement.scrollHeight)) / SCREEN;
   counts[`${where}, screens`] = Number(screens.toFixed(1));
-  if (width >= 960) require(screens <= SCREENS, `${where}: ${screens.toFixed(1)} screens before anything is unfolded`);
+  if (name === "report" && width >= 960) require(screens <= SCREENS, `${where}: ${screens.toFixed(1)} screens before anything is unfolded`);
   require(!(await page.evaluate(scrolls)), `${where}: the page scrolls sideways`);
-  await page.screenshot({ path: `${shots}/report-${width}-${scheme}.png`, fullPage: true });
+  await page.screenshot({ path: `${shots}/${name}-${width}-${scheme}.png`, fullPage: true });
   await contents(page, width, where);
   await folds(page, where);
   await page.evaluate(() => { for (const each of document.querySelectorAll("details")) each.open = true; });
   require(!(await page.evaluate(scrolls)), `${where}: unfolded, the page scrolls sideways`);
   await look(page, where);
-  for (const name of ["uncaged", "memory", "curvature"]) {
-    const figure = page.locator(`figure[id^="figure-"][id*="${{ uncaged: "lin_figures_3_24", memory: "memory_loops", curvature: "curvature_figure_9" }[name]}"]`);
-    if (await figure.count()) await figure.first().screenshot({ path: `${shots}/${name}-${width}-${scheme}.png` });
+  for (const picture of ["friction_over_a_manoeuvre", "lin_figures_3_24", "memory_loops", "curvature_figure_9"]) {
+    const figure = page.locator(`figure[id^="figure-"][id*="${picture}"]`);
+    if (await figure.count()) await figure.first().screenshot({ path: `${shots}/${picture}-${width}-${scheme}.png` });
   }
   await page.close();
 };
@@ -173,7 +173,7 @@ mkdirSync(shots, { recursive: true });
 const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ARGUMENTS });
 for (const width of [1400, 390]) {
   for (const scheme of ["light", "dark"]) {
-    await reading(browser, width, scheme);
+    for (const name of ["report", "papers"]) await reading(browser, name, width, scheme);
     await looking(browser, width, scheme);
   }
 }
