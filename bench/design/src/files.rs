@@ -359,6 +359,9 @@ enum BranchName {
 }
 
 /// Reads a design file.
+///
+/// # Errors
+/// What a user is told of it.
 pub fn accepts(text: &str) -> Result<(), String> {
     read(text, "design").map(drop)
 }

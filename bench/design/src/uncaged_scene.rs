@@ -156,7 +156,7 @@ pub fn words(design: &Design, row: &UncagedDesign) -> Result<Vec<u32>, Failure> 
         Folded::One(block) => UncagedBlock::One(*block),
         Folded::Range(block) => UncagedBlock::Range(*block),
     };
-    Ok(block.words(fold.digest())?)
+    block.words(fold.digest())
 }
 
 /// What is folded of a design for friction coefficients between two. Loads of a ball are those of the table `[fold]`, or 5 to 300 N, and up

@@ -384,7 +384,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     Ok(Section {
         title: "On the Cortex-M4F",
         blocks: vec![
-            Block::Text(format!(
+            Block::Text(
                 "Counted by `cargo run --release -p epas-target`, stored in bench/target.json and compared with a new count in CI. Instructions are counted call by call in QEMU. Cycles are those of Arm's table for the \
                  Cortex-M4F with a flash without wait states: a model, not silicon. A function is counted \
                  from its first instruction to its return, with the frame pointer that the target \
@@ -392,7 +392,8 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                  link-time optimisation; for size, by the profile `small` of bench/firmware, at level s. The \
                  inputs of a broken sensor are left out of the least cycles: the way to the safe output is \
                  short."
-            )),
+                    .into(),
+            ),
             Block::Figure(Figure {
                 name: "error_against_cycles",
                 caption:

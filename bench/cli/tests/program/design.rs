@@ -182,7 +182,10 @@ fn outputs_of_a_block_are_safe() {
     let typed = "let mut model: FrictionModel<CagedBallScrew, &'static CagedConstants> = FrictionModel::of(&GEAR);";
     assert!(run.stdout.contains(typed), "{}", run.stdout);
     let text = fs::read_to_string(folder.join("gear.rs")).unwrap();
-    assert!(text.contains("friction coefficient 0.05"), "{text}");
+    assert!(
+        text.contains("friction coefficients 0.05 to 0.05"),
+        "{text}"
+    );
     CagedConstants::<1>::from_block(&words(&text)).unwrap();
 }
 

@@ -47,7 +47,7 @@ reversal_speed = 0.5
 [uncaged]
 balls = 37
 turns = 2
-screw_deviation = [{ order = 2, sine = 0.04014 }]
+screw_deviation = [{ order = 2, sine = 0.040143 }]
 ";
 
 /// How a run of the program ended.

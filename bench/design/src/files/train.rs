@@ -164,6 +164,9 @@ pub struct UncagedTable {
 }
 
 /// Says what stands in the place of a key that files have had.
+///
+/// # Errors
+/// The key is there.
 pub fn refuse_fit(fit: Option<&toml::Value>) -> Result<(), String> {
     match fit {
         None => Ok(()),
@@ -255,6 +258,9 @@ impl UncagedTable {
     }
 
     /// The screw with its balls.
+    ///
+    /// # Errors
+    /// The key that is missing or out of range.
     pub fn design(&self, gear: CagedDesign) -> Result<UncagedDesign, String> {
         refuse_fit(self.fit.as_ref())?;
         plausible::turns(self.turns)?;

@@ -39,7 +39,7 @@ pub enum Colours {
     Diverging,
 }
 
-/// RdBu (Brewer 2003) turned round: its ends are told apart by every kind of colour vision.
+/// `RdBu` (Brewer 2003) turned round: its ends are told apart by every kind of colour vision.
 const BLUE_TO_RED: [RGBColor; 7] = [
     RGBColor(33, 102, 172),
     RGBColor(103, 169, 207),
@@ -146,6 +146,7 @@ impl ColourMap {
     }
 
     /// This map with every second cell each way where it has many, for a small picture.
+    #[must_use]
     pub fn coarser(&self) -> Self {
         const MANY: usize = 60;
         let stride = |count: usize| count.div_ceil(MANY).max(1);

@@ -41,6 +41,7 @@ impl Axis {
     }
 
     /// This axis with the ends given.
+    #[must_use]
     pub fn between(self, start: f64, end: f64) -> Self {
         Self {
             ends: Some((start, end)),

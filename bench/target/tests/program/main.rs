@@ -54,7 +54,7 @@ fn the_log_of_the_firmware_decodes() {
         let line = lines
             .by_ref()
             .find(|line| line.contains("caged "))
-            .unwrap_or_else(|| panic!("tick {tick} is missing in\n{}", log));
+            .unwrap_or_else(|| panic!("tick {tick} is missing in\n{log}"));
         assert!(
             line.contains(&format!("friction_torque: {}", outputs.friction_torque)),
             "{line}\n{outputs:?}"
