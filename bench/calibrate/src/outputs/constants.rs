@@ -314,7 +314,7 @@ harmonics = [{ order = 1, cosine = 1.5e-3, sine = -1e-3 }, { order = 2, sine = 8
         let text = of(&format!("{DESIGN}{CALIBRATION}"));
         assert!(
             text == stored,
-            "tests/program/calibrated_constants.rs is to be\n{text}"
+            "bench/cli/tests/program/calibrated_constants.rs is to be\n{text}"
         );
     }
 

@@ -277,7 +277,7 @@ fn a_device_is_read_no_further_than_a_file() {
         "",
     );
     assert_eq!(run.code, 1);
-    assert!(run.stderr.contains("more than"), "{}", run.stderr);
+    assert!(run.stderr.contains("larger than"), "{}", run.stderr);
     let run = run_in(folder.path(), &["eval", "endless.toml"], "");
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("more than") && run.stdout.is_empty());
