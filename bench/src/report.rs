@@ -32,7 +32,7 @@ use flagship::Flagship;
 use stages::Stages;
 
 /// Timing rounds by default: a median that is right to some per cent within two seconds.
-const ROUNDS: usize = 120;
+const ROUNDS: usize = 90;
 
 /// Timing rounds of a full report.
 const FULL_ROUNDS: usize = 1500;
@@ -58,7 +58,7 @@ pub struct Arguments {
     /// Whole sweeps and 1500 timing rounds: some minutes
     #[arg(long)]
     full: bool,
-    /// Timing rounds on this machine [default: 120; 1500 with --full]
+    /// Timing rounds on this machine [default: 90; 1500 with --full]
     #[arg(long, value_parser = rounds, allow_negative_numbers = true)]
     rounds: Option<usize>,
     /// Store the errors that README and bench/accuracy.md print, and do nothing else
@@ -99,7 +99,7 @@ pub fn shares<C>(plans: &[Plan<C>]) -> impl Iterator<Item = f64> {
 }
 
 /// Shares of the stages before the sections: times, 37 balls, formulas, errors.
-const BEFORE: [f64; 4] = [2.0, 3.5, 0.1, 6.0];
+const BEFORE: [f64; 4] = [2.3, 1.7, 0.1, 3.8];
 
 /// Every section, in the order of the report: what firmware steps first, then what it is made of.
 const PARTS: [Plan<Context>; 2] = [
@@ -110,22 +110,22 @@ const PARTS: [Plan<Context>; 2] = [
             (
                 friction::section,
                 "torque over a manoeuvre, its error and its cost",
-                4.5,
+                0.8,
             ),
             (
                 uncaged::section,
                 "37 balls against the exact whole screw; pairs; settings",
-                12.5,
+                5.5,
             ),
             (
                 stability::section,
                 "worst cases over whole domains, known limits, every promise",
-                5.0,
+                4.0,
             ),
             (
                 cortex_m::section,
                 "instructions, modelled cycles, flash, RAM and stack of every function",
-                0.2,
+                0.3,
             ),
         ],
     ),

@@ -1,7 +1,7 @@
 //! Host timing: every competitor in the same run, in turns, with the cost of the call taken off.
 //!
 //! A competitor runs a batch of calls over an array of inputs. Inputs and outputs go through
-//! [`black_box`], so that nothing is folded, hoisted or vectorised. Two ways of calling are timed:
+//! [`black_box`](std::hint::black_box), so that nothing is folded, hoisted or vectorised. Two ways of calling are timed:
 //!
 //! - **latency**: each input waits for the output before it, as in a control loop that needs the answer
 //!   to go on;

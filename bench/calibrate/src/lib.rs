@@ -22,7 +22,11 @@
 #![allow(clippy::missing_errors_doc)]
 // The documentation of arguments is the program's help text, where back-quotes would be noise and
 // square brackets are no links.
-#![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
+#![allow(
+    clippy::doc_markdown,
+    rustdoc::broken_intra_doc_links,
+    rustdoc::private_intra_doc_links
+)]
 
 pub mod answer;
 pub mod bristle;

@@ -3,7 +3,11 @@
 
 // The documentation of arguments is the program's help text, where back-quotes would be noise and
 // square brackets are no links.
-#![allow(clippy::doc_markdown, rustdoc::broken_intra_doc_links)]
+#![allow(
+    clippy::doc_markdown,
+    rustdoc::broken_intra_doc_links,
+    rustdoc::private_intra_doc_links
+)]
 // For the programs of this workspace: a failure is a sentence, whose causes the sentence names.
 #![allow(clippy::missing_errors_doc)]
 

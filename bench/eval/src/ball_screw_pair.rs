@@ -1,7 +1,7 @@
 //! `ball_screw_pair`: a row of touching balls in a ball screw, each with its own axial load, in grooves with a clearance of either sign.
 //!
 //! The reference solves every ball's elastic equilibrium with Coulomb friction by contact integrals of 32 nodes
-//! ([`Integration::Coarse`]), with which the stored cases were made: both agree within 6e-9 of a force. Twice the nodes
+//! (`Integration::Coarse`), with which the stored cases were made: both agree within 6e-9 of a force. Twice the nodes
 //! change a force by up to 2.9e-4 N: less than 1e-4 of it, but where a small force is left by two free speeds that are
 //! nearly equal (0.4 % of 0.07 N).
 //!

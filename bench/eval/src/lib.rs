@@ -1,5 +1,13 @@
 //! `eval`: one JSON object a line in, one a line out, in order.
 
+// The documentation of arguments is the program's help text, where back-quotes would be noise and
+// square brackets are no links.
+#![allow(
+    clippy::doc_markdown,
+    rustdoc::broken_intra_doc_links,
+    rustdoc::private_intra_doc_links
+)]
+
 pub mod ball_screw_pair;
 mod ball_screw_train;
 pub mod caged_torque;

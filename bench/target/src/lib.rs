@@ -2,6 +2,8 @@
 
 // For a program: a failure is a sentence, whose causes the sentence names.
 #![allow(clippy::missing_errors_doc)]
+// Pages are read by those who work on it: a link to a private item helps them.
+#![allow(rustdoc::private_intra_doc_links)]
 
 mod cycles;
 mod debugger;

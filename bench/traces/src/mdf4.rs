@@ -5,14 +5,14 @@
 //! | [`blocks`] | a block within the file's bounds, a text |
 //! | [`chain`] | the bytes of a data group, through lists and compression |
 //! | [`records`] | the records of a channel group among those bytes |
-//! | [`file`] | groups and channels |
+//! | [`mod@file`] | groups and channels |
 //! | [`samples`] | the values of a channel, and which of them are invalid |
 //! | [`mapping`] | which channel is which column, where names differ |
 //! | [`columns`] | the columns that a command asks for, and gets |
 //! | [`choice`] | the channels of the wanted quantities, their units |
 //! | [`raster`] | channels of several rasters on one |
 //! | [`table`] | a file's columns |
-//! | [`write`] | writes a table |
+//! | [`mod@write`] | writes a table |
 //!
 //! The structures of the blocks, the numbers of a record and the conversions are those of the crate `mdf4-rs`. It slices a file
 //! without looking at its size, takes counts as they stand, drops a record that goes over the end of a data block, and knows no
