@@ -111,7 +111,8 @@ pub(crate) fn loaded_balls(count: u32) -> Result<u16, Failure> {
 
 /// The crate's number of balls in a circuit.
 pub(crate) fn balls(count: u32) -> Result<u16, Failure> {
-    counted(EPAS_FIELD_BALLS, count, EPAS_MOST_BALLS as u16)
+    let most = u16::try_from(EPAS_MOST_BALLS).unwrap_or(u16::MAX);
+    counted(EPAS_FIELD_BALLS, count, most)
 }
 
 fn counted(field: u32, count: u32, most: u16) -> Result<u16, Failure> {
