@@ -405,7 +405,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                 size: (460, 340),
             }),
             Block::Table(Table {
-                name: "error_against_cycles",
+                name: "errors_and_cycles",
                 caption: "Largest error and most cycles".into(),
                 columns: ["what", "formula or backend", "largest error", "cycles"]
                     .map(String::from)
