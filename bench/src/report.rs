@@ -102,7 +102,7 @@ pub fn shares<C>(plans: &[Plan<C>]) -> impl Iterator<Item = f64> {
 const BEFORE: [f64; 4] = [2.3, 1.7, 0.1, 3.8];
 
 /// Every section, in the order of the report: what firmware steps first, then what it is made of.
-const PARTS: [Plan<Context>; 2] = [
+const PARTS: [Plan<Context>; 3] = [
     (
         "Friction",
         true,
@@ -117,6 +117,12 @@ const PARTS: [Plan<Context>; 2] = [
                 "37 balls against the exact whole screw; pairs; settings",
                 5.5,
             ),
+        ],
+    ),
+    (
+        "Stability and cost",
+        false,
+        &[
             (
                 stability::section,
                 "worst cases over whole domains, known limits, every promise",
