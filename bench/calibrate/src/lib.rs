@@ -33,6 +33,7 @@ pub mod bristle;
 pub mod checks;
 mod command;
 pub mod controller;
+pub mod estimator;
 pub mod experiment;
 pub mod fit;
 pub mod folder;

@@ -1,0 +1,244 @@
+//! Linear least squares over rows, with the noise of the motion's sensor taken out of the normal equations, and jackknife intervals.
+
+use nalgebra::{DMatrix, DVector};
+use statrs::distribution::{ContinuousCDF, StudentsT};
+
+/// Probability of an interval's upper end.
+const UPPER: f64 = 0.975;
+
+/// Stretches from which on the jackknife over whole stretches counts.
+const STRETCHES: f64 = 8.0;
+
+/// Least singular value over the largest that counts.
+const RANK: f64 = 1e-12;
+
+/// Rows of one record.
+#[derive(Clone, Debug, Default)]
+pub struct Block {
+    /// Columns in the order of the names, each of one length.
+    pub columns: Vec<Vec<f64>>,
+    /// What they explain.
+    pub target: Vec<f64>,
+    /// Covariance of the sensor's noise in the columns of a row.
+    pub noise: DMatrix<f64>,
+    /// Number of each row's stretch.
+    pub stretches: Vec<usize>,
+    /// Number of each row's piece; neighbours differ by 1.
+    pub pieces: Vec<usize>,
+}
+
+/// What the values mean: those of the fit from the linear coefficients.
+pub type Meaning<'a> = &'a dyn Fn(&[f64]) -> Vec<f64>;
+
+/// A fit.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// Linear coefficients.
+    pub coefficients: Vec<f64>,
+    /// Values, from the coefficients.
+    pub values: Vec<f64>,
+    /// Half of each 95 % interval.
+    pub half_widths: Vec<f64>,
+    /// Covariance of the values by the jackknife over pieces.
+    pub covariance: DMatrix<f64>,
+    /// Effective number of pieces that tell each coefficient.
+    pub pieces: Vec<f64>,
+    /// What is left of each row.
+    pub residual: Vec<f64>,
+    /// Its root mean square.
+    pub residual_rms: f64,
+    /// That over the standard deviation of the target.
+    pub relative: f64,
+}
+
+/// Sums of the normal equations of one piece.
+struct Piece {
+    number: (usize, usize),
+    normal: DMatrix<f64>,
+    right: DVector<f64>,
+}
+
+/// The coefficients of normal equations.
+fn solved(normal: &DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
+    if let Some(factor) = normal.clone().cholesky() {
+        return factor.solve(right);
+    }
+    let singular = normal.clone().svd(true, true);
+    let least = RANK * singular.singular_values.max();
+    singular
+        .solve(right, least)
+        .unwrap_or_else(|_| DVector::zeros(right.len()))
+}
+
+/// Fits blocks of rows with the same columns.
+pub fn fit(blocks: &[Block], meaning: Meaning<'_>) -> Fit {
+    let count = blocks.first().map_or(0, |block| block.columns.len());
+    let squares = |column: usize| -> f64 {
+        let rows = blocks.iter().flat_map(|block| &block.columns[column]);
+        rows.map(|x| x * x).sum()
+    };
+    let rows = blocks.iter().map(|block| block.target.len()).sum::<usize>();
+    let scale: Vec<f64> = (0..count)
+        .map(|column| {
+            let size = (squares(column) / rows.max(1) as f64).sqrt();
+            if size > 0.0 { size } else { 1.0 }
+        })
+        .collect();
+    let stretches = pieces(blocks, &scale, |block| &block.stretches);
+    let short = pieces(blocks, &scale, |block| &block.pieces);
+    let unscaled = |x: &DVector<f64>| -> Vec<f64> {
+        x.iter().zip(&scale).map(|(x, scale)| x / scale).collect()
+    };
+    let (normal, right) = total(&short, count);
+    let coefficients = unscaled(&solved(&normal, &right));
+    let values = meaning(&coefficients);
+    let without = |piece: &Piece| {
+        let left = solved(&(&normal - &piece.normal), &(&right - &piece.right));
+        meaning(&unscaled(&left))
+    };
+    let inverse = normal.clone().pseudo_inverse(0.0).unwrap_or(normal.clone());
+    let whole = jackknife((&stretches, false), &values, &inverse, &without);
+    let parts = jackknife((&short, true), &values, &inverse, &without);
+    let half_widths = (0..count)
+        .map(|k| {
+            if whole.pieces[k] >= STRETCHES {
+                whole.half_widths[k].max(parts.half_widths[k])
+            } else {
+                parts.half_widths[k]
+            }
+        })
+        .collect();
+    let residual: Vec<f64> = blocks
+        .iter()
+        .flat_map(|block| {
+            let coefficients = &coefficients;
+            (0..block.target.len()).map(move |row| {
+                let model = block.columns.iter().zip(coefficients);
+                block.target[row] - model.map(|(column, x)| column[row] * x).sum::<f64>()
+            })
+        })
+        .collect();
+    let targets = || blocks.iter().flat_map(|block| &block.target);
+    let mean = targets().sum::<f64>() / rows.max(1) as f64;
+    let spread = targets().map(|y| (y - mean).powi(2)).sum::<f64>();
+    let left = residual.iter().map(|r| r * r).sum::<f64>();
+    Fit {
+        coefficients,
+        values,
+        half_widths,
+        covariance: parts.covariance,
+        pieces: whole.pieces,
+        residual_rms: (left / rows.max(1) as f64).sqrt(),
+        relative: (left / spread.max(f64::MIN_POSITIVE)).sqrt(),
+        residual,
+    }
+}
+
+/// Sums of every piece, scaled columns, in the order of their numbers.
+fn pieces(blocks: &[Block], scale: &[f64], numbers: impl Fn(&Block) -> &Vec<usize>) -> Vec<Piece> {
+    let count = scale.len();
+    let mut found: Vec<Piece> = Vec::new();
+    for (index, block) in blocks.iter().enumerate() {
+        let noise = DMatrix::from_fn(count, count, |i, j| {
+            block.noise.get((i, j)).copied().unwrap_or(0.0) / (scale[i] * scale[j])
+        });
+        for (row, number) in numbers(block).iter().enumerate() {
+            let number = (index, *number);
+            if found.last().is_none_or(|piece| piece.number != number) {
+                found.push(Piece {
+                    number,
+                    normal: DMatrix::zeros(count, count),
+                    right: DVector::zeros(count),
+                });
+            }
+            let Some(piece) = found.last_mut() else {
+                continue;
+            };
+            let columns = block.columns.iter().zip(scale);
+            let x = DVector::from_iterator(count, columns.map(|(column, size)| column[row] / size));
+            piece.normal.ger(1.0, &x, &x, 1.0);
+            piece.normal -= &noise;
+            piece.right.axpy(block.target[row], &x, 1.0);
+        }
+    }
+    found
+}
+
+fn total(pieces: &[Piece], count: usize) -> (DMatrix<f64>, DVector<f64>) {
+    let mut sums = (DMatrix::zeros(count, count), DVector::zeros(count));
+    for piece in pieces {
+        sums.0 += &piece.normal;
+        sums.1 += &piece.right;
+    }
+    sums
+}
+
+/// What a jackknife says.
+struct Jackknife {
+    half_widths: Vec<f64>,
+    pieces: Vec<f64>,
+    covariance: DMatrix<f64>,
+}
+
+/// Deletes one piece at a time: `(G - 1)/G sum d d'`, and the covariance of neighbours where they are joined and it adds. An effective number of pieces
+/// `nu = (sum a)^2 / sum a^2`, with `a` a piece's part in the variance of a coefficient, counts those that tell it: `t` has `nu - 1` degrees
+/// of freedom.
+fn jackknife(
+    (pieces, joined): (&[Piece], bool),
+    values: &[f64],
+    inverse: &DMatrix<f64>,
+    without: &dyn Fn(&Piece) -> Vec<f64>,
+) -> Jackknife {
+    let (count, groups) = (values.len(), pieces.len());
+    let moved: Vec<Vec<f64>> = pieces
+        .iter()
+        .map(|piece| {
+            let left = without(piece);
+            left.iter()
+                .zip(values)
+                .map(|(left, all)| left - all)
+                .collect()
+        })
+        .collect();
+    let share = groups.saturating_sub(1) as f64 / groups.max(1) as f64;
+    let neighbours = |k: usize| -> f64 {
+        let pairs = pieces.windows(2).zip(moved.windows(2));
+        pairs
+            .filter(|(pair, _)| {
+                let [one, other] = [pair[0].number, pair[1].number];
+                joined && one.0 == other.0 && other.1 == one.1 + 1
+            })
+            .map(|(_, moved)| 2.0 * moved[0][k] * moved[1][k])
+            .sum()
+    };
+    let covariance = DMatrix::from_fn(count, count, |i, j| {
+        let sum: f64 = moved.iter().map(|moved| moved[i] * moved[j]).sum();
+        let own = if i == j { neighbours(i).max(0.0) } else { 0.0 };
+        share * (sum + own)
+    });
+    let mut sums = vec![(0.0, 0.0); count];
+    for piece in pieces {
+        let part = inverse * &piece.normal * inverse;
+        for (k, sums) in sums.iter_mut().enumerate() {
+            sums.0 += part[(k, k)];
+            sums.1 += part[(k, k)].powi(2);
+        }
+    }
+    let effective: Vec<f64> = sums
+        .iter()
+        .map(|(sum, square)| sum * sum / square.max(f64::MIN_POSITIVE))
+        .collect();
+    let half_widths = (0..count)
+        .map(|k| quantile(effective[k] - 1.0) * covariance[(k, k)].max(0.0).sqrt())
+        .collect();
+    Jackknife {
+        half_widths,
+        pieces: effective,
+        covariance,
+    }
+}
+
+/// Student's quantile of a 95 % interval, for 1 degree of freedom or more.
+pub fn quantile(freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(f64::INFINITY, |t| t.inverse_cdf(UPPER))
+}

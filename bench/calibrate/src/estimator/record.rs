@@ -1,0 +1,231 @@
+//! A trace as the estimator takes it: motion, its sensor's step and noise, what is left out.
+
+use std::ops::Range;
+
+use super::kernel::Kernel;
+use super::stretches::{Stretch, of_position, of_speed};
+use crate::trace::Trace;
+use crate::trace::channels::resolution;
+
+/// Shares of a kernel's half-width: within which a step of the sensor must come, and over which the sign of a load is told.
+pub const QUARTER: usize = 4;
+
+/// Steps of a position's sensor, or deviations of its noise, within which the direction is not told.
+const STEPS: f64 = 2.0;
+const DEVIATIONS: f64 = 8.0;
+
+/// The same of a speed, and the share of its largest size below which it has no direction.
+const DEVIATIONS_OF_SPEED: f64 = 4.0;
+const STANDS: f64 = 0.01;
+
+/// Deviation over mean of a speed that counts as one.
+const ONE_SPEED: f64 = 0.05;
+
+/// A record of a drive.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Name.
+    pub name: String,
+    /// Tick, s.
+    pub tick: f64,
+    /// Whether the speed was measured and not the position.
+    pub speed_alone: bool,
+    /// What was measured of the motion, rad or rad/s (m, m/s): a position, between the instants at which its count changes on a straight
+    /// line, or a speed.
+    pub motion: Vec<f64>,
+    /// Position, or the integral of the speed, rad or m.
+    pub path: Vec<f64>,
+    /// Effort that acts on the mechanism, N m or N.
+    pub effort: Vec<f64>,
+    /// Load, N, or its effort.
+    pub load: Option<Vec<f64>>,
+    /// Whether the load is in the effort's own unit.
+    pub load_is_effort: bool,
+    /// Standard deviation of the motion's sensor, rad or rad/s (m, m/s).
+    pub noise: f64,
+    /// Distance that tells a direction, rad or rad/s (m, m/s).
+    least: f64,
+    /// Position as it was counted; the smoothed speed where that alone was measured.
+    counted: Vec<f64>,
+    /// Samples left out before each sample, and in all.
+    left_out: Vec<u32>,
+}
+
+impl Record {
+    /// That of a trace.
+    pub fn of(trace: &Trace, left_out: &[Range<usize>]) -> Self {
+        let tick = trace.step;
+        let speed = trace.speed.as_ref().filter(|_| trace.position_summed);
+        let measured = speed.unwrap_or(&trace.position);
+        let step = if speed.is_some() {
+            resolution(measured)
+        } else {
+            trace.resolution
+        };
+        let noise = if step > 0.0 {
+            step / 12_f64.sqrt()
+        } else {
+            white_noise(measured)
+        };
+        let (least, motion, counted) = if speed.is_some() {
+            let largest = measured.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
+            let least = (STEPS * step).max(STANDS * largest);
+            let least = if step > 0.0 {
+                least
+            } else {
+                least.max(DEVIATIONS_OF_SPEED * noise)
+            };
+            let smoothed = Kernel::new(3, tick).along(0, measured);
+            (least, measured.clone(), smoothed)
+        } else if step > 0.0 {
+            let motion = between_counts(measured);
+            (STEPS * step, motion, measured.clone())
+        } else {
+            (DEVIATIONS * noise, measured.clone(), measured.clone())
+        };
+        let mut bad = vec![0; trace.len() + 1];
+        for range in left_out {
+            bad[range.start.min(trace.len())..range.end.min(trace.len())].fill(1);
+        }
+        let mut before = 0;
+        for bad in &mut bad {
+            before += std::mem::replace(bad, before);
+        }
+        Self {
+            name: trace.name.clone(),
+            tick,
+            speed_alone: speed.is_some(),
+            motion,
+            path: trace.position.clone(),
+            effort: trace.acting().into_owned(),
+            load: trace.load.clone(),
+            load_is_effort: trace.load_is_effort,
+            noise,
+            least,
+            counted,
+            left_out: bad,
+        }
+    }
+
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.effort.len()
+    }
+
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.effort.is_empty()
+    }
+
+    /// Whether nothing of some samples, given by the first and the last, is left out.
+    pub fn sound(&self, first: usize, last: usize) -> bool {
+        let of = |sample: usize| self.left_out.get(sample).copied();
+        of(first) == of(last + 1) && of(first).is_some()
+    }
+
+    /// Stretches of one direction for a kernel of a half-width, samples.
+    pub fn stretches(&self, half: usize) -> Vec<Stretch> {
+        if self.speed_alone {
+            of_speed(&self.motion, &self.counted, &self.path, self.least)
+        } else {
+            of_position(&self.counted, self.least, (half / QUARTER).max(3))
+        }
+    }
+
+    /// A derivative of the motion: 0 the position or nothing, 1 the speed, 2 the acceleration, 3 its rate; as the kernel's own order.
+    pub const fn order(&self, derivative: usize) -> usize {
+        if self.speed_alone {
+            derivative.saturating_sub(1)
+        } else {
+            derivative
+        }
+    }
+
+    /// The one speed, rad/s or m/s, at which it moves, and the samples in which it does: the middle four fifths, where a start and a stop
+    /// may stand at the ends.
+    pub fn one_speed(&self) -> Option<(f64, Range<usize>)> {
+        let count = self.len();
+        let half = (count / 40).max(1);
+        let speed = Kernel::new(half, self.tick).along(self.order(1), &self.motion);
+        let tenth = count / 10;
+        let of = |range: Range<usize>| -> Option<(f64, Range<usize>)> {
+            let part = speed.get(range.clone())?;
+            let mean = part.iter().sum::<f64>() / part.len().max(1) as f64;
+            let square: f64 = part.iter().map(|w| (w - mean).powi(2)).sum();
+            let deviation = (square / part.len().max(1) as f64).sqrt();
+            (part.len() > 2 && deviation < ONE_SPEED * mean.abs()).then_some((mean, range))
+        };
+        let middle = of(tenth..count - tenth)?;
+        Some(of(0..count).unwrap_or(middle))
+    }
+}
+
+/// Standard deviation of white noise, by the median of its fourth differences, whose variance is 70 times its own.
+pub fn white_noise(signal: &[f64]) -> f64 {
+    let mut sizes: Vec<f64> = signal
+        .windows(5)
+        .filter_map(|window| match window {
+            [a, b, c, d, e] => Some((a - 4.0 * b + 6.0 * c - 4.0 * d + e).abs()),
+            _ => None,
+        })
+        .collect();
+    if sizes.is_empty() {
+        return 0.0;
+    }
+    let middle = sizes.len() / 2;
+    let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+    *median / (0.6745 * 70_f64.sqrt())
+}
+
+/// A counted position on straight lines between the instants at which its count changes, each half way between both counts.
+fn between_counts(position: &[f64]) -> Vec<f64> {
+    let mut changes = position
+        .windows(2)
+        .enumerate()
+        .filter(|(_, pair)| pair[0] != pair[1])
+        .map(|(sample, pair)| (sample as f64 + 0.5, 0.5 * (pair[0] + pair[1])));
+    let (Some(mut before), Some(mut after)) = (changes.next(), changes.next()) else {
+        return position.to_vec();
+    };
+    (0..position.len())
+        .map(|sample| {
+            let time = sample as f64;
+            while time > after.0
+                && let Some(next) = changes.next()
+            {
+                (before, after) = (after, next);
+            }
+            let share = ((time - before.0) / (after.0 - before.0)).clamp(0.0, 1.0);
+            before.1 + share * (after.1 - before.1)
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_count_is_half_way_where_it_changes() {
+        let counted = [0.0, 0.0, 1.0, 1.0, 1.0, 2.0, 2.0];
+        let found = between_counts(&counted);
+        // Half way at 1.5 and 4.5: a third of a count a sample between them.
+        let wanted = [0.5, 0.5, 2.0 / 3.0, 1.0, 4.0 / 3.0, 1.5, 1.5];
+        for (found, wanted) in found.iter().zip(wanted) {
+            assert!((found - wanted).abs() < 1e-12, "{found:?}");
+        }
+        assert_eq!(between_counts(&[1.0, 1.0]), [1.0, 1.0]);
+    }
+
+    #[test]
+    fn white_noise_is_told_beside_a_motion() {
+        let noise = crate::fit::toys::noise(3, 5000, 0.0);
+        let signal: Vec<f64> = noise
+            .iter()
+            .enumerate()
+            .map(|(k, noise)| 30.0 * (0.01 * k as f64).sin() + 0.02 * noise)
+            .collect();
+        assert!((white_noise(&signal) / 0.02 - 1.0).abs() < 0.06);
+        assert_eq!(white_noise(&[1.0]), 0.0);
+    }
+}
