@@ -17,7 +17,7 @@ use crate::laws::{Cost, Passage};
 use crate::signals::autocorrelation::effective_rows;
 use crate::signals::{Motion, Rows};
 use crate::trace::Trace;
-use crate::without_design::choice::{LAWS, estimates, left_out};
+use crate::without_design::models::{LAWS, estimates, left_out};
 
 /// Starts of the laws of the literature and of the scene without memory, of which so many are finished.
 const RIVALS: (usize, usize) = (2, 1);
