@@ -70,16 +70,17 @@ pub fn calibrate(
         load: loads(&found.terms),
     };
     let prepared = Prepared::new(trace, &record);
-    let seen = |prepared: &Prepared<'_>| {
-        controller
-            .and_then(|controller| SeenController::of(controller, prepared.trace, &prepared.motion))
+    let seen = |trace: &Trace, record: &Record| {
+        controller.and_then(|controller| SeenController::of(controller, trace, record))
     };
-    let own = seen(&prepared);
+    let own = seen(trace, &record);
     let other = unseen.as_deref().map(|other| (other, self::record(other)));
+    let other_controller = other
+        .as_ref()
+        .and_then(|(other, record)| seen(other, record));
     let other = other
         .as_ref()
         .map(|(other, record)| Prepared::new(other, record));
-    let other_controller = other.as_ref().and_then(&seen);
     // At one speed there is nothing to be compared.
     if found.of(Term::Coulomb).is_some() {
         let unseen = other
@@ -102,7 +103,7 @@ pub fn calibrate(
 }
 
 /// A trace as the estimator takes it.
-fn record(trace: &Trace) -> Record {
+pub fn record(trace: &Trace) -> Record {
     Record::of(trace, &trace.repairs.lost)
 }
 

@@ -211,21 +211,6 @@ pub struct Smoothed {
     pub acceleration: Vec<f64>,
 }
 
-impl Record {
-    /// The motion as a kernel smooths it.
-    pub fn smoothed(&self, kernel: &Kernel) -> Smoothed {
-        Smoothed {
-            position: if self.speed_alone {
-                self.path.clone()
-            } else {
-                kernel.along(0, &self.motion)
-            },
-            speed: kernel.along(self.order(1), &self.motion),
-            acceleration: kernel.along(self.order(2), &self.motion),
-        }
-    }
-}
-
 /// Standard deviation of white noise, by the median of its fourth differences, whose variance is 70 times its own.
 pub fn white_noise(signal: &[f64]) -> f64 {
     let mut sizes: Vec<f64> = signal
