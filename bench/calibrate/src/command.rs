@@ -11,7 +11,7 @@ use crate::page::truth;
 use crate::screw::Request;
 use crate::screw::choice::Wanted;
 use crate::screw::quantities::names;
-use crate::signals::{RowSettings, SmoothingSettings};
+use crate::signals::SmoothingSettings;
 use crate::sums::Sums;
 use crate::trace::columns::{self, Frame};
 use crate::trace::{Coordinate, Trace};
@@ -72,14 +72,6 @@ pub struct Arguments {
     /// Parameters to set
     #[arg(long, value_name = "NAME=VALUE,...", requires = "design", value_delimiter = ',', value_parser = setting)]
     fix: Vec<(String, f64)>,
-    /// Parameters whose profile likelihoods the page shows: how much worse the trace is explained with each held elsewhere
-    #[arg(
-        long,
-        value_name = "NAME,...",
-        requires = "design",
-        value_delimiter = ','
-    )]
-    profile: Vec<String>,
     /// Tell which manoeuvre would tell this parameter best, without a trace
     #[arg(
         long,
@@ -214,7 +206,6 @@ impl Arguments {
             ("--constants", self.outputs.constants.is_some()),
             ("--validate", self.validate.is_some()),
             ("--controller", self.controller.is_some()),
-            ("--profile", !self.profile.is_empty()),
         ];
         let needless = of_one_trace.iter().find(|(_, given)| *given && folder);
         if let Some((name, _)) = needless {
@@ -265,11 +256,6 @@ impl Arguments {
                 cutoff: self.smoothing,
                 ..SmoothingSettings::default()
             },
-            rows: RowSettings {
-                cutoff: self.rows,
-                ..RowSettings::default()
-            },
-            profiles: self.profile.clone(),
             ratio_unsaid: self.ratio.is_none(),
             ..Request::default()
         }

@@ -13,9 +13,8 @@
 pub mod cramer_rao;
 pub mod part;
 pub mod problem;
-pub mod profile;
+pub mod search;
 pub mod separable;
-pub mod telling;
 #[cfg(test)]
 pub(crate) mod toys;
 pub mod uncertainty;

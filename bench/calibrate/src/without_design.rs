@@ -545,7 +545,6 @@ fn picture(prepared: &Prepared<'_>, terms: Terms, sure: &Uncertainty) -> Result<
         speed: at(&prepared.motion.speed),
         load: trace.load.as_deref().map(&at),
         temperature: trace.temperature.as_deref().map(&at),
-        profiles: Vec::new(),
         correlations: Correlations {
             names: names.collect(),
             rows: rows.map(|row| row.iter().copied().collect()).collect(),

@@ -18,8 +18,6 @@ mod fixed;
 mod model;
 mod projection;
 mod robust;
-#[cfg(test)]
-mod scipy;
 mod search;
 mod starts;
 #[cfg(test)]

@@ -27,8 +27,6 @@ use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 use rayon::prelude::*;
 
-use super::recent::Recent;
-
 /// Octaves above none between which a contact of a preload lifts off, and the torque changes within a few percent of the load.
 const LIFT_OFF: (f64, f64) = (0.6, 1.2);
 
@@ -134,9 +132,6 @@ const DRAG: f64 = 1.0;
 /// Points of a cubic.
 const POINTS: usize = 4;
 
-/// Grids that are kept.
-static GRIDS: Recent<(CagedDesign, f64, Spacing), Arc<Grid>> = Recent::new(8);
-
 /// What of a ball's torque is told apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Part {
@@ -217,7 +212,7 @@ fn friction_place(friction: f64, logarithm: f64) -> f64 {
 }
 
 impl Grid {
-    /// That of a design under axial loads up to a largest one, N: one that is kept, or a new one.
+    /// That of a design under axial loads up to a largest one, N.
     ///
     /// # Errors
     /// What the reference refuses of the design.
@@ -228,14 +223,7 @@ impl Grid {
     ) -> Result<Arc<Self>, ReferenceError> {
         let largest = BEYOND * largest_load.abs() / f64::from(caged.loaded_balls);
         let largest = largest.max(LEAST_LARGEST).log2().ceil().exp2();
-        // The friction coefficient is one of the grid's own.
-        let key = CagedDesign {
-            friction: 0.0,
-            ..*caged
-        };
-        GRIDS.of((key, largest, spacing), || {
-            Ok(Arc::new(Self::new(caged, largest, spacing)?))
-        })
+        Ok(Arc::new(Self::new(caged, largest, spacing)?))
     }
 
     fn new(caged: &CagedDesign, largest: f64, spacing: Spacing) -> Result<Self, ReferenceError> {
@@ -485,7 +473,20 @@ impl ExactLaw {
         axial_load: f32,
         coefficient: DirectionalCoefficient,
     ) -> SlidingFriction {
-        let load = f64::from(axial_load) / self.balls;
+        let load = f64::from(axial_load);
+        let whole = load.abs() / self.balls + self.lift_off;
+        let one =
+            |direction: f64, friction: f32| self.sliding(load, direction, friction.into()) as f32;
+        SlidingFriction {
+            forward: one(1.0, coefficient.forward),
+            backward: one(-1.0, coefficient.backward),
+            load: (self.balls * whole) as f32,
+        }
+    }
+
+    /// Friction of gross sliding, N m, in a direction, 1 or -1, under an axial load, N, that opposes a forward motion, with a coefficient.
+    pub fn sliding(&self, axial_load: f64, direction: f64, friction: f64) -> f64 {
+        let load = axial_load / self.balls;
         let whole = load.abs() + self.lift_off;
         let points = (self.values[0].len() / self.frictions.max(1)).max(POINTS);
         let octaves = (whole / self.first_load).log2().max(0.0);
@@ -503,14 +504,8 @@ impl ExactLaw {
             along = shifted(along, beyond);
             first -= beyond as i32;
         }
-        let at = (first as usize, &along);
-        let opposed = usize::from(load < 0.0);
-        let assisted = usize::from(load > 0.0);
-        SlidingFriction {
-            forward: self.torque(at, opposed, coefficient.forward.into(), whole) as f32,
-            backward: self.torque(at, assisted, coefficient.backward.into(), whole) as f32,
-            load: (self.balls * whole) as f32,
-        }
+        let assists = usize::from(direction * load < 0.0);
+        self.torque((first as usize, &along), assists, friction, whole)
     }
 
     /// Friction at a speed, N m, that passes through zero over a reversal speed, rad/s, with one coefficient.

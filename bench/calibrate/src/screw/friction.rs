@@ -23,9 +23,6 @@ use epas_friction::{Clearance, Error, FrictionModel, RollingResistance};
 
 use super::exact::{ExactLaw, ExactScrew, Grid, Spacing};
 use super::quantities::Values;
-use crate::signals::Motion;
-use crate::signals::filter::ZeroPhase;
-use crate::trace::Trace;
 use epas_page::failure::Failure;
 
 /// Elements of every calibrated memory.
@@ -310,25 +307,6 @@ impl Screw {
         };
         Ok(friction?)
     }
-
-    /// Friction torque at every sample, N m, without memory: with one coefficient, over a reversal speed, rad/s.
-    ///
-    /// # Errors
-    /// A value out of range.
-    pub fn friction_by_speed(
-        &self,
-        values: &Values,
-        course: &Course,
-        grid: &Grid,
-        reversal_speed: f32,
-    ) -> Result<Vec<f64>, Failure> {
-        let friction = values.friction as f32;
-        let law = grid.law(&self.scene(values)?, (friction, friction))?;
-        let inputs = course.inputs().iter();
-        Ok(inputs
-            .map(|inputs| law.by_speed(inputs.scene, friction, reversal_speed))
-            .collect())
-    }
 }
 
 /// What the model is told at every sample.
@@ -338,33 +316,19 @@ pub struct Course {
 }
 
 impl Course {
-    /// Inputs along a trace, with its load smoothed by a filter where one is given; no load, and the temperature given, where nothing was
-    /// measured.
+    /// Inputs at every sample: angle, rad, speed, rad/s, load, N, where there is one, and temperature, K.
     ///
-    /// Noise of the load would cut what elements hold before they slide, whenever it lowers their limits.
-    pub fn of(
-        trace: &Trace,
-        motion: &Motion,
-        smoothing: Option<&ZeroPhase>,
-        temperature: f64,
-    ) -> Self {
-        let load = trace.load.as_deref().map(|load| match smoothing {
-            Some(filter) => filter.apply(load),
-            None => load.to_vec(),
-        });
-        let at = |list: &Option<Vec<f64>>, index: usize, other: f64| {
-            let value = list.as_ref().and_then(|list| list.get(index));
-            value.copied().unwrap_or(other) as f32
-        };
-        let moments = motion.position.iter().zip(&motion.speed).enumerate();
-        let inputs = moments.map(|(index, (position, speed))| WithMemoryInputs {
+    /// The load is one without noise: it would cut what elements hold before they slide, whenever it lowers their limits.
+    pub fn new(angle: &[f64], speed: &[f64], load: Option<&[f64]>, temperature: &[f64]) -> Self {
+        let moments = angle.iter().zip(speed).zip(temperature).enumerate();
+        let inputs = moments.map(|(sample, ((angle, speed), temperature))| WithMemoryInputs {
             scene: Inputs {
                 nut_speed: *speed as f32,
-                axial_load: at(&load, index, 0.0),
+                axial_load: load.map_or(0.0, |load| load[sample] as f32),
             },
-            reading: wrapped(*position),
+            reading: wrapped(*angle),
             load_age: 0.0,
-            temperature: at(&trace.temperature, index, temperature),
+            temperature: *temperature as f32,
             temperature_age: 0.0,
         });
         Self {

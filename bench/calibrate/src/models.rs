@@ -1,0 +1,324 @@
+//! Models of friction beside each other on one trace: each fitted as well as it can be to two thirds of its rows and scored on the last
+//! third, or fitted to all of them and scored on another trace.
+//!
+//! Rows run over turns and rests, so that every model has to pass them. What stands beside the friction ([`Beside`]) is the same for all.
+
+use crate::answer::{Estimate, ModelScore};
+use crate::estimator::rows::Rows;
+use crate::fit::part::{Part, residual};
+use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
+use crate::fit::search::{Found, fit};
+use crate::laws::cost::cycles;
+use crate::laws::{Cost, Law, Level, Passage, Scales};
+use crate::signals::autocorrelation::effective_rows;
+use epas_page::failure::Failure;
+
+/// Share of the rows that is fitted where no other trace scores.
+const FITTED: f64 = 2.0 / 3.0;
+
+/// Name of the scene without memory.
+pub const WITHOUT_MEMORY: &str = "this crate, without memory";
+/// Name of the scene with memory.
+pub const WITH_MEMORY: &str = "this crate, with memory";
+
+/// Laws of the literature.
+pub const LITERATURE: [Law; 4] = [
+    Law {
+        name: "Coulomb and viscous",
+        level: Level::Constant,
+        passage: Passage::AtOnce,
+        cost: Cost::Estimated(10),
+    },
+    Law {
+        name: "Stribeck",
+        level: Level::Stribeck,
+        passage: Passage::AtOnce,
+        cost: Cost::Counted(&["stribeck_curve"]),
+    },
+    Law {
+        name: "Dahl",
+        level: Level::Constant,
+        passage: Passage::Dahl,
+        cost: Cost::Estimated(38),
+    },
+    Law {
+        name: "LuGre",
+        level: Level::Stribeck,
+        passage: Passage::LuGre,
+        cost: Cost::Counted(&["lugre_step"]),
+    },
+];
+
+/// This crate's laws of unit level, for a drive without a design.
+pub const OWN: [Law; 2] = [
+    Law {
+        name: WITHOUT_MEMORY,
+        level: Level::LoadShare,
+        passage: Passage::Speed,
+        cost: Cost::Counted(&["friction_coefficient"]),
+    },
+    Law {
+        name: WITH_MEMORY,
+        level: Level::LoadShare,
+        passage: Passage::Elements,
+        cost: Cost::Counted(&["friction_coefficient", "memory_8"]),
+    },
+];
+
+/// Friction of gross sliding without a load: what a law of unit level is multiplied by.
+const LEVEL: LinearParameter = LinearParameter {
+    name: "level",
+    unit: "N m",
+    low: 0.0,
+    high: f64::INFINITY,
+};
+
+/// What stands beside the friction in every row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Beside {
+    /// What was measured.
+    pub target: Vec<f64>,
+    /// What is set.
+    pub fixed: Vec<f64>,
+    /// What is estimated.
+    pub linear: Vec<LinearParameter>,
+    /// What it multiplies.
+    pub columns: Vec<Vec<f64>>,
+}
+
+/// A trace as a law of friction is told it.
+#[derive(Clone, Copy)]
+pub struct Driven<'a> {
+    /// Position at every sample, rad or m.
+    pub position: &'a [f64],
+    /// Speed, rad/s or m/s.
+    pub speed: &'a [f64],
+    /// Tick, s.
+    pub tick: f64,
+    /// Step of the position's sensor, rad or m.
+    pub resolution: f64,
+    /// How a signal becomes rows.
+    pub rows: &'a Rows,
+    /// What stands beside the friction.
+    pub beside: &'a Beside,
+    /// Factor of the friction by the load at every sample, for a preload of a flank, N: see [`LoadShare`].
+    pub share: Option<LoadShare<'a>>,
+}
+
+/// Sum of both flanks' loads over that without a load: with a large preload the friction does not follow the load at all, so that a law may
+/// choose.
+#[derive(Clone, Copy)]
+pub struct LoadShare<'a> {
+    /// Load at every sample, N.
+    pub load: &'a [f64],
+    /// Preload of a flank to begin with, and the largest load, N.
+    pub preload: f64,
+    /// Largest load, N.
+    pub largest: f64,
+    /// Sum of both flanks' loads, N, under a preload and a load.
+    pub sum: fn(f64, f64) -> f64,
+}
+
+/// Preload of a flank in a law's load share over the largest load: least and most.
+const PRELOADS: [f64; 2] = [1e-3, 10.0];
+
+/// A law of unit level on a trace.
+pub struct LawProblem<'a> {
+    law: Law,
+    driven: Driven<'a>,
+    scales: Scales,
+    nonlinear: Vec<Parameter>,
+    linear: Vec<LinearParameter>,
+}
+
+impl<'a> LawProblem<'a> {
+    /// A law on a trace; rad or m, and their speeds, as `units` says.
+    pub fn new(law: Law, driven: Driven<'a>, units: [&'static str; 2]) -> Self {
+        let ends = |list: &[f64]| {
+            let ends = (f64::INFINITY, f64::NEG_INFINITY);
+            list.iter()
+                .fold(ends, |(low, high), x| (low.min(*x), high.max(*x)))
+        };
+        let ((low, high), (slow, fast)) = (ends(driven.position), ends(driven.speed));
+        let scales = Scales {
+            speed: fast.max(-slow).max(f64::MIN_POSITIVE),
+            travel: (high - low).max(f64::MIN_POSITIVE),
+            resolution: driven.resolution,
+            tick: driven.tick,
+        };
+        let mut nonlinear = law.parameters(&scales, units);
+        if let Some(share) = &driven.share {
+            let [low, high] = PRELOADS.map(|part| part * share.largest);
+            nonlinear.push(Parameter {
+                name: "axial_preload",
+                unit: "N",
+                start: share.preload.max(low).min(high),
+                low,
+                high,
+                scale: Scale::Logarithmic,
+            });
+        }
+        let mut linear = driven.beside.linear.clone();
+        linear.push(LEVEL);
+        Self {
+            law,
+            driven,
+            scales,
+            nonlinear,
+            linear,
+        }
+    }
+
+    /// Friction of unit level in every row; no numbers where the law refuses its parameters.
+    fn friction(&self, nonlinear: &[f64]) -> Vec<f64> {
+        let Driven {
+            position,
+            speed,
+            tick,
+            rows,
+            share,
+            ..
+        } = &self.driven;
+        let Ok(friction) = self.law.friction(&self.scales, nonlinear) else {
+            return vec![f64::NAN; rows.len()];
+        };
+        let mut friction = friction.along(position, speed, *tick);
+        if let (Some(LoadShare { load, sum, .. }), Some(preload)) = (share, nonlinear.last()) {
+            for (friction, load) in friction.iter_mut().zip(*load) {
+                *friction *= sum(*preload, *load) / (2.0 * preload);
+            }
+        }
+        rows.sums(0, &friction)
+    }
+}
+
+impl Separable for LawProblem<'_> {
+    fn nonlinear(&self) -> &[Parameter] {
+        &self.nonlinear
+    }
+
+    fn linear(&self) -> &[LinearParameter] {
+        &self.linear
+    }
+
+    fn target(&self) -> &[f64] {
+        &self.driven.beside.target
+    }
+
+    fn row_step(&self) -> f64 {
+        self.driven.tick
+    }
+
+    fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
+        let mut columns = self.driven.beside.columns.clone();
+        columns.push(self.friction(nonlinear));
+        Evaluation {
+            fixed: self.driven.beside.fixed.clone(),
+            columns,
+        }
+    }
+}
+
+/// A model on the trace that is fitted, and on another that is not.
+pub struct Entry<'a> {
+    /// Name.
+    pub name: &'static str,
+    /// What it costs.
+    pub cost: Cost,
+    /// On the fitted trace.
+    pub fitted: &'a dyn Separable,
+    /// On another one.
+    pub unseen: Option<&'a dyn Separable>,
+}
+
+/// Models beside each other.
+#[derive(Clone, Debug, Default)]
+pub struct Table {
+    /// Those that could be fitted.
+    pub models: Vec<ModelScore>,
+    /// Name of the one with the least error on what was not fitted.
+    pub winner: Option<String>,
+    /// Sentences on those that could not.
+    pub left_out: Vec<String>,
+}
+
+/// Fits and scores models.
+pub fn compared(entries: &[Entry<'_>]) -> Table {
+    let mut table = Table::default();
+    for entry in entries {
+        match score(entry) {
+            Ok(score) => table.models.push(score),
+            Err(failure) => table.left_out.push(format!(
+                "{}: cannot be fitted to this trace, and is not compared; {}.",
+                entry.name,
+                failure.message()
+            )),
+        }
+    }
+    let criteria = table.models.iter().map(|model| model.information_criterion);
+    let least = criteria.fold(f64::INFINITY, f64::min);
+    for model in &mut table.models {
+        model.information_criterion -= least;
+    }
+    let error = |model: &ModelScore| model.relative_error_unseen.unwrap_or(f64::INFINITY);
+    let best = table
+        .models
+        .iter()
+        .min_by(|one, other| error(one).total_cmp(&error(other)));
+    table.winner = best.map(|model| model.name.clone());
+    table
+}
+
+fn score(entry: &Entry<'_>) -> Result<ModelScore, Failure> {
+    let parts = [
+        Part::before(entry.fitted, FITTED),
+        Part::after(entry.fitted, FITTED),
+    ];
+    let (fitted, unseen): (&dyn Separable, &dyn Separable) = match entry.unseen {
+        Some(unseen) => (entry.fitted, unseen),
+        None => (&parts[0], &parts[1]),
+    };
+    let found = fit(fitted)?;
+    let rest = residual(unseen, &found.nonlinear, &found.linear);
+    let size = |rows: &[f64]| {
+        let sum: f64 = rows.iter().map(|x| x * x).sum();
+        (sum / rows.len().max(1) as f64).sqrt()
+    };
+    let relative = |rows: &[f64], target: &[f64]| size(rows) / size(target).max(f64::MIN_POSITIVE);
+    let seen_error = relative(&found.residual, fitted.target());
+    let unseen_error = relative(&rest, unseen.target());
+    let parameters = found.nonlinear.len() + found.linear.len();
+    let rows = effective_rows(&found.residual);
+    Ok(ModelScore {
+        name: entry.name.into(),
+        relative_error: seen_error,
+        relative_error_unseen: Some(unseen_error),
+        relative_error_inverse: seen_error,
+        relative_error_inverse_unseen: Some(unseen_error),
+        position_error: None,
+        residual_unseen: Some(size(&rest)),
+        information_criterion: rows * 2.0 * size(&found.residual).ln()
+            + parameters as f64 * rows.ln(),
+        parameters,
+        cycles: cycles(entry.cost),
+        cycles_estimated: matches!(entry.cost, Cost::Estimated(_)),
+        values: values(fitted, &found),
+    })
+}
+
+/// A model's values. The table compares models: it has no intervals.
+fn values(problem: &dyn Separable, found: &Found) -> Vec<Estimate> {
+    let nonlinear = problem.nonlinear().iter().map(|of| (of.name, of.unit));
+    let linear = problem.linear().iter().map(|of| (of.name, of.unit));
+    let values = found.nonlinear.iter().chain(&found.linear);
+    nonlinear
+        .chain(linear)
+        .zip(values)
+        .map(|((name, unit), value)| Estimate {
+            low: f64::NAN,
+            high: f64::NAN,
+            fixed: false,
+            ..Estimate::fixed(name, unit, *value)
+        })
+        .collect()
+}
