@@ -99,9 +99,7 @@ pub struct Driven<'a> {
     pub resolution: f64,
     /// How a signal becomes rows.
     pub rows: &'a Rows,
-    /// What stands beside the friction.
-    pub beside: &'a Beside,
-    /// Factor of the friction by the load at every sample, for a preload of a flank, N: see [`LoadShare`].
+    /// Sum of both flanks' loads over that without a load; nothing where none was measured.
     pub share: Option<LoadShare<'a>>,
 }
 
@@ -111,7 +109,7 @@ pub struct Driven<'a> {
 pub struct LoadShare<'a> {
     /// Load at every sample, N.
     pub load: &'a [f64],
-    /// Preload of a flank to begin with, and the largest load, N.
+    /// Preload of a flank to begin with, N.
     pub preload: f64,
     /// Largest load, N.
     pub largest: f64,
@@ -122,18 +120,45 @@ pub struct LoadShare<'a> {
 /// Preload of a flank in a law's load share over the largest load: least and most.
 const PRELOADS: [f64; 2] = [1e-3, 10.0];
 
-/// A law of unit level on a trace.
-pub struct LawProblem<'a> {
-    law: Law,
-    driven: Driven<'a>,
-    scales: Scales,
+/// Friction in every row at some parameters; no numbers where they are refused.
+type Friction<'a> = Box<dyn Fn(&[f64]) -> Vec<f64> + Sync + 'a>;
+
+/// A model of friction on a trace.
+pub struct Model<'a> {
     nonlinear: Vec<Parameter>,
     linear: Vec<LinearParameter>,
+    beside: &'a Beside,
+    /// Whether the friction is of unit level: the last linear parameter multiplies it.
+    of_unit_level: bool,
+    friction: Friction<'a>,
+    tick: f64,
 }
 
-impl<'a> LawProblem<'a> {
-    /// A law on a trace; rad or m, and their speeds, as `units` says.
-    pub fn new(law: Law, driven: Driven<'a>, units: [&'static str; 2]) -> Self {
+impl<'a> Model<'a> {
+    /// One whose friction has its own level.
+    pub fn new(
+        nonlinear: Vec<Parameter>,
+        beside: &'a Beside,
+        tick: f64,
+        friction: Friction<'a>,
+    ) -> Self {
+        Self {
+            nonlinear,
+            linear: beside.linear.clone(),
+            beside,
+            of_unit_level: false,
+            friction,
+            tick,
+        }
+    }
+
+    /// A law of unit level; rad or m, and their speeds, as `units` says.
+    pub fn of_law(
+        law: Law,
+        driven: Driven<'a>,
+        beside: &'a Beside,
+        units: [&'static str; 2],
+    ) -> Self {
         let ends = |list: &[f64]| {
             let ends = (f64::INFINITY, f64::NEG_INFINITY);
             list.iter()
@@ -158,41 +183,34 @@ impl<'a> LawProblem<'a> {
                 scale: Scale::Logarithmic,
             });
         }
-        let mut linear = driven.beside.linear.clone();
+        let mut linear = beside.linear.clone();
         linear.push(LEVEL);
+        let friction = move |values: &[f64]| {
+            let Ok(friction) = law.friction(&scales, values) else {
+                return vec![f64::NAN; driven.rows.len()];
+            };
+            let mut friction = friction.along(driven.position, driven.speed, driven.tick);
+            if let (Some(LoadShare { load, sum, .. }), Some(preload)) =
+                (driven.share, values.last())
+            {
+                for (friction, load) in friction.iter_mut().zip(load) {
+                    *friction *= sum(*preload, *load) / (2.0 * preload);
+                }
+            }
+            driven.rows.sums(0, &friction)
+        };
         Self {
-            law,
-            driven,
-            scales,
             nonlinear,
             linear,
+            beside,
+            of_unit_level: true,
+            friction: Box::new(friction),
+            tick: driven.tick,
         }
-    }
-
-    /// Friction of unit level in every row; no numbers where the law refuses its parameters.
-    fn friction(&self, nonlinear: &[f64]) -> Vec<f64> {
-        let Driven {
-            position,
-            speed,
-            tick,
-            rows,
-            share,
-            ..
-        } = &self.driven;
-        let Ok(friction) = self.law.friction(&self.scales, nonlinear) else {
-            return vec![f64::NAN; rows.len()];
-        };
-        let mut friction = friction.along(position, speed, *tick);
-        if let (Some(LoadShare { load, sum, .. }), Some(preload)) = (share, nonlinear.last()) {
-            for (friction, load) in friction.iter_mut().zip(*load) {
-                *friction *= sum(*preload, *load) / (2.0 * preload);
-            }
-        }
-        rows.sums(0, &friction)
     }
 }
 
-impl Separable for LawProblem<'_> {
+impl Separable for Model<'_> {
     fn nonlinear(&self) -> &[Parameter] {
         &self.nonlinear
     }
@@ -202,20 +220,25 @@ impl Separable for LawProblem<'_> {
     }
 
     fn target(&self) -> &[f64] {
-        &self.driven.beside.target
+        &self.beside.target
     }
 
     fn row_step(&self) -> f64 {
-        self.driven.tick
+        self.tick
     }
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
-        let mut columns = self.driven.beside.columns.clone();
-        columns.push(self.friction(nonlinear));
-        Evaluation {
-            fixed: self.driven.beside.fixed.clone(),
-            columns,
+        let friction = (self.friction)(nonlinear);
+        let mut columns = self.beside.columns.clone();
+        let mut fixed = self.beside.fixed.clone();
+        if self.of_unit_level {
+            columns.push(friction);
+        } else {
+            for (fixed, friction) in fixed.iter_mut().zip(friction) {
+                *fixed += friction;
+            }
         }
+        Evaluation { fixed, columns }
     }
 }
 

@@ -10,8 +10,10 @@
 //! | [`problem`] | the whole torque as a separable problem |
 //! | [`stages`] | rows in which the balls slide, then rows about the turns; intervals |
 //! | [`telling`] | what a trace lacks, in sentences |
+//! | [`compared`] | other models of friction on the same trace |
 
 pub mod choice;
+mod compared;
 pub mod evidence;
 pub mod exact;
 #[cfg(test)]
@@ -31,19 +33,15 @@ use std::sync::Arc;
 use self::choice::{Start, Wanted};
 use self::evidence::Evidence;
 use self::exact::{Grid, Spacing};
-use self::friction::{ElementsKind, Screw};
-use self::problem::{Choice, ScrewProblem, flank_sum};
+use self::friction::Screw;
+use self::problem::Choice;
 use self::quantities::Values;
 use self::stages::{AT_TURNS, Prepared, QUANTILE, Sliding, WAY, Window};
 use crate::answer::{Calibration, Estimate};
 use crate::checks::finding::{Finding, FindingKind};
 use crate::checks::{examine, load_gain};
-use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
+use crate::fit::problem::Separable as _;
 use crate::fit::uncertainty::{Interval, Uncertainty, correlation};
-use crate::laws::Cost;
-use crate::models::{
-    Driven, Entry, LITERATURE, LawProblem, LoadShare, Table, WITH_MEMORY, WITHOUT_MEMORY, compared,
-};
 use crate::signals::autocorrelation::effective_rows;
 use crate::signals::{Motion, SmoothingSettings};
 use crate::trace::known::placed;
@@ -165,7 +163,7 @@ pub fn calibrate(
     let sentences = told.sentences.iter().cloned();
     answer.cannot_tell = sentences.chain(left_out).chain(spoiled(findings)).collect();
     if !request.without_models {
-        let table = models((&prepared, &whole), &told, request.unseen.as_ref())?;
+        let table = compared::models(&prepared, &told, request.unseen.as_ref())?;
         (answer.models, answer.winner) = (table.models, table.winner);
         answer.cannot_tell.extend(table.left_out);
     }
@@ -257,18 +255,19 @@ fn told<'a>(
     let step = trace.resolution;
     values = sliding.values;
     intervals.retain(|of| {
-        let told = of.value >= STEPS * step || of.value == 0.0;
-        if !told {
-            let design = telling::value_of(of.name, &start.values);
+        let design = telling::value_of(of.name, &start.values);
+        let coarse = of.value > 0.0 && of.value < STEPS * step;
+        if coarse {
             sentences.insert(0, telling::too_coarse(of.name, step, design));
+        } else if of.at_bound {
+            sentences.push(telling::beyond_bound(of.name, design));
         }
-        told
+        !coarse && !of.at_bound
     });
     for of in &intervals {
         telling::set(of.name, of.value, &mut values);
     }
-    let bounds = sliding.intervals.iter().chain(&intervals);
-    let bounds = bounds.filter(|of| of.at_bound);
+    let bounds = sliding.intervals.iter().filter(|of| of.at_bound);
     sentences.extend(bounds.map(|of| telling::at_bound(of, evidence)));
     for (parameter, of) in at_turns.nonlinear {
         if intervals.iter().any(|interval| interval.name == of.name) {
@@ -412,213 +411,5 @@ fn answer(
         cannot_tell: Vec::new(),
         models: Vec::new(),
         winner: None,
-    }
-}
-
-/// Models of friction beside each other, on another trace or on the last third of the fitted one.
-fn models(
-    (prepared, whole): (&Prepared<'_>, &ScrewProblem<'_>),
-    told: &Told,
-    unseen: Option<&Trace>,
-) -> Result<Table, Failure> {
-    let (values, screw) = (&told.values, &prepared.screw);
-    let other = unseen
-        .map(|unseen| {
-            let motion = Motion::of(unseen, &SmoothingSettings::default())?;
-            Ok::<_, Failure>(placed(unseen, &motion))
-        })
-        .transpose()?;
-    let other = other
-        .as_deref()
-        .map(|unseen| Prepared::new(unseen, &rests(unseen), *screw));
-    let other_whole = other.as_ref().map(|other| {
-        let rows = other.rows_over_turns(told.window, true);
-        other.remembered(rows, (values, &told.choice), &told.grid)
-    });
-    let sides: Vec<(&Prepared<'_>, &ScrewProblem<'_>)> = std::iter::once((prepared, whole))
-        .chain(other.as_ref().zip(other_whole.as_ref()))
-        .collect();
-    let besides: Vec<_> = sides
-        .iter()
-        .map(|(_, problem)| problem.beside(values))
-        .collect();
-    let laws: Vec<Vec<LawProblem<'_>>> = sides
-        .iter()
-        .zip(&besides)
-        .map(|((prepared, problem), beside)| {
-            let driven = driven(prepared, problem, beside, values);
-            LITERATURE
-                .iter()
-                .map(|law| LawProblem::new(*law, driven, ["rad", "rad/s"]))
-                .collect()
-        })
-        .collect();
-    let without: Vec<WithoutMemory<'_>> = sides
-        .iter()
-        .zip(&besides)
-        .map(|((_, problem), beside)| WithoutMemory::new(screw, values, told, problem, beside))
-        .collect();
-    let mut entries: Vec<Entry<'_>> = LITERATURE
-        .iter()
-        .enumerate()
-        .map(|(k, law)| Entry {
-            name: law.name,
-            cost: law.cost,
-            fitted: &laws[0][k],
-            unseen: laws.get(1).map(|laws| &laws[k] as &dyn Separable),
-        })
-        .collect();
-    entries.push(Entry {
-        name: WITHOUT_MEMORY,
-        cost: Cost::Counted(&["step_caged"]),
-        fitted: &without[0],
-        unseen: without.get(1).map(|scene| scene as &dyn Separable),
-    });
-    entries.push(Entry {
-        name: WITH_MEMORY,
-        cost: cost_with_memory(screw),
-        fitted: whole,
-        unseen: other_whole
-            .as_ref()
-            .map(|problem| problem as &dyn Separable),
-    });
-    Ok(compared(&entries))
-}
-
-/// A trace as a law of the literature is told it.
-fn driven<'a>(
-    prepared: &'a Prepared<'_>,
-    problem: &'a ScrewProblem<'_>,
-    beside: &'a crate::models::Beside,
-    values: &Values,
-) -> Driven<'a> {
-    let (speed, load) = problem.signals();
-    let record = &prepared.record;
-    let share = load
-        .filter(|_| prepared.screw.largest_load > 0.0)
-        .map(|load| LoadShare {
-            load,
-            preload: prepared.screw.axial_preload(values),
-            largest: prepared.screw.largest_load,
-            sum: flank_sum,
-        });
-    Driven {
-        position: if record.speed_alone {
-            &record.path
-        } else {
-            &record.motion
-        },
-        speed,
-        tick: record.tick,
-        resolution: prepared.trace.resolution,
-        rows: problem.rows(),
-        beside,
-        share,
-    }
-}
-
-/// Cost of a step with memory: counted for elements in constant shares; load-exact ones cost what they cost beyond these.
-fn cost_with_memory(screw: &Screw) -> Cost {
-    match screw.elements {
-        ElementsKind::Proportional => Cost::Counted(&["step_caged_law"]),
-        // 371 in place of 190 cycles, and 30 for the load of both flanks.
-        ElementsKind::LoadExact | ElementsKind::Preloaded => Cost::Estimated(1400),
-    }
-}
-
-/// The screw without memory: friction by the speed alone, with one coefficient.
-struct WithoutMemory<'a> {
-    screw: Screw,
-    values: Values,
-    grid: Arc<Grid>,
-    problem: &'a ScrewProblem<'a>,
-    beside: &'a crate::models::Beside,
-    nonlinear: Vec<Parameter>,
-}
-
-/// Speeds of a reversal, rad/s: least, first guess, most.
-const REVERSAL_SPEEDS: [f64; 3] = [1e-3, 0.2, 50.0];
-
-impl<'a> WithoutMemory<'a> {
-    fn new(
-        screw: &Screw,
-        values: &Values,
-        told: &Told,
-        problem: &'a ScrewProblem<'a>,
-        beside: &'a crate::models::Beside,
-    ) -> Self {
-        let [low, start, high] = REVERSAL_SPEEDS;
-        let choice = told.choice.from(values).nonlinear.into_iter();
-        let of_screw = choice.map(|(of, _)| of);
-        let mut nonlinear: Vec<Parameter> = of_screw
-            .filter(|of| matches!(of.name, "friction" | "preload"))
-            .collect();
-        nonlinear.push(Parameter {
-            name: "reversal_speed",
-            unit: "rad/s",
-            start,
-            low,
-            high,
-            scale: Scale::Logarithmic,
-        });
-        Self {
-            screw: *screw,
-            values: *values,
-            grid: Arc::clone(&told.grid),
-            problem,
-            beside,
-            nonlinear,
-        }
-    }
-
-    /// Friction of gross sliding times `w/sqrt(w^2 + w_r^2)` with the reversal speed `w_r`.
-    fn friction(&self, nonlinear: &[f64]) -> Result<Vec<f64>, Failure> {
-        let (mut reversal, mut values) = (0.0, self.values);
-        for (parameter, value) in self.nonlinear.iter().zip(nonlinear) {
-            match parameter.name {
-                "friction" => values.friction = *value,
-                "preload" => values.preload = *value,
-                _ => reversal = *value,
-            }
-        }
-        let friction = values.friction as f32;
-        let scene = self.screw.scene(&values)?;
-        let law = self.grid.law(&scene, (friction, friction))?;
-        let (speed, load) = self.problem.signals();
-        let at = |(sample, speed): (usize, &f64)| {
-            let load = load.map_or(0.0, |load| load[sample]);
-            let full = law.sliding(load, 1_f64.copysign(*speed), values.friction);
-            speed / speed.hypot(reversal) * full
-        };
-        let friction: Vec<f64> = speed.iter().enumerate().map(at).collect();
-        Ok(self.problem.rows().sums(0, &friction))
-    }
-}
-
-impl Separable for WithoutMemory<'_> {
-    fn nonlinear(&self) -> &[Parameter] {
-        &self.nonlinear
-    }
-
-    fn linear(&self) -> &[LinearParameter] {
-        &self.beside.linear
-    }
-
-    fn target(&self) -> &[f64] {
-        &self.beside.target
-    }
-
-    fn row_step(&self) -> f64 {
-        self.problem.row_step()
-    }
-
-    fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
-        let friction = self.friction(nonlinear);
-        let rows = friction.unwrap_or_else(|_| vec![f64::NAN; self.beside.target.len()]);
-        let rows = rows.iter().zip(&self.beside.fixed);
-        Evaluation {
-            fixed: rows.map(|(friction, fixed)| friction + fixed).collect(),
-            columns: self.beside.columns.clone(),
-        }
     }
 }

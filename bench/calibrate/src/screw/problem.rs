@@ -107,15 +107,11 @@ impl<'a> ScrewProblem<'a> {
         grid: &Arc<Grid>,
     ) -> Self {
         let samples = Samples::of((trace, record), &rows, passage, screw);
-        let course = (passage == Passage::Remembered).then(|| {
-            let path = path(trace, &rows.kernel);
-            let Samples {
-                speed,
-                load,
-                temperature,
-                ..
-            } = &samples;
-            Course::new(&path, speed, load.as_deref(), temperature)
+        let course = (passage == Passage::Remembered).then(|| Course {
+            angle: path(trace, &rows.kernel),
+            speed: samples.speed.clone(),
+            load: samples.load.clone(),
+            temperature: samples.temperature.clone(),
         });
         let choice = choice.from(values);
         let mut problem = Self {

@@ -44,6 +44,9 @@ const OUTLIERS: f64 = 0.02;
 /// Factors of the first guess of the speed law from which a fit starts.
 const STARTS: [f64; 3] = [1.0, 0.2, 5.0];
 
+/// Factors of the breakaway angle's first guess from the best of which a fit over turns starts.
+const BREAKAWAYS: [f64; 6] = [0.1, 0.3, 1.0, 3.0, 10.0, 30.0];
+
 /// Error of the scene's full friction over itself: measured against the exact ball, some ten loads and coefficients of a preloaded
 /// screw, rms 0.0016, largest 0.0043; and the blocks of speed and of load in which it is one.
 const MODEL: f64 = 2e-3;
@@ -232,8 +235,7 @@ impl<'a> Prepared<'a> {
         let found = fit(&problem)?;
         let values = problem.values(&found.nonlinear, &found.linear);
         let rows = self.rows_over_turns(window, false);
-        let problem = self.remembered(rows, (&values, at_turns), grid);
-        let Ok(found) = fit(&problem) else {
+        let Ok((problem, found)) = self.turn_fit(rows, (&values, at_turns), grid) else {
             return Ok(window);
         };
         let values = problem.values(&found.nonlinear, &found.linear);
@@ -408,6 +410,30 @@ impl<'a> Prepared<'a> {
         )
     }
 
+    /// A fit over turns, from the breakaway angle near the first guess that leaves least.
+    fn turn_fit(
+        &self,
+        rows: Rows,
+        (values, at_turns): (&Values, &Choice),
+        grid: &Arc<Grid>,
+    ) -> Result<(ScrewProblem<'_>, Found), Failure> {
+        let problem = self.remembered(rows.clone(), (values, at_turns), grid);
+        let at = |factor: f64| {
+            let mut values = *values;
+            values.breakaway_angle *= factor;
+            let values = problem.values(&nonlinear(at_turns, &values), &[]);
+            let rows = problem.model(&values).into_iter().zip(problem.target());
+            let cost: f64 = rows.map(|(model, target)| (model - target).powi(2)).sum();
+            (cost, values)
+        };
+        let starts = BREAKAWAYS.into_iter().map(at);
+        let best = starts.min_by(|one, other| one.0.total_cmp(&other.0));
+        let start = best.map_or(*values, |(_, start)| start);
+        let problem = self.remembered(rows, (&start, at_turns), grid);
+        let found = fit(&problem)?;
+        Ok((problem, found))
+    }
+
     /// The second stage: what comes before sliding, its intervals, and how they follow the first stage. `None` where there are too few turns.
     pub fn turned(
         &self,
@@ -425,8 +451,7 @@ impl<'a> Prepared<'a> {
         let Some(rows) = at(window.half) else {
             return Ok(None);
         };
-        let problem = self.remembered(rows.clone(), (&sliding.values, at_turns), grid);
-        let found = fit(&problem)?;
+        let (problem, found) = self.turn_fit(rows.clone(), (&sliding.values, at_turns), grid)?;
         let values = problem.values(&found.nonlinear, &found.linear);
         let Some(here) = linearised(&problem, &values) else {
             return Ok(None);

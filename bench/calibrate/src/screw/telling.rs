@@ -219,6 +219,12 @@ pub fn too_coarse(name: &str, step: f64, value: f64) -> String {
     )
 }
 
+/// What of a turn ended at its bound.
+pub fn beyond_bound(name: &str, value: f64) -> String {
+    let name = words(&[name]);
+    format!("{name}: it ended at its bound, which no trace tells; {name} is set to {value} rad.")
+}
+
 /// What ended at a bound all the same.
 pub fn at_bound(of: &Interval, evidence: &Evidence) -> String {
     let because = lacking(&[of.name], evidence).map_or(String::new(), |text| format!("; {text}"));
