@@ -11,13 +11,12 @@ use crate::page::truth;
 use crate::screw::Request;
 use crate::screw::choice::Wanted;
 use crate::screw::quantities::names;
-use crate::signals::SmoothingSettings;
 use crate::sums::Sums;
 use crate::trace::columns::{self, Frame};
 use crate::trace::{Coordinate, Trace};
 use crate::with_design;
+use crate::without_design;
 use crate::without_design::controller::SeenController;
-use crate::without_design::{self, Filters};
 use epas_design::files::{Design, DesignSource, text};
 use epas_page::aside::say;
 use epas_page::failure::Failure;
@@ -95,24 +94,10 @@ pub struct Arguments {
         conflicts_with = "design"
     )]
     controller: Option<Controller>,
-    /// Cut-off of the zero-phase filter of the motion, Hz [default: 40 with a design; else 100, less where the sensor is coarse]
-    #[arg(long, value_name = "HZ", value_parser = frequency)]
-    smoothing: Option<f64>,
-    /// Cut-off of the zero-phase filter of both sides of the regression, Hz [default: 25 with a design, else 60]
-    #[arg(long, value_name = "HZ", value_parser = frequency)]
-    rows: Option<f64>,
     #[command(flatten)]
     outputs: OutputArguments,
     #[command(flatten)]
     folder: FolderArguments,
-}
-
-/// A frequency, Hz.
-fn frequency(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (1e-3..=1e6).contains(&value) => Ok(value),
-        _ => Err("a cut-off is 1e-3 to 1e6 Hz".into()),
-    }
 }
 
 /// A ratio of a gear.
@@ -238,23 +223,12 @@ impl Arguments {
             .transpose()
     }
 
-    fn filters(&self) -> Filters {
-        Filters {
-            smoothing: self.smoothing,
-            rows: self.rows,
-        }
-    }
-
     fn request(&self) -> Request {
         Request {
             wanted: Wanted {
                 estimate: self.estimate.clone(),
                 fix: self.fix.clone(),
                 ..Wanted::default()
-            },
-            smoothing: SmoothingSettings {
-                cutoff: self.smoothing,
-                ..SmoothingSettings::default()
             },
             ratio_unsaid: self.ratio.is_none(),
             ..Request::default()
@@ -292,12 +266,7 @@ fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Resul
     let truth = truth::of(trace);
     let trace = columns::read(&Source(trace), None, mapping)?;
     let unseen = arguments.unseen(None, mapping)?;
-    let told = without_design::calibrate(
-        &trace,
-        unseen.as_ref(),
-        arguments.controller,
-        &arguments.filters(),
-    )?;
+    let told = without_design::calibrate(&trace, unseen.as_ref(), arguments.controller)?;
     if let Some(controller) = &told.controller {
         tell(controller, trace.coordinate);
     }
@@ -338,13 +307,12 @@ fn whole_folder(
         arguments.request().check()?;
     }
     let mut settings = format!(
-        "{} {:?} {:?} {:?} {:?} {:?}",
+        "{} {:?} {:?} {:?} {:?}",
         env!("CARGO_PKG_VERSION"),
         design.map(|design| (&design.caged, design.branch, &design.calibrated)),
         arguments.ratio,
         arguments.estimate,
         arguments.fix,
-        arguments.filters(),
     );
     if let Some(mapping) = mapping {
         settings.extend([" ", &format!("{mapping:?}")]);
@@ -370,7 +338,8 @@ fn one(
     let mapping = mapping.filter(|_| mdf4::named(path));
     let Some(design) = design else {
         let trace = columns::read(&Source(path), None, mapping)?;
-        return without_design::plain(&trace, &arguments.filters());
+        let _ = trace;
+        return Err(Failure::Data("to be merged".into()));
     };
     let trace = columns::read(&Source(path), Some(&arguments.frame(design)), mapping)?;
     with_design::summed(&trace, design, &arguments.request())

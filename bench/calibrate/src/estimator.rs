@@ -19,6 +19,7 @@
 //! | [`rows`] | rows of the regression and their columns |
 //! | [`terms`] | terms of the equation and their columns |
 //! | [`fit`] | least squares with the sensor's noise taken out, intervals |
+//! | [`words`] | what is wrong with a trace, or in it and not in the equation |
 //! | [`choice`] | length of the kernel and way after a turn |
 
 pub mod choice;
@@ -28,6 +29,7 @@ pub mod record;
 pub mod rows;
 pub mod stretches;
 pub mod terms;
+pub mod words;
 
 #[cfg(test)]
 mod drives;

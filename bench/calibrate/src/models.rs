@@ -7,14 +7,14 @@ use crate::answer::{Estimate, ModelScore};
 use crate::estimator::rows::Rows;
 use crate::fit::part::{Part, residual};
 use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
-use crate::fit::search::{Found, fit};
+use crate::fit::search::{Found, fit, fit_within};
+use crate::fit::uncertainty::uncertainty;
 use crate::laws::cost::cycles;
 use crate::laws::{Cost, Law, Level, Passage, Scales};
-use crate::signals::autocorrelation::effective_rows;
 use epas_page::failure::Failure;
 
 /// Share of the rows that is fitted where no other trace scores.
-const FITTED: f64 = 2.0 / 3.0;
+pub const FITTED: f64 = 2.0 / 3.0;
 
 /// Name of the scene without memory.
 pub const WITHOUT_MEMORY: &str = "this crate, without memory";
@@ -245,13 +245,15 @@ impl Separable for Model<'_> {
 /// A model on the trace that is fitted, and on another that is not.
 pub struct Entry<'a> {
     /// Name.
-    pub name: &'static str,
+    pub name: &'a str,
     /// What it costs.
     pub cost: Cost,
     /// On the fitted trace.
     pub fitted: &'a dyn Separable,
     /// On another one.
     pub unseen: Option<&'a dyn Separable>,
+    /// Whether its first guess is near its answer.
+    pub start_known: bool,
 }
 
 /// Models beside each other.
@@ -270,29 +272,41 @@ pub fn compared(entries: &[Entry<'_>]) -> Table {
     let mut table = Table::default();
     for entry in entries {
         match score(entry) {
-            Ok(score) => table.models.push(score),
-            Err(failure) => table.left_out.push(format!(
-                "{}: cannot be fitted to this trace, and is not compared; {}.",
-                entry.name,
-                failure.message()
-            )),
+            Ok((score, _)) => table.models.push(score),
+            Err(failure) => table.left_out.push(left_out(entry.name, &failure)),
         }
     }
-    let criteria = table.models.iter().map(|model| model.information_criterion);
-    let least = criteria.fold(f64::INFINITY, f64::min);
-    for model in &mut table.models {
-        model.information_criterion -= least;
-    }
-    let error = |model: &ModelScore| model.relative_error_unseen.unwrap_or(f64::INFINITY);
-    let best = table
-        .models
-        .iter()
-        .min_by(|one, other| error(one).total_cmp(&error(other)));
-    table.winner = best.map(|model| model.name.clone());
+    table.winner = rank(&mut table.models);
     table
 }
 
-fn score(entry: &Entry<'_>) -> Result<ModelScore, Failure> {
+/// What is said of a model that could not be fitted.
+pub fn left_out(name: &str, why: &Failure) -> String {
+    format!(
+        "{name}: cannot be fitted to this trace, and is not compared; {}.",
+        why.message()
+    )
+}
+
+/// Sets the least information criterion to zero; the name of the model that does best on what was not fitted.
+pub fn rank(models: &mut [ModelScore]) -> Option<String> {
+    let criteria = models.iter().map(|model| model.information_criterion);
+    let least = criteria.fold(f64::INFINITY, f64::min);
+    for model in models.iter_mut() {
+        model.information_criterion -= least;
+    }
+    let error = |model: &ModelScore| model.relative_error_unseen.unwrap_or(f64::INFINITY);
+    let best = models
+        .iter()
+        .min_by(|one, other| error(one).total_cmp(&error(other)));
+    best.map(|model| model.name.clone())
+}
+
+/// Fits a model, and scores it on what was not fitted.
+///
+/// # Errors
+/// Why there is no fit.
+pub fn score(entry: &Entry<'_>) -> Result<(ModelScore, Found), Failure> {
     let parts = [
         Part::before(entry.fitted, FITTED),
         Part::after(entry.fitted, FITTED),
@@ -301,7 +315,11 @@ fn score(entry: &Entry<'_>) -> Result<ModelScore, Failure> {
         Some(unseen) => (entry.fitted, unseen),
         None => (&parts[0], &parts[1]),
     };
-    let found = fit(fitted)?;
+    let found = if entry.start_known {
+        fit(fitted)?
+    } else {
+        fit_within(fitted)?
+    };
     let rest = residual(unseen, &found.nonlinear, &found.linear);
     let size = |rows: &[f64]| {
         let sum: f64 = rows.iter().map(|x| x * x).sum();
@@ -311,8 +329,9 @@ fn score(entry: &Entry<'_>) -> Result<ModelScore, Failure> {
     let seen_error = relative(&found.residual, fitted.target());
     let unseen_error = relative(&rest, unseen.target());
     let parameters = found.nonlinear.len() + found.linear.len();
-    let rows = effective_rows(&found.residual);
-    Ok(ModelScore {
+    let sure = uncertainty(fitted, &found);
+    let rows = sure.effective_rows;
+    let score = ModelScore {
         name: entry.name.into(),
         relative_error: seen_error,
         relative_error_unseen: Some(unseen_error),
@@ -325,23 +344,7 @@ fn score(entry: &Entry<'_>) -> Result<ModelScore, Failure> {
         parameters,
         cycles: cycles(entry.cost),
         cycles_estimated: matches!(entry.cost, Cost::Estimated(_)),
-        values: values(fitted, &found),
-    })
-}
-
-/// A model's values. The table compares models: it has no intervals.
-fn values(problem: &dyn Separable, found: &Found) -> Vec<Estimate> {
-    let nonlinear = problem.nonlinear().iter().map(|of| (of.name, of.unit));
-    let linear = problem.linear().iter().map(|of| (of.name, of.unit));
-    let values = found.nonlinear.iter().chain(&found.linear);
-    nonlinear
-        .chain(linear)
-        .zip(values)
-        .map(|((name, unit), value)| Estimate {
-            low: f64::NAN,
-            high: f64::NAN,
-            fixed: false,
-            ..Estimate::fixed(name, unit, *value)
-        })
-        .collect()
+        values: sure.intervals.iter().map(Estimate::from).collect(),
+    };
+    Ok((score, found))
 }

@@ -36,7 +36,7 @@ use self::exact::{Grid, Spacing};
 use self::friction::Screw;
 use self::problem::Choice;
 use self::quantities::Values;
-use self::stages::{AT_TURNS, Prepared, QUANTILE, Sliding, WAY, Window};
+use self::stages::{AT_TURNS, Prepared, Sliding, WAY, Window};
 use crate::answer::{Calibration, Estimate};
 use crate::checks::finding::{Finding, FindingKind};
 use crate::checks::{examine, load_gain};
@@ -55,8 +55,6 @@ use epas_page::failure::Failure;
 pub struct Request {
     /// What is estimated and what is set.
     pub wanted: Wanted,
-    /// How the angle is smoothed where the trace is checked and drawn.
-    pub smoothing: SmoothingSettings,
     /// Whether other models of friction are not fitted.
     pub without_models: bool,
     /// Whether the ratio of the motor's gear was left at 1 without a word.
@@ -122,7 +120,7 @@ pub fn calibrate(
             ));
         }
     }
-    let motion = Motion::of(trace, &request.smoothing)?;
+    let motion = Motion::of(trace, &SmoothingSettings::default())?;
     let trace = &*placed(trace, &motion);
     let findings = examine(trace, &motion)?;
     load_gain(trace, &motion, reduced_lead(design), request.ratio_unsaid)?;
@@ -370,13 +368,7 @@ fn uncertainty(told: &Told, residual: &[f64]) -> Uncertainty {
         intervals: order.iter().map(|k| all[*k].clone()).collect(),
         correlation: correlation(&covariance),
         covariance,
-        singular_values: Vec::new(),
-        condition: sliding.condition.0,
-        null_direction: sliding.condition.1.clone(),
-        lags: 0,
         effective_rows: effective_rows(residual),
-        noise: sliding.residual_rms,
-        quantile: QUANTILE,
     }
 }
 
@@ -389,15 +381,7 @@ fn answer(
     let parameters = quantities::all(&told.values).map(|(name, unit, value)| {
         let mut intervals = uncertainty.intervals.iter();
         match intervals.find(|interval| interval.name == name) {
-            Some(interval) => Estimate {
-                name: name.into(),
-                unit,
-                value: interval.value,
-                low: interval.low,
-                high: interval.high,
-                fixed: false,
-                at_bound: interval.at_bound,
-            },
+            Some(interval) => Estimate::from(interval),
             None => Estimate::fixed(name, unit, value),
         }
     });

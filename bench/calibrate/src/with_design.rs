@@ -2,12 +2,11 @@
 
 use crate::answer::Calibration;
 use crate::fit::problem::Scale;
-use crate::fit::separable::{Fit, Verdict};
 use crate::page::picture::{Correlations, Picture};
 use crate::screw::friction::Screw;
 use crate::screw::quantities::{LINEAR, NONLINEAR};
 use crate::screw::{Request, ScrewCalibration, calibrate};
-use crate::signals::Motion;
+use crate::signals::{Motion, SmoothingSettings};
 use crate::sums::{Reference, Sums, SumsError};
 use crate::trace::Trace;
 use epas_design::files::Design;
@@ -30,7 +29,7 @@ pub struct Told {
 pub fn told(trace: &Trace, design: &Design, request: &Request) -> Result<Told, Failure> {
     let found = calibrate(trace, design, request)?;
     Ok(Told {
-        picture: picture(trace, request, &found)?,
+        picture: picture(trace, &found)?,
         screw: found.screw,
         answer: found.answer,
     })
@@ -72,24 +71,13 @@ pub fn sums(found: &ScrewCalibration) -> Result<Sums, SumsError> {
         }
     });
     let mut sums = Sums::new(references.collect())?;
-    let fit = Fit {
-        nonlinear: Vec::new(),
-        linear: Vec::new(),
-        weights: Vec::new(),
-        jacobian: nalgebra::DMatrix::zeros(0, 0),
-        evaluations: 0,
-        starts: Vec::new(),
-        verdict: Verdict::Single,
-        at_bound: Vec::new(),
-        residual: found.residual.clone(),
-    };
-    sums.add(&fit, &found.uncertainty)?;
+    sums.add(&found.residual, &found.uncertainty)?;
     Ok(sums)
 }
 
 /// What the page draws.
-fn picture(trace: &Trace, request: &Request, found: &ScrewCalibration) -> Result<Picture, Failure> {
-    let motion = Motion::of(trace, &request.smoothing)?;
+fn picture(trace: &Trace, found: &ScrewCalibration) -> Result<Picture, Failure> {
+    let motion = Motion::of(trace, &SmoothingSettings::default())?;
     let at = |signal: &[f64]| -> Vec<f64> {
         let samples = found.samples.iter();
         samples.map(|sample| signal[*sample]).collect()

@@ -41,6 +41,9 @@ pub struct Wanted {
     pub more: Vec<Term>,
     /// A lag of the motion though its position was measured: the test of a shifted clock.
     pub lag: bool,
+    /// Half-width of the kernel, s, and way after a turn, rad or m, in the place of a choice; with the same at twice the length in the
+    /// intervals.
+    pub kernel: Option<(f64, f64)>,
 }
 
 /// What records tell.
@@ -92,6 +95,9 @@ pub fn estimate(records: &[Record], wanted: &Wanted) -> Option<Estimate> {
 fn with_spare(records: &[Record], wanted: &Wanted, spare: f64) -> Option<Estimate> {
     let runs = Runs::of(records);
     let stroke = runs.stroke(records);
+    if let Some((length, settling)) = wanted.kernel {
+        return at_kernel(records, &runs, wanted, [length, settling, spare]);
+    }
     let lengths = lengths(records);
     let first = |index: usize| Tried {
         length: lengths[index],
@@ -129,17 +135,56 @@ fn with_spare(records: &[Record], wanted: &Wanted, spare: f64) -> Option<Estimat
     {
         return with_spare(records, wanted, (SPARE[1] * lag).min(SPARE[2]));
     }
-    let drag = best.of(Term::Viscous).map_or(0.0, |(drag, _)| drag);
-    let lagged = best.of(Term::Lag).is_some();
-    let tick = records.iter().map(|record| record.tick).fold(0.0, f64::max);
+    let apart = apart(records, wanted, &best);
     for (k, half) in best.half_widths.iter_mut().enumerate() {
         *half = half.hypot(of_length[k]).hypot(of_way[k]);
-        // Channels that are sampled half a tick apart move an inertia by half a tick of the viscous friction.
-        if best.terms[k] == Term::Inertia && !lagged {
-            *half = half.hypot(0.5 * tick * drag);
+        if best.terms[k] == Term::Inertia {
+            *half = half.hypot(apart);
         }
     }
     Some(best)
+}
+
+/// What channels that are sampled up to half a tick apart move the inertia by: the viscous friction times the time, or what the records
+/// themselves tell of it where that is less.
+fn apart(records: &[Record], wanted: &Wanted, best: &Estimate) -> f64 {
+    let (Some((drag, _)), None) = (best.of(Term::Viscous), best.of(Term::Lag)) else {
+        return 0.0;
+    };
+    let tick = records.iter().map(|record| record.tick).fold(0.0, f64::max);
+    let late = Wanted {
+        lag: true,
+        kernel: Some((best.length, best.settling)),
+        ..wanted.clone()
+    };
+    let told = estimate(records, &late).and_then(|late| late.of(Term::Lag));
+    let told = told.map_or(f64::INFINITY, |(lag, half)| lag.abs() + half);
+    drag * told.min(0.5 * tick)
+}
+
+/// The fit with one kernel, and twice what one of twice the length says otherwise in its intervals.
+fn at_kernel(
+    records: &[Record],
+    runs: &Runs,
+    wanted: &Wanted,
+    [length, settling, spare]: [f64; 3],
+) -> Option<Estimate> {
+    let tried = |length: f64| Tried {
+        length,
+        settling,
+        spare,
+        last: true,
+    };
+    let mut found = one(records, runs, wanted, tried(length))?;
+    if let Some(other) = one(records, runs, wanted, tried(2.0 * length))
+        && other.terms == found.terms
+    {
+        let values = found.values.iter().zip(&other.values);
+        for (half, (value, other)) in found.half_widths.iter_mut().zip(values) {
+            *half = half.hypot(2.0 * (value - other));
+        }
+    }
+    Some(found)
 }
 
 /// Half-widths of the kernel that are tried, s.
@@ -336,13 +381,13 @@ fn terms(
     };
     let told = |place: usize| size(&column(place)) > (OVER_NOISE * noise(place)).max(1e-12);
     let mut terms = Vec::new();
-    if told(0) {
-        terms.push(Term::Inertia);
-    }
     let speeds = column(1);
     let (mean, spread) = moments(speeds.iter().flatten().map(|speed| speed.abs()));
     let one_speed = spread < ONE * mean || !told(1);
     if !one_speed {
+        if told(0) {
+            terms.push(Term::Inertia);
+        }
         terms.push(Term::Viscous);
     }
     let directions = column(2);

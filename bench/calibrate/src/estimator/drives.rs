@@ -30,6 +30,8 @@ pub struct Drive {
     pub rests: bool,
     /// Stiffness of the loop over that of a loop of 8 Hz.
     pub stiffness: f64,
+    /// Way over which friction builds up after a turn (Dahl), rad; 0 for at once.
+    pub bristle: f64,
 }
 
 impl Drive {
@@ -52,7 +54,21 @@ impl Drive {
             rate: [500, 1000, 2000][(seed % 3) as usize],
             rests: false,
             stiffness: 1.0,
+            bristle: 0.0,
         }
+    }
+
+    /// Truth of inertia, viscous friction, offset, Coulomb friction and both losses.
+    pub fn truth(&self) -> [f64; 6] {
+        let [driving, back_driving] = self.losses;
+        [
+            self.inertia,
+            self.viscous,
+            self.offset,
+            self.coulomb,
+            driving,
+            back_driving,
+        ]
     }
 
     fn reference(&self, time: f64) -> f64 {
@@ -85,49 +101,34 @@ impl Drive {
         self.load * (slow + 0.4 * (TAU * 0.71 * time + 1.0 + 2.0 * self.phase).sin())
     }
 
-    /// A trace of so many seconds: positions in steps of `2 pi/2^bits`, with `lag` first-order-filtered speeds in their place.
-    pub fn trace(&self, seed: u64, seconds: f64, bits: u32, lag: Option<f64>) -> Trace {
-        const STEP: f64 = 5e-5;
+    /// A trace of so many seconds: positions in steps of `2 pi/2^bits`, or speeds that are their differences behind a first-order filter of
+    /// this time; and the share of its samples in which the drive stands.
+    pub fn trace(&self, seed: u64, seconds: f64, bits: u32, lag: Option<f64>) -> (Trace, f64) {
         let every = (1.0 / (self.rate as f64 * STEP)).round() as usize;
-        let (mut angle, mut speed) = (0.0_f64, 0.0_f64);
         let mut random = Pcg64Mcg::seed_from_u64(seed);
         let mut normal =
             |size: f64| -> f64 { size * Distribution::<f64>::sample(&StandardNormal, &mut random) };
-        let count = (seconds / STEP) as usize;
+        let mut moving = Moving::default();
         let [mut angles, mut efforts, mut loads] = [Vec::new(), Vec::new(), Vec::new()];
-        for step in 0..count {
+        let mut stood = 0.0;
+        for step in 0..(seconds / STEP) as usize {
             let time = step as f64 * STEP;
             let load = self.torque_of_load(time);
             let wanted = self.reference(time);
             let rate = (self.reference(time + STEP) - wanted) / STEP;
             let effort = self.inertia
                 * self.stiffness
-                * (2500.0 * (wanted - angle) + 75.0 * (rate - speed) / self.stiffness.sqrt());
+                * (2500.0 * (wanted - moving.angle)
+                    + 75.0 * (rate - moving.speed) / self.stiffness.sqrt());
             if step % every == 0 {
-                angles.push(angle);
+                angles.push(moving.angle);
                 efforts.push(effort + normal(self.noise[0]));
                 loads.push(load + normal(self.noise[1]));
+                stood += f64::from(moving.speed == 0.0);
             }
-            let push = effort - load - self.offset;
-            let friction = |direction: f64| {
-                let loss = self.losses[usize::from(direction * load <= 0.0)];
-                direction * (self.coulomb + loss * load.abs())
-            };
-            if speed == 0.0 {
-                let friction = friction(push.signum());
-                if push.abs() > friction.abs() {
-                    speed += (push - friction) / self.inertia * STEP;
-                }
-            } else {
-                let before = speed;
-                let force = push - self.viscous * speed - friction(speed.signum());
-                speed += force / self.inertia * STEP;
-                if speed * before < 0.0 {
-                    speed = 0.0;
-                }
-            }
-            angle += speed * STEP;
+            moving.step(self, effort, load);
         }
+        let stood = stood / angles.len() as f64;
         let step = TAU / 2_f64.powi(bits as i32);
         let counted: Vec<f64> = angles.iter().map(|x| (x / step).round() * step).collect();
         let tick = 1.0 / self.rate as f64;
@@ -154,7 +155,7 @@ impl Drive {
                 .collect(),
             None => counted,
         };
-        Trace {
+        let trace = Trace {
             name: "drive".into(),
             coordinate: Coordinate::Rotation,
             start: 0.0,
@@ -175,6 +176,48 @@ impl Drive {
             temperature: None,
             repairs: Repairs::default(),
             ignored: Vec::new(),
+        };
+        (trace, stood)
+    }
+}
+
+/// Step of the simulation, s.
+const STEP: f64 = 5e-5;
+
+#[derive(Default)]
+struct Moving {
+    angle: f64,
+    speed: f64,
+    /// Friction that has built up, over the whole.
+    held: f64,
+}
+
+impl Moving {
+    fn step(&mut self, drive: &Drive, effort: f64, load: f64) {
+        let push = effort - load - drive.offset;
+        let whole = |direction: f64| {
+            let loss = drive.losses[usize::from(direction * load <= 0.0)];
+            drive.coulomb + loss * load.abs()
+        };
+        let before = self.speed;
+        if drive.bristle > 0.0 {
+            let force = push - drive.viscous * before - self.held * whole(before.signum());
+            self.speed += force / drive.inertia * STEP;
+            let direction = self.speed.signum();
+            let turn = (-self.speed.abs() * STEP / drive.bristle).exp();
+            self.held = direction + (self.held - direction) * turn;
+        } else if before == 0.0 {
+            let friction = whole(push.signum());
+            if push.abs() > friction {
+                self.speed = (push - push.signum() * friction) / drive.inertia * STEP;
+            }
+        } else {
+            let friction = before.signum() * whole(before.signum());
+            self.speed += (push - drive.viscous * before - friction) / drive.inertia * STEP;
+            if self.speed * before < 0.0 {
+                self.speed = 0.0;
+            }
         }
+        self.angle += self.speed * STEP;
     }
 }

@@ -107,6 +107,33 @@ impl Record {
         }
     }
 
+    /// The same with position and effort exchanged.
+    #[must_use]
+    pub fn exchanged(&self) -> Self {
+        let step = resolution(&self.effort);
+        let noise = white_noise(&self.effort);
+        let (motion, least, noise) = if step > 0.0 {
+            (
+                between_counts(&self.effort),
+                STEPS * step,
+                step / 12_f64.sqrt(),
+            )
+        } else {
+            (self.effort.clone(), DEVIATIONS * noise, noise)
+        };
+        Self {
+            speed_alone: false,
+            motion,
+            path: self.effort.clone(),
+            counted: self.effort.clone(),
+            effort: self.path.clone(),
+            noise,
+            least,
+            load: None,
+            ..self.clone()
+        }
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.effort.len()
@@ -141,6 +168,19 @@ impl Record {
         }
     }
 
+    /// Median size of the speed where it moves, rad/s or m/s.
+    pub fn speed_of_motion(&self) -> f64 {
+        let kernel = Kernel::new(3, self.tick);
+        let mut sizes: Vec<f64> = self
+            .stretches(12)
+            .iter()
+            .flat_map(|stretch| stretch.first..=stretch.last)
+            .map(|sample| kernel.at(self.order(1), &self.motion, sample).abs())
+            .collect();
+        sizes.sort_by(f64::total_cmp);
+        sizes.get(sizes.len() / 2).copied().unwrap_or(0.0)
+    }
+
     /// The one speed, rad/s or m/s, at which it moves, and the samples in which it does: the middle four fifths, where a start and a stop
     /// may stand at the ends.
     pub fn one_speed(&self) -> Option<(f64, Range<usize>)> {
@@ -157,6 +197,32 @@ impl Record {
         };
         let middle = of(tenth..count - tenth)?;
         Some(of(0..count).unwrap_or(middle))
+    }
+}
+
+/// A motion as a kernel smooths it, at every sample.
+#[derive(Clone, Debug)]
+pub struct Smoothed {
+    /// rad or m.
+    pub position: Vec<f64>,
+    /// rad/s or m/s.
+    pub speed: Vec<f64>,
+    /// rad/s^2 or m/s^2.
+    pub acceleration: Vec<f64>,
+}
+
+impl Record {
+    /// The motion as a kernel smooths it.
+    pub fn smoothed(&self, kernel: &Kernel) -> Smoothed {
+        Smoothed {
+            position: if self.speed_alone {
+                self.path.clone()
+            } else {
+                kernel.along(0, &self.motion)
+            },
+            speed: kernel.along(self.order(1), &self.motion),
+            acceleration: kernel.along(self.order(2), &self.motion),
+        }
     }
 }
 

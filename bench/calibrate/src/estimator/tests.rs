@@ -1,4 +1,6 @@
-//! Coverage of the intervals over drawn drives.
+//! Coverage of the intervals over drawn drives, and words on what is wrong with a trace.
+
+use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 
@@ -6,6 +8,8 @@ use super::choice::{Estimate, Wanted, estimate};
 use super::drives::Drive;
 use super::record::Record;
 use super::terms::Term;
+use super::words::{Diagnosis, diagnose};
+use crate::trace::{Coordinate, Trace};
 
 const TERMS: [Term; 6] = [
     Term::Inertia,
@@ -16,82 +20,241 @@ const TERMS: [Term; 6] = [
     Term::BackDriving,
 ];
 
-fn truth(drive: &Drive) -> [f64; 6] {
-    let [driving, back_driving] = drive.losses;
-    [
-        drive.inertia,
-        drive.viscous,
-        drive.offset,
-        drive.coulomb,
-        driving,
-        back_driving,
-    ]
+/// Length of the traces, s.
+const SECONDS: f64 = 20.0;
+
+/// Intervals that hold the truth, of each term; median half-widths, over the truth of inertia, viscous and Coulomb friction.
+#[derive(Debug)]
+struct Coverage {
+    held: [usize; 6],
+    halves: [f64; 6],
+    /// Largest share of a trace's samples in which its drive stood.
+    sticks: f64,
 }
 
-/// Of drives: how many intervals hold the truth, median half-widths over the truth (of offset and losses themselves).
 fn coverage(
     count: u64,
     bits: u32,
     lag: Option<f64>,
     change: impl Fn(&mut Drive) + Sync,
-) -> ([usize; 6], [f64; 6]) {
-    let found: Vec<(Drive, Option<Estimate>)> = (0..count)
+) -> Coverage {
+    let found: Vec<(Drive, Option<Estimate>, f64)> = (0..count)
         .into_par_iter()
         .map(|seed| {
             let mut drive = Drive::drawn(seed);
             change(&mut drive);
-            let trace = drive.trace(seed, 20.0, bits, lag);
-            (
-                drive,
-                estimate(&[Record::of(&trace, &[])], &Wanted::default()),
-            )
+            let (trace, stood) = drive.trace(seed, SECONDS, bits, lag);
+            let told = estimate(&[Record::of(&trace, &[])], &Wanted::default());
+            (drive, told, stood)
         })
         .collect();
     let (mut held, mut halves) = ([0; 6], [0.0; 6]);
     for (k, term) in TERMS.into_iter().enumerate() {
         let mut widths: Vec<f64> = Vec::new();
-        for (drive, estimate) in &found {
-            let truth = truth(drive)[k];
-            let Some((value, half)) = estimate.as_ref().and_then(|e| e.of(term)) else {
+        for (drive, estimate, _) in &found {
+            let truth = drive.truth()[k];
+            let Some((value, half)) = estimate.as_ref().and_then(|found| found.of(term)) else {
                 continue;
             };
             held[k] += usize::from((value - truth).abs() <= half);
-            widths.push(if matches!(k, 0 | 1 | 3) {
-                half / truth
-            } else {
-                half
-            });
+            let over = matches!(term, Term::Inertia | Term::Viscous | Term::Coulomb);
+            widths.push(if over { half / truth } else { half });
         }
         widths.sort_by(f64::total_cmp);
-        halves[k] = widths.get(widths.len() / 2).copied().unwrap_or(f64::NAN);
+        halves[k] = widths[widths.len() / 2];
     }
-    (held, halves)
+    let sticks = found.iter().map(|(.., stood)| *stood).fold(0.0, f64::max);
+    let coverage = Coverage {
+        held,
+        halves,
+        sticks,
+    };
+    println!("{bits} bits, lag {lag:?}: {coverage:.4?}");
+    coverage
+}
+
+/// Of intervals that hold the truth in 95 of 100, fewer than 30 of 36 do in 2 of 1,000 samples.
+#[test]
+fn intervals_hold_the_truth_in_a_sample() {
+    for (bits, lag, rests) in [
+        (14, None, false),
+        (10, None, true),
+        (14, Some(1.0 / (TAU * 50.0)), false),
+    ] {
+        let found = coverage(6, bits, lag, |drive| drive.rests = rests);
+        assert!(
+            found.held.iter().sum::<usize>() >= 30,
+            "{bits} {lag:?}: {found:?}"
+        );
+    }
+}
+
+/// The whole of `intervals_hold_the_truth_in_a_sample`: 92 of 100 in every cell. Of 100 intervals that hold the truth in 95, fewer than 92
+/// do in 6 % of the samples; these are drawn once.
+#[test]
+#[ignore = "two minutes"]
+fn intervals_hold_the_truth_whole() {
+    let enough = |name: String, found: &Coverage| {
+        assert!(
+            found.held.iter().all(|held| *held >= 92),
+            "{name}: {found:?}"
+        );
+    };
+    for rests in [false, true] {
+        for bits in [9, 10, 12, 14, 18] {
+            let found = coverage(100, bits, None, |drive| drive.rests = rests);
+            enough(format!("{bits} bits, rests {rests}"), &found);
+        }
+        for hertz in [200.0, 50.0, 20.0] {
+            let lag = Some(1.0 / (TAU * hertz));
+            let found = coverage(100, 14, lag, |drive| drive.rests = rests);
+            enough(format!("{hertz} Hz, rests {rests}"), &found);
+        }
+    }
+    // Loops so soft that a drive stands at its turns.
+    for (stiffness, least) in [(0.3, 0.04), (0.1, 0.1)] {
+        let found = coverage(100, 14, None, |drive| drive.stiffness = stiffness);
+        assert!(found.sticks > least, "{found:?}");
+        enough(format!("stiffness {stiffness}"), &found);
+    }
+}
+
+/// Friction that is passed on by a bristle over a way: the rows after the turn are left out by themselves.
+#[test]
+fn friction_that_builds_up_after_a_turn_does_not_bias() {
+    let mut held = [0; 4];
+    for seed in 0..6 {
+        for way in [0.005, 0.05] {
+            let mut drive = Drive::drawn(seed);
+            drive.load = 0.0;
+            drive.bristle = way;
+            let (mut trace, _) = drive.trace(seed, SECONDS, 14, None);
+            trace.load = None;
+            let found = estimate(&[Record::of(&trace, &[])], &Wanted::default()).unwrap();
+            for (k, term) in TERMS.into_iter().take(4).enumerate() {
+                let (value, half) = found.of(term).unwrap();
+                held[k] += usize::from((value - drive.truth()[k]).abs() <= half);
+            }
+        }
+    }
+    // Of 48 that hold in 95 of 100, fewer than 41 do in 1 of 100 samples.
+    assert!(held.iter().sum::<usize>() >= 41, "{held:?}");
+}
+
+fn told(trace: &Trace) -> Diagnosis {
+    diagnose(&Record::of(trace, &[]), Coordinate::Rotation)
+}
+
+type Spoil = fn(&mut Trace);
+
+/// Traces that are wrong in one way, and a part of the word on it; those of a load keep it, the others have none.
+const WRONG: [(&str, bool, Spoil); 11] = [
+    ("turn the sign of motor_torque", false, |trace| {
+        trace
+            .effort
+            .iter_mut()
+            .for_each(|effort| *effort = -*effort);
+    }),
+    ("turn the sign of load_torque", true, |trace| {
+        let load = trace.load.as_mut().unwrap();
+        load.iter_mut().for_each(|load| *load = -*load);
+    }),
+    ("motor_torque is in mN m", true, |trace| {
+        trace.effort.iter_mut().for_each(|effort| *effort *= 1e3);
+    }),
+    ("a gear of ratio 2.5", true, |trace| {
+        trace.effort.iter_mut().for_each(|effort| *effort /= 2.5);
+    }),
+    ("are exchanged", false, |trace| {
+        std::mem::swap(&mut trace.position, &mut trace.effort);
+        trace.resolution = 0.0;
+    }),
+    ("read without its sign", false, |trace| {
+        let wrap = |effort: &mut f64| *effort = (*effort / 1e-3).round().rem_euclid(65536.0) * 1e-3;
+        trace.effort.iter_mut().for_each(wrap);
+    }),
+    ("ran over its range", false, |trace| {
+        let most = trace
+            .effort
+            .iter()
+            .fold(0.0_f64, |most, x| most.max(x.abs()));
+        let step = most / 700.0;
+        let wrap = |effort: &mut f64| {
+            *effort = (((*effort / step).round() + 512.0).rem_euclid(1024.0) - 512.0) * step;
+        };
+        trace.effort.iter_mut().for_each(wrap);
+    }),
+    ("a load that follows the position", false, |trace| {
+        let most = trace
+            .effort
+            .iter()
+            .fold(0.0_f64, |most, x| most.max(x.abs()));
+        let add = trace.position.iter().map(|x| 2.0 * most * (0.05 * x).sin());
+        trace
+            .effort
+            .iter_mut()
+            .zip(add)
+            .for_each(|(effort, add)| *effort += add);
+    }),
+    ("18.00 a turn", false, |trace| {
+        let most = trace
+            .effort
+            .iter()
+            .fold(0.0_f64, |most, x| most.max(x.abs()));
+        let add = trace
+            .position
+            .iter()
+            .map(|x| 0.2 * most * (18.0 * x + 0.4).sin());
+        trace
+            .effort
+            .iter_mut()
+            .zip(add)
+            .for_each(|(effort, add)| *effort += add);
+    }),
+    ("later than the motion", false, |trace| {
+        let late = (0.01 / trace.step) as usize;
+        trace.effort.rotate_right(late);
+    }),
+    ("nothing in the trace explains", false, |trace| {
+        let noise = crate::fit::toys::noise(7, trace.effort.len(), 0.0);
+        trace.effort = noise;
+    }),
+];
+
+#[test]
+fn what_is_wrong_is_named() {
+    for (word, loaded, spoil) in WRONG {
+        let mut drive = Drive::drawn(3);
+        if !loaded {
+            drive.load = 0.0;
+        }
+        let (mut trace, _) = drive.trace(3, SECONDS, 14, None);
+        trace.load = trace.load.filter(|_| loaded);
+        spoil(&mut trace);
+        let found = told(&trace);
+        let said: Vec<String> = found.refusal.into_iter().chain(found.words).collect();
+        assert!(
+            said.iter().any(|said| said.contains(word)),
+            "{word}: {said:?}"
+        );
+    }
 }
 
 #[test]
-#[ignore]
-fn look() {
-    let count = std::env::var("N").map_or(20, |n| n.parse().unwrap());
-    for bits in [9, 10, 12, 14, 18] {
-        for rests in [false, true] {
-            let (held, halves) = coverage(count, bits, None, |drive| drive.rests = rests);
-            println!(
-                "{bits} {rests}: {held:?} {}",
-                halves.map(|h| format!("{:.4}", 100.0 * h)).join(" ")
-            );
-        }
-    }
-    for hertz in [200.0, 50.0, 20.0] {
-        for rests in [false, true] {
-            let (held, halves) = coverage(
-                count,
-                14,
-                Some(1.0 / (std::f64::consts::TAU * hertz)),
-                |drive| drive.rests = rests,
-            );
-            println!(
-                "{hertz} Hz {rests}: {held:?} {}",
-                halves.map(|h| format!("{:.4}", 100.0 * h)).join(" ")
+fn a_clean_trace_has_no_words() {
+    for seed in 0..4 {
+        for loaded in [false, true] {
+            let mut drive = Drive::drawn(seed);
+            drive.rests = seed % 2 == 1;
+            if !loaded {
+                drive.load = 0.0;
+            }
+            let (mut trace, _) = drive.trace(seed, SECONDS, 14, None);
+            trace.load = trace.load.filter(|_| loaded);
+            let found = told(&trace);
+            assert!(
+                found.refusal.is_none() && found.words.is_empty(),
+                "{seed}: {found:?}"
             );
         }
     }

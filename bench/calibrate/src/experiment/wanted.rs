@@ -6,12 +6,11 @@ use std::io::{self, Write};
 use crate::experiment::manoeuvre::{Manoeuvre, Reach};
 use crate::experiment::{Ranked, rank};
 use crate::fit::problem::Separable;
-use crate::screw::Request;
 use crate::screw::choice::{Start, Wanted};
 use crate::screw::evidence::Evidence;
 use crate::screw::exact::Spacing;
 use crate::screw::stages::{Prepared, Window};
-use crate::signals::Motion;
+use crate::signals::{Motion, SmoothingSettings};
 use crate::trace::{Coordinate, Repairs, Trace};
 use epas_design::files::Design;
 use epas_page::failure::Failure;
@@ -81,7 +80,7 @@ fn problem(
     reach: &Reach,
 ) -> Result<Box<dyn Separable>, Failure> {
     let trace: &'static Trace = Box::leak(Box::new(trace(manoeuvre, reach)));
-    let motion = Motion::of(trace, &Request::default().smoothing)?;
+    let motion = Motion::of(trace, &SmoothingSettings::default())?;
     let mut evidence = Evidence::of(trace, &motion);
     // All problems have the same parameters and starts.
     evidence.load = Some([-reach.load, reach.load]);

@@ -31,6 +31,9 @@ const TOLERANCE: f64 = 1e-8;
 const FIRST_STEP: f64 = 0.3;
 const PATIENCE: usize = 20;
 
+/// Parts of the bounds' inner range at which a fit starts beside its first guess.
+const PLACES: [f64; 2] = [0.3, 0.7];
+
 /// Least singular value of the linear columns, over the largest, that counts.
 const RANK: f64 = 1e-10;
 
@@ -64,11 +67,37 @@ impl Found {
 pub fn fit(problem: &dyn Separable) -> Result<Found, Failure> {
     check(problem)?;
     let start: Vec<f64> = problem.nonlinear().iter().map(Axis::start).collect();
-    let mut best = Point::at(problem, &start);
+    from(problem, &start)
+        .ok_or_else(|| Failure::Data("the model is not finite at its first guess".into()))
+}
+
+/// The best fit from its start and from two places within the bounds.
+///
+/// # Errors
+/// Those of [`fit`].
+pub fn fit_within(problem: &dyn Separable) -> Result<Found, Failure> {
+    let first = fit(problem)?;
+    if problem.nonlinear().is_empty() {
+        return Ok(first);
+    }
+    let others = PLACES.iter().filter_map(|place| {
+        let start = vec![SHIFT + (2.0 * place - 1.0_f64).asin(); problem.nonlinear().len()];
+        from(problem, &start)
+    });
+    Ok(others.fold(first, |best, other| {
+        if other.cost() < best.cost() {
+            other
+        } else {
+            best
+        }
+    }))
+}
+
+/// The fit from a start in outer coordinates. `None` where the model is not finite there.
+fn from(problem: &dyn Separable, start: &[f64]) -> Option<Found> {
+    let mut best = Point::at(problem, start);
     if !best.cost.is_finite() {
-        return Err(Failure::Data(
-            "the model is not finite at its first guess".into(),
-        ));
+        return None;
     }
     if !start.is_empty() {
         let descent = Descent {
@@ -84,7 +113,7 @@ pub fn fit(problem: &dyn Separable) -> Result<Found, Failure> {
             .with_patience(PATIENCE);
         best = method.minimize(descent).0.best;
     }
-    Ok(Found {
+    Some(Found {
         nonlinear: values(problem, best.outer.as_slice()),
         linear: best.linear,
         residual: best.residual.as_slice().to_vec(),
@@ -121,6 +150,20 @@ pub fn slopes(problem: &dyn Separable, nonlinear: &[f64], linear: &[f64]) -> Vec
     let mut all: Vec<Vec<f64>> = (0..nonlinear.len()).into_par_iter().map(slope).collect();
     all.extend(problem.evaluate(nonlinear).columns);
     all
+}
+
+/// The same at the nonlinear parameters' starts, as a matrix; and the best linear parameters there.
+///
+/// # Errors
+/// As [`fit`].
+pub fn slopes_at_start(problem: &dyn Separable) -> Result<(DMatrix<f64>, Vec<f64>), Failure> {
+    check(problem)?;
+    let start: Vec<f64> = problem.nonlinear().iter().map(|of| of.start).collect();
+    let (linear, _) = projected(problem, &start);
+    let columns = slopes(problem, &start, &linear);
+    let all = columns.iter().flatten().copied();
+    let matrix = DMatrix::from_iterator(problem.target().len(), columns.len(), all);
+    Ok((matrix, linear))
 }
 
 fn check(problem: &dyn Separable) -> Result<(), Failure> {

@@ -12,16 +12,16 @@ use std::sync::Arc;
 use nalgebra::{DMatrix, DVector};
 
 use super::choice::Start;
-use super::exact::{Grid, Spacing};
+use super::exact::Grid;
 use super::friction::Screw;
 use super::problem::{Choice, Passage, ScrewProblem};
 use super::quantities::{LINEAR, NONLINEAR, Values, assumed_deviation};
 use crate::estimator::fit::{Block, Fit, fit as least_squares};
 use crate::estimator::record::{QUARTER, Record};
 use crate::estimator::rows::Rows;
-use crate::fit::problem::{Scale, Separable, inner, outer};
-use crate::fit::search::{Found, at_bound, fit, slopes};
-use crate::fit::uncertainty::Interval;
+use crate::fit::problem::{Scale, Separable, inner};
+use crate::fit::search::{Found, fit, slopes};
+use crate::fit::uncertainty::{Interval, QUANTILE, intervals};
 use crate::trace::Trace;
 use epas_page::failure::Failure;
 
@@ -33,9 +33,6 @@ const LEAST_HALF: usize = 4;
 /// Way after a turn over the breakaway angle: friction that was full the other way is full again after twice the angle, and under the
 /// largest load later than under the reference load.
 pub const WAY: f64 = 4.0;
-
-/// Half of a 95 % interval over its standard error.
-pub const QUANTILE: f64 = 1.959_964;
 
 /// Residual, in robust deviations, from which on a row is left out, and the share of the rows that may be.
 const OUTLIER: f64 = 6.0;
@@ -648,71 +645,9 @@ fn model_errors(
     variance.iter().map(|variance| variance.sqrt()).collect()
 }
 
-/// Intervals of a fit, not wide yet.
-fn intervals(problem: &ScrewProblem<'_>, found: &Found) -> Vec<Interval> {
-    let nonlinear = problem.nonlinear().iter().zip(&found.nonlinear);
-    let nonlinear = nonlinear.map(|(of, value)| {
-        let bounds = [of.low, of.high];
-        Interval::at(
-            (of.name, of.unit, of.scale),
-            bounds,
-            *value,
-            at_bound(of, *value),
-        )
-    });
-    let linear = problem.linear().iter().zip(&found.linear);
-    let linear = linear.map(|(of, value)| {
-        let bounds = [of.low, of.high];
-        let bound = *value <= of.low || *value >= of.high;
-        Interval::at((of.name, of.unit, Scale::Linear), bounds, *value, bound)
-    });
-    nonlinear.chain(linear).collect()
-}
-
 /// All values with those of the intervals.
 fn settled(problem: &ScrewProblem<'_>, intervals: &[Interval]) -> Values {
     let values: Vec<f64> = intervals.iter().map(|interval| interval.value).collect();
     let (nonlinear, linear) = values.split_at(problem.nonlinear().len());
     problem.values(nonlinear, linear)
-}
-
-impl Interval {
-    /// One that has no width yet.
-    fn at(
-        (name, unit, scale): (&'static str, &'static str, Scale),
-        bounds: [f64; 2],
-        value: f64,
-        at_bound: bool,
-    ) -> Self {
-        Self {
-            name,
-            unit,
-            scale,
-            value,
-            low: value,
-            high: value,
-            standard_error: 0.0,
-            model_error: 0.0,
-            half_width: 0.0,
-            bounds,
-            at_bound,
-        }
-    }
-
-    /// Takes its place in the inner coordinate, with the standard error there and what the model's own errors add. One at a bound stays.
-    fn settle(&mut self, place: f64, standard_error: f64, model_error: f64) {
-        let [low, high] = self.bounds;
-        let value = outer(self.scale, place);
-        if value.is_finite() && !(self.at_bound && (low..=high).contains(&value)) {
-            self.at_bound |= !(low..=high).contains(&value);
-            self.value = value.max(low).min(high);
-        }
-        self.model_error = model_error;
-        self.spread(standard_error.hypot(model_error), QUANTILE);
-    }
-}
-
-/// The exact ball for a screw near these values.
-pub fn grid(screw: &Screw, values: &Values, spacing: Spacing) -> Result<Arc<Grid>, Failure> {
-    screw.grid(values, spacing)
 }

@@ -2,12 +2,13 @@
 
 use std::collections::VecDeque;
 
+use crate::estimator::record::Smoothed;
 use crate::mechanism::Mechanism;
-use crate::signals::Motion;
 use crate::trace::Trace;
 use crate::trace::known::KnownEffort;
 use crate::without_design::controller::SeenController;
 use crate::without_design::resistance::SlideResistance;
+use crate::without_design::slide::size;
 
 /// Steps of the mechanism in a tick: a quarter of a millisecond at 1 kHz.
 const STEPS: usize = 4;
@@ -18,7 +19,7 @@ pub struct Loop<'a> {
     /// The trace: its reference positions, loads, and where it starts.
     pub trace: &'a Trace,
     /// Its smoothed motion, for the speed at the start.
-    pub motion: &'a Motion,
+    pub motion: &'a Smoothed,
     /// The controller.
     pub controller: &'a SeenController,
 }
@@ -125,12 +126,6 @@ impl Course {
         let [measured, found] = [&trace.effort, &self.effort].map(|effort| &effort[start..]);
         distance(measured, found) / size(measured)
     }
-}
-
-/// Root mean square of values.
-pub fn size(values: &[f64]) -> f64 {
-    let squares: f64 = values.iter().map(|value| value.powi(2)).sum();
-    (squares / values.len() as f64).sqrt()
 }
 
 /// Root mean square of a difference.

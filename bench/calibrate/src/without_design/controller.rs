@@ -1,10 +1,10 @@
 //! A controller as a trace shows it: where it has its speed from, and what of the effort is not its own.
 
-use crate::checks::relation::root_mean_square as size;
 use crate::controller::Controller;
-use crate::signals::Motion;
+use crate::estimator::record::Smoothed;
 use crate::trace::Trace;
 use crate::trace::known::KnownEffort;
+use crate::without_design::slide::size;
 
 /// Where a controller has its speed from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,7 +68,7 @@ impl SeenController {
     fn efforts(
         controller: &Controller,
         trace: &Trace,
-        motion: &Motion,
+        motion: &Smoothed,
         reference: &[f64],
         source: SpeedSource,
     ) -> Vec<f64> {
@@ -90,7 +90,7 @@ impl SeenController {
     }
 
     /// The controller as this trace shows it; `None` without a reference position.
-    pub fn of(controller: Controller, trace: &Trace, motion: &Motion) -> Option<Self> {
+    pub fn of(controller: Controller, trace: &Trace, motion: &Smoothed) -> Option<Self> {
         let reference = trace.reference_position.as_ref()?;
         SpeedSource::ALL
             .into_iter()

@@ -1,13 +1,17 @@
 //! What firmware takes of a trace without a design: the numbers of the scene `LoadProportionalScrew`, and those of the rig.
 
-use crate::fit::separable::{FitSettings, fit};
-use crate::fit::uncertainty::{Interval, Uncertainty};
+use crate::answer::Estimate;
+use crate::estimator::terms::Term;
 use crate::trace::Coordinate;
 use crate::trace::channels::range;
-use crate::without_design::choice::{LOAD_PROPORTIONAL, Prepared};
-use crate::without_design::slide::{DRAG, GAIN, INERTIA, LEVEL, LOSS, LOSSES, OFFSET};
-use crate::without_design::terms::{LoadTerm, Terms};
+use crate::without_design::models::reversal_speed;
+use crate::without_design::slide::{Beside, Prepared};
 use epas_page::failure::Failure;
+
+const INERTIA: &str = "inertia";
+const DRAG: &str = "viscous_friction";
+const LEVEL: &str = "coulomb_friction";
+const OFFSET: &str = "offset";
 
 /// Factor by which firmware believes in more than the trace has.
 const ROOM: f64 = 2.0;
@@ -16,9 +20,9 @@ const ROOM: f64 = 2.0;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     coordinate: Coordinate,
-    /// Estimates, by name.
-    intervals: Vec<Interval>,
-    load: LoadTerm,
+    estimates: Vec<Estimate>,
+    /// Terms of the load.
+    load: Vec<Term>,
     /// Speed over which friction reverses, where the trace tells it, rad/s.
     reversal_speed: Option<f64>,
     /// Largest speed, rad/s, and load.
@@ -49,17 +53,20 @@ pub struct Numbers {
 }
 
 impl Drive {
-    /// What a plain model of a trace tells.
-    pub fn of(prepared: &Prepared<'_>, terms: Terms, sure: &Uncertainty) -> Self {
+    /// What an estimate of a trace tells.
+    pub fn of(prepared: &Prepared<'_>, beside: &Beside, told: &[Estimate]) -> Self {
         let largest = |values: &[f64]| {
             let (low, high) = range(values);
             high.max(-low)
         };
+        let slides = told.iter().any(|one| one.name == LEVEL);
         Self {
             coordinate: prepared.trace.coordinate,
-            intervals: sure.intervals.clone(),
-            load: terms.load,
-            reversal_speed: reversal_speed(prepared, terms),
+            estimates: told.to_vec(),
+            load: beside.load.clone(),
+            reversal_speed: slides
+                .then(|| reversal_speed(prepared, beside).ok().flatten())
+                .flatten(),
             largest: [
                 largest(&prepared.motion.speed),
                 prepared.trace.load.as_deref().map_or(0.0, largest),
@@ -79,19 +86,20 @@ impl Drive {
         }
         let coulomb_friction = self.value(LEVEL)?;
         let viscous_friction = self.value(DRAG)?;
-        let load_lever = match self.load {
-            LoadTerm::None | LoadTerm::Losses { .. } => 1.0,
-            LoadTerm::Gain | LoadTerm::LossAlike => self.value(GAIN)?,
-        };
-        let (losses, told) = if self.load == LoadTerm::LossAlike {
-            let loss = self.value(LOSS)? / load_lever;
-            ([loss; 2], [true; 2])
+        let load_lever = if self.load.contains(&Term::Gain) {
+            self.value("load_gain")?
         } else {
-            let told = self.load.losses();
+            1.0
+        };
+        let (losses, told) = if self.load.contains(&Term::Loss) {
+            ([self.value("load_loss")? / load_lever; 2], [true; 2])
+        } else {
+            let terms = [Term::Driving, Term::BackDriving];
+            let told = terms.map(|term| self.load.contains(&term));
             let mut losses = [0.0; 2];
-            for ((loss, name), told) in losses.iter_mut().zip(LOSSES).zip(told) {
+            for ((loss, term), told) in losses.iter_mut().zip(terms).zip(told) {
                 if told {
-                    *loss = self.value(name)?;
+                    *loss = self.value(term.name(self.coordinate))?;
                 }
             }
             (losses, told)
@@ -113,7 +121,7 @@ impl Drive {
                 None => (1e-3 * self.largest[0], false),
             },
             limits: [speed, load, ROOM * friction],
-            inertia: self.value(INERTIA[0])?,
+            inertia: self.value(INERTIA)?,
             offset: self.value(OFFSET)?,
         })
     }
@@ -124,7 +132,7 @@ impl Drive {
             let name = name.replace('_', " ");
             Err(Failure::Data(format!("no constants: the {name} {why}")))
         };
-        let Some(found) = self.intervals.iter().find(|found| found.name == name) else {
+        let Some(found) = self.estimates.iter().find(|found| found.name == name) else {
             return refused("is not told by the trace");
         };
         if found.at_bound {
@@ -135,19 +143,4 @@ impl Drive {
         }
         Ok(found.value)
     }
-}
-
-/// The speed over which friction reverses, by the whole trace; `None` where it is sharper than the trace shows.
-fn reversal_speed(prepared: &Prepared<'_>, terms: Terms) -> Option<f64> {
-    if terms.one_speed {
-        return None;
-    }
-    let slide = prepared.slide(LOAD_PROPORTIONAL, terms);
-    let settings = FitSettings {
-        robust: false,
-        ..FitSettings::default()
-    };
-    let found = fit(&slide, &settings).ok()?;
-    let speed = found.nonlinear.first().copied()?;
-    found.at_bound.is_empty().then_some(speed)
 }

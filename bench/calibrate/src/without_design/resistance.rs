@@ -21,14 +21,14 @@ pub struct Numbers {
     pub drag: [f64; 2],
     /// Effort that is always there, N or N m.
     pub offset: f64,
-    /// Place where position terms are zero, rad or m.
+    /// Place where the terms of the position are zero, rad or m.
     pub middle: f64,
     /// Effort over the position.
     pub stiffness: f64,
     /// Friction over the position.
     pub slope: f64,
-    /// Cosine and sine of a deviation along the way, N or N m.
-    pub deviation: [f64; 2],
+    /// Sine and cosine of a wave over the position, N or N m.
+    pub wave: [f64; 2],
     /// Its wavenumber, rad/rad or rad/m.
     pub wavenumber: f64,
     /// Effort of a unit of load.
@@ -54,20 +54,18 @@ impl SlideResistance {
         let [forward, backward] = of.drag;
         let speed = step.end_speed;
         let drag = if speed > 0.0 { forward } else { backward };
-        // Friction never drives, however steep its slope.
-        let level = (of.level + of.slope * place).max(0.0);
         let [driving, back_driving] = of.losses;
         let loss = if self.load * friction > 0.0 {
             driving
         } else {
             back_driving
         };
-        (level + loss * self.load.abs()) * friction
+        ((of.level + of.slope * place).max(0.0) + loss * self.load.abs()) * friction
             + drag.max(0.0) * speed
             + of.offset
             + of.stiffness * place
-            + of.deviation[0] * cosine
-            + of.deviation[1] * sine
+            + of.wave[0] * sine
+            + of.wave[1] * cosine
             + of.gain * self.load
     }
 }

@@ -1,186 +1,209 @@
-//! A trace without a design: a mass or an inertia with friction and a load, in the trace's own coordinate.
+//! A trace without a design with a law of friction that may remember: every row, turns and rests among them, as a separable problem.
 //!
-//! `effort(t - delay) + known = I a + viscous drag of each direction + level T(motion) + offset + stiffness x + slope x T + deviation(x)
-//! + load + loss |load| T(motion)`, with a law of friction `T` of unit level ([`crate::laws`]) and a loss of its own for
-//! driving (`load T > 0`: motor power flows to the load) and back-driving (`load T < 0`: the load drives the motor).
+//! ```text
+//! effort = J a + b_f max(w, 0) + b_b min(w, 0) + offset + k x + tau + wave(x) + (T_C + c x + loss |tau|) T(x, w; law)
+//! ```
+//!
+//! `T` is a law's friction of unit level, `x` counts from the middle of the way; the effort acts with a delay. Every term passes the kernel of the estimator.
 
-use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use crate::estimator::kernel::Kernel;
+use crate::estimator::record::{Record, Smoothed};
+use crate::estimator::terms::Term;
 use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
 use crate::laws::{Law, Scales};
-use crate::signals::{Motion, Rows};
+use crate::trace::channels::range;
 use crate::trace::known::KnownEffort;
 use crate::trace::{Coordinate, Trace};
 use crate::without_design::resistance::{Numbers, SlideResistance};
-use crate::without_design::terms::{LoadTerm, Terms};
 
-/// A model of a trace without a design.
-pub struct Slide<'a> {
-    motion: &'a Motion,
-    load: Option<&'a [f64]>,
-    known: Option<&'a [f64]>,
-    rows: &'a Rows,
-    law: Law,
-    terms: Terms,
-    scales: Scales,
+/// Noise of the acceleration over its own root mean square that is let pass.
+const NOISE: f64 = 0.05;
+
+/// Kernel's half-widths that are tried, s, and its fewest samples.
+const LENGTHS: [f64; 6] = [6e-3, 8.5e-3, 12e-3, 17e-3, 24e-3, 34e-3];
+const FEWEST: usize = 4;
+
+/// What stands beside the law.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Beside {
+    /// Whether the viscous friction differs by direction, and the effort has a delay.
+    pub rich: bool,
+    /// Whether effort and friction change with the position, as by a cable chain or a nut that pinches.
+    pub position: bool,
+    /// Wave number of a wave over the position, 1/rad or 1/m.
+    pub wave: Option<f64>,
+    /// Terms of the load: those of the estimate.
+    pub load: Vec<Term>,
+}
+
+/// A trace with its smoothed motion and its rows.
+pub struct Prepared<'a> {
+    /// The trace.
+    pub trace: &'a Trace,
+    /// Its motion.
+    pub motion: Smoothed,
+    kernel: Kernel,
+    /// Half way between the farthest places, rad or m.
     middle: f64,
+    /// Sample at the middle of each row.
+    pub centres: Vec<usize>,
+}
+
+impl<'a> Prepared<'a> {
+    /// With the shortest kernel through which hardly any noise of the sensor passes into the acceleration.
+    pub fn new(trace: &'a Trace, record: &Record) -> Self {
+        let of = |length: f64| ((length / trace.step).round() as usize).max(FEWEST);
+        let sharp = |half: &usize| {
+            let kernel = Kernel::new(*half, trace.step);
+            let order = record.order(2);
+            let weights = kernel.weights(order).iter();
+            let noise = record.noise * weights.map(|w| w * w).sum::<f64>().sqrt();
+            let at = (0..record.len()).step_by(*half);
+            let sizes: Vec<f64> = at.map(|k| kernel.at(order, &record.motion, k)).collect();
+            noise <= NOISE * size(&sizes)
+        };
+        let half = LENGTHS.map(of).into_iter().find(sharp);
+        let half = half.unwrap_or_else(|| of(LENGTHS[LENGTHS.len() - 1]));
+        let kernel = Kernel::new(half, trace.step);
+        let centres = (half..trace.len().saturating_sub(half))
+            .step_by((half / 3).max(1))
+            .filter(|centre| record.sound(centre - half, centre + half))
+            .collect();
+        let (low, high) = range(&trace.position);
+        Self {
+            trace,
+            motion: record.smoothed(&kernel),
+            middle: 0.5 * (low + high),
+            kernel,
+            centres,
+        }
+    }
+
+    fn rows(&self, signal: &[f64]) -> Vec<f64> {
+        let at = |centre: &usize| self.kernel.at(0, signal, *centre);
+        self.centres.iter().map(at).collect()
+    }
+
+    fn scales(&self) -> Scales {
+        let (low, high) = range(&self.motion.position);
+        let speed = self.motion.speed.iter();
+        let speed = speed.fold(0.0_f64, |most, speed| most.max(speed.abs()));
+        Scales {
+            speed: speed.max(f64::MIN_POSITIVE),
+            travel: (high - low).max(f64::MIN_POSITIVE),
+            resolution: self.trace.resolution,
+            tick: self.trace.step,
+        }
+    }
+}
+
+/// A model of a trace by a law.
+pub struct Slide<'a> {
+    prepared: &'a Prepared<'a>,
+    law: Law,
+    beside: Beside,
+    scales: Scales,
     nonlinear: Vec<Parameter>,
     linear: Vec<LinearParameter>,
     target: Vec<f64>,
-    /// What the law does not change, by the delay.
-    kept: Mutex<Vec<(f64, Arc<Steady>)>>,
+    /// Rows that the law does not change, by the delay: those of a point and of its slope.
+    kept: Mutex<Vec<(f64, Arc<Evaluation>)>>,
 }
 
-/// Rows that the law does not change.
-struct Steady {
-    /// What has no parameter: a load that is given, less what is known beside the effort.
-    fixed: Vec<f64>,
-    columns: Vec<Vec<f64>>,
-}
-
-/// Delays whose columns are kept: that of a point, and those of its slope.
 const KEPT: usize = 3;
-
-/// Names of what is accelerated.
-pub const INERTIA: [&str; 2] = ["inertia", "mass"];
-/// Name of the drag over the speed.
-pub const DRAG: &str = "viscous_friction";
+const DELAY: &str = "effort_delay";
 const FORWARD: &str = "viscous_friction_forward";
-const BACKWARD: &str = "viscous_friction_backward";
-/// Name of the friction without a load.
-pub const LEVEL: &str = "coulomb_friction";
-/// Name of the level and the drag together.
-pub const AT_ONE_SPEED: &str = "friction_at_one_speed";
-/// Name of the effort that is always there.
-pub const OFFSET: &str = "offset";
 const STIFFNESS: &str = "position_stiffness";
 const SLOPE: &str = "friction_slope";
-const COSINE: &str = "deviation_cosine";
-const SINE: &str = "deviation_sine";
-/// Name of the effort of a unit of load.
-pub const GAIN: &str = "load_gain";
-/// Name of the loss of both directions of power, of a unit of load.
-pub const LOSS: &str = "load_loss";
-/// Names of the losses of driving and back-driving, over the load's effort.
-pub const LOSSES: [&str; 2] = ["driving_loss", "back_driving_loss"];
-const DELAY: &str = "effort_delay";
-
-/// Units by coordinate: rotation, translation.
-struct Units {
-    inertia: &'static str,
-    drag: &'static str,
-    effort: &'static str,
-    length: &'static str,
-    speed: &'static str,
-    stiffness: &'static str,
-    gain: &'static str,
-}
-
-const fn units(coordinate: Coordinate) -> Units {
-    match coordinate {
-        Coordinate::Rotation => Units {
-            inertia: "kg m^2",
-            drag: "N m s/rad",
-            effort: "N m",
-            length: "rad",
-            speed: "rad/s",
-            stiffness: "N m/rad",
-            gain: "m/rad",
-        },
-        Coordinate::Translation => Units {
-            inertia: "kg",
-            drag: "N s/m",
-            effort: "N",
-            length: "m",
-            speed: "m/s",
-            stiffness: "N/m",
-            gain: "",
-        },
-    }
-}
-
-const fn free(name: &'static str, unit: &'static str) -> LinearParameter {
-    LinearParameter {
-        name,
-        unit,
-        low: f64::NEG_INFINITY,
-        high: f64::INFINITY,
-    }
-}
-
-const fn positive(name: &'static str, unit: &'static str) -> LinearParameter {
-    LinearParameter {
-        low: 0.0,
-        ..free(name, unit)
-    }
-}
+const BACKWARD: &str = "viscous_friction_backward";
 
 impl<'a> Slide<'a> {
     /// The model of a trace by a law.
-    pub fn new(
-        trace: &'a Trace,
-        motion: &'a Motion,
-        rows: &'a Rows,
-        law: Law,
-        terms: Terms,
-    ) -> Self {
-        let scales = scales(trace, motion);
-        let units = units(trace.coordinate);
-        let mut nonlinear = law.parameters(&scales, [units.length, units.speed]);
-        if terms.delay {
+    pub fn new(prepared: &'a Prepared<'a>, law: Law, beside: Beside) -> Self {
+        let scales = prepared.scales();
+        let coordinate = prepared.trace.coordinate;
+        let units = match coordinate {
+            Coordinate::Rotation => ["rad", "rad/s"],
+            Coordinate::Translation => ["m", "m/s"],
+        };
+        let mut nonlinear = law.parameters(&scales, units);
+        if beside.rich {
+            let tick = prepared.trace.step;
             nonlinear.push(Parameter {
                 name: DELAY,
                 unit: "s",
-                start: 0.5 * trace.step,
-                low: -5.0 * trace.step,
-                high: 5.0 * trace.step,
+                start: 0.5 * tick,
+                low: -5.0 * tick,
+                high: 5.0 * tick,
                 scale: Scale::Linear,
             });
         }
-        let load = trace
-            .load
-            .as_deref()
-            .filter(|_| terms.load != LoadTerm::None);
         Self {
-            motion,
-            load,
-            known: trace.known.as_ref().and_then(KnownEffort::beside),
-            rows,
+            prepared,
             law,
-            terms,
             scales,
-            middle: middle(&motion.position),
             nonlinear,
-            linear: linear(trace.coordinate, terms),
-            target: rows.of(&trace.effort),
+            linear: linear(coordinate, &beside),
+            beside,
+            target: prepared.rows(&prepared.trace.effort),
             kept: Mutex::default(),
         }
     }
 
-    /// The law's friction at these nonlinear parameters, at every sample; nothing where the crate refuses them.
-    fn friction(&self, nonlinear: &[f64]) -> Vec<f64> {
-        let Ok(friction) = self.law.friction(&self.scales, nonlinear) else {
-            return vec![0.0; self.motion.position.len()];
-        };
-        friction.along(&self.motion.position, &self.motion.speed, self.scales.tick)
-    }
-
-    /// What does not depend on the law, as rows so many ticks later: columns in the order of [`Separable::linear`] without those of the
-    /// friction. Most evaluations differ by the law alone: the last ones are kept.
-    fn steady(&self, ticks: f64) -> Arc<Steady> {
+    /// What the law does not change, so many ticks later.
+    fn steady(&self, ticks: f64) -> Arc<Evaluation> {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, steady)) = kept.iter().find(|(at, _)| *at == ticks) {
             return Arc::clone(steady);
         }
-        let signals = self.signals();
-        let steady = Arc::new(Steady {
-            fixed: self.fixed(ticks),
-            columns: signals
+        let trace = self.prepared.trace;
+        let Smoothed {
+            position,
+            speed,
+            acceleration,
+        } = &self.prepared.motion;
+        let row = |signal: &[f64]| self.prepared.rows(&advanced(signal, ticks));
+        let mut columns = vec![row(acceleration)];
+        let part = |of: fn(f64) -> f64| -> Vec<f64> { speed.iter().map(|w| of(*w)).collect() };
+        if self.beside.rich {
+            columns.push(row(&part(|w| w.max(0.0))));
+            columns.push(row(&part(|w| w.min(0.0))));
+        } else {
+            columns.push(row(speed));
+        }
+        columns.push(vec![1.0; self.target.len()]);
+        if self.beside.position {
+            let middle = self.prepared.middle;
+            columns.push(row(&position
                 .iter()
-                .map(|signal| self.row(signal, ticks))
-                .collect(),
-        });
+                .map(|x| x - middle)
+                .collect::<Vec<_>>()));
+        }
+        if let Some(wave) = self.beside.wave {
+            for of in [f64::sin, f64::cos] {
+                let signal: Vec<f64> = position.iter().map(|x| of(wave * x)).collect();
+                columns.push(row(&signal));
+            }
+        }
+        let mut fixed = vec![0.0; self.target.len()];
+        let mut add = |signal: &[f64], sign: f64| {
+            for (sum, value) in fixed.iter_mut().zip(row(signal)) {
+                *sum += sign * value;
+            }
+        };
+        if let Some(load) = &trace.load {
+            if self.beside.load.contains(&Term::Gain) {
+                columns.push(row(load));
+            } else if trace.load_is_effort {
+                add(load, 1.0);
+            }
+        }
+        if let Some(known) = trace.known.as_ref().and_then(KnownEffort::beside) {
+            add(known, -1.0);
+        }
+        let steady = Arc::new(Evaluation { fixed, columns });
         if kept.len() == KEPT {
             kept.remove(0);
         }
@@ -188,105 +211,41 @@ impl<'a> Slide<'a> {
         steady
     }
 
-    /// Rows of what has no parameter.
-    fn fixed(&self, ticks: f64) -> Vec<f64> {
-        let mut fixed = vec![0.0; self.target.len()];
-        let given = self.load.filter(|_| !self.terms.load.has_gain());
-        for (signal, sign) in given
-            .map(|load| (load, 1.0))
-            .into_iter()
-            .chain(self.known.map(|known| (known, -1.0)))
-        {
-            for (sum, row) in fixed.iter_mut().zip(self.row(signal, ticks)) {
-                *sum += sign * row;
-            }
-        }
-        fixed
-    }
-
-    /// A signal as rows, so many ticks later.
-    fn row(&self, signal: &[f64], ticks: f64) -> Vec<f64> {
-        self.rows.of(&advanced(signal, ticks))
-    }
-
-    /// The signals of [`Self::steady`].
-    fn signals(&self) -> Vec<Vec<f64>> {
-        let Motion {
-            position,
-            speed,
-            acceleration,
-            ..
-        } = self.motion;
-        let mut columns = vec![acceleration.clone()];
-        if self.terms.one_speed {
-            // Nothing beside the level.
-        } else if self.terms.drag_of_each_direction {
-            columns.push(speed.iter().map(|speed| speed.max(0.0)).collect());
-            columns.push(speed.iter().map(|speed| speed.min(0.0)).collect());
-        } else {
-            columns.push(speed.clone());
-        }
-        columns.push(vec![1.0; position.len()]);
-        if self.terms.position {
-            columns.push(position.iter().map(|place| place - self.middle).collect());
-        }
-        if let Some(period) = self.terms.period {
-            let angle = |position: &f64| TAU * position / period;
-            columns.push(position.iter().map(|place| angle(place).cos()).collect());
-            columns.push(position.iter().map(|place| angle(place).sin()).collect());
-        }
-        if let Some(load) = self.load.filter(|_| self.terms.load.has_gain()) {
-            columns.push(load.to_vec());
-        }
-        columns
-    }
-
-    /// Columns of the friction: of its level, of its slope over the position where it is wanted, and of the load's losses.
-    fn frictional(&self, friction: &[f64], ticks: f64) -> Vec<Vec<f64>> {
-        let mut columns = vec![self.row(friction, ticks)];
-        if self.terms.position {
-            let sloped: Vec<f64> = self
-                .motion
-                .position
-                .iter()
-                .zip(friction)
-                .map(|(position, friction)| (position - self.middle) * friction)
-                .collect();
-            columns.push(self.row(&sloped, ticks));
-        }
-        let losses = self.losses(friction);
-        columns.extend(losses.iter().map(|loss| self.row(loss, ticks)));
-        columns
-    }
-
-    /// Unit losses of the load: `|load| T` where the motor drives the load, where the load drives the motor, or throughout.
-    fn losses(&self, friction: &[f64]) -> Vec<Vec<f64>> {
-        let Some(load) = self.load else {
-            return Vec::new();
+    /// Rows of the friction and of the load's losses.
+    fn frictional(&self, nonlinear: &[f64], ticks: f64) -> Vec<Vec<f64>> {
+        let motion = &self.prepared.motion;
+        let friction = match self.law.friction(&self.scales, nonlinear) {
+            Ok(law) => law.along(&motion.position, &motion.speed, self.scales.tick),
+            Err(_) => vec![0.0; motion.position.len()],
         };
-        let of = |counts: fn(f64) -> bool| -> Vec<f64> {
-            let both = load.iter().zip(friction);
-            both.map(|(load, friction)| {
+        let row = |signal: &[f64]| self.prepared.rows(&advanced(signal, ticks));
+        let mut columns = vec![row(&friction)];
+        if self.beside.position {
+            let middle = self.prepared.middle;
+            let places = motion.position.iter().zip(&friction);
+            let sloped: Vec<f64> = places
+                .map(|(x, friction)| (x - middle) * friction)
+                .collect();
+            columns.push(row(&sloped));
+        }
+        let load = self.prepared.trace.load.as_deref().unwrap_or(&[]);
+        for term in &self.beside.load {
+            let counts: fn(f64) -> bool = match term {
+                Term::Driving => |power| power > 0.0,
+                Term::BackDriving => |power| power < 0.0,
+                Term::Loss => |_| true,
+                _ => continue,
+            };
+            let lost = load.iter().zip(&friction).map(|(load, friction)| {
                 if counts(load * friction) {
                     load.abs() * friction
                 } else {
                     0.0
                 }
-            })
-            .collect()
-        };
-        if self.terms.load == LoadTerm::LossAlike {
-            return vec![of(|_| true)];
+            });
+            columns.push(row(&lost.collect::<Vec<_>>()));
         }
-        let [driving, back_driving] = self.terms.load.losses();
-        let mut losses = Vec::new();
-        if driving {
-            losses.push(of(|power| power > 0.0));
-        }
-        if back_driving {
-            losses.push(of(|power| power < 0.0));
-        }
-        losses
+        columns
     }
 
     /// What opposes the motion at a fit's parameters.
@@ -298,31 +257,30 @@ impl<'a> Slide<'a> {
         nonlinear: &[f64],
         linear: &[f64],
     ) -> Result<SlideResistance, epas_friction::Error> {
-        let value = |name: &str| {
+        let coordinate = self.prepared.trace.coordinate;
+        let value = |name: &str| -> f64 {
             let named = self.linear.iter().zip(linear);
             named
                 .filter(|(parameter, _)| parameter.name == name)
                 .map(|(_, value)| *value)
-                .sum::<f64>()
+                .sum()
         };
-        let both = value(DRAG);
-        let alike = value(LOSS);
+        let of = |term: Term| value(term.name(coordinate));
+        let (both, alike) = (of(Term::Viscous), of(Term::Loss));
+        let own = self.prepared.trace.load_is_effort && !self.beside.load.contains(&Term::Gain);
         Ok(SlideResistance::new(
             self.law.friction(&self.scales, nonlinear)?,
             Numbers {
-                level: value(LEVEL) + value(AT_ONE_SPEED),
+                level: of(Term::Coulomb),
                 drag: [value(FORWARD) + both, value(BACKWARD) + both],
-                offset: value(OFFSET),
-                middle: self.middle,
+                offset: of(Term::Offset),
+                middle: self.prepared.middle,
                 stiffness: value(STIFFNESS),
                 slope: value(SLOPE),
-                deviation: [value(COSINE), value(SINE)],
-                wavenumber: self.terms.period.map_or(0.0, |period| TAU / period),
-                gain: match self.terms.load {
-                    LoadTerm::Losses { .. } if self.load.is_some() => 1.0,
-                    _ => value(GAIN),
-                },
-                losses: LOSSES.map(|name| value(name) + alike),
+                wave: [of(Term::Sine(0.0)), of(Term::Cosine(0.0))],
+                wavenumber: self.beside.wave.unwrap_or(0.0),
+                gain: if own { 1.0 } else { of(Term::Gain) },
+                losses: [of(Term::Driving) + alike, of(Term::BackDriving) + alike],
             },
         ))
     }
@@ -337,72 +295,47 @@ impl<'a> Slide<'a> {
     }
 }
 
-/// What a motion is like.
-fn scales(trace: &Trace, motion: &Motion) -> Scales {
-    let extreme = |values: &[f64], pick: fn(f64, f64) -> f64| {
-        values.iter().copied().reduce(pick).unwrap_or(0.0)
+fn linear(coordinate: Coordinate, beside: &Beside) -> Vec<LinearParameter> {
+    let of = |term: Term, low: f64| LinearParameter {
+        name: term.name(coordinate),
+        unit: term.unit(coordinate),
+        low,
+        high: f64::INFINITY,
     };
-    let (low, high) = (
-        extreme(&motion.position, f64::min),
-        extreme(&motion.position, f64::max),
-    );
-    let speed = motion
-        .speed
-        .iter()
-        .map(|speed| speed.abs())
-        .fold(0.0, f64::max);
-    Scales {
-        speed: speed.max(f64::MIN_POSITIVE),
-        travel: (high - low).max(f64::MIN_POSITIVE),
-        resolution: trace.resolution,
-        tick: trace.step,
-    }
-}
-
-/// Half way between the farthest places.
-fn middle(position: &[f64]) -> f64 {
-    let low = position.iter().copied().fold(f64::INFINITY, f64::min);
-    let high = position.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    0.5 * (low + high)
-}
-
-fn linear(coordinate: Coordinate, terms: Terms) -> Vec<LinearParameter> {
-    let units = units(coordinate);
-    let inertia = match coordinate {
-        Coordinate::Rotation => INERTIA[0],
-        Coordinate::Translation => INERTIA[1],
-    };
-    let mut linear = vec![positive(inertia, units.inertia)];
-    if terms.one_speed {
-        // Nothing beside the level.
-    } else if terms.drag_of_each_direction {
-        linear.extend([FORWARD, BACKWARD].map(|name| free(name, units.drag)));
+    let free = |term: Term| of(term, f64::NEG_INFINITY);
+    let mut linear = vec![of(Term::Inertia, 0.0)];
+    if beside.rich {
+        linear.extend([FORWARD, BACKWARD].map(|name| LinearParameter {
+            name,
+            ..free(Term::Viscous)
+        }));
     } else {
-        linear.push(free(DRAG, units.drag));
+        linear.push(free(Term::Viscous));
     }
-    linear.push(free(OFFSET, units.effort));
-    if terms.position {
-        linear.push(free(STIFFNESS, units.stiffness));
+    linear.push(free(Term::Offset));
+    let over_position = |name| LinearParameter {
+        name,
+        unit: match coordinate {
+            Coordinate::Rotation => "N m/rad",
+            Coordinate::Translation => "N/m",
+        },
+        ..free(Term::Offset)
+    };
+    if beside.position {
+        linear.push(over_position(STIFFNESS));
     }
-    if terms.period.is_some() {
-        linear.extend([COSINE, SINE].map(|name| free(name, units.effort)));
+    if let Some(wave) = beside.wave {
+        linear.extend([Term::Sine(wave), Term::Cosine(wave)].map(free));
     }
-    if terms.load.has_gain() {
-        linear.push(free(GAIN, units.gain));
+    if beside.load.contains(&Term::Gain) {
+        linear.push(free(Term::Gain));
     }
-    let level = if terms.one_speed { AT_ONE_SPEED } else { LEVEL };
-    linear.push(positive(level, units.effort));
-    if terms.position {
-        linear.push(free(SLOPE, units.stiffness));
+    linear.push(of(Term::Coulomb, 0.0));
+    if beside.position {
+        linear.push(over_position(SLOPE));
     }
-    if terms.load == LoadTerm::LossAlike {
-        linear.push(positive(LOSS, units.gain));
-    }
-    for (name, told) in LOSSES.into_iter().zip(terms.load.losses()) {
-        if told {
-            linear.push(positive(name, ""));
-        }
-    }
+    let losses = beside.load.iter().filter(|term| **term != Term::Gain);
+    linear.extend(losses.map(|term| of(*term, 0.0)));
     linear
 }
 
@@ -420,18 +353,15 @@ impl Separable for Slide<'_> {
     }
 
     fn row_step(&self) -> f64 {
-        self.rows.row_step()
+        let hop = (self.prepared.kernel.half() / 3).max(1);
+        hop as f64 * self.scales.tick
     }
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
         let ticks = self.delay(nonlinear) / self.scales.tick;
-        let steady = self.steady(ticks);
-        let mut columns = steady.columns.clone();
-        columns.extend(self.frictional(&self.friction(nonlinear), ticks));
-        Evaluation {
-            fixed: steady.fixed.clone(),
-            columns,
-        }
+        let mut found = Evaluation::clone(&self.steady(ticks));
+        found.columns.extend(self.frictional(nonlinear, ticks));
+        found
     }
 }
 
@@ -450,4 +380,10 @@ fn advanced(signal: &[f64], ticks: f64) -> Vec<f64> {
             signal[before] + part * (signal[after] - signal[before])
         })
         .collect()
+}
+
+/// Root mean square of values.
+pub fn size(values: &[f64]) -> f64 {
+    let squares: f64 = values.iter().map(|value| value.powi(2)).sum();
+    (squares / values.len().max(1) as f64).sqrt()
 }

@@ -1,0 +1,155 @@
+//! Models of friction on one trace without a design: each fitted as well as it can be, and scored on what was not fitted.
+
+use crate::answer::ModelScore;
+use crate::estimator::words::strongest_wave;
+use crate::fit::problem::Separable;
+use crate::fit::search::{Found, at_bound, fit_within};
+use crate::laws::{Cost, Law, Level, Passage};
+use crate::models::{self, Entry, FITTED, LITERATURE, OWN, left_out};
+use crate::without_design::closed_loop::{Course, Loop};
+use crate::without_design::controller::SeenController;
+use crate::without_design::slide::{Beside, Prepared, Slide};
+use epas_page::failure::Failure;
+
+/// The friction of the crate's scene for a drive without a drawing: constant, in proportion to the load, passing with the speed.
+pub const LOAD_PROPORTIONAL: Law = Law {
+    name: "this crate, load-proportional losses",
+    level: Level::Constant,
+    passage: Passage::Speed,
+    cost: Cost::Counted(&["step_load_proportional"]),
+};
+
+/// The crate's law with memory.
+const OURS: Law = OWN[1];
+
+/// A trace on which models are compared, with its controller.
+pub type Compared<'a> = (&'a Prepared<'a>, Option<&'a SeenController>);
+
+/// Models beside each other, and what is said of those that could not be fitted.
+pub fn scores(
+    fitted: Compared<'_>,
+    unseen: Option<Compared<'_>>,
+    beside: &Beside,
+) -> (Vec<ModelScore>, Vec<String>) {
+    let plain = Beside {
+        wave: beside.wave,
+        load: beside.load.clone(),
+        ..Beside::default()
+    };
+    let shown = Beside {
+        wave: beside.wave.or_else(|| wave(fitted.0, beside)),
+        ..beside.clone()
+    };
+    let still = Beside {
+        position: false,
+        wave: beside.wave,
+        ..beside.clone()
+    };
+    let first = LITERATURE[0];
+    let mut models = vec![(first, &plain, first.name.to_string())];
+    if !beside.load.is_empty() {
+        models.push((LOAD_PROPORTIONAL, &plain, LOAD_PROPORTIONAL.name.into()));
+    }
+    for law in LITERATURE.into_iter().chain(OWN) {
+        let name = match law.passage {
+            Passage::AtOnce if law.level == Level::Constant => {
+                format!("{}, with the drive's other terms", law.name)
+            }
+            _ => law.name.into(),
+        };
+        models.push((law, &shown, name));
+    }
+    let name = format!("{}, without terms of the position", OURS.name);
+    models.push((OURS, &still, name));
+    let (mut scores, mut untold) = (Vec::new(), Vec::new());
+    for (law, beside, name) in models {
+        match score(fitted, unseen, law, beside, &name) {
+            Ok(score) => scores.push(score),
+            Err(why) => untold.push(left_out(&name, &why)),
+        }
+    }
+    (scores, untold)
+}
+
+/// Share of the residual of the crate's law with memory that a wave of the position takes to be in the models.
+const SHARE: f64 = 0.1;
+
+/// The wave number of a wave over the position that the crate's law with memory leaves, 1/rad or 1/m.
+fn wave(prepared: &Prepared<'_>, beside: &Beside) -> Option<f64> {
+    let slide = Slide::new(prepared, OURS, beside.clone());
+    let left = fit_within(&slide).ok()?.residual;
+    let position = &prepared.motion.position;
+    let places: Vec<f64> = prepared.centres.iter().map(|k| position[*k]).collect();
+    let found = strongest_wave(&places, &left);
+    eprintln!("DEBUG {found:?} {} rows half", places.len());
+    let (wave, share) = found?;
+    (share > SHARE).then_some(wave)
+}
+
+/// The loop closed with a fit.
+fn course(
+    (prepared, controller): Compared<'_>,
+    slide: &Slide<'_>,
+    found: &Found,
+) -> Result<Option<Course>, Failure> {
+    let Some(controller) = controller else {
+        return Ok(None);
+    };
+    let resistance = slide
+        .resistance(&found.nonlinear, &found.linear)
+        .map_err(|error| Failure::Data(error.to_string()))?;
+    let inertia = found.linear.first().copied().unwrap_or(0.0);
+    let closed = Loop {
+        trace: prepared.trace,
+        motion: &prepared.motion,
+        controller,
+    };
+    Ok((inertia > 0.0).then(|| closed.run(inertia, resistance, slide.delay(&found.nonlinear))))
+}
+
+/// Fits a model to a trace, and scores it on another trace, or on the last third of this one; by the closed loop where the controller is
+/// known.
+fn score(
+    fitted: Compared<'_>,
+    unseen: Option<Compared<'_>>,
+    law: Law,
+    beside: &Beside,
+    name: &str,
+) -> Result<ModelScore, Failure> {
+    let slide = Slide::new(fitted.0, law, beside.clone());
+    let other = unseen.map(|other| (other, Slide::new(other.0, law, beside.clone())));
+    let (mut score, found) = models::score(&Entry {
+        name,
+        cost: law.cost,
+        fitted: &slide,
+        unseen: other.as_ref().map(|(_, slide)| slide as &dyn Separable),
+        start_known: false,
+    })?;
+    if let Some(closed) = course(fitted, &slide, &found)? {
+        score.relative_error = closed.relative_error;
+        score.position_error = Some(closed.position_error);
+        let unseen = match &other {
+            Some((other, slide)) => {
+                course(*other, slide, &found)?.map(|course| course.relative_error)
+            }
+            None => Some(closed.error_after(fitted.0.trace, FITTED)),
+        };
+        score.relative_error_unseen = unseen.or(score.relative_error_unseen);
+    }
+    Ok(score)
+}
+
+/// The speed over which friction reverses, rad/s or m/s, by the whole trace; `None` where it is sharper than the trace shows.
+pub fn reversal_speed(prepared: &Prepared<'_>, beside: &Beside) -> Result<Option<f64>, Failure> {
+    let plain = Beside {
+        wave: beside.wave,
+        load: beside.load.clone(),
+        ..Beside::default()
+    };
+    let slide = Slide::new(prepared, LOAD_PROPORTIONAL, plain);
+    let found = fit_within(&slide)?;
+    let speed = slide.nonlinear().iter().zip(&found.nonlinear).next();
+    Ok(speed
+        .filter(|(of, speed)| !at_bound(of, **speed))
+        .map(|(_, speed)| *speed))
+}
