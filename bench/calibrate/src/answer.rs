@@ -2,6 +2,8 @@
 
 use serde::ser::{SerializeMap, Serializer};
 
+use crate::fit::uncertainty::Interval;
+
 /// A parameter's value with its interval.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Estimate {
@@ -38,6 +40,20 @@ impl Estimate {
     /// Half of the interval.
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high - self.low)
+    }
+}
+
+impl From<&Interval> for Estimate {
+    fn from(interval: &Interval) -> Self {
+        Self {
+            name: interval.name.into(),
+            unit: interval.unit,
+            value: interval.value,
+            low: interval.low,
+            high: interval.high,
+            fixed: false,
+            at_bound: interval.at_bound,
+        }
     }
 }
 

@@ -71,14 +71,6 @@ pub struct Arguments {
     /// Parameters to set
     #[arg(long, value_name = "NAME=VALUE,...", requires = "design", value_delimiter = ',', value_parser = setting)]
     fix: Vec<(String, f64)>,
-    /// Parameters whose profile likelihoods the page shows: how much worse the trace is explained with each held elsewhere
-    #[arg(
-        long,
-        value_name = "NAME,...",
-        requires = "design",
-        value_delimiter = ','
-    )]
-    profile: Vec<String>,
     /// Tell which manoeuvre would tell this parameter best, without a trace
     #[arg(
         long,
@@ -199,7 +191,6 @@ impl Arguments {
             ("--constants", self.outputs.constants.is_some()),
             ("--validate", self.validate.is_some()),
             ("--controller", self.controller.is_some()),
-            ("--profile", !self.profile.is_empty()),
         ];
         let needless = of_one_trace.iter().find(|(_, given)| *given && folder);
         if let Some((name, _)) = needless {
@@ -239,7 +230,6 @@ impl Arguments {
                 fix: self.fix.clone(),
                 ..Wanted::default()
             },
-            profiles: self.profile.clone(),
             ratio_unsaid: self.ratio.is_none(),
             ..Request::default()
         }

@@ -16,9 +16,9 @@ use nalgebra::DMatrix;
 
 use crate::experiment::manoeuvre::Manoeuvre;
 use crate::fit::cramer_rao::{information, inverse};
-use crate::fit::problem::{Scale, Separable};
-use crate::fit::separable::checks::FitError;
-use crate::fit::separable::{inner, outer, slopes_at_start};
+use crate::fit::problem::{Scale, Separable, inner, outer};
+use crate::fit::search::slopes_at_start;
+use epas_page::failure::Failure;
 
 /// Half width of a normal 95 % interval in standard deviations.
 const NORMAL: f64 = 1.959964;
@@ -68,7 +68,7 @@ pub fn rank(
     manoeuvres: &[Manoeuvre],
     make: &dyn Fn(&Manoeuvre) -> Box<dyn Separable>,
     noise: &[f64],
-) -> Result<Vec<Ranked>, FitError> {
+) -> Result<Vec<Ranked>, Failure> {
     let said = manoeuvres
         .iter()
         .map(|manoeuvre| said(wanted, *manoeuvre, make(manoeuvre).as_ref(), noise))
@@ -83,7 +83,7 @@ fn said(
     manoeuvre: Manoeuvre,
     problem: &dyn Separable,
     noise: &[f64],
-) -> Result<Said, FitError> {
+) -> Result<Said, Failure> {
     let (jacobian, linear) = slopes_at_start(problem)?;
     let nonlinear = problem
         .nonlinear()
@@ -96,13 +96,9 @@ fn said(
         .map(|(p, value)| (p.name, Scale::Linear, [p.low, p.high], value));
     let all: Vec<_> = nonlinear.chain(others).collect();
     let place = all.iter().position(|(name, ..)| *name == wanted);
-    let place = place.ok_or_else(|| FitError::Unknown {
-        name: wanted.into(),
-    })?;
-    let rows = information(&jacobian, noise).ok_or_else(|| FitError::NotFinite {
-        what: "information of the noise".into(),
-        row: 0,
-    })?;
+    let place = place.ok_or_else(|| Failure::Data(format!("no parameter is called {wanted}")))?;
+    let rows = information(&jacobian, noise)
+        .ok_or_else(|| Failure::Data("the information of the rows is not finite".into()))?;
     // Variance of an even distribution: the range's square over 12. A linear parameter without bounds gets a trifle of the rows' own.
     let least = |k: usize, scale: Scale, [low, high]: [f64; 2]| {
         let range = inner(scale, high) - inner(scale, low);

@@ -1,7 +1,6 @@
 //! Laws of friction over a motion, each with unit friction at its highest level: what one linear parameter multiplies.
 
 pub mod cost;
-pub mod turns;
 
 use epas_friction::Error;
 use epas_friction::law::coefficient::{
@@ -11,6 +10,7 @@ use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8
 use epas_friction::law::{Elements, SlidingLimits};
 
 use crate::bristle::{bristle, stribeck};
+use crate::estimator::stretches::of_position;
 use crate::fit::problem::{Parameter, Scale};
 use crate::mechanism::Step;
 
@@ -269,7 +269,7 @@ impl Friction {
     /// is largest, and counts as inertia (1.5 % of it in a drive with half of its effort in friction, sampled at 500 Hz).
     pub fn along(mut self, position: &[f64], speed: &[f64], tick: f64) -> Vec<f64> {
         if let Memory::AtOnce { breakaway, .. } = self.memory {
-            let directions = turns::directions(position, speed, breakaway);
+            let directions = directions(position, breakaway);
             let levels = speed.iter().map(|speed| self.level.at(*speed));
             return directions
                 .iter()
@@ -340,9 +340,45 @@ impl Friction {
     }
 }
 
+/// Direction at every sample, 1 or -1: it changes at the outermost place. What comes back by less than `dead` is no turn; 0 where nothing
+/// moves that far.
+fn directions(position: &[f64], dead: f64) -> Vec<f64> {
+    let mut directions = vec![0.0; position.len()];
+    let stretches = of_position(position, dead, position.len());
+    let mut begin = 0;
+    for (k, stretch) in stretches.iter().enumerate() {
+        let next = stretches.get(k + 1);
+        let between = stretch.last..next.map_or(position.len(), |next| next.first);
+        let far = |sample: &usize| stretch.direction * position[*sample];
+        let turn = between.max_by(|one, other| far(one).total_cmp(&far(other)));
+        let end = next.and(turn).unwrap_or(position.len());
+        directions[begin..end].fill(stretch.direction);
+        begin = end;
+    }
+    directions
+}
+
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
+
+    /// Of a sine with rounding the direction is the sine's: no step of the sensor turns it round.
+    #[test]
+    fn rounding_turns_nothing_round() {
+        let time = |sample: usize| 1e-3 * sample as f64 + 2.5e-4;
+        let step = 1e-2;
+        let rounded: Vec<f64> = (0..4000)
+            .map(|k| ((TAU * time(k)).sin() / step).round() * step)
+            .collect();
+        let found = directions(&rounded, 2.0 * step).into_iter().enumerate();
+        let wrong = found.filter(|(k, direction)| direction * (TAU * time(*k)).cos() <= 0.0);
+        // A step lasts for 45 ms at the turn: half of it is the uncertainty of each of eight turns.
+        assert!(wrong.count() <= 8 * 23);
+        assert_eq!(directions(&[0.0, 0.1, 0.0], 0.2), [0.0; 3]);
+        assert!(directions(&[], 0.2).is_empty());
+    }
 
     #[test]
     fn a_start_is_within_its_bounds_for_any_way() {

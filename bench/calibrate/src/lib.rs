@@ -41,6 +41,7 @@ pub mod fit;
 pub mod folder;
 pub mod laws;
 pub mod mechanism;
+pub mod models;
 pub mod outputs;
 pub mod page;
 pub mod screw;

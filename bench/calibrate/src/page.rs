@@ -16,7 +16,7 @@ pub mod truth;
 use std::f64::consts::TAU;
 
 use crate::answer::{Calibration, ModelScore};
-use crate::page::picture::{Picture, Profile};
+use crate::page::picture::Picture;
 use crate::page::shown::digits;
 use crate::page::truth::Truth;
 use crate::signals::spectrum::welch;
@@ -32,10 +32,6 @@ const GROUPS: usize = 40;
 
 /// Error over the effort from which on a model explains nothing.
 const WORTHLESS: f64 = 0.5;
-
-/// Rise of minus twice the logarithm of the likelihood at the ends of a 95 % interval: that quantile of chi squared with one
-/// degree of freedom.
-const RISE: f64 = 3.841;
 
 /// What quantities are called and measured in.
 struct Words {
@@ -84,9 +80,6 @@ pub fn document(
         blocks: vec![Block::Figure(over_time(picture, &words))],
     });
     sections.push(residual(picture, &words));
-    if !picture.profiles.is_empty() {
-        sections.push(profiles(&picture.profiles));
-    }
     if !picture.correlations.names.is_empty() {
         sections.push(correlations(picture));
     }
@@ -345,44 +338,6 @@ fn groups(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
             (x / count, y / count)
         })
         .collect()
-}
-
-fn profiles(profiles: &[Profile]) -> Section {
-    let panels = profiles.iter().map(|profile| {
-        let label = if profile.unit.is_empty() {
-            profile.name.clone()
-        } else {
-            format!("{} ({})", profile.name, profile.unit)
-        };
-        let (low, high) = profile
-            .points
-            .iter()
-            .fold((profile.best, profile.best), |ends, point| {
-                (ends.0.min(point.0), ends.1.max(point.0))
-            });
-        chart(
-            "",
-            &label,
-            "rise of -2 log likelihood",
-            vec![
-                Series::new("profile", 0, Mark::Line, profile.points.clone()),
-                Series::new("95 %", 6, Mark::Dashed, vec![(low, RISE), (high, RISE)]),
-                Series::new("fitted", 1, Mark::Crosses, vec![(profile.best, 0.0)]),
-            ],
-        )
-    });
-    Section {
-        title: "Profiles",
-        blocks: vec![Block::Figure(Figure {
-            name: "profiles",
-            caption: "How much worse the trace is explained with a parameter held, and all others fitted again; a parabola \
-                      is a normal distribution"
-                .into(),
-            panels: panels.collect(),
-            columns: 2,
-            size: (560, 300),
-        })],
-    }
 }
 
 fn correlations(picture: &Picture) -> Section {

@@ -5,60 +5,45 @@
 //! | [`quantities`] | everything that has a value: names, units, bounds |
 //! | [`friction`] | friction along the trace: the exact ball behind the memory of the crate |
 //! | [`exact`] | the exact ball on a grid of coefficients and preloads, solved where a fit comes near |
-//! | [`recent`] | what was made last |
-//! | [`problem`] | the whole torque as a separable problem |
-//! | [`systematic`] | errors of the sensors and of the model in the intervals |
-//! | [`hints`] | what a trace lacks, in sentences |
 //! | [`evidence`] | what the trace excites |
-//! | [`rivals`] | other models of friction |
-//! | [`blocks`] | rows that are fitted and rows that score |
-//! | [`waves`] | waves of the torque over the turn |
-//! | [`scores`] | scores of all models |
 //! | [`choice`] | what is estimated, from where, within which bounds |
+//! | [`problem`] | the whole torque as a separable problem |
+//! | [`stages`] | rows in which the balls slide, then rows about the turns; intervals |
+//! | [`telling`] | what a trace lacks, in sentences |
+//! | [`compared`] | other models of friction on the same trace |
 
-pub mod blocks;
 pub mod choice;
+mod compared;
 pub mod evidence;
 pub mod exact;
 #[cfg(test)]
 mod faults_tests;
 pub mod friction;
-pub mod hints;
 #[cfg(test)]
 mod hostile_tests;
 pub mod problem;
 pub mod quantities;
-pub mod recent;
-pub mod rivals;
-pub mod scores;
-pub mod systematic;
+pub mod stages;
+pub mod telling;
 #[cfg(test)]
 mod tests;
-pub mod waves;
 
-use std::ops::Range;
+use std::sync::Arc;
 
 use self::choice::{Start, Wanted};
 use self::evidence::Evidence;
-use self::exact::Spacing;
+use self::exact::{Grid, Spacing};
 use self::friction::Screw;
-use self::hints::{FILM, ScrewHints};
-use self::problem::{Choice, ScrewProblem};
+use self::problem::Choice;
 use self::quantities::Values;
-use self::systematic::widened;
+use self::stages::{AT_TURNS, Prepared, Sliding, WAY, Window};
 use crate::answer::{Calibration, Estimate};
 use crate::checks::finding::{Finding, FindingKind};
 use crate::checks::{examine, load_gain};
-use crate::fit::problem::Separable;
-use crate::fit::profile::profile;
-use crate::fit::separable::checks::FitError;
-use crate::fit::separable::{self, Fit, FitSettings, Fixed};
-use crate::fit::telling::{Reason, Told, at_bounds, tell};
-use crate::fit::uncertainty::{Interval, Uncertainty, uncertainty};
-use crate::laws::turns::{directions, near_turns};
-use crate::page::picture;
-use crate::signals::filter::ZeroPhase;
-use crate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
+use crate::fit::problem::Separable as _;
+use crate::fit::uncertainty::{Interval, Uncertainty, correlation};
+use crate::signals::autocorrelation::effective_rows;
+use crate::signals::{Motion, SmoothingSettings};
 use crate::trace::known::placed;
 use crate::trace::rests::rests;
 use crate::trace::{Coordinate, Trace};
@@ -66,47 +51,16 @@ use epas_design::files::Design;
 use epas_page::failure::Failure;
 
 /// How a trace of a screw is calibrated.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
     /// What is estimated and what is set.
     pub wanted: Wanted,
-    /// How the angle is smoothed.
-    pub smoothing: SmoothingSettings,
-    /// How signals become rows.
-    pub rows: RowSettings,
-    /// How the fit is made.
-    pub fit: FitSettings,
-    /// How closely the exact ball is solved for the search; the answer is then found with [`Spacing::FINE`].
-    pub search: Spacing,
     /// Whether other models of friction are not fitted.
     pub without_models: bool,
-    /// Names of the parameters whose profile likelihoods are found.
-    pub profiles: Vec<String>,
     /// Whether the ratio of the motor's gear was left at 1 without a word.
     pub ratio_unsaid: bool,
-    /// Trace that is not fitted and scores the models; without it every third block of the fitted one.
+    /// Trace that is not fitted and scores the models; without it the last third of the fitted one.
     pub unseen: Option<Trace>,
-}
-
-impl Default for Request {
-    /// Everything that the trace can tell. Differences of the fit take steps of a hundredth: the memory rounds to f32.
-    fn default() -> Self {
-        Self {
-            wanted: Wanted::default(),
-            smoothing: SmoothingSettings::default(),
-            rows: RowSettings::default(),
-            fit: FitSettings {
-                step: 1e-2,
-                starts: 4,
-                ..FitSettings::default()
-            },
-            search: Spacing::COARSE,
-            without_models: false,
-            profiles: Vec::new(),
-            ratio_unsaid: false,
-            unseen: None,
-        }
-    }
 }
 
 impl Request {
@@ -115,10 +69,7 @@ impl Request {
     /// # Errors
     /// The name.
     pub fn check(&self) -> Result<(), Failure> {
-        choice::check_names(&self.wanted)?;
-        self.profiles
-            .iter()
-            .try_for_each(|name| choice::check_profile(name, &self.wanted))
+        choice::check_names(&self.wanted)
     }
 }
 
@@ -131,124 +82,35 @@ pub struct ScrewCalibration {
     pub screw: Screw,
     /// Its values, estimated or not.
     pub values: Values,
-    /// What the trace excites.
-    pub evidence: Evidence,
-    /// The last fit.
-    pub fit: Fit,
-    /// How sure it is.
+    /// How sure they are.
     pub uncertainty: Uncertainty,
-    /// Evaluations of the model in all fits.
-    pub evaluations: usize,
-    /// Profile likelihoods that were wanted.
-    pub profiles: Vec<picture::Profile>,
+    /// Samples at the middle of the rows over the whole motion.
+    pub samples: Vec<usize>,
+    /// What was measured there, N m.
+    pub measured: Vec<f64>,
+    /// What the model leaves of it, N m.
+    pub residual: Vec<f64>,
+}
+
+/// What is told of the parameters.
+struct Told {
+    values: Values,
+    choice: Choice,
+    intervals: Vec<Interval>,
+    sliding: Sliding,
+    window: Window,
+    sentences: Vec<String>,
+    grid: Arc<Grid>,
 }
 
 /// Calibrates a trace of a screw.
 ///
 /// # Errors
-/// A trace or a request from which nothing can be told, and an answer that depends on the start.
+/// A trace or a request from which nothing can be told.
 pub fn calibrate(
     trace: &Trace,
     design: &Design,
     request: &Request,
-) -> Result<ScrewCalibration, Failure> {
-    let found = attempt(trace, design, request, None)?;
-    let Some(constant) = with_constant_coefficient(request, &found) else {
-        return Ok(found);
-    };
-    let alone = Request {
-        without_models: true,
-        profiles: Vec::new(),
-        ..constant.clone()
-    };
-    let [law, one] = [&found.answer, &attempt(trace, design, &alone, None)?.answer]
-        .map(|answer| answer.relative_error);
-    if one >= CONSTANT * law {
-        return Ok(found);
-    }
-    let mut constant = attempt(trace, design, &constant, None)?;
-    constant.answer.cannot_tell.push(format!(
-        "full film ratio: set to 1, a coefficient that does not change with the speed: it leaves {:.2} % of the torque, the default law {:.2} %.",
-        100.0 * one,
-        100.0 * law
-    ));
-    Ok(constant)
-}
-
-/// What a coefficient that does not change with the speed leaves of the torque, over what the default law leaves, from which on it is taken.
-const CONSTANT: f64 = 0.9;
-
-/// A request with a constant coefficient, where a trace has not told how it changes with the speed, and nobody has said so.
-fn with_constant_coefficient(request: &Request, found: &ScrewCalibration) -> Option<Request> {
-    let fixed = |name: &str| request.wanted.fix.iter().any(|(fixed, _)| fixed == name);
-    let told = |name: &str| {
-        let parameter = found.answer.parameter(name);
-        parameter.is_some_and(|parameter| !parameter.fixed)
-    };
-    if request.wanted.estimate.is_some() || FILM.iter().any(|name| fixed(name) || told(name)) {
-        return None;
-    }
-    let mut request = request.clone();
-    request.wanted.fix.push((FILM[0].into(), 1.0));
-    Some(request)
-}
-
-/// What the position's sensor is too coarse for: the breakaway, and so what happens before sliding.
-#[derive(Clone, Debug)]
-struct TooCoarse {
-    /// What is said of the breakaway angle.
-    sentence: String,
-}
-
-/// Steps of the position behind a turn within which a motion may not slide yet, where the sensor is too coarse for its breakaway: the angle
-/// is below two of them.
-const BEFORE_SLIDING: f64 = 4.0;
-/// Least share of the samples that slide.
-const SLIDES: f64 = 0.2;
-
-/// The rows of a trace; where the sensor is too coarse for the breakaway, those that slide: friction before that would count as less
-/// friction, drag or a turn that is late. `None` where hardly anything slides.
-fn sliding_rows(rows: Rows, trace: &Trace, motion: &Motion) -> Option<Rows> {
-    let steps = trace.resolution;
-    let ways = directions(&motion.position, &motion.speed, 2.0 * steps);
-    let near = near_turns(&ways, &motion.position, BEFORE_SLIDING * steps);
-    let left_out = [near, rests(trace)].concat();
-    let slides = trace.len()
-        - left_out
-            .iter()
-            .map(Range::len)
-            .sum::<usize>()
-            .min(trace.len());
-    (slides as f64 > SLIDES * trace.len() as f64).then(|| rows.without(&left_out, trace.len()))
-}
-
-/// A request with the breakaway angle set, because the position's sensor is too coarse for it.
-fn without_breakaway(request: &Request, told: &Told) -> Option<(Request, TooCoarse)> {
-    let mut untold = told.untold.iter();
-    let unseen = untold.find(|untold| {
-        untold.reason == Reason::Unseen && untold.names.contains(&BREAKAWAY_ANGLE)
-    })?;
-    let (_, value) = unseen.fixed?;
-    let mut request = request.clone();
-    let wanted = &mut request.wanted;
-    if let Some(estimate) = &mut wanted.estimate {
-        estimate.retain(|name| name != BREAKAWAY_ANGLE);
-    }
-    wanted.fix.push((BREAKAWAY_ANGLE.into(), value));
-    request.profiles.retain(|name| name != BREAKAWAY_ANGLE);
-    let sentence = format!(
-        "{} What moved by less than {BEFORE_SLIDING} steps since it turned round may not slide yet, and is left out.",
-        unseen.sentence
-    );
-    Some((request, TooCoarse { sentence }))
-}
-
-/// Calibrates a trace; anew where its sensor turns out too coarse for the breakaway.
-fn attempt(
-    trace: &Trace,
-    design: &Design,
-    request: &Request,
-    too_coarse: Option<TooCoarse>,
 ) -> Result<ScrewCalibration, Failure> {
     request.check()?;
     for trace in std::iter::once(trace).chain(&request.unseen) {
@@ -258,182 +120,179 @@ fn attempt(
             ));
         }
     }
-    let unseen_trace = request
-        .unseen
-        .as_ref()
-        .map(|unseen| {
-            let motion = Motion::of(unseen, &request.smoothing)?;
-            Ok::<_, Failure>(placed(unseen, &motion))
-        })
-        .transpose()?;
-    let unseen = unseen_trace
-        .as_deref()
-        .map(|unseen| Unseen::new(unseen, trace, request))
-        .transpose()?;
-    let motion = Motion::of(trace, &request.smoothing)?;
+    let motion = Motion::of(trace, &SmoothingSettings::default())?;
     let trace = &*placed(trace, &motion);
     let findings = examine(trace, &motion)?;
     load_gain(trace, &motion, reduced_lead(design), request.ratio_unsaid)?;
-    let mut rows = Rows::of_trace(trace, &request.rows)?;
-    if too_coarse.is_some() {
-        rows = sliding_rows(rows.clone(), trace, &motion).unwrap_or(rows);
-    }
-    let smoothing = request.smoothing.filter(trace.step)?;
     let evidence = Evidence::of(trace, &motion);
     plausible(design, &evidence)?;
-    let Start {
-        screw,
-        values,
-        choice,
-    } = Start::of(design, &evidence, &request.wanted)?;
-    let measured = (trace, &motion, &rows);
-    let other = unseen
-        .as_ref()
-        .map(|unseen| unseen.problem(screw, values, choice.clone(), request.search))
-        .transpose()?;
-    let problem = ScrewProblem::new(screw, measured, &smoothing, values, choice, request.search)?;
-    let hints = ScrewHints {
-        evidence,
-        values,
-        step: trace.resolution,
-        coarse: too_coarse.is_some(),
-    };
-    let told = tell(&problem, &request.fit, &hints)?;
-    if too_coarse.is_none()
-        && let Some((request, too_coarse)) = without_breakaway(request, &told)
-    {
-        return attempt(trace, design, &request, Some(too_coarse));
+    let mut start = Start::of(design, &evidence, &request.wanted)?;
+    if let Some(unseen) = &request.unseen {
+        if unseen.load.is_some() != trace.load.is_some() {
+            return Err(Failure::Data(format!(
+                "one of {} and {} has an axial load and the other none: one cannot score the other's models",
+                trace.name, unseen.name
+            )));
+        }
+        let loads = unseen.load.iter().flatten();
+        let largest = loads.fold(start.screw.largest_load, |most, load| most.max(load.abs()));
+        start.screw.largest_load = largest;
     }
-    if let Some(refusal) = told.fit.refusal() {
-        return Err(Failure::Data(refusal));
-    }
-    let values = values_of(&problem, &told.fixed, &told.uncertainty.intervals);
-    let problem = problem.refined(&values)?;
-    let part = Fixed::new(&problem, &told.fixed)?;
-    let fit = separable::fit(&part, &once(&request.fit))?;
-    let evaluations = told.evaluations + fit.evaluations;
-    let by_residual = uncertainty(&part, &fit);
-    let values = values_of(&problem, &told.fixed, &by_residual.intervals);
-    let smoothing = &request.smoothing;
-    let uncertainty = widened(
-        &problem,
-        &fit,
-        &values,
-        smoothing,
-        &request.wanted.fix,
-        hints.coarse,
-        by_residual.clone(),
-    )?;
-    let values = values_of(&problem, &told.fixed, &uncertainty.intervals);
-    let mut answer = answer(&problem, &fit, &uncertainty, &values);
-    let fixed: Vec<&str> = answer
-        .parameters
-        .iter()
-        .filter(|parameter| parameter.fixed)
-        .filter(|parameter| told.fixed.iter().all(|(name, _)| *name != parameter.name))
-        .map(|parameter| parameter.name.as_str())
-        .collect();
-    let left_out = hints.left_out(&fixed);
-    // On the fine grid another one may end at its bound than in the search.
-    let mut untold = told.untold;
-    untold.retain(|untold| untold.reason != Reason::AtBound || untold.fixed.is_some());
-    untold.extend(at_bounds(&uncertainty, &hints));
-    let untold = untold.into_iter().map(|untold| untold.sentence);
-    let too_coarse = too_coarse.into_iter().map(|coarse| coarse.sentence);
-    answer.cannot_tell = too_coarse
-        .chain(untold)
-        .chain(left_out)
-        .chain(spoiled(findings))
-        .collect();
-    // What the trace does not tell has no profile, and a sentence above.
-    let told_apart = |name: &&String| {
-        let mut intervals = by_residual.intervals.iter();
-        intervals.any(|interval| interval.name == **name)
-    };
-    let profiles = request
-        .profiles
-        .iter()
-        .filter(told_apart)
-        .map(|name| {
-            let profile = profile(&part, &fit, &by_residual, name, &once(&request.fit))?;
-            let best = answer.value(name).unwrap_or(f64::NAN);
-            Ok(picture::Profile::of(&profile, best))
+    let (prepared, told) = told(trace, &start, &evidence, request)?;
+    let rows = prepared.rows_over_turns(told.window, true);
+    let choice = &told.choice;
+    let whole = prepared.remembered(rows, (&told.values, choice), &told.grid);
+    let measured = whole.target().to_vec();
+    let model = whole.model(&told.values);
+    let residual: Vec<f64> = measured.iter().zip(model).map(|(a, b)| a - b).collect();
+    let uncertainty = uncertainty(&told, &residual);
+    let mut answer = answer(&told, &measured, &residual, &uncertainty);
+    let fixed = answer.parameters.iter().filter(|of| of.fixed);
+    let fixed: Vec<&str> = fixed
+        .map(|of| of.name.as_str())
+        .filter(|name| {
+            !told
+                .sentences
+                .iter()
+                .any(|said| said.starts_with(&name.replace('_', " ")))
         })
-        .collect::<Result<Vec<_>, FitError>>()?;
+        .collect();
+    let left_out = telling::left_out(&fixed, &evidence);
+    let sentences = told.sentences.iter().cloned();
+    answer.cannot_tell = sentences.chain(left_out).chain(spoiled(findings)).collect();
     if !request.without_models {
-        let other = other.map(|other| other.refined(&values)).transpose()?;
-        let other = unseen
-            .as_ref()
-            .zip(other.as_ref())
-            .map(|(unseen, problem)| (problem, unseen.measured()));
-        let fitted = (&problem, measured);
-        let scores = scores::scores(fitted, other, &values, &request.fit);
-        (answer.models, answer.winner) = (scores.models, scores.winner);
-        answer.cannot_tell.extend(scores.left_out);
+        let table = compared::models(&prepared, &told, request.unseen.as_ref())?;
+        (answer.models, answer.winner) = (table.models, table.winner);
+        answer.cannot_tell.extend(table.left_out);
     }
     Ok(ScrewCalibration {
         answer,
-        screw,
-        values,
-        evidence,
-        fit,
+        screw: start.screw,
+        values: told.values,
         uncertainty,
-        evaluations,
-        profiles,
+        samples: whole.rows().centres.clone(),
+        measured,
+        residual,
     })
 }
 
-/// A trace that is not fitted, filtered as the fitted one is.
-struct Unseen<'a> {
+/// Both stages; the first anew where the breakaway angle turns out larger than its rows allow for.
+fn told<'a>(
     trace: &'a Trace,
-    motion: Motion,
-    rows: Rows,
-    smoothing: ZeroPhase,
-}
-
-impl<'a> Unseen<'a> {
-    fn new(trace: &'a Trace, fitted: &Trace, request: &Request) -> Result<Self, Failure> {
-        if trace.load.is_some() != fitted.load.is_some() {
-            return Err(Failure::Data(format!(
-                "one of {} and {} has an axial load and the other none: one cannot score the other's models",
-                fitted.name, trace.name
-            )));
+    start: &Start,
+    evidence: &Evidence,
+    request: &Request,
+) -> Result<(Prepared<'a>, Told), Failure> {
+    let screw = start.screw;
+    let mut left_out = rests(trace);
+    let prepared = Prepared::new(trace, &left_out, screw);
+    let coarse = screw.grid(&start.values, Spacing::COARSE)?;
+    let breakaway = start.values.breakaway_angle;
+    let mut at_turns = start.choice.clone();
+    at_turns.linear.clear();
+    at_turns
+        .nonlinear
+        .retain(|(of, _)| AT_TURNS.contains(&of.name));
+    let mut first = start.clone();
+    for name in AT_TURNS {
+        first.choice = first.choice.without(name);
+    }
+    let mut sentences = Vec::new();
+    let window = prepared.first_way((&first, &at_turns), &coarse)?;
+    let (mut values, outliers) = prepared.first_fit(window, &first, &coarse)?;
+    if !outliers.is_empty() {
+        sentences.push(format!(
+            "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",
+            outliers.len()
+        ));
+        left_out.extend(outliers);
+    }
+    let prepared = Prepared::new(trace, &left_out, screw);
+    let mut window = prepared.best_window(window, (&values, &first.choice), &coarse);
+    let set = &request.wanted.fix;
+    let mut choice = first.choice;
+    let mut kept = Vec::new();
+    let mut sliding = prepared.slid(window, (&values, &choice), set, &coarse)?;
+    while let Some(untold) = telling::untold(&sliding, &start.values, evidence, &kept) {
+        let less = choice.without(untold.name);
+        let mut without = sliding.values;
+        telling::set(
+            untold.name,
+            telling::value_of(untold.name, &start.values),
+            &mut without,
+        );
+        let next = prepared.slid(window, (&without, &less), set, &coarse)?;
+        if next.residual_rms > GROWTH * sliding.residual_rms {
+            // The trace does object to that value.
+            kept.push(untold.name);
+        } else {
+            sentences.push(untold.sentence);
+            (choice, sliding) = (less, next);
         }
-        Ok(Self {
-            trace,
-            motion: Motion::of(trace, &request.smoothing)?,
-            rows: Rows::of_trace(trace, &request.rows)?,
-            smoothing: request.smoothing.filter(trace.step)?,
-        })
     }
-
-    const fn measured(&self) -> (&Trace, &Motion, &Rows) {
-        (self.trace, &self.motion, &self.rows)
+    values = sliding.values;
+    let grid = screw.grid(&values, Spacing::FINE)?;
+    sliding = prepared.slid(window, (&values, &choice), set, &grid)?;
+    let mut intervals = Vec::new();
+    if !at_turns.nonlinear.is_empty() {
+        let turned = prepared.turned(window, &sliding, (&at_turns, &choice), &grid)?;
+        let angle = |intervals: &[Interval]| {
+            let angle = intervals.iter().find(|of| of.name == "breakaway_angle");
+            angle.map_or(breakaway, |of| of.value)
+        };
+        let way = WAY * turned.as_deref().map_or(breakaway, angle);
+        intervals = if way > LONGER * window.way && window.way >= WAY * breakaway {
+            window.way = way;
+            sliding = prepared.slid(window, (&sliding.values, &choice), set, &grid)?;
+            prepared.turned(window, &sliding, (&at_turns, &choice), &grid)?
+        } else {
+            turned
+        }
+        .unwrap_or_default();
     }
-
-    /// The same screw on this trace, with elements up to its own loads.
-    fn problem(
-        &self,
-        mut screw: Screw,
-        values: Values,
-        choice: Choice,
-        spacing: Spacing,
-    ) -> Result<ScrewProblem<'_>, Failure> {
-        let evidence = Evidence::of(self.trace, &self.motion);
-        screw.largest_load = screw.largest_load.max(evidence.largest_load());
-        ScrewProblem::new(
-            screw,
-            self.measured(),
-            &self.smoothing,
-            values,
-            choice,
-            spacing,
-        )
+    let step = trace.resolution;
+    values = sliding.values;
+    intervals.retain(|of| {
+        let design = telling::value_of(of.name, &start.values);
+        let coarse = of.value > 0.0 && of.value < STEPS * step;
+        if coarse {
+            sentences.insert(0, telling::too_coarse(of.name, step, design));
+        } else if of.at_bound {
+            sentences.push(telling::beyond_bound(of.name, design));
+        }
+        !coarse && !of.at_bound
+    });
+    for of in &intervals {
+        telling::set(of.name, of.value, &mut values);
     }
+    let bounds = sliding.intervals.iter().filter(|of| of.at_bound);
+    sentences.extend(bounds.map(|of| telling::at_bound(of, evidence)));
+    for (parameter, of) in at_turns.nonlinear {
+        if intervals.iter().any(|interval| interval.name == of.name) {
+            choice.nonlinear.push((parameter, of));
+        }
+    }
+    let told = Told {
+        values,
+        choice,
+        intervals,
+        sliding,
+        window,
+        sentences,
+        grid,
+    };
+    Ok((prepared, told))
 }
 
-/// Name of the angle before sliding.
-const BREAKAWAY_ANGLE: &str = "breakaway_angle";
+/// A way after a turn that is longer by this than the one of the rows is one of its own.
+const LONGER: f64 = 1.3;
+
+/// A parameter stays free where the residual is larger by this without it.
+const GROWTH: f64 = 1.02;
+
+/// Fewest steps of the position from the turn of a motion to full sliding: of a travel that the sensor sees in fewer of them, the place of
+/// the turn, known to a step, decides.
+const STEPS: f64 = 2.0;
 
 /// Fastest balls about the screw's axis, m/s: twice what catalogues allow (150,000 mm/min of pitch diameter times revolutions).
 const FASTEST: f64 = 16.0;
@@ -485,68 +344,53 @@ fn spoiled(findings: Vec<Finding>) -> impl Iterator<Item = String> {
         .map(|finding| finding.message)
 }
 
-/// The same settings with one start.
-fn once(settings: &FitSettings) -> FitSettings {
-    FitSettings {
-        starts: 1,
-        finished: 1,
-        ..*settings
+/// How sure everything is: both stages' parameters, in the order in which quantities are told; the stages' errors count as independent.
+fn uncertainty(told: &Told, residual: &[f64]) -> Uncertainty {
+    let sliding = &told.sliding;
+    let all: Vec<&Interval> = sliding.intervals.iter().chain(&told.intervals).collect();
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    let place = |k: &usize| quantities::names().position(|name| name == all[*k].name);
+    order.sort_by_key(place);
+    let first = sliding.intervals.len();
+    let entry = |i: usize, j: usize| {
+        let (i, j) = (order[i], order[j]);
+        if i < first && j < first {
+            sliding.covariance[(i, j)]
+        } else if i == j {
+            let of = all[i];
+            of.standard_error.powi(2) - of.model_error.powi(2)
+        } else {
+            0.0
+        }
+    };
+    let covariance = nalgebra::DMatrix::from_fn(all.len(), all.len(), entry);
+    Uncertainty {
+        intervals: order.iter().map(|k| all[*k].clone()).collect(),
+        correlation: correlation(&covariance),
+        covariance,
+        effective_rows: effective_rows(residual),
     }
 }
 
-/// Values of a problem with what was set and what was found.
-fn values_of(
-    problem: &ScrewProblem<'_>,
-    fixed: &[(&'static str, f64)],
-    intervals: &[Interval],
-) -> Values {
-    let found = |name: &str, start: f64| {
-        let set = fixed.iter().find(|(known, _)| *known == name);
-        let interval = intervals.iter().find(|interval| interval.name == name);
-        set.map(|(_, value)| *value)
-            .or(interval.map(|interval| interval.value))
-            .unwrap_or(start)
-    };
-    let nonlinear: Vec<f64> = problem
-        .nonlinear()
-        .iter()
-        .map(|parameter| found(parameter.name, parameter.start))
-        .collect();
-    let linear: Vec<f64> = problem
-        .linear()
-        .iter()
-        .map(|parameter| found(parameter.name, 0.0))
-        .collect();
-    problem.values(&nonlinear, &linear)
-}
-
 fn answer(
-    problem: &ScrewProblem<'_>,
-    fit: &Fit,
+    told: &Told,
+    measured: &[f64],
+    residual: &[f64],
     uncertainty: &Uncertainty,
-    values: &Values,
 ) -> Calibration {
-    let parameters = quantities::all(values).map(|(name, unit, value)| {
+    let parameters = quantities::all(&told.values).map(|(name, unit, value)| {
         let mut intervals = uncertainty.intervals.iter();
         match intervals.find(|interval| interval.name == name) {
-            Some(interval) => Estimate {
-                name: name.into(),
-                unit,
-                value: interval.value,
-                low: interval.low,
-                high: interval.high,
-                fixed: false,
-                at_bound: interval.at_bound,
-            },
+            Some(interval) => Estimate::from(interval),
             None => Estimate::fixed(name, unit, value),
         }
     });
-    let target: f64 = problem.target().iter().map(|x| x * x).sum();
-    let residual: f64 = fit.residual.iter().map(|x| x * x).sum();
+    let square = |rows: &[f64]| rows.iter().map(|x| x * x).sum::<f64>();
+    let left = square(residual);
     Calibration {
         parameters: parameters.collect(),
-        residual_rms: fit.residual_rms(),
-        relative_error: (residual / target.max(f64::MIN_POSITIVE)).sqrt(),
+        residual_rms: (left / residual.len().max(1) as f64).sqrt(),
+        relative_error: (left / square(measured).max(f64::MIN_POSITIVE)).sqrt(),
         effective_rows: uncertainty.effective_rows,
         cannot_tell: Vec::new(),
         models: Vec::new(),

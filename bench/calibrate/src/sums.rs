@@ -32,7 +32,7 @@ use self::population::{Class, population};
 pub use self::reference::Reference;
 use self::sum::Sum;
 use crate::fit::cramer_rao::inverse;
-use crate::fit::separable::{Fit, inner, outer};
+use crate::fit::problem::{inner, outer};
 use crate::fit::uncertainty::Uncertainty;
 
 /// Why sums cannot be made or merged.
@@ -127,7 +127,7 @@ impl Sums {
     /// # Errors
     ///
     /// A parameter that the reference does not have, or numbers that are not finite; the sums stay as they were.
-    pub fn add(&mut self, fit: &Fit, sure: &Uncertainty) -> Result<(), SumsError> {
+    pub fn add(&mut self, residual: &[f64], sure: &Uncertainty) -> Result<(), SumsError> {
         let mut places = vec![];
         let mut deviations = vec![];
         for (k, interval) in sure.intervals.iter().enumerate() {
@@ -170,10 +170,10 @@ impl Sums {
         }
         self.square.add(pull.dot(&deviation));
         self.traces += 1;
-        self.rows += fit.residual.len() as u64;
+        self.rows += residual.len() as u64;
         self.effective_rows.add(sure.effective_rows);
         self.residual_squares
-            .add(fit.residual.iter().map(|r| r * r).sum());
+            .add(residual.iter().map(|r| r * r).sum());
         Ok(())
     }
 

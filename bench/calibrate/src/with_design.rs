@@ -6,10 +6,9 @@ use crate::page::picture::{Correlations, Picture};
 use crate::screw::friction::Screw;
 use crate::screw::quantities::{LINEAR, NONLINEAR};
 use crate::screw::{Request, ScrewCalibration, calibrate};
-use crate::signals::{Motion, Rows};
+use crate::signals::{Motion, SmoothingSettings};
 use crate::sums::{Reference, Sums, SumsError};
 use crate::trace::Trace;
-use crate::trace::known::placed;
 use epas_design::files::Design;
 use epas_page::failure::Failure;
 
@@ -30,7 +29,7 @@ pub struct Told {
 pub fn told(trace: &Trace, design: &Design, request: &Request) -> Result<Told, Failure> {
     let found = calibrate(trace, design, request)?;
     Ok(Told {
-        picture: picture(trace, request, &found)?,
+        picture: picture(trace, &found)?,
         screw: found.screw,
         answer: found.answer,
     })
@@ -72,40 +71,34 @@ pub fn sums(found: &ScrewCalibration) -> Result<Sums, SumsError> {
         }
     });
     let mut sums = Sums::new(references.collect())?;
-    sums.add(&found.fit, &found.uncertainty)?;
+    sums.add(&found.residual, &found.uncertainty)?;
     Ok(sums)
 }
 
 /// What the page draws.
-fn picture(trace: &Trace, request: &Request, found: &ScrewCalibration) -> Result<Picture, Failure> {
-    let motion = Motion::of(trace, &request.smoothing)?;
-    let trace = &*placed(trace, &motion);
-    let rows = Rows::of_trace(trace, &request.rows)?;
-    let samples: Vec<usize> = rows.samples(trace.len()).collect();
-    let at =
-        |signal: &[f64]| -> Vec<f64> { samples.iter().map(|sample| signal[*sample]).collect() };
-    let measured = rows.of(&trace.acting());
-    let model = measured
-        .iter()
-        .zip(&found.fit.residual)
-        .map(|(measured, residual)| measured - residual)
-        .collect();
+fn picture(trace: &Trace, found: &ScrewCalibration) -> Result<Picture, Failure> {
+    let motion = Motion::of(trace, &SmoothingSettings::default())?;
+    let at = |signal: &[f64]| -> Vec<f64> {
+        let samples = found.samples.iter();
+        samples.map(|sample| signal[*sample]).collect()
+    };
+    let model = found.measured.iter().zip(&found.residual);
     let names = found.uncertainty.intervals.iter();
     let correlations = found.uncertainty.correlation.row_iter();
     Ok(Picture {
         name: trace.name.clone(),
         coordinate: trace.coordinate,
-        time: samples
+        time: found
+            .samples
             .iter()
             .map(|sample| trace.start + trace.step * *sample as f64)
             .collect(),
-        measured,
-        model,
+        measured: found.measured.clone(),
+        model: model.map(|(measured, left)| measured - left).collect(),
         position: at(&motion.position),
         speed: at(&motion.speed),
         load: trace.load.as_deref().map(&at),
         temperature: trace.temperature.as_deref().map(&at),
-        profiles: found.profiles.clone(),
         correlations: Correlations {
             names: names.map(|interval| interval.name.to_string()).collect(),
             rows: correlations

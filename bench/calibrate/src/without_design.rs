@@ -25,6 +25,7 @@ use crate::estimator::fit::Block;
 use crate::estimator::record::Record;
 use crate::estimator::terms::Term;
 use crate::estimator::words::{Diagnosis, diagnose};
+use crate::models::rank;
 use crate::page::picture::{Correlations, Picture};
 use crate::page::shown::digits;
 use crate::trace::known::KnownEffort;
@@ -89,7 +90,7 @@ pub fn calibrate(
         let (models, untold) = models::scores((&prepared, own.as_ref()), unseen, &beside);
         answer.models = models;
         answer.cannot_tell.extend(untold);
-        answer.winner = models::rank(&mut answer.models);
+        answer.winner = rank(&mut answer.models);
     }
     answer
         .cannot_tell
@@ -296,7 +297,6 @@ fn picture(record: &Record, trace: &Trace, found: &choice::Estimate) -> Picture 
         speed,
         load: trace.load.as_deref().map(&at),
         temperature: trace.temperature.as_deref().map(&at),
-        profiles: Vec::new(),
         correlations: Correlations {
             names: names
                 .map(|term| term.name(trace.coordinate).to_string())

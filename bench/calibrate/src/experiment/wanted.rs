@@ -6,12 +6,11 @@ use std::io::{self, Write};
 use crate::experiment::manoeuvre::{Manoeuvre, Reach};
 use crate::experiment::{Ranked, rank};
 use crate::fit::problem::Separable;
-use crate::screw::Request;
 use crate::screw::choice::{Start, Wanted};
 use crate::screw::evidence::Evidence;
 use crate::screw::exact::Spacing;
-use crate::screw::problem::ScrewProblem;
-use crate::signals::{Motion, Rows};
+use crate::screw::stages::{Prepared, Window};
+use crate::signals::{Motion, SmoothingSettings};
 use crate::trace::{Coordinate, Repairs, Trace};
 use epas_design::files::Design;
 use epas_page::failure::Failure;
@@ -31,6 +30,9 @@ const BESIDE: [&str; 9] = [
 
 /// Noise of a row, N m: a hundredth of the torque of a steering gear at its rack force.
 const NOISE: f64 = 5e-3;
+
+/// Rows of the manoeuvres: half-width of the kernel, ticks.
+const WINDOW: Window = Window { half: 17, way: 0.0 };
 
 /// Tick of the manoeuvres, s.
 const STEP: f64 = 1e-3;
@@ -77,12 +79,9 @@ fn problem(
     manoeuvre: Manoeuvre,
     reach: &Reach,
 ) -> Result<Box<dyn Separable>, Failure> {
-    let request = Request::default();
     let trace: &'static Trace = Box::leak(Box::new(trace(manoeuvre, reach)));
-    let motion: &'static Motion = Box::leak(Box::new(Motion::of(trace, &request.smoothing)?));
-    let rows: &'static Rows = Box::leak(Box::new(Rows::new(trace.step, &request.rows)?));
-    let smoothing = request.smoothing.filter(trace.step)?;
-    let mut evidence = Evidence::of(trace, motion);
+    let motion = Motion::of(trace, &SmoothingSettings::default())?;
+    let mut evidence = Evidence::of(trace, &motion);
     // All problems have the same parameters and starts.
     evidence.load = Some([-reach.load, reach.load]);
     evidence.temperature = Some(reach.temperature);
@@ -92,15 +91,14 @@ fn problem(
         values,
         choice,
     } = Start::of(design, &evidence, wanted)?;
-    let measured = (trace, motion, rows);
-    Ok(Box::new(ScrewProblem::new(
-        screw,
-        measured,
-        &smoothing,
-        values,
-        choice,
-        Spacing::FINE,
-    )?))
+    let grid = screw.grid(&values, Spacing::FINE)?;
+    let prepared: &'static Prepared<'_> = Box::leak(Box::new(Prepared::new(trace, &[], screw)));
+    let rows = prepared.rows_over_turns(WINDOW, true);
+    Ok(Box::new(prepared.remembered(
+        rows,
+        (&values, &choice),
+        &grid,
+    )))
 }
 
 /// Prints the manoeuvres, the best first.

@@ -65,3 +65,27 @@ pub trait Separable: Sync {
     /// The model at these values of `q`.
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation;
 }
+
+/// The inner coordinate of a value, in which a parameter is stepped.
+pub fn inner(scale: Scale, value: f64) -> f64 {
+    match scale {
+        Scale::Linear => value,
+        Scale::Logarithmic => value.ln(),
+    }
+}
+
+/// The value at an inner coordinate.
+pub fn outer(scale: Scale, coordinate: f64) -> f64 {
+    match scale {
+        Scale::Linear => coordinate,
+        Scale::Logarithmic => coordinate.exp(),
+    }
+}
+
+/// Slope of the inner coordinate by the value.
+pub fn inner_slope(scale: Scale, value: f64) -> f64 {
+    match scale {
+        Scale::Linear => 1.0,
+        Scale::Logarithmic => 1.0 / value,
+    }
+}

@@ -71,30 +71,6 @@ pub fn noise(seed: u64, rows: usize, memory: f64) -> Vec<f64> {
         .collect()
 }
 
-/// Whether every number is the wanted one, relative.
-pub fn close(found: &[f64], wanted: &[f64], relative: f64) {
-    assert_eq!(found.len(), wanted.len());
-    for (found, wanted) in found.iter().zip(wanted) {
-        assert!(
-            (found - wanted).abs() <= relative * wanted.abs(),
-            "{found} is not {wanted}"
-        );
-    }
-}
-
-/// Noise by formula, so that another program can make the same: `fract(sin(12.9898 k) 43758.5453) - 1/2`.
-pub fn hash(k: usize) -> f64 {
-    let value = (12.9898 * k as f64).sin() * 43758.5453;
-    value - value.floor() - 0.5
-}
-
-/// 1,500 rows of [`hash`] times 0.4, and an outlier of 3 in every 97th row.
-pub fn rough() -> Vec<f64> {
-    (0..1500)
-        .map(|k| 0.4 * hash(k) + if k % 97 == 0 { 3.0 } else { 0.0 })
-        .collect()
-}
-
 /// A sum of columns and a fixed part.
 pub fn total(evaluation: &Evaluation, linear: &[f64]) -> Vec<f64> {
     let mut sum = evaluation.fixed.clone();

@@ -1,7 +1,6 @@
 //! The point about which sums of a screw's traces are made: the same for all traces, and not far from any screw.
 
 use crate::fit::problem::Scale;
-use crate::fit::separable::Fit;
 use crate::fit::uncertainty::Uncertainty;
 use crate::screw::quantities::{LINEAR, NONLINEAR};
 use crate::sums::{Reference, Sums, SumsError};
@@ -39,10 +38,14 @@ pub fn of_screw() -> Vec<Reference> {
 ///
 /// # Errors
 /// Parameters that the references do not have.
-pub fn sums(references: Vec<Reference>, fit: &Fit, sure: &Uncertainty) -> Result<Sums, Failure> {
+pub fn sums(
+    references: Vec<Reference>,
+    residual: &[f64],
+    sure: &Uncertainty,
+) -> Result<Sums, Failure> {
     let refused = |error: SumsError| Failure::Data(format!("population: {error}"));
     let mut sums = Sums::new(references).map_err(refused)?;
-    match sums.add(fit, sure) {
+    match sums.add(residual, sure) {
         Ok(()) | Err(SumsError::NotFinite(_)) => Ok(sums),
         Err(error) => Err(refused(error)),
     }

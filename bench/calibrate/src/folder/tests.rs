@@ -10,7 +10,6 @@ use tempfile::{TempDir, tempdir};
 use super::*;
 use crate::answer::Estimate;
 use crate::fit::problem::Scale;
-use crate::fit::separable::{Fit, Verdict};
 use crate::fit::uncertainty::{Interval, Uncertainty};
 use crate::sums::Reference;
 
@@ -62,27 +61,10 @@ fn fit(trace: &Path) -> Result<(Calibration, Sums), Failure> {
             errors[i] * errors[j] * if i == j { 1.0 } else { 0.3 }
         }),
         correlation: DMatrix::identity(2, 2),
-        singular_values: vec![1.0; 2],
-        condition: 1.0,
-        null_direction: vec![1.0, 0.0],
-        lags: 1,
         effective_rows: 7.3,
-        noise: 0.1,
-        quantile: 2.0,
-    };
-    let fit = Fit {
-        nonlinear: vec![friction],
-        linear: vec![offset],
-        residual: vec![0.1; 10],
-        weights: vec![1.0; 10],
-        jacobian: DMatrix::zeros(10, 2),
-        evaluations: 1,
-        starts: vec![],
-        verdict: Verdict::Single,
-        at_bound: vec![],
     };
     let mut sums = Sums::new(reference()).unwrap();
-    sums.add(&fit, &sure).unwrap();
+    sums.add(&[0.1; 10], &sure).unwrap();
     let estimate = |name: &str, value: f64, error: f64| Estimate {
         name: name.into(),
         unit: "",

@@ -25,12 +25,6 @@ fn picture(rows: usize, coordinate: Coordinate) -> Picture {
         position,
         load: Some(of(|at| 1000.0 * (7.3 * at).sin())),
         temperature: None,
-        profiles: vec![Profile {
-            name: "friction".into(),
-            unit: String::new(),
-            best: 0.115,
-            points: vec![(0.10, 9.0), (0.115, 0.0), (0.13, 9.0)],
-        }],
         correlations: Correlations {
             names: vec!["friction".into(), "preload".into()],
             rows: vec![vec![1.0, -0.97], vec![-0.97, 1.0]],
@@ -110,7 +104,7 @@ fn a_page_stands_by_itself() {
     ] {
         assert!(markdown.contains(text), "{text}\n{markdown}");
     }
-    for name in ["trace_and_model", "residual", "spectrum", "profiles"] {
+    for name in ["trace_and_model", "residual", "spectrum"] {
         assert!(read(&format!("{name}.svg")).starts_with("<svg"), "{name}");
         assert!(read(&format!("{name}.csv")).lines().count() > 3, "{name}");
     }
@@ -156,7 +150,6 @@ fn very_little_still_makes_a_page() {
     for rows in [0, 1, 2] {
         let mut little = picture(rows, Coordinate::Translation);
         little.correlations = Correlations::default();
-        little.profiles.clear();
         document(&calibration(), &little, &Truth::new(), false)
             .write(folder.path())
             .unwrap();

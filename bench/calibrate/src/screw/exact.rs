@@ -8,17 +8,12 @@
 //! from a grid with [`Spacing::FINE`], of which only the nodes around the answer are solved.
 
 use std::collections::HashMap;
-use std::f32::consts::TAU;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use epas_design::CagedDesign;
 use epas_design::drawing::drawing;
 use epas_friction::law::coefficient::DirectionalCoefficient;
-use epas_friction::scene::{
-    CheckedInputs, Inputs, Outputs, Regime, ReversalState, Scene, SceneOutputs as _, Sliding,
-    SlidingFriction,
-};
-use epas_friction::{Error, Faults, Range, ranges};
+use epas_friction::scene::SlidingFriction;
 use epas_reference::ReferenceError;
 use epas_reference::curvature::Groove;
 use epas_reference::design::BallScrewDesign;
@@ -26,8 +21,6 @@ use epas_reference::friction::caged_ball::CagedBall;
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 use rayon::prelude::*;
-
-use super::recent::Recent;
 
 /// Octaves above none between which a contact of a preload lifts off, and the torque changes within a few percent of the load.
 const LIFT_OFF: (f64, f64) = (0.6, 1.2);
@@ -134,9 +127,6 @@ const DRAG: f64 = 1.0;
 /// Points of a cubic.
 const POINTS: usize = 4;
 
-/// Grids that are kept.
-static GRIDS: Recent<(CagedDesign, f64, Spacing), Arc<Grid>> = Recent::new(8);
-
 /// What of a ball's torque is told apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Part {
@@ -163,7 +153,6 @@ pub struct Grid {
     design: BallScrewDesign,
     rolling: RollingResistance,
     balls: f64,
-    reduced_lead: f64,
     spacing: Spacing,
     /// Ratio of neighbouring friction coefficients.
     ratio: f64,
@@ -181,7 +170,6 @@ pub struct Grid {
 #[derive(Clone, Debug)]
 pub struct ExactLaw {
     balls: f64,
-    reduced_lead: f64,
     spacing: Spacing,
     /// Lift-off load of a ball, N; 0 without a preload.
     lift_off: f64,
@@ -217,7 +205,7 @@ fn friction_place(friction: f64, logarithm: f64) -> f64 {
 }
 
 impl Grid {
-    /// That of a design under axial loads up to a largest one, N: one that is kept, or a new one.
+    /// That of a design under axial loads up to a largest one, N.
     ///
     /// # Errors
     /// What the reference refuses of the design.
@@ -228,14 +216,7 @@ impl Grid {
     ) -> Result<Arc<Self>, ReferenceError> {
         let largest = BEYOND * largest_load.abs() / f64::from(caged.loaded_balls);
         let largest = largest.max(LEAST_LARGEST).log2().ceil().exp2();
-        // The friction coefficient is one of the grid's own.
-        let key = CagedDesign {
-            friction: 0.0,
-            ..*caged
-        };
-        GRIDS.of((key, largest, spacing), || {
-            Ok(Arc::new(Self::new(caged, largest, spacing)?))
-        })
+        Ok(Arc::new(Self::new(caged, largest, spacing)?))
     }
 
     fn new(caged: &CagedDesign, largest: f64, spacing: Spacing) -> Result<Self, ReferenceError> {
@@ -249,7 +230,6 @@ impl Grid {
                 lubricant_drag: caged.rolling_resistance.lubricant_drag.into(),
             },
             balls: caged.loaded_balls.into(),
-            reduced_lead: f64::from(caged.design.lead()) / f64::from(TAU),
             spacing,
             ratio: spacing.friction_ratio(caged.clearance.gap() > 0.0),
             gap: caged.clearance.gap().into(),
@@ -333,7 +313,6 @@ impl Grid {
         });
         Ok(ExactLaw {
             balls: self.balls,
-            reduced_lead: self.reduced_lead,
             spacing: self.spacing,
             lift_off,
             first_load: if preloaded {
@@ -485,7 +464,20 @@ impl ExactLaw {
         axial_load: f32,
         coefficient: DirectionalCoefficient,
     ) -> SlidingFriction {
-        let load = f64::from(axial_load) / self.balls;
+        let load = f64::from(axial_load);
+        let whole = load.abs() / self.balls + self.lift_off;
+        let one =
+            |direction: f64, friction: f32| self.sliding(load, direction, friction.into()) as f32;
+        SlidingFriction {
+            forward: one(1.0, coefficient.forward),
+            backward: one(-1.0, coefficient.backward),
+            load: (self.balls * whole) as f32,
+        }
+    }
+
+    /// Friction of gross sliding, N m, in a direction, 1 or -1, under an axial load, N, that opposes a forward motion, with a coefficient.
+    pub fn sliding(&self, axial_load: f64, direction: f64, friction: f64) -> f64 {
+        let load = axial_load / self.balls;
         let whole = load.abs() + self.lift_off;
         let points = (self.values[0].len() / self.frictions.max(1)).max(POINTS);
         let octaves = (whole / self.first_load).log2().max(0.0);
@@ -503,30 +495,8 @@ impl ExactLaw {
             along = shifted(along, beyond);
             first -= beyond as i32;
         }
-        let at = (first as usize, &along);
-        let opposed = usize::from(load < 0.0);
-        let assisted = usize::from(load > 0.0);
-        SlidingFriction {
-            forward: self.torque(at, opposed, coefficient.forward.into(), whole) as f32,
-            backward: self.torque(at, assisted, coefficient.backward.into(), whole) as f32,
-            load: (self.balls * whole) as f32,
-        }
-    }
-
-    /// Friction at a speed, N m, that passes through zero over a reversal speed, rad/s, with one coefficient.
-    pub fn by_speed(&self, inputs: Inputs, friction: f32, reversal_speed: f32) -> f64 {
-        let both = DirectionalCoefficient {
-            forward: friction,
-            backward: friction,
-        };
-        let full = self.friction(inputs.axial_load, both);
-        let speed = f64::from(inputs.nut_speed);
-        let full = if speed < 0.0 {
-            full.backward
-        } else {
-            full.forward
-        };
-        speed / speed.hypot(reversal_speed.into()) * f64::from(full)
+        let assists = usize::from(direction * load < 0.0);
+        self.torque((first as usize, &along), assists, friction, whole)
     }
 }
 
@@ -539,204 +509,5 @@ fn shifted(weights: [f64; POINTS], places: usize) -> [f64; POINTS] {
     moved
 }
 
-/// A screw by such a law, as what a memory is put around.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ExactScrew<'a>(std::marker::PhantomData<&'a ()>);
-
-impl<'a> Scene for ExactScrew<'a> {
-    type Configuration = &'a ExactLaw;
-    type Constants = &'a ExactLaw;
-    type State = ();
-    type Inputs = Inputs;
-    type ValidInputs = Inputs;
-    type Outputs = Outputs;
-
-    fn constants(law: &&'a ExactLaw) -> Result<&'a ExactLaw, Error> {
-        Ok(law)
-    }
-
-    fn initial_state(_: &&'a ExactLaw) {}
-
-    fn take_over(_: &&'a ExactLaw, (): &mut ()) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn check_inputs(_: &&'a ExactLaw, inputs: Inputs) -> CheckedInputs<Inputs> {
-        let sound = inputs.nut_speed.is_finite() && inputs.axial_load.is_finite();
-        CheckedInputs {
-            inputs: sound.then_some(inputs),
-            faults: if sound {
-                Faults::NONE
-            } else {
-                Faults::LOAD_NOT_FINITE
-            },
-        }
-    }
-
-    fn outputs(_: &&'a ExactLaw, (): &mut (), _: Inputs) -> Outputs {
-        // Without memory nothing runs it.
-        Outputs::SAFE
-    }
-
-    fn largest_friction(_: &&'a ExactLaw) -> f32 {
-        f32::MAX
-    }
-}
-
-impl<'a> Sliding for ExactScrew<'a> {
-    const FRICTION: Range = ranges::FRICTION_OF_A_ROW;
-
-    const COUNTS_PRELOAD: bool = true;
-
-    type Friction = SlidingFriction;
-
-    fn sliding_friction(
-        law: &&'a ExactLaw,
-        (): &mut (),
-        inputs: Inputs,
-        friction: DirectionalCoefficient,
-    ) -> SlidingFriction {
-        law.friction(inputs.axial_load, friction)
-    }
-
-    fn by_direction(full: &SlidingFriction) -> SlidingFriction {
-        *full
-    }
-
-    /// Friction and the torque of the load alone: a fit reads nothing else.
-    fn outputs_at(
-        law: &&'a ExactLaw,
-        inputs: Inputs,
-        full: &SlidingFriction,
-        reversal: ReversalState,
-    ) -> Outputs {
-        let full = if reversal.factor < 0.0 {
-            full.backward
-        } else {
-            full.forward
-        };
-        Outputs {
-            friction_torque: reversal.factor * full,
-            load_torque: inputs.axial_load * law.reduced_lead as f32,
-            efficiency: 0.0,
-            regime: if reversal.standing {
-                Regime::Standing
-            } else {
-                Regime::Driving
-            },
-            faults: Faults::NONE,
-        }
-    }
-
-    fn limited_travel(_: &&'a ExactLaw, turn: f32, measured: f32) -> (f32, f32) {
-        (turn, measured)
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use epas_friction::Clearance;
-    use rand::{RngExt, SeedableRng};
-    use rand_pcg::Pcg64;
-
-    use super::*;
-    use epas_design::files::DesignSource;
-
-    /// Largest axial load, N.
-    const LARGEST: f64 = 6000.0;
-
-    /// Relative errors of a grid's law, largest and rms, for another gap, a friction coefficient between nodes and more rolling resistance, at
-    /// random loads of both signs.
-    fn errors(caged: &CagedDesign, grid: &Grid, random: &mut Pcg64) -> [f64; 2] {
-        let friction = random.random_range(0.03..0.15);
-        let law = grid.law(caged, (friction, friction)).unwrap();
-        let ball = caged.exact_ball(friction);
-        let both = DirectionalCoefficient {
-            forward: friction,
-            backward: friction,
-        };
-        let mut found: Vec<f64> = Vec::new();
-        for side in [1.0, -1.0] {
-            let mut loads: Vec<f64> = (0..60)
-                .map(|_| LARGEST / grid.balls * 0.01f64.powf(random.random()))
-                .collect();
-            loads.sort_by(|a, b| b.total_cmp(a));
-            let loads: Vec<f64> = loads.iter().map(|load| side * load).collect();
-            for (exact, load) in ball.along(&loads).unwrap().into_iter().zip(&loads) {
-                let sliding = law.friction((load * grid.balls) as f32, both);
-                let torque = f64::from(sliding.forward) / grid.balls;
-                found.push((torque / exact.unwrap().torque - 1.0).abs());
-            }
-        }
-        let largest = found.iter().copied().fold(0.0, f64::max);
-        let squares: f64 = found.iter().map(|error| error * error).sum();
-        [largest, (squares / found.len() as f64).sqrt()]
-    }
-
-    fn designs() -> impl Iterator<Item = CagedDesign> {
-        ["lin-4.1", "25x5x3.175"].into_iter().map(|name| {
-            let source: DesignSource = name.parse().unwrap();
-            source.load().unwrap().caged
-        })
-    }
-
-    /// A trace without a load needs the screw's friction under its preload alone, however large that is beside the largest load: 100 to
-    /// 1500 N a contact lift off at 200 to 3000 N a ball, where a grid for no load reaches to 64 N.
-    #[test]
-    fn a_preload_is_solved_without_a_load() {
-        let design = designs().next().unwrap();
-        for gap in [-3e-6, -9e-6, -18e-6] {
-            let mut caged = design;
-            caged.clearance = Clearance::new(gap).unwrap();
-            let grid = Grid::of(&caged, 0.0, Spacing::COARSE).unwrap();
-            let law = grid.law(&caged, (0.1, 0.1)).unwrap();
-            let both = DirectionalCoefficient {
-                forward: 0.1,
-                backward: 0.1,
-            };
-            let found = f64::from(law.friction(0.0, both).forward) / grid.balls;
-            let lift_off = grid.lift_off(gap.into());
-            assert!(lift_off > LEAST_LARGEST, "{lift_off}");
-            // The ball itself, from where one flank carries down to a thousandth of the lift-off load.
-            let loads: Vec<f64> = (0..60)
-                .map(|k| 3.0 * lift_off * 3e-4_f64.powf(f64::from(k) / 59.0))
-                .collect();
-            let ball = caged.exact_ball(0.1);
-            let exact = ball.along(&loads).unwrap().pop().unwrap().unwrap().torque;
-            // A grid of the search errs by some parts in a thousand, a thousandth of the load changes a thousandth of the torque.
-            assert!((found / exact - 1.0).abs() < 1e-2, "{gap}: {found} {exact}");
-        }
-    }
-
-    /// The law errs where a contact opens between two loads, two friction coefficients or two gaps. Measured over four seeds, with a preload
-    /// and its own gap, with a preload and another gap, and with play, the largest of both designs: fine 4.3e-3, 5.8e-3, 3.2e-3 (rms 4.1e-4,
-    /// 4.7e-4, 3.4e-4), coarse 1.7e-2, 1.8e-2, 6.1e-2 (rms 1.1e-3, 1.8e-3, 5.7e-3). The bounds leave room for other loads and coefficients.
-    #[test]
-    fn regression_of_the_grid_against_the_exact_ball() {
-        for (spacing, [most, most_rms]) in [
-            (Spacing::FINE, [3e-2, 3e-3]),
-            (Spacing::COARSE, [0.15, 2e-2]),
-        ] {
-            let mut random = Pcg64::seed_from_u64(7);
-            for design in designs() {
-                let with = |gap: f32, hysteresis_loss: f32| {
-                    let mut caged = design;
-                    caged.clearance = Clearance::new(gap).unwrap();
-                    caged.rolling_resistance.hysteresis_loss = hysteresis_loss;
-                    caged
-                };
-                let own = design.rolling_resistance.hysteresis_loss;
-                for (gap, others) in [(-1e-6, vec![-1e-6, -1.7e-6]), (4e-6, vec![4e-6])] {
-                    let grid = Grid::of(&with(gap, own), LARGEST, spacing).unwrap();
-                    for other in others {
-                        for loss in [own, 0.05] {
-                            let [largest, rms] = errors(&with(other, loss), &grid, &mut random);
-                            println!("{spacing:?} {gap} {other} {loss}: {largest:.1e} {rms:.1e}");
-                            assert!(largest < most && rms < most_rms, "{largest} {rms}");
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
+mod tests;

@@ -12,7 +12,6 @@ use epas_rig::{Rig, Sensors};
 use super::exact::{Grid, Spacing};
 use super::{Request, calibrate};
 use crate::answer::{Calibration, Estimate};
-use crate::fit::separable::FitSettings;
 use crate::fit::toys::noise;
 use crate::trace::columns::{Frame, from_reader};
 use epas_design::files::{DesignSource, read};
@@ -51,11 +50,6 @@ fn said(trace: &epas_rig::Trace) -> Result<Calibration, String> {
     let mut request = Request {
         without_models: true,
         ratio_unsaid: true,
-        fit: FitSettings {
-            starts: 1,
-            finished: 1,
-            ..Request::default().fit
-        },
         ..Request::default()
     };
     let estimated = TRUTH.map(|(name, _)| name.to_owned());

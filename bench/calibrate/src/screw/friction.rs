@@ -3,42 +3,25 @@
 //! One formula, in one place: values of a calibration become a design here, and nowhere else. Firmware evaluates a block that is folded for
 //! that design, whose certificate says how far it is from the exact ball.
 
-use std::f32::consts::{PI, TAU};
 use std::sync::Arc;
 
 use epas_design::CagedDesign;
 use epas_friction::law::Elements;
-use epas_friction::law::coefficient::DirectionalCoefficient;
 use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, RollingDrag, TemperatureFade, Viscosity,
+    CoefficientLaw, CoefficientParameters, DirectionalCoefficient, RollingDrag, Viscosity,
 };
 use epas_friction::law::memory::{
-    Hysteresis, LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
+    LoadExactElements, Part, PreloadedElements, ProportionalElements, SLIP_8,
 };
-use epas_friction::law::motion::{Deadband, WrappedAngle, WrappedAngleParameters};
-use epas_friction::scene::{
-    Freshness, Inputs, SlidingFriction, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
-};
-use epas_friction::{Clearance, Error, FrictionModel, RollingResistance};
+use epas_friction::scene::SlidingFriction;
+use epas_friction::{Clearance, Error, RollingResistance};
 
-use super::exact::{ExactLaw, ExactScrew, Grid, Spacing};
+use super::exact::{ExactLaw, Grid, Spacing};
 use super::quantities::Values;
-use crate::signals::Motion;
-use crate::signals::filter::ZeroPhase;
-use crate::trace::Trace;
 use epas_page::failure::Failure;
 
 /// Elements of every calibrated memory.
 pub const ELEMENTS: usize = 8;
-
-/// Sensor of the nut's angle, behind its backlash.
-pub type Sensor = Deadband<WrappedAngle>;
-
-/// A scene with such a memory.
-pub type Remembering<'a, E> = WithMemory<ExactScrew<'a>, E, Sensor, CoefficientLaw>;
-
-/// What is set for it.
-pub type Configuration<'a, E> = WithMemoryConfiguration<&'a ExactLaw, E, Sensor, CoefficientLaw>;
 
 /// Distance of the second point of a viscosity from the reference temperature, K.
 const SECOND: f32 = 60.0;
@@ -242,35 +225,6 @@ impl Screw {
         }
     }
 
-    /// The whole scene with these elements.
-    ///
-    /// # Errors
-    /// [`Error`] naming a value out of range.
-    pub fn configuration<'a, E: Elements + Hysteresis + Copy>(
-        &self,
-        values: &Values,
-        reference: &Reference,
-        elements: E,
-        law: &'a ExactLaw,
-    ) -> Result<Configuration<'a, E>, Error> {
-        let coefficient = CoefficientLaw::new(&self.coefficient(values))?;
-        let angle = WrappedAngle::new(WrappedAngleParameters {
-            lowest: -PI,
-            period: TAU,
-            largest_turn: PI,
-        })?;
-        Ok(WithMemoryConfiguration {
-            scene: law,
-            elements,
-            angle: Deadband::new(angle, 0.5 * values.backlash as f32)?,
-            reference_load: reference.load,
-            play: elements.breakaway(),
-            coefficient,
-            temperature: TemperatureFade::new(self.reference_temperature as f32, 1.0, 1.0)?,
-            freshness: Freshness::DEFAULT,
-        })
-    }
-
     /// The law of these values: for all friction coefficients that they take.
     ///
     /// # Errors
@@ -294,109 +248,69 @@ impl Screw {
     ) -> Result<Vec<f64>, Failure> {
         let law = &self.law(values, grid)?;
         let reference = self.reference_of(law, values);
-        let friction = match self.elements {
-            ElementsKind::Proportional => {
-                let elements = self.proportional(values, &reference)?;
-                course.friction(&self.configuration(values, &reference, elements, law)?)
-            }
-            ElementsKind::Preloaded => {
-                let elements = self.preloaded(values, &reference)?;
-                course.friction(&self.configuration(values, &reference, elements, law)?)
-            }
-            ElementsKind::LoadExact => {
-                let elements = self.load_exact(values, &reference)?;
-                course.friction(&self.configuration(values, &reference, elements, law)?)
-            }
+        let coefficient = CoefficientLaw::new(&self.coefficient(values))?;
+        let stepped = Stepped {
+            law,
+            coefficient,
+            reference_load: reference.load,
+            half_backlash: 0.5 * values.backlash,
         };
-        Ok(friction?)
-    }
-
-    /// Friction torque at every sample, N m, without memory: with one coefficient, over a reversal speed, rad/s.
-    ///
-    /// # Errors
-    /// A value out of range.
-    pub fn friction_by_speed(
-        &self,
-        values: &Values,
-        course: &Course,
-        grid: &Grid,
-        reversal_speed: f32,
-    ) -> Result<Vec<f64>, Failure> {
-        let friction = values.friction as f32;
-        let law = grid.law(&self.scene(values)?, (friction, friction))?;
-        let inputs = course.inputs().iter();
-        Ok(inputs
-            .map(|inputs| law.by_speed(inputs.scene, friction, reversal_speed))
-            .collect())
+        Ok(match self.elements {
+            ElementsKind::Proportional => {
+                stepped.along(&self.proportional(values, &reference)?, course)
+            }
+            ElementsKind::Preloaded => stepped.along(&self.preloaded(values, &reference)?, course),
+            ElementsKind::LoadExact => stepped.along(&self.load_exact(values, &reference)?, course),
+        })
     }
 }
 
-/// What the model is told at every sample.
+/// What the model is told at every sample; all of one length.
 #[derive(Clone, Debug)]
 pub struct Course {
-    inputs: Vec<WithMemoryInputs<Inputs, f32>>,
+    /// Angle of the nut's sensor, rad.
+    pub angle: Vec<f64>,
+    /// Speed, rad/s.
+    pub speed: Vec<f64>,
+    /// Axial load, N: one without noise, which would cut what elements hold before they slide, whenever it lowers their limits.
+    pub load: Option<Vec<f64>>,
+    /// Temperature, K.
+    pub temperature: Vec<f64>,
 }
 
-impl Course {
-    /// Inputs along a trace, with its load smoothed by a filter where one is given; no load, and the temperature given, where nothing was
-    /// measured.
-    ///
-    /// Noise of the load would cut what elements hold before they slide, whenever it lowers their limits.
-    pub fn of(
-        trace: &Trace,
-        motion: &Motion,
-        smoothing: Option<&ZeroPhase>,
-        temperature: f64,
-    ) -> Self {
-        let load = trace.load.as_deref().map(|load| match smoothing {
-            Some(filter) => filter.apply(load),
-            None => load.to_vec(),
-        });
-        let at = |list: &Option<Vec<f64>>, index: usize, other: f64| {
-            let value = list.as_ref().and_then(|list| list.get(index));
-            value.copied().unwrap_or(other) as f32
-        };
-        let moments = motion.position.iter().zip(&motion.speed).enumerate();
-        let inputs = moments.map(|(index, (position, speed))| WithMemoryInputs {
-            scene: Inputs {
-                nut_speed: *speed as f32,
-                axial_load: at(&load, index, 0.0),
-            },
-            reading: wrapped(*position),
-            load_age: 0.0,
-            temperature: at(&trace.temperature, index, temperature),
-            temperature_age: 0.0,
-        });
-        Self {
-            inputs: inputs.collect(),
-        }
-    }
+/// What a memory is stepped with: friction of gross sliding in both directions at every sample, and the turn behind the backlash.
+struct Stepped<'a> {
+    law: &'a ExactLaw,
+    coefficient: CoefficientLaw,
+    reference_load: f32,
+    half_backlash: f64,
+}
 
-    /// Inputs at every sample.
-    pub fn inputs(&self) -> &[WithMemoryInputs<Inputs, f32>] {
-        &self.inputs
-    }
-
-    /// Friction torque of a scene with memory at every sample, N m.
-    ///
-    /// # Errors
-    /// [`Error`] naming what is out of range in the configuration.
-    pub fn friction<E: Elements + Copy>(
-        &self,
-        configuration: &Configuration<'_, E>,
-    ) -> Result<Vec<f64>, Error> {
-        let mut model = FrictionModel::<Remembering<'_, E>>::new(configuration)?;
-        Ok(self
-            .inputs
+impl Stepped<'_> {
+    /// Friction torque at every sample, N m, at rest before the first.
+    fn along<E: Elements>(&self, elements: &E, course: &Course) -> Vec<f64> {
+        let mut state = E::VIRGIN;
+        let mut angle = course.angle.first().copied().unwrap_or(0.0);
+        let samples = course
+            .angle
             .iter()
-            .map(|inputs| model.step(*inputs).friction_torque.into())
-            .collect())
+            .zip(&course.speed)
+            .zip(&course.temperature);
+        samples
+            .enumerate()
+            .map(|(sample, ((reading, speed), temperature))| {
+                let last = angle;
+                angle = angle
+                    .max(reading - self.half_backlash)
+                    .min(reading + self.half_backlash);
+                let now = self.coefficient.at_temperature(*temperature as f32);
+                let load = course.load.as_ref().map_or(0.0, |load| load[sample]);
+                let full = self.law.friction(load as f32, now.both(*speed as f32));
+                let limits = full.limits(1.0 / self.reference_load);
+                elements
+                    .follow(&mut state, (angle - last) as f32, &limits)
+                    .into()
+            })
+            .collect()
     }
-}
-
-/// An angle within half a turn either way, rad.
-fn wrapped(angle: f64) -> f32 {
-    let half = std::f64::consts::PI;
-    let within = (angle + half).rem_euclid(2.0 * half) - half;
-    (within as f32).clamp(-PI, PI)
 }

@@ -9,7 +9,6 @@ use epas_rig::{Rig, Sensors};
 
 use super::{Request, calibrate};
 use crate::answer::Calibration;
-use crate::fit::separable::FitSettings;
 use crate::trace::columns::{Frame, from_reader};
 use epas_design::files::DesignSource;
 
@@ -19,14 +18,8 @@ fn said(trace: &epas_rig::Trace) -> Result<Calibration, String> {
     let frame = Frame::of(&design, None);
     let mut text = Vec::new();
     trace.write_csv(&mut text).unwrap();
-    let fit = Request::default().fit;
     let request = Request {
         without_models: true,
-        fit: FitSettings {
-            starts: 1,
-            finished: 1,
-            ..fit
-        },
         ..Request::default()
     };
     from_reader(Cursor::new(text), "spoiled", Some(&frame))

@@ -7,17 +7,11 @@ use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
 use epas_rig::{Rig, Sensors};
 use rayon::prelude::*;
-use statrs::statistics::Statistics;
 
 use super::choice::Wanted;
-use super::exact::Spacing;
 use super::friction::Screw;
 use super::{Request, ScrewCalibration, calibrate};
-use crate::fit::cramer_rao::inverse;
-use crate::fit::separable::{FitSettings, inner, inner_slope};
-use crate::sums::{Population, Sums};
 use crate::trace::{Coordinate, Repairs, Trace};
-use crate::with_design::sums;
 use epas_design::files::{Design, DesignSource};
 
 /// The rig's screw with another preload and friction coefficient: what an engineer has before a calibration.
@@ -58,16 +52,10 @@ fn trace(rig: &Rig, course: &Course, seed: u64) -> Trace {
 fn request(fix: &[(&str, f64)]) -> Request {
     let fix = fix.iter().map(|(name, value)| ((*name).into(), *value));
     let reference = ("reference_temperature".to_string(), 303.15);
-    let fit = Request::default().fit;
     Request {
         wanted: Wanted {
             fix: fix.chain([reference]).collect(),
             ..Wanted::default()
-        },
-        fit: FitSettings {
-            starts: 1,
-            finished: 1,
-            ..fit
         },
         without_models: true,
         ..Request::default()
@@ -136,35 +124,6 @@ fn a_short_trace_tells_what_the_rig_was_made_with() {
         friction.half_width() < 0.02 * friction.value,
         "{friction:?}"
     );
-}
-
-/// A search on the coarse grid and one on the fine grid end at the same answer: value and half width of every parameter agree to a hundredth
-/// of the half width. That is 0.02 standard deviations, which add 4e-4 to the mean square of the error.
-#[test]
-fn a_coarse_search_ends_at_the_fine_answer() {
-    let trace = trace(&rig(Sensors::default()), &Course::vehicle().times(0.2), 3);
-    let of = |search: Spacing| {
-        let request = Request {
-            search,
-            ..request(&[])
-        };
-        calibrate(&trace, &design(), &request).unwrap().answer
-    };
-    let [coarse, fine] = [Spacing::COARSE, Spacing::FINE].map(of);
-    let mut estimated = 0;
-    for (coarse, fine) in coarse.parameters.iter().zip(&fine.parameters) {
-        assert_eq!((&coarse.name, coarse.fixed), (&fine.name, fine.fixed));
-        let allowed = 0.01 * fine.half_width();
-        let off = (coarse.value - fine.value).abs();
-        let wider = (coarse.half_width() - fine.half_width()).abs();
-        println!("{}: {off:e} {wider:e} of {allowed:e}", fine.name);
-        assert!(
-            off <= allowed && wider <= allowed,
-            "{coarse:?} and {fine:?}"
-        );
-        estimated += usize::from(!fine.fixed);
-    }
-    assert!(estimated >= 10, "{estimated} parameters are estimated");
 }
 
 /// What is estimated on request only: rolling resistance and backlash, each of a screw that has more of it than the design says, beside
@@ -256,11 +215,6 @@ fn wrong_requests_are_named() {
     let mut both = request(&[("friction", 0.1)]);
     both.wanted.estimate = Some(vec!["friction".into()]);
     assert!(refused(&both, &trace).contains("both"));
-    let mut profiled = request(&[("preload", 14.0)]);
-    for (name, word) in [("foo", "foo: unknown"), ("preload", "without a profile")] {
-        profiled.profiles = vec![name.into()];
-        assert!(refused(&profiled, &trace).contains(word));
-    }
     let mut beside = request(&[]);
     beside.unseen = Some(Trace {
         load: None,
@@ -279,143 +233,58 @@ struct Coverage {
     runs: u64,
     /// Runs whose interval holds the truth.
     held: u64,
-    /// Sum over the runs of the half width over that of the Cramer-Rao bound.
-    width: f64,
+    /// Half widths over the truth, or themselves where that is zero.
+    widths: Vec<f64>,
     /// Sum over the runs of the error over the half width.
     error: f64,
 }
 
-/// Half widths of 95 % of the Cramer-Rao bound, in inner coordinates: white noise on the torque alone, everything else known. The
-/// rows' slopes stand for those of all samples: a model's torque has next to nothing above the rows' cut-off.
-fn bound(found: &ScrewCalibration, effort: &[f64]) -> Vec<f64> {
-    let noise = Sensors::default().torque_noise.powi(2) * effort.population_variance();
-    let mut slopes = found.fit.jacobian.clone();
-    let intervals = &found.uncertainty.intervals;
-    for (mut column, interval) in slopes.column_iter_mut().zip(intervals) {
-        column /= inner_slope(interval.scale, interval.value);
-    }
-    let samples_a_row = effort.len() as f64 / slopes.nrows() as f64;
-    let information = slopes.tr_mul(&slopes) * (samples_a_row / noise);
-    let least = inverse(&information).unwrap();
-    least
-        .diagonal()
-        .map(|variance| 1.959964 * variance.sqrt())
-        .as_slice()
-        .to_vec()
-}
-
-/// One run.
-struct Run {
-    /// What it says of each parameter that it estimates.
-    each: Vec<(&'static str, Coverage)>,
-    /// What it adds to the other runs.
-    sums: Sums,
-    screw: Screw,
-}
-
-/// What one run says of each parameter that it estimates, and what it adds to those of the other runs.
-fn coverage(trace: &Trace, fix: &[(&str, f64)]) -> Run {
-    let found = calibrate(trace, &design(), &request(fix)).unwrap();
-    let intervals = found.uncertainty.intervals.iter();
-    let each = intervals
-        .zip(bound(&found, &trace.effort))
-        .map(|(interval, bound)| {
-            let truth = truth(interval.name, &found.screw);
-            let error = inner(interval.scale, interval.value) - inner(interval.scale, truth);
-            let one = Coverage {
-                runs: 1,
-                held: u64::from((interval.low..=interval.high).contains(&truth)),
-                width: interval.half_width / bound,
-                error: error / interval.half_width,
-            };
-            (interval.name, one)
-        });
-    Run {
-        each: each.collect(),
-        sums: sums(&found).unwrap(),
-        screw: found.screw,
-    }
-}
-
-/// Prints what all runs say together.
-fn print_means(course: &str, runs: &[Run]) {
-    let mut whole = runs[0].sums.clone();
-    for run in &runs[1..] {
-        whole.merge(&run.sums).unwrap();
-    }
-    for Population {
-        name,
-        mean,
-        mean_interval: [low, high],
-        ..
-    } in whole.population()
-    {
-        let truth = truth(&name, &runs[0].screw);
-        let held = if (low..=high).contains(&truth) {
-            ""
-        } else {
-            ", not in it"
-        };
-        println!(
-            "{course}, mean of {name}: {mean:.4e}, {low:.4e} to {high:.4e}, truth {truth:.4e}{held}"
-        );
-    }
-}
-
-/// How often each parameter is within its own interval: at least 90 of 100; and how wide intervals are over the Cramer-Rao bound of
-/// the torque's noise; and what all runs say together. `RUNS` and `COURSES` (`vehicle,rig,whole`) in the environment choose less.
+/// How often each parameter is within its own interval: at least 90 of 100; and how wide intervals are. `RUNS` and `COURSES`
+/// (`vehicle,rig,whole`) in the environment choose less.
 ///
-/// On the rig's course alone full-film ratio, half-share speed and pole depend on the start, and the command refuses them: here they are
-/// set, as its words say. Its steep reversals make the inertia 1.0 % too large: an angle smoothed at 40 Hz turns round late, and with it the
-/// friction; imitations from a sharper angle take off the rest (1.8 % before).
-///
-/// The rig's lubricant has its pole at 209 K, the default grease, which is assumed on the vehicle's course of 25 K, at 199 K. That makes the
-/// half-share speed 5 % too small: its interval held the truth in 16 runs of 32 while the assumption counted as certain.
-///
-/// Every parameter was held in 94 of 100 runs or more on each course.
-///
-/// Widths are 1.4 to 2.4 times the bound, of the friction coefficient up to 3.7, of the breakaway angle 4 to 10 times, and with an assumed pole
-/// 5 times of the half-share speed and 4 of the preload: the bound knows
-/// neither the load's noise nor the encoder's counts, nor what the model leaves out. What the mean of 32 runs does not hold: inertia (1.0 %)
-/// and two waves (4 and 6 %) of the rig's course; of 16 runs of the whole one wave (4 %). With the pole set, the mean half-share speed of the vehicle's is 1.8 % off.
+/// The rig's lubricant has its pole at 209 K, the default grease, which is assumed on the vehicle's course of 25 K, at 199 K: the interval of
+/// the half-share speed allows for it.
 #[test]
-#[ignore = "a hundred traces of a minute on each of three courses take seven minutes on two cores"]
+#[ignore = "a hundred traces of a minute on each of three courses"]
 fn intervals_hold_nine_times_of_ten() {
     let runs: u64 = std::env::var("RUNS").map_or(100, |runs| runs.parse().unwrap());
     let wanted = std::env::var("COURSES").unwrap_or_else(|_| "vehicle,rig,whole".into());
     let rig = rig(Sensors::default());
     let mut missed = Vec::new();
-    let law = [
-        ("full_film_ratio", 0.06 / 0.115),
-        ("half_share_speed", 6.0),
-        ("viscosity_pole", 273.15 - 64.0),
-    ];
-    for (name, course, fix) in [
-        ("vehicle", Course::vehicle(), &[][..]),
-        ("rig", Course::rig(), &law),
-        ("whole", Course::whole(), &[]),
+    for (name, course) in [
+        ("vehicle", Course::vehicle()),
+        ("rig", Course::rig()),
+        ("whole", Course::whole()),
     ] {
         if !wanted.split(',').any(|wanted| wanted == name) {
             continue;
         }
-        let found: Vec<Run> = (0..runs)
+        let found: Vec<ScrewCalibration> = (0..runs)
             .into_par_iter()
-            .map(|seed| coverage(&trace(&rig, &course, seed), fix))
+            .map(|seed| calibrate(&trace(&rig, &course, seed), &design(), &request(&[])).unwrap())
             .collect();
-        print_means(name, &found);
         let mut all: BTreeMap<&str, Coverage> = BTreeMap::new();
-        for (parameter, one) in found.into_iter().flat_map(|run| run.each) {
-            let sum = all.entry(parameter).or_default();
-            sum.runs += one.runs;
-            sum.held += one.held;
-            sum.width += one.width;
-            sum.error += one.error;
+        for run in &found {
+            for interval in &run.uncertainty.intervals {
+                let truth = truth(interval.name, &run.screw);
+                let sum = all.entry(interval.name).or_default();
+                let half = 0.5 * (interval.high - interval.low);
+                sum.runs += 1;
+                sum.held += u64::from((interval.low..=interval.high).contains(&truth));
+                sum.widths.push(if truth == 0.0 {
+                    half
+                } else {
+                    half / truth.abs()
+                });
+                sum.error += (interval.value - truth) / half;
+            }
         }
-        for (parameter, sum) in all {
+        for (parameter, mut sum) in all {
             let Coverage { runs, held, .. } = sum;
+            sum.widths.sort_by(f64::total_cmp);
             println!(
-                "{name}, {parameter}: held in {held} of {runs}, {:.2} times the bound, mean error {:.2} half widths",
-                sum.width / runs as f64,
+                "{name}, {parameter}: held in {held} of {runs}, median half width {:.2e}, mean error {:.2} half widths",
+                sum.widths[sum.widths.len() / 2],
                 sum.error / runs as f64
             );
             if 10 * held < 9 * runs {

@@ -7,7 +7,7 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::reference::Reference;
 use super::sum::Sum;
-use crate::fit::separable::{inner, outer};
+use crate::fit::problem::{inner, outer};
 
 /// A parameter of the traces together.
 #[derive(Clone, Debug, PartialEq, Serialize)]

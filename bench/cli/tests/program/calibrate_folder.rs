@@ -131,10 +131,6 @@ fn a_folder_that_tells_nothing_ends_with_code_1() {
             &[".", "--design", "lin-4.1", "--constants", "gear.rs"],
             "--constants",
         ),
-        (
-            &[".", "--design", "lin-4.1", "--profile", "friction"],
-            "--profile",
-        ),
         (&["bad.csv", "--part", "1/3"], "--part"),
     ] {
         let run = calibrate(place.path(), arguments);

@@ -7,7 +7,6 @@ use epas_rig::parameters::Parameters;
 use rayon::prelude::*;
 
 use super::panel::PANEL;
-use epas_calibrate::fit::separable::FitSettings;
 use epas_calibrate::screw::choice::Wanted;
 use epas_calibrate::screw::exact::Spacing;
 use epas_calibrate::screw::friction::{Course, ElementsKind};
@@ -26,8 +25,6 @@ const PROPORTIONAL: &str = "this crate with memory, 8 elements in proportion, ca
 struct Size {
     /// Length of the course over that of the vehicle's.
     length: f64,
-    /// Starts of a fit.
-    starts: usize,
     /// Elements of this crate.
     elements: &'static [(&'static str, ElementsKind)],
     /// What of the screw is estimated; all that the trace can tell where there are no names.
@@ -37,7 +34,6 @@ struct Size {
 impl Size {
     const WHOLE: Self = Self {
         length: 1.0,
-        starts: 3,
         elements: &[
             (LOAD_EXACT, ElementsKind::Preloaded),
             (PROPORTIONAL, ElementsKind::Proportional),
@@ -47,7 +43,6 @@ impl Size {
 
     const QUICK: Self = Self {
         length: 0.3,
-        starts: 1,
         elements: &[(LOAD_EXACT, ElementsKind::Preloaded)],
         estimated: &[
             "friction",
@@ -108,11 +103,6 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
 
 /// Every model on a gear; none first.
 fn tried(gear: &Gear, size: &Size) -> Result<Vec<Tried>, Failure> {
-    let fit = FitSettings {
-        starts: size.starts,
-        finished: 1,
-        ..FitSettings::default()
-    };
     let entry = |name, friction: Vec<f64>| Tried {
         name,
         residual: gear.residual(&friction),
@@ -124,7 +114,7 @@ fn tried(gear: &Gear, size: &Size) -> Result<Vec<Tried>, Failure> {
         || {
             rivals
                 .par_iter()
-                .map(|rival| Ok(entry(rival.name(), rival.tried(gear, &fit)?)))
+                .map(|rival| Ok(entry(rival.name(), rival.tried(gear)?)))
                 .collect()
         },
         || {
@@ -137,7 +127,7 @@ fn tried(gear: &Gear, size: &Size) -> Result<Vec<Tried>, Failure> {
                             .then(|| size.estimated.iter().map(ToString::to_string).collect()),
                         ..Wanted::default()
                     };
-                    Ok(entry(name, calibrated(gear, wanted, fit)?))
+                    Ok(entry(name, calibrated(gear, wanted)?))
                 })
                 .collect()
         },
@@ -147,15 +137,20 @@ fn tried(gear: &Gear, size: &Size) -> Result<Vec<Tried>, Failure> {
 }
 
 /// Friction of the calibrated screw over the trace that was not fitted, N m.
-fn calibrated(gear: &Gear, wanted: Wanted, fit: FitSettings) -> Result<Vec<f64>, Failure> {
+fn calibrated(gear: &Gear, wanted: Wanted) -> Result<Vec<f64>, Failure> {
     let request = Request {
         wanted,
-        fit,
+        without_models: true,
         ..Request::default()
     };
     let found = calibrate(&gear.trace, &gear.design, &request)?;
-    let (trace, motion) = &gear.in_loop;
-    let course = Course::of(trace, motion, None, found.screw.reference_temperature);
+    let (trace, speed) = &gear.in_loop;
+    let course = Course {
+        angle: trace.position.clone(),
+        speed: speed.clone(),
+        load: trace.load.clone(),
+        temperature: trace.temperature.clone().unwrap_or_default(),
+    };
     let grid = found.screw.grid(&found.values, Spacing::FINE)?;
     found.screw.friction(&found.values, &course, &grid)
 }

@@ -4,7 +4,9 @@ use epas_rig::course::{Course, Manoeuvre};
 use epas_rig::parameters::Parameters;
 use epas_rig::{Rig, Sensors};
 
-use epas_calibrate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
+use epas_calibrate::estimator::kernel::Kernel;
+use epas_calibrate::estimator::record::Record;
+use epas_calibrate::estimator::rows::Rows;
 use epas_calibrate::trace::{Coordinate, Repairs, Trace};
 use epas_design::files::{Design, DesignSource};
 use epas_page::failure::Failure;
@@ -26,14 +28,16 @@ pub struct Gear {
     pub parameters: Parameters,
     /// Measured trace to be fitted.
     pub trace: Trace,
-    /// Its motion, smoothed.
-    pub motion: Motion,
+    /// The same as the estimator takes it.
+    pub record: Record,
+    /// Its speed, rad/s.
+    pub speed: Vec<f64>,
     /// How it becomes rows.
     pub rows: Rows,
     /// The trace on which models are judged, with what is true.
     unseen: epas_rig::Trace,
-    /// The same as the control unit knows it: counted angles, and a speed that tracks them.
-    pub in_loop: (Trace, Motion),
+    /// The same as the control unit knows it: counted angles, and a speed that tracks them, rad/s.
+    pub in_loop: (Trace, Vec<f64>),
 }
 
 impl Gear {
@@ -46,15 +50,18 @@ impl Gear {
         let trace = measured(&run(SEEDS[0])?);
         let unseen = run(SEEDS[1])?;
         let known = measured(&unseen);
-        let motion = tracked(&known);
+        let speed = tracked(&known);
+        let record = Record::of(&trace, &[]);
+        let rows = rows(&record);
         let source: DesignSource = "lin-4.1".parse().map_err(Failure::Data)?;
         Ok(Self {
             design: source.load()?,
             parameters,
-            motion: Motion::of(&trace, &SmoothingSettings::default())?,
-            rows: Rows::new(trace.step, &RowSettings::default())?,
+            speed: rows.kernel.along(1, &record.motion),
+            record,
+            rows,
             trace,
-            in_loop: (known, motion),
+            in_loop: (known, speed),
             unseen,
         })
     }
@@ -116,8 +123,25 @@ fn measured(trace: &epas_rig::Trace) -> Trace {
     }
 }
 
-/// Motion as it is known in the loop: the counted angle, and its speed by a tracking filter of the second order, critically damped.
-fn tracked(trace: &Trace) -> Motion {
+/// Half-width of the kernel of a row, samples, and samples between two rows.
+const ROW: [usize; 2] = [17, 6];
+
+/// Rows over the whole trace.
+fn rows(record: &Record) -> Rows {
+    let [half, hop] = ROW;
+    let centres: Vec<usize> = (half..record.len() - half).step_by(hop).collect();
+    Rows {
+        kernel: Kernel::new(half, record.tick),
+        directions: vec![0.0; centres.len()],
+        stretches: vec![0; centres.len()],
+        pieces: vec![0; centres.len()],
+        stroke: 0.0,
+        centres,
+    }
+}
+
+/// Speed as it is known in the loop: that of a filter of the second order, critically damped, that tracks the counted angle.
+fn tracked(trace: &Trace) -> Vec<f64> {
     let rate = std::f64::consts::TAU * TRACKING * trace.step;
     let (mut angle, mut speed) = (trace.position.first().copied().unwrap_or(0.0), 0.0);
     let speeds = trace.position.iter().map(|reading| {
@@ -127,12 +151,5 @@ fn tracked(trace: &Trace) -> Motion {
         speed += rate * rate * error / trace.step;
         speed
     });
-    Motion {
-        speed: speeds.collect(),
-        position: trace.position.clone(),
-        acceleration: vec![0.0; trace.len()],
-        noise: [0.0; 2],
-        edge: 0,
-        cutoff: f64::INFINITY,
-    }
+    speeds.collect()
 }

@@ -3,19 +3,18 @@
 use std::f64::consts::TAU;
 
 use epas_design::CagedDesign;
-use epas_friction::{Clearance, Inputs};
+use epas_friction::Clearance;
 
 use super::gear::Gear;
 use epas_calibrate::bristle::{bristle, stribeck};
 use epas_calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
-use epas_calibrate::fit::separable::{FitSettings, fit};
+use epas_calibrate::fit::search::fit;
 use epas_calibrate::screw::exact::{Grid, Spacing};
-use epas_calibrate::signals::Motion;
 use epas_calibrate::trace::Trace;
 use epas_page::failure::Failure;
 
 /// Nut speed over which friction changes its direction in the model of today, rad/s.
-const REVERSAL_SPEED: f32 = 0.2;
+const REVERSAL_SPEED: f64 = 0.2;
 
 /// Force of a contact without a load at which a fit begins, N.
 const FIRST_PRELOAD: f32 = 10.0;
@@ -83,7 +82,7 @@ impl Rival {
             Self::LuGreOnContacts => {
                 // Sliding forward, under every load and under none.
                 let loads: Vec<f64> = load.iter().copied().chain([0.0]).collect();
-                let speeds = vec![1e3 * f64::from(REVERSAL_SPEED); loads.len()];
+                let speeds = vec![1e3 * REVERSAL_SPEED; loads.len()];
                 let preload = screw.contact_force(screw.axial_preload);
                 let values = [gear.parameters.boundary, preload];
                 let mut torques = by_speed(&gear.design.caged, values, &speeds, &loads)?;
@@ -97,20 +96,21 @@ impl Rival {
     fn torque(self, gear: &Gear, values: &[f64], course: &Course<'_>) -> Vec<f64> {
         let Course {
             trace,
-            motion,
+            position,
+            speed,
             factors,
         } = course;
         match (self, values) {
             (Self::BySpeed, [friction, preload]) => {
                 let load = trace.load.as_deref().unwrap_or(&[]);
                 let values = [*friction, *preload];
-                by_speed(&gear.design.caged, values, &motion.speed, load)
+                by_speed(&gear.design.caged, values, speed, load)
                     .unwrap_or_else(|_| vec![f64::NAN; trace.len()])
             }
             (_, [stiffness, in_motion, at_rest, stribeck_speed]) => {
                 let mut held = 0.0;
-                let mut last = motion.position.first().copied().unwrap_or(0.0);
-                let moments = motion.position.iter().zip(&motion.speed).zip(factors);
+                let mut last = position.first().copied().unwrap_or(0.0);
+                let moments = position.iter().zip(*speed).zip(factors);
                 moments
                     .map(|((angle, speed), factor)| {
                         let pull = stiffness * (angle - last);
@@ -126,13 +126,14 @@ impl Rival {
     }
 
     /// The model, fitted, over the trace that was not: friction at every tick, N m.
-    pub fn tried(self, gear: &Gear, settings: &FitSettings) -> Result<Vec<f64>, Failure> {
+    pub fn tried(self, gear: &Gear) -> Result<Vec<f64>, Failure> {
         let problem = Fitted::new(self, gear)?;
-        let fit = fit(&problem, settings)?;
-        let (trace, motion) = &gear.in_loop;
+        let fit = fit(&problem)?;
+        let (trace, speed) = &gear.in_loop;
         let course = Course {
             trace,
-            motion,
+            position: &trace.position,
+            speed,
             factors: self.factors(gear, trace)?,
         };
         Ok(self.torque(gear, &fit.nonlinear, &course))
@@ -142,7 +143,8 @@ impl Rival {
 /// What a model is told along a trace.
 struct Course<'a> {
     trace: &'a Trace,
-    motion: &'a Motion,
+    position: &'a [f64],
+    speed: &'a [f64],
     /// See [`Rival::factors`].
     factors: Vec<f64>,
 }
@@ -169,11 +171,8 @@ fn by_speed(
     let moments = speeds.iter().zip(load);
     Ok(moments
         .map(|(speed, load)| {
-            let inputs = Inputs {
-                nut_speed: *speed as f32,
-                axial_load: *load as f32,
-            };
-            law.by_speed(inputs, friction, REVERSAL_SPEED)
+            let full = law.sliding(*load, 1_f64.copysign(*speed), friction.into());
+            speed / speed.hypot(REVERSAL_SPEED) * full
         })
         .collect())
 }
@@ -193,11 +192,12 @@ impl<'a> Fitted<'a> {
     fn new(rival: Rival, gear: &'a Gear) -> Result<Self, Failure> {
         let Gear {
             trace,
-            motion,
+            record,
+            speed,
             rows,
             ..
         } = gear;
-        let target = rows.of(&trace.effort);
+        let target = rows.sums(0, &trace.effort);
         let reduced_lead = f64::from(gear.design.caged.design.lead()) / TAU;
         let load: Vec<f64> = trace
             .load
@@ -206,18 +206,15 @@ impl<'a> Fitted<'a> {
             .map(|load| reduced_lead * load)
             .collect();
         let wave = |of: fn(f64) -> f64, order: f64| {
-            let wave: Vec<f64> = motion
-                .position
-                .iter()
-                .map(|angle| of(order * angle))
-                .collect();
-            rows.of(&wave)
+            let angles = record.motion.iter();
+            let wave: Vec<f64> = angles.map(|angle| of(order * angle)).collect();
+            rows.sums(0, &wave)
         };
         let columns = vec![
-            ("inertia", rows.of(&motion.acceleration)),
-            ("drag", rows.of(&motion.speed)),
+            ("inertia", rows.sums(2, &record.motion)),
+            ("drag", rows.sums(1, &record.motion)),
             ("offset", vec![1.0; target.len()]),
-            ("gain", rows.of(&load)),
+            ("gain", rows.sums(0, &load)),
             ("harmonic_1_cosine", wave(f64::cos, 1.0)),
             ("harmonic_1_sine", wave(f64::sin, 1.0)),
             ("harmonic_2_cosine", wave(f64::cos, 2.0)),
@@ -228,7 +225,8 @@ impl<'a> Fitted<'a> {
             gear,
             course: Course {
                 trace,
-                motion,
+                position: &record.motion,
+                speed,
                 factors: rival.factors(gear, trace)?,
             },
             nonlinear: rival.parameters(),
@@ -266,13 +264,13 @@ impl Separable for Fitted<'_> {
     }
 
     fn row_step(&self) -> f64 {
-        self.gear.rows.row_step()
+        self.gear.record.tick
     }
 
     fn evaluate(&self, values: &[f64]) -> Evaluation {
         let torque = self.rival.torque(self.gear, values, &self.course);
         Evaluation {
-            fixed: self.gear.rows.of(&torque),
+            fixed: self.gear.rows.sums(0, &torque),
             columns: self.columns.clone(),
         }
     }

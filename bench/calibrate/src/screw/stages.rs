@@ -1,0 +1,653 @@
+//! Two stages of a fit: rows of one direction, in which the balls slide, tell all that does not need a memory; rows about the turns then tell
+//! what comes before sliding, with everything else at the numbers of the first stage.
+//!
+//! Values and intervals come from the estimator on the linearised problem: its columns are the slopes at the fit, so that the noise of the
+//! motion's sensor is out of the normal equations and the jackknife runs over stretches and pieces of them. To a half-width `h` of the
+//! jackknife comes what a kernel of twice the length and twice the way after a turn say otherwise:
+//! `sqrt(h^2 + (2 |q(L) - q(2L)|)^2 + (2 |q(m) - q(2m)|)^2)`.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::choice::Start;
+use super::exact::Grid;
+use super::friction::Screw;
+use super::problem::{Choice, Passage, ScrewProblem};
+use super::quantities::{LINEAR, NONLINEAR, Values, assumed_deviation};
+use crate::estimator::fit::{Block, Fit, fit as least_squares};
+use crate::estimator::record::{QUARTER, Record};
+use crate::estimator::rows::Rows;
+use crate::fit::problem::{Scale, Separable, inner};
+use crate::fit::search::{Found, fit, slopes};
+use crate::fit::uncertainty::{Interval, QUANTILE, intervals};
+use crate::trace::Trace;
+use epas_page::failure::Failure;
+
+/// Half-widths of the kernel that are tried, s.
+const HALF_WIDTHS: [f64; 5] = [8.5e-3, 17e-3, 34e-3, 68e-3, 136e-3];
+/// Least half-width, samples.
+const LEAST_HALF: usize = 4;
+
+/// Way after a turn over the breakaway angle: friction that was full the other way is full again after twice the angle, and under the
+/// largest load later than under the reference load.
+pub const WAY: f64 = 4.0;
+
+/// Residual, in robust deviations, from which on a row is left out, and the share of the rows that may be.
+const OUTLIER: f64 = 6.0;
+const OUTLIERS: f64 = 0.02;
+
+/// Factors of the first guess of the speed law from which a fit starts.
+const STARTS: [f64; 3] = [1.0, 0.2, 5.0];
+
+/// Factors of the breakaway angle's first guess from the best of which a fit over turns starts.
+const BREAKAWAYS: [f64; 6] = [0.1, 0.3, 1.0, 3.0, 10.0, 30.0];
+
+/// Error of the scene's full friction over itself: measured against the exact ball, some ten loads and coefficients of a preloaded
+/// screw, rms 0.0016, largest 0.0043; and the blocks of speed and of load in which it is one.
+const MODEL: f64 = 2e-3;
+const SPEEDS: usize = 5;
+const LOADS: usize = 4;
+/// Error of the breakaway angle over itself for eight elements in the place of a curve: the reference's sixty elements on two courses were
+/// found 1.0 % too small and 0.9 % too large.
+const ELEMENTS: f64 = 7e-3;
+/// Step of a difference over an assumed quantity, in its standard deviations.
+const ASSUMED_STEP: f64 = 1.0 / 3.0;
+
+/// Time without a step of the sensor, s, from which on a drive may stand and be off.
+const REST: f64 = 0.3;
+/// Fewest turns that tell what comes before sliding.
+const FEWEST_TURNS: usize = 8;
+
+/// Quantities of the second stage.
+pub const AT_TURNS: [&str; 2] = ["breakaway_angle", "backlash"];
+
+/// A trace, ready to be fitted.
+pub struct Prepared<'a> {
+    /// The trace.
+    pub trace: &'a Trace,
+    /// The same as the estimator takes it.
+    pub record: Record,
+    /// The screw.
+    pub screw: Screw,
+}
+
+/// A kernel's half-width, samples, and the way after a turn, rad.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Window {
+    /// Half-width.
+    pub half: usize,
+    /// Way.
+    pub way: f64,
+}
+
+/// Rows that tell a problem, linearised.
+pub struct Linearised {
+    /// Slopes by the inner coordinates, nonlinear quantities first.
+    pub columns: Vec<Vec<f64>>,
+    /// The estimator's answer in inner coordinates.
+    pub fit: Fit,
+}
+
+/// What the first stage tells.
+pub struct Sliding {
+    /// Values of everything.
+    pub values: Values,
+    /// Intervals of what was estimated.
+    pub intervals: Vec<Interval>,
+    /// Covariance of their inner coordinates, without the model's errors.
+    pub covariance: DMatrix<f64>,
+    /// Largest over smallest singular value of the slopes, each column scaled to 1, and the direction of the smallest.
+    pub condition: (f64, Vec<f64>),
+    /// Root of the mean square of the rows' residual.
+    pub residual_rms: f64,
+}
+
+impl<'a> Prepared<'a> {
+    /// A trace without these samples.
+    pub fn new(trace: &'a Trace, left_out: &[Range<usize>], screw: Screw) -> Self {
+        Self {
+            trace,
+            record: Record::of(trace, left_out),
+            screw,
+        }
+    }
+
+    fn half(&self, seconds: f64) -> usize {
+        ((seconds / self.record.tick).round() as usize).max(LEAST_HALF)
+    }
+
+    /// Rows of one direction.
+    fn rows(&self, window: Window) -> Option<Rows> {
+        let longest = self.record.len() / 4;
+        let rows = (window.half < longest)
+            .then(|| Rows::of(&self.record, window.half, window.way, 0))
+            .flatten()?;
+        (!rows.is_empty()).then_some(rows)
+    }
+
+    /// The first stage's problem.
+    fn sliding(
+        &self,
+        window: Window,
+        (values, choice): (&Values, &Choice),
+        grid: &Arc<Grid>,
+    ) -> Option<ScrewProblem<'_>> {
+        let measured = (self.trace, &self.record, self.rows(window)?);
+        let enough = 3 * (choice.nonlinear.len() + choice.linear.len());
+        (measured.2.len() > enough).then(|| {
+            ScrewProblem::new(
+                &self.screw,
+                measured,
+                Passage::Sliding,
+                (values, choice),
+                grid,
+            )
+        })
+    }
+
+    /// The window of the first fit: the shortest kernel whose rows cover half as much as those of any; a shorter way where the strokes are
+    /// short.
+    fn first_window(&self, breakaway: f64) -> Result<Window, Failure> {
+        for way in [1.0, 0.5, 0.25].map(|share| share * WAY * breakaway) {
+            let windows = HALF_WIDTHS.map(|half| Window {
+                half: self.half(half),
+                way,
+            });
+            let covered = windows.map(|window| {
+                let rows = self.rows(window);
+                rows.map_or(0, |rows| rows.len() * window.half)
+            });
+            let most = covered.iter().copied().max().unwrap_or(0);
+            let pairs = windows.into_iter().zip(covered);
+            // A kernel of 8.5 ms is no first guess: its rows are the noisiest.
+            let mut pairs = pairs.skip(1);
+            if let Some((window, _)) =
+                pairs.find(|(_, covered)| *covered > 0 && 2 * covered >= most)
+            {
+                return Ok(window);
+            }
+        }
+        Err(Failure::Data(
+            "the motion turns round before the balls slide: no row lies in one direction; measure longer strokes".into(),
+        ))
+    }
+
+    /// The window with the narrowest intervals.
+    pub fn best_window(
+        &self,
+        first: Window,
+        (values, choice): (&Values, &Choice),
+        grid: &Arc<Grid>,
+    ) -> Window {
+        let at = |half: f64| {
+            let window = Window {
+                half: self.half(half),
+                ..first
+            };
+            let problem = self.sliding(window, (values, choice), grid)?;
+            Some((window, linearised(&problem, values)?.fit))
+        };
+        let tried: Vec<_> = HALF_WIDTHS.into_iter().map(at).collect();
+        let score = |place: usize| {
+            let (_, fit) = tried[place].as_ref()?;
+            let other = tried.get(place + 1).and_then(Option::as_ref);
+            let beside = place.checked_sub(1).and_then(|place| tried[place].as_ref());
+            let (_, other) = other.or(beside)?;
+            let widths = fit
+                .half_widths
+                .iter()
+                .zip(fit.values.iter().zip(&other.values));
+            Some(
+                widths
+                    .map(|(half, (one, other))| half.hypot(2.0 * (one - other)).max(1e-12).ln())
+                    .sum::<f64>(),
+            )
+        };
+        let best = (0..tried.len())
+            .filter_map(|place| Some((place, score(place)?)))
+            .min_by(|one, other| one.1.total_cmp(&other.1));
+        let best = best.and_then(|(place, _)| tried[place].as_ref());
+        best.map_or(first, |(window, _)| *window)
+    }
+
+    /// The way after a turn by the breakaway angle that a first look finds, on rows after a way by its first guess.
+    pub fn first_way(
+        &self,
+        (start, at_turns): (&Start, &Choice),
+        grid: &Arc<Grid>,
+    ) -> Result<Window, Failure> {
+        let guess = start.values.breakaway_angle.max(self.trace.resolution);
+        let window = self.first_window(guess)?;
+        if !at_turns
+            .nonlinear
+            .iter()
+            .any(|(of, _)| of.name == AT_TURNS[0])
+        {
+            return Ok(window);
+        }
+        let problem = self.sliding(window, (&start.values, &start.choice), grid);
+        let problem = problem.ok_or_else(few)?;
+        let found = fit(&problem)?;
+        let values = problem.values(&found.nonlinear, &found.linear);
+        let rows = self.rows_over_turns(window, false);
+        let Ok((problem, found)) = self.turn_fit(rows, (&values, at_turns), grid) else {
+            return Ok(window);
+        };
+        let values = problem.values(&found.nonlinear, &found.linear);
+        self.first_window(guess.max(values.breakaway_angle))
+    }
+
+    /// The first fit: from several places of the speed law; and the samples of rows that are no part of it.
+    pub fn first_fit(
+        &self,
+        window: Window,
+        start: &Start,
+        grid: &Arc<Grid>,
+    ) -> Result<(Values, Vec<Range<usize>>), Failure> {
+        let mut best: Option<(Found, Values, Rows)> = None;
+        let speed = start.choice.nonlinear.iter();
+        let speed = speed.filter(|(of, _)| of.name == "half_share_speed");
+        let starts = if speed.count() > 0 { 3 } else { 1 };
+        for factor in &STARTS[..starts] {
+            let mut values = start.values;
+            values.half_share_speed *= factor;
+            let problem = self.sliding(window, (&values, &start.choice), grid);
+            let problem = problem.ok_or_else(few)?;
+            let found = fit(&problem)?;
+            if best
+                .as_ref()
+                .is_none_or(|(best, ..)| found.cost() < best.cost())
+            {
+                let values = problem.values(&found.nonlinear, &found.linear);
+                best = Some((found, values, problem.rows().clone()));
+            }
+        }
+        let (found, values, rows) = best.ok_or_else(few)?;
+        let mut sizes: Vec<f64> = found.residual.iter().map(|left| left.abs()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let limit = OUTLIER * 1.4826 * sizes[sizes.len() / 2];
+        let beyond = rows.centres.iter().zip(&found.residual);
+        let beyond: Vec<Range<usize>> = beyond
+            .filter(|(_, left)| left.abs() > limit)
+            .map(|(centre, _)| centre - window.half..centre + window.half + 1)
+            .collect();
+        let few = (beyond.len() as f64) < OUTLIERS * rows.len() as f64;
+        Ok((values, if few { beyond } else { Vec::new() }))
+    }
+
+    /// The first stage from values near its answer.
+    pub fn slid(
+        &self,
+        window: Window,
+        (values, choice): (&Values, &Choice),
+        set: &[(String, f64)],
+        grid: &Arc<Grid>,
+    ) -> Result<Sliding, Failure> {
+        let problem = self.sliding(window, (values, choice), grid);
+        let problem = problem.ok_or_else(few)?;
+        let found = fit(&problem)?;
+        let values = problem.values(&found.nonlinear, &found.linear);
+        let other = |window: Window| {
+            let problem = self.sliding(window, (&values, choice), grid)?;
+            Some(linearised(&problem, &values)?.fit.values)
+        };
+        let here = linearised(&problem, &values).ok_or_else(few)?;
+        let longer = other(Window {
+            half: 2 * window.half,
+            ..window
+        });
+        let farther = other(Window {
+            way: 2.0 * window.way,
+            ..window
+        });
+        let model = model_errors(&problem, &here, &values, (choice, set));
+        let mut intervals = intervals(&problem, &found);
+        let mut covariance = here.fit.covariance.clone();
+        let deviation = |k: usize| here.fit.covariance[(k, k)].max(f64::MIN_POSITIVE).sqrt();
+        for (k, interval) in intervals.iter_mut().enumerate() {
+            let away = |other: &Option<Vec<f64>>| {
+                other
+                    .as_ref()
+                    .map_or(0.0, |other| 2.0 * (other[k] - here.fit.values[k]))
+            };
+            let half = here.fit.half_widths[k];
+            let half = half.hypot(away(&longer)).hypot(away(&farther));
+            interval.settle(here.fit.values[k], half / QUANTILE, model[k]);
+            let wider = half / QUANTILE / deviation(k);
+            covariance.row_mut(k).scale_mut(wider);
+            covariance.column_mut(k).scale_mut(wider);
+        }
+        Ok(Sliding {
+            values: settled(&problem, &intervals),
+            intervals,
+            covariance,
+            condition: condition(&here.columns),
+            residual_rms: here.fit.residual_rms,
+        })
+    }
+
+    /// Rows over turns alone, or over everything that moves.
+    pub fn rows_over_turns(&self, window: Window, everywhere: bool) -> Rows {
+        let Window { half, way } = window;
+        let record = &self.record;
+        let (turn, near) = self.turns(window);
+        let mut rows = Rows {
+            kernel: crate::estimator::kernel::Kernel::new(half, record.tick),
+            centres: Vec::new(),
+            directions: Vec::new(),
+            stretches: Vec::new(),
+            pieces: Vec::new(),
+            stroke: way,
+        };
+        let rest = ((0.5 * REST / record.tick) as usize).max(half);
+        let moves = |centre: usize| {
+            let about = centre.saturating_sub(rest)..(centre + rest).min(record.len());
+            let mut places = record.path[about].iter();
+            let first = places.next().copied().unwrap_or(0.0);
+            places.any(|place| (place - first).abs() > record.noise)
+        };
+        let hop = (half / 3).max(1);
+        for centre in (half..record.len().saturating_sub(half)).step_by(hop) {
+            let (first, last) = (centre - half, centre + half);
+            let turns = near[last + 1] > near[first];
+            if (turns || everywhere) && record.sound(first, last) && moves(centre) {
+                rows.centres.push(centre);
+                rows.directions.push(0.0);
+                rows.stretches.push(turn[centre]);
+                rows.pieces.push(turn[centre]);
+            }
+        }
+        rows
+    }
+
+    /// Number of the last turn at every sample; and how many samples before each are within the way of their turn.
+    fn turns(&self, window: Window) -> (Vec<usize>, Vec<u32>) {
+        let record = &self.record;
+        let (mut turn, mut close) = (vec![0; record.len()], vec![false; record.len()]);
+        let mut before: Option<(usize, f64)> = None;
+        let mut number = 0;
+        // Turns of a motion that may stand in between.
+        for stretch in record.stretches(QUARTER * record.len()) {
+            let (end, last) = before.unwrap_or((stretch.first, f64::NAN));
+            let turned = last != stretch.turn;
+            if turned {
+                number += 1;
+            }
+            for sample in end..=stretch.last {
+                turn[sample] = number;
+                let way = (record.path[sample] - stretch.turn).abs();
+                close[sample] = way < window.way || turned && sample < stretch.first;
+            }
+            before = Some((stretch.last + 1, stretch.turn));
+        }
+        let mut sum = 0;
+        let near = std::iter::once(0).chain(close.into_iter().map(|close| {
+            sum += u32::from(close);
+            sum
+        }));
+        (turn, near.collect())
+    }
+
+    /// A problem with the memory stepped along the whole trace.
+    pub fn remembered(
+        &self,
+        rows: Rows,
+        (values, choice): (&Values, &Choice),
+        grid: &Arc<Grid>,
+    ) -> ScrewProblem<'_> {
+        let measured = (self.trace, &self.record, rows);
+        ScrewProblem::new(
+            &self.screw,
+            measured,
+            Passage::Remembered,
+            (values, choice),
+            grid,
+        )
+    }
+
+    /// A fit over turns, from the breakaway angle near the first guess that leaves least.
+    fn turn_fit(
+        &self,
+        rows: Rows,
+        (values, at_turns): (&Values, &Choice),
+        grid: &Arc<Grid>,
+    ) -> Result<(ScrewProblem<'_>, Found), Failure> {
+        let problem = self.remembered(rows.clone(), (values, at_turns), grid);
+        let at = |factor: f64| {
+            let mut values = *values;
+            values.breakaway_angle *= factor;
+            let values = problem.values(&nonlinear(at_turns, &values), &[]);
+            let rows = problem.model(&values).into_iter().zip(problem.target());
+            let cost: f64 = rows.map(|(model, target)| (model - target).powi(2)).sum();
+            (cost, values)
+        };
+        let starts = BREAKAWAYS.into_iter().map(at);
+        let best = starts.min_by(|one, other| one.0.total_cmp(&other.0));
+        let start = best.map_or(*values, |(_, start)| start);
+        let problem = self.remembered(rows, (&start, at_turns), grid);
+        let found = fit(&problem)?;
+        Ok((problem, found))
+    }
+
+    /// The second stage: what comes before sliding, its intervals, and how they follow the first stage. `None` where there are too few turns.
+    pub fn turned(
+        &self,
+        window: Window,
+        sliding: &Sliding,
+        (at_turns, choice): (&Choice, &Choice),
+        grid: &Arc<Grid>,
+    ) -> Result<Option<Vec<Interval>>, Failure> {
+        let at = |half: usize| {
+            let rows = self.rows_over_turns(Window { half, ..window }, false);
+            let mut turns = rows.stretches.clone();
+            turns.dedup();
+            (turns.len() >= FEWEST_TURNS).then_some(rows)
+        };
+        let Some(rows) = at(window.half) else {
+            return Ok(None);
+        };
+        let (problem, found) = self.turn_fit(rows.clone(), (&sliding.values, at_turns), grid)?;
+        let values = problem.values(&found.nonlinear, &found.linear);
+        let Some(here) = linearised(&problem, &values) else {
+            return Ok(None);
+        };
+        let longer = at(2 * window.half).and_then(|rows| {
+            let problem = self.remembered(rows, (&values, at_turns), grid);
+            Some(linearised(&problem, &values)?.fit.values)
+        });
+        // What an error of the first stage makes of the second.
+        let whole = self.remembered(rows, (&values, choice), grid);
+        let others = slopes(
+            &whole,
+            &nonlinear(choice, &values),
+            &linear(choice, &values),
+        );
+        let pull = solver(&here.columns).map(|solver| {
+            let moved: Vec<DVector<f64>> = others.iter().map(|rows| solver(rows)).collect();
+            DMatrix::from_columns(&moved)
+        });
+        let followed = pull.map(|pull| &pull * &sliding.covariance * pull.transpose());
+        let mut intervals = intervals(&problem, &found);
+        for (k, interval) in intervals.iter_mut().enumerate() {
+            let away = longer
+                .as_ref()
+                .map_or(0.0, |other| 2.0 * (other[k] - here.fit.values[k]));
+            let own = here.fit.half_widths[k].hypot(away) / QUANTILE;
+            let followed = followed
+                .as_ref()
+                .map_or(0.0, |all| all[(k, k)].max(0.0).sqrt());
+            let model = if interval.scale == Scale::Logarithmic {
+                ELEMENTS
+            } else {
+                0.0
+            };
+            interval.settle(here.fit.values[k], own.hypot(followed), model);
+        }
+        Ok(Some(intervals))
+    }
+}
+
+fn few() -> Failure {
+    Failure::Data("too few rows of one direction for what is estimated: measure longer, or with longer strokes".into())
+}
+
+/// Values of the nonlinear quantities of a choice.
+fn nonlinear(choice: &Choice, values: &Values) -> Vec<f64> {
+    choice
+        .nonlinear
+        .iter()
+        .map(|(_, of)| of.value(values))
+        .collect()
+}
+
+/// Values of its linear ones.
+fn linear(choice: &Choice, values: &Values) -> Vec<f64> {
+    choice.linear.iter().map(|of| of.value(values)).collect()
+}
+
+/// A problem linearised at values. `None` where a slope is no number.
+pub fn linearised(problem: &ScrewProblem<'_>, values: &Values) -> Option<Linearised> {
+    let named = |name: &str| {
+        let nonlinear = NONLINEAR
+            .iter()
+            .find(|of| of.name == name)
+            .map(|of| of.value(values));
+        nonlinear.or_else(|| {
+            LINEAR
+                .iter()
+                .find(|of| of.name == name)
+                .map(|of| of.value(values))
+        })
+    };
+    let at = |name| named(name).unwrap_or(0.0);
+    let nonlinear: Vec<f64> = problem.nonlinear().iter().map(|of| at(of.name)).collect();
+    let linear: Vec<f64> = problem.linear().iter().map(|of| at(of.name)).collect();
+    let columns = slopes(problem, &nonlinear, &linear);
+    if columns.iter().flatten().any(|slope| !slope.is_finite()) {
+        return None;
+    }
+    let scales = problem.nonlinear().iter().zip(&nonlinear);
+    let places = scales
+        .map(|(of, value)| inner(of.scale, *value))
+        .chain(linear);
+    let mut target: Vec<f64> = problem.target().to_vec();
+    for (target, model) in target.iter_mut().zip(problem.model(values)) {
+        *target -= model;
+    }
+    for (column, place) in columns.iter().zip(places) {
+        for (target, slope) in target.iter_mut().zip(column) {
+            *target += place * slope;
+        }
+    }
+    let rows = problem.rows();
+    let block = Block {
+        columns: columns.clone(),
+        target,
+        noise: problem.noise(),
+        stretches: rows.stretches.clone(),
+        pieces: rows.pieces.clone(),
+    };
+    let fit = least_squares(&[block], &|coefficients| coefficients.to_vec());
+    Some(Linearised { columns, fit })
+}
+
+/// What solves for the changes of the parameters that make some change of the rows.
+fn solver(columns: &[Vec<f64>]) -> Option<impl Fn(&[f64]) -> DVector<f64> + use<'_>> {
+    let sizes: Vec<f64> = columns
+        .iter()
+        .map(|column| column.iter().map(|x| x * x).sum::<f64>().sqrt())
+        .collect();
+    let dot =
+        |one: &[f64], other: &[f64]| -> f64 { one.iter().zip(other).map(|(a, b)| a * b).sum() };
+    let count = columns.len();
+    let normal = DMatrix::from_fn(count, count, |i, j| {
+        dot(&columns[i], &columns[j]) / (sizes[i] * sizes[j])
+    });
+    let inverse = normal.try_inverse()?;
+    Some(move |rows: &[f64]| {
+        let right = DVector::from_fn(count, |k, _| dot(&columns[k], rows) / sizes[k]);
+        let mut found = &inverse * right;
+        for (value, size) in found.iter_mut().zip(&sizes) {
+            *value /= size;
+        }
+        found
+    })
+}
+
+/// Condition of the slopes, each scaled to 1, and the direction that they see least.
+fn condition(columns: &[Vec<f64>]) -> (f64, Vec<f64>) {
+    let columns: Vec<DVector<f64>> = columns
+        .iter()
+        .map(|column| {
+            let column = DVector::from_column_slice(column);
+            let size = column.norm().max(f64::MIN_POSITIVE);
+            column / size
+        })
+        .collect();
+    if columns.is_empty() {
+        return (1.0, Vec::new());
+    }
+    let scaled = DMatrix::from_columns(&columns);
+    let parts = scaled.tr_mul(&scaled).symmetric_eigen();
+    let (place, least) = parts.eigenvalues.argmin();
+    let condition = (parts.eigenvalues.max() / least.max(f64::EPSILON)).sqrt();
+    (
+        condition,
+        parts.eigenvectors.column(place).iter().copied().collect(),
+    )
+}
+
+/// Standard deviations of the parameters by the model's own errors: those of the friction in blocks of speed and load, and those of what is
+/// assumed and neither estimated nor set.
+fn model_errors(
+    problem: &ScrewProblem<'_>,
+    here: &Linearised,
+    values: &Values,
+    (choice, set): (&Choice, &[(String, f64)]),
+) -> Vec<f64> {
+    let count = here.columns.len();
+    let Some(solver) = solver(&here.columns) else {
+        return vec![0.0; count];
+    };
+    let mut variance = DVector::zeros(count);
+    let mut add = |rows: &[f64]| variance += solver(rows).map(|value| value * value);
+    let friction = problem.friction(values);
+    for block in problem.blocks(SPEEDS, LOADS) {
+        let mut off = vec![0.0; friction.len()];
+        for row in block {
+            off[row] = MODEL * friction[row];
+        }
+        add(&off);
+    }
+    let known = |name: &str| {
+        choice.nonlinear.iter().any(|(of, _)| of.name == name)
+            || set.iter().any(|(set, _)| set == name)
+    };
+    for of in NONLINEAR.iter().filter(|of| !known(of.name)) {
+        let Some(deviation) = assumed_deviation(of.name) else {
+            continue;
+        };
+        let at = |side: f64| {
+            let mut values = *values;
+            *(of.of)(&mut values) += side * ASSUMED_STEP * deviation;
+            problem.model(&values)
+        };
+        let rows = at(1.0).into_iter().zip(at(-1.0));
+        let off: Vec<f64> = rows
+            .map(|(above, below)| (above - below) / (2.0 * ASSUMED_STEP))
+            .collect();
+        if off.iter().all(|row| row.is_finite()) {
+            add(&off);
+        }
+    }
+    variance.iter().map(|variance| variance.sqrt()).collect()
+}
+
+/// All values with those of the intervals.
+fn settled(problem: &ScrewProblem<'_>, intervals: &[Interval]) -> Values {
+    let values: Vec<f64> = intervals.iter().map(|interval| interval.value).collect();
+    let (nonlinear, linear) = values.split_at(problem.nonlinear().len());
+    problem.values(nonlinear, linear)
+}
