@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::answer::Calibration;
 use crate::controller::Controller;
 use crate::experiment::wanted;
+use crate::folder::answered::Answered;
 use crate::folder::{self, Folder, FolderArguments};
 use crate::outputs::{Outcome, OutputArguments, folder_name};
 use crate::page::truth;
@@ -12,7 +13,6 @@ use crate::screw::Request;
 use crate::screw::choice::Wanted;
 use crate::screw::quantities::names;
 use crate::signals::{RowSettings, SmoothingSettings};
-use crate::sums::Sums;
 use crate::trace::columns::{self, Frame};
 use crate::trace::{Coordinate, Trace};
 use crate::with_design;
@@ -379,7 +379,7 @@ fn one(
     design: Option<&Design>,
     mapping: Option<&Mapping>,
     path: &Path,
-) -> Result<(Calibration, Sums), Failure> {
+) -> Result<(Calibration, Answered), Failure> {
     // A folder may hold tables beside measurement files.
     let mapping = mapping.filter(|_| mdf4::named(path));
     let Some(design) = design else {

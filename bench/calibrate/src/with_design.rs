@@ -1,13 +1,11 @@
-//! Calibration of a trace of a screw whose design is known: the answer, what its page draws, its sums.
+//! Calibration of a trace of a screw whose design is known: the answer, what its page draws, what it adds to other traces.
 
 use crate::answer::Calibration;
-use crate::fit::problem::Scale;
-use crate::page::picture::{Correlations, Picture};
+use crate::folder::answered::Answered;
+use crate::page::picture::Picture;
 use crate::screw::friction::Screw;
-use crate::screw::quantities::{LINEAR, NONLINEAR};
 use crate::screw::{Request, ScrewCalibration, calibrate};
 use crate::signals::{Motion, Rows};
-use crate::sums::{Reference, Sums, SumsError};
 use crate::trace::Trace;
 use crate::trace::known::placed;
 use epas_design::files::Design;
@@ -36,7 +34,7 @@ pub fn told(trace: &Trace, design: &Design, request: &Request) -> Result<Told, F
     })
 }
 
-/// One trace of many, with its sums about a reference that is the same for all.
+/// One trace of many, with what it adds to the others.
 ///
 /// # Errors
 /// A trace or a request from which nothing can be told.
@@ -44,36 +42,14 @@ pub fn summed(
     trace: &Trace,
     design: &Design,
     request: &Request,
-) -> Result<(Calibration, Sums), Failure> {
+) -> Result<(Calibration, Answered), Failure> {
     let request = Request {
         without_models: true,
         ..request.clone()
     };
     let found = calibrate(trace, design, &request)?;
-    let sums = sums(&found).map_err(|error| Failure::Data(error.to_string()))?;
-    Ok((found.answer, sums))
-}
-
-/// What a calibration adds to those of other traces.
-///
-/// # Errors
-/// Numbers that are not finite.
-pub fn sums(found: &ScrewCalibration) -> Result<Sums, SumsError> {
-    let nonlinear = NONLINEAR
-        .iter()
-        .map(|quantity| (quantity.name, quantity.scale));
-    let linear = LINEAR.iter().map(|quantity| (quantity.name, Scale::Linear));
-    let references = nonlinear.chain(linear).map(|(name, scale)| {
-        let logarithmic = scale == Scale::Logarithmic;
-        Reference {
-            name: name.into(),
-            logarithmic,
-            value: if logarithmic { 1.0 } else { 0.0 },
-        }
-    });
-    let mut sums = Sums::new(references.collect())?;
-    sums.add(&found.fit, &found.uncertainty)?;
-    Ok(sums)
+    let answered = Answered::of(&found.fit, &found.uncertainty, true)?;
+    Ok((found.answer, answered))
 }
 
 /// What the page draws.
@@ -81,36 +57,9 @@ fn picture(trace: &Trace, request: &Request, found: &ScrewCalibration) -> Result
     let motion = Motion::of(trace, &request.smoothing)?;
     let trace = &*placed(trace, &motion);
     let rows = Rows::of_trace(trace, &request.rows)?;
-    let samples: Vec<usize> = rows.samples(trace.len()).collect();
-    let at =
-        |signal: &[f64]| -> Vec<f64> { samples.iter().map(|sample| signal[*sample]).collect() };
-    let measured = rows.of(&trace.acting());
-    let model = measured
-        .iter()
-        .zip(&found.fit.residual)
-        .map(|(measured, residual)| measured - residual)
-        .collect();
-    let names = found.uncertainty.intervals.iter();
-    let correlations = found.uncertainty.correlation.row_iter();
+    let measured = (rows.of(&trace.acting()), &*found.fit.residual);
     Ok(Picture {
-        name: trace.name.clone(),
-        coordinate: trace.coordinate,
-        time: samples
-            .iter()
-            .map(|sample| trace.start + trace.step * *sample as f64)
-            .collect(),
-        measured,
-        model,
-        position: at(&motion.position),
-        speed: at(&motion.speed),
-        load: trace.load.as_deref().map(&at),
-        temperature: trace.temperature.as_deref().map(&at),
         profiles: found.profiles.clone(),
-        correlations: Correlations {
-            names: names.map(|interval| interval.name.to_string()).collect(),
-            rows: correlations
-                .map(|row| row.iter().copied().collect())
-                .collect(),
-        },
+        ..Picture::of(trace, &motion, &rows, measured, &found.uncertainty)
     })
 }

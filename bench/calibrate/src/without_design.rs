@@ -31,11 +31,11 @@ use crate::checks::finding::{Finding, FindingKind};
 use crate::fit::problem::Separable;
 use crate::fit::separable::{Fit, FitSettings, fit};
 use crate::fit::uncertainty::{Uncertainty, uncertainty};
+use crate::folder::answered::Answered;
 use crate::laws::Law;
-use crate::page::picture::{Correlations, Picture};
+use crate::page::picture::Picture;
 use crate::page::shown::digits;
 use crate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
-use crate::sums::{Reference, Sums, SumsError};
 use crate::trace::known::placed;
 use crate::trace::rests::rests;
 use crate::trace::{Coordinate, Trace};
@@ -47,7 +47,7 @@ use crate::without_design::drive::Drive;
 use crate::controller::Controller;
 use crate::without_design::closed_loop::size;
 use crate::without_design::controller::SeenController;
-use crate::without_design::slide::{AT_ONE_SPEED, LOSSES, Slide};
+use crate::without_design::slide::{AT_ONE_SPEED, Slide};
 use crate::without_design::terms::{LoadTerm, Terms};
 use epas_page::failure::Failure;
 
@@ -337,16 +337,16 @@ fn literature(slide: &Slide<'_>) -> Result<Fit, Failure> {
     fit(slide, &settings).map_err(|error| Failure::Data(error.to_string()))
 }
 
-/// The plain model of one trace of many, and its sums.
+/// The plain model of one trace of many, and what it adds to the others.
 ///
 /// # Errors
 /// A trace from which nothing can be told.
-pub fn plain(trace: &Trace, filters: &Filters) -> Result<(Calibration, Sums), Failure> {
+pub fn plain(trace: &Trace, filters: &Filters) -> Result<(Calibration, Answered), Failure> {
     let trace = &*with_known(trace, filters)?;
     let filtered = Filtered::new(trace, filters)?;
     let findings = examine(trace, &filtered.motion)?;
     let plainly = filtered.plainly()?;
-    // Traces at several speeds tell together what each of them cannot. What an axial load does to a torque the sums leave out: its gain
+    // Traces at several speeds tell together what each of them cannot. What an axial load does to a torque is left out: its gain
     // is no number of the friction.
     let load = match plainly.terms.load {
         LoadTerm::Losses { .. } => plainly.terms.load,
@@ -358,17 +358,8 @@ pub fn plain(trace: &Trace, filters: &Filters) -> Result<(Calibration, Sums), Fa
     });
     let whole = literature(&slide)?;
     let sure = uncertainty(&slide, &whole);
-    let alone = filtered.plain(Terms::default());
-    let names = alone.linear().iter().map(|parameter| parameter.name);
-    let references = names.chain(LOSSES).map(|name| Reference {
-        name: name.into(),
-        logarithmic: false,
-        value: 0.0,
-    });
-    let refused = |error: SumsError| Failure::Data(error.to_string());
-    let mut sums = Sums::new(references.collect()).map_err(refused)?;
-    sums.add(&whole, &sure).map_err(refused)?;
-    Ok((plainly.answer(&filtered, &findings, Vec::new()), sums))
+    let answered = Answered::of(&whole, &sure, false)?;
+    Ok((plainly.answer(&filtered, &findings, Vec::new()), answered))
 }
 
 /// Sets the least information criterion to zero; the name of the model that does best on what was not fitted.
@@ -517,40 +508,14 @@ fn picture(prepared: &Prepared<'_>, terms: Terms, sure: &Uncertainty) -> Result<
     } else {
         of(LAWS[LAWS.len() - 1], terms).or_else(|_| of(LAWS[0], Terms::default()))?
     };
-    let trace = prepared.trace;
-    let samples: Vec<usize> = prepared.rows.samples(trace.len()).collect();
-    let at =
-        |signal: &[f64]| -> Vec<f64> { samples.iter().map(|sample| signal[*sample]).collect() };
-    let measured = slide.target().to_vec();
-    let model = measured
-        .iter()
-        .zip(&fit.residual)
-        .map(|(measured, residual)| measured - residual)
-        .collect();
-    let names = sure
-        .intervals
-        .iter()
-        .map(|interval| interval.name.to_string());
-    let rows = sure.correlation.row_iter();
-    Ok(Picture {
-        name: trace.name.clone(),
-        coordinate: trace.coordinate,
-        time: samples
-            .iter()
-            .map(|sample| trace.start + trace.step * *sample as f64)
-            .collect(),
-        measured,
-        model,
-        position: at(&prepared.motion.position),
-        speed: at(&prepared.motion.speed),
-        load: trace.load.as_deref().map(&at),
-        temperature: trace.temperature.as_deref().map(&at),
-        profiles: Vec::new(),
-        correlations: Correlations {
-            names: names.collect(),
-            rows: rows.map(|row| row.iter().copied().collect()).collect(),
-        },
-    })
+    let measured = (slide.target().to_vec(), &*fit.residual);
+    let Prepared {
+        trace,
+        motion,
+        rows,
+        ..
+    } = prepared;
+    Ok(Picture::of(trace, motion, rows, measured, sure))
 }
 
 #[cfg(test)]

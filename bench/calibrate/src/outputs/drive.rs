@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use epas_friction::{Limits, LoadProportionalConfiguration, LoadProportionalConstants};
 
-use crate::page::shown::one_line;
+use crate::outputs::constants::{SOUND, head};
 use crate::without_design::drive::{Drive, Numbers};
 use epas_page::failure::Failure;
 
@@ -26,12 +26,7 @@ pub fn text(drive: &Drive, trace: &str) -> Result<String, Failure> {
         reversal_speed,
         limits,
     } = configuration;
-    let mut text = format!(
-        "// A drive without a drawing, calibrated by trace {}.\n//\n\
-         // For a crate that depends on `epas-friction`. Everything is checked when it is compiled: a number out of range\n\
-         // stops the compiler.\n",
-        one_line(trace)
-    );
+    let mut text = head("A drive without a drawing", trace);
     for (told, name) in numbers.told.into_iter().zip(["driving", "back-driving"]) {
         if !told {
             let _ = writeln!(
@@ -47,15 +42,7 @@ pub fn text(drive: &Drive, trace: &str) -> Result<String, Failure> {
         text,
         "
 use epas_friction::{{Error, Limits, LoadProportionalConfiguration, LoadProportionalConstants}};
-
-/// The value; a refused one stops the compiler here.
-const fn sound<T: Copy>(checked: Result<T, Error>) -> T {{
-    match checked {{
-        Ok(value) => value,
-        Err(_) => panic!(\"a calibrated number is out of range\"),
-    }}
-}}
-
+{SOUND}
 /// The drive: for a `static` that stands in flash. Its limits are twice what the trace has.
 pub const DRIVE: LoadProportionalConstants =
     sound(LoadProportionalConstants::new(&LoadProportionalConfiguration {{

@@ -15,9 +15,9 @@ use super::friction::Screw;
 use super::{Request, ScrewCalibration, calibrate};
 use crate::fit::cramer_rao::inverse;
 use crate::fit::separable::{FitSettings, inner, inner_slope};
-use crate::sums::{Population, Sums};
+use crate::folder::answered::Answered;
+use crate::folder::population::{Population, populations};
 use crate::trace::{Coordinate, Repairs, Trace};
-use crate::with_design::sums;
 use epas_design::files::{Design, DesignSource};
 
 /// The rig's screw with another preload and friction coefficient: what an engineer has before a calibration.
@@ -309,7 +309,7 @@ struct Run {
     /// What it says of each parameter that it estimates.
     each: Vec<(&'static str, Coverage)>,
     /// What it adds to the other runs.
-    sums: Sums,
+    answered: Answered,
     screw: Screw,
 }
 
@@ -332,23 +332,20 @@ fn coverage(trace: &Trace, fix: &[(&str, f64)]) -> Run {
         });
     Run {
         each: each.collect(),
-        sums: sums(&found).unwrap(),
+        answered: Answered::of(&found.fit, &found.uncertainty, true).unwrap(),
         screw: found.screw,
     }
 }
 
 /// Prints what all runs say together.
 fn print_means(course: &str, runs: &[Run]) {
-    let mut whole = runs[0].sums.clone();
-    for run in &runs[1..] {
-        whole.merge(&run.sums).unwrap();
-    }
+    let all: Vec<&Answered> = runs.iter().map(|run| &run.answered).collect();
     for Population {
         name,
         mean,
         mean_interval: [low, high],
         ..
-    } in whole.population()
+    } in populations(&all)
     {
         let truth = truth(&name, &runs[0].screw);
         let held = if (low..=high).contains(&truth) {
