@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::answer::Calibration;
 use crate::controller::Controller;
-use crate::experiment::wanted;
+use crate::experiment;
 use crate::folder::answered::Answered;
 use crate::folder::{self, Folder, FolderArguments};
 use crate::outputs::{Outcome, OutputArguments, folder_name};
@@ -72,14 +72,6 @@ pub struct Arguments {
     /// Parameters to set
     #[arg(long, value_name = "NAME=VALUE,...", requires = "design", value_delimiter = ',', value_parser = setting)]
     fix: Vec<(String, f64)>,
-    /// Parameters whose profile likelihoods the page shows: how much worse the trace is explained with each held elsewhere
-    #[arg(
-        long,
-        value_name = "NAME,...",
-        requires = "design",
-        value_delimiter = ','
-    )]
-    profile: Vec<String>,
     /// Tell which manoeuvre would tell this parameter best, without a trace
     #[arg(
         long,
@@ -174,7 +166,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .transpose()?;
     let (design, text) = design.unzip();
     if let (Some(name), Some(design)) = (&arguments.wanted, &design) {
-        return wanted::tell(design, name);
+        return experiment::tell(design, name);
     }
     let merges = !arguments.folder.merge.is_empty();
     let trace = match &arguments.trace {
@@ -214,7 +206,6 @@ impl Arguments {
             ("--constants", self.outputs.constants.is_some()),
             ("--validate", self.validate.is_some()),
             ("--controller", self.controller.is_some()),
-            ("--profile", !self.profile.is_empty()),
         ];
         let needless = of_one_trace.iter().find(|(_, given)| *given && folder);
         if let Some((name, _)) = needless {
@@ -269,7 +260,6 @@ impl Arguments {
                 cutoff: self.rows,
                 ..RowSettings::default()
             },
-            profiles: self.profile.clone(),
             ratio_unsaid: self.ratio.is_none(),
             ..Request::default()
         }

@@ -15,7 +15,7 @@ use std::f64::consts::TAU;
 
 use crate::answer::{Calibration, Estimate, ModelScore};
 use crate::experiment::manoeuvre::Manoeuvre;
-use crate::page::picture::{Correlations, Picture, Profile};
+use crate::page::picture::{Correlations, Picture};
 use crate::page::shown::{chart, digits, number, table};
 use crate::page::truth::Truth;
 use crate::signals::spectrum::welch;
@@ -31,10 +31,6 @@ const GROUPS: usize = 40;
 
 /// Error over the effort from which on a model explains nothing.
 const WORTHLESS: f64 = 0.5;
-
-/// Rise of minus twice the logarithm of the likelihood at the ends of a 95 % interval: that quantile of chi squared with one
-/// degree of freedom.
-const RISE: f64 = 3.841;
 
 /// What quantities are called and measured in.
 struct Words {
@@ -82,10 +78,6 @@ pub fn document(
     let over_time = Block::Figure(over_time(picture, &words));
     sections.push(of("Trace and model", vec![over_time]));
     sections.push(of("Residual", residual(picture, &words)));
-    if !picture.profiles.is_empty() {
-        let profiles = Block::Figure(profiles(&picture.profiles));
-        sections.push(of("Profiles", vec![profiles]));
-    }
     if !picture.correlations.names.is_empty() {
         let note = "Two parameters whose errors correlate by more than 0.95 are told together, hardly each by itself.";
         let table = Block::Table(correlations(&picture.correlations));
@@ -350,33 +342,6 @@ fn groups(mut rows: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     rows.chunks(size).map(mean).collect()
 }
 
-fn profiles(profiles: &[Profile]) -> Figure {
-    let panels = profiles.iter().map(|profile| {
-        let label = match profile.unit.as_str() {
-            "" => profile.name.clone(),
-            unit => format!("{} ({unit})", profile.name),
-        };
-        let ends = profile.points.iter().map(|point| point.0);
-        let low = ends.clone().fold(profile.best, f64::min);
-        let high = ends.fold(profile.best, f64::max);
-        let series = vec![
-            Series::new("profile", 0, Mark::Line, profile.points.clone()),
-            Series::new("95 %", 6, Mark::Dashed, vec![(low, RISE), (high, RISE)]),
-            Series::new("fitted", 1, Mark::Crosses, vec![(profile.best, 0.0)]),
-        ];
-        linear("", &label, "rise of -2 log likelihood", series)
-    });
-    Figure {
-        name: "profiles",
-        caption: "How much worse the trace is explained with a parameter held, and all others fitted again; a parabola \
-                  is a normal distribution"
-            .into(),
-        panels: panels.collect(),
-        columns: 2,
-        size: (560, 300),
-    }
-}
-
 fn correlations(correlations: &Correlations) -> Table {
     let rows = correlations.names.iter().zip(&correlations.rows);
     let rows = rows.map(|(name, row)| {
@@ -399,7 +364,7 @@ fn correlations(correlations: &Correlations) -> Table {
 /// Which manoeuvre identifies what.
 fn manoeuvres() -> Table {
     let row = |manoeuvre: Manoeuvre| {
-        let identified = manoeuvre.identifies().join(", ");
+        let identified = manoeuvre.identifies().collect::<Vec<_>>().join(", ");
         vec![
             manoeuvre.name().into(),
             manoeuvre.how().into(),

@@ -50,13 +50,10 @@ use crate::answer::{Calibration, Estimate};
 use crate::checks::finding::{Finding, FindingKind};
 use crate::checks::{examine, load_gain};
 use crate::fit::problem::Separable;
-use crate::fit::profile::profile;
-use crate::fit::separable::checks::FitError;
 use crate::fit::separable::{self, Fit, FitSettings, Fixed};
 use crate::fit::telling::{Reason, Told, at_bounds, tell};
 use crate::fit::uncertainty::{Interval, Uncertainty, uncertainty};
 use crate::laws::turns::{directions, near_turns};
-use crate::page::picture;
 use crate::signals::filter::ZeroPhase;
 use crate::signals::{Motion, RowSettings, Rows, SmoothingSettings};
 use crate::trace::known::placed;
@@ -80,8 +77,6 @@ pub struct Request {
     pub search: Spacing,
     /// Whether other models of friction are not fitted.
     pub without_models: bool,
-    /// Names of the parameters whose profile likelihoods are found.
-    pub profiles: Vec<String>,
     /// Whether the ratio of the motor's gear was left at 1 without a word.
     pub ratio_unsaid: bool,
     /// Trace that is not fitted and scores the models; without it every third block of the fitted one.
@@ -102,7 +97,6 @@ impl Default for Request {
             },
             search: Spacing::COARSE,
             without_models: false,
-            profiles: Vec::new(),
             ratio_unsaid: false,
             unseen: None,
         }
@@ -115,10 +109,7 @@ impl Request {
     /// # Errors
     /// The name.
     pub fn check(&self) -> Result<(), Failure> {
-        choice::check_names(&self.wanted)?;
-        self.profiles
-            .iter()
-            .try_for_each(|name| choice::check_profile(name, &self.wanted))
+        choice::check_names(&self.wanted)
     }
 }
 
@@ -139,8 +130,6 @@ pub struct ScrewCalibration {
     pub uncertainty: Uncertainty,
     /// Evaluations of the model in all fits.
     pub evaluations: usize,
-    /// Profile likelihoods that were wanted.
-    pub profiles: Vec<picture::Profile>,
 }
 
 /// Calibrates a trace of a screw.
@@ -158,7 +147,6 @@ pub fn calibrate(
     };
     let alone = Request {
         without_models: true,
-        profiles: Vec::new(),
         ..constant.clone()
     };
     let [law, one] = [&found.answer, &attempt(trace, design, &alone, None)?.answer]
@@ -235,7 +223,6 @@ fn without_breakaway(request: &Request, told: &Told) -> Option<(Request, TooCoar
         estimate.retain(|name| name != BREAKAWAY_ANGLE);
     }
     wanted.fix.push((BREAKAWAY_ANGLE.into(), value));
-    request.profiles.retain(|name| name != BREAKAWAY_ANGLE);
     let sentence = format!(
         "{} What moved by less than {BEFORE_SLIDING} steps since it turned round may not slide yet, and is left out.",
         unseen.sentence
@@ -345,21 +332,6 @@ fn attempt(
         .chain(left_out)
         .chain(spoiled(findings))
         .collect();
-    // What the trace does not tell has no profile, and a sentence above.
-    let told_apart = |name: &&String| {
-        let mut intervals = by_residual.intervals.iter();
-        intervals.any(|interval| interval.name == **name)
-    };
-    let profiles = request
-        .profiles
-        .iter()
-        .filter(told_apart)
-        .map(|name| {
-            let profile = profile(&part, &fit, &by_residual, name, &once(&request.fit))?;
-            let best = answer.value(name).unwrap_or(f64::NAN);
-            Ok(picture::Profile::of(&profile, best))
-        })
-        .collect::<Result<Vec<_>, FitError>>()?;
     if !request.without_models {
         let other = other.map(|other| other.refined(&values)).transpose()?;
         let other = unseen
@@ -379,7 +351,6 @@ fn attempt(
         fit,
         uncertainty,
         evaluations,
-        profiles,
     })
 }
 

@@ -48,7 +48,7 @@ pub fn summed(
         ..request.clone()
     };
     let found = calibrate(trace, design, &request)?;
-    let answered = Answered::of(&found.fit, &found.uncertainty, true)?;
+    let answered = Answered::of(&found.fit.residual, &found.uncertainty, true)?;
     Ok((found.answer, answered))
 }
 
@@ -57,9 +57,8 @@ fn picture(trace: &Trace, request: &Request, found: &ScrewCalibration) -> Result
     let motion = Motion::of(trace, &request.smoothing)?;
     let trace = &*placed(trace, &motion);
     let rows = Rows::of_trace(trace, &request.rows)?;
+    let samples: Vec<usize> = rows.samples(trace.len()).collect();
     let measured = (rows.of(&trace.acting()), &*found.fit.residual);
-    Ok(Picture {
-        profiles: found.profiles.clone(),
-        ..Picture::of(trace, &motion, &rows, measured, &found.uncertainty)
-    })
+    let sure = &found.uncertainty;
+    Ok(Picture::of(trace, &motion, &samples, measured, sure))
 }

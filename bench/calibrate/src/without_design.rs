@@ -358,7 +358,7 @@ pub fn plain(trace: &Trace, filters: &Filters) -> Result<(Calibration, Answered)
     });
     let whole = literature(&slide)?;
     let sure = uncertainty(&slide, &whole);
-    let answered = Answered::of(&whole, &sure, false)?;
+    let answered = Answered::of(&whole.residual, &sure, false)?;
     Ok((plainly.answer(&filtered, &findings, Vec::new()), answered))
 }
 
@@ -509,13 +509,9 @@ fn picture(prepared: &Prepared<'_>, terms: Terms, sure: &Uncertainty) -> Result<
         of(LAWS[LAWS.len() - 1], terms).or_else(|_| of(LAWS[0], Terms::default()))?
     };
     let measured = (slide.target().to_vec(), &*fit.residual);
-    let Prepared {
-        trace,
-        motion,
-        rows,
-        ..
-    } = prepared;
-    Ok(Picture::of(trace, motion, rows, measured, sure))
+    let (trace, motion) = (prepared.trace, prepared.motion);
+    let samples: Vec<usize> = prepared.rows.samples(trace.len()).collect();
+    Ok(Picture::of(trace, motion, &samples, measured, sure))
 }
 
 #[cfg(test)]

@@ -6,7 +6,6 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use crate::fit::problem::Scale;
-use crate::fit::separable::Fit;
 use crate::fit::uncertainty::Uncertainty;
 use epas_page::failure::Failure;
 
@@ -36,11 +35,11 @@ pub struct Answered {
 }
 
 impl Answered {
-    /// What a fit told.
+    /// What a fit with this residual told.
     ///
     /// # Errors
     /// Numbers that are not finite, or a covariance that is none.
-    pub fn of(fit: &Fit, sure: &Uncertainty, with_design: bool) -> Result<Self, Failure> {
+    pub fn of(residual: &[f64], sure: &Uncertainty, with_design: bool) -> Result<Self, Failure> {
         let intervals = || sure.intervals.iter();
         let answered = Self {
             with_design,
@@ -51,9 +50,9 @@ impl Answered {
             values: intervals().map(|own| own.value).collect(),
             covariance: sure.covariance.transpose().iter().copied().collect(),
             model_errors: intervals().map(|own| own.model_error).collect(),
-            rows: fit.residual.len() as u64,
+            rows: residual.len() as u64,
             effective_rows: sure.effective_rows,
-            residual_squares: fit.residual.iter().map(|residual| residual.powi(2)).sum(),
+            residual_squares: residual.iter().map(|left| left * left).sum(),
         };
         answered.checked().map_err(Failure::Data)
     }

@@ -1,8 +1,7 @@
 //! What the page of a calibration draws, as plain data.
 
-use crate::fit::profile;
 use crate::fit::uncertainty::Uncertainty;
-use crate::signals::{Motion, Rows};
+use crate::signals::Motion;
 use crate::trace::{Coordinate, Trace};
 
 /// A fitted trace, row by row. All lists are as long as `time`.
@@ -26,36 +25,8 @@ pub struct Picture {
     pub load: Option<Vec<f64>>,
     /// Temperature, K, where it was measured.
     pub temperature: Option<Vec<f64>>,
-    /// Profile likelihoods.
-    pub profiles: Vec<Profile>,
     /// Correlations of the parameters' errors.
     pub correlations: Correlations,
-}
-
-/// How much worse the trace is explained with a parameter held at other values, and all others fitted again.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Profile {
-    /// Name of the parameter.
-    pub name: String,
-    /// Its unit; empty where it has none.
-    pub unit: String,
-    /// Its fitted value.
-    pub best: f64,
-    /// Values, and the rise of minus twice the logarithm of the likelihood there.
-    pub points: Vec<(f64, f64)>,
-}
-
-impl Profile {
-    /// The profile of a parameter with this fitted value.
-    pub fn of(profile: &profile::Profile, best: f64) -> Self {
-        let points = profile.points.iter();
-        Self {
-            name: profile.name.into(),
-            unit: profile.unit.into(),
-            best,
-            points: points.map(|point| (point.value, point.loss)).collect(),
-        }
-    }
 }
 
 /// Correlations of the parameters' errors.
@@ -68,15 +39,14 @@ pub struct Correlations {
 }
 
 impl Picture {
-    /// A fit whose rows are those of a trace: what was measured there, and what the model leaves of it.
+    /// A fit with a row at each of these samples of a trace: what was measured there, and what the model leaves of it.
     pub fn of(
         trace: &Trace,
         motion: &Motion,
-        rows: &Rows,
+        samples: &[usize],
         (measured, residual): (Vec<f64>, &[f64]),
         sure: &Uncertainty,
     ) -> Self {
-        let samples: Vec<usize> = rows.samples(trace.len()).collect();
         let at = |signal: &[f64]| samples.iter().map(|sample| signal[*sample]).collect();
         let time = |sample: &usize| trace.start + trace.step * *sample as f64;
         let left = measured.iter().zip(residual);
@@ -91,7 +61,6 @@ impl Picture {
             speed: at(&motion.speed),
             load: trace.load.as_deref().map(at),
             temperature: trace.temperature.as_deref().map(at),
-            profiles: Vec::new(),
             correlations: Correlations {
                 names: sure.intervals.iter().map(|own| own.name.into()).collect(),
                 rows: correlations

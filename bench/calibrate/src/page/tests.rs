@@ -22,12 +22,6 @@ fn picture(rows: usize, coordinate: Coordinate) -> Picture {
         position,
         load: Some(of(|at| 1000.0 * (7.3 * at).sin())),
         temperature: None,
-        profiles: vec![Profile {
-            name: "friction".into(),
-            unit: String::new(),
-            best: 0.115,
-            points: vec![(0.10, 9.0), (0.115, 0.0), (0.13, 9.0)],
-        }],
         correlations: Correlations {
             names: vec!["friction".into(), "preload".into()],
             rows: vec![vec![1.0, -0.97], vec![-0.97, 1.0]],
@@ -105,7 +99,7 @@ fn a_page_stands_by_itself() {
     ] {
         assert!(markdown.contains(text), "{text}\n{markdown}");
     }
-    for name in ["trace_and_model", "residual", "spectrum", "profiles"] {
+    for name in ["trace_and_model", "residual", "spectrum"] {
         assert!(read(&format!("{name}.svg")).starts_with("<svg"), "{name}");
         assert!(read(&format!("{name}.csv")).lines().count() > 3, "{name}");
     }
@@ -136,7 +130,6 @@ fn pages_of_any_length_are_small() {
     for rows in [0, 1, 2, 300_000] {
         let picture = Picture {
             correlations: Correlations::default(),
-            profiles: Vec::new(),
             ..picture(rows, Coordinate::Translation)
         };
         let page = document(&calibration(), &picture, &Truth::new(), false);

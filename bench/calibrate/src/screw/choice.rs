@@ -142,28 +142,6 @@ fn unknown(name: &str) -> Failure {
     Failure::Data(format!("{name}: unknown; known are {}", known.join(", ")))
 }
 
-/// Whether a parameter can have a profile.
-///
-/// # Errors
-/// A name that is unknown, or of what is not estimated.
-pub fn check_profile(name: &str, wanted: &Wanted) -> Result<(), Failure> {
-    if !known(name) {
-        return Err(unknown(name));
-    }
-    let is_wave = Linear::named(name).is_some_and(|of| of.factor.is_wave());
-    let asked = |list: &Vec<String>| {
-        list.iter()
-            .any(|asked| asked == name || is_wave && asked == HARMONICS)
-    };
-    let fixed = wanted.fix.iter().any(|(fixed, _)| fixed == name);
-    if fixed || !wanted.estimate.as_ref().is_none_or(asked) {
-        return Err(Failure::Data(format!(
-            "{name}: not estimated, and without a profile"
-        )));
-    }
-    Ok(())
-}
-
 /// Whether a request names what there is.
 ///
 /// # Errors
