@@ -1,8 +1,8 @@
 //! The page of a folder of traces.
 
 use super::Together;
-use super::population::{Common, Population};
-use crate::page::shown::{chart, digits, number, perhaps, table};
+use super::population::Population;
+use crate::page::shown::{chart, number, perhaps, table};
 use epas_page::document::{Block, Cell, Document, Figure, Section, Table};
 use epas_page::plot::{Axis, Mark, Series};
 
@@ -30,7 +30,6 @@ pub fn document(together: &Together) -> Document {
         "The same without the traces that stand out",
         &together.without_outliers,
     );
-    first.extend(together.common.as_ref().map(common).into_iter().flatten());
     let mut sections = Vec::new();
     let mut add = |title, blocks| sections.push(Section { title, blocks });
     add("What the traces tell together", first);
@@ -84,35 +83,6 @@ fn population(name: &'static str, caption: &str, population: &[Population]) -> T
         "next, high",
     ];
     table(name, caption, columns, population.iter().map(row))
-}
-
-/// What all traces say of one screw.
-fn common(common: &Common) -> [Block; 2] {
-    let chi = common
-        .chi_squared
-        .map_or("none".into(), |chi| digits(chi, 3));
-    let text = format!(
-        "As one screw they leave a residual of {} rms over {} rows, of which {} count. Chi-squared per degree of freedom: {chi}; far \
-         above 1 the traces differ by more than their errors, and the table of the population holds.",
-        digits(common.residual_rms, 3),
-        common.rows,
-        digits(common.effective_rows.round(), 4),
-    );
-    let rows = common.parameters.iter();
-    let rows = rows.map(|(name, value, [low, high])| {
-        vec![
-            name.as_str().into(),
-            number(*value),
-            number(*low),
-            number(*high),
-        ]
-    });
-    let caption = "One value for all traces, as if fitted at once, with its 95 % interval";
-    let columns = ["parameter", "value", "low", "high"];
-    [
-        Block::Text(text),
-        Block::Annex(table("common", caption, columns, rows)),
-    ]
 }
 
 fn outliers(together: &Together) -> Table {

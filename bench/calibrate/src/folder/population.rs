@@ -215,9 +215,13 @@ pub fn common(all: &[&Answered]) -> Option<Common> {
             errors[*place] = (errors[*place].0 + error, errors[*place].1 + 1.0);
         }
     }
+    let chi_squared = (freedom > 0.0).then(|| chi / freedom);
+    // Traces that differ by more than their errors say less (Birge 1932).
+    let wider = chi_squared.unwrap_or(1.0).max(1.0).sqrt();
     let parameter = |(k, (name, logarithmic)): (usize, &(&str, bool))| {
         let (shared, traces) = errors[k];
-        let half = HALF_INTERVAL * covariance[(k, k)].sqrt().hypot(shared / traces);
+        let own = covariance[(k, k)].sqrt() * wider;
+        let half = HALF_INTERVAL * own.hypot(shared / traces);
         let at = |away: f64| outer(*logarithmic, values[k] + away);
         ((*name).to_owned(), at(0.0), [at(-half), at(half)])
     };
@@ -225,7 +229,7 @@ pub fn common(all: &[&Answered]) -> Option<Common> {
     let squares: f64 = all.iter().map(|answered| answered.residual_squares).sum();
     Some(Common {
         parameters: names.iter().enumerate().map(parameter).collect(),
-        chi_squared: (freedom > 0.0).then(|| chi / freedom),
+        chi_squared,
         rows,
         effective_rows: all.iter().map(|answered| answered.effective_rows).sum(),
         residual_rms: (squares / rows as f64).sqrt(),

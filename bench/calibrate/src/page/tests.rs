@@ -95,7 +95,7 @@ fn a_page_stands_by_itself() {
         "gain: the load does not vary",
         "| LuGre | 6 | 12.0 |  | 10.0 | 14.0 | 321.0 | ~120 |",
         "| friction | 1.000 | -0.970 |",
-        "| micro reversals | reversals at rest, of the size of the pre-sliding travel | breakaway_angle, ",
+        "| micro reversals | reversals at rest by 0.5 to 4 times the pre-sliding travel, 0.8 times a second | breakaway_angle, ",
     ] {
         assert!(markdown.contains(text), "{text}\n{markdown}");
     }
