@@ -32,33 +32,15 @@ const GROUPS: usize = 40;
 /// Error over the effort from which on a model explains nothing.
 const WORTHLESS: f64 = 0.5;
 
-/// What quantities are called and measured in.
-struct Words {
-    effort: &'static str,
-    unit: &'static str,
-    speed: &'static str,
-    position: &'static str,
-    density: &'static str,
-}
+/// What effort and position are called and measured in.
+struct Words([&'static str; 4]);
 
 impl Words {
     const fn of(coordinate: Coordinate) -> Self {
-        match coordinate {
-            Coordinate::Rotation => Self {
-                effort: "torque (N m)",
-                unit: "N m",
-                speed: "speed (rad/s)",
-                position: "angle (rad)",
-                density: "density (N² m²/Hz)",
-            },
-            Coordinate::Translation => Self {
-                effort: "force (N)",
-                unit: "N",
-                speed: "speed (m/s)",
-                position: "position (m)",
-                density: "density (N²/Hz)",
-            },
-        }
+        Self(match coordinate {
+            Coordinate::Rotation => ["torque", "N m", "angle", "rad"],
+            Coordinate::Translation => ["force", "N", "position", "m"],
+        })
     }
 }
 
@@ -98,7 +80,7 @@ fn told(calibration: &Calibration, truth: &Truth, words: &Words) -> Vec<Block> {
         Block::Text(format!(
             "The model leaves a residual of {} {} rms, {} % of the effort's. {} rows count, with the correlation of the residual.",
             digits(calibration.residual_rms, 3),
-            words.unit,
+            words.0[1],
             digits(100.0 * calibration.relative_error, 3),
             digits(calibration.effective_rows.round(), 4),
         )),
@@ -137,7 +119,7 @@ fn parameters(estimates: &[Estimate], truth: &Truth) -> Table {
     let mut table = table(
         "parameters",
         "Parameters with their 95 % intervals",
-        ["parameter", "value", "low", "high", "unit", "origin"],
+        "parameter | value | low | high | unit | origin",
         estimates.iter().map(row),
     );
     if !truth.is_empty() {
@@ -201,16 +183,7 @@ fn scores(models: &[ModelScore]) -> Table {
         "Models of friction on the same trace: error of the effort, rms, over the effort, in the closed loop where its \
          controller is known; the same of the regression's rows; information criterion less the least one; modelled \
          cycles of one tick, ~ where they are estimated",
-        [
-            "model",
-            "parameters",
-            "error, fitted (%)",
-            "error, not fitted (%)",
-            "rows, fitted (%)",
-            "rows, not fitted (%)",
-            "information criterion",
-            "cycles",
-        ],
+        "model | parameters | error, fitted (%) | error, not fitted (%) | rows, fitted (%) | rows, not fitted (%) | information criterion | cycles",
         rows,
     )
 }
@@ -220,6 +193,7 @@ fn linear(title: &str, x: &str, y: &str, series: Vec<Series>) -> Panel {
 }
 
 fn over_time(picture: &Picture, words: &Words) -> Figure {
+    let Words([effort, unit, _, length]) = words;
     let line = |name: &str, colour, values: &[f64]| {
         let time = picture.time.iter().copied();
         let rows: Vec<(f64, f64)> = time.zip(values.iter().copied()).collect();
@@ -233,9 +207,13 @@ fn over_time(picture: &Picture, words: &Words) -> Figure {
     ];
     let left = vec![line("", 3, &picture.residual())];
     let mut panels = vec![
-        panel(&picture.name, words.effort, both),
-        panel("", &format!("residual ({})", words.unit), left),
-        panel("", words.speed, vec![line("", 2, &picture.speed)]),
+        panel(&picture.name, &format!("{effort} ({unit})"), both),
+        panel("", &format!("residual ({unit})"), left),
+        panel(
+            "",
+            &format!("speed ({length}/s)"),
+            vec![line("", 2, &picture.speed)],
+        ),
     ];
     for (label, values) in [
         ("axial load (N)", &picture.load),
@@ -260,25 +238,27 @@ fn over_time(picture: &Picture, words: &Words) -> Figure {
 fn residual(picture: &Picture, words: &Words) -> Vec<Block> {
     let residual = picture.residual();
     let turn = picture.position.iter().map(|angle| angle.rem_euclid(TAU));
-    let turn = (picture.coordinate == Coordinate::Rotation).then(|| turn.collect());
-    let label = format!("residual ({})", words.unit);
+    let turn: Option<Vec<f64>> =
+        (picture.coordinate == Coordinate::Rotation).then(|| turn.collect());
+    let Words([_, unit, position, length]) = words;
+    let label = format!("residual ({unit})");
     let panels = [
-        (words.speed, Some(picture.speed.clone())),
-        ("axial load (N)", picture.load.clone()),
-        (words.position, Some(picture.position.clone())),
-        ("angle in the turn (rad)", turn),
-        ("temperature (K)", picture.temperature.clone()),
+        (format!("speed ({length}/s)"), Some(&picture.speed)),
+        ("axial load (N)".into(), picture.load.as_ref()),
+        (format!("{position} ({length})"), Some(&picture.position)),
+        ("angle in the turn (rad)".into(), turn.as_ref()),
+        ("temperature (K)".into(), picture.temperature.as_ref()),
     ]
     .into_iter()
     .filter_map(|(name, values)| {
-        let rows = rows(&values?, &residual);
+        let rows = rows(values?, &residual);
         let stride = rows.len().div_ceil(CLOUD).max(1);
         let cloud = rows.iter().copied().step_by(stride).collect();
         let series = vec![
             Series::new("rows", 5, Mark::Dots, cloud),
             Series::new("mean of a group", 1, Mark::Line, groups(rows)),
         ];
-        Some(linear("", name, &label, series))
+        Some(linear("", &name, &label, series))
     });
     let note = "What a model leaves out shows here as a mean that is not zero: a slope over speed is drag, over load a wrong \
                 coefficient or gain, a wave over the turn an error of the screw.";
@@ -300,25 +280,21 @@ fn residual(picture: &Picture, words: &Words) -> Vec<Block> {
 
 fn spectrum(picture: &Picture, residual: &[f64], words: &Words) -> Option<Figure> {
     let step = picture.step()?;
-    let points = |values: &[f64]| -> Vec<(f64, f64)> {
+    let series = |name, colour, values: &[f64]| {
         let lines = welch(values, step).into_iter();
-        lines.filter(|(_, density)| *density > 0.0).collect()
+        let points = lines.filter(|(_, density)| *density > 0.0).collect();
+        Series::new(name, colour, Mark::Line, points)
     };
-    let (measured, left) = (points(&picture.measured), points(residual));
-    let axes = [Axis::log("frequency (Hz)"), Axis::log(words.density)];
-    let [frequency, density] = axes;
-    (!left.is_empty()).then(|| {
-        let series = vec![
-            Series::new("measured", 0, Mark::Line, measured),
-            Series::new("residual", 3, Mark::Line, left),
-        ];
-        Figure {
-            name: "spectrum",
-            caption: "Power spectral density by Welch's method".into(),
-            panels: vec![chart("", frequency, density, series)],
-            columns: 1,
-            size: (1000, 360),
-        }
+    let left = series("residual", 3, residual);
+    let both =
+        (!left.points.is_empty()).then(|| vec![series("measured", 0, &picture.measured), left])?;
+    let density = Axis::log(&format!("density (({})²/Hz)", words.0[1]));
+    Some(Figure {
+        name: "spectrum",
+        caption: "Power spectral density by Welch's method".into(),
+        panels: vec![chart("", Axis::log("frequency (Hz)"), density, both)],
+        columns: 1,
+        size: (1000, 360),
     })
 }
 
@@ -354,7 +330,7 @@ fn correlations(correlations: &Correlations) -> Table {
     let mut table = table(
         "correlations",
         "Correlations of the parameters' errors",
-        [""],
+        "",
         rows,
     );
     table.columns.extend(correlations.names.iter().cloned());
@@ -374,7 +350,7 @@ fn manoeuvres() -> Table {
     table(
         "manoeuvres",
         "What each manoeuvre identifies: a parameter stands with the two whose 95 % intervals are narrowest on a rack-assist gear",
-        ["manoeuvre", "how", "identifies"],
+        "manoeuvre | how | identifies",
         Manoeuvre::ALL.into_iter().map(row),
     )
 }

@@ -48,7 +48,7 @@ pub fn document(together: &Together) -> Document {
         let refused = table(
             "refused",
             "Traces that were not fitted",
-            ["trace", "reason"],
+            "trace | reason",
             together
                 .refused()
                 .map(|(trace, word)| vec![trace.into(), word.into()]),
@@ -72,16 +72,7 @@ fn population(name: &'static str, caption: &str, population: &[Population]) -> T
             perhaps(parameter.next.map(|next| next[1])),
         ]
     };
-    let columns = [
-        "parameter",
-        "traces",
-        "mean",
-        "low",
-        "high",
-        "spread",
-        "next, low",
-        "next, high",
-    ];
+    let columns = "parameter | traces | mean | low | high | spread | next, low | next, high";
     table(name, caption, columns, population.iter().map(row))
 }
 
@@ -98,7 +89,7 @@ fn outliers(together: &Together) -> Table {
     table(
         "outliers",
         "Parameters more than five standard deviations from the median of all traces",
-        ["trace", "parameter", "value", "median", "deviations"],
+        "trace | parameter | value | median | deviations",
         rows,
     )
 }
@@ -116,7 +107,7 @@ fn every_parameter(together: &Together) -> Table {
     table(
         "traces",
         "Estimated parameters of every trace with their 95 % intervals",
-        ["trace", "parameter", "value", "low", "high", "unit"],
+        "trace | parameter | value | low | high | unit",
         rows,
     )
 }

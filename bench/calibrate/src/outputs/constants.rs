@@ -64,34 +64,12 @@ const fn sound<T: Copy>(checked: Result<T, Error>) -> T {
 ";
 
 fn imports(numbers: &Numbers) -> String {
-    let memory = numbers.reference.is_some();
-    let coefficient = match (numbers.law.is_some(), memory) {
-        (true, true) => {
-            "{\n    CoefficientLaw, CoefficientParameters, RollingDrag, TemperatureFade, Viscosity,\n}"
-        }
-        (true, false) => "{\n    CoefficientLaw, CoefficientParameters, RollingDrag, Viscosity,\n}",
-        (false, true) => "{OneCoefficient, TemperatureFade}",
+    let law = match (numbers.law.is_some(), numbers.reference.is_some()) {
+        (_, true) => "use epas_friction::law::{coefficient, memory};\n",
+        (true, false) => "use epas_friction::law::coefficient;\n",
         (false, false) => "",
     };
-    let elements = match numbers.screw.elements {
-        ElementsKind::Proportional => "{Part, ProportionalElements, SLIP_8}",
-        ElementsKind::LoadExact => "LoadExactElements",
-        ElementsKind::Preloaded => "{LoadExactElements, PreloadedElements}",
-    };
-    let scene = if memory {
-        "{\n    CagedConstants, Freshness, WithMemoryConfiguration, WithMemoryConstants,\n}"
-    } else {
-        "CagedConstants"
-    };
-    let all = [
-        ("law::coefficient::", coefficient),
-        ("law::memory::", if memory { elements } else { "" }),
-        ("scene::", scene),
-        ("", "Error"),
-    ];
-    let used = all.iter().filter(|(_, names)| !names.is_empty());
-    used.map(|(path, names)| format!("use epas_friction::{path}{names};\n"))
-        .collect()
+    format!("{law}use epas_friction::{{Error, scene}};\n")
 }
 
 /// The block of the screw, and the constants of the scene without memory.
@@ -113,7 +91,7 @@ fn screw(folded: &Folded) -> Result<String, Failure> {
     let _ = write!(
         text,
         "];\n\n/// The screw without memory: for a `static` that stands in flash.\n\
-         pub const SCREW: CagedConstants<{nodes}> = sound(CagedConstants::from_block(&SCREW_BLOCK));\n"
+         pub const SCREW: scene::CagedConstants<{nodes}> =\n    sound(scene::CagedConstants::from_block(&SCREW_BLOCK));\n"
     );
     Ok(text)
 }
@@ -124,17 +102,17 @@ fn coefficient(numbers: &Numbers, friction: f32) -> String {
         return numbers.reference.map_or_else(String::new, |_| {
             format!(
                 "\n/// One friction coefficient at every speed and temperature.\n\
-                 pub const COEFFICIENT: OneCoefficient = sound(OneCoefficient::new({friction:?}));\n"
+                 pub const COEFFICIENT: coefficient::OneCoefficient =\n    sound(coefficient::OneCoefficient::new({friction:?}));\n"
             )
         });
     };
     let [cold, warm] = numbers.screw.viscosities(&numbers.values);
     format!(
         "\n/// Friction coefficient by speed, temperature and direction.\n\
-         pub const COEFFICIENT: CoefficientLaw = sound(CoefficientLaw::new(&CoefficientParameters {{\n    \
+         pub const COEFFICIENT: coefficient::CoefficientLaw = sound(coefficient::CoefficientLaw::new(&coefficient::CoefficientParameters {{\n    \
          boundary: {:?},\n    full_film: {:?},\n    half_share_speed: {:?},\n    reference_temperature: {:?},\n    \
-         viscosity: sound(Viscosity::through({cold:?}, {warm:?}, {COLDEST:?})),\n    forward: {:?},\n    backward: {:?},\n    \
-         churning: {:?},\n    drag: RollingDrag {{ torque: {:?}, heating: {:?} }},\n}}));\n",
+         viscosity: sound(coefficient::Viscosity::through({cold:?}, {warm:?}, {COLDEST:?})),\n    forward: {:?},\n    backward: {:?},\n    \
+         churning: {:?},\n    drag: coefficient::RollingDrag {{ torque: {:?}, heating: {:?} }},\n}}));\n",
         law.boundary,
         law.full_film,
         law.half_share_speed,
@@ -156,27 +134,25 @@ fn memory(numbers: &Numbers, nodes: usize) -> Result<String, Failure> {
     let (torque, load, play) = (reference.torque, reference.load, numbers.play(reference)?);
     let breakaway_angle = values.breakaway_angle as f32;
     let largest_load = screw.largest_load_of_elements(reference);
-    let exact =
-        format!("LoadExactElements::new({torque:?}, {breakaway_angle:?}, {largest_load:?})");
+    let exact = format!(
+        "memory::LoadExactElements::new({torque:?}, {breakaway_angle:?}, {largest_load:?})"
+    );
     let (kind, made) = match screw.elements {
         ElementsKind::Proportional => (
-            "ProportionalElements<8>",
+            "memory::ProportionalElements<8>",
             format!(
-                "sound(ProportionalElements::new(\n    {torque:?},\n    &[Part {{\n        backbone: &SLIP_8.elements,\n        \
-                 share: 1.0,\n        breakaway_angle: {breakaway_angle:?},\n    }}],\n))"
+                "sound(memory::ProportionalElements::new(\n    {torque:?},\n    &[memory::Part {{\n        backbone: \
+                 &memory::SLIP_8.elements,\n        share: 1.0,\n        breakaway_angle: {breakaway_angle:?},\n    }}],\n))"
             ),
         ),
-        ElementsKind::LoadExact => ("LoadExactElements<8>", format!("sound({exact})")),
+        ElementsKind::LoadExact => ("memory::LoadExactElements<8>", format!("sound({exact})")),
         ElementsKind::Preloaded => (
-            "PreloadedElements<LoadExactElements<8>>",
-            format!("PreloadedElements::new(sound({exact}))"),
+            "memory::PreloadedElements<memory::LoadExactElements<8>>",
+            format!("memory::PreloadedElements::new(sound({exact}))"),
         ),
     };
-    let law = if numbers.law.is_some() {
-        "CoefficientLaw"
-    } else {
-        "OneCoefficient"
-    };
+    let law = ["OneCoefficient", "CoefficientLaw"][usize::from(numbers.law.is_some())];
+    let types = format!("scene::CagedConstants<{nodes}>, {kind}, ");
     let temperature = screw.reference_temperature as f32;
     Ok(format!(
         "
@@ -186,22 +162,22 @@ pub const ELEMENTS: {kind} = {made};
 /// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
 ///
 /// ```text
-/// static GEAR: WithMemoryConstants<CagedConstants<{nodes}>, {kind}, CountSensor, {law}> = with_memory(SENSOR);
+/// static GEAR: scene::WithMemoryConstants<{types}CountSensor, coefficient::{law}> = with_memory(SENSOR);
 /// ```
 pub const fn with_memory<A: Copy>(
     angle: A,
-) -> WithMemoryConstants<CagedConstants<{nodes}>, {kind}, A, {law}> {{
-    sound(WithMemoryConstants::new(
+) -> scene::WithMemoryConstants<{types}A, coefficient::{law}> {{
+    sound(scene::WithMemoryConstants::new(
         SCREW,
-        &WithMemoryConfiguration {{
+        &scene::WithMemoryConfiguration {{
             scene: (),
             elements: ELEMENTS,
             angle,
             reference_load: {load:?},
             play: {play:?},
             coefficient: COEFFICIENT,
-            temperature: sound(TemperatureFade::new({temperature:?}, 60.0, 60.0)),
-            freshness: Freshness::DEFAULT,
+            temperature: sound(coefficient::TemperatureFade::new({temperature:?}, 60.0, 60.0)),
+            freshness: scene::Freshness::DEFAULT,
         }},
     ))
 }}
@@ -310,7 +286,10 @@ harmonics = [{ order = 1, cosine = 1.5e-3, sine = -1e-3 }, { order = 2, sine = 8
         let exact = of(&format!(
             "{DESIGN}[calibration]\nbreakaway_angle = 1e-3\nreference_load = 500\nelements = \"load_exact\"\nlargest_load = 3000\n"
         ));
-        for word in ["sound(LoadExactElements::new", "OneCoefficient::new"] {
+        for word in [
+            "sound(memory::LoadExactElements::new",
+            "OneCoefficient::new",
+        ] {
             assert!(exact.contains(word), "{word}");
         }
         assert!(!exact.contains("CoefficientLaw"));

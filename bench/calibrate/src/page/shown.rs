@@ -53,17 +53,17 @@ pub fn perhaps(value: Option<f64>) -> Cell {
     value.map_or("".into(), number)
 }
 
-/// A table.
-pub fn table<const N: usize>(
+/// A table, whose headings stand in one text: `parameter | value`.
+pub fn table(
     name: &'static str,
     caption: &str,
-    columns: [&str; N],
+    columns: &str,
     rows: impl Iterator<Item = Vec<Cell>>,
 ) -> Table {
     Table {
         name,
         caption: caption.into(),
-        columns: columns.map(String::from).into(),
+        columns: columns.split(" | ").map(String::from).collect(),
         rows: rows.collect(),
     }
 }
@@ -95,9 +95,13 @@ mod tests {
         ] {
             assert_eq!(digits(value, count), shown);
         }
-        assert_eq!(interval(0.1, 0.2), "0.1000 to 0.2000");
-        assert_eq!(interval(0.1, f64::INFINITY), "0.1000 or more");
-        assert_eq!(interval(f64::NEG_INFINITY, 2.0), "2.000 or less");
-        assert_eq!(interval(f64::NAN, f64::NAN), "without bounds");
+        for (low, high, shown) in [
+            (0.1, 0.2, "0.1000 to 0.2000"),
+            (0.1, f64::INFINITY, "0.1000 or more"),
+            (f64::NEG_INFINITY, 2.0, "2.000 or less"),
+            (f64::NAN, f64::NAN, "without bounds"),
+        ] {
+            assert_eq!(interval(low, high), shown);
+        }
     }
 }
