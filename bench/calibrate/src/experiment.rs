@@ -1,10 +1,10 @@
 //! Which manoeuvre tells a parameter of a screw best: `calibrate --wanted`.
 //!
-//! Each [`Manoeuvre`] is a trace without a torque, and a problem of the estimator at its start values. The Fisher information of its rows
+//! Each manoeuvre is a trace without a torque, and a problem of the estimator at its start values. The Fisher information of its rows
 //! and the noise give the interval that a fit would find. Bounds count as a little information, that of an even distribution between them,
 //! so that what a manoeuvre does not tell keeps the width of its bounds.
 
-pub mod manoeuvre;
+pub(crate) mod manoeuvre;
 
 use std::io::{self, Write};
 
@@ -36,20 +36,6 @@ const NOISE: f64 = 5e-3;
 /// Tick of the manoeuvres, s.
 const STEP: f64 = 1e-3;
 
-/// How well a manoeuvre tells a parameter.
-struct Ranked {
-    manoeuvre: Manoeuvre,
-    /// Value that was assumed, and the 95 % interval that the trace would give.
-    value: f64,
-    interval: [f64; 2],
-    /// Half width in the inner coordinate (logarithm, or value).
-    half_width: f64,
-    /// The parameter that hides this one most, and their correlation.
-    hidden_by: Option<(&'static str, f64)>,
-    /// The other manoeuvre that helps most, and the half width with both.
-    companion: Option<(Manoeuvre, f64)>,
-}
-
 /// What one manoeuvre says.
 struct Said {
     manoeuvre: Manoeuvre,
@@ -77,7 +63,7 @@ impl Said {
         let place = all.iter().position(|(name, ..)| *name == wanted);
         let place = place.ok_or_else(|| Failure::Data(format!("{wanted}: no such parameter")))?;
         let rows = information(&jacobian, &[NOISE * NOISE])
-            .ok_or_else(|| Failure::Data(format!("{}: no information", manoeuvre.name())))?;
+            .ok_or_else(|| Failure::Data(format!("{}: no information", manoeuvre.words()[0])))?;
         let mut own = rows.clone();
         for (k, (_, scale, [low, high], _)) in all.iter().enumerate() {
             let range = inner(*scale, *high) - inner(*scale, *low);
@@ -111,31 +97,32 @@ impl Said {
         })
     }
 
-    fn ranked(&self, all: &[Self]) -> Ranked {
-        let (k, half_width) = (self.place, self.half_width(&self.own));
-        let others = covariance(&self.own).into_iter().flat_map(|covariance| {
-            let correlation =
-                |j: usize| covariance[(j, k)] / (covariance[(j, j)] * covariance[(k, k)]).sqrt();
-            let others = (0..self.names.len()).filter(|j| *j != k);
-            others
-                .map(|j| (self.names[j], correlation(j)))
-                .collect::<Vec<_>>()
-        });
-        let companions = all.iter().filter(|other| other.manoeuvre != self.manoeuvre);
-        let both =
-            companions.map(|other| (other.manoeuvre, self.half_width(&(&self.own + &other.rows))));
-        let end = |away: f64| {
+    /// The 95 % interval that the trace would give.
+    fn interval(&self) -> [f64; 2] {
+        let half = self.half_width(&self.own);
+        [-half, half].map(|away| {
             let place = inner(self.scale, self.value) + away;
             outer(self.scale, place).clamp(self.bounds[0], self.bounds[1])
-        };
-        Ranked {
-            manoeuvre: self.manoeuvre,
-            value: self.value,
-            interval: [end(-half_width), end(half_width)],
-            half_width,
-            hidden_by: others.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())),
-            companion: both.min_by(|a, b| a.1.total_cmp(&b.1)),
-        }
+        })
+    }
+
+    /// The parameter that hides this one most, and their correlation.
+    fn hidden_by(&self) -> Option<(&'static str, f64)> {
+        let covariance = covariance(&self.own)?;
+        let k = self.place;
+        let correlation =
+            |j: usize| covariance[(j, k)] / (covariance[(j, j)] * covariance[(k, k)]).sqrt();
+        let others = (0..self.names.len()).filter(|j| *j != k);
+        let others = others.map(|j| (self.names[j], correlation(j)));
+        others.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
+    }
+
+    /// The other manoeuvre that helps most, and the half width with both.
+    fn companion(&self, all: &[Self]) -> Option<(Manoeuvre, f64)> {
+        let others = all.iter().filter(|other| other.manoeuvre != self.manoeuvre);
+        let both =
+            others.map(|other| (other.manoeuvre, self.half_width(&(&self.own + &other.rows))));
+        both.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 
@@ -148,13 +135,6 @@ fn covariance(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
         }
     }
     Some(whole.cholesky()?.inverse())
-}
-
-/// Manoeuvres by how well they tell the wanted parameter, the best first.
-fn rank(said: &[Said]) -> Vec<Ranked> {
-    let mut ranked: Vec<Ranked> = said.iter().map(|one| one.ranked(said)).collect();
-    ranked.sort_by(|a, b| a.half_width.total_cmp(&b.half_width));
-    ranked
 }
 
 /// What a manoeuvre says of a screw's parameter.
@@ -198,7 +178,8 @@ pub fn tell(design: &Design, name: &str) -> Result<(), Failure> {
     )
 }
 
-fn ranked(design: &Design, name: &str, reach: &Reach) -> Result<Vec<Ranked>, Failure> {
+/// Manoeuvres by how well they tell the wanted parameter, the best first.
+fn ranked(design: &Design, name: &str, reach: &Reach) -> Result<Vec<Said>, Failure> {
     let others = BESIDE.split(' ').filter(|other| *other != name);
     let wanted = Wanted {
         estimate: Some(others.chain([name]).map(String::from).collect()),
@@ -206,38 +187,33 @@ fn ranked(design: &Design, name: &str, reach: &Reach) -> Result<Vec<Ranked>, Fai
     };
     let all = Manoeuvre::ALL.into_iter();
     let said = all.map(|manoeuvre| said(design, (name, &wanted), manoeuvre, reach));
-    Ok(rank(&said.collect::<Result<Vec<_>, _>>()?))
+    let mut said = said.collect::<Result<Vec<_>, _>>()?;
+    said.sort_by(|a, b| a.half_width(&a.own).total_cmp(&b.half_width(&b.own)));
+    Ok(said)
 }
 
-fn print(
-    out: &mut impl Write,
-    name: &str,
-    reach: &Reach,
-    ranked: &[Ranked],
-) -> Result<(), Failure> {
+fn print(out: &mut impl Write, name: &str, reach: &Reach, all: &[Said]) -> Result<(), Failure> {
     let noise = 1e3 * NOISE;
     writeln!(
         out,
         "Manoeuvres that tell {name}, the best first; intervals (95 %) with a noise of {noise:.1} mN m. They reach {reach}."
     )?;
-    for entry in ranked {
-        let (manoeuvre, [low, high]) = (entry.manoeuvre, entry.interval);
-        let duration = manoeuvre.duration();
-        let how = manoeuvre.how();
-        writeln!(out, "\n{} ({duration:.0} s): {how}", manoeuvre.name())?;
-        let value = entry.value;
+    for one in all {
+        let (manoeuvre, value, [low, high]) = (one.manoeuvre, one.value, one.interval());
+        let [title, how, _] = manoeuvre.words();
+        writeln!(out, "\n{title} ({:.0} s): {how}", manoeuvre.duration())?;
         writeln!(
             out,
             "  {value:.4e} would be told as {low:.4e} to {high:.4e}"
         )?;
-        if let Some((other, correlation)) = entry.hidden_by {
+        if let Some((other, correlation)) = one.hidden_by() {
             writeln!(
                 out,
                 "  hidden most by {other} (correlation {correlation:.3})"
             )?;
         }
-        if let Some((other, width)) = entry.companion {
-            let other = other.name();
+        if let Some((other, width)) = one.companion(all) {
+            let [other, ..] = other.words();
             writeln!(
                 out,
                 "  with {other} as well: half of the interval {width:.3}"
@@ -277,25 +253,23 @@ mod tests {
     #[test]
     fn what_is_not_told_and_what_helps() {
         let of = |wanted: &str| {
-            rank(&[
+            [
                 said_of(wanted, Manoeuvre::Parking, |at| [1.0, at.sin()]),
                 said_of(wanted, Manoeuvre::WholeTurns, |at| {
                     [1.0, 1.0 + 0.01 * at.sin()]
                 }),
                 said_of(wanted, Manoeuvre::WarmUp, |at| [1.0 + at, at.sin()]),
-            ])
+            ]
         };
         let warmth = of("warmth");
-        assert_eq!(warmth[0].manoeuvre, Manoeuvre::WarmUp);
         let even = NORMAL * 500f64.ln() / 12f64.sqrt();
-        for cold in &warmth[1..] {
-            assert!((cold.half_width - even).abs() < 1e-6 * even);
-            let (companion, both) = cold.companion.unwrap();
+        for cold in &warmth[..2] {
+            assert!((cold.half_width(&cold.own) - even).abs() < 1e-6 * even);
+            let (companion, both) = cold.companion(&warmth).unwrap();
             assert!(companion == Manoeuvre::WarmUp && both < 0.05 * even);
         }
-        let worst = of("level").pop().unwrap();
-        assert_eq!(worst.manoeuvre, Manoeuvre::WholeTurns);
-        let (name, correlation) = worst.hidden_by.unwrap();
+        assert!(warmth[2].half_width(&warmth[2].own) < 0.05 * even);
+        let (name, correlation) = of("level")[1].hidden_by().unwrap();
         assert!(name == "gain" && correlation < -0.99);
     }
 

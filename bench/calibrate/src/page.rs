@@ -340,12 +340,9 @@ fn correlations(correlations: &Correlations) -> Table {
 /// Which manoeuvre identifies what.
 fn manoeuvres() -> Table {
     let row = |manoeuvre: Manoeuvre| {
-        let identified = manoeuvre.identifies().collect::<Vec<_>>().join(", ");
-        vec![
-            manoeuvre.name().into(),
-            manoeuvre.how().into(),
-            identified.into(),
-        ]
+        let [name, how, identifies] = manoeuvre.words();
+        let identifies = identifies.replace(' ', ", ");
+        vec![name.into(), how.into(), identifies.into()]
     };
     table(
         "manoeuvres",

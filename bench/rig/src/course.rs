@@ -1,12 +1,12 @@
 //! What the rig is driven through: motion, load and temperature over time.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
-use std::ops::Range;
 
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
 use crate::parameters::ZERO_CELSIUS;
+use crate::{Trace, Truth};
 use epas_reference::error::{ReferenceError, within};
 
 /// Stream of the generator of random numbers for the motion; sensors have the one beside it.
@@ -88,47 +88,38 @@ impl Course {
         self
     }
 
-    /// Motion and load, the same for the same seed on every machine.
-    pub(crate) fn driven(&self, seed: u64) -> Result<Driven, ReferenceError> {
+    /// Time, motion, load and temperature, the same for the same seed on every machine.
+    pub(crate) fn driven(&self, seed: u64) -> Result<Trace, ReferenceError> {
         within("tick", self.tick, 1e-5, 0.02)?;
         for temperature in self.temperatures {
             within("temperatures", temperature, 200.0, 500.0)?;
         }
         let mut random = Pcg64::new(seed.into(), STREAM);
-        let mut driven = Driven::default();
+        let mut trace = Trace::default();
         for &(manoeuvre, duration) in &self.parts {
             within("duration", duration, 1.0, 1e4)?;
+            let first = trace.truth.position.len();
             let part = Part {
                 duration,
                 tick: self.tick,
                 ticks: (duration / self.tick).round() as usize,
-                start: driven.position.last().copied().unwrap_or(0.0),
+                start: trace.truth.position.last().copied().unwrap_or(0.0),
             };
-            let first = driven.position.len();
-            part.drive(manoeuvre, &mut random, &mut driven);
-            driven.parts.push((manoeuvre, first..driven.position.len()));
+            part.drive(manoeuvre, &mut random, &mut trace.truth);
+            trace.parts.push((manoeuvre, first..first + part.ticks));
         }
         // Half of the power passes at 20 Hz.
         let width = 6.6e-3 / self.tick;
-        driven.position = smooth(&driven.position, width);
-        driven.load = smooth(&driven.load, width);
-        let last = driven.position.len().max(2) - 1;
+        trace.truth.position = smooth(&trace.truth.position, width);
+        trace.truth.load = smooth(&trace.truth.load, width);
+        let ticks = trace.truth.position.len();
+        let last = ticks.max(2) - 1;
         let [start, end] = self.temperatures;
-        driven.temperature = (0..driven.position.len())
-            .map(|tick| start + (end - start) * tick as f64 / last as f64)
-            .collect();
-        Ok(driven)
+        let warm = |tick| start + (end - start) * tick as f64 / last as f64;
+        trace.temperature = (0..ticks).map(warm).collect();
+        trace.time = (0..ticks).map(|tick| tick as f64 * self.tick).collect();
+        Ok(trace)
     }
-}
-
-/// Angle of the nut, rad, axial load, N, and temperature, K, at every tick.
-#[derive(Default)]
-pub(crate) struct Driven {
-    pub position: Vec<f64>,
-    /// Positive where it opposes the travel of a nut that turns forward.
-    pub load: Vec<f64>,
-    pub temperature: Vec<f64>,
-    pub parts: Vec<(Manoeuvre, Range<usize>)>,
 }
 
 /// One part of a course.
@@ -141,7 +132,7 @@ struct Part {
 }
 
 impl Part {
-    fn drive(&self, manoeuvre: Manoeuvre, random: &mut Pcg64, driven: &mut Driven) {
+    fn drive(&self, manoeuvre: Manoeuvre, random: &mut Pcg64, driven: &mut Truth) {
         match manoeuvre {
             Weave => {
                 let motion = self.waves(random, [0.2, 1.5], 0.6);
@@ -199,7 +190,7 @@ impl Part {
     fn steer(
         &self,
         random: &mut Pcg64,
-        driven: &mut Driven,
+        driven: &mut Truth,
         load_factor: f64,
         motion: impl Fn(usize) -> f64,
     ) {
@@ -215,7 +206,7 @@ impl Part {
     }
 
     /// Turns at a speed, under a load, both by the share of the duration.
-    fn turn(&self, driven: &mut Driven, at: impl Fn(f64) -> (f64, f64)) {
+    fn turn(&self, driven: &mut Truth, at: impl Fn(f64) -> (f64, f64)) {
         let mut position = self.start;
         for tick in 0..self.ticks {
             let (speed, load) = at(tick as f64 / self.ticks as f64);

@@ -18,7 +18,7 @@ use std::ops::Range;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use course::{Course, Driven, Manoeuvre, STREAM};
+use course::{Course, Manoeuvre, STREAM};
 use epas_reference::closed_loop::ClosedLoop;
 use epas_reference::error::{ReferenceError, within};
 use friction::{Memory, Sliding, State};
@@ -47,7 +47,7 @@ impl Default for Sensors {
 }
 
 /// Measured columns, and the truth behind them; all of one length.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
     /// Time, s.
     pub time: Vec<f64>,
@@ -66,7 +66,7 @@ pub struct Trace {
 }
 
 /// What a measurement does not show.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Truth {
     /// Angle of the nut, rad.
     pub position: Vec<f64>,
@@ -119,8 +119,9 @@ impl Rig {
     /// # Errors
     /// [`ReferenceError`] naming what is wrong with the course, or `load` where it is beyond the screw's largest.
     pub fn run(&self, course: &Course, seed: u64) -> Result<Trace, ReferenceError> {
-        let driven = course.driven(seed)?;
-        let truth = self.truth(course.tick, &driven)?;
+        let mut trace = course.driven(seed)?;
+        self.drive(course.tick, &mut trace)?;
+        let truth = &trace.truth;
         let mut random = Pcg64::new(seed.into(), STREAM ^ 1);
         let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
         let Sensors {
@@ -130,85 +131,60 @@ impl Rig {
         } = self.sensors;
         let size = torque_noise * deviation(&truth.torque);
         let torque = truth.torque.iter();
-        let motor_torque = torque.map(|torque| torque + size * normal()).collect();
-        // A draw that the order of the noises is counted with.
+        trace.motor_torque = torque.map(|torque| torque + size * normal()).collect();
+        // One draw lies between both noises.
         normal();
         let load = truth.load.iter();
-        let axial_load = load.map(|load| load + load_noise * normal()).collect();
-        let counted = |angle: &f64| match count {
-            0.0 => *angle,
-            count => (angle / count).round() * count,
+        trace.axial_load = load.map(|load| load + load_noise * normal()).collect();
+        let counted = |angle: &f64| {
+            if count > 0.0 {
+                (angle / count).round() * count
+            } else {
+                *angle
+            }
         };
-        let ticks = 0..truth.position.len();
-        Ok(Trace {
-            time: ticks.map(|tick| tick as f64 * course.tick).collect(),
-            nut_position: truth.position.iter().map(counted).collect(),
-            motor_torque,
-            axial_load,
-            temperature: driven.temperature,
-            truth,
-            parts: driven.parts,
-        })
+        trace.nut_position = truth.position.iter().map(counted).collect();
+        Ok(trace)
     }
 
-    /// Motion, friction and torque without sensors.
-    fn truth(&self, tick: f64, driven: &Driven) -> Result<Truth, ReferenceError> {
+    /// Speed, friction and torque along the motion of a trace.
+    fn drive(&self, tick: f64, trace: &mut Trace) -> Result<(), ReferenceError> {
         let Parameters {
-            screw,
-            inertia,
-            viscous,
-            offset,
-            load_gain,
-            waves,
-            backlash,
-            ..
+            screw, backlash, ..
         } = &self.parameters;
-        let Driven {
-            position,
-            load,
-            temperature,
-            ..
-        } = driven;
-        let speed = slopes(position, tick);
-        let acceleration = slopes(&speed, tick);
+        let truth = &mut trace.truth;
+        truth.speed = slopes(&truth.position, tick);
+        let acceleration = slopes(&truth.speed, tick);
         let reference_sum = screw.flank_sum(self.parameters.reference_axial_load);
         let mut memory = Memory::new(&self.sliding);
         // In the middle of the play at the start.
-        let mut nut = position.first().copied().unwrap_or(0.0);
-        let (mut friction, mut torque) = (Vec::new(), Vec::new());
-        for index in 0..position.len() {
-            let (angle, load) = (position[index], load[index]);
+        let mut nut = truth.position.first().copied().unwrap_or(0.0);
+        for (index, angle) in truth.position.iter().enumerate() {
+            let (speed, load) = (truth.speed[index], truth.load[index]);
             within("load", load, -screw.largest_load, screw.largest_load)?;
             let taken = nut.clamp(angle - 0.5 * backlash, angle + 0.5 * backlash);
-            let state = State {
+            let resisting = memory.follow(&State {
                 turn: taken - nut,
-                speed: speed[index],
+                speed,
                 load,
-                temperature: temperature[index],
-            };
+                temperature: trace.temperature[index],
+            });
             nut = taken;
-            let resisting = memory.follow(&state);
-            let wavy = waves.iter().map(|wave| {
+            let waves = self.parameters.waves.iter().map(|wave| {
                 let (sin, cos) = (wave.order * angle).sin_cos();
                 wave.cosine * cos + wave.sine * sin
             });
-            friction.push(resisting);
-            torque.push(
-                inertia * acceleration[index]
-                    + viscous * speed[index]
-                    + offset
-                    + load_gain * screw.reduced_lead() * load
+            truth.friction.push(resisting);
+            truth.torque.push(
+                self.parameters.inertia * acceleration[index]
+                    + self.parameters.viscous * speed
+                    + self.parameters.offset
+                    + self.parameters.load_gain * screw.reduced_lead() * load
                     + resisting
-                    + screw.flank_sum(load) / reference_sum * wavy.sum::<f64>(),
+                    + screw.flank_sum(load) / reference_sum * waves.sum::<f64>(),
             );
         }
-        Ok(Truth {
-            position: position.clone(),
-            speed,
-            load: load.clone(),
-            friction,
-            torque,
-        })
+        Ok(())
     }
 }
 

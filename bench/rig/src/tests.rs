@@ -16,9 +16,9 @@ fn less(one: &[f64], other: &[f64]) -> Vec<f64> {
 }
 
 /// 60 s at 1 kHz: noises within five standard errors (`1/sqrt(2 n)`) of their set size, angles within half a count, courses of the sizes
-/// that they are named for; the table holds the measured columns to half of the last digit.
+/// that they are named for.
 #[test]
-fn sensors_courses_and_tables_are_as_set() {
+fn sensors_and_courses_are_as_set() {
     let (sensors, rig) = (Sensors::default(), rig(Parameters::default()));
     let trace = rig.run(&Course::vehicle(), 5).unwrap();
     let truth = &trace.truth;
@@ -47,27 +47,6 @@ fn sensors_courses_and_tables_are_as_set() {
     assert!((40.0..46.0).contains(&fastest), "{fastest}");
     assert_eq!(rig.run(&Course::vehicle(), 5).unwrap(), trace);
     assert_ne!(rig.run(&Course::vehicle(), 6).unwrap(), trace);
-
-    let mut text = Vec::new();
-    trace.write_csv(&mut text).unwrap();
-    let text = String::from_utf8(text).unwrap();
-    let lines: Vec<&str> = text.lines().collect();
-    assert_eq!(
-        lines[0],
-        "time,nut_position,motor_torque,axial_load,temperature"
-    );
-    assert_eq!(lines.len(), 60_001);
-    let columns = [
-        (&trace.time, 1e-6),
-        (&trace.nut_position, 1e-9),
-        (&trace.motor_torque, 1e-7),
-        (&trace.axial_load, 1e-3),
-        (&trace.temperature, 1e-3),
-    ];
-    for (cell, (column, digit)) in lines[1001].split(',').zip(columns) {
-        let error = cell.parse::<f64>().unwrap() - column[1000];
-        assert!(error.abs() <= 0.5001 * digit, "{cell}");
-    }
 }
 
 /// Friction never drives over a whole course, and lies between the limits of sliding. What a calibration has no name for is not named.

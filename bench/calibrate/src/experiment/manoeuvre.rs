@@ -6,28 +6,21 @@ use std::fmt;
 use crate::trace::{Coordinate, Repairs, Trace};
 use epas_design::files::Design;
 
-/// A manoeuvre.
+/// A manoeuvre; its [`Manoeuvre::words`] say how it is driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Manoeuvre {
-    /// On-centre weave: slow and small reversals under a load that follows the angle.
+pub(crate) enum Manoeuvre {
     Weave,
-    /// Parking: fast sweeps from lock to lock under high load.
     Parking,
-    /// Micro reversals: triangles of the size of the pre-sliding travel at rest, about a slowly wandering centre.
     MicroReversals,
-    /// Load steps while the nut turns evenly to and fro.
     LoadSteps,
-    /// Warm-up: the same sweep again and again while the temperature rises.
     WarmUp,
-    /// Spin-down: the nut is let go at its largest speed without load and stops of itself.
     SpinDown,
-    /// Whole turns at constant load and one slow speed, there and back.
     WholeTurns,
 }
 
 /// What the rig or the vehicle can do.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reach {
+pub(crate) struct Reach {
     /// Largest angle from the middle, rad; above 0.
     pub angle: f64,
     /// Largest speed, rad/s; above 0.
@@ -85,7 +78,7 @@ impl Manoeuvre {
 
     /// Name, how to drive it, and the parameters that it identifies: of `calibrate --wanted` for the built-in `lin-4.1` one of the two
     /// narrowest intervals is its; for spin-down and whole turns, what they still identify without a load and at one speed.
-    const fn words(self) -> [&'static str; 3] {
+    pub const fn words(self) -> [&'static str; 3] {
         match self {
             Self::Weave => [
                 "weave",
@@ -125,21 +118,6 @@ impl Manoeuvre {
         }
     }
 
-    /// Name.
-    pub const fn name(self) -> &'static str {
-        self.words()[0]
-    }
-
-    /// How to drive it, in a few words.
-    pub const fn how(self) -> &'static str {
-        self.words()[1]
-    }
-
-    /// Parameters that it identifies.
-    pub fn identifies(self) -> impl Iterator<Item = &'static str> {
-        self.words()[2].split(' ')
-    }
-
     /// Duration, s.
     pub const fn duration(self) -> f64 {
         match self {
@@ -160,7 +138,7 @@ impl Manoeuvre {
             0.0
         };
         Trace {
-            name: self.name().into(),
+            name: self.words()[0].into(),
             coordinate: Coordinate::Rotation,
             start: 0.0,
             step,
