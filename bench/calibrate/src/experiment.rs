@@ -165,9 +165,6 @@ fn said(
 }
 
 /// Prints the manoeuvres, the best first.
-///
-/// # Errors
-/// A name that no parameter has.
 pub fn tell(design: &Design, name: &str) -> Result<(), Failure> {
     let reach = Reach::of(design);
     print(

@@ -104,6 +104,7 @@ pub fn run(
 }
 
 /// Answers of all traces, and what follows from them together.
+#[derive(Default)]
 struct Together {
     /// One for each trace, in the order of their names.
     traces: Vec<Stored>,
@@ -120,37 +121,34 @@ impl Together {
         traces.sort_by(|one, other| one.trace.cmp(&other.trace));
         let mut together = Self {
             traces,
-            population: Vec::new(),
-            without_outliers: Vec::new(),
-            outliers: Vec::new(),
-            common: None,
+            ..Self::default()
         };
-        together.outliers = together.far();
-        let all: Vec<&Answered> = together.told().map(|(_, told)| &told.answered).collect();
-        alike(&all).map_err(Failure::Data)?;
-        let far = |name: &str| together.outliers.iter().any(|out| out.trace == name);
+        let outliers = together.far();
+        let far = |name: &str| outliers.iter().any(|out| out.trace == name);
+        let told = together.told();
+        let all: Vec<&Answered> = told.map(|(_, told)| &told.answered).collect();
         let near = together.told().filter(|(name, _)| !far(name));
         let near: Vec<&Answered> = near.map(|(_, told)| &told.answered).collect();
+        alike(&all).map_err(Failure::Data)?;
         let (population, common) = (populations(&all), common(&all));
         if near.len() < all.len() {
             together.without_outliers = populations(&near);
         }
         (together.population, together.common) = (population, common);
+        together.outliers = outliers;
         Ok(together)
     }
 
     /// Traces that told something.
     fn told(&self) -> impl Iterator<Item = (&str, &Told)> {
         let all = self.traces.iter();
-        all.filter_map(|stored| Some((stored.trace.as_str(), stored.ended.as_ref().ok()?)))
+        all.filter_map(|stored| Some((&*stored.trace, stored.ended.as_ref().ok()?)))
     }
 
     /// Traces that were refused, with the reason.
     fn refused(&self) -> impl Iterator<Item = (&str, &str)> {
         let all = self.traces.iter();
-        all.filter_map(|stored| {
-            Some((stored.trace.as_str(), stored.ended.as_ref().err()?.as_str()))
-        })
+        all.filter_map(|stored| Some((&*stored.trace, &**stored.ended.as_ref().err()?)))
     }
 
     /// Parameters that are far from those of the other traces.
@@ -200,24 +198,19 @@ impl Together {
     }
 }
 
+/// What is called for every trace.
+type Fit<'a> = &'a (dyn Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync);
+
 /// What the traces tell together, fitted or merged.
-fn answer(
-    folder: &Folder<'_>,
-    fit: &(impl Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync),
-) -> Result<Together, Failure> {
-    let stored = if folder.arguments.merge.is_empty() {
-        fitted(folder, fit)?
-    } else {
-        merged(&folder.arguments.merge)?
-    };
-    Together::of(stored)
+fn answer(folder: &Folder<'_>, fit: Fit<'_>) -> Result<Together, Failure> {
+    Together::of(match &*folder.arguments.merge {
+        [] => fitted(folder, fit)?,
+        folders => merged(folders)?,
+    })
 }
 
 /// Answers of all traces of the part: those that are there, and the others fitted.
-fn fitted(
-    folder: &Folder<'_>,
-    fit: &(impl Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync),
-) -> Result<Vec<Stored>, Failure> {
+fn fitted(folder: &Folder<'_>, fit: Fit<'_>) -> Result<Vec<Stored>, Failure> {
     let part = folder.arguments.part.unwrap_or(Part { index: 0, count: 1 });
     let traces: Vec<PathBuf> = store::list(folder.traces, &["csv", "mf4"])?
         .into_iter()
@@ -243,40 +236,31 @@ fn fitted(
 }
 
 /// The answer of one trace: kept, or fitted and kept. One that is refused keeps its word, and does not stop the others.
-fn one(
-    folder: &Folder<'_>,
-    trace: &Path,
-    fit: &(impl Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync),
-) -> Result<Stored, Failure> {
-    let name = store::name(trace);
-    let refused = |trace, key, failure| match failure {
-        Failure::Data(word) => Ok(Stored {
-            trace,
-            key,
-            ended: Err(word),
-        }),
+fn one(folder: &Folder<'_>, trace: &Path, fit: Fit<'_>) -> Result<Stored, Failure> {
+    let stored = |key, ended| Stored {
+        trace: store::name(trace),
+        key,
+        ended,
+    };
+    // One that is refused says why; another failure ends the run.
+    let word = |failure| match failure {
+        Failure::Data(word) => Ok(Err(word)),
         other => Err(other),
     };
     let key = match Key::of(trace, folder.settings) {
         Ok(key) => key,
         // A file that cannot be read may be readable next time: nothing is kept.
-        Err(failure) => return refused(name, Key::default(), failure),
+        Err(failure) => return Ok(stored(Key::default(), word(failure)?)),
     };
-    if let Some(stored) = store::kept(folder.output, &name, &key) {
-        return Ok(stored);
+    if let Some(kept) = store::kept(folder.output, &store::name(trace), &key) {
+        return Ok(kept);
     }
-    let stored = match fit(trace) {
-        Ok((calibration, answered)) => {
-            let answer = serde_json::to_value(calibration);
-            let answer = answer.map_err(|error| Failure::Data(error.to_string()))?;
-            Stored {
-                trace: name,
-                key,
-                ended: Ok(Told { answer, answered }),
-            }
-        }
-        Err(failure) => refused(name, key, failure)?,
-    };
+    let told = fit(trace).and_then(|(calibration, answered)| {
+        let answer = serde_json::to_value(calibration);
+        let answer = answer.map_err(|error| Failure::Data(error.to_string()))?;
+        Ok(Told { answer, answered })
+    });
+    let stored = stored(key, told.map_or_else(word, |told| Ok(Ok(told)))?);
     store::write(folder.output, &stored)?;
     Ok(stored)
 }

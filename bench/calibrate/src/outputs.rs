@@ -69,9 +69,6 @@ pub struct Outcome<'a> {
 impl OutputArguments {
     /// Fails before any work is done where an output would be in the way of a file, or is one of the inputs: the trace or one of those
     /// beside it.
-    ///
-    /// # Errors
-    /// The file.
     pub fn check<const N: usize>(
         &self,
         trace: &Path,
@@ -113,9 +110,6 @@ impl OutputArguments {
     }
 
     /// Writes everything, and prints what is to be told: the page's text and tables, or one JSON object.
-    ///
-    /// # Errors
-    /// What cannot be written; a calibrated number that no design can have.
     pub fn write(&self, outcome: Outcome<'_>) -> Result<(), Failure> {
         let Outcome {
             calibration,

@@ -36,9 +36,6 @@ pub struct Answered {
 
 impl Answered {
     /// What a fit with this residual told.
-    ///
-    /// # Errors
-    /// Numbers that are not finite, or a covariance that is none.
     pub fn of(residual: &[f64], sure: &Uncertainty, with_design: bool) -> Result<Self, Failure> {
         let intervals = || sure.intervals.iter();
         let answered = Self {
@@ -58,9 +55,6 @@ impl Answered {
     }
 
     /// Itself, where its lists belong together and its numbers are finite, with positive variances.
-    ///
-    /// # Errors
-    /// The parameter that is wrong.
     pub fn checked(self) -> Result<Self, String> {
         let count = self.names.len();
         let lengths = [
@@ -110,9 +104,6 @@ impl Answered {
 }
 
 /// Answers of parts as those of the whole: sorted by what they say, so that no order or grouping is left in them.
-///
-/// # Errors
-/// Text that holds no answers, or answers that do not belong together.
 pub fn merged<'a>(parts: impl IntoIterator<Item = &'a str>) -> Result<Vec<Answered>, String> {
     let mut all = Vec::new();
     for part in parts {
@@ -131,9 +122,6 @@ pub fn merged<'a>(parts: impl IntoIterator<Item = &'a str>) -> Result<Vec<Answer
 }
 
 /// Whether answers may stand in one population.
-///
-/// # Errors
-/// Why not.
 pub(super) fn alike(all: &[&Answered]) -> Result<(), String> {
     if all
         .windows(2)

@@ -26,9 +26,6 @@ pub struct Key {
 
 impl Key {
     /// Of a trace's file as it is now.
-    ///
-    /// # Errors
-    /// A file that cannot be read.
     pub fn of(trace: &Path, settings: &str) -> Result<Self, Failure> {
         let bytes = fs::read(trace).map_err(|error| Failure::file("read", trace, &error))?;
         Ok(Self {
@@ -81,18 +78,12 @@ pub fn kept(output: &Path, trace: &str, key: &Key) -> Option<Stored> {
 }
 
 /// Reads one answer.
-///
-/// # Errors
-/// What is wrong with the file.
 pub fn read(path: &Path) -> Result<Stored, Failure> {
     let text = fs::read_to_string(path).map_err(|error| Failure::file("read", path, &error))?;
     serde_json::from_str(&text).map_err(|error| Failure::file("read", path, &error))
 }
 
 /// Writes one answer, whole or not at all.
-///
-/// # Errors
-/// A file that cannot be written.
 pub fn write(output: &Path, stored: &Stored) -> Result<(), Failure> {
     let path = place(output, &stored.trace);
     // Within the folder that a run fills.
@@ -105,21 +96,13 @@ pub fn write(output: &Path, stored: &Stored) -> Result<(), Failure> {
 }
 
 /// All answers of a folder in which a run has written, in the order of their names.
-///
-/// # Errors
-/// A folder or a file that cannot be read.
 pub fn all(output: &Path) -> Result<Vec<Stored>, Failure> {
     let folder = output.join("traces");
-    list(&folder, &["json"])?
-        .iter()
-        .map(|path| read(path))
-        .collect()
+    let paths = list(&folder, &["json"])?;
+    paths.iter().map(|path| read(path)).collect()
 }
 
 /// Files with one of these endings in a folder, in the order of their names; hidden ones are none.
-///
-/// # Errors
-/// A folder that cannot be read.
 pub fn list(folder: &Path, endings: &[&str]) -> Result<Vec<PathBuf>, Failure> {
     let failure = |error: io::Error| Failure::file("read", folder, &error);
     let mut paths = Vec::new();

@@ -77,16 +77,10 @@ fn traces(count: u64) -> TempDir {
     folder
 }
 
-fn part(text: &str) -> FolderArguments {
+/// A part, or what is merged.
+fn arguments(part: &str, outputs: &[TempDir]) -> FolderArguments {
     FolderArguments {
-        part: Some(text.parse().unwrap()),
-        merge: Vec::new(),
-    }
-}
-
-fn merge(outputs: &[TempDir]) -> FolderArguments {
-    FolderArguments {
-        part: None,
+        part: part.parse().ok(),
         merge: outputs.iter().map(|own| own.path().into()).collect(),
     }
 }
@@ -138,11 +132,11 @@ fn any_partition_has_the_same_answer_to_the_last_bit() {
     for count in [2, 5, 31] {
         let parts = (1..=count).rev().map(|index| {
             let own = tempdir().unwrap();
-            run(&own, &part(&format!("{index}/{count}")));
+            run(&own, &arguments(&format!("{index}/{count}"), &[]));
             own
         });
         let parts: Vec<TempDir> = parts.collect();
-        let (merged, fitted) = run(&output, &merge(&parts));
+        let (merged, fitted) = run(&output, &arguments("", &parts));
         assert_eq!((fitted, merged.json()), (0, whole.json()));
     }
     let text = |list: &[Answered]| serde_json::to_string(list).unwrap();
@@ -166,7 +160,7 @@ fn a_stopped_run_goes_on_where_it_was() {
         let (together, fitted) = run_of(traces.path(), output.path(), arguments, settings);
         (together.unwrap().json(), fitted)
     };
-    let (_, half) = fitted(&part("1/2"), "");
+    let (_, half) = fitted(&arguments("1/2", &[]), "");
     let (whole, rest) = fitted(&all, "");
     assert_eq!((half, rest), (5, 5));
     assert_eq!(fitted(&all, ""), (whole.clone(), 0));
@@ -249,10 +243,10 @@ fn what_does_not_belong_together_is_refused() {
     for (traces, output) in [&one, &other].into_iter().zip(&outputs) {
         run_of(traces.path(), output.path(), &all, "").0.unwrap();
     }
-    let both = run_of(one.path(), outputs[0].path(), &merge(&outputs), "").0;
+    let both = run_of(one.path(), outputs[0].path(), &arguments("", &outputs), "").0;
     assert!(matches!(both, Err(Failure::Data(word)) if word.contains("trace001.csv")));
     // The same twice counts once.
-    let mut twice = merge(&outputs[..1]);
+    let mut twice = arguments("", &outputs[..1]);
     twice.merge.push(outputs[0].path().into());
     let twice = run_of(one.path(), outputs[0].path(), &twice, "").0;
     assert_eq!(twice.unwrap().traces.len(), 3);

@@ -15,9 +15,6 @@ use epas_page::failure::Failure;
 use epas_page::progress::Progress;
 
 /// Constants of a design, to be pasted.
-///
-/// # Errors
-/// What the crate refuses of the design, or what of it cannot be folded.
 pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
     let numbers = Numbers::of(design)?;
     let friction = design.caged.friction;

@@ -9,9 +9,6 @@ use crate::without_design::drive::{Drive, Numbers};
 use epas_page::failure::Failure;
 
 /// Constants of a drive, to be pasted.
-///
-/// # Errors
-/// What the trace does not tell, or what the crate refuses.
 pub fn text(drive: &Drive, trace: &str) -> Result<String, Failure> {
     let numbers = drive.numbers()?;
     let configuration = configuration(&numbers);

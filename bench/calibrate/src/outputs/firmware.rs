@@ -27,9 +27,6 @@ pub struct Numbers {
 
 impl Numbers {
     /// Those of a design.
-    ///
-    /// # Errors
-    /// What the crate refuses.
     pub fn of(design: &Design) -> Result<Self, Failure> {
         let (screw, values) = calibrated(design);
         let refused = |failure: Failure| failure.of("calibration").of(&design.name);
@@ -45,9 +42,6 @@ impl Numbers {
     }
 
     /// Turn that the balls go back with, over two, rad.
-    ///
-    /// # Errors
-    /// [`Error`] naming a number out of range.
     pub fn play(&self, reference: &Reference) -> Result<f32, Error> {
         Ok(match self.screw.elements {
             ElementsKind::Proportional => {
@@ -67,9 +61,6 @@ impl Numbers {
 }
 
 /// The friction coefficient's law of a design, where its calibration has one.
-///
-/// # Errors
-/// What the crate refuses.
 pub fn law(design: &Design) -> Result<Option<CoefficientParameters>, Failure> {
     let Some(told) = design.calibrated.as_ref().filter(|told| told.has_law()) else {
         return Ok(None);
