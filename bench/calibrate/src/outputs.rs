@@ -145,12 +145,10 @@ impl OutputArguments {
                 .map_err(|message| Failure::Data(format!("the calibrated design: {message}")))?;
             if let Some(path) = &self.design_out {
                 write(path, &text)?;
+                let bound = "not written, because at a bound or beside one that is:";
                 left = vec![
                     ("a design file has no key for", left_out),
-                    (
-                        "not written, because at a bound or beside one that is:",
-                        at_bound,
-                    ),
+                    (bound, at_bound),
                 ];
             }
             if let Some(path) = &self.constants {

@@ -10,48 +10,30 @@ use crate::screw::friction::{ElementsKind, Screw};
 use epas_design::files::{Design, read};
 
 /// Keys of a screw that a trace may tell, at the top of a design file.
-const KEYS: [&str; 7] = [
-    "friction",
-    "hysteresis_loss",
-    "lubricant_drag",
-    "rolling_tangent",
-    "clearance",
-    "preload",
-    "reversal_speed",
-];
+const KEYS: &str =
+    "friction hysteresis_loss lubricant_drag rolling_tangent clearance preload reversal_speed";
 
 /// Keys that say how the balls fit, of which a design has one.
-const FITS: [&str; 4] = ["preload", "clearance", "axial_preload", "axial_play"];
+const FITS: &str = "preload clearance axial_preload axial_play";
 
 /// Keys of the table `[calibration]` that the friction follows from: those that were set stand there too, because the
 /// estimated ones hold beside them.
-const FRICTION_KEYS: [&str; 9] = [
-    "full_film_ratio",
-    "half_share_speed",
-    "reference_temperature",
-    "viscosity_pole",
-    "direction_asymmetry",
-    "breakaway_angle",
-    "reference_load",
-    "largest_load",
-    "backlash",
-];
+const FRICTION_KEYS: &str = "full_film_ratio half_share_speed reference_temperature viscosity_pole \
+                             direction_asymmetry breakaway_angle reference_load largest_load backlash";
 
 /// Keys of the table for what is no friction of the screw: only where they were estimated.
-const OTHER_KEYS: [&str; 6] = [
-    "inertia",
-    "drag",
-    "churning",
-    "rolling_drag",
-    "offset",
-    "gain",
-];
+const OTHER_KEYS: &str = "inertia drag churning rolling_drag offset gain";
 
 /// Keys that a design file has together or not at all.
-const TOGETHER: [[&str; 2]; 2] = [
-    ["full_film_ratio", "half_share_speed"],
-    ["breakaway_angle", "largest_load"],
+const TOGETHER: [&str; 2] = [
+    "full_film_ratio half_share_speed",
+    "breakaway_angle largest_load",
 ];
+
+/// Whether a list of keys has this one.
+fn has(keys: &str, name: &str) -> bool {
+    keys.split(' ').any(|key| key == name)
+}
 
 /// What a comment of this program starts with.
 const MARK: &str = "calibrated: ";
@@ -100,12 +82,12 @@ pub fn written(
         all.partition(|estimate| ends_at_bound(calibration, &estimate.name));
     for estimate in &told {
         let name = estimate.name.as_str();
-        if FRICTION_KEYS.contains(&name) || OTHER_KEYS.contains(&name) && !estimate.fixed {
+        if has(FRICTION_KEYS, name) || has(OTHER_KEYS, name) && !estimate.fixed {
             set(table(&mut document)?, estimate, &trace);
         } else if estimate.fixed {
             // The user's own number stays as it is written.
-        } else if KEYS.contains(&name) {
-            if FITS.contains(&name) {
+        } else if has(KEYS, name) {
+            if has(FITS, name) {
                 document = with_fit(&document, name)?;
             }
             set(document.as_table_mut(), estimate, &trace);
@@ -137,11 +119,9 @@ pub fn written(
 
 /// Whether a parameter ended at a bound, or one that it says nothing without.
 fn ends_at_bound(calibration: &Calibration, name: &str) -> bool {
-    let group = TOGETHER.iter().find(|group| group.contains(&name));
+    let group = TOGETHER.iter().find(|group| has(group, name));
     let mut ended = calibration.parameters.iter().filter(|other| other.at_bound);
-    ended.any(|other| {
-        other.name == name || group.is_some_and(|group| group.contains(&other.name.as_str()))
-    })
+    ended.any(|other| other.name == name || group.is_some_and(|group| has(group, &other.name)))
 }
 
 /// The keys of a text, with their places.
@@ -154,11 +134,8 @@ fn parsed(text: &str) -> Result<Document<String>, String> {
 fn with_fit(document: &DocumentMut, name: &str) -> Result<DocumentMut, String> {
     let parsed = parsed(&document.to_string())?;
     let root = parsed.as_table();
-    let others = FITS.iter().filter(|other| **other != name);
-    let place = others
-        .filter_map(|other| root.key(other)?.span())
-        .map(|span| span.start)
-        .next();
+    let mut others = FITS.split(' ').filter(|other| *other != name);
+    let place = others.find_map(|other| Some(root.key(other)?.span()?.start));
     match place {
         Some(place) if !root.contains_key(name) => {
             let (above, below) = parsed.raw().split_at(place);

@@ -14,15 +14,6 @@ pub fn text(drive: &Drive, trace: &str) -> Result<String, Failure> {
     let configuration = configuration(&numbers);
     LoadProportionalConstants::new(&configuration)
         .map_err(|error| Failure::Data(format!("no constants: {error}")))?;
-    let LoadProportionalConfiguration {
-        load_lever,
-        coulomb_friction,
-        viscous_friction,
-        driving_loss,
-        back_driving_loss,
-        reversal_speed,
-        limits,
-    } = configuration;
     let mut text = head("A drive without a drawing", trace);
     for (told, name) in numbers.told.into_iter().zip(["driving", "back-driving"]) {
         if !told {
@@ -42,19 +33,7 @@ use epas_friction::{{Error, Limits, LoadProportionalConfiguration, LoadProportio
 {SOUND}
 /// The drive: for a `static` that stands in flash. Its limits are twice what the trace has.
 pub const DRIVE: LoadProportionalConstants =
-    sound(LoadProportionalConstants::new(&LoadProportionalConfiguration {{
-        load_lever: {load_lever:?},
-        coulomb_friction: {coulomb_friction:?},
-        viscous_friction: {viscous_friction:?},
-        driving_loss: {driving_loss:?},
-        back_driving_loss: {back_driving_loss:?},
-        reversal_speed: {reversal_speed:?},
-        limits: Limits {{
-            nut_speed: {:?},
-            axial_load: {:?},
-            friction_torque: {:?},
-        }},
-    }}));
+    sound(LoadProportionalConstants::new(&{configuration:#?}));
 
 /// Inertia of all that turns, kg m².
 pub const INERTIA: f32 = {:?};
@@ -62,11 +41,7 @@ pub const INERTIA: f32 = {:?};
 /// Torque that the motor's channel shows without any, N m.
 pub const OFFSET: f32 = {:?};
 ",
-        limits.nut_speed,
-        limits.axial_load,
-        limits.friction_torque,
-        numbers.inertia as f32,
-        numbers.offset as f32,
+        numbers.inertia as f32, numbers.offset as f32,
     );
     Ok(text)
 }

@@ -73,7 +73,7 @@ const SPOILED: [Spoiled; 11] = [
             trace
                 .nut_position
                 .iter_mut()
-                .for_each(|angle| *angle = angle.to_degrees())
+                .for_each(|angle| *angle = angle.to_degrees());
         },
         false,
         "degrees",
@@ -83,7 +83,7 @@ const SPOILED: [Spoiled; 11] = [
             trace
                 .motor_torque
                 .iter_mut()
-                .for_each(|torque| *torque = -*torque)
+                .for_each(|torque| *torque = -*torque);
         },
         false,
         "turn the sign of the effort",

@@ -119,7 +119,7 @@ fn a_preload_takes_the_place_of_any_fit() {
     ] {
         let users = USERS.replace("clearance = -1e-6 # sorted balls", fit);
         let Written { text, design, .. } = written(&users, (&whole(), None), "weave").unwrap();
-        let key = |line: &&str| FITS.contains(&line.split(' ').next().unwrap_or_default());
+        let key = |line: &&str| has(FITS, line.split(' ').next().unwrap_or_default());
         assert_eq!(text.lines().filter(key).count(), 1, "{text}");
         assert!(text.contains("preload = 17.0 # calibrated: "), "{text}");
         // Turned into a gap and back: two powers, each of some roundings of 6e-8.
