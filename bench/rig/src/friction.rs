@@ -47,7 +47,7 @@ pub(crate) struct State {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Sliding {
     torque: SlidingTorque,
-    parameters: Parameters,
+    pub parameters: Parameters,
     /// Contact of a film, and the mean speed of its surfaces over the nut's, m.
     contact: FilmContact,
     entrainment: f64,
@@ -57,7 +57,7 @@ pub(crate) struct Sliding {
 
 impl Sliding {
     /// Solves what depends on no trace.
-    pub fn new(parameters: &Parameters) -> Result<Self, ReferenceError> {
+    pub fn new(parameters: Parameters) -> Result<Self, ReferenceError> {
         let screw = parameters.screw;
         let (boundary, full_film) = (parameters.boundary, parameters.full_film);
         let [forward, backward] = parameters.directions;
@@ -102,10 +102,10 @@ impl Sliding {
         }
         Ok(Self {
             torque,
-            parameters: parameters.clone(),
             contact,
             // A ball's centre has half of the nut's speed, and so have the surfaces in its frame.
             entrainment: 0.5 * design.pitch_radius,
+            parameters,
             reference: [sum, limit],
         })
     }

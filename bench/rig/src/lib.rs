@@ -83,7 +83,6 @@ pub struct Truth {
 /// A rig: a screw with its drive and sensors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rig {
-    parameters: Parameters,
     sensors: Sensors,
     sliding: Sliding,
 }
@@ -107,11 +106,8 @@ impl Rig {
             within("torque of the seal", torque, 0.0, 1e3)?;
             within("breakaway of the seal", breakaway, 1e-6, 1.0)?;
         }
-        Ok(Self {
-            sliding: Sliding::new(&parameters)?,
-            parameters,
-            sensors,
-        })
+        let sliding = Sliding::new(parameters)?;
+        Ok(Self { sensors, sliding })
     }
 
     /// Runs a course.
@@ -149,20 +145,19 @@ impl Rig {
 
     /// Speed, friction and torque along the motion of a trace.
     fn drive(&self, tick: f64, trace: &mut Trace) -> Result<(), ReferenceError> {
-        let Parameters {
-            screw, backlash, ..
-        } = &self.parameters;
+        let parameters = &self.sliding.parameters;
+        let (screw, play) = (&parameters.screw, 0.5 * parameters.backlash);
         let truth = &mut trace.truth;
         truth.speed = slopes(&truth.position, tick);
         let acceleration = slopes(&truth.speed, tick);
-        let reference_sum = screw.flank_sum(self.parameters.reference_axial_load);
+        let reference_sum = screw.flank_sum(parameters.reference_axial_load);
         let mut memory = Memory::new(&self.sliding);
         // In the middle of the play at the start.
         let mut nut = truth.position.first().copied().unwrap_or(0.0);
         for (index, angle) in truth.position.iter().enumerate() {
             let (speed, load) = (truth.speed[index], truth.load[index]);
             within("load", load, -screw.largest_load, screw.largest_load)?;
-            let taken = nut.clamp(angle - 0.5 * backlash, angle + 0.5 * backlash);
+            let taken = nut.clamp(angle - play, angle + play);
             let resisting = memory.follow(&State {
                 turn: taken - nut,
                 speed,
@@ -170,16 +165,16 @@ impl Rig {
                 temperature: trace.temperature[index],
             });
             nut = taken;
-            let waves = self.parameters.waves.iter().map(|wave| {
+            let waves = parameters.waves.iter().map(|wave| {
                 let (sin, cos) = (wave.order * angle).sin_cos();
                 wave.cosine * cos + wave.sine * sin
             });
             truth.friction.push(resisting);
             truth.torque.push(
-                self.parameters.inertia * acceleration[index]
-                    + self.parameters.viscous * speed
-                    + self.parameters.offset
-                    + self.parameters.load_gain * screw.reduced_lead() * load
+                parameters.inertia * acceleration[index]
+                    + parameters.viscous * speed
+                    + parameters.offset
+                    + parameters.load_gain * screw.reduced_lead() * load
                     + resisting
                     + screw.flank_sum(load) / reference_sum * waves.sum::<f64>(),
             );

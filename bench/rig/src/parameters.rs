@@ -245,38 +245,42 @@ impl Parameters {
     /// for there is nothing.
     #[must_use]
     pub fn named(&self) -> Vec<(String, f64)> {
-        let mut named = Vec::new();
-        let mut add = |name: &str, value: f64| named.push((name.to_owned(), value));
-        add("friction", self.boundary);
+        let [forward, backward] = self.directions;
+        let mut named = vec![("friction", self.boundary)];
         if let Coefficient::Rational {
             half_share_speed,
             reference_temperature,
             pole,
         } = self.coefficient
         {
-            add("full_film_ratio", self.full_film / self.boundary);
-            add("half_share_speed", half_share_speed);
-            add("reference_temperature", reference_temperature);
-            add("viscosity_pole", pole);
+            named.extend([
+                ("full_film_ratio", self.full_film / self.boundary),
+                ("half_share_speed", half_share_speed),
+                ("reference_temperature", reference_temperature),
+                ("viscosity_pole", pole),
+            ]);
         }
-        let [forward, backward] = self.directions;
         let asymmetry = (forward - backward) / (forward + backward);
-        add("direction_asymmetry", asymmetry);
         let preload = self.screw.contact_force(self.screw.axial_preload);
-        add("preload", preload);
+        named.extend([("direction_asymmetry", asymmetry), ("preload", preload)]);
         if self.spinning.is_none() {
-            add("breakaway_angle", self.breakaway);
+            named.push(("breakaway_angle", self.breakaway));
         }
-        add("backlash", self.backlash);
-        add("inertia", self.inertia);
-        add("drag", self.viscous);
-        add("offset", self.offset);
-        add("gain", self.load_gain);
-        for wave in &self.waves {
-            add(&format!("cosine_{}", wave.order), wave.cosine);
-            add(&format!("sine_{}", wave.order), wave.sine);
-        }
-        named
+        named.extend([
+            ("backlash", self.backlash),
+            ("inertia", self.inertia),
+            ("drag", self.viscous),
+            ("offset", self.offset),
+            ("gain", self.load_gain),
+        ]);
+        let waves = self.waves.iter().flat_map(|wave| {
+            let name = |part| format!("{part}_{}", wave.order);
+            [(name("cosine"), wave.cosine), (name("sine"), wave.sine)]
+        });
+        let named = named
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), value));
+        named.chain(waves).collect()
     }
 
     /// The same as lines of text above a trace's headings, which a reader of traces skips.
