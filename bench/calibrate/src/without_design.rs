@@ -25,6 +25,8 @@ use crate::estimator::fit::Block;
 use crate::estimator::record::Record;
 use crate::estimator::terms::Term;
 use crate::estimator::words::{Diagnosis, diagnose};
+use crate::folder::answered::Answered;
+use crate::folder::population::HALF_INTERVAL;
 use crate::models::rank;
 use crate::page::picture::{Correlations, Picture};
 use crate::page::shown::digits;
@@ -101,6 +103,57 @@ pub fn calibrate(
         controller: own,
         answer,
     })
+}
+
+/// One trace of many, and what it adds to the others: numbers of the drive itself, without the gain of a load's channel.
+///
+/// # Errors
+/// A trace from which nothing can be told, with the cause.
+pub fn plain(trace: &Trace) -> Result<(Calibration, Answered), Failure> {
+    let trace = &*placed(trace);
+    let record = record(trace);
+    let (found, words, _) = told(&record, trace.coordinate)?;
+    let answer = answer(&record, trace, &found, words);
+    let own = |term: &Term| {
+        matches!(
+            term,
+            Term::Inertia
+                | Term::Viscous
+                | Term::Offset
+                | Term::Coulomb
+                | Term::OneSpeed
+                | Term::Driving
+                | Term::BackDriving
+        )
+    };
+    let places: Vec<usize> = (0..found.terms.len())
+        .filter(|k| own(&found.terms[*k]))
+        .collect();
+    // What other kernels say otherwise stretches each deviation of the jackknife to the interval's.
+    let deviation = |k: usize| found.half_widths[k] / HALF_INTERVAL;
+    let covariance = &found.fit.covariance;
+    let entry = |i: usize, j: usize| {
+        let both = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+        covariance[(i, j)] / both * deviation(i) * deviation(j)
+    };
+    let answered = Answered {
+        with_design: false,
+        names: places
+            .iter()
+            .map(|k| found.terms[*k].name(trace.coordinate).into())
+            .collect(),
+        logarithmic: vec![false; places.len()],
+        values: places.iter().map(|k| found.values[*k]).collect(),
+        covariance: places
+            .iter()
+            .flat_map(|i| places.iter().map(|j| entry(*i, *j)))
+            .collect(),
+        model_errors: vec![0.0; places.len()],
+        rows: found.fit.residual.len() as u64,
+        effective_rows: answer.effective_rows,
+        residual_squares: found.fit.residual.iter().map(|left| left * left).sum(),
+    };
+    Ok((answer, answered.checked().map_err(Failure::Data)?))
 }
 
 /// A trace as the estimator takes it.
