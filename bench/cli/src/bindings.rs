@@ -1,7 +1,7 @@
 //! What bindings to other languages take of the program: designs, scenes over traces, `eval` without its command line.
 
 pub use crate::simulate::bindings::{
-    Balls, Built, Caged, CagedRow, Folded, Friction, Linear, LinearRow, LinearSample, Lines,
+    Balls, Built, Caged, CagedRow, EncoderStep, Folded, Friction, Linear, LinearRow, LinearSample, Lines,
     Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewSample, Trace, TrainRow, Uncaged,
     UncagedRow, Use, angle, coefficients, regime_name, remembering, trace, wrapped,
 };

@@ -67,7 +67,9 @@ pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
              pub const COEFFICIENT: OneCoefficient = sound(OneCoefficient::new({friction:?}));\n"
         );
     }
-    text += &memory(&numbers, folded.block.nodes());
+    let calibrated = design.calibrated.as_ref();
+    let backlash = calibrated.and_then(|found| found.backlash).unwrap_or(0.0);
+    text += &memory(&numbers, folded.block.nodes(), backlash);
     text += &rig(design);
     Ok(text)
 }
@@ -108,6 +110,7 @@ fn imports(numbers: &Numbers) -> String {
                 "use epas_friction::law::memory::{LoadExactElements, PreloadedElements};\n"
             }
         };
+        text += "use epas_friction::law::motion::Deadband;\n";
         text += "use epas_friction::scene::{\n    CagedConstants, Freshness, WithMemoryConfiguration, WithMemoryConstants,\n};\n";
     } else {
         text += "use epas_friction::scene::CagedConstants;\n";
@@ -145,8 +148,8 @@ fn screw(folded: &Folded) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// Elements, and the constants of the scene with them.
-fn memory(numbers: &Numbers, nodes: usize) -> String {
+/// Elements, and the constants of the scene with them: behind a dead band of the sensor's step and of the backlash, rad.
+fn memory(numbers: &Numbers, nodes: usize, backlash: f32) -> String {
     let Some(memory) = &numbers.elements else {
         return String::new();
     };
@@ -180,25 +183,34 @@ fn memory(numbers: &Numbers, nodes: usize) -> String {
         "OneCoefficient"
     };
     let temperature = numbers.reference_temperature;
+    // Plays in a row are one of the sum of their widths.
+    let (band, width) = if backlash > 0.0 {
+        ("the step and the backlash", "(step + BACKLASH)")
+    } else {
+        ("the step", "step")
+    };
     format!(
         "
 /// Friction after a reversal: {torque:?} N m of sliding after {breakaway_angle:?} rad.
 pub const ELEMENTS: {kind} = {made};
 
-/// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
+/// The screw with memory, for a sensor of the nut's angle and the sensor's step, rad of the nut: for a `static` that stands in flash.
+/// Flicker within the step moves nothing; after a reversal friction starts once the sensor has gone back by {band}.
 ///
 /// ```text
-/// static GEAR: WithMemoryConstants<CagedConstants<{nodes}>, {kind}, CountSensor, {law}> = with_memory(SENSOR);
+/// static GEAR: WithMemoryConstants<CagedConstants<{nodes}>, {kind}, Deadband<CountSensor>, {law}> =
+///     with_memory(SENSOR, TURN_PER_COUNT);
 /// ```
 pub const fn with_memory<A: Copy>(
     angle: A,
-) -> WithMemoryConstants<CagedConstants<{nodes}>, {kind}, A, {law}> {{
+    step: f32,
+) -> WithMemoryConstants<CagedConstants<{nodes}>, {kind}, Deadband<A>, {law}> {{
     sound(WithMemoryConstants::new(
         SCREW,
         &WithMemoryConfiguration {{
             scene: (),
             elements: ELEMENTS,
-            angle,
+            angle: sound(Deadband::new(angle, 0.5 * {width})),
             reference_load: {load:?},
             play: {play:?},
             coefficient: COEFFICIENT,

@@ -6,6 +6,7 @@ use epas_reference::promises::{self, Promise};
 
 use super::beyond::Beyond;
 use super::caged_exact::ExactCaged;
+use super::encoder::EncoderStep;
 use super::manoeuvre::{Manoeuvre, trace};
 use super::memory;
 use super::picture::{self, Form, Labels, Moment};
@@ -31,6 +32,8 @@ pub struct Caged {
     pub design: Design,
     /// Whether friction remembers.
     pub memory: bool,
+    /// Step of the encoder whose noise it does not follow.
+    pub encoder: EncoderStep,
 }
 
 /// What runs beside the scene.
@@ -83,7 +86,11 @@ impl Caged {
         let refused = |error: Error| Failure::Data(format!("{}: {error}", self.design.name));
         if self.memory {
             let angle = memory::angle().map_err(refused)?;
-            return remembering(&self.design, memory::mean_load(trace), angle, Boxed);
+            let sensor = (angle, self.encoder.size());
+            let load = memory::mean_load(trace);
+            let (model, mut lines) = remembering(&self.design, load, sensor, Boxed)?;
+            lines.add_some("encoder", self.encoder.told("rad"));
+            return Ok((model, lines));
         }
         let mut model = CagedScene::of(&self.design)?.model().map_err(refused)?;
         let plain = Box::new(move |inputs, _, _| model.step(inputs));
@@ -198,6 +205,10 @@ impl Scene for Caged {
         let fold = fold(&self.design, false).ok().flatten();
         let block = fold.map(|fold| fold.axial_load[1] * balls);
         screw::within(trace, &self.design, balls, block)
+    }
+
+    fn set_encoder(&mut self, encoder: EncoderStep) {
+        self.encoder = encoder;
     }
 
     fn check_errors(&self) -> Result<(), Failure> {
@@ -349,6 +360,7 @@ impl Caged {
                 let slipping = Self {
                     design,
                     memory: self.memory,
+                    encoder: self.encoder,
                 };
                 let at = |sample: usize| rows.get(sample).map(|row| row.temperature);
                 slipping.follow(trace, at, None, &|| ())

@@ -13,6 +13,8 @@ pub struct ScrewSample {
     pub nut_speed: f64,
     /// Axial load, N.
     pub axial_load: f64,
+    /// Angle of the nut as its sensor reads it, rad: its steps are those of an encoder. 0 where the trace has none.
+    pub nut_position: f64,
 }
 
 /// One moment of a linear bearing's trace.
@@ -31,18 +33,26 @@ pub struct LinearSample {
 impl Sample for ScrewSample {
     const COLUMNS: &'static [&'static str] = &["time", "nut_speed", "axial_load"];
 
+    const OPTIONAL: &'static [&'static str] = &["nut_position"];
+
     fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
         Ok(Self {
             time: column("time")?,
             nut_speed: column("nut_speed")?,
             axial_load: column("axial_load")?,
+            nut_position: column("nut_position")?,
         })
     }
 
     fn record(&self) -> Vec<String> {
-        [self.time, self.nut_speed, self.axial_load]
-            .map(|value| value.to_string())
-            .to_vec()
+        [
+            self.time,
+            self.nut_speed,
+            self.axial_load,
+            self.nut_position,
+        ]
+        .map(|value| value.to_string())
+        .to_vec()
     }
 
     fn time(&self) -> f64 {
@@ -97,6 +107,10 @@ impl SceneSample for ScrewSample {
             nut_speed: self.nut_speed as f32,
             axial_load: self.axial_load as f32,
         }
+    }
+
+    fn position(&self) -> f64 {
+        self.nut_position
     }
 }
 

@@ -71,6 +71,11 @@ pub trait SceneSample: Sample {
 
     /// Its inputs at this moment.
     fn inputs(&self) -> Self::Inputs;
+
+    /// Position as its sensor reads it, rad (m); 0 where the trace has none.
+    fn position(&self) -> f64 {
+        0.0
+    }
 }
 
 /// A trace, never empty, its times never going back.

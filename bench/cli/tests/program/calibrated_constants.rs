@@ -7,6 +7,7 @@ use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, RollingDrag, TemperatureFade, Viscosity,
 };
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
+use epas_friction::law::motion::Deadband;
 use epas_friction::scene::{
     CagedConstants, Freshness, WithMemoryConfiguration, WithMemoryConstants,
 };
@@ -128,20 +129,23 @@ pub const ELEMENTS: ProportionalElements<8> = sound(ProportionalElements::new(
     }],
 ));
 
-/// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
+/// The screw with memory, for a sensor of the nut's angle and the sensor's step, rad of the nut: for a `static` that stands in flash.
+/// Flicker within the step moves nothing; after a reversal friction starts once the sensor has gone back by the step.
 ///
 /// ```text
-/// static GEAR: WithMemoryConstants<CagedConstants<5>, ProportionalElements<8>, CountSensor, CoefficientLaw> = with_memory(SENSOR);
+/// static GEAR: WithMemoryConstants<CagedConstants<5>, ProportionalElements<8>, Deadband<CountSensor>, CoefficientLaw> =
+///     with_memory(SENSOR, TURN_PER_COUNT);
 /// ```
 pub const fn with_memory<A: Copy>(
     angle: A,
-) -> WithMemoryConstants<CagedConstants<5>, ProportionalElements<8>, A, CoefficientLaw> {
+    step: f32,
+) -> WithMemoryConstants<CagedConstants<5>, ProportionalElements<8>, Deadband<A>, CoefficientLaw> {
     sound(WithMemoryConstants::new(
         SCREW,
         &WithMemoryConfiguration {
             scene: (),
             elements: ELEMENTS,
-            angle,
+            angle: sound(Deadband::new(angle, 0.5 * step)),
             reference_load: 1333.8547,
             play: 0.0019728222,
             coefficient: COEFFICIENT,

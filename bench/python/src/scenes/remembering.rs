@@ -103,7 +103,7 @@ impl CagedBallScrewWithMemory {
         let angle = bindings::angle().map_err(|error| refused(py, error))?;
         let inner = design.inner.clone();
         let made = interruptible(py, move |_| {
-            let (model, _) = remembering(&inner, reference_load, angle, Boxed)?;
+            let (model, _) = remembering(&inner, reference_load, (angle, 0.0), Boxed)?;
             // Solved before: its words are at hand.
             let words = caged::words(&inner, coefficients(&inner)?)?;
             Ok::<_, Failure>((model, words.unwrap_or_default()))
