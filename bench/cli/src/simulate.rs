@@ -158,7 +158,8 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME|FILE.toml")]
     design: Option<DesignSource>,
     /// Trace with the columns or channels time, nut_speed, axial_load (linear: time, speed, normal_load, side_load), and if wanted
-    /// temperature (K), and of a screw nut_position (rad), whose steps are those of its encoder; - for standard input
+    /// temperature (K), and of a screw nut_position (rad), which a memory of the scene caged follows in place of the sum of the speeds; - for standard
+    /// input
     #[arg(long, value_name = "TRACE.csv|TRACE.mf4", conflicts_with = "manoeuvre")]
     input: Option<PathBuf>,
     /// Which channel of a measurement file is which column, in TOML: nut_speed = "NAME", or with group, source and unit
@@ -202,8 +203,8 @@ pub struct Arguments {
     #[arg(long, conflicts_with = "memory")]
     no_memory: bool,
     /// Step of the encoder, rad of the nut (m of a carriage): friction that remembers follows the motion behind a dead band of it, so that
-    /// flicker at rest moves nothing, and feels a reversal that much later; 0 for none [default: that of the trace's nut_position, or of
-    /// the flicker of its speed]
+    /// flicker at rest moves nothing, and feels a reversal that much later; 0 for none [default: that of the flicker of
+    /// the trace's nut_position or speed]
     #[arg(long, value_name = "RAD", value_parser = encoder::step, conflicts_with_all = ["mechanism", "loads", "no_memory"])]
     encoder_step: Option<f64>,
     /// Time between two steps of the model, s, as of firmware at that rate, whatever the trace's is: between its samples the trace is

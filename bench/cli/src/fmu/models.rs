@@ -53,7 +53,9 @@ fn mean_load(values: &Values<'_>) -> Result<f32, String> {
 
 /// Step of the encoder, rad (m).
 fn encoder_step(values: &Values<'_>) -> Result<f32, String> {
-    values.within("encoder_step", 0.0, 0.1).map(|step| step as f32)
+    values
+        .within("encoder_step", 0.0, 0.1)
+        .map(|step| step as f32)
 }
 
 /// The tick of a scene that has one, s.
@@ -194,8 +196,7 @@ pub fn linear(
         };
         let remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
         let friction = configuration.friction;
-        let speed =
-            memory::rows_speed(configuration.tick, encoder_step(values)?).map_err(said)?;
+        let speed = memory::rows_speed(configuration.tick, encoder_step(values)?).map_err(said)?;
         let model = memory::configuration(configuration, &remembered, speed, friction)
             .and_then(|whole| {
                 FrictionModel::<Remembering<LinearBearingTrain<CAPACITY>>>::new(&whole)

@@ -284,7 +284,13 @@ fn beside(scene: SceneName, source: &Source, tick: Option<f64>) -> Vec<Variable>
                 "step of the carriage's encoder, 0 to 0.1: the memory follows the motion behind a dead band of it",
             ),
         };
-        list.push(parameter(Kind::Float32, "encoder_step", Some(unit), about, 0.0));
+        list.push(parameter(
+            Kind::Float32,
+            "encoder_step",
+            Some(unit),
+            about,
+            0.0,
+        ));
     }
     if let Some(tick) = tick {
         list.push(parameter(

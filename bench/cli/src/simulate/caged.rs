@@ -89,6 +89,9 @@ impl Caged {
             let sensor = (angle, self.encoder.size());
             let load = memory::mean_load(trace);
             let (model, mut lines) = remembering(&self.design, load, sensor, Boxed)?;
+            if trace.has_position() {
+                lines.add("angle", "the trace's nut_position");
+            }
             lines.add_some("encoder", self.encoder.told("rad"));
             return Ok((model, lines));
         }
@@ -119,6 +122,7 @@ impl Caged {
         if let Some(Reference::Exact(exact)) = &reference {
             lines.append(exact.told(&trace.samples));
         }
+        let measured = trace.has_position();
         let mut angle = 0.0;
         let mut last = trace.samples.first().copied();
         let rows = trace
@@ -128,6 +132,9 @@ impl Caged {
             .map(|(index, &sample)| {
                 if let Some(last) = last.replace(sample) {
                     angle += 0.5 * (last.nut_speed + sample.nut_speed) * (sample.time - last.time);
+                }
+                if measured {
+                    angle = sample.nut_position;
                 }
                 let temperature = temperature(index).unwrap_or(memory::TEMPERATURE);
                 let outputs = model(sample.inputs(), wrapped(angle), temperature);

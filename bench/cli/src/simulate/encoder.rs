@@ -1,15 +1,14 @@
 //! The encoder of a trace: noise of one step at rest is no motion, and friction that remembers must not follow it.
 
-use epas_calibrate::trace::channels::resolution;
 use epas_friction::Error;
 use epas_friction::law::motion::Deadband;
 
 use super::trace::{SceneSample, Trace};
 
-/// Pulses of a speed in a row that are flicker: one step forward, one back, each between two samples.
+/// Turns in a row, forward and back, that are flicker.
 const FLICKER: usize = 8;
 
-/// Sizes of two pulses within this of each other are the same step: numbers are printed with few digits.
+/// Sizes of two turns within this of each other are the same step: numbers are printed with few digits.
 const SAME: f64 = 1e-2;
 
 /// Two angles within half a turn either way differ by this much from what they were before they were rounded to single precision, rad.
@@ -23,7 +22,7 @@ enum Origin {
     None,
     /// `--encoder-step`.
     Asked,
-    /// Steps of the trace's position.
+    /// Flicker of the trace's position.
     Position,
     /// Flicker of the trace's speed.
     Speed,
@@ -46,18 +45,26 @@ pub fn step(text: &str) -> Result<f64, String> {
 }
 
 impl EncoderStep {
-    /// The one that is asked for, else that of the trace: seen in its position where it has one, else in the flicker of its speed.
+    /// The one that is asked for, else that of the flicker of the trace's position, or of its speed where it has no position.
     pub fn of<S: SceneSample>(asked: Option<f64>, trace: &Trace<S>) -> Self {
-        let positions: Vec<f64> = trace.samples.iter().map(SceneSample::position).collect();
-        let found = |step: f64, origin| (step > 0.0).then_some(Self { step, origin });
-        asked
-            .map(|step| Self {
-                step,
-                origin: Origin::Asked,
-            })
-            .or_else(|| found(resolution(&positions), Origin::Position))
-            .or_else(|| found(flicker(trace), Origin::Speed))
-            .unwrap_or_default()
+        if let Some(step) = asked {
+            let origin = Origin::Asked;
+            return Self { step, origin };
+        }
+        let pairs = trace.samples.iter().zip(trace.samples.iter().skip(1));
+        let (step, origin) = if trace.has_position() {
+            let turns = pairs.map(|(before, sample)| sample.position() - before.position());
+            (flicker(turns), Origin::Position)
+        } else {
+            let turns =
+                pairs.map(|(before, sample)| sample.speed() * (sample.time() - before.time()));
+            (flicker(turns), Origin::Speed)
+        };
+        if step > 0.0 {
+            Self { step, origin }
+        } else {
+            Self::default()
+        }
     }
 
     /// The size, rad (m).
@@ -73,7 +80,7 @@ impl EncoderStep {
                 return Some("no dead band: noise of the motion moves friction".into());
             }
             Origin::Asked => "--encoder-step",
-            Origin::Position => "the steps of the trace's position",
+            Origin::Position => "the flicker of the trace's position at rest",
             Origin::Speed => "the flicker of the trace's speed at rest",
         };
         Some(format!(
@@ -93,27 +100,21 @@ pub fn behind<A: Copy>(angle: A, step: f32, backlash: f32) -> Result<Deadband<A>
     Deadband::new(angle, 0.5 * (step + backlash))
 }
 
-/// Turn (travel) of the pulses of a speed that goes one step forward and one back, many times in a row; 0 where it does not.
-fn flicker<S: SceneSample>(trace: &Trace<S>) -> f64 {
-    let mut pulses = 0;
-    let (mut last, mut step) = (0.0_f64, 0.0_f64);
-    for pair in trace.samples.windows(2) {
-        let [before, sample] = pair else { continue };
-        let speed = sample.speed();
-        if speed == 0.0 {
-            continue;
-        }
-        let turn = speed.abs() * (sample.time() - before.time());
-        if (last + speed).abs() < SAME * speed.abs() {
+/// Size of the flicker in a row of turns, rad (m): one step forward and one back, many times in a row, each between two samples; 0 where there is
+/// none. Motion does not do so: it takes more than a tick each way.
+fn flicker(turns: impl Iterator<Item = f64>) -> f64 {
+    let (mut pulses, mut last, mut step) = (0, 0.0_f64, 0.0_f64);
+    for turn in turns.filter(|turn| *turn != 0.0) {
+        if (last + turn).abs() < SAME * turn.abs() {
             pulses += 1;
-            step = step.max(turn);
+            step = step.max(turn.abs());
         } else {
-            (pulses, step) = (1, turn);
+            (pulses, step) = (1, turn.abs());
         }
         if pulses == FLICKER {
             return step;
         }
-        last = speed;
+        last = turn;
     }
     0.0
 }

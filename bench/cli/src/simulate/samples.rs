@@ -1,5 +1,7 @@
 //! Moments of traces: one type for screws, one for bearings.
 
+use std::f64::consts::TAU;
+
 use epas_friction::{Inputs, LinearInputs};
 
 use super::trace::{Sample, SceneSample};
@@ -13,7 +15,7 @@ pub struct ScrewSample {
     pub nut_speed: f64,
     /// Axial load, N.
     pub axial_load: f64,
-    /// Angle of the nut as its sensor reads it, rad: its steps are those of an encoder. 0 where the trace has none.
+    /// Angle of the nut as its encoder reads it, rad, joined or from turn to turn; 0 at every moment of a trace without.
     pub nut_position: f64,
 }
 
@@ -42,6 +44,18 @@ impl Sample for ScrewSample {
             axial_load: column("axial_load")?,
             nut_position: column("nut_position")?,
         })
+    }
+
+    fn between(low: &Self, high: &Self, of: &dyn Fn(f64, f64) -> f64) -> Self {
+        // The shorter way round: an angle may start again after a turn.
+        let turn = high.nut_position - low.nut_position;
+        let turn = turn - TAU * (turn / TAU).round();
+        Self {
+            time: of(low.time, high.time),
+            nut_speed: of(low.nut_speed, high.nut_speed),
+            axial_load: of(low.axial_load, high.axial_load),
+            nut_position: of(low.nut_position, low.nut_position + turn),
+        }
     }
 
     fn record(&self) -> Vec<String> {

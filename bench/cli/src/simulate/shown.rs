@@ -1,7 +1,7 @@
 //! Scenes beside each other over one manoeuvre of one screw, for the report.
 
-use super::encoder::EncoderStep;
 use super::caged::Caged;
+use super::encoder::EncoderStep;
 use super::manoeuvre::Manoeuvre;
 use super::picture::Moment;
 use super::reference::ReferenceModel;

@@ -103,6 +103,13 @@ impl<S: Sample> Trace<S> {
     }
 }
 
+impl<S: SceneSample> Trace<S> {
+    /// Whether it has a position beside the speed.
+    pub fn has_position(&self) -> bool {
+        self.samples.iter().any(|sample| sample.position() != 0.0)
+    }
+}
+
 /// Most samples of a trace: more than an hour at 1 kHz, and less than fills a memory.
 const MOST_SAMPLES: usize = 5_000_000;
 

@@ -172,7 +172,9 @@ impl Uncaged {
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
         if let Some(remembered) = &mut remembered {
             remembered.encoder_step = self.encoder.size();
-            remembered.lines.add_some("encoder", self.encoder.told("rad"));
+            remembered
+                .lines
+                .add_some("encoder", self.encoder.told("rad"));
         }
         if let (Some(remembered), true) = (&mut remembered, told) {
             let text = "left out: what a trace has told is that of the scene caged";

@@ -18,8 +18,7 @@ pub type Speed = Deadband<SpeedOverTick>;
 pub type Remembering<S> = WithMemory<S, Elements, Speed, OneCoefficient>;
 
 /// What is set for it.
-pub type RememberingConfiguration<C> =
-    WithMemoryConfiguration<C, Elements, Speed, OneCoefficient>;
+pub type RememberingConfiguration<C> = WithMemoryConfiguration<C, Elements, Speed, OneCoefficient>;
 
 /// Temperature at which such a scene is stepped, K. The friction coefficient does not follow it.
 pub const TEMPERATURE: f32 = 293.15;

@@ -7,22 +7,22 @@ use crate::simulate::scene::Scene as _;
 use crate::simulate::uncaged::{Uncaged, UncagedRow};
 use epas_design::files::DesignSource;
 
-/// Of an encoder of 14 bits, rad.
-const STEP: f64 = TAU / 16384.0;
+/// Of an encoder of 14 bits on a motor that makes 2.5 turns in one of the nut, rad of the nut.
+const STEP: f64 = TAU / 16384.0 / 2.5;
 const TICK: f64 = 1e-3;
 /// Axial load, N.
 const LOAD: f64 = 5e3;
 /// More than that of either screw, which `simulate` prints, rad.
 const LARGEST_BREAKAWAY: f64 = 0.1;
 
-/// Steps at which an encoder stands: it turns by 300, three a tick, and then flickers by one.
+/// Steps at which an encoder stands: it turns by 3000, thirty a tick, and then flickers by one.
 fn counts() -> Vec<i32> {
     let mut flicker = 0x9E37_u32;
     (0..2000)
         .map(|tick| {
             flicker = flicker.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
             let still = i32::from(flicker >> 31 == 1);
-            if tick < 100 { 3 * tick } else { 300 + still }
+            if tick < 100 { 30 * tick } else { 3000 + still }
         })
         .collect()
 }
@@ -36,7 +36,11 @@ fn trace(counts: &[i32], position: bool) -> Trace<ScrewSample> {
             time: TICK * tick as f64,
             nut_speed: turn / TICK,
             axial_load: LOAD,
-            nut_position: if position { f64::from(count) * STEP } else { 0.0 },
+            nut_position: if position {
+                f64::from(count) * STEP
+            } else {
+                0.0
+            },
         }
     });
     Trace {
@@ -103,7 +107,26 @@ fn flicker_at_rest_moves_no_friction() {
     }
 }
 
-/// The step is that of the position where a trace has one, else that of flicker in the speed; it is asked for before both.
+/// A speed with noise of its own in every tick walks where the nut rests; the angle beside it does not, and friction that follows it stands.
+#[test]
+fn a_position_in_the_trace_is_followed_in_place_of_the_speed() {
+    let mut noisy = trace(&counts(), true);
+    for (index, sample) in noisy.samples.iter_mut().enumerate() {
+        sample.nut_speed += f64::from(index as u32 * 7919 % 13) * STEP / TICK / 13.0;
+    }
+    assert_eq!(range(&friction(&noisy, None)[150..]), 0.0);
+    let mut turning = trace(&counts(), true);
+    for sample in &mut turning.samples {
+        sample.nut_position = (sample.nut_position + 3.0).rem_euclid(TAU);
+    }
+    let joined = friction(&trace(&counts(), true), None);
+    for (turning, joined) in friction(&turning, None).iter().zip(joined) {
+        // Angles near a turn are rounded to 2.4e-7 rad, at 2 kN m/rad.
+        assert!((turning - joined).abs() < 1e-3, "{turning} {joined}");
+    }
+}
+
+/// The step is that of the flicker of the position where a trace has one, else of the speed; what is asked for comes first.
 #[test]
 fn the_step_of_a_trace_is_found() {
     let found = |trace: &Trace<ScrewSample>, asked| EncoderStep::of(asked, trace);
@@ -126,9 +149,7 @@ fn the_step_of_a_trace_is_found() {
 #[test]
 fn motion_has_no_step() {
     let square: Vec<i32> = (0..2000).map(|tick| (tick / 10 % 2) * 10).collect();
-    let triangle: Vec<i32> = (0..2000)
-        .map(|tick: i32| (tick % 20 - 10).abs())
-        .collect();
+    let triangle: Vec<i32> = (0..2000).map(|tick: i32| (tick % 20 - 10).abs()).collect();
     let slow: Vec<i32> = (0..2000).map(|tick| tick / 7).collect();
     let noise: Vec<i32> = {
         let mut random = 7_u32;
@@ -140,8 +161,12 @@ fn motion_has_no_step() {
             .collect()
     };
     for counts in [&triangle, &slow, &noise] {
-        assert_eq!(flicker(&trace(counts, false)), 0.0);
+        for position in [false, true] {
+            let found = EncoderStep::of(None, &trace(counts, position));
+            assert_eq!(found, EncoderStep::default());
+        }
     }
     // Ten steps at once, to and fro: that is flicker between two angles.
-    assert!((flicker(&trace(&square, false)) / (10.0 * STEP) - 1.0).abs() < 1e-9);
+    let found = EncoderStep::of(None, &trace(&square, false));
+    assert!((found.step / (10.0 * STEP) - 1.0).abs() < 1e-9);
 }
