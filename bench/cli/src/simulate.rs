@@ -297,7 +297,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     )? {
         Chosen::Caged(scene) => simulate(*scene, arguments, existing),
         Chosen::Uncaged(scene) => simulate(*scene, arguments, existing),
-        Chosen::Linear(scene) => simulate(scene, arguments, existing),
+        Chosen::Linear(scene) => simulate(*scene, arguments, existing),
     }
 }
 

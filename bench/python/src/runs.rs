@@ -1,8 +1,8 @@
 //! Whole traces as the command `simulate` runs them, and the float64 reference over them; single evaluations of `eval`.
 
 use epas_cli::bindings::{
-    self, Caged, EncoderStep, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample, Trace,
-    Uncaged,
+    self, Caged, EncoderStep, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample,
+    Trace, Uncaged,
 };
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;

@@ -27,7 +27,7 @@ pub enum Chosen {
     /// A ball screw whose balls press on each other.
     Uncaged(Box<Uncaged>),
     /// A linear bearing whose balls press on each other.
-    Linear(Linear),
+    Linear(Box<Linear>),
 }
 
 /// Scene and design that are asked for, or that the manoeuvre is made for.
@@ -69,11 +69,11 @@ pub fn choose(
         }
         SceneName::Linear => {
             let design = source.map_or_else(LinearDesign::built_in, DesignSource::load_bearing)?;
-            Ok(Chosen::Linear(Linear {
+            Ok(Chosen::Linear(Box::new(Linear {
                 design,
                 memory,
                 encoder: EncoderStep::default(),
-            }))
+            })))
         }
     }
 }

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use epas_cli::bindings::{
-    self, Balls, Built, EncoderStep, Failure, Folded, Linear, ScrewConfiguration, Uncaged, UncagedDesign,
+    self, Balls, Built, EncoderStep, Failure, Folded, Linear, ScrewConfiguration, Uncaged,
+    UncagedDesign,
 };
 use epas_design::uncaged::UncagedBlock;
 use epas_design::uncaged_scene::{configuration_with, fold_for, folded, read};
