@@ -71,6 +71,11 @@ pub trait SceneSample: Sample {
 
     /// Its inputs at this moment.
     fn inputs(&self) -> Self::Inputs;
+
+    /// Position as its sensor reads it, rad (m); 0 where the trace has none.
+    fn position(&self) -> f64 {
+        0.0
+    }
 }
 
 /// A trace, never empty, its times never going back.
@@ -95,6 +100,13 @@ impl<S: Sample> Trace<S> {
     pub fn reverses(&self) -> bool {
         self.samples.iter().any(|sample| sample.speed() > 0.0)
             && self.samples.iter().any(|sample| sample.speed() < 0.0)
+    }
+}
+
+impl<S: SceneSample> Trace<S> {
+    /// Whether it has a position beside the speed.
+    pub fn has_position(&self) -> bool {
+        self.samples.iter().any(|sample| sample.position() != 0.0)
     }
 }
 
