@@ -65,6 +65,8 @@ fn trace(manoeuvre: Manoeuvre, reach: &Reach) -> Trace {
         load_is_effort: false,
         known: None,
         temperature: Some(course.temperature),
+        left_out: Vec::new(),
+        origins: crate::trace::Origins::default(),
         repairs: Repairs::default(),
         ignored: Vec::new(),
     }

@@ -1,6 +1,4 @@
-//! The table of a CSV file or a measurement file: which column holds what, and its numbers in SI units.
-
-mod gaps;
+//! The table of a CSV file or a measurement file: which column holds what, and its numbers in SI units. `calibrate` and `simulate` read it.
 
 use std::io::{Read, Seek};
 
@@ -10,7 +8,10 @@ use epas_page::files::line_of;
 use epas_traces::front;
 use epas_traces::headings;
 use epas_traces::mdf4;
-use epas_traces::units::{Quantity, Unit, cut, heading};
+use epas_traces::units::{Dimension, Quantity, Unit, cut, heading};
+
+use crate::trace::gaps;
+use crate::trace::marks::LeftOut;
 
 /// Most samples: more than three hours at 1 kHz, and less than fills a memory.
 pub const MOST_SAMPLES: usize = 12_000_000;
@@ -28,24 +29,10 @@ pub struct Column {
     pub unit: Unit,
     /// Values, in SI units.
     pub values: Vec<f64>,
-    /// Samples that were left out and filled.
+    /// Samples that are not believed, in order.
     pub left_out: Vec<usize>,
     /// Where it stands in a line.
     place: usize,
-}
-
-impl Column {
-    /// A column in SI units.
-    pub fn si(name: &str, quantity: Quantity, values: Vec<f64>) -> Self {
-        Self {
-            name: name.into(),
-            quantity,
-            unit: Unit::SI,
-            values,
-            left_out: Vec::new(),
-            place: 0,
-        }
-    }
 }
 
 /// A table whose times rise.
@@ -57,59 +44,75 @@ pub struct Table {
     pub columns: Vec<Column>,
     /// Names of columns that are not known.
     pub ignored: Vec<String>,
-    /// Rows that had the time of the one before, and were dropped: each with the sample that it stood behind.
-    pub repeated: Vec<usize>,
+    /// How many rows had the time of the one before, and were dropped.
+    pub repeated: usize,
     /// What was done to the samples.
     pub notes: Vec<String>,
-    /// Samples of the file that are left, where some are not.
-    left: Vec<usize>,
+    /// Samples that are not to be believed.
+    pub left_out: Vec<LeftOut>,
+    /// The file's row of every sample.
+    rows: Vec<u32>,
+}
+
+/// What a command takes from a table.
+#[derive(Clone, Copy)]
+pub struct Request<'a> {
+    /// Whether it has a use for a quantity; other columns are left aside.
+    pub wants: &'a dyn Fn(Quantity) -> bool,
+    /// The motor's rated torque, N m: 100 % of a torque in percent.
+    pub rated_torque: Option<f64>,
 }
 
 impl Table {
-    /// A table of columns whose empty cells are no numbers; filled.
-    ///
-    /// # Errors
-    /// A column with too few samples, or with gaps.
-    pub fn of(times: Vec<f64>, columns: Vec<Column>) -> Result<Self, String> {
-        gaps::filled(Self {
-            times,
-            columns,
-            ignored: Vec::new(),
-            repeated: Vec::new(),
-            notes: Vec::new(),
-            left: Vec::new(),
-        })
+    /// The column of a quantity.
+    pub fn column(&self, quantity: Quantity) -> Option<&Column> {
+        self.columns
+            .iter()
+            .find(|column| column.quantity == quantity)
     }
 
-    /// The values of a column of this name.
-    pub fn values(&self, name: &str) -> Option<&[f64]> {
-        let column = self.columns.iter().find(|column| column.name == name);
-        column.map(|column| column.values.as_slice())
+    /// Takes the column of a quantity out of the table.
+    pub fn take(&mut self, quantity: Quantity) -> Option<Column> {
+        let place = self
+            .columns
+            .iter()
+            .position(|column| column.quantity == quantity)?;
+        Some(self.columns.remove(place))
+    }
+
+    /// Keeps some of the samples.
+    pub fn keep(&mut self, kept: &[bool]) {
+        let kept_of = |values: &[f64]| {
+            let all = values.iter().zip(kept).filter(|(_, kept)| **kept);
+            all.map(|(value, _)| *value).collect()
+        };
+        self.times = kept_of(&self.times);
+        for column in &mut self.columns {
+            column.values = kept_of(&column.values);
+        }
+        let mut kept = kept.iter();
+        self.rows.retain(|_| kept.next() == Some(&true));
     }
 
     /// Row of a sample in the file; the first one under the heading is 1.
     pub fn row(&self, sample: usize) -> usize {
-        let sample = self.left.get(sample).copied().unwrap_or(sample);
-        sample + 1 + self.repeated.partition_point(|before| *before < sample)
+        self.rows.get(sample).map_or(0, |row| *row as usize)
     }
 }
 
-/// Reads a table.
+/// Reads a table from a CSV file.
 ///
 /// # Errors
 /// What is wrong, with the line.
-pub fn read(input: impl Read + Seek) -> Result<Table, String> {
+pub fn read(input: impl Read + Seek, request: Request<'_>) -> Result<Table, String> {
     let input = front::Table::new(input);
     let (separator, above) = (input.separator, input.lines);
     let mut reader = ReaderBuilder::new()
         .trim(Trim::All)
         .delimiter(separator)
         .from_reader(input);
-    let mut table = match header(&mut reader) {
-        Ok(header) => header,
-        Err(message) => return Err(format!("line {}: {message}", above + 1)),
-    };
-    table.separator = separator;
+    let mut table = header(&mut reader, request, separator)
+        .map_err(|message| format!("line {}: {message}", above + 1))?;
     let mut record = ByteRecord::new();
     loop {
         let (byte, line) = (reader.position().byte(), reader.position().line());
@@ -124,38 +127,27 @@ pub fn read(input: impl Read + Seek) -> Result<Table, String> {
         }
     }
     let time = table.columns.remove(0);
-    let (ignored, repeated) = (table.ignored, table.repeated);
-    let table = Table::of(time.values, table.columns)?;
-    Ok(Table {
-        ignored,
-        repeated,
-        ..table
-    })
+    Table {
+        times: time.values,
+        columns: table.columns,
+        ignored: table.ignored,
+        repeated: table.row as usize - table.rows.len(),
+        rows: table.rows,
+        notes: Vec::new(),
+        left_out: Vec::new(),
+    }
+    .whole(request)
 }
 
 /// The table of a measurement file, with the checks of [`read`].
 ///
 /// # Errors
 /// Too many samples.
-pub fn of_measurement(found: mdf4::Table) -> Result<Table, String> {
-    if found.times.len() > MOST_SAMPLES {
-        return Err(format!(
-            "a trace has at most {MOST_SAMPLES} samples; cut it"
-        ));
-    }
+pub fn of_measurement(found: mdf4::Table, request: Request<'_>) -> Result<Table, String> {
     // A sample at the time of the one before is dropped, as of a CSV file.
-    let first = |sample: &usize| {
-        let before = sample
-            .checked_sub(1)
-            .and_then(|before| found.times.get(before));
-        before != found.times.get(*sample)
-    };
-    let kept: Vec<usize> = (0..found.times.len()).filter(first).collect();
-    let at = |values: &[f64]| -> Vec<f64> {
-        kept.iter()
-            .filter_map(|sample| values.get(*sample).copied())
-            .collect()
-    };
+    let mut kept: Vec<usize> = (0..found.times.len()).collect();
+    kept.dedup_by(|next, sample| found.times[*next] == found.times[*sample]);
+    let at = |values: &[f64]| -> Vec<f64> { kept.iter().map(|sample| values[*sample]).collect() };
     let columns = found.columns.iter().map(|column| Column {
         name: column.name.clone(),
         quantity: column.quantity,
@@ -164,19 +156,45 @@ pub fn of_measurement(found: mdf4::Table) -> Result<Table, String> {
         left_out: Vec::new(),
         place: 0,
     });
-    let dropped = (0..found.times.len()).filter(|sample| !first(sample));
-    Ok(Table {
+    Table {
         times: at(&found.times),
         columns: columns.collect(),
-        // So many were kept before it.
-        repeated: dropped
-            .enumerate()
-            .map(|(before, row)| (row - before).saturating_sub(1))
-            .collect(),
+        repeated: found.times.len() - kept.len(),
+        rows: kept.iter().map(|sample| *sample as u32 + 1).collect(),
         ignored: found.ignored,
-        notes: Vec::new(),
-        left: Vec::new(),
-    })
+        notes: found.notes,
+        left_out: Vec::new(),
+    }
+    .whole(request)
+}
+
+impl Table {
+    /// The table with every cell filled, shares of a rated torque in N m.
+    fn whole(mut self, request: Request<'_>) -> Result<Self, String> {
+        if self.times.len() > MOST_SAMPLES {
+            return Err(format!(
+                "a trace has at most {MOST_SAMPLES} samples; cut it"
+            ));
+        }
+        for column in &mut self.columns {
+            if column.unit.dimension != Dimension::Rated {
+                continue;
+            }
+            let Some(torque) = request.rated_torque else {
+                return Err(format!(
+                    "column {}: it is in {} of the motor's rated torque, which the file does not say: calibrate --rated-torque takes it in N m, from the motor's data sheet; or give the column in N m",
+                    cut(&column.name),
+                    column.unit.shown()
+                ));
+            };
+            for value in &mut column.values {
+                *value *= torque;
+            }
+            column.unit.factor *= torque;
+        }
+        gaps::fill(&mut self)?;
+        Ok(self)
+    }
 }
 
 /// What the CSV reader found.
@@ -197,11 +215,19 @@ fn message(error: &csv::Error) -> String {
 struct Growing {
     columns: Vec<Column>,
     ignored: Vec<String>,
-    repeated: Vec<usize>,
+    /// The row that is added, and those that were kept.
+    row: u32,
+    rows: Vec<u32>,
     separator: u8,
+    /// Whether the heading of the time is an empty cell, so that a unit must stand below it.
+    unnamed_time: bool,
 }
 
-fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
+fn header(
+    reader: &mut Reader<impl Read>,
+    request: Request<'_>,
+    separator: u8,
+) -> Result<Growing, String> {
     let header = reader.headers().map_err(|error| message(&error))?;
     if header.is_empty() {
         return Err("the file is empty".into());
@@ -210,27 +236,37 @@ fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
         return Err(format!("{} columns: at most {MOST_COLUMNS}", header.len()));
     }
     headings::separated(header)?;
+    // A spreadsheet may put a byte-order mark before the first name.
+    let names = || {
+        header
+            .iter()
+            .map(|name| name.trim_start_matches('\u{feff}'))
+    };
+    let is_time = |name| matches!(heading(name), Ok(Some((Quantity::Time, _))));
     let mut table = Growing {
         columns: Vec::new(),
         ignored: Vec::new(),
-        repeated: Vec::new(),
-        separator: b',',
+        row: 0,
+        rows: Vec::new(),
+        separator,
+        unnamed_time: names().next() == Some("") && !names().any(is_time),
     };
-    for (place, name) in header.iter().enumerate() {
-        // A spreadsheet may put a byte-order mark before the first name.
-        let name = name.trim_start_matches('\u{feff}');
-        let Some((quantity, unit)) = heading(name)? else {
+    for (place, name) in names().enumerate() {
+        let known = match place {
+            0 if table.unnamed_time => Some((Quantity::Time, Unit::SI)),
+            _ => heading(name)?,
+        };
+        let known = known.filter(|(known, _)| *known == Quantity::Time || (request.wants)(*known));
+        let Some((quantity, unit)) = known else {
             table.ignored.push(cut(name));
             continue;
         };
-        if let Some(other) = table
-            .columns
-            .iter()
-            .find(|other| other.quantity == quantity)
-        {
+        let mut others = table.columns.iter();
+        if let Some(other) = others.find(|other| other.quantity == quantity) {
             return Err(format!(
-                "columns {} and {name} are the same quantity",
-                other.name
+                "columns {} and {} are the same quantity; leave one of them out",
+                cut(&other.name),
+                cut(name)
             ));
         }
         table.columns.push(Column {
@@ -242,9 +278,8 @@ fn header(reader: &mut Reader<impl Read>) -> Result<Growing, String> {
             place,
         });
     }
-    let time = table
-        .columns
-        .iter()
+    let mut columns = table.columns.iter();
+    let time = columns
         .position(|column| column.quantity == Quantity::Time)
         .ok_or_else(|| headings::missing("time", header))?;
     table.columns.swap(0, time);
@@ -277,38 +312,38 @@ impl Growing {
 
     /// Adds a line.
     fn add(&mut self, record: &ByteRecord) -> Result<(), String> {
-        let first = self.columns.iter().all(|column| column.values.is_empty());
-        if first && self.takes_units(record)? {
-            return Ok(());
+        if self.columns.iter().all(|column| column.values.is_empty()) {
+            if self.takes_units(record)? {
+                return Ok(());
+            }
+            if self.unnamed_time && self.columns[0].unit == Unit::SI {
+                return Err(
+                    "the first column has no name, and no unit of a time below it: name it time"
+                        .into(),
+                );
+            }
         }
-        for place in 0..self.columns.len() {
-            let Some(column) = self.columns.get_mut(place) else {
-                continue;
-            };
+        self.row += 1;
+        for (place, column) in self.columns.iter_mut().enumerate() {
             let cell = record.get(column.place).unwrap_or_default();
             let value = match number(cell, &column.name, self.separator)? {
                 Some(value) => column.unit.si(value),
                 None if place == 0 => return Err(format!("{} has no number", column.name)),
                 None => f64::NAN,
             };
-            if place == 0 {
-                match column.values.last() {
-                    Some(last) if value < *last => {
-                        return Err(format!("time goes back from {last} s to {value} s"));
-                    }
-                    Some(last) if value == *last => {
-                        self.repeated.push(column.values.len() - 1);
-                        return Ok(());
-                    }
-                    _ => {}
+            match column.values.last() {
+                Some(last) if place == 0 && value < *last => {
+                    return Err(format!("time goes back from {last} s to {value} s"));
                 }
-                if column.values.len() == MOST_SAMPLES {
-                    return Err(format!(
-                        "a trace has at most {MOST_SAMPLES} samples; cut it, or take every few samples of a faster one"
-                    ));
-                }
+                Some(last) if place == 0 && value == *last => return Ok(()),
+                _ => column.values.push(value),
             }
-            column.values.push(value);
+        }
+        self.rows.push(self.row);
+        if self.rows.len() > MOST_SAMPLES {
+            return Err(format!(
+                "a trace has at most {MOST_SAMPLES} samples; cut it, or take every few samples of a faster one"
+            ));
         }
         Ok(())
     }

@@ -54,6 +54,8 @@ fn drive(number: u64) -> Trace {
         load_is_effort: false,
         known: None,
         temperature: None,
+        left_out: Vec::new(),
+        origins: crate::trace::Origins::default(),
         repairs: Repairs::default(),
         ignored: Vec::new(),
     }

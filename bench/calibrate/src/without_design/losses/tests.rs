@@ -65,6 +65,8 @@ fn drive(number: u64, samples: usize, load: impl Fn(f64, f64) -> f64) -> Trace {
         load_is_effort: true,
         known: None,
         temperature: None,
+        left_out: Vec::new(),
+        origins: crate::trace::Origins::default(),
         repairs: Repairs::default(),
         ignored: Vec::new(),
     }
