@@ -49,6 +49,8 @@ const NEAR: usize = 64;
 const REST: f64 = 1e-3;
 /// Fewest equal samples at a limit, and the share of a column below which they are chance.
 const CLIPPED: (usize, f64) = (5, 1e-3);
+/// How often the samples that are left are judged anew.
+const MOST_PASSES: usize = 50;
 /// Stretches of rows that a sentence names.
 const NAMED: usize = 8;
 
@@ -268,7 +270,9 @@ fn wrong(
     let all = || 0..column.values.len();
     let wraps = wraps(column);
     let mut wrong = vec![false; all().len()];
+    let mut passes = 0;
     loop {
+        passes += 1;
         let kept: Vec<usize> = all().filter(|sample| !wrong[*sample]).collect();
         let channel = Channel::of(table, column, wraps, kept);
         let (found, jump) = channel.found(moves);
@@ -277,7 +281,7 @@ fn wrong(
         }
         // What seems to jump may come back once its neighbours are out. More than are left out need not be found.
         let many = (channel.kept.len() as f64) < (1.0 - MOST) * wrong.len() as f64;
-        if !found.is_empty() && !many {
+        if !found.is_empty() && !many && passes < MOST_PASSES {
             continue;
         }
         if let Some((sample, jump)) = jump.filter(|_| !many) {
