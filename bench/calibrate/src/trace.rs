@@ -1,28 +1,18 @@
-//! A measured trace.
+//! A measured trace, from the tables of [`epas_traces`].
 //!
 //! | module | what |
 //! |---|---|
 //! | [`columns`] | reads a trace: its columns referred to one coordinate |
-//! | [`table`] | the file's numbers in SI units |
-//! | `gaps` | empty cells, filled |
-//! | [`marks`] | samples that are not to be believed |
-//! | [`clock`] | one sample clock: tick, gaps, jitter |
-//! | [`channels`] | angles without jumps, the step of a sensor |
 //! | [`free_load`] | a load that never leaves its noise |
 //! | [`clipped`] | where an effort is cut off |
 //! | [`rests`] | where a trace stands still |
 //! | [`known`] | an effort beside the motor's that is known |
 
-pub mod channels;
 pub mod clipped;
-pub mod clock;
 pub mod columns;
 pub mod free_load;
-mod gaps;
 pub mod known;
-pub mod marks;
 pub mod rests;
-pub mod table;
 // Tables of cases, a line each.
 #[cfg(test)]
 #[rustfmt::skip]
@@ -31,10 +21,11 @@ mod tests;
 use std::borrow::Cow;
 use std::ops::Range;
 
+pub use epas_traces::channels;
+use epas_traces::marks::LeftOut;
 use epas_traces::units::Part;
 
 use self::known::KnownEffort;
-use self::marks::LeftOut;
 
 /// What position, speed and effort are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -17,21 +17,17 @@ use epas_design::files::Design;
 use epas_design::files::plausible::FASTEST;
 use epas_page::aside::say;
 use epas_page::failure::Failure;
+use epas_traces::channels::{resolution, unwrap};
+use epas_traces::clock::Clock;
+use epas_traces::marks;
 use epas_traces::mdf4::{self, Mapping};
 use epas_traces::source::Source;
+use epas_traces::table::{self, Column, Request, Table};
 use epas_traces::units::{self, Dimension, Part, Quantity};
 
-use crate::trace::channels::{resolution, unwrap};
-use crate::trace::clock::Clock;
 use crate::trace::free_load;
 use crate::trace::known::KnownEffort;
-use crate::trace::marks;
-use crate::trace::table::{self, Column, Request, Table};
 use crate::trace::{Coordinate, Origins, Repairs, Trace};
-
-/// Largest trace file, bytes: what twelve million samples of many columns need; a quoted field may span lines, and is
-/// held whole.
-pub const LARGEST_FILE: u64 = 1 << 31;
 
 /// Temperatures that a screw can have, K.
 const TEMPERATURES: (f64, f64) = (150.0, 620.0);
@@ -164,7 +160,7 @@ pub fn read(
     frame: Option<&Frame>,
     channels: Option<&Mapping>,
 ) -> Result<Trace, Failure> {
-    let input = source.open(LARGEST_FILE)?;
+    let input = source.open(table::LARGEST_FILE)?;
     let name = source.name();
     let trace = if input.measurement {
         measured(input, &name, frame, channels)
@@ -281,7 +277,7 @@ fn assemble(mut table: Table, name: &str, frame: &Frame) -> Result<Trace, String
     let speed = speed.transpose()?;
     let position_summed = position.is_none();
     let (position, resolution) = match position {
-        Some(own) => position_of(own, frame, torque, &clock)?,
+        Some(own) => position_of(&own, frame, torque, &clock)?,
         None => (
             sum_up(speed.as_deref().unwrap_or_default(), clock.step),
             0.0,
@@ -305,9 +301,10 @@ fn assemble(mut table: Table, name: &str, frame: &Frame) -> Result<Trace, String
     let effort = clock.resample(effort);
     Ok(Trace {
         name: name.into(),
-        coordinate: match torque || frame.lead.is_some() {
-            true => Coordinate::Rotation,
-            false => Coordinate::Translation,
+        coordinate: if torque || frame.lead.is_some() {
+            Coordinate::Rotation
+        } else {
+            Coordinate::Translation
         },
         start: clock.start,
         step: clock.step,
@@ -329,7 +326,10 @@ fn assemble(mut table: Table, name: &str, frame: &Frame) -> Result<Trace, String
         repairs: Repairs {
             left_out: table.left_out,
             notes,
-            ..clock.repairs
+            missing: clock.missing,
+            jittered: clock.jittered,
+            repeated: table.repeated,
+            free_running: clock.free_running,
         },
         ignored: table.ignored,
     })
@@ -356,7 +356,7 @@ fn joined(marked: &[[f64; 2]], clock: &Clock, samples: usize) -> Vec<Range<usize
 
 /// A position at the ticks of a clock, and the step of its sensor.
 fn position_of(
-    own: (Column, Part),
+    own: &(Column, Part),
     frame: &Frame,
     torque: bool,
     clock: &Clock,
@@ -369,7 +369,7 @@ fn position_of(
     let measured = measured.filter(|(sample, _)| filled.next_if_eq(&sample).is_none());
     let step = resolution(&measured.map(|(_, value)| *value).collect::<Vec<_>>());
     let values = clock.resample(values);
-    frame.check_unit(&own, &values, clock.step)?;
+    frame.check_unit(own, &values, clock.step)?;
     if own.0.unit.dimension == Dimension::Unsaid && angle {
         check_degrees(&own.0.name, step / factor)?;
     }

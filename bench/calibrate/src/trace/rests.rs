@@ -9,11 +9,12 @@ use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::ops::Range;
 
+use epas_traces::clock::LONGEST_GAP;
+
 use crate::signals::noise::white_noise;
 use crate::trace::Trace;
 use crate::trace::channels::{range, resolution};
 use crate::trace::clipped::clipped;
-use crate::trace::clock::LONGEST_GAP;
 use crate::trace::free_load::correlation;
 
 /// Shortest rest, s. A weave of 0.6 rad at 0.2 Hz stays for 0.22 s within a step of 6 mrad (a coarse encoder of ten bits)

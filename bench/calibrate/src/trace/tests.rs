@@ -4,9 +4,9 @@ use std::f64::consts::TAU;
 use std::io::Cursor;
 
 use epas_page::failure::Failure;
+use epas_traces::marks::Fault;
 
 use super::columns::{Frame, from_reader};
-use super::marks::Fault;
 use super::{Coordinate, Trace};
 
 const GEAR: Frame = Frame { lead: Some(7e-3), ratio: Some(2.5), fastest: Some(300.0), rated_torque: None };
@@ -199,7 +199,7 @@ fn clocks_are_put_on_even_ticks() {
     // A torque of every fourth row, of which three in a row are lost; a row without a position.
     let text = table("time,position_deg,motor_torque", ticks(400), |time| {
         let row = (1e3 * time).round() as usize;
-        let torque = if row % 4 == 0 && !(200..212).contains(&row) { time.to_string() } else { String::new() };
+        let torque = if row.is_multiple_of(4) && !(200..212).contains(&row) { time.to_string() } else { String::new() };
         let position = if row == 50 { "NaN".into() } else { angle(time).to_string() };
         format!("{time},{position},{torque}")
     });
@@ -371,7 +371,7 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
     });
     let fast = table("time,motor_torque,nut_speed", ticks(200), |time| format!("{time},1,700"));
     let plain = "time,position,motor_force";
-    let twice = ticks(1000).flat_map(|time| vec![time; if (1e3 * time) as usize % 10 == 0 { 2 } else { 1 }]);
+    let twice = ticks(1000).flat_map(|time| vec![time; if ((1e3 * time) as usize).is_multiple_of(10) { 2 } else { 1 }]);
     let twice = table(plain, twice, |time| format!("{time},1,1"));
     for (message, word) in [
         (read("").map(|trace| trace.name).unwrap_err(), "empty"),
@@ -406,7 +406,7 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
         (
             spoiled(|sample, row| {
                 if sample >= 3000 {
-                    row[0] += 1.5
+                    row[0] += 1.5;
                 }
             }),
             "it jumps by 1.4",
@@ -414,7 +414,7 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
         (
             spoiled(|sample, row| {
                 if sample % 15 == 5 {
-                    row[0] = 0.0
+                    row[0] = 0.0;
                 }
             }),
             "column nut_position",
@@ -422,7 +422,7 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
         (
             spoiled(|sample, row| {
                 if (2000..2400).contains(&sample) {
-                    row[1] = 0.2
+                    row[1] = 0.2;
                 }
             }),
             "in rows 2001 to 2400",

@@ -2,15 +2,14 @@
 
 use std::io::{Read, Seek};
 
-use epas_calibrate::trace::clock::check_raster;
-use epas_calibrate::trace::columns::LARGEST_FILE;
-use epas_calibrate::trace::marks::{self, LeftOut};
-use epas_calibrate::trace::table::{self, Request, Table};
 use epas_design::files::calibration::TEMPERATURES;
 use epas_page::aside::say;
 use epas_page::failure::Failure;
+use epas_traces::clock::check_raster;
+use epas_traces::marks::{self, LeftOut};
 use epas_traces::mdf4::{self, Mapping};
 use epas_traces::source::Source;
+use epas_traces::table::{self, Request, Table};
 use epas_traces::units::{Dimension, Quantity, cut, heading, quantity};
 
 /// One moment of a trace: what one scene's columns hold.
@@ -175,7 +174,7 @@ pub fn read<S: Sample>(
     channels: Option<&Mapping>,
     followed: bool,
 ) -> Result<(Trace<S>, Temperature), Failure> {
-    let input = source.open(LARGEST_FILE)?;
+    let input = source.open(table::LARGEST_FILE)?;
     let found = if input.measurement {
         channels_of(input, channels, followed)
     } else {
@@ -262,11 +261,6 @@ fn samples_of<S: Sample>(
     wanted: &[mdf4::Wanted],
     kind: &str,
 ) -> Result<(Vec<S>, Temperature), String> {
-    match table.times.len() {
-        0 => return Err("the trace is empty".into()),
-        1 => return Err("the trace has a single sample: at least 2".into()),
-        _ => {}
-    }
     let must = S::COLUMNS.len() - 1;
     for (place, wanted) in wanted.iter().enumerate() {
         match table.column(wanted.quantity) {
@@ -293,6 +287,11 @@ fn samples_of<S: Sample>(
             }
             _ => {}
         }
+    }
+    match table.times.len() {
+        0 => return Err("the trace is empty".into()),
+        1 => return Err("the trace has a single sample: at least 2".into()),
+        _ => {}
     }
     check_raster(&table.times, table.repeated)?;
     marks::mark(&mut table)?;

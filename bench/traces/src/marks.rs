@@ -12,11 +12,11 @@
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-use epas_traces::units::{Dimension, Part, Quantity};
+use crate::units::{Dimension, Part, Quantity};
 
-use crate::trace::channels::{range, resolution};
-use crate::trace::clock::{LONGEST_GAP, cubic, median_tick};
-use crate::trace::table::{Column, Table};
+use crate::channels::{range, resolution};
+use crate::clock::{LONGEST_GAP, cubic, median_tick};
+use crate::table::{Column, Table};
 
 /// Longest run of wrong samples: what the clock fills.
 const LONGEST: usize = LONGEST_GAP as usize;

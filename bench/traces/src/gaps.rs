@@ -1,9 +1,9 @@
 //! Empty cells of a table: columns of slower rasters, and samples that are missing.
 
-use crate::trace::clock::LONGEST_GAP;
-use crate::trace::marks::{Fault, bridge, leave_out, runs};
-use crate::trace::table::Table;
-use epas_traces::units::{Part, Quantity};
+use crate::clock::LONGEST_GAP;
+use crate::marks::{Fault, bridge, leave_out, runs};
+use crate::table::Table;
+use crate::units::{Part, Quantity};
 
 /// Fills empty cells by straight lines between the column's own samples, and holds its first and last one; rows in which the motion itself
 /// is empty are left out. Where several of a column's own samples in a row are missing, they are marked.

@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use crate::trace::Repairs;
-
 /// Distance from the tick, in ticks, within which a sample counts as on it.
 const ON_TICK: f64 = 0.1;
 /// Distance, in ticks, below which nothing is interpolated.
@@ -38,8 +36,12 @@ pub struct Clock {
     pub start: f64,
     /// Tick, s.
     pub step: f64,
-    /// What has to be repaired.
-    pub repairs: Repairs,
+    /// Samples that are missing, in gaps that are filled.
+    pub missing: usize,
+    /// Samples whose time is off by more than a tenth of a tick, and are interpolated.
+    pub jittered: usize,
+    /// Samples of a clock that runs free, without an even tick: all of them are interpolated.
+    pub free_running: usize,
     /// Ticks in gaps between samples.
     pub filled: Vec<Range<usize>>,
     /// Times of the samples.
@@ -83,11 +85,9 @@ impl Clock {
         let mut clock = Self {
             start,
             step,
-            repairs: Repairs {
-                repeated,
-                missing,
-                ..Repairs::default()
-            },
+            missing,
+            jittered: 0,
+            free_running: 0,
             filled: Vec::new(),
             times,
             places: Vec::with_capacity(ticks),
@@ -129,10 +129,10 @@ impl Clock {
             }
         }
         if free {
-            self.repairs.free_running = ticks;
+            self.free_running = ticks;
         } else {
             // What there are fewer samples than ticks was never there; the others are beside their tick.
-            self.repairs.jittered = interpolated.saturating_sub(self.repairs.missing);
+            self.jittered = interpolated.saturating_sub(self.missing);
         }
         if even {
             self.places.clear();

@@ -4,14 +4,18 @@ use std::io::{Read, Seek};
 
 use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder, Trim};
 
+use crate::front;
+use crate::headings;
+use crate::mdf4;
+use crate::units::{Dimension, Quantity, Unit, cut, heading};
 use epas_page::files::line_of;
-use epas_traces::front;
-use epas_traces::headings;
-use epas_traces::mdf4;
-use epas_traces::units::{Dimension, Quantity, Unit, cut, heading};
 
-use crate::trace::gaps;
-use crate::trace::marks::LeftOut;
+use crate::gaps;
+use crate::marks::LeftOut;
+
+/// Largest trace file, bytes: what twelve million samples of many columns need; a quoted field may span lines, and is
+/// held whole.
+pub const LARGEST_FILE: u64 = 1 << 31;
 
 /// Most samples: more than three hours at 1 kHz, and less than fills a memory.
 pub const MOST_SAMPLES: usize = 12_000_000;
