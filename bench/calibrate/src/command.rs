@@ -58,7 +58,7 @@ pub struct Arguments {
     /// Built-in design, or design file ending in .toml
     #[arg(long, value_name = "NAME|FILE.toml")]
     design: Option<DesignSource>,
-    /// Turns of the motor in a turn of the nut [default: 1]
+    /// Turns of the motor in a turn of the nut [default with a design: 1]
     #[arg(long, value_name = "RATIO", value_parser = ratio)]
     ratio: Option<f64>,
     /// Rated torque of the motor, N m, where the trace has its torque in percent of it

@@ -22,6 +22,10 @@ fn read(text: &str) -> Result<Trace, String> {
     read_bytes(text.as_bytes(), &Frame::default())
 }
 
+fn refused(text: &str) -> String {
+    read(text).map(|trace| trace.name).unwrap_err()
+}
+
 /// A table of lines at times, s.
 fn table(header: &str, times: impl IntoIterator<Item = f64>, line: impl Fn(f64) -> String) -> String {
     let lines = times.into_iter().map(|time| line(time) + "\n");
@@ -360,9 +364,9 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
         let times = ticks(1000).enumerate().map(|(sample, time)| time + by(sample));
         table("time,position,motor_force", times, |time| format!("{time},{},1", angle(time)))
     };
-    let spoiled = |of: fn(usize, &mut [f64; 3])| {
+    let spoiled = |samples: std::ops::Range<usize>, every: usize, of: fn(&mut [f64; 3])| {
         let mut rows = drive();
-        rows.iter_mut().enumerate().for_each(|(sample, row)| of(sample, row));
+        rows[samples].iter_mut().step_by(every).for_each(of);
         read_drive(&rows).map(|trace| trace.name).unwrap_err()
     };
     let degrees = table("time,nut_position,motor_torque", ticks(2000), |time| {
@@ -374,60 +378,39 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
     let twice = ticks(1000).flat_map(|time| vec![time; if ((1e3 * time) as usize).is_multiple_of(10) { 2 } else { 1 }]);
     let twice = table(plain, twice, |time| format!("{time},1,1"));
     for (message, word) in [
-        (read("").map(|trace| trace.name).unwrap_err(), "empty"),
-        (read("time,position,motor_force\n").map(|trace| trace.name).unwrap_err(), "too few"),
-        (read(&of("time,position", "t,1")).map(|trace| trace.name).unwrap_err(), "motor_torque or motor_force"),
-        (read(&of("time,motor_force", "t,1")).map(|trace| trace.name).unwrap_err(), "position or speed"),
-        (read(&of("position,motor_force", "1,1")).map(|trace| trace.name).unwrap_err(), "time is missing"),
-        (read(&of(",position,motor_force", "t,1,1")).map(|trace| trace.name).unwrap_err(), "name it time"),
-        (read(&of("time|position|motor_force", "t|1|1")).map(|trace| trace.name).unwrap_err(), "separated by bars"),
-        (read(&of("time,axial_load,rack_force,position,motor_force", "t,1,1,1,1")).map(|trace| trace.name).unwrap_err(), "same quantity"),
-        (read(&of("time,position,motor_force,motor_torque", "t,1,1,1")).map(|trace| trace.name).unwrap_err(), "give the effort once"),
-        (read(&of("time,nut_position_counts,motor_torque", "t,1,1")).map(|trace| trace.name).unwrap_err(), "counts"),
-        (read(&of("time,position_inch,motor_force", "t,1,1")).map(|trace| trace.name).unwrap_err(), "position_mm"),
-        (read(&of("time,nut_position,motor_force", "t,1,1")).map(|trace| trace.name).unwrap_err(), "need a design"),
-        (read(&of("time,position_mm,motor_torque", "t,1,1")).map(|trace| trace.name).unwrap_err(), "need a design"),
-        (read(&of("time,position,motor_force,temperature", "t,1,1,20")).map(|trace| trace.name).unwrap_err(), "temperature_C"),
-        (read(&of(plain, "t,NaN,1")).map(|trace| trace.name).unwrap_err(), "column position: it has fewer than two numbers"),
-        (read(&of(plain, "t,-inf,1")).map(|trace| trace.name).unwrap_err(), "is not finite"),
-        (read(&of(plain, "t,-,1")).map(|trace| trace.name).unwrap_err(), "is no number"),
-        (read(&of(plain, "t,1e39,1")).map(|trace| trace.name).unwrap_err(), "float32"),
-        (read(&of(plain, "t,1")).map(|trace| trace.name).unwrap_err(), "line 2: 2 columns"),
-        (read(&of(plain, "-t,1,1")).map(|trace| trace.name).unwrap_err(), "line 3: time goes back"),
-        (read("by hand\n\ntime,position,motor_force\n0,1,1\n\n\n1,1,x\n").map(|trace| trace.name).unwrap_err(), "line 7: motor_force = \"x\""),
-        (read("time;position;motor_force\ns;knots;N\n0;1;1\n").map(|trace| trace.name).unwrap_err(), "line 2: column position: its unit \"knots\""),
-        (read("time,position_mm,motor_force\ns,deg,N\n").map(|trace| trace.name).unwrap_err(), "its name says mm"),
-        (read(&of("time_ns,position,motor_force", "t,1,1")).map(|trace| trace.name).unwrap_err(), "is too short"),
-        (read(&clocked(|sample| 0.5 * sample as f64)).map(|trace| trace.name).unwrap_err(), "time_ms"),
-        (read(&clocked(|sample| if sample < 500 { 0.0 } else { 2.0 })).map(|trace| trace.name).unwrap_err(), "a gap of 2.0010 s after 0.499 s"),
-        (read(&clocked(|sample| 1e-3 * (sample / 20) as f64)).map(|trace| trace.name).unwrap_err(), "are missing"),
-        (read(&twice).map(|trace| trace.name).unwrap_err(), "time of the one before"),
-        (read(&clocked(|sample| [4.5e-4, -4.5e-4][sample % 2])).map(|trace| trace.name).unwrap_err(), "no even tick"),
-        (
-            spoiled(|sample, row| {
-                if sample >= 3000 {
-                    row[0] += 1.5;
-                }
-            }),
-            "it jumps by 1.4",
-        ),
-        (
-            spoiled(|sample, row| {
-                if sample % 15 == 5 {
-                    row[0] = 0.0;
-                }
-            }),
-            "column nut_position",
-        ),
-        (
-            spoiled(|sample, row| {
-                if (2000..2400).contains(&sample) {
-                    row[1] = 0.2;
-                }
-            }),
-            "in rows 2001 to 2400",
-        ),
-        (read(&degrees).map(|trace| trace.name).unwrap_err(), "steps of 360/2^14"),
+        (refused(""), "empty"),
+        (refused("time,position,motor_force\n"), "too few"),
+        (refused(&of("time,position", "t,1")), "motor_torque or motor_force"),
+        (refused(&of("time,motor_force", "t,1")), "position or speed"),
+        (refused(&of("position,motor_force", "1,1")), "time is missing"),
+        (refused(&of(",position,motor_force", "t,1,1")), "name it time"),
+        (refused(&of("time|position|motor_force", "t|1|1")), "separated by bars"),
+        (refused(&of("time,axial_load,rack_force,position,motor_force", "t,1,1,1,1")), "same quantity"),
+        (refused(&of("time,position,motor_force,motor_torque", "t,1,1,1")), "give the effort once"),
+        (refused(&of("time,nut_position_counts,motor_torque", "t,1,1")), "counts"),
+        (refused(&of("time,position_inch,motor_force", "t,1,1")), "position_mm"),
+        (refused(&of("time,nut_position,motor_force", "t,1,1")), "need a design"),
+        (refused(&of("time,position_mm,motor_torque", "t,1,1")), "need a design"),
+        (refused(&of("time,position,motor_force,temperature", "t,1,1,20")), "temperature_C"),
+        (refused(&of(plain, "t,NaN,1")), "column position: it has fewer than two numbers"),
+        (refused(&of(plain, "t,-inf,1")), "is not finite"),
+        (refused(&of(plain, "t,-,1")), "is no number"),
+        (refused(&of(plain, "t,1e39,1")), "float32"),
+        (refused(&of(plain, "t,1")), "line 2: 2 columns"),
+        (refused(&of(plain, "-t,1,1")), "line 3: time goes back"),
+        (refused("by hand\n\ntime,position,motor_force\n0,1,1\n\n\n1,1,x\n"), "line 7: motor_force = \"x\""),
+        (refused("time;position;motor_force\ns;knots;N\n0;1;1\n"), "line 2: column position: its unit \"knots\""),
+        (refused("time,position_mm,motor_force\ns,deg,N\n"), "its name says mm"),
+        (refused(&of("time_ns,position,motor_force", "t,1,1")), "is too short"),
+        (refused(&clocked(|sample| 0.5 * sample as f64)), "time_ms"),
+        (refused(&clocked(|sample| if sample < 500 { 0.0 } else { 2.0 })), "a gap of 2.0010 s after 0.499 s"),
+        (refused(&clocked(|sample| 1e-3 * (sample / 20) as f64)), "are missing"),
+        (refused(&twice), "time of the one before"),
+        (refused(&clocked(|sample| [4.5e-4, -4.5e-4][sample % 2])), "no even tick"),
+        (spoiled(3000..SAMPLES, 1, |row| row[0] += 1.5), "it jumps by 1.4"),
+        (spoiled(5..SAMPLES, 15, |row| row[0] = 0.0), "column nut_position"),
+        (spoiled(2000..2400, 1, |row| row[1] = 0.2), "in rows 2001 to 2400"),
+        (refused(&degrees), "steps of 360/2^14"),
         (
             read_bytes(fast.as_bytes(), &GEAR).map(|trace| trace.name).unwrap_err(),
             "nut_speed in [limits] is 300; is the column in degrees? Then its name is nut_speed [rpm] or nut_speed [deg/s]",
