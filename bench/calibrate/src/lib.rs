@@ -59,9 +59,10 @@ pub use command::{Arguments, run};
 /// Reads a trace without a design and with one, smooths it and looks whether it may be believed; its number of samples.
 pub fn accepts(text: &[u8]) -> Result<usize, String> {
     let frame = trace::columns::Frame {
-        lead: 7e-3,
-        ratio: 2.5,
-        fastest: 2e3,
+        lead: Some(7e-3),
+        ratio: Some(2.5),
+        fastest: Some(2e3),
+        rated_torque: None,
     };
     let look = |frame| -> Result<usize, Failure> {
         let trace = trace::columns::from_reader(Cursor::new(text), "trace", frame)?;

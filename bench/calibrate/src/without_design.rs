@@ -158,7 +158,7 @@ pub fn plain(trace: &Trace) -> Result<(Calibration, Answered), Failure> {
 
 /// A trace as the estimator takes it.
 pub fn record(trace: &Trace) -> Record {
-    Record::of(trace, &trace.repairs.lost)
+    Record::of(trace, &[])
 }
 
 /// The trace with what is found of its known effort: whether the motor's effort holds it already. Some recorders add it, because it is made

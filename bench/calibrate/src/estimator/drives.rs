@@ -7,7 +7,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
 use crate::trace::channels::resolution;
-use crate::trace::{Coordinate, Repairs, Trace};
+use crate::trace::{Coordinate, Origins, Repairs, Trace};
 
 /// What is true of a drive.
 #[derive(Clone, Copy, Debug)]
@@ -189,6 +189,8 @@ impl Drive {
             known: None,
             temperature: None,
             repairs: Repairs::default(),
+            left_out: Vec::new(),
+            origins: Origins::default(),
             ignored: Vec::new(),
         };
         (trace, stood)
