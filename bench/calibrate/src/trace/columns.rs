@@ -245,6 +245,12 @@ fn assemble(mut table: Table, name: &str, frame: &Frame) -> Result<Trace, String
         .map(|run| [table.times[run.start], table.times[run.end - 1]])
         .collect();
     let (effort, torque) = effort(&mut table)?;
+    if frame.ratio.is_some() && frame.lead.is_none() && !torque {
+        return Err(format!(
+            "column {} and --ratio: a ratio is of a motor that turns; a force needs --design, which says the lead",
+            effort.name
+        ));
+    }
     let position = motion(&mut table, Quantity::Position);
     let speed = motion(&mut table, Quantity::Speed);
     let Some((main, part)) = position.as_ref().or(speed.as_ref()) else {

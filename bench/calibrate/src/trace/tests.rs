@@ -410,6 +410,7 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
         (spoiled(3000..SAMPLES, 1, |row| row[0] += 1.5), "it jumps by 1.4"),
         (spoiled(5..SAMPLES, 15, |row| row[0] = 0.0), "column nut_position"),
         (spoiled(2000..2400, 1, |row| row[1] = 0.2), "in rows 2001 to 2400"),
+        (read_bytes(of(plain, "t,1,1").as_bytes(), &Frame { lead: None, ..GEAR }).map(|trace| trace.name).unwrap_err(), "needs --design"),
         (refused(&degrees), "steps of 360/2^14"),
         (
             read_bytes(fast.as_bytes(), &GEAR).map(|trace| trace.name).unwrap_err(),
