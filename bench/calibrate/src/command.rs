@@ -7,11 +7,12 @@ use crate::controller::Controller;
 use crate::experiment;
 use crate::folder::answered::Answered;
 use crate::folder::{self, Folder, FolderArguments};
-use crate::outputs::{Outcome, OutputArguments, folder_name};
-use crate::page::truth;
+use crate::outputs::{Outcome, OutputArguments, folder_name, print_json};
+use crate::page::{self, truth};
 use crate::screw::Request;
 use crate::screw::choice::Wanted;
 use crate::screw::quantities::names;
+use crate::steady;
 use crate::trace::columns::{self, Frame};
 use crate::trace::{Coordinate, Trace};
 use crate::with_design;
@@ -325,6 +326,20 @@ fn whole_folder(
     if design.is_some() {
         arguments.request().check()?;
     }
+    let alone = arguments.folder.part.is_none() && arguments.folder.merge.is_empty();
+    if design.is_none()
+        && alone
+        && let Some(steady) = steady::of_folder(traces, |path| read(arguments, None, mapping, path))?
+    {
+        let document = page::of_runs(&steady, &name);
+        epas_page::folder::mark(&output)?;
+        document.write(&output)?;
+        return if arguments.outputs.json {
+            print_json(&steady.answer)
+        } else {
+            document.print(&output)
+        };
+    }
     let mut settings = format!(
         "{} {:?} {:?} {:?} {:?}",
         env!("CARGO_PKG_VERSION"),
@@ -346,16 +361,26 @@ fn whole_folder(
     folder::run(&folder, |path| one(arguments, design, mapping, path))
 }
 
-/// One trace of a folder.
+/// A trace of a folder.
+fn read(
+    arguments: &Arguments,
+    design: Option<&Design>,
+    mapping: Option<&Mapping>,
+    path: &Path,
+) -> Result<Trace, Failure> {
+    // A folder may hold tables beside measurement files.
+    let mapping = mapping.filter(|_| mdf4::named(path));
+    columns::read(&Source(path), Some(&arguments.frame(design)), mapping)
+}
+
+/// What one trace of a folder tells.
 fn one(
     arguments: &Arguments,
     design: Option<&Design>,
     mapping: Option<&Mapping>,
     path: &Path,
 ) -> Result<(Calibration, Answered), Failure> {
-    // A folder may hold tables beside measurement files.
-    let mapping = mapping.filter(|_| mdf4::named(path));
-    let trace = columns::read(&Source(path), Some(&arguments.frame(design)), mapping)?;
+    let trace = read(arguments, design, mapping, path)?;
     let Some(design) = design else {
         return without_design::plain(&trace);
     };

@@ -3,10 +3,14 @@
 //! A run is one row, its means: `effort - tau = b w + offset + s (T_C + losses)`, beside the rows of the traces that turn. Where friction
 //! rises towards rest the runs tell it as `s T_S exp(-|w|/w_s)`.
 
+use std::path::Path;
+
 use crate::answer::Calibration;
+use crate::estimator::fit::Block;
 use crate::estimator::choice::{Estimate, Wanted, estimate};
 use crate::estimator::record::Record;
 use crate::estimator::terms::Term;
+use crate::folder::list;
 use crate::page::shown::digits;
 use crate::trace::{Coordinate, Trace};
 use crate::without_design;
@@ -40,6 +44,38 @@ pub struct Steady {
     pub answer: Calibration,
     /// The runs, by speed.
     pub runs: Vec<Run>,
+}
+
+/// Traces of a folder among which a run at one speed is looked for.
+const LOOKED_AT: usize = 16;
+
+/// What the traces of a folder tell together, read by `read`, where some of them are runs at one speed; `None` where none of the first
+/// sixteen is.
+///
+/// # Errors
+/// A folder that cannot be read, and runs from which nothing can be told.
+pub fn of_folder(
+    folder: &Path,
+    read: impl Fn(&Path) -> Result<Trace, Failure>,
+) -> Result<Option<Steady>, Failure> {
+    let paths = list(folder, &["csv", "mf4"])?;
+    let (mut traces, mut refused) = (Vec::new(), Vec::new());
+    for (number, path) in paths.iter().enumerate() {
+        match read(path) {
+            Ok(trace) => traces.push(trace),
+            Err(Failure::Data(word)) => refused.push(format!("left out: {word}")),
+            Err(other) => return Err(other),
+        }
+        let steady = |trace: &Trace| without_design::record(trace).one_speed().is_some();
+        if number + 1 == LOOKED_AT && !traces.iter().any(steady) {
+            return Ok(None);
+        }
+    }
+    let mut found = told(&traces)?;
+    if let Some(found) = &mut found {
+        found.answer.cannot_tell.extend(refused);
+    }
+    Ok(found)
 }
 
 /// What traces tell together, where some of them are runs at one speed; `None` where they are not.
@@ -114,7 +150,7 @@ pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
 }
 
 fn run(trace: &Trace, record: &Record, speed: f64, found: &Estimate) -> Option<Run> {
-    let block = crate::estimator::fit::Block::of_run(record, &found.terms, 1.0)?;
+    let block = Block::of_run(record, &found.terms, 1.0)?;
     let model = block.columns.iter().zip(&found.fit.coefficients);
     Some(Run {
         name: trace.name.clone(),

@@ -64,7 +64,7 @@ pub fn calibrate(
         .map(|other| comparable(trace, other).map(|()| placed(other)))
         .transpose()?;
     let record = record(trace);
-    let (found, words, wave) = told(&record, trace.coordinate)?;
+    let (found, words, wave) = told(&record, trace)?;
     let mut answer = answer(&record, trace, &found, words);
     let beside = Beside {
         rich: true,
@@ -112,7 +112,7 @@ pub fn calibrate(
 pub fn plain(trace: &Trace) -> Result<(Calibration, Answered), Failure> {
     let trace = &*placed(trace);
     let record = record(trace);
-    let (found, words, _) = told(&record, trace.coordinate)?;
+    let (found, words, _) = told(&record, trace)?;
     let answer = answer(&record, trace, &found, words);
     let own = |term: &Term| {
         matches!(
@@ -214,14 +214,14 @@ fn comparable(trace: &Trace, other: &Trace) -> Result<(), Failure> {
 /// The estimate of a record with its words, and the wave number of a wave over the position.
 fn told(
     record: &Record,
-    coordinate: Coordinate,
+    trace: &Trace,
 ) -> Result<(choice::Estimate, Vec<String>, Option<f64>), Failure> {
     let Diagnosis {
         estimate,
         words,
         refusal,
         wave,
-    } = diagnose(record, coordinate);
+    } = diagnose(record, trace);
     match (refusal, estimate) {
         (None, Some(found)) => Ok((found, words, wave)),
         (refusal, _) => {

@@ -9,7 +9,7 @@ use super::drives::Drive;
 use super::record::Record;
 use super::terms::Term;
 use super::words::{Diagnosis, diagnose};
-use crate::trace::{Coordinate, Trace};
+use crate::trace::Trace;
 
 const TERMS: [Term; 6] = [
     Term::Inertia,
@@ -167,7 +167,7 @@ fn friction_that_rises_towards_rest_is_told() {
 }
 
 fn told(trace: &Trace) -> Diagnosis {
-    diagnose(&Record::of(trace, &[]), Coordinate::Rotation)
+    diagnose(&Record::of(trace, &[]), trace)
 }
 
 type Spoil = fn(&mut Trace);
