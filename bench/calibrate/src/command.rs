@@ -329,7 +329,8 @@ fn whole_folder(
     let alone = arguments.folder.part.is_none() && arguments.folder.merge.is_empty();
     if design.is_none()
         && alone
-        && let Some(steady) = steady::of_folder(traces, |path| read(arguments, None, mapping, path))?
+        && let Some(steady) =
+            steady::of_folder(traces, |path| read(arguments, None, mapping, path))?
     {
         let document = page::of_runs(&steady, &name);
         epas_page::folder::mark(&output)?;

@@ -161,7 +161,11 @@ fn said(
     let grid = screw.grid(&values, Spacing::FINE)?;
     let prepared = Prepared::new(trace, &[], screw);
     let rows = prepared.rows_over_turns(WINDOW, true);
-    Said::of(name, manoeuvre, &prepared.remembered(rows, (&values, &choice), &grid))
+    Said::of(
+        name,
+        manoeuvre,
+        &prepared.remembered(rows, (&values, &choice), &grid),
+    )
 }
 
 /// Prints the manoeuvres, the best first.

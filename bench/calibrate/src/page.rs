@@ -18,8 +18,8 @@ use crate::experiment::manoeuvre::Manoeuvre;
 use crate::page::picture::{Correlations, Picture};
 use crate::page::shown::{chart, digits, number, table};
 use crate::page::truth::Truth;
-use crate::steady::{Run, Steady};
 use crate::signals::spectrum::welch;
+use crate::steady::{Run, Steady};
 use crate::trace::Coordinate;
 use epas_page::document::{Block, Cell, Document, Figure, Section, Table};
 use epas_page::plot::{Axis, Mark, Panel, Series, thin};
@@ -97,7 +97,10 @@ pub fn of_runs(steady: &Steady, name: &str) -> Document {
     };
     let rows = steady.runs.iter().map(|run| {
         let values = [run.speed, run.effort, run.effort - run.model].map(number);
-        [run.name.as_str().into()].into_iter().chain(values).collect()
+        [run.name.as_str().into()]
+            .into_iter()
+            .chain(values)
+            .collect()
     });
     let runs = table(
         "runs",
@@ -107,8 +110,14 @@ pub fn of_runs(steady: &Steady, name: &str) -> Document {
     );
     let of = |title, blocks| Section { title, blocks };
     let sections = vec![
-        of("What the runs tell", told(&steady.answer, &Truth::new(), &words)),
-        of("Friction over speed", vec![Block::Figure(figure), Block::Table(runs)]),
+        of(
+            "What the runs tell",
+            told(&steady.answer, &Truth::new(), &words),
+        ),
+        of(
+            "Friction over speed",
+            vec![Block::Figure(figure), Block::Table(runs)],
+        ),
     ];
     Document::of(format!("Calibration: {name}"), sections)
 }

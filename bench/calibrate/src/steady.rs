@@ -6,8 +6,8 @@
 use std::path::Path;
 
 use crate::answer::Calibration;
-use crate::estimator::fit::Block;
 use crate::estimator::choice::{Estimate, Wanted, estimate};
+use crate::estimator::fit::Block;
 use crate::estimator::record::Record;
 use crate::estimator::terms::Term;
 use crate::folder::list;

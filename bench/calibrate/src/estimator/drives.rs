@@ -118,22 +118,24 @@ impl Drive {
         let [mut angles, mut efforts, mut loads] = [Vec::new(), Vec::new(), Vec::new()];
         let mut stood = 0.0;
         let step_of_sensor = TAU / 2_f64.powi(bits as i32);
-        let (mut before, mut seen) = (0.0, 0.0);
+        let (mut before, mut effort) = (0.0, 0.0);
         for step in 0..(seconds / STEP) as usize {
             let time = step as f64 * STEP;
             let load = self.torque_of_load(time);
             let wanted = self.reference(time);
             let rate = (self.reference(time + STEP) - wanted) / STEP;
+            let now = |angle: f64, speed: f64| {
+                let stiff = self.inertia * self.stiffness;
+                stiff * (2500.0 * (wanted - angle) + 75.0 * (rate - speed) / self.stiffness.sqrt())
+            };
             if !self.differences {
-                seen = moving.speed;
+                effort = now(moving.angle, moving.speed);
             } else if step % every == 0 {
+                // A controller that holds its effort for a tick.
                 let counted = (moving.angle / step_of_sensor).round() * step_of_sensor;
-                seen = (counted - before) * self.rate as f64;
+                effort = now(counted, (counted - before) * self.rate as f64);
                 before = counted;
             }
-            let push =
-                2500.0 * (wanted - moving.angle) + 75.0 * (rate - seen) / self.stiffness.sqrt();
-            let effort = self.inertia * self.stiffness * push;
             if step % every == 0 {
                 angles.push(moving.angle);
                 efforts.push(effort + normal(self.noise[0]));

@@ -160,7 +160,11 @@ impl Block {
         let kernel = Kernel::new(half, record.tick);
         let centre = range.start + half;
         let mean = |signal: &[f64]| kernel.at(0, signal, centre);
-        let speed = if record.speed_alone { mean(&record.motion) } else { speed };
+        let speed = if record.speed_alone {
+            mean(&record.motion)
+        } else {
+            speed
+        };
         let direction = speed.signum();
         let load = record.load.as_deref().map_or(0.0, mean);
         let opposing = (direction * load).max(0.0);

@@ -13,8 +13,8 @@ use super::choice::{Estimate, Wanted, estimate};
 use super::record::Record;
 use super::terms::Term;
 use crate::page::shown::digits;
-use crate::trace::{Coordinate, Trace};
 use crate::trace::channels::{range, resolution};
+use crate::trace::{Coordinate, Trace};
 
 /// Share of the effort that is left from which on nothing is explained, and from which on a fit is doubted.
 const NOTHING: f64 = 0.9;
@@ -483,26 +483,38 @@ fn late(record: &Record, found: &Estimate, more: &[Term]) -> Option<(Estimate, S
     Some((better, word))
 }
 
-/// Least share of the residual that a term takes to be named.
+/// Residual with a viscous friction that differs by direction over that without, below which it is named.
 const TAKES: f64 = 0.97;
 
-/// A term more that is sure and takes some of the residual, with the kernel that was chosen.
-fn surely(record: &Record, found: &Estimate, more: &[Term], term: Term) -> Option<Estimate> {
+/// A term more that is twice its interval from zero, with the kernel that was chosen.
+fn surely(
+    record: &Record,
+    found: &Estimate,
+    more: &[Term],
+    (term, settling): (Term, f64),
+) -> Option<Estimate> {
     let wanted = Wanted {
         more: [more, &[term]].concat(),
         lag: !record.speed_alone && found.of(Term::Lag).is_some(),
-        kernel: Some((found.length, found.settling)),
+        kernel: Some((found.length, settling)),
     };
     let other = estimate_of(record, &wanted)?;
     let (value, half) = other.of(term)?;
-    let sure = value.abs() > 2.0 * half;
-    (sure && other.fit.residual_rms < TAKES * found.fit.residual_rms).then_some(other)
+    (value.abs() > 2.0 * half).then_some(other)
 }
 
 /// Viscous friction that differs by direction.
-fn asymmetry(record: &Record, found: &Estimate, more: &[Term], names: &Names<'_>) -> Option<String> {
+fn asymmetry(
+    record: &Record,
+    found: &Estimate,
+    more: &[Term],
+    names: &Names<'_>,
+) -> Option<String> {
     found.of(Term::Offset)?;
-    let other = surely(record, found, more, Term::Asymmetry)?;
+    let other = surely(record, found, more, (Term::Asymmetry, found.settling))?;
+    if other.fit.residual_rms > TAKES * found.fit.residual_rms {
+        return None;
+    }
     let ((drag, _), (differs, half)) = (other.of(Term::Viscous)?, other.of(Term::Asymmetry)?);
     let (offset, offset_half) = other.of(Term::Offset)?;
     Some(format!(
@@ -532,7 +544,8 @@ fn stribeck(
     let tried = [0.02, 0.05, 0.12, 0.3].map(|share| Term::Stribeck(share * fast));
     let best = tried
         .into_iter()
-        .filter_map(|term| Some((term, surely(record, found, more, term)?)))
+        // Slow rows are those near the turns.
+        .filter_map(|term| Some((term, surely(record, found, more, (term, 0.0))?)))
         .min_by(|one, other| one.1.fit.residual_rms.total_cmp(&other.1.fit.residual_rms))?;
     let term = best.0;
     let Term::Stribeck(speed) = term else {
