@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 
 use crate::answer::Calibration;
 use crate::controller::Controller;
-use crate::experiment::wanted;
+use crate::experiment;
+use crate::folder::answered::Answered;
 use crate::folder::{self, Folder, FolderArguments};
 use crate::outputs::{Outcome, OutputArguments, folder_name};
 use crate::page::truth;
 use crate::screw::Request;
 use crate::screw::choice::Wanted;
 use crate::screw::quantities::names;
-use crate::sums::Sums;
 use crate::trace::columns::{self, Frame};
 use crate::trace::{Coordinate, Trace};
 use crate::with_design;
@@ -151,7 +151,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         .transpose()?;
     let (design, text) = design.unzip();
     if let (Some(name), Some(design)) = (&arguments.wanted, &design) {
-        return wanted::tell(design, name);
+        return experiment::tell(design, name);
     }
     let merges = !arguments.folder.merge.is_empty();
     let trace = match &arguments.trace {
@@ -333,7 +333,7 @@ fn one(
     design: Option<&Design>,
     mapping: Option<&Mapping>,
     path: &Path,
-) -> Result<(Calibration, Sums), Failure> {
+) -> Result<(Calibration, Answered), Failure> {
     // A folder may hold tables beside measurement files.
     let mapping = mapping.filter(|_| mdf4::named(path));
     let Some(design) = design else {

@@ -1,191 +1,288 @@
-//! Design of experiment: which manoeuvre tells a parameter.
+//! Which manoeuvre tells a parameter of a screw best: `calibrate --wanted`.
 //!
-//! For each manoeuvre the caller makes the problem that its trace would give, with the expected trace as target. The Fisher
-//! information at the start values and the noise then give the interval that a fit would find. Bounds count as a little information,
-//! that of an even distribution between them, so that what a manoeuvre does not tell keeps the width of its bounds.
-//!
-//! | module | what |
-//! |---|---|
-//! | [`manoeuvre`] | manoeuvres to choose from |
-//! | [`wanted`] | which of them tells a parameter of a screw |
+//! Each manoeuvre is a trace without a torque, and a problem of the estimator at its start values. The Fisher information of its rows
+//! and the noise give the interval that a fit would find. Bounds count as a little information, that of an even distribution between them,
+//! so that what a manoeuvre does not tell keeps the width of its bounds.
 
-pub mod manoeuvre;
-pub mod wanted;
+pub(crate) mod manoeuvre;
+
+use std::io::{self, Write};
 
 use nalgebra::DMatrix;
 
-use crate::experiment::manoeuvre::Manoeuvre;
-use crate::fit::cramer_rao::{information, inverse};
+use crate::experiment::manoeuvre::{Manoeuvre, Reach};
 use crate::fit::problem::{Scale, Separable, inner, outer};
 use crate::fit::search::slopes_at_start;
+use crate::screw::choice::{Start, Wanted};
+use crate::screw::evidence::Evidence;
+use crate::screw::exact::Spacing;
+use crate::screw::stages::{Prepared, Window};
+use crate::signals::{Motion, SmoothingSettings};
+use epas_design::files::Design;
 use epas_page::failure::Failure;
 
 /// Half width of a normal 95 % interval in standard deviations.
 const NORMAL: f64 = 1.959964;
 
-/// How well a manoeuvre tells a parameter.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Ranked {
-    /// The manoeuvre.
-    pub manoeuvre: Manoeuvre,
-    /// Value that was assumed.
-    pub value: f64,
-    /// Low end of the 95 % interval that its trace would give.
-    pub low: f64,
-    /// High end.
-    pub high: f64,
-    /// Half width in the inner coordinate (logarithm, or value).
-    pub half_width: f64,
-    /// The half width where all other parameters are known: far below the other one, another parameter hides this one.
-    pub half_width_alone: f64,
-    /// The parameter that hides this one most, and their correlation.
-    pub hidden_by: Option<(&'static str, f64)>,
-    /// The other manoeuvre that helps most, and the half width with both.
-    pub companion: Option<(Manoeuvre, f64)>,
-}
+/// What is estimated beside the wanted parameter.
+const BESIDE: &str =
+    "friction full_film_ratio half_share_speed preload breakaway_angle inertia drag offset gain";
+
+/// Noise of a row, N m: a hundredth of the torque of a steering gear at its rack force.
+const NOISE: f64 = 5e-3;
+
+/// Half-width of the kernel of a row, ticks: about as long as that of a fit.
+const WINDOW: Window = Window { half: 17, way: 0.0 };
+
+/// Tick of the manoeuvres, s.
+const STEP: f64 = 1e-3;
 
 /// What one manoeuvre says.
 struct Said {
     manoeuvre: Manoeuvre,
     names: Vec<&'static str>,
-    scale: Scale,
+    /// The wanted parameter among them: its place, scale, bounds and value.
     place: usize,
-    value: f64,
+    scale: Scale,
     bounds: [f64; 2],
-    /// Information of its rows, and of the bounds.
+    value: f64,
+    /// Information of its rows, and with that of the bounds.
     rows: DMatrix<f64>,
-    bounded: DMatrix<f64>,
+    own: DMatrix<f64>,
 }
 
-/// Ranks manoeuvres by how well they tell the wanted parameter, the best first. `noise` is the autocovariance of a row's error at lags
-/// 0, 1, ..., zero beyond; all problems have the same parameters.
-///
-/// # Errors
-///
-/// A problem without the wanted parameter, or that cannot be fitted, and noise that no process has.
-pub fn rank(
-    wanted: &str,
-    manoeuvres: &[Manoeuvre],
-    make: &dyn Fn(&Manoeuvre) -> Box<dyn Separable>,
-    noise: &[f64],
-) -> Result<Vec<Ranked>, Failure> {
-    let said = manoeuvres
-        .iter()
-        .map(|manoeuvre| said(wanted, *manoeuvre, make(manoeuvre).as_ref(), noise))
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut ranked: Vec<Ranked> = said.iter().map(|one| ranked(one, &said)).collect();
-    ranked.sort_by(|a, b| a.half_width.total_cmp(&b.half_width));
-    Ok(ranked)
-}
-
-fn said(
-    wanted: &str,
-    manoeuvre: Manoeuvre,
-    problem: &dyn Separable,
-    noise: &[f64],
-) -> Result<Said, Failure> {
-    let (jacobian, linear) = slopes_at_start(problem)?;
-    let nonlinear = problem
-        .nonlinear()
-        .iter()
-        .map(|p| (p.name, p.scale, [p.low, p.high], p.start));
-    let others = problem
-        .linear()
-        .iter()
-        .zip(linear)
-        .map(|(p, value)| (p.name, Scale::Linear, [p.low, p.high], value));
-    let all: Vec<_> = nonlinear.chain(others).collect();
-    let place = all.iter().position(|(name, ..)| *name == wanted);
-    let place = place.ok_or_else(|| Failure::Data(format!("no parameter is called {wanted}")))?;
-    let rows = information(&jacobian, noise)
-        .ok_or_else(|| Failure::Data("the information of the rows is not finite".into()))?;
-    // Variance of an even distribution: the range's square over 12. A linear parameter without bounds gets a trifle of the rows' own.
-    let least = |k: usize, scale: Scale, [low, high]: [f64; 2]| {
-        let range = inner(scale, high) - inner(scale, low);
-        if range.is_finite() {
-            12.0 / (range * range)
-        } else {
-            1e-12 * rows[(k, k)]
+impl Said {
+    /// What a manoeuvre's problem says of the wanted parameter; all manoeuvres have the same parameters.
+    fn of(wanted: &str, manoeuvre: Manoeuvre, problem: &dyn Separable) -> Result<Self, Failure> {
+        let (jacobian, linear) = slopes_at_start(problem)?;
+        let nonlinear = problem.nonlinear().iter();
+        let nonlinear = nonlinear.map(|own| (own.name, own.scale, [own.low, own.high], own.start));
+        let linear = problem.linear().iter().zip(linear);
+        let linear =
+            linear.map(|(own, value)| (own.name, Scale::Linear, [own.low, own.high], value));
+        let all: Vec<_> = nonlinear.chain(linear).collect();
+        let place = all.iter().position(|(name, ..)| *name == wanted);
+        let place = place.ok_or_else(|| Failure::Data(format!("{wanted}: no such parameter")))?;
+        let rows = jacobian.tr_mul(&jacobian) / (NOISE * NOISE);
+        let mut own = rows.clone();
+        for (k, (_, scale, [low, high], _)) in all.iter().enumerate() {
+            let range = inner(*scale, *high) - inner(*scale, *low);
+            // Variance of an even distribution: the range's square over 12; without bounds, a trifle of the rows' own.
+            let even = 12.0 / (range * range);
+            own[(k, k)] += if even > 0.0 {
+                even
+            } else {
+                1e-12 * rows[(k, k)]
+            };
         }
-    };
-    let bounded = all
-        .iter()
-        .enumerate()
-        .map(|(k, (_, scale, bounds, _))| least(k, *scale, *bounds));
-    let bounded = DMatrix::from_diagonal(&nalgebra::DVector::from_iterator(all.len(), bounded));
-    let (_, scale, bounds, value) = all[place];
-    Ok(Said {
-        manoeuvre,
-        names: all.iter().map(|(name, ..)| *name).collect(),
-        scale,
-        place,
-        value,
-        bounds,
-        rows,
-        bounded,
-    })
-}
-
-/// Covariance, parameters without any information left out as if known; their place stays as zeros.
-fn covariance(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-    let count = information.nrows();
-    let told: Vec<usize> = (0..count).filter(|k| information[(*k, *k)] > 0.0).collect();
-    let small = inverse(&DMatrix::from_fn(told.len(), told.len(), |i, j| {
-        information[(told[i], told[j])]
-    }))?;
-    let mut whole = DMatrix::zeros(count, count);
-    for (i, into) in told.iter().enumerate() {
-        for (j, column) in told.iter().enumerate() {
-            whole[(*into, *column)] = small[(i, j)];
-        }
+        let (_, scale, bounds, value) = all[place];
+        Ok(Self {
+            manoeuvre,
+            names: all.iter().map(|(name, ..)| *name).collect(),
+            place,
+            scale,
+            bounds,
+            value,
+            rows,
+            own,
+        })
     }
-    Some(whole)
-}
 
-fn half_width(information: &DMatrix<f64>, place: usize) -> f64 {
-    match covariance(information) {
-        Some(covariance) if covariance[(place, place)] > 0.0 => {
-            NORMAL * covariance[(place, place)].sqrt()
-        }
-        _ => f64::INFINITY,
+    /// Half width of the interval by an information.
+    fn half_width(&self, information: &DMatrix<f64>) -> f64 {
+        let told = information[(self.place, self.place)] > 0.0;
+        let covariance = covariance(information).filter(|_| told);
+        covariance.map_or(f64::INFINITY, |covariance| {
+            NORMAL * covariance[(self.place, self.place)].sqrt()
+        })
     }
-}
 
-fn ranked(one: &Said, all: &[Said]) -> Ranked {
-    let own = &one.rows + &one.bounded;
-    let (k, half_width_own) = (one.place, half_width(&own, one.place));
-    let strongest = covariance(&own).and_then(|covariance| {
+    /// The 95 % interval that the trace would give.
+    fn interval(&self) -> [f64; 2] {
+        let half = self.half_width(&self.own);
+        [-half, half].map(|away| {
+            let place = inner(self.scale, self.value) + away;
+            outer(self.scale, place).clamp(self.bounds[0], self.bounds[1])
+        })
+    }
+
+    /// The parameter that hides this one most, and their correlation.
+    fn hidden_by(&self) -> Option<(&'static str, f64)> {
+        let covariance = covariance(&self.own)?;
+        let k = self.place;
         let correlation =
             |j: usize| covariance[(j, k)] / (covariance[(j, j)] * covariance[(k, k)]).sqrt();
-        let others = (0..one.names.len())
-            .filter(|j| *j != k)
-            .map(|j| (one.names[j], correlation(j)));
-        others
-            .filter(|(_, value)| value.is_finite())
-            .max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
-    });
-    let companions = all
-        .iter()
-        .filter(|other| other.manoeuvre != one.manoeuvre && other.names == one.names);
-    let both = companions.map(|other| (other.manoeuvre, half_width(&(&own + &other.rows), k)));
-    let end = |side: f64| {
-        outer(
-            one.scale,
-            inner(one.scale, one.value) + side * half_width_own,
-        )
-        .clamp(one.bounds[0], one.bounds[1])
-    };
-    Ranked {
-        manoeuvre: one.manoeuvre,
-        value: one.value,
-        low: end(-1.0),
-        high: end(1.0),
-        half_width: half_width_own,
-        half_width_alone: NORMAL / own[(k, k)].sqrt(),
-        hidden_by: strongest,
-        companion: both.min_by(|a, b| a.1.total_cmp(&b.1)),
+        let others = (0..self.names.len()).filter(|j| *j != k);
+        let others = others.map(|j| (self.names[j], correlation(j)));
+        others.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
     }
+
+    /// The other manoeuvre that helps most, and the half width with both.
+    fn companion(&self, all: &[Self]) -> Option<(Manoeuvre, f64)> {
+        let others = all.iter().filter(|other| other.manoeuvre != self.manoeuvre);
+        let both =
+            others.map(|other| (other.manoeuvre, self.half_width(&(&self.own + &other.rows))));
+        both.min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+/// Covariance; a parameter without any information stands beside the others as if known.
+fn covariance(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+    let mut whole = information.clone();
+    for k in 0..whole.nrows() {
+        if whole[(k, k)] == 0.0 {
+            whole[(k, k)] = 1.0;
+        }
+    }
+    Some(whole.cholesky()?.inverse())
+}
+
+/// What a manoeuvre says of a screw's parameter.
+fn said(
+    design: &Design,
+    (name, wanted): (&str, &Wanted),
+    manoeuvre: Manoeuvre,
+    reach: &Reach,
+) -> Result<Said, Failure> {
+    let trace = &manoeuvre.trace(STEP, reach);
+    let motion = Motion::of(trace, &SmoothingSettings::default())?;
+    let mut evidence = Evidence::of(trace, &motion);
+    // All problems have the same parameters and starts.
+    evidence.load = Some([-reach.load, reach.load]);
+    evidence.temperature = Some(reach.temperature);
+    evidence.speeds = [1e-2 * reach.speed, reach.speed];
+    let Start {
+        screw,
+        values,
+        choice,
+    } = Start::of(design, &evidence, wanted)?;
+    let grid = screw.grid(&values, Spacing::FINE)?;
+    let prepared = Prepared::new(trace, &[], screw);
+    let rows = prepared.rows_over_turns(WINDOW, true);
+    let problem = prepared.remembered(rows, (&values, &choice), &grid);
+    Said::of(name, manoeuvre, &problem)
+}
+
+/// Prints the manoeuvres, the best first.
+pub fn tell(design: &Design, name: &str) -> Result<(), Failure> {
+    let reach = Reach::of(design);
+    print(
+        &mut io::stdout().lock(),
+        name,
+        &reach,
+        &ranked(design, name, &reach)?,
+    )
+}
+
+/// Manoeuvres by how well they tell the wanted parameter, the best first.
+fn ranked(design: &Design, name: &str, reach: &Reach) -> Result<Vec<Said>, Failure> {
+    let others = BESIDE.split(' ').filter(|other| *other != name);
+    let wanted = Wanted {
+        estimate: Some(others.chain([name]).map(String::from).collect()),
+        ..Wanted::default()
+    };
+    let all = Manoeuvre::ALL.into_iter();
+    let said = all.map(|manoeuvre| said(design, (name, &wanted), manoeuvre, reach));
+    let mut said = said.collect::<Result<Vec<_>, _>>()?;
+    said.sort_by(|a, b| a.half_width(&a.own).total_cmp(&b.half_width(&b.own)));
+    Ok(said)
+}
+
+fn print(out: &mut impl Write, name: &str, reach: &Reach, all: &[Said]) -> Result<(), Failure> {
+    let noise = 1e3 * NOISE;
+    writeln!(
+        out,
+        "Manoeuvres that tell {name}, the best first; intervals (95 %) with a noise of {noise:.1} mN m. They reach {reach}."
+    )?;
+    for one in all {
+        let (manoeuvre, value, [low, high]) = (one.manoeuvre, one.value, one.interval());
+        let [title, how, _] = manoeuvre.words();
+        writeln!(out, "\n{title} ({:.0} s): {how}", manoeuvre.duration())?;
+        writeln!(
+            out,
+            "  {value:.4e} would be told as {low:.4e} to {high:.4e}"
+        )?;
+        if let Some((other, correlation)) = one.hidden_by() {
+            writeln!(
+                out,
+                "  hidden most by {other} (correlation {correlation:.3})"
+            )?;
+        }
+        if let Some((other, width)) = one.companion(all) {
+            let [other, ..] = other.words();
+            writeln!(
+                out,
+                "  with {other} as well: half of the interval {width:.3}"
+            )?;
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
-mod tests;
+mod tests {
+    use super::*;
+    use crate::fit::problem::Evaluation;
+    use crate::fit::toys::{Toy, free, positive};
+    use epas_design::files::DesignSource;
+
+    /// 400 rows of `level temperature^warmth + gain load`, under a temperature and a load.
+    fn said_of(wanted: &str, manoeuvre: Manoeuvre, signals: fn(f64) -> [f64; 2]) -> Said {
+        let signals = move || (0..400).map(move |row| signals(0.1 * f64::from(row)));
+        let problem = Toy {
+            nonlinear: vec![positive("warmth", 0.5, 0.01, 5.0)],
+            linear: ["level", "gain"].map(free).into(),
+            target: signals().map(|[warm, load]| warm.sqrt() + load).collect(),
+            model: move |q: &[f64]| Evaluation {
+                fixed: vec![0.0; 400],
+                columns: vec![
+                    signals().map(|[warm, _]| warm.powf(q[0])).collect(),
+                    signals().map(|[_, load]| load).collect(),
+                ],
+            },
+        };
+        Said::of(wanted, manoeuvre, &problem).unwrap()
+    }
+
+    /// What does not warm does not tell the effect of temperature: the interval stays that of even bounds, 1.96 ranges over root 12, and
+    /// with the warm-up beside it becomes narrow. A load that hardly varies hides the level behind the gain.
+    #[test]
+    fn what_is_not_told_and_what_helps() {
+        let of = |wanted: &str| {
+            [
+                said_of(wanted, Manoeuvre::Parking, |at| [1.0, at.sin()]),
+                said_of(wanted, Manoeuvre::WholeTurns, |at| {
+                    [1.0, 1.0 + 0.01 * at.sin()]
+                }),
+                said_of(wanted, Manoeuvre::WarmUp, |at| [1.0 + at, at.sin()]),
+            ]
+        };
+        let warmth = of("warmth");
+        let even = NORMAL * 500f64.ln() / 12f64.sqrt();
+        for cold in &warmth[..2] {
+            assert!((cold.half_width(&cold.own) - even).abs() < 1e-6 * even);
+            let (companion, both) = cold.companion(&warmth).unwrap();
+            assert!(companion == Manoeuvre::WarmUp && both < 0.05 * even);
+        }
+        assert!(warmth[2].half_width(&warmth[2].own) < 0.05 * even);
+        let (name, correlation) = of("level")[1].hidden_by().unwrap();
+        assert!(name == "gain" && correlation < -0.99);
+    }
+
+    #[test]
+    fn a_breakaway_angle_is_told_by_reversals_and_not_by_a_spin_down() {
+        let design = "lin-4.1".parse::<DesignSource>().unwrap().load().unwrap();
+        let reach = Reach::of(&design);
+        let found = ranked(&design, "breakaway_angle", &reach).unwrap();
+        let order: Vec<Manoeuvre> = found.iter().map(|entry| entry.manoeuvre).collect();
+        assert_eq!(order[0], Manoeuvre::MicroReversals);
+        assert_eq!(*order.last().unwrap(), Manoeuvre::SpinDown);
+        let mut text = Vec::new();
+        print(&mut text, "breakaway_angle", &reach, &found).unwrap();
+        let text = String::from_utf8(text).unwrap();
+        for word in ["would be told as", "hidden most by", "as well: half"] {
+            assert_eq!(text.matches(word).count(), 7, "{text}");
+        }
+        assert!(ranked(&design, "no_such_parameter", &reach).is_err());
+    }
+}

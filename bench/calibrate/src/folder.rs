@@ -1,29 +1,33 @@
 //! Every trace of a folder, and what they have in common.
 //!
 //! Each trace's answer is written as soon as it is there, and a run that was stopped goes on with the traces that have none. Parts
-//! of a folder may be fitted anywhere and merged: the traces are put in the order of their names, and their sums are added, so that
-//! every partition has the same answer.
+//! of a folder may be fitted anywhere and merged: what the traces tell together follows from the list of their answers in the order of
+//! their names, so that every partition has the same answer to the last bit.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`answered`] | what one trace adds |
+//! | [`population`] | what all of them tell together |
 
+pub mod answered;
 mod page;
-mod population;
-pub mod references;
+pub mod population;
 mod store;
-#[cfg(test)]
-mod tests;
 
 use std::collections::BTreeMap;
-use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use rayon::prelude::*;
+use serde_json::{Value, json};
 
 use crate::answer::Calibration;
-use crate::sums::Sums;
+use crate::outputs::print_json;
+use answered::{Answered, alike};
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
-use population::Together;
-use store::{Ended, Key, Stored, Told};
+use population::{Common, HALF_INTERVAL, Outlier, Population, common, outliers, populations};
+use store::{Key, Stored, Told};
 
 /// How the traces of a folder are taken.
 #[derive(Clone, Debug, Default, PartialEq, Eq, clap::Args)]
@@ -79,46 +83,134 @@ pub struct Folder<'a> {
 
 /// Fits every trace with `fit`, one on each core at a time, writes and prints what they tell together.
 ///
-/// `fit` gives the calibration of a trace, and its sums about a reference that is the same for all traces.
+/// `fit` gives the calibration of a trace, and what it adds to the population.
 ///
 /// # Errors
 /// Folders and files that cannot be read or written; no trace that tells anything.
 pub fn run(
     folder: &Folder<'_>,
-    fit: impl Fn(&Path) -> Result<(Calibration, Sums), Failure> + Sync,
+    fit: impl Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync,
 ) -> Result<(), Failure> {
     let together = answer(folder, &fit)?;
     epas_page::folder::mark(folder.output)?;
     let document = page::document(&together);
     document.write(folder.output)?;
     if folder.json {
-        let text = serde_json::to_string(&together.json())
-            .map_err(|error| Failure::Data(error.to_string()))?;
-        writeln!(io::stdout().lock(), "{text}")?;
+        print_json(&together.json())?;
     } else {
         document.print(folder.output)?;
     }
     together.nothing_told().map_or(Ok(()), Err)
 }
 
+/// Answers of all traces, and what follows from them together.
+#[derive(Default)]
+struct Together {
+    /// One for each trace, in the order of their names.
+    traces: Vec<Stored>,
+    population: Vec<Population>,
+    /// The same without the traces that stand out; empty where none does.
+    without_outliers: Vec<Population>,
+    outliers: Vec<Outlier>,
+    common: Option<Common>,
+}
+
+impl Together {
+    /// Puts traces in the order of their names, and looks what they have in common.
+    fn of(mut traces: Vec<Stored>) -> Result<Self, Failure> {
+        traces.sort_by(|one, other| one.trace.cmp(&other.trace));
+        let mut together = Self {
+            traces,
+            ..Self::default()
+        };
+        let outliers = together.far();
+        let far = |name: &str| outliers.iter().any(|out| out.trace == name);
+        let told = together.told();
+        let all: Vec<&Answered> = told.map(|(_, told)| &told.answered).collect();
+        let near = together.told().filter(|(name, _)| !far(name));
+        let near: Vec<&Answered> = near.map(|(_, told)| &told.answered).collect();
+        alike(&all).map_err(Failure::Data)?;
+        let (population, common) = (populations(&all), common(&all));
+        if near.len() < all.len() {
+            together.without_outliers = populations(&near);
+        }
+        (together.population, together.common) = (population, common);
+        together.outliers = outliers;
+        Ok(together)
+    }
+
+    /// Traces that told something.
+    fn told(&self) -> impl Iterator<Item = (&str, &Told)> {
+        let all = self.traces.iter();
+        all.filter_map(|stored| Some((&*stored.trace, stored.ended.as_ref().ok()?)))
+    }
+
+    /// Traces that were refused, with the reason.
+    fn refused(&self) -> impl Iterator<Item = (&str, &str)> {
+        let all = self.traces.iter();
+        all.filter_map(|stored| Some((&*stored.trace, &**stored.ended.as_ref().err()?)))
+    }
+
+    /// Parameters that are far from those of the other traces.
+    fn far(&self) -> Vec<Outlier> {
+        let mut all: BTreeMap<&str, Vec<(&str, f64, f64)>> = BTreeMap::new();
+        for (trace, told) in self.told() {
+            for (name, entry) in told.estimates() {
+                let ends = ["value", "low", "high"].map(|key| entry[key].as_f64());
+                if let [Some(value), Some(low), Some(high)] = ends {
+                    let error = 0.5 * (high - low) / HALF_INTERVAL;
+                    all.entry(name).or_default().push((trace, value, error));
+                }
+            }
+        }
+        let all = all.into_iter();
+        all.flat_map(|(name, told)| outliers(name, &told)).collect()
+    }
+
+    /// The failure where no trace told anything.
+    fn nothing_told(&self) -> Option<Failure> {
+        if self.told().next().is_some() {
+            return None;
+        }
+        let word = self.refused().next().map_or_else(
+            || "there is none".into(),
+            |(trace, word)| format!("{trace}: {word}"),
+        );
+        Some(Failure::Data(format!("no trace tells anything; {word}")))
+    }
+
+    /// One JSON object.
+    fn json(&self) -> Value {
+        let answer = |stored: &Stored| match &stored.ended {
+            Ok(told) => told.answer.clone(),
+            Err(word) => json!({ "error": word }),
+        };
+        let traces = self.traces.iter();
+        json!({
+            "traces": traces
+                .map(|stored| (stored.trace.clone(), answer(stored)))
+                .collect::<serde_json::Map<_, _>>(),
+            "population": self.population,
+            "population_without_outliers": self.without_outliers,
+            "outliers": self.outliers,
+            "common": self.common,
+        })
+    }
+}
+
+/// What is called for every trace.
+type Fit<'a> = &'a (dyn Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync);
+
 /// What the traces tell together, fitted or merged.
-fn answer(
-    folder: &Folder<'_>,
-    fit: &(impl Fn(&Path) -> Result<(Calibration, Sums), Failure> + Sync),
-) -> Result<Together, Failure> {
-    let stored = if folder.arguments.merge.is_empty() {
-        fitted(folder, fit)?
-    } else {
-        merged(&folder.arguments.merge)?
-    };
-    Together::of(stored)
+fn answer(folder: &Folder<'_>, fit: Fit<'_>) -> Result<Together, Failure> {
+    Together::of(match &*folder.arguments.merge {
+        [] => fitted(folder, fit)?,
+        folders => merged(folders)?,
+    })
 }
 
 /// Answers of all traces of the part: those that are there, and the others fitted.
-fn fitted(
-    folder: &Folder<'_>,
-    fit: &(impl Fn(&Path) -> Result<(Calibration, Sums), Failure> + Sync),
-) -> Result<Vec<Stored>, Failure> {
+fn fitted(folder: &Folder<'_>, fit: Fit<'_>) -> Result<Vec<Stored>, Failure> {
     let part = folder.arguments.part.unwrap_or(Part { index: 0, count: 1 });
     let traces: Vec<PathBuf> = store::list(folder.traces, &["csv", "mf4"])?
         .into_iter()
@@ -134,60 +226,43 @@ fn fitted(
     }
     // Answers are written one by one, and a run that is stopped here goes on.
     epas_page::folder::mark(folder.output)?;
-    let settings = crc32fast::hash(folder.settings.as_bytes());
     let progress = Progress::new("traces", traces.len());
-    traces
-        .par_iter()
-        .map(|trace| {
-            let name = store::name(trace);
-            let stored = match store::kept(folder.output, trace, &name, settings) {
-                Some(stored) => stored,
-                None => fit_one(folder.output, trace, name, settings, fit)?,
-            };
-            progress.step();
-            Ok(stored)
-        })
-        .collect()
+    let one = |trace: &PathBuf| {
+        let stored = one(folder, trace, fit)?;
+        progress.step();
+        Ok(stored)
+    };
+    traces.par_iter().map(one).collect()
 }
 
-/// Fits one trace and keeps its answer; one that is refused keeps its word, and does not stop the others.
-fn fit_one(
-    output: &Path,
-    trace: &Path,
-    name: String,
-    settings: u32,
-    fit: &(impl Fn(&Path) -> Result<(Calibration, Sums), Failure> + Sync),
-) -> Result<Stored, Failure> {
-    let key = match Key::of(trace, settings) {
-        Ok(key) => key,
-        // A file that cannot be read may be readable next time: nothing is kept.
-        Err(failure) => {
-            return Ok(Stored {
-                trace: name,
-                key: Key::default(),
-                ended: Ended::Refused(word(failure)?),
-            });
-        }
-    };
-    let ended = match fit(trace) {
-        Ok((calibration, sums)) => Ended::Told(Box::new(Told::of(&calibration, sums))),
-        Err(failure) => Ended::Refused(word(failure)?),
-    };
-    let stored = Stored {
-        trace: name,
+/// The answer of one trace: kept, or fitted and kept. One that is refused keeps its word, and does not stop the others.
+fn one(folder: &Folder<'_>, trace: &Path, fit: Fit<'_>) -> Result<Stored, Failure> {
+    let stored = |key, ended| Stored {
+        trace: store::name(trace),
         key,
         ended,
     };
-    store::write(output, &stored)?;
-    Ok(stored)
-}
-
-/// Why a trace was refused; another failure stops the run.
-fn word(failure: Failure) -> Result<String, Failure> {
-    match failure {
-        Failure::Data(word) => Ok(word),
+    // One that is refused says why; another failure ends the run.
+    let word = |failure| match failure {
+        Failure::Data(word) => Ok(Err(word)),
         other => Err(other),
+    };
+    let key = match Key::of(trace, folder.settings) {
+        Ok(key) => key,
+        // A file that cannot be read may be readable next time: nothing is kept.
+        Err(failure) => return Ok(stored(Key::default(), word(failure)?)),
+    };
+    if let Some(kept) = store::kept(folder.output, &store::name(trace), &key) {
+        return Ok(kept);
     }
+    let told = fit(trace).and_then(|(calibration, answered)| {
+        let answer = serde_json::to_value(calibration);
+        let answer = answer.map_err(|error| Failure::Data(error.to_string()))?;
+        Ok(Told { answer, answered })
+    });
+    let stored = stored(key, told.map_or_else(word, |told| Ok(Ok(told)))?);
+    store::write(folder.output, &stored)?;
+    Ok(stored)
 }
 
 /// Answers of several runs; a trace that stands in two of them counts once.
@@ -195,18 +270,18 @@ fn merged(folders: &[PathBuf]) -> Result<Vec<Stored>, Failure> {
     let mut all: BTreeMap<String, Stored> = BTreeMap::new();
     for folder in folders {
         for stored in store::all(folder)? {
-            if let Some(other) = all.get(&stored.trace) {
-                if !other.key.same_data(&stored.key) {
-                    return Err(Failure::Data(format!(
-                        "{}: {} stands in another folder with other data or settings",
-                        folder.display(),
-                        stored.trace
-                    )));
-                }
-                continue;
+            let known = all.entry(stored.trace.clone());
+            if known.or_insert_with(|| stored.clone()).key != stored.key {
+                return Err(Failure::Data(format!(
+                    "{}: {} stands in another folder with other data or settings",
+                    folder.display(),
+                    stored.trace
+                )));
             }
-            all.insert(stored.trace.clone(), stored);
         }
     }
     Ok(all.into_values().collect())
 }
+
+#[cfg(test)]
+mod tests;

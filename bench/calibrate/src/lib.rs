@@ -14,7 +14,6 @@
 //! | [`answer`] | what a calibration answers: parameters with intervals, what cannot be told, scores of models |
 //! | [`page`] | the page of a calibration, and what it draws as plain data |
 //! | [`outputs`] | what a calibration writes, and where: design file, Rust constants |
-//! | [`sums`] | what many traces say together, as sums that merge |
 //! | [`folder`] | every trace of a folder, and what they have in common |
 //! | `command` | arguments, and what is printed |
 
@@ -44,7 +43,6 @@ pub mod outputs;
 pub mod page;
 pub mod screw;
 pub mod signals;
-pub mod sums;
 pub mod trace;
 pub mod with_design;
 pub mod without_design;

@@ -12,17 +12,18 @@ pub mod design_file;
 pub mod drive;
 pub mod firmware;
 
-use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
+
+use serde::Serialize;
 
 use crate::answer::Calibration;
 use crate::outputs::design_file::Written;
 use crate::page;
 use crate::page::picture::Picture;
-use crate::page::shown;
 use crate::page::truth::Truth;
 use crate::screw::friction::Screw;
 use crate::without_design::drive::Drive;
+use epas_page::document::print_line;
 use epas_page::failure::Failure;
 use epas_page::files::{self, Existing, refuse_ending, refuse_same};
 use epas_page::folder;
@@ -68,9 +69,6 @@ pub struct Outcome<'a> {
 impl OutputArguments {
     /// Fails before any work is done where an output would be in the way of a file, or is one of the inputs: the trace or one of those
     /// beside it.
-    ///
-    /// # Errors
-    /// The file.
     pub fn check<const N: usize>(
         &self,
         trace: &Path,
@@ -105,24 +103,13 @@ impl OutputArguments {
     /// Folder of the page of a trace.
     pub fn folder(&self, trace: &str) -> PathBuf {
         self.output.clone().unwrap_or_else(|| {
-            let name: String = trace
-                .chars()
-                .map(|letter| {
-                    if letter.is_alphanumeric() || "-_".contains(letter) {
-                        letter
-                    } else {
-                        '_'
-                    }
-                })
-                .collect();
+            let plain = |letter: char| letter.is_alphanumeric() || "-_".contains(letter);
+            let name = trace.replace(|letter| !plain(letter), "_");
             Path::new("target").join("calibrate").join(name)
         })
     }
 
     /// Writes everything, and prints what is to be told: the page's text and tables, or one JSON object.
-    ///
-    /// # Errors
-    /// What cannot be written; a calibrated number that no design can have.
     pub fn write(&self, outcome: Outcome<'_>) -> Result<(), Failure> {
         let Outcome {
             calibration,
@@ -139,50 +126,43 @@ impl OutputArguments {
         folder::mark(&folder)?;
         document.write(&folder)?;
         let mut told = Vec::new();
-        if let Some((path, text)) = drive {
-            files::write(path, &text, self.existing())?;
+        let mut write = |path: &Path, text: &str| {
             told.push(format!("wrote {}", path.display()));
+            files::write(path, text, self.existing())
+        };
+        if let Some((path, text)) = drive {
+            write(path, &text)?;
         }
+        let mut left = Vec::new();
         if let (Some(text), true) = (design, self.files().next().is_some()) {
-            let written = calibrated(text, outcome)?;
+            let told = (calibration, outcome.screw);
+            let Written {
+                text,
+                design,
+                left_out,
+                at_bound,
+            } = design_file::written(text, told, &picture.name)
+                .map_err(|message| Failure::Data(format!("the calibrated design: {message}")))?;
             if let Some(path) = &self.design_out {
-                files::write(path, &written.text, self.existing())?;
-                told.push(format!("wrote {}", path.display()));
-                if !written.left_out.is_empty() {
-                    let names = written.left_out.join(", ");
-                    told.push(format!("a design file has no key for {names}"));
-                }
-                if !written.at_bound.is_empty() {
-                    let names = written.at_bound.join(", ");
-                    told.push(format!(
-                        "not written, because at a bound or beside one that is: {names}"
-                    ));
-                }
+                write(path, &text)?;
+                let bound = "not written, because at a bound or beside one that is:";
+                left = vec![
+                    ("a design file has no key for", left_out),
+                    (bound, at_bound),
+                ];
             }
             if let Some(path) = &self.constants {
-                let text = constants::text(&written.design, &picture.name)?;
-                files::write(path, &text, self.existing())?;
-                told.push(format!("wrote {}", path.display()));
+                write(path, &constants::text(&design, &picture.name)?)?;
             }
         }
         if self.json {
             return print_json(calibration);
         }
         document.print(&folder)?;
-        let mut stdout = io::stdout().lock();
-        for line in told {
-            writeln!(stdout, "{line}")?;
-        }
-        Ok(())
+        let left = left.into_iter().filter(|(_, names)| !names.is_empty());
+        told.extend(left.map(|(words, names)| format!("{words} {}", names.join(", "))));
+        told.iter().try_for_each(|line| print_line(line))
     }
-}
-
-/// The design's own text with the calibrated numbers in it.
-fn calibrated(text: &str, outcome: Outcome<'_>) -> Result<Written, Failure> {
-    let trace = shown::one_line(&outcome.picture.name);
-    let told = (outcome.calibration, outcome.screw);
-    design_file::written(text, told, &trace)
-        .map_err(|message| Failure::Data(format!("the calibrated design: {message}")))
 }
 
 /// Name of a folder of traces.
@@ -194,9 +174,7 @@ pub fn folder_name(traces: &Path) -> String {
 }
 
 /// One JSON object on a line.
-fn print_json(calibration: &Calibration) -> Result<(), Failure> {
-    let text =
-        serde_json::to_string(calibration).map_err(|error| Failure::Data(error.to_string()))?;
-    writeln!(io::stdout().lock(), "{text}")?;
-    Ok(())
+pub fn print_json(object: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string(object).map_err(|error| Failure::Data(error.to_string()))?;
+    print_line(&text)
 }

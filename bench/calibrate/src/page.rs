@@ -4,25 +4,24 @@
 //! | module | what |
 //! |---|---|
 //! | [`picture`] | what the page draws, as plain data |
-//! | [`shown`] | numbers as they are shown |
+//! | [`shown`] | numbers, tables and charts as they are shown |
 //! | [`truth`] | what a synthetic trace was made with |
-//! | [`table`] | parameters, and manoeuvres that identify them |
 
 pub mod picture;
 pub mod shown;
-pub mod table;
 pub mod truth;
 
 use std::f64::consts::TAU;
 
-use crate::answer::{Calibration, ModelScore};
-use crate::page::picture::Picture;
-use crate::page::shown::digits;
+use crate::answer::{Calibration, Estimate, ModelScore};
+use crate::experiment::manoeuvre::Manoeuvre;
+use crate::page::picture::{Correlations, Picture};
+use crate::page::shown::{chart, digits, number, table};
 use crate::page::truth::Truth;
 use crate::signals::spectrum::welch;
 use crate::trace::Coordinate;
 use epas_page::document::{Block, Cell, Document, Figure, Section, Table};
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series, thin};
+use epas_page::plot::{Axis, Mark, Panel, Series, thin};
 
 /// Points of a cloud at the most: more of them cannot be told apart, and make a page slow.
 const CLOUD: usize = 1500;
@@ -33,33 +32,15 @@ const GROUPS: usize = 40;
 /// Error over the effort from which on a model explains nothing.
 const WORTHLESS: f64 = 0.5;
 
-/// What quantities are called and measured in.
-struct Words {
-    effort: &'static str,
-    unit: &'static str,
-    speed: &'static str,
-    position: &'static str,
-    density: &'static str,
-}
+/// What effort and position are called and measured in.
+struct Words([&'static str; 4]);
 
 impl Words {
     const fn of(coordinate: Coordinate) -> Self {
-        match coordinate {
-            Coordinate::Rotation => Self {
-                effort: "torque (N m)",
-                unit: "N m",
-                speed: "speed (rad/s)",
-                position: "angle (rad)",
-                density: "density (N² m²/Hz)",
-            },
-            Coordinate::Translation => Self {
-                effort: "force (N)",
-                unit: "N",
-                speed: "speed (m/s)",
-                position: "position (m)",
-                density: "density (N²/Hz)",
-            },
-        }
+        Self(match coordinate {
+            Coordinate::Rotation => ["torque", "N m", "angle", "rad"],
+            Coordinate::Translation => ["force", "N", "position", "m"],
+        })
     }
 }
 
@@ -71,32 +52,35 @@ pub fn document(
     with_design: bool,
 ) -> Document {
     let words = Words::of(picture.coordinate);
-    let mut sections = vec![told(calibration, truth, &words)];
+    let of = |title, blocks| Section { title, blocks };
+    let mut sections = vec![of("What the trace tells", told(calibration, truth, &words))];
     if !calibration.models.is_empty() {
-        sections.push(models(calibration));
+        sections.push(of("Models compared", models(calibration)));
     }
-    sections.push(Section {
-        title: "Trace and model",
-        blocks: vec![Block::Figure(over_time(picture, &words))],
-    });
-    sections.push(residual(picture, &words));
+    let over_time = Block::Figure(over_time(picture, &words));
+    sections.push(of("Trace and model", vec![over_time]));
+    sections.push(of("Residual", residual(picture, &words)));
     if !picture.correlations.names.is_empty() {
-        sections.push(correlations(picture));
+        let note = "Two parameters whose errors correlate by more than 0.95 are told together, hardly each by itself.";
+        let table = Block::Table(correlations(&picture.correlations));
+        sections.push(of("Correlations", vec![Block::Text(note.into()), table]));
     }
     if with_design {
-        sections.push(table::manoeuvres());
+        let note = "For a parameter that this trace does not tell: `calibrate --wanted NAME --design ...` ranks these by the interval that each would give.";
+        let table = Block::Table(manoeuvres());
+        sections.push(of("Manoeuvres", vec![Block::Text(note.into()), table]));
     }
     Document::of(format!("Calibration: {}", picture.name), sections)
 }
 
 /// Parameters, and what the trace cannot tell.
-fn told(calibration: &Calibration, truth: &Truth, words: &Words) -> Section {
+fn told(calibration: &Calibration, truth: &Truth, words: &Words) -> Vec<Block> {
     let mut blocks = vec![
-        Block::Answer(table::parameters(&calibration.parameters, truth)),
+        Block::Answer(parameters(&calibration.parameters, truth)),
         Block::Text(format!(
             "The model leaves a residual of {} {} rms, {} % of the effort's. {} rows count, with the correlation of the residual.",
             digits(calibration.residual_rms, 3),
-            words.unit,
+            words.0[1],
             digits(100.0 * calibration.relative_error, 3),
             digits(calibration.effective_rows.round(), 4),
         )),
@@ -105,14 +89,50 @@ fn told(calibration: &Calibration, truth: &Truth, words: &Words) -> Section {
         blocks.push(Block::Text("What this trace cannot tell:".into()));
         blocks.extend(calibration.cannot_tell.iter().cloned().map(Block::Text));
     }
-    Section {
-        title: "What the trace tells",
-        blocks,
+    blocks
+}
+
+/// Parameters with their intervals, and the truth beside them where it is known.
+fn parameters(estimates: &[Estimate], truth: &Truth) -> Table {
+    let row = |estimate: &Estimate| {
+        let Estimate {
+            value, low, high, ..
+        } = *estimate;
+        let (ends, origin) = match (estimate.fixed, estimate.at_bound) {
+            (true, _) => ([Cell::from(""), Cell::from("")], "set"),
+            (false, true) => ([number(low), number(high)], "at its bound"),
+            (false, false) => ([number(low), number(high)], "estimated"),
+        };
+        let mut row = vec![estimate.name.as_str().into(), number(value)];
+        row.extend(ends);
+        row.extend([estimate.unit, origin].map(Cell::from));
+        if !truth.is_empty() {
+            let known = truth.get(&estimate.name);
+            let held = match known.map(|truth| (low..=high).contains(truth)) {
+                Some(held) if !estimate.fixed => ["no", "yes"][usize::from(held)],
+                _ => "",
+            };
+            row.extend([shown::perhaps(known.copied()), held.into()]);
+        }
+        row
+    };
+    let mut table = table(
+        "parameters",
+        "Parameters with their 95 % intervals",
+        "parameter | value | low | high | unit | origin",
+        estimates.iter().map(row),
+    );
+    if !truth.is_empty() {
+        table.caption += ", beside what the synthetic trace was made with";
+        table
+            .columns
+            .extend(["truth", "in the interval"].map(String::from));
     }
+    table
 }
 
 /// Models of friction beside each other.
-fn models(calibration: &Calibration) -> Section {
+fn models(calibration: &Calibration) -> Vec<Block> {
     let best = match &calibration.winner {
         Some(name) => format!("Best on what was not fitted: {name}."),
         None => "No model was tried on anything that was not fitted.".into(),
@@ -120,17 +140,13 @@ fn models(calibration: &Calibration) -> Section {
     let mut blocks = vec![Block::Text(best)];
     blocks.extend(doubt(calibration).map(Block::Text));
     blocks.push(Block::Table(scores(&calibration.models)));
-    Section {
-        title: "Models compared",
-        blocks,
-    }
+    blocks
 }
 
 /// What is said of a comparison in which even the best model explains little.
 fn doubt(calibration: &Calibration) -> Option<String> {
-    let best = calibration
-        .models
-        .iter()
+    let unseen = calibration.models.iter();
+    let best = unseen
         .filter_map(|model| model.relative_error_unseen)
         .min_by(f64::total_cmp)?;
     (best > WORTHLESS).then(|| {
@@ -142,17 +158,19 @@ fn doubt(calibration: &Calibration) -> Option<String> {
 }
 
 fn scores(models: &[ModelScore]) -> Table {
-    let percent = |value: f64| Cell::Number(value, digits(100.0 * value, 3));
+    let percent = |value: Option<f64>| {
+        value.map_or("".into(), |value| {
+            Cell::Number(value, digits(100.0 * value, 3))
+        })
+    };
     let rows = models.iter().map(|model| {
         vec![
             model.name.as_str().into(),
             Cell::fixed(model.parameters as f64, 0),
-            percent(model.relative_error),
-            model.relative_error_unseen.map_or("".into(), percent),
-            percent(model.relative_error_inverse),
-            model
-                .relative_error_inverse_unseen
-                .map_or("".into(), percent),
+            percent(Some(model.relative_error)),
+            percent(model.relative_error_unseen),
+            percent(Some(model.relative_error_inverse)),
+            percent(model.relative_error_inverse_unseen),
             Cell::fixed(model.information_criterion, 1),
             model.cycles.map_or("".into(), |cycles| {
                 let sign = if model.cycles_estimated { "~" } else { "" };
@@ -160,75 +178,52 @@ fn scores(models: &[ModelScore]) -> Table {
             }),
         ]
     });
-    Table {
-        name: "models",
-        caption: "Models of friction on the same trace: error of the effort, rms, over the effort, in the closed loop where its \
-                  controller is known; the same of the regression's rows; information criterion less the least one; modelled \
-                  cycles of one tick, ~ where they are estimated"
-            .into(),
-        columns: [
-            "model",
-            "parameters",
-            "error, fitted (%)",
-            "error, not fitted (%)",
-            "rows, fitted (%)",
-            "rows, not fitted (%)",
-            "information criterion",
-            "cycles",
-        ]
-        .map(String::from)
-        .into(),
-        rows: rows.collect(),
-    }
+    table(
+        "models",
+        "Models of friction on the same trace: error of the effort, rms, over the effort, in the closed loop where its \
+         controller is known; the same of the regression's rows; information criterion less the least one; modelled \
+         cycles of one tick, ~ where they are estimated",
+        "model | parameters | error, fitted (%) | error, not fitted (%) | rows, fitted (%) | rows, not fitted (%) | information criterion | cycles",
+        rows,
+    )
 }
 
-fn chart(title: &str, x: &str, y: &str, series: Vec<Series>) -> Panel {
-    Panel::Chart(Chart {
-        title: title.into(),
-        x: Axis::linear(x),
-        y: Axis::linear(y),
-        series,
-        notes: Vec::new(),
-    })
-}
-
-/// A list over time, thinned to what a picture can show.
-fn curve(time: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
-    let rows: Vec<(f64, f64)> = time.iter().copied().zip(values.iter().copied()).collect();
-    thin(&rows, &|row| row.0, &|row| row.1)
+fn linear(title: &str, x: &str, y: &str, series: Vec<Series>) -> Panel {
+    chart(title, Axis::linear(x), Axis::linear(y), series)
 }
 
 fn over_time(picture: &Picture, words: &Words) -> Figure {
-    let residual: Vec<f64> = picture.residual().collect();
+    let Words([effort, unit, _, length]) = words;
     let line = |name: &str, colour, values: &[f64]| {
-        Series::new(name, colour, Mark::Line, curve(&picture.time, values))
+        let time = picture.time.iter().copied();
+        let rows: Vec<(f64, f64)> = time.zip(values.iter().copied()).collect();
+        let points = thin(&rows, &|row| row.0, &|row| row.1);
+        Series::new(name, colour, Mark::Line, points)
     };
-    let time = "time (s)";
+    let panel = |title: &str, y: &str, series| linear(title, "time (s)", y, series);
+    let both = vec![
+        line("measured", 0, &picture.measured),
+        line("model", 1, &picture.model),
+    ];
+    let left = vec![line("", 3, &picture.residual())];
     let mut panels = vec![
-        chart(
-            &picture.name,
-            time,
-            words.effort,
-            vec![
-                line("measured", 0, &picture.measured),
-                line("model", 1, &picture.model),
-            ],
-        ),
-        chart(
+        panel(&picture.name, &format!("{effort} ({unit})"), both),
+        panel("", &format!("residual ({unit})"), left),
+        panel(
             "",
-            time,
-            &format!("residual ({})", words.unit),
-            vec![line("", 3, &residual)],
+            &format!("speed ({length}/s)"),
+            vec![line("", 2, &picture.speed)],
         ),
-        chart("", time, words.speed, vec![line("", 2, &picture.speed)]),
     ];
     for (label, values) in [
         ("axial load (N)", &picture.load),
         ("temperature (K)", &picture.temperature),
     ] {
-        if let Some(values) = values {
-            panels.push(chart("", time, label, vec![line("", 2, values)]));
-        }
+        panels.extend(
+            values
+                .as_deref()
+                .map(|values| panel("", label, vec![line("", 2, values)])),
+        );
     }
     Figure {
         name: "trace_and_model",
@@ -240,130 +235,121 @@ fn over_time(picture: &Picture, words: &Words) -> Figure {
 }
 
 /// The residual against everything that was measured, and its spectrum.
-fn residual(picture: &Picture, words: &Words) -> Section {
-    let residual: Vec<f64> = picture.residual().collect();
-    let mut quantities = vec![(words.speed, picture.speed.clone())];
-    quantities.extend(picture.load.clone().map(|load| ("axial load (N)", load)));
-    quantities.push((words.position, picture.position.clone()));
-    if picture.coordinate == Coordinate::Rotation {
-        let turned = picture.position.iter().map(|angle| angle.rem_euclid(TAU));
-        quantities.push(("angle in the turn (rad)", turned.collect()));
-    }
-    let temperature = picture.temperature.clone();
-    quantities.extend(temperature.map(|temperature| ("temperature (K)", temperature)));
-    let label = format!("residual ({})", words.unit);
-    let panels: Vec<_> = quantities
-        .iter()
-        .map(|(name, values)| {
-            let series = vec![
-                Series::new("rows", 5, Mark::Dots, cloud(values, &residual)),
-                Series::new("mean of a group", 1, Mark::Line, groups(values, &residual)),
-            ];
-            chart("", name, &label, series)
-        })
-        .collect();
+fn residual(picture: &Picture, words: &Words) -> Vec<Block> {
+    let residual = picture.residual();
+    let turn = picture.position.iter().map(|angle| angle.rem_euclid(TAU));
+    let turn: Option<Vec<f64>> =
+        (picture.coordinate == Coordinate::Rotation).then(|| turn.collect());
+    let Words([_, unit, position, length]) = words;
+    let label = format!("residual ({unit})");
+    let panels = [
+        (format!("speed ({length}/s)"), Some(&picture.speed)),
+        ("axial load (N)".into(), picture.load.as_ref()),
+        (format!("{position} ({length})"), Some(&picture.position)),
+        ("angle in the turn (rad)".into(), turn.as_ref()),
+        ("temperature (K)".into(), picture.temperature.as_ref()),
+    ]
+    .into_iter()
+    .filter_map(|(name, values)| {
+        let rows = rows(values?, &residual);
+        let stride = rows.len().div_ceil(CLOUD).max(1);
+        let cloud = rows.iter().copied().step_by(stride).collect();
+        let series = vec![
+            Series::new("rows", 5, Mark::Dots, cloud),
+            Series::new("mean of a group", 1, Mark::Line, groups(rows)),
+        ];
+        Some(linear("", &name, &label, series))
+    });
+    let note = "What a model leaves out shows here as a mean that is not zero: a slope over speed is drag, over load a wrong \
+                coefficient or gain, a wave over the turn an error of the screw.";
     let mut blocks = vec![
-        Block::Text(
-            "What a model leaves out shows here as a mean that is not zero: a slope over speed is drag, over load a wrong \
-             coefficient or gain, a wave over the turn an error of the screw."
-                .into(),
-        ),
+        Block::Text(note.into()),
         Block::Figure(Figure {
             name: "residual",
             caption: format!(
                 "Residual against what was measured; means of {GROUPS} groups of equal size"
             ),
-            panels,
+            panels: panels.collect(),
             columns: 2,
             size: (560, 320),
         }),
     ];
     blocks.extend(spectrum(picture, &residual, words).map(Block::Figure));
-    Section {
-        title: "Residual",
-        blocks,
-    }
+    blocks
 }
 
 fn spectrum(picture: &Picture, residual: &[f64], words: &Words) -> Option<Figure> {
     let step = picture.step()?;
-    let points = |values: &[f64]| -> Vec<(f64, f64)> {
+    let series = |name, colour, values: &[f64]| {
         let lines = welch(values, step).into_iter();
-        lines.filter(|(_, density)| *density > 0.0).collect()
+        let points = lines.filter(|(_, density)| *density > 0.0).collect();
+        Series::new(name, colour, Mark::Line, points)
     };
-    let left = points(residual);
-    (!left.is_empty()).then(|| Figure {
+    let left = series("residual", 3, residual);
+    let both =
+        (!left.points.is_empty()).then(|| vec![series("measured", 0, &picture.measured), left])?;
+    let density = Axis::log(&format!("density (({})²/Hz)", words.0[1]));
+    Some(Figure {
         name: "spectrum",
         caption: "Power spectral density by Welch's method".into(),
-        panels: vec![Panel::Chart(Chart {
-            title: String::new(),
-            x: Axis::log("frequency (Hz)"),
-            y: Axis::log(words.density),
-            series: vec![
-                Series::new("measured", 0, Mark::Line, points(&picture.measured)),
-                Series::new("residual", 3, Mark::Line, left),
-            ],
-            notes: Vec::new(),
-        })],
+        panels: vec![chart("", Axis::log("frequency (Hz)"), density, both)],
         columns: 1,
         size: (1000, 360),
     })
 }
 
-/// Every so many rows, so that few are left.
-fn cloud(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
-    let stride = x.len().div_ceil(CLOUD).max(1);
+/// Pairs of finite numbers.
+fn rows(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
     let rows = x.iter().copied().zip(y.iter().copied());
-    rows.step_by(stride)
-        .filter(|(x, y)| x.is_finite() && y.is_finite())
+    rows.filter(|(x, y)| x.is_finite() && y.is_finite())
         .collect()
 }
 
-/// Means of groups of equal size along `x`.
-fn groups(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
-    let mut rows: Vec<(f64, f64)> = x
-        .iter()
-        .copied()
-        .zip(y.iter().copied())
-        .filter(|(x, y)| x.is_finite() && y.is_finite())
-        .collect();
+/// Means of groups of equal size along the first number.
+fn groups(mut rows: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     rows.sort_by(|one, other| one.0.total_cmp(&other.0));
     let size = rows.len().div_ceil(GROUPS).max(1);
-    rows.chunks(size)
-        .map(|group| {
-            let count = group.len() as f64;
-            let (x, y) = group
-                .iter()
-                .fold((0.0, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
-            (x / count, y / count)
-        })
-        .collect()
+    let mean = |group: &[(f64, f64)]| {
+        let sum = group
+            .iter()
+            .fold((0.0, 0.0), |sum, row| (sum.0 + row.0, sum.1 + row.1));
+        (sum.0 / group.len() as f64, sum.1 / group.len() as f64)
+    };
+    rows.chunks(size).map(mean).collect()
 }
 
-fn correlations(picture: &Picture) -> Section {
-    let correlations = &picture.correlations;
+fn correlations(correlations: &Correlations) -> Table {
     let rows = correlations.names.iter().zip(&correlations.rows);
     let rows = rows.map(|(name, row)| {
-        let mut cells = vec![Cell::from(name.as_str())];
-        cells.extend(row.iter().map(|value| Cell::fixed(*value, 3)));
-        cells
+        let values = row.iter().map(|value| Cell::fixed(*value, 3));
+        [Cell::from(name.as_str())]
+            .into_iter()
+            .chain(values)
+            .collect()
     });
-    let mut columns = vec![String::new()];
-    columns.extend(correlations.names.iter().cloned());
-    Section {
-        title: "Correlations",
-        blocks: vec![
-            Block::Text(
-                "Two parameters whose errors correlate by more than 0.95 are told together, hardly each by itself.".into(),
-            ),
-            Block::Table(Table {
-                name: "correlations",
-                caption: "Correlations of the parameters' errors".into(),
-                columns,
-                rows: rows.collect(),
-            }),
-        ],
-    }
+    let mut table = table(
+        "correlations",
+        "Correlations of the parameters' errors",
+        "",
+        rows,
+    );
+    table.columns.extend(correlations.names.iter().cloned());
+    table
+}
+
+/// Which manoeuvre identifies what.
+fn manoeuvres() -> Table {
+    let row = |manoeuvre: Manoeuvre| {
+        let [name, how, identifies] = manoeuvre.words();
+        let identifies = identifies.replace(' ', ", ");
+        vec![name.into(), how.into(), identifies.into()]
+    };
+    table(
+        "manoeuvres",
+        "What each manoeuvre identifies: a parameter stands with the two whose 95 % intervals are narrowest on a rack-assist gear",
+        "manoeuvre | how | identifies",
+        Manoeuvre::ALL.into_iter().map(row),
+    )
 }
 
 #[cfg(test)]

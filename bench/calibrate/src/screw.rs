@@ -35,7 +35,7 @@ use self::evidence::Evidence;
 use self::exact::{Grid, Spacing};
 use self::friction::Screw;
 use self::problem::Choice;
-use self::quantities::Values;
+use self::quantities::{QUANTITIES, Values};
 use self::stages::{AT_TURNS, Prepared, Sliding, WAY, Window};
 use crate::answer::{Calibration, Estimate};
 use crate::checks::finding::{Finding, FindingKind};
@@ -215,12 +215,8 @@ fn told<'a>(
     let mut sliding = prepared.slid(window, (&values, &choice), set, &coarse)?;
     while let Some(untold) = telling::untold(&sliding, &start.values, evidence, &kept) {
         let less = choice.without(untold.name);
-        let mut without = sliding.values;
-        telling::set(
-            untold.name,
-            telling::value_of(untold.name, &start.values),
-            &mut without,
-        );
+        let value = telling::value_of(untold.name, &start.values);
+        let without = telling::with(untold.name, value, &sliding.values);
         let next = prepared.slid(window, (&without, &less), set, &coarse)?;
         if next.residual_rms > GROWTH * sliding.residual_rms {
             // The trace does object to that value.
@@ -263,7 +259,7 @@ fn told<'a>(
         !coarse && !of.at_bound
     });
     for of in &intervals {
-        telling::set(of.name, of.value, &mut values);
+        values = telling::with(of.name, of.value, &values);
     }
     let bounds = sliding.intervals.iter().filter(|of| of.at_bound);
     sentences.extend(bounds.map(|of| telling::at_bound(of, evidence)));
@@ -378,12 +374,13 @@ fn answer(
     residual: &[f64],
     uncertainty: &Uncertainty,
 ) -> Calibration {
-    let parameters = quantities::all(&told.values).map(|(name, unit, value)| {
+    let parameters = QUANTITIES.iter().map(|of| {
         let mut intervals = uncertainty.intervals.iter();
-        match intervals.find(|interval| interval.name == name) {
-            Some(interval) => Estimate::from(interval),
-            None => Estimate::fixed(name, unit, value),
-        }
+        let interval = intervals.find(|interval| interval.name == of.name);
+        interval.map_or_else(
+            || Estimate::fixed(of.name, of.unit, of.value(&told.values)),
+            Estimate::from,
+        )
     });
     let square = |rows: &[f64]| rows.iter().map(|x| x * x).sum::<f64>();
     let left = square(residual);

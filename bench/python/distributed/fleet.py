@@ -1,4 +1,4 @@
-"""Calibration of a fleet on a Dask cluster: each trace is fitted where it lies, and sums come back, which merge.
+"""Calibration of a fleet on a Dask cluster: each trace is fitted where it lies, and its numbers come back.
 
     python fleet.py --traces 10000 --workers 2
     python fleet.py --traces 1000 --workers 2 --kill       # kills a worker on the way
@@ -41,14 +41,14 @@ def trace(number: int) -> dict[str, np.ndarray]:
 
 
 def part(first: int, count: int) -> str:
-    """Sums of a part of the fleet."""
+    """What a part of the fleet says."""
     import epas_friction
 
     return epas_friction.merge_sums([epas_friction.trace_sums(trace(number)) for number in range(first, first + count)])
 
 
 def fleet(client: Client, traces: int, partitions: int, kill: bool = False) -> str:
-    """Sums of the whole fleet, by so many tasks."""
+    """What the whole fleet says, by so many tasks."""
     import epas_friction
 
     bounds = np.linspace(0, traces, partitions + 1).astype(int)

@@ -1,7 +1,8 @@
 //! Studies of many designs and of many traces, in parts that any engine may run anywhere.
 
+use epas_calibrate::folder::answered::{Answered, merged};
+use epas_calibrate::folder::population::populations;
 use epas_calibrate::screw::Request;
-use epas_calibrate::sums::Sums;
 use epas_calibrate::trace::columns::Frame;
 use epas_calibrate::with_design;
 use epas_calibrate::without_design::{self, Filters};
@@ -143,7 +144,7 @@ pub fn design_figures<'py>(
     )
 }
 
-/// Fits one trace of many; what it says, as sums that merge (JSON).
+/// Fits one trace of many; what it says, as a list that merges (JSON).
 ///
 /// Args:
 ///     trace: dict of column names to arrays of shape (n,), as of :func:`calibrate`.
@@ -151,7 +152,7 @@ pub fn design_figures<'py>(
 ///     ratio: turns of the motor in a turn of the nut, 0.01 to 1000; 1 without; with a design.
 ///
 /// Returns:
-///     str: sums, for :func:`merge_sums` and :func:`population`.
+///     str: values with their covariance, for :func:`merge_sums` and :func:`population`.
 ///
 /// Raises:
 ///     Error: a trace from which nothing can be told, a ratio out of its range or without a design.
@@ -175,37 +176,30 @@ pub fn trace_sums(
             with_design::summed(&read(text, Some(&frame))?, &design, &request)
         }
     })?;
-    let (_, sums) = summed.map_err(|failure| refused(py, told(failure)))?;
-    written(py, &sums)
+    let (_, answered) = summed.map_err(|failure| refused(py, told(failure)))?;
+    written(py, &[answered])
 }
 
-/// Sums of parts as those of the whole: in any order and grouping, to the last rounding.
+/// What parts say as what the whole says: in any order and grouping the same text.
 ///
 /// Args:
-///     parts: list of sums; one or more.
+///     parts: list of what :func:`trace_sums` or this function returned; one or more.
 ///
 /// Returns:
-///     str: their sums.
+///     str: all of them together.
 ///
 /// Raises:
-///     Error: text that holds no sums, or sums of other parameters.
+///     Error: text that holds nothing of the kind, or fits with a design beside such without one.
 #[pyfunction]
 pub fn merge_sums(py: Python<'_>, parts: Vec<String>) -> PyResult<String> {
-    let mut whole: Option<Sums> = None;
-    for part in &parts {
-        let part = parsed(py, part)?;
-        match &mut whole {
-            None => whole = Some(part),
-            Some(whole) => whole
-                .merge(&part)
-                .map_err(|error| refused(py, Refused::value("parts", error.to_string())))?,
-        }
+    if parts.is_empty() {
+        let none = Refused::value("parts", "there is nothing to merge");
+        return Err(refused(py, none));
     }
-    let none = || refused(py, Refused::value("parts", "there are no sums to merge"));
-    written(py, &whole.ok_or_else(none)?)
+    written(py, &parsed(py, "parts", &parts)?)
 }
 
-/// Mean and spread of each parameter over the traces of sums.
+/// Mean and spread of each parameter over all traces.
 ///
 /// Args:
 ///     sums: of :func:`trace_sums` or :func:`merge_sums`.
@@ -215,11 +209,12 @@ pub fn merge_sums(py: Python<'_>, parts: Vec<String>) -> PyResult<String> {
 ///     trace's value will be, 95 %).
 ///
 /// Raises:
-///     Error: text that holds no sums.
+///     Error: text that neither of them returned.
 #[pyfunction]
 pub fn population<'py>(py: Python<'py>, sums: &str) -> PyResult<Bound<'py, PyList>> {
     let list = PyList::empty(py);
-    for one in parsed(py, sums)?.population() {
+    let all = parsed(py, "sums", &[sums.to_owned()])?;
+    for one in populations(&all.iter().collect::<Vec<_>>()) {
         let entry = PyDict::new(py);
         entry.set_item("name", one.name)?;
         entry.set_item("traces", one.traces)?;
@@ -232,12 +227,12 @@ pub fn population<'py>(py: Python<'py>, sums: &str) -> PyResult<Bound<'py, PyLis
     Ok(list)
 }
 
-fn parsed(py: Python<'_>, text: &str) -> PyResult<Sums> {
-    serde_json::from_str(text)
-        .map_err(|error| refused(py, Refused::value("sums", format!("no sums: {error}"))))
+fn parsed(py: Python<'_>, field: &str, texts: &[String]) -> PyResult<Vec<Answered>> {
+    merged(texts.iter().map(String::as_str))
+        .map_err(|error| refused(py, Refused::value(field, error)))
 }
 
-fn written(py: Python<'_>, sums: &Sums) -> PyResult<String> {
-    serde_json::to_string(sums)
+fn written(py: Python<'_>, all: &[Answered]) -> PyResult<String> {
+    serde_json::to_string(all)
         .map_err(|error| refused(py, Refused::value("sums", error.to_string())))
 }

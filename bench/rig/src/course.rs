@@ -1,16 +1,16 @@
 //! What the rig is driven through: motion, load and temperature over time.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
-use std::ops::Range;
 
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
-use super::parameters::ZERO_CELSIUS;
+use crate::parameters::ZERO_CELSIUS;
+use crate::{Trace, Truth};
 use epas_reference::error::{ReferenceError, within};
 
 /// Stream of the generator of random numbers for the motion; sensors have the one beside it.
-pub(super) const STREAM: u128 = 0xa02_bdbf_7bb3_c0a7;
+pub(crate) const STREAM: u128 = 0xa02_bdbf_7bb3_c0a7;
 
 /// A kind of motion with its load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -29,29 +29,9 @@ pub enum Manoeuvre {
     Turns,
     /// Strokes up to 12 rad/s under 1.2 kN of both signs: what warms a screw up.
     Running,
-    /// 5 rad/s forward without an end, under a load that swings to 2 kN of both signs: tells little.
-    Steady,
-    /// Forward at 1 to 20 rad/s, never back, under the same load: tells little.
-    OneWay,
 }
 
-impl Manoeuvre {
-    /// Name, in the words of a heading.
-    #[must_use]
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Weave => "weave",
-            Self::Parking => "parking",
-            Self::Micro => "micro",
-            Self::SpinDown => "spin-down",
-            Self::LoadSteps => "load steps",
-            Self::Turns => "turns",
-            Self::Running => "running",
-            Self::Steady => "steady",
-            Self::OneWay => "one way",
-        }
-    }
-}
+use Manoeuvre::{LoadSteps, Micro, Parking, Running, SpinDown, Turns, Weave};
 
 /// Manoeuvres one after the other.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,76 +40,43 @@ pub struct Course {
     pub parts: Vec<(Manoeuvre, f64)>,
     /// Temperature at the start and at the end, K, between which it rises evenly.
     pub temperatures: [f64; 2],
-    /// Loads over those of the manoeuvres, 0 (none) to 10.
-    pub load_factor: f64,
     /// Time between two samples, s.
     pub tick: f64,
 }
 
 impl Course {
+    fn of(parts: &[(Manoeuvre, f64)], warm: f64) -> Self {
+        Self {
+            parts: parts.into(),
+            temperatures: [ZERO_CELSIUS + 20.0, ZERO_CELSIUS + warm],
+            tick: 1e-3,
+        }
+    }
+
     /// What a vehicle gives: weave, parking and micro triangles, 20 s each, 20 to 45 degrees Celsius.
     #[must_use]
     pub fn vehicle() -> Self {
-        Self {
-            parts: [Manoeuvre::Weave, Manoeuvre::Parking, Manoeuvre::Micro]
-                .map(|manoeuvre| (manoeuvre, 20.0))
-                .into(),
-            temperatures: [ZERO_CELSIUS + 20.0, ZERO_CELSIUS + 45.0],
-            load_factor: 1.0,
-            tick: 1e-3,
-        }
+        Self::of(&[Weave, Parking, Micro].map(|part| (part, 20.0)), 45.0)
     }
 
     /// What a rig gives: spin-down without a load, load steps, whole turns, running warm, 15 s each, 20 to 60 degrees.
     #[must_use]
     pub fn rig() -> Self {
-        Self {
-            parts: [
-                Manoeuvre::SpinDown,
-                Manoeuvre::LoadSteps,
-                Manoeuvre::Turns,
-                Manoeuvre::Running,
-            ]
-            .map(|manoeuvre| (manoeuvre, 15.0))
-            .into(),
-            temperatures: [ZERO_CELSIUS + 20.0, ZERO_CELSIUS + 60.0],
-            load_factor: 1.0,
-            tick: 1e-3,
-        }
+        let parts = [SpinDown, LoadSteps, Turns, Running];
+        Self::of(&parts.map(|part| (part, 15.0)), 60.0)
     }
 
     /// Both, 60 s in all, 20 to 60 degrees.
     #[must_use]
     pub fn whole() -> Self {
-        let parts = [
-            (Manoeuvre::Weave, 10.0),
-            (Manoeuvre::Parking, 10.0),
-            (Manoeuvre::Micro, 12.0),
-            (Manoeuvre::SpinDown, 6.0),
-            (Manoeuvre::LoadSteps, 8.0),
-            (Manoeuvre::Turns, 10.0),
-            (Manoeuvre::Running, 4.0),
+        let vehicle = [(Weave, 10.0), (Parking, 10.0), (Micro, 12.0)];
+        let rig = [
+            (SpinDown, 6.0),
+            (LoadSteps, 8.0),
+            (Turns, 10.0),
+            (Running, 4.0),
         ];
-        Self {
-            parts: parts.into(),
-            ..Self::rig()
-        }
-    }
-
-    /// One manoeuvre alone, 20 to 45 degrees.
-    #[must_use]
-    pub fn of(manoeuvre: Manoeuvre, duration: f64) -> Self {
-        Self {
-            parts: vec![(manoeuvre, duration)],
-            ..Self::vehicle()
-        }
-    }
-
-    /// The same without a load.
-    #[must_use]
-    pub fn unloaded(mut self) -> Self {
-        self.load_factor = 0.0;
-        self
+        Self::of(&[&vehicle[..], &rig].concat(), 60.0)
     }
 
     /// The same with every part's duration times `factor`.
@@ -141,57 +88,38 @@ impl Course {
         self
     }
 
-    /// Motion and load, the same for the same seed on every machine.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming a duration, temperature or tick out of range.
-    pub fn driven(&self, seed: u64) -> Result<Driven, ReferenceError> {
+    /// Time, motion, load and temperature, the same for the same seed on every machine.
+    pub(crate) fn driven(&self, seed: u64) -> Result<Trace, ReferenceError> {
         within("tick", self.tick, 1e-5, 0.02)?;
-        within("load_factor", self.load_factor, 0.0, 10.0)?;
         for temperature in self.temperatures {
             within("temperatures", temperature, 200.0, 500.0)?;
         }
         let mut random = Pcg64::new(seed.into(), STREAM);
-        let mut driven = Driven::default();
+        let mut trace = Trace::default();
         for &(manoeuvre, duration) in &self.parts {
             within("duration", duration, 1.0, 1e4)?;
+            let first = trace.truth.position.len();
             let part = Part {
                 duration,
                 tick: self.tick,
                 ticks: (duration / self.tick).round() as usize,
-                start: driven.position.last().copied().unwrap_or(0.0),
+                start: trace.truth.position.last().copied().unwrap_or(0.0),
             };
-            let first = driven.position.len();
-            part.drive(manoeuvre, &mut random, &mut driven);
-            driven.parts.push((manoeuvre, first..driven.position.len()));
-        }
-        for load in &mut driven.load {
-            *load *= self.load_factor;
+            part.drive(manoeuvre, &mut random, &mut trace.truth);
+            trace.parts.push((manoeuvre, first..first + part.ticks));
         }
         // Half of the power passes at 20 Hz.
         let width = 6.6e-3 / self.tick;
-        driven.position = smooth(&driven.position, width);
-        driven.load = smooth(&driven.load, width);
-        let last = driven.position.len().max(2) - 1;
+        trace.truth.position = smooth(&trace.truth.position, width);
+        trace.truth.load = smooth(&trace.truth.load, width);
+        let ticks = trace.truth.position.len();
+        let last = ticks.max(2) - 1;
         let [start, end] = self.temperatures;
-        driven.temperature = (0..driven.position.len())
-            .map(|tick| start + (end - start) * tick as f64 / last as f64)
-            .collect();
-        Ok(driven)
+        let warm = |tick| start + (end - start) * tick as f64 / last as f64;
+        trace.temperature = (0..ticks).map(warm).collect();
+        trace.time = (0..ticks).map(|tick| tick as f64 * self.tick).collect();
+        Ok(trace)
     }
-}
-
-/// Motion and load of a course at every tick.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Driven {
-    /// Angle of the nut, rad.
-    pub position: Vec<f64>,
-    /// Axial load, N, positive where it opposes the travel of a nut that turns forward.
-    pub load: Vec<f64>,
-    /// Temperature, K.
-    pub temperature: Vec<f64>,
-    /// Which samples belong to which manoeuvre.
-    pub parts: Vec<(Manoeuvre, Range<usize>)>,
 }
 
 /// One part of a course.
@@ -204,23 +132,23 @@ struct Part {
 }
 
 impl Part {
-    fn drive(&self, manoeuvre: Manoeuvre, random: &mut Pcg64, driven: &mut Driven) {
+    fn drive(&self, manoeuvre: Manoeuvre, random: &mut Pcg64, driven: &mut Truth) {
         match manoeuvre {
-            Manoeuvre::Weave => {
+            Weave => {
                 let motion = self.waves(random, [0.2, 1.5], 0.6);
                 self.steer(random, driven, 1.0, |tick| motion[tick]);
             }
-            Manoeuvre::Parking => self.steer(random, driven, 1.0, |tick| {
+            Parking => self.steer(random, driven, 1.0, |tick| {
                 let time = self.time(tick);
                 25.0 * (TAU * 0.25 * time).sin() + 6.0 * (TAU * 0.11 * time).sin()
             }),
-            Manoeuvre::Micro => self.steer(random, driven, 0.35, |tick| {
+            Micro => self.steer(random, driven, 0.35, |tick| {
                 let time = self.time(tick);
                 let amplitude = 1e-3 + 7e-3 * time / self.duration;
                 amplitude * triangle(0.8 * time) + 0.05 * (TAU * 0.05 * time).sin()
             }),
-            Manoeuvre::SpinDown => self.turn(driven, |share| {
-                let (way, share) = if share < 0.5 {
+            SpinDown => self.turn(driven, |share| {
+                let (direction, share) = if share < 0.5 {
                     (1.0, 2.0 * share)
                 } else {
                     (-1.0, 2.0 * share - 1.0)
@@ -230,9 +158,9 @@ impl Part {
                 } else {
                     (1.0 - share) / 0.85 * (-3.0 * (share - 0.15)).exp()
                 };
-                (way * 40.0 * speed, 0.0)
+                (direction * 40.0 * speed, 0.0)
             }),
-            Manoeuvre::LoadSteps => {
+            LoadSteps => {
                 let loads = [0.0, 800.0, 1600.0, 3200.0, 0.0, -800.0, -1600.0, -3200.0];
                 self.turn(driven, |share| {
                     let place = share * loads.len() as f64;
@@ -241,32 +169,16 @@ impl Part {
                     (if place.fract() < 0.5 { 2.0 } else { -2.0 }, load)
                 });
             }
-            Manoeuvre::Turns => self.turn(driven, |share| {
+            Turns => self.turn(driven, |share| {
                 let quarter = (share * 4.0) as u8;
-                let way = if quarter.is_multiple_of(2) { 1.0 } else { -1.0 };
-                (3.0 * way, if quarter < 2 { 1500.0 } else { -1500.0 })
+                let direction = if quarter.is_multiple_of(2) { 1.0 } else { -1.0 };
+                (3.0 * direction, if quarter < 2 { 1500.0 } else { -1500.0 })
             }),
-            Manoeuvre::Running => self.turn(driven, |share| {
+            Running => self.turn(driven, |share| {
                 let time = share * self.duration;
                 let load = 1200.0 * (TAU * 0.31 * time).sin().signum();
                 (12.0 * (TAU * 0.5 * time).sin(), load)
             }),
-            Manoeuvre::Steady | Manoeuvre::OneWay => {
-                let constant = manoeuvre == Manoeuvre::Steady;
-                // Without a rest at either end.
-                let mut position = self.start;
-                for tick in 0..self.ticks {
-                    let time = self.time(tick);
-                    let speed = if constant {
-                        5.0
-                    } else {
-                        10.5 + 9.5 * (TAU * 0.2 * time).sin()
-                    };
-                    position += speed * self.tick;
-                    driven.position.push(position);
-                    driven.load.push(2000.0 * (TAU * 0.37 * time).sin());
-                }
-            }
         }
     }
 
@@ -278,25 +190,23 @@ impl Part {
     fn steer(
         &self,
         random: &mut Pcg64,
-        driven: &mut Driven,
+        driven: &mut Truth,
         load_factor: f64,
         motion: impl Fn(usize) -> f64,
     ) {
         let slow = self.waves(random, [0.02, 0.5], 900.0);
         let fast = self.waves(random, [0.5, 8.0], 120.0);
         for tick in 0..self.ticks {
-            let faded = self.faded(tick);
-            let position = self.start + faded * motion(tick);
+            let position = self.start + self.faded(tick) * motion(tick);
             let spring = 40.0 * position.clamp(-60.0, 60.0);
             driven.position.push(position);
-            driven
-                .load
-                .push(load_factor * (slow[tick] + fast[tick] + spring));
+            let load = load_factor * (slow[tick] + fast[tick] + spring);
+            driven.load.push(load);
         }
     }
 
     /// Turns at a speed, under a load, both by the share of the duration.
-    fn turn(&self, driven: &mut Driven, at: impl Fn(f64) -> (f64, f64)) {
+    fn turn(&self, driven: &mut Truth, at: impl Fn(f64) -> (f64, f64)) {
         let mut position = self.start;
         for tick in 0..self.ticks {
             let (speed, load) = at(tick as f64 / self.ticks as f64);
@@ -317,23 +227,20 @@ impl Part {
     fn waves(&self, random: &mut Pcg64, [low, high]: [f64; 2], rms: f64) -> Vec<f64> {
         const WAVES: usize = 40;
         let amplitude = rms * (2.0 / WAVES as f64).sqrt();
-        let waves: Vec<[f64; 2]> = (0..WAVES)
-            .map(|number| {
-                let place: f64 = random.random_range(0.0..1.0);
-                let frequency = low + (high - low) * (number as f64 + place) / WAVES as f64;
-                [TAU * frequency, random.random_range(0.0..TAU)]
-            })
-            .collect();
-        (0..self.ticks)
-            .map(|tick| {
-                let time = self.time(tick);
-                amplitude
-                    * waves
-                        .iter()
-                        .map(|[rate, phase]| (rate * time + phase).sin())
-                        .sum::<f64>()
-            })
-            .collect()
+        let wave = |number: usize| {
+            let place: f64 = random.random_range(0.0..1.0);
+            let frequency = low + (high - low) * (number as f64 + place) / WAVES as f64;
+            [TAU * frequency, random.random_range(0.0..TAU)]
+        };
+        let waves: Vec<[f64; 2]> = (0..WAVES).map(wave).collect();
+        let at = |tick| {
+            let time = self.time(tick);
+            let sines = waves
+                .iter()
+                .map(|[rate, phase]| (rate * time + phase).sin());
+            amplitude * sines.sum::<f64>()
+        };
+        (0..self.ticks).map(at).collect()
     }
 }
 
@@ -352,18 +259,13 @@ fn smooth(values: &[f64], width: f64) -> Vec<f64> {
     let (Some(first), Some(last)) = (values.first(), values.last()) else {
         return Vec::new();
     };
-    let mut padded = vec![*first; reach];
-    padded.extend_from_slice(values);
-    padded.extend(std::iter::repeat_n(*last, reach));
-    padded
-        .windows(weights.len())
-        .map(|window| {
-            window
-                .iter()
-                .zip(&weights)
-                .map(|(value, weight)| value * weight)
-                .sum::<f64>()
-                / whole
-        })
-        .collect()
+    let padded = [&vec![*first; reach], values, &vec![*last; reach]].concat();
+    let mean = |window: &[f64]| {
+        let terms = window
+            .iter()
+            .zip(&weights)
+            .map(|(value, weight)| value * weight);
+        terms.sum::<f64>() / whole
+    };
+    padded.windows(weights.len()).map(mean).collect()
 }

@@ -2,11 +2,11 @@
 
 use std::num::NonZeroUsize;
 
-use super::parameters::{Coefficient, Parameters, Screw, Seal, Spinning, ZERO_CELSIUS};
-use super::sliding::SlidingTorque;
-use epas_reference::coefficient::{FilmContact, Vogel, coefficient};
+use crate::parameters::{Coefficient, Parameters, Screw, ZERO_CELSIUS};
+use epas_reference::coefficient::{FilmContact, coefficient};
 use epas_reference::curvature::Groove;
 use epas_reference::error::{ReferenceError, within};
+use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::friction::rolling_resistance::relative_radii;
 use epas_reference::presliding::Limits;
 use epas_reference::presliding::backbone::Backbone;
@@ -21,9 +21,18 @@ const OTHERS: usize = 60;
 /// Angle, over the breakaway angle, at which the last element of spin slips; its backbone lies 2e-4 below one there.
 const LAST_SPIN: f64 = 33.0;
 
+/// Loads of each sign in the grid of the sliding torque: from nearly none to the largest.
+const LOADS: usize = 80;
+
+/// Friction coefficients of that grid.
+const COEFFICIENTS: usize = 5;
+
+/// Smallest load over the largest.
+const SMALLEST: f64 = 1e-4;
+
 /// What friction depends on at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct State {
+pub(crate) struct State {
     /// Turn since the last tick, rad.
     pub turn: f64,
     /// Speed of the nut, rad/s.
@@ -36,50 +45,23 @@ pub struct State {
 
 /// Friction of gross sliding of a rig.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Sliding {
+pub(crate) struct Sliding {
     torque: SlidingTorque,
-    screw: Screw,
-    boundary: f64,
-    full_film: f64,
-    directions: [f64; 2],
-    coefficient: Law,
+    pub parameters: Parameters,
+    /// Contact of a film, and the mean speed of its surfaces over the nut's, m.
+    contact: FilmContact,
+    entrainment: f64,
     /// Sum of both flanks at the reference load, N, and the limit of sliding there, N m.
     reference: [f64; 2],
 }
 
-/// Coefficient's law with what follows from the screw.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Law {
-    Rational {
-        half_share_speed: f64,
-        reference_temperature: f64,
-        pole: f64,
-    },
-    Film {
-        oil: Vogel,
-        contact: FilmContact,
-        /// Mean speed of the surfaces over the nut's, m.
-        entrainment: f64,
-    },
-}
-
 impl Sliding {
     /// Solves what depends on no trace.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming a parameter out of range.
-    pub fn new(parameters: &Parameters) -> Result<Self, ReferenceError> {
-        let Parameters {
-            screw,
-            boundary,
-            full_film,
-            directions,
-            ..
-        } = *parameters;
-        let [weak, strong] = [
-            directions[0].min(directions[1]),
-            directions[0].max(directions[1]),
-        ];
+    pub fn new(parameters: Parameters) -> Result<Self, ReferenceError> {
+        let screw = parameters.screw;
+        let (boundary, full_film) = (parameters.boundary, parameters.full_film);
+        let [forward, backward] = parameters.directions;
+        let [weak, strong] = [forward.min(backward), forward.max(backward)];
         within("directions", weak, 0.1, 10.0)?;
         within("directions", strong, 0.1, 10.0)?;
         let coefficients = [
@@ -88,29 +70,51 @@ impl Sliding {
         ];
         let torque = SlidingTorque::new(&screw, coefficients)?;
         let load = parameters.reference_axial_load;
-        let sum = within(
-            "reference_axial_load",
-            screw.flank_sum(load),
-            1e-3,
-            screw.largest_load,
-        )?;
+        let sum = screw.flank_sum(load);
+        within("reference_axial_load", sum, 1e-3, screw.largest_load)?;
         let limit = 0.5 * (torque.at(load, boundary) + torque.at(-load, boundary));
+        let design = &screw.design;
+        let mut contact = FilmContact {
+            rolling_radius: relative_radii(design, Groove::Screw)?[0],
+            ellipticity: 1.0 / design.contact(Groove::Screw)?.axis_ratio,
+            load: 1.0,
+            contact_modulus: design.ball.contact_modulus(&design.groove),
+            pressure_viscosity: 0.0,
+            roughness: 0.0,
+        };
+        match parameters.coefficient {
+            Coefficient::Rational {
+                half_share_speed: speed,
+                reference_temperature: temperature,
+                pole,
+            } => {
+                within("half_share_speed", speed, 1e-6, 1e6)?;
+                within("reference_temperature", temperature, pole + 1.0, 1e3)?;
+            }
+            Coefficient::Film {
+                pressure_viscosity: growth,
+                roughness,
+                ..
+            } => {
+                contact.pressure_viscosity = within("pressure_viscosity", growth, 1e-10, 1e-6)?;
+                contact.roughness = within("roughness", roughness, 1e-9, 1e-4)?;
+            }
+        }
         Ok(Self {
             torque,
-            screw,
-            boundary,
-            full_film,
-            directions,
-            coefficient: Law::new(&screw, parameters.coefficient)?,
+            contact,
+            // A ball's centre has half of the nut's speed, and so have the surfaces in its frame.
+            entrainment: 0.5 * design.pitch_radius,
+            parameters,
             reference: [sum, limit],
         })
     }
 
     /// Friction coefficient without the factor of a direction.
-    #[must_use]
-    pub fn coefficient(&self, state: &State) -> f64 {
-        let asperities = match self.coefficient {
-            Law::Rational {
+    fn coefficient(&self, state: &State) -> f64 {
+        let screw = &self.parameters.screw;
+        let asperities = match self.parameters.coefficient {
+            Coefficient::Rational {
                 half_share_speed,
                 reference_temperature,
                 pole,
@@ -118,29 +122,28 @@ impl Sliding {
                 let ratio = (state.temperature - pole) / (reference_temperature - pole);
                 1.0 / (1.0 + state.speed.abs() / (half_share_speed * ratio.powi(5)))
             }
-            Law::Film {
-                oil,
-                contact,
-                entrainment,
-            } => {
+            Coefficient::Film { oil, .. } => {
                 // Of the flank that carries more.
-                let flank = 0.5 * (self.screw.flank_sum(state.load) + state.load.abs());
+                let flank = 0.5 * (screw.flank_sum(state.load) + state.load.abs());
                 let contact = FilmContact {
-                    load: self.screw.contact_force(flank).max(1e-3),
-                    ..contact
+                    load: screw.contact_force(flank).max(1e-3),
+                    ..self.contact
                 };
                 let viscosity = oil.at(state.temperature - ZERO_CELSIUS);
-                contact.asperities(viscosity, entrainment * state.speed.abs())
+                contact.asperities(viscosity, self.entrainment * state.speed.abs())
             }
         };
-        coefficient(self.boundary, self.full_film, asperities)
+        coefficient(
+            self.parameters.boundary,
+            self.parameters.full_film,
+            asperities,
+        )
     }
 
     /// Torque of gross sliding forward and backward, both as positive numbers, N m.
-    #[must_use]
     pub fn limits(&self, state: &State) -> Limits {
         let coefficient = self.coefficient(state);
-        let [forward, backward] = self.directions;
+        let [forward, backward] = self.parameters.directions;
         Limits {
             forward: self.torque.at(state.load, forward * coefficient),
             backward: self.torque.at(-state.load, backward * coefficient),
@@ -148,105 +151,138 @@ impl Sliding {
     }
 }
 
-impl Law {
-    fn new(screw: &Screw, coefficient: Coefficient) -> Result<Self, ReferenceError> {
-        Ok(match coefficient {
-            Coefficient::Rational {
-                half_share_speed,
-                reference_temperature,
-                pole,
-            } => Self::Rational {
-                half_share_speed: within("half_share_speed", half_share_speed, 1e-6, 1e6)?,
-                reference_temperature: within(
-                    "reference_temperature",
-                    reference_temperature,
-                    pole + 1.0,
-                    1e3,
-                )?,
-                pole,
-            },
-            Coefficient::Film {
-                oil,
-                pressure_viscosity,
-                roughness,
-            } => Self::Film {
-                oil,
-                contact: FilmContact {
-                    rolling_radius: relative_radii(&screw.design, Groove::Screw)?[0],
-                    ellipticity: 1.0 / screw.design.contact(Groove::Screw)?.axis_ratio,
-                    load: 1.0,
-                    contact_modulus: screw.design.ball.contact_modulus(&screw.design.groove),
-                    pressure_viscosity: within(
-                        "pressure_viscosity",
-                        pressure_viscosity,
-                        1e-10,
-                        1e-6,
-                    )?,
-                    roughness: within("roughness", roughness, 1e-9, 1e-4)?,
-                },
-                // A ball's centre has half of the nut's speed, and so have the surfaces in its frame.
-                entrainment: 0.5 * screw.design.pitch_radius,
-            },
+/// Friction torque of a screw that slides everywhere: the exact ball at a grid of loads and coefficients; between them a cubic through four
+/// loads, and a line between two coefficients.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct SlidingTorque {
+    coefficients: [f64; COEFFICIENTS],
+    /// Size of the load, N, rising.
+    loads: Vec<f64>,
+    /// Torques, N m, of a load that opposes the motion and of one that assists it: by load, then by coefficient.
+    torques: [Vec<[f64; COEFFICIENTS]>; 2],
+    preloaded: bool,
+}
+
+impl SlidingTorque {
+    /// Solves the grid, in parallel.
+    pub fn new(screw: &Screw, [least, largest]: [f64; 2]) -> Result<Self, ReferenceError> {
+        within("least coefficient", least, 1e-3, 0.5)?;
+        within("largest coefficient", largest, least, 0.5)?;
+        within("largest_load", screw.largest_load, 1.0, 1e6)?;
+        // Neighbours must differ.
+        let width = (largest - least).max(1e-3 * largest);
+        let coefficients: [f64; COEFFICIENTS] =
+            std::array::from_fn(|number| least + width * number as f64 / (COEFFICIENTS - 1) as f64);
+        let loads = loads(screw);
+        let clearance = screw.clearance()?;
+        let screws: Vec<LoadedScrew> = [1.0, -1.0]
+            .iter()
+            .flat_map(|side| loads.iter().map(move |load| side * load))
+            .flat_map(|load| coefficients.map(|friction| screw.loaded(load, friction, clearance)))
+            .collect();
+        let found = LoadedScrew::solve_all(&screws, &|| ())
+            .into_iter()
+            .map(|friction| friction.map(|friction| friction.torque()))
+            .collect::<Result<Vec<f64>, _>>()?;
+        let (drive, backdrive) = found.as_chunks().0.split_at(loads.len());
+        Ok(Self {
+            coefficients,
+            torques: [drive.to_vec(), backdrive.to_vec()],
+            preloaded: screw.axial_preload > 0.0,
+            loads,
         })
     }
+
+    /// Torque against a motion that a load opposes (above zero) or assists, N m.
+    pub fn at(&self, opposing_load: f64, coefficient: f64) -> f64 {
+        let [drive, backdrive] = &self.torques;
+        let law = if opposing_load < 0.0 {
+            backdrive
+        } else {
+            drive
+        };
+        let load = opposing_load.abs();
+        let step = self.coefficients[1] - self.coefficients[0];
+        let along = (coefficient - self.coefficients[0]) / step;
+        let below = along.floor().clamp(0.0, (COEFFICIENTS - 2) as f64);
+        let (place, low, high) = (below as usize, 1.0 + below - along, along - below);
+        let torque = |row: &[f64; COEFFICIENTS]| low * row[place] + high * row[place + 1];
+        let smallest = self.loads[0];
+        if load < smallest {
+            let at_smallest = torque(&law[0]);
+            if !self.preloaded {
+                return at_smallest * load / smallest;
+            }
+            // Through no load the torque of one direction becomes that of the other.
+            let without = 0.5 * (torque(&drive[0]) + torque(&backdrive[0]));
+            return without + (at_smallest - without) * load / smallest;
+        }
+        let above = self.loads.partition_point(|known| *known < load);
+        let first = above.saturating_sub(2).min(self.loads.len() - 4);
+        let places = &self.loads[first..first + 4];
+        // Lagrange's weights of four values for that of their polynomial.
+        let weight = |own: usize| -> f64 {
+            let others = (0..4).filter(|other| *other != own);
+            others
+                .map(|other| (load - places[other]) / (places[own] - places[other]))
+                .product()
+        };
+        (0..4)
+            .map(|own| weight(own) * torque(&law[first + own]))
+            .sum()
+    }
+}
+
+/// Loads that lie closer where the friction of a preload bends.
+fn loads(screw: &Screw) -> Vec<f64> {
+    let largest = screw.largest_load;
+    let bend = if screw.axial_preload > 0.0 {
+        (2.0 * screw.axial_preload / largest).min(1.0)
+    } else {
+        1e-3
+    };
+    let (reach, start) = ((1.0 / bend).asinh(), (SMALLEST / bend).asinh());
+    let place = |number| start + (reach - start) * number as f64 / (LOADS - 1) as f64;
+    (0..LOADS)
+        .map(|number| largest * bend * place(number).sinh())
+        .collect()
 }
 
 /// What the screw remembers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Memory {
-    breakaway: f64,
+pub(crate) struct Memory<'a> {
+    sliding: &'a Sliding,
     slip: Elements,
-    spin: Option<(Spinning, Elements)>,
-    seal: Option<(Seal, Elements)>,
+    spin: Elements,
+    seal: Elements,
 }
 
-impl Memory {
+impl<'a> Memory<'a> {
     /// Nothing remembered.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming a parameter out of range.
-    pub fn new(parameters: &Parameters, sliding: &Sliding) -> Result<Self, ReferenceError> {
-        let breakaway = within("breakaway", parameters.breakaway, 1e-6, 1.0)?;
-        let screw = &parameters.screw;
+    pub fn new(sliding: &'a Sliding) -> Self {
+        let screw = &sliding.parameters.screw;
         let largest = screw.flank_sum(screw.largest_load) / sliding.reference[0];
-        let spin = match parameters.spinning {
-            Some(spinning) => {
-                within("share", spinning.share, 0.0, 1.0)?;
-                within("travel", spinning.travel, 1e-3, 1e3)?;
-                Some((spinning, chords(Backbone::Spin, LAST_SPIN)))
-            }
-            None => None,
-        };
-        let seal = match parameters.seal {
-            Some(seal) => {
-                within("torque", seal.torque, 0.0, 1e3)?;
-                within("breakaway", seal.breakaway, 1e-6, 1.0)?;
-                Some((seal, chords(Backbone::Slip, 1.0)))
-            }
-            None => None,
-        };
-        Ok(Self {
-            breakaway,
+        Self {
+            sliding,
             slip: Elements::load_exact(SLIPPING, 1.02 * largest.max(1.0)),
-            spin,
-            seal,
-        })
+            spin: chords(Backbone::Spin, LAST_SPIN),
+            seal: chords(Backbone::Slip, 1.0),
+        }
     }
 
     /// Friction torque after a turn, N m.
-    pub fn follow(&mut self, sliding: &Sliding, state: &State) -> f64 {
-        let [reference_sum, reference_limit] = sliding.reference;
-        let limits = sliding.limits(state).times(1.0 / reference_limit);
-        let load = sliding.screw.flank_sum(state.load) / reference_sum;
-        let turn = state.turn / self.breakaway;
+    pub fn follow(&mut self, state: &State) -> f64 {
+        let parameters = &self.sliding.parameters;
+        let [reference_sum, reference_limit] = self.sliding.reference;
+        let limits = self.sliding.limits(state).times(1.0 / reference_limit);
+        let load = parameters.screw.flank_sum(state.load) / reference_sum;
+        let turn = state.turn / parameters.breakaway;
         let mut torque = self.slip.follow(turn, limits, load);
-        if let Some((Spinning { share, travel }, elements)) = &mut self.spin {
-            torque =
-                (1.0 - *share) * torque + *share * elements.follow(turn / *travel, limits, load);
+        if let Some([share, travel]) = parameters.spinning {
+            torque = (1.0 - share) * torque + share * self.spin.follow(turn / travel, limits, load);
         }
         torque *= reference_limit;
-        if let Some((seal, elements)) = &mut self.seal {
-            torque += seal.torque * elements.follow(state.turn / seal.breakaway, Limits::UNIT, 1.0);
+        if let Some([seal, breakaway]) = parameters.seal {
+            torque += seal * self.seal.follow(state.turn / breakaway, Limits::UNIT, 1.0);
         }
         torque
     }
@@ -256,17 +292,16 @@ impl Memory {
 fn chords(backbone: Backbone, last: f64) -> Elements {
     // Finer where the backbone bends: by a power of the place, the more the longer it is.
     let power = 1.0 + last.ln() / 2.0;
-    let angles: Vec<f64> = (1..=OTHERS)
-        .map(|number| {
-            let place = number as f64 / OTHERS as f64;
-            // Slip ends with a vertical curvature, spin bends at once.
-            if last > 1.0 {
-                last * place.powf(power)
-            } else {
-                1.0 - (1.0 - place).powf(4.0 / 3.0)
-            }
-        })
-        .collect();
+    let angle = |number| {
+        let place = f64::from(number) / OTHERS as f64;
+        // Slip ends with a vertical curvature, spin bends at once.
+        if last > 1.0 {
+            last * place.powf(power)
+        } else {
+            1.0 - (1.0 - place).powf(4.0 / 3.0)
+        }
+    };
+    let angles: Vec<f64> = (1..=OTHERS as u32).map(angle).collect();
     let whole = backbone.torque(last);
     let mut slopes = Vec::with_capacity(OTHERS + 1);
     let mut corner = (0.0, 0.0);
@@ -276,9 +311,8 @@ fn chords(backbone: Backbone, last: f64) -> Elements {
         corner = next;
     }
     slopes.push(0.0);
-    let shares: Vec<f64> = angles
-        .iter()
-        .zip(slopes.windows(2))
+    let shares = angles.iter().zip(slopes.windows(2));
+    let shares: Vec<f64> = shares
         .map(|(angle, slopes)| (slopes[0] - slopes[1]) * angle)
         .collect();
     Elements::proportional(&angles, &shares)

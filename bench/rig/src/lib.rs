@@ -4,26 +4,13 @@
 //!
 //! `tau = J a + b w + offset + gain (L/2 pi) F + T_f + (S/S_ref) sum (c_k cos k th + s_k sin k th)`
 //!
-//! `T_f` is friction with a memory: dense elements ([`friction::Memory`]) under the limits of gross sliding, which the exact ball gives
-//! ([`sliding::SlidingTorque`]) for the load, the preload, the rolling resistance and the friction coefficient of the tick. Sensors add
-//! noise and count the angle. A [`Trace`] has the measured columns beside the truth.
-//!
-//! | file | what |
-//! |---|---|
-//! | [`parameters`] | screw, friction and drive; another physics |
-//! | [`course`] | manoeuvres: motion, load, temperature |
-//! | [`sliding`] | friction of gross sliding over load and friction coefficient |
-//! | [`friction`] | friction coefficient, limits, memory |
-//! | [`spoiled`] | traces of careless measurements |
-//!
-//! Same seed, same trace, on every machine that rounds sines alike.
+//! `T_f` is friction with a memory: dense elements under the limits of gross sliding, which the exact ball gives for the load, the preload,
+//! the rolling resistance and the friction coefficient of the tick. Sensors add noise and count the angle. A [`Trace`] has the measured columns
+//! beside the truth. Same seed, same trace, on every machine that rounds sines alike.
 
 pub mod course;
-pub mod friction;
+mod friction;
 pub mod parameters;
-pub mod sliding;
-pub mod spoiled;
-pub mod truth;
 
 use std::io::Write;
 use std::ops::Range;
@@ -31,7 +18,7 @@ use std::ops::Range;
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64;
 
-use course::{Course, Driven, Manoeuvre, STREAM};
+use course::{Course, Manoeuvre, STREAM};
 use epas_reference::closed_loop::ClosedLoop;
 use epas_reference::error::{ReferenceError, within};
 use friction::{Memory, Sliding, State};
@@ -42,8 +29,6 @@ use parameters::Parameters;
 pub struct Sensors {
     /// Standard deviation of the torque's noise over that of the torque.
     pub torque_noise: f64,
-    /// Correlation of the torque's noise from one sample to the next, 0 (white) to less than 1.
-    pub colour: f64,
     /// Standard deviation of the load's noise, N.
     pub load_noise: f64,
     /// Turn of the nut for one count of the encoder, rad; 0 for an angle without steps.
@@ -55,7 +40,6 @@ impl Default for Sensors {
     fn default() -> Self {
         Self {
             torque_noise: 0.01,
-            colour: 0.0,
             load_noise: 8.0,
             count: ClosedLoop::COUNT,
         }
@@ -63,7 +47,7 @@ impl Default for Sensors {
 }
 
 /// Measured columns, and the truth behind them; all of one length.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
     /// Time, s.
     pub time: Vec<f64>,
@@ -82,14 +66,12 @@ pub struct Trace {
 }
 
 /// What a measurement does not show.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Truth {
     /// Angle of the nut, rad.
     pub position: Vec<f64>,
     /// Its speed, rad/s.
     pub speed: Vec<f64>,
-    /// Its acceleration, rad/s^2.
-    pub acceleration: Vec<f64>,
     /// Axial load, N.
     pub load: Vec<f64>,
     /// Friction torque, N m.
@@ -101,7 +83,6 @@ pub struct Truth {
 /// A rig: a screw with its drive and sensors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rig {
-    parameters: Parameters,
     sensors: Sensors,
     sliding: Sliding,
 }
@@ -113,29 +94,20 @@ impl Rig {
     /// [`ReferenceError`] naming a parameter out of range.
     pub fn new(parameters: Parameters, sensors: Sensors) -> Result<Self, ReferenceError> {
         within("torque_noise", sensors.torque_noise, 0.0, 10.0)?;
-        within("colour", sensors.colour, 0.0, 0.999_999)?;
         within("load_noise", sensors.load_noise, 0.0, 1e6)?;
         within("count", sensors.count, 0.0, 1.0)?;
-        let sliding = Sliding::new(&parameters)?;
-        Memory::new(&parameters, &sliding)?;
+        within("breakaway", parameters.breakaway, 1e-6, 1.0)?;
         within("backlash", parameters.backlash, 0.0, 1.0)?;
-        Ok(Self {
-            parameters,
-            sensors,
-            sliding,
-        })
-    }
-
-    /// What the rig is like.
-    #[must_use]
-    pub fn parameters(&self) -> &Parameters {
-        &self.parameters
-    }
-
-    /// Friction of gross sliding.
-    #[must_use]
-    pub fn sliding(&self) -> &Sliding {
-        &self.sliding
+        if let Some([share, travel]) = parameters.spinning {
+            within("share of spin", share, 0.0, 1.0)?;
+            within("travel of spin", travel, 1e-3, 1e3)?;
+        }
+        if let Some([torque, breakaway]) = parameters.seal {
+            within("torque of the seal", torque, 0.0, 1e3)?;
+            within("breakaway of the seal", breakaway, 1e-6, 1.0)?;
+        }
+        let sliding = Sliding::new(parameters)?;
+        Ok(Self { sensors, sliding })
     }
 
     /// Runs a course.
@@ -143,28 +115,23 @@ impl Rig {
     /// # Errors
     /// [`ReferenceError`] naming what is wrong with the course, or `load` where it is beyond the screw's largest.
     pub fn run(&self, course: &Course, seed: u64) -> Result<Trace, ReferenceError> {
-        let driven = course.driven(seed)?;
-        let truth = self.truth(course.tick, &driven)?;
+        let mut trace = course.driven(seed)?;
+        self.drive(course.tick, &mut trace)?;
+        let truth = &trace.truth;
         let mut random = Pcg64::new(seed.into(), STREAM ^ 1);
         let mut normal = || -> f64 { StandardNormal.sample(&mut random) };
         let Sensors {
             torque_noise,
-            colour,
             load_noise,
             count,
         } = self.sensors;
         let size = torque_noise * deviation(&truth.torque);
-        let fresh = (1.0 - colour * colour).sqrt();
-        let mut noise = normal();
-        let motor_torque = truth
-            .torque
-            .iter()
-            .map(|torque| {
-                let measured = torque + size * noise;
-                noise = colour * noise + fresh * normal();
-                measured
-            })
-            .collect();
+        let torque = truth.torque.iter();
+        trace.motor_torque = torque.map(|torque| torque + size * normal()).collect();
+        // One draw lies between both noises.
+        normal();
+        let load = truth.load.iter();
+        trace.axial_load = load.map(|load| load + load_noise * normal()).collect();
         let counted = |angle: &f64| {
             if count > 0.0 {
                 (angle / count).round() * count
@@ -172,85 +139,47 @@ impl Rig {
                 *angle
             }
         };
-        Ok(Trace {
-            time: (0..truth.position.len())
-                .map(|tick| tick as f64 * course.tick)
-                .collect(),
-            nut_position: truth.position.iter().map(counted).collect(),
-            axial_load: truth
-                .load
-                .iter()
-                .map(|load| load + load_noise * normal())
-                .collect(),
-            motor_torque,
-            temperature: driven.temperature,
-            truth,
-            parts: driven.parts,
-        })
+        trace.nut_position = truth.position.iter().map(counted).collect();
+        Ok(trace)
     }
 
-    /// Motion, friction and torque without sensors.
-    fn truth(&self, tick: f64, driven: &Driven) -> Result<Truth, ReferenceError> {
-        let Parameters {
-            screw,
-            inertia,
-            viscous,
-            offset,
-            load_gain,
-            waves,
-            backlash,
-            ..
-        } = &self.parameters;
-        let Driven {
-            position,
-            load,
-            temperature,
-            ..
-        } = driven;
-        let speed = slopes(position, tick);
-        let acceleration = slopes(&speed, tick);
-        let reference_sum = screw.flank_sum(self.parameters.reference_axial_load);
-        let mut memory = Memory::new(&self.parameters, &self.sliding)?;
+    /// Speed, friction and torque along the motion of a trace.
+    fn drive(&self, tick: f64, trace: &mut Trace) -> Result<(), ReferenceError> {
+        let parameters = &self.sliding.parameters;
+        let (screw, play) = (&parameters.screw, 0.5 * parameters.backlash);
+        let truth = &mut trace.truth;
+        truth.speed = slopes(&truth.position, tick);
+        let acceleration = slopes(&truth.speed, tick);
+        let reference_sum = screw.flank_sum(parameters.reference_axial_load);
+        let mut memory = Memory::new(&self.sliding);
         // In the middle of the play at the start.
-        let mut nut = position.first().copied().unwrap_or(0.0);
-        let (mut friction, mut torque) = (Vec::new(), Vec::new());
-        for index in 0..position.len() {
-            let (angle, load) = (position[index], load[index]);
+        let mut nut = truth.position.first().copied().unwrap_or(0.0);
+        for (index, angle) in truth.position.iter().enumerate() {
+            let (speed, load) = (truth.speed[index], truth.load[index]);
             within("load", load, -screw.largest_load, screw.largest_load)?;
-            let taken = nut.clamp(angle - 0.5 * backlash, angle + 0.5 * backlash);
-            let state = State {
+            let taken = nut.clamp(angle - play, angle + play);
+            let resisting = memory.follow(&State {
                 turn: taken - nut,
-                speed: speed[index],
+                speed,
                 load,
-                temperature: temperature[index],
-            };
+                temperature: trace.temperature[index],
+            });
             nut = taken;
-            let resisting = memory.follow(&self.sliding, &state);
-            let wavy: f64 = waves
-                .iter()
-                .map(|wave| {
-                    let (sin, cos) = (wave.order * angle).sin_cos();
-                    wave.cosine * cos + wave.sine * sin
-                })
-                .sum();
-            friction.push(resisting);
-            torque.push(
-                inertia * acceleration[index]
-                    + viscous * speed[index]
-                    + offset
-                    + load_gain * screw.reduced_lead() * load
+            let waves = parameters.waves.iter().map(|wave| {
+                let (sin, cos) = (wave.order * angle).sin_cos();
+                wave.cosine * cos + wave.sine * sin
+            });
+            truth.friction.push(resisting);
+            truth.torque.push(
+                parameters.inertia * acceleration[index]
+                    + parameters.viscous * speed
+                    + parameters.offset
+                    + parameters.load_gain * screw.reduced_lead() * load
                     + resisting
-                    + screw.flank_sum(load) / reference_sum * wavy,
+                    + screw.flank_sum(load) / reference_sum * waves.sum::<f64>(),
             );
         }
-        Ok(Truth {
-            position: position.clone(),
-            speed,
-            acceleration,
-            load: load.clone(),
-            friction,
-            torque,
-        })
+        Ok(())
     }
 }
 
@@ -282,13 +211,8 @@ impl Trace {
     /// Whatever the output refuses.
     pub fn write_csv(&self, out: impl Write) -> Result<(), csv::Error> {
         let mut table = csv::Writer::from_writer(out);
-        table.write_record([
-            "time",
-            "nut_position",
-            "motor_torque",
-            "axial_load",
-            "temperature",
-        ])?;
+        let names = "time,nut_position,motor_torque,axial_load,temperature";
+        table.write_record(names.split(','))?;
         for index in 0..self.len() {
             table.write_record([
                 format!("{:.6}", self.time[index]),
@@ -298,8 +222,7 @@ impl Trace {
                 format!("{:.3}", self.temperature[index]),
             ])?;
         }
-        table.flush()?;
-        Ok(())
+        Ok(table.flush()?)
     }
 }
 
@@ -318,10 +241,9 @@ fn slopes(values: &[f64], tick: f64) -> Vec<f64> {
 fn deviation(values: &[f64]) -> f64 {
     let count = values.len().max(1) as f64;
     let mean = values.iter().sum::<f64>() / count;
-    (values
-        .iter()
-        .map(|value| (value - mean).powi(2))
-        .sum::<f64>()
-        / count)
-        .sqrt()
+    let squares = values.iter().map(|value| (value - mean).powi(2));
+    (squares.sum::<f64>() / count).sqrt()
 }
+
+#[cfg(test)]
+mod tests;

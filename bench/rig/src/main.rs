@@ -37,11 +37,11 @@ fn run() -> Result<(), String> {
             }
         }
     }
+    let mut out = stdout().lock();
     let truth = parameters.header();
     let rig = Rig::new(parameters, Sensors::default()).map_err(|error| error.to_string())?;
     let trace = rig.run(&course, seed).map_err(|error| error.to_string())?;
-    let mut out = stdout().lock();
-    out.write_all(truth.as_bytes())
-        .map_err(|error| error.to_string())?;
+    let written = out.write_all(truth.as_bytes());
+    written.map_err(|error| error.to_string())?;
     trace.write_csv(out).map_err(|error| error.to_string())
 }

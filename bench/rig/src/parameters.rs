@@ -72,15 +72,15 @@ impl Screw {
         flank_load / (self.balls * slope)
     }
 
-    /// One load and friction coefficient; the load is to be set.
-    pub(super) fn loaded(&self, friction: f64, clearance: f64) -> LoadedScrew {
+    /// Under one load with one friction coefficient.
+    pub(crate) fn loaded(&self, axial_load: f64, friction: f64, clearance: f64) -> LoadedScrew {
         LoadedScrew {
             design: self.design,
             clearance,
             friction,
             rolling: self.rolling,
             balls: self.balls,
-            axial_load: self.largest_load,
+            axial_load,
         }
     }
 
@@ -133,24 +133,6 @@ pub enum Coefficient {
     },
 }
 
-/// Friction of a part that spins: less stiff than slip.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Spinning {
-    /// Its share of the torque, 0 to 1.
-    pub share: f64,
-    /// Its breakaway angle over that of slip.
-    pub travel: f64,
-}
-
-/// A seal: friction without a load.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Seal {
-    /// Torque, N m.
-    pub torque: f64,
-    /// Breakaway angle, rad.
-    pub breakaway: f64,
-}
-
 /// Torque by the angle of the nut: `S/S_ref (cosine cos k th + sine sin k th)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wave {
@@ -181,10 +163,10 @@ pub struct Parameters {
     pub reference_axial_load: f64,
     /// Free play between the sensor's angle, which the drive turns, and the balls', rad, 0 to 1.
     pub backlash: f64,
-    /// Part that spins.
-    pub spinning: Option<Spinning>,
-    /// Seal.
-    pub seal: Option<Seal>,
+    /// A part that spins, less stiff than slip: its share of the torque, 0 to 1, and its breakaway angle over that of slip.
+    pub spinning: Option<[f64; 2]>,
+    /// A seal, friction without a load: its torque, N m, and its breakaway angle, rad.
+    pub seal: Option<[f64; 2]>,
     /// Inertia about the nut's axis, kg m^2.
     pub inertia: f64,
     /// Viscous drag, N m s.
@@ -247,14 +229,8 @@ impl Parameters {
                 pressure_viscosity: 20e-9,
                 roughness: 0.15e-6,
             },
-            spinning: Some(Spinning {
-                share: 0.4,
-                travel: 2.0,
-            }),
-            seal: Some(Seal {
-                torque: 4e-3,
-                breakaway: 6e-3,
-            }),
+            spinning: Some([0.4, 2.0]),
+            seal: Some([4e-3, 6e-3]),
             ..Self::default()
         };
         parameters.screw.rolling.hysteresis_loss *= 0.5;
@@ -264,5 +240,53 @@ impl Parameters {
             sine: 0.7e-3,
         });
         parameters
+    }
+    /// Parameters by the names of `calibrate`, in SI units; the preload is the force of a contact. Of physics that a calibration has no name
+    /// for there is nothing.
+    #[must_use]
+    pub fn named(&self) -> Vec<(String, f64)> {
+        let [forward, backward] = self.directions;
+        let mut named = vec![("friction", self.boundary)];
+        if let Coefficient::Rational {
+            half_share_speed,
+            reference_temperature,
+            pole,
+        } = self.coefficient
+        {
+            named.extend([
+                ("full_film_ratio", self.full_film / self.boundary),
+                ("half_share_speed", half_share_speed),
+                ("reference_temperature", reference_temperature),
+                ("viscosity_pole", pole),
+            ]);
+        }
+        let asymmetry = (forward - backward) / (forward + backward);
+        let preload = self.screw.contact_force(self.screw.axial_preload);
+        named.extend([("direction_asymmetry", asymmetry), ("preload", preload)]);
+        if self.spinning.is_none() {
+            named.push(("breakaway_angle", self.breakaway));
+        }
+        named.extend([
+            ("backlash", self.backlash),
+            ("inertia", self.inertia),
+            ("drag", self.viscous),
+            ("offset", self.offset),
+            ("gain", self.load_gain),
+        ]);
+        let waves = self.waves.iter().flat_map(|wave| {
+            let name = |part| format!("{part}_{}", wave.order);
+            [(name("cosine"), wave.cosine), (name("sine"), wave.sine)]
+        });
+        let named = named
+            .into_iter()
+            .map(|(name, value)| (name.to_owned(), value));
+        named.chain(waves).collect()
+    }
+
+    /// The same as lines of text above a trace's headings, which a reader of traces skips.
+    #[must_use]
+    pub fn header(&self) -> String {
+        let line = |(name, value): (String, f64)| format!("# truth: {name} = {value}\n");
+        self.named().into_iter().map(line).collect()
     }
 }

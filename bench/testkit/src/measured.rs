@@ -91,7 +91,6 @@ const TABLES: &[&[Measured]] = &[
     HERTZ,
     KINEMATICS,
     SCENES,
-    CAGED,
     SCREW_REFERENCE,
     CHAIN_REFERENCE,
     LINEAR_REFERENCE,
@@ -116,12 +115,6 @@ const TABLES: &[&[Measured]] = &[
     MAP_ROUNDINGS,
     ELEMENTS,
     UNCAGED_SCENE,
-];
-
-/// `rig/same_scene.rs`: torques relative.
-#[rustfmt::skip]
-const CAGED: &[Measured] = &[
-    row("rig's screw and the crate's scene", [2e-3, 7e-4, 3e-4], [1.3e-3, 4.5e-4, 1.9e-4]),
 ];
 
 /// `scenes/uncaged`: torques relative, or over their mean; forces over the largest of a state, and balances over the same.

@@ -1,29 +1,26 @@
 //! Manoeuvres of a steering gear or of a rig, from which the one that tells a parameter is chosen.
 
 use std::f64::consts::TAU;
+use std::fmt;
 
-/// A manoeuvre.
+use crate::trace::{Coordinate, Repairs, Trace};
+use epas_design::files::Design;
+
+/// A manoeuvre; its [`Manoeuvre::words`] say how it is driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Manoeuvre {
-    /// On-centre weave: slow and small reversals under a load that follows the angle.
+pub(crate) enum Manoeuvre {
     Weave,
-    /// Parking: fast sweeps from lock to lock under high load.
     Parking,
-    /// Micro reversals: triangles of the size of the pre-sliding travel at rest, about a slowly wandering centre.
     MicroReversals,
-    /// Load steps while the nut turns evenly to and fro.
     LoadSteps,
-    /// Warm-up: the same sweep again and again while the temperature rises.
     WarmUp,
-    /// Spin-down: the nut is let go at its largest speed without load and stops of itself.
     SpinDown,
-    /// Whole turns at constant load and one slow speed, there and back.
     WholeTurns,
 }
 
 /// What the rig or the vehicle can do.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Reach {
+pub(crate) struct Reach {
     /// Largest angle from the middle, rad; above 0.
     pub angle: f64,
     /// Largest speed, rad/s; above 0.
@@ -36,32 +33,35 @@ pub struct Reach {
     pub travel: f64,
 }
 
-/// A manoeuvre's course, sampled. All lists are as long as each other.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Course {
-    /// Tick, s.
-    pub step: f64,
-    /// Angle, rad.
-    pub position: Vec<f64>,
-    /// Speed, rad/s.
-    pub speed: Vec<f64>,
-    /// Acceleration, rad/s^2.
-    pub acceleration: Vec<f64>,
-    /// Axial load, N.
-    pub load: Vec<f64>,
-    /// Temperature, K.
-    pub temperature: Vec<f64>,
+impl Reach {
+    /// A rack of 75 mm to each side, within the limits of a design.
+    pub fn of(design: &Design) -> Self {
+        let limits = &design.caged.limits;
+        Self {
+            angle: 0.075 / f64::from(design.screw().lead()) * TAU,
+            speed: 45.0_f64.min(0.9 * f64::from(limits.nut_speed)),
+            load: 2.8e3_f64.min(0.9 * f64::from(limits.axial_load)),
+            temperature: [293.15, 333.15],
+            travel: 2e-3,
+        }
+    }
+}
+
+impl fmt::Display for Reach {
+    fn fmt(&self, text: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [cold, warm] = self.temperature;
+        write!(
+            text,
+            "+-{:.1} rad, {:.1} rad/s, +-{:.0} N, {cold:.0} to {warm:.0} K, with a pre-sliding travel of {:.1e} rad",
+            self.angle, self.speed, self.load, self.travel
+        )
+    }
 }
 
 /// A triangle of height 1 and period 1 with rounded tips, zero at zero.
 fn triangle(turns: f64) -> f64 {
     const ROUND: f64 = 0.995;
     (ROUND * (TAU * turns).sin()).asin() / ROUND.asin()
-}
-
-/// -1 before, 1 behind, smooth over 0.1 s.
-fn step_up(time: f64) -> f64 {
-    (time / 0.05).tanh()
 }
 
 impl Manoeuvre {
@@ -76,102 +76,50 @@ impl Manoeuvre {
         Self::WholeTurns,
     ];
 
-    /// Name.
-    pub fn name(self) -> &'static str {
+    /// Name, how to drive it, and the parameters that it identifies: of `calibrate --wanted` for the built-in `lin-4.1` one of the two
+    /// narrowest intervals is its; for spin-down and whole turns, what they still identify without a load and at one speed.
+    pub const fn words(self) -> [&'static str; 3] {
         match self {
-            Self::Weave => "weave",
-            Self::Parking => "parking",
-            Self::MicroReversals => "micro reversals",
-            Self::LoadSteps => "load steps",
-            Self::WarmUp => "warm-up",
-            Self::SpinDown => "spin-down",
-            Self::WholeTurns => "whole turns at constant load",
-        }
-    }
-
-    /// How to drive it, as a sentence.
-    pub fn instruction(self, reach: &Reach) -> String {
-        let Reach {
-            angle,
-            speed,
-            load,
-            temperature: [cold, warm],
-            travel,
-        } = *reach;
-        match self {
-            Self::Weave => format!(
-                "turn the nut by +-{:.2} rad at 0.2 to 1.5 Hz with the load following it",
-                0.6f64.min(angle)
-            ),
-            Self::Parking => format!(
-                "sweep to +-{angle:.1} rad at up to {speed:.1} rad/s under up to {load:.0} N"
-            ),
-            Self::MicroReversals => format!(
-                "reverse at rest by {:.1e} to {:.1e} rad, 0.8 times a second",
-                0.5 * travel,
-                4.0 * travel
-            ),
-            Self::LoadSteps => format!(
-                "turn evenly to and fro and step the load through 0, +-{:.0} N and +-{load:.0} N",
-                0.5 * load
-            ),
-            Self::WarmUp => {
-                format!("repeat one sweep while the screw warms from {cold:.0} K to {warm:.0} K")
-            }
-            Self::SpinDown => {
-                format!("let the unloaded nut go at {speed:.1} rad/s and record until it stands")
-            }
-            Self::WholeTurns => format!(
-                "turn evenly there and back over whole turns at a constant {:.0} N",
-                0.5 * load
-            ),
-        }
-    }
-
-    /// How to drive it, in a few words.
-    pub fn how(self) -> &'static str {
-        match self {
-            Self::Weave => "small slow reversals, 0.2 to 1.5 Hz, the load follows the angle",
-            Self::Parking => "fast sweeps from lock to lock under high load",
-            Self::MicroReversals => "reversals at rest, of the size of the pre-sliding travel",
-            Self::LoadSteps => "even turning to and fro, the load stepped through 0 and both signs",
-            Self::WarmUp => "one sweep again and again while the screw warms up",
-            Self::SpinDown => "the unloaded nut is let go at speed and stops of itself",
-            Self::WholeTurns => "whole turns at constant load and low speed, there and back",
-        }
-    }
-
-    /// Parameters that it identifies: of `calibrate --wanted` for the built-in `lin-4.1` one of the two narrowest intervals is its; for
-    /// spin-down and whole turns, what they still identify without a load and at one speed.
-    pub fn identifies(self) -> &'static [&'static str] {
-        match self {
-            Self::Weave => &["breakaway_angle", "gain"],
-            Self::Parking => &[
-                "friction",
-                "full_film_ratio",
-                "half_share_speed",
-                "preload",
-                "drag",
-                "offset",
-                "direction_asymmetry",
+            Self::Weave => [
+                "weave",
+                "reversals of up to 0.6 rad at 0.2 to 1.5 Hz, the load follows the angle",
+                "breakaway_angle gain",
             ],
-            Self::MicroReversals => &["breakaway_angle", "backlash", "offset"],
-            Self::LoadSteps => &["preload", "gain", "direction_asymmetry", "inertia"],
-            Self::WarmUp => &[
-                "friction",
-                "full_film_ratio",
-                "half_share_speed",
-                "viscosity_pole",
-                "drag",
-                "inertia",
+            Self::Parking => [
+                "parking",
+                "fast sweeps from lock to lock under up to the largest load",
+                "friction full_film_ratio half_share_speed preload drag offset direction_asymmetry",
             ],
-            Self::SpinDown => &["drag"],
-            Self::WholeTurns => &["harmonics"],
+            Self::MicroReversals => [
+                "micro reversals",
+                "reversals at rest by 0.5 to 4 times the pre-sliding travel, 0.8 times a second",
+                "breakaway_angle backlash offset",
+            ],
+            Self::LoadSteps => [
+                "load steps",
+                "even turning to and fro, the load stepped through 0, half and all of both signs",
+                "preload gain direction_asymmetry inertia",
+            ],
+            Self::WarmUp => [
+                "warm-up",
+                "one sweep again and again under half of the load while the screw warms up",
+                "friction full_film_ratio half_share_speed viscosity_pole drag inertia",
+            ],
+            Self::SpinDown => [
+                "spin-down",
+                "the unloaded nut is let go at its largest speed and stops of itself",
+                "drag",
+            ],
+            Self::WholeTurns => [
+                "whole turns at constant load",
+                "whole turns there and back at low speed under half of the load",
+                "harmonics",
+            ],
         }
     }
 
     /// Duration, s.
-    pub fn duration(self) -> f64 {
+    pub const fn duration(self) -> f64 {
         match self {
             Self::WarmUp => 60.0,
             Self::SpinDown => 5.0,
@@ -179,34 +127,33 @@ impl Manoeuvre {
         }
     }
 
-    /// The course, sampled.
-    pub fn course(self, step: f64, reach: &Reach) -> Course {
+    /// Its trace with a tick, s, without the effort.
+    pub fn trace(self, step: f64, reach: &Reach) -> Trace {
         let rows = (self.duration() / step).round() as usize;
-        let time = |row: usize| row as f64 * step;
-        // Differences over a tenth of a tick: exact to (tick / 10)^2 of the third derivative.
-        let h = 0.1 * step;
-        let place = |t: f64| self.position(t, reach);
-        let temperature = |t: f64| {
-            let [cold, warm] = reach.temperature;
-            if self == Self::WarmUp {
-                cold + (warm - cold) * t / self.duration()
-            } else {
-                cold
-            }
+        let of = |at: &dyn Fn(f64) -> f64| (0..rows).map(|row| at(row as f64 * step)).collect();
+        let [cold, warm] = reach.temperature;
+        let rise = if self == Self::WarmUp {
+            (warm - cold) / self.duration()
+        } else {
+            0.0
         };
-        Course {
+        Trace {
+            name: self.words()[0].into(),
+            coordinate: Coordinate::Rotation,
+            start: 0.0,
             step,
-            position: (0..rows).map(|row| place(time(row))).collect(),
-            speed: (0..rows)
-                .map(|row| (place(time(row) + h) - place(time(row) - h)) / (2.0 * h))
-                .collect(),
-            acceleration: (0..rows)
-                .map(|row| {
-                    (place(time(row) + h) - 2.0 * place(time(row)) + place(time(row) - h)) / (h * h)
-                })
-                .collect(),
-            load: (0..rows).map(|row| self.load(time(row), reach)).collect(),
-            temperature: (0..rows).map(|row| temperature(time(row))).collect(),
+            effort: vec![0.0; rows],
+            position: of(&|time| self.position(time, reach)),
+            resolution: 0.0,
+            position_summed: false,
+            speed: None,
+            reference_position: None,
+            load: Some(of(&|time| self.load(time, reach))),
+            load_is_effort: false,
+            known: None,
+            temperature: Some(of(&|time| cold + rise * time)),
+            repairs: Repairs::default(),
+            ignored: Vec::new(),
         }
     }
 
@@ -243,8 +190,7 @@ impl Manoeuvre {
                 speed * self.duration() / 3.0 * (1.0 - part.powi(3))
             }
             Self::WholeTurns => {
-                let turns = (angle / TAU).floor().max(1.0);
-                turns * TAU * triangle(t / self.duration())
+                (angle / TAU).floor().max(1.0) * TAU * triangle(t / self.duration())
             }
         }
     }
@@ -252,20 +198,49 @@ impl Manoeuvre {
     /// Axial load at a time, N.
     fn load(self, t: f64, reach: &Reach) -> f64 {
         let most = reach.load;
+        let wave = |frequency: f64| (TAU * frequency * t).sin();
         match self {
-            Self::Weave => 0.3 * most * (TAU * 0.2 * t).sin() + 0.1 * most * (TAU * 0.9 * t).sin(),
-            Self::Parking => {
-                0.8 * most * (self.position(t, reach) / reach.angle)
-                    + 0.2 * most * (TAU * 0.3 * t).sin()
-            }
-            Self::MicroReversals => 0.3 * most * (TAU * 0.11 * t).sin(),
+            Self::Weave => most * (0.3 * wave(0.2) + 0.1 * wave(0.9)),
+            Self::Parking => most * (0.8 * self.position(t, reach) / reach.angle + 0.2 * wave(0.3)),
+            Self::MicroReversals => 0.3 * most * wave(0.11),
             Self::LoadSteps => {
-                let step = |at: f64| 0.5 * (1.0 + step_up(t - at));
+                // 0 before, 1 behind, smooth over 0.1 s.
+                let step = |at: f64| 0.5 * (1.0 + ((t - at) / 0.05).tanh());
                 most * (0.5 * step(4.0) + 0.5 * step(7.0) - 1.5 * step(11.0) - 0.5 * step(14.0)
                     + step(17.0))
             }
             Self::WarmUp | Self::WholeTurns => 0.5 * most,
             Self::SpinDown => 0.0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn courses_keep_the_reach() {
+        let reach = Reach {
+            angle: 30.0,
+            speed: 45.0,
+            load: 2800.0,
+            temperature: [293.0, 318.0],
+            travel: 2e-3,
+        };
+        for manoeuvre in Manoeuvre::ALL {
+            let trace = manoeuvre.trace(1e-3, &reach);
+            let most = |list: &mut dyn Iterator<Item = f64>| list.map(f64::abs).fold(0.0, f64::max);
+            let steps = trace
+                .position
+                .windows(2)
+                .map(|pair| (pair[1] - pair[0]) / 1e-3);
+            let speed = most(&mut steps.into_iter());
+            assert!(speed <= 1.05 * reach.speed, "{manoeuvre:?} {speed}");
+            let load = most(&mut trace.load.into_iter().flatten());
+            assert!(load <= reach.load * 1.001, "{manoeuvre:?} {load}");
+            let angle = most(&mut trace.position.into_iter());
+            assert!(manoeuvre == Manoeuvre::SpinDown || angle <= reach.angle + 1e-9);
         }
     }
 }

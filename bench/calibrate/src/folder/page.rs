@@ -1,11 +1,10 @@
 //! The page of a folder of traces.
 
-use super::population::Together;
-use super::store::{Parameter, Told};
-use crate::page::shown::digits;
-use crate::sums::Population;
+use super::Together;
+use super::population::Population;
+use crate::page::shown::{chart, number, perhaps, table};
 use epas_page::document::{Block, Cell, Document, Figure, Section, Table};
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Series};
 
 /// The page: population, outliers, every trace.
 pub fn document(together: &Together) -> Document {
@@ -15,98 +14,66 @@ pub fn document(together: &Together) -> Document {
         "{told} of {} traces tell something; {refused} were refused.",
         together.traces.len()
     ))];
-    if !together.population.is_empty() {
-        first.push(Block::Table(population(
-            "population",
-            "All traces: mean with its 95 % interval, standard deviation between traces beyond their own errors, and the \
-             interval that holds the next one",
-            &together.population,
-        )));
-    }
-    if !together.without_outliers.is_empty() {
-        first.push(Block::Table(population(
-            "population_without_outliers",
-            "The same without the traces that stand out",
-            &together.without_outliers,
-        )));
-    }
-    let mut sections = vec![Section {
-        title: "What the traces tell together",
-        blocks: first,
-    }];
+    let mut shown = |name, caption, rows: &[Population]| {
+        if !rows.is_empty() {
+            first.push(Block::Table(population(name, caption, rows)));
+        }
+    };
+    shown(
+        "population",
+        "All traces: mean with its 95 % interval, standard deviation between traces beyond their own errors, and the interval \
+         that holds the next one",
+        &together.population,
+    );
+    shown(
+        "population_without_outliers",
+        "The same without the traces that stand out",
+        &together.without_outliers,
+    );
+    let mut sections = Vec::new();
+    let mut add = |title, blocks| sections.push(Section { title, blocks });
+    add("What the traces tell together", first);
     if !together.outliers.is_empty() {
-        sections.push(Section {
-            title: "Traces that stand out",
-            blocks: vec![Block::Table(outliers(together))],
-        });
+        add(
+            "Traces that stand out",
+            vec![Block::Table(outliers(together))],
+        );
     }
     if told > 0 {
-        sections.push(Section {
-            title: "Every trace",
-            blocks: vec![
-                Block::Figure(by_trace(together)),
-                Block::Annex(every_parameter(together)),
-            ],
-        });
+        let figure = Block::Figure(by_trace(together));
+        let all = Block::Annex(every_parameter(together));
+        add("Every trace", vec![figure, all]);
     }
     if refused > 0 {
-        sections.push(Section {
-            title: "Refused traces",
-            blocks: vec![Block::Table(Table {
-                name: "refused",
-                caption: "Traces that were not fitted".into(),
-                columns: ["trace", "reason"].map(String::from).into(),
-                rows: together
-                    .refused()
-                    .map(|(trace, word)| vec![trace.into(), word.into()])
-                    .collect(),
-            })],
-        });
+        let refused = table(
+            "refused",
+            "Traces that were not fitted",
+            "trace | reason",
+            together
+                .refused()
+                .map(|(trace, word)| vec![trace.into(), word.into()]),
+        );
+        add("Refused traces", vec![Block::Table(refused)]);
     }
     Document::of("Calibration of a folder".into(), sections)
 }
 
-/// A number with four digits.
-fn number(value: f64) -> Cell {
-    Cell::Number(value, digits(value, 4))
-}
-
-/// A number, or nothing.
-fn perhaps(value: Option<f64>) -> Cell {
-    value.map_or("".into(), number)
-}
-
 fn population(name: &'static str, caption: &str, population: &[Population]) -> Table {
-    let rows = population.iter().map(|parameter| {
-        let [low, high] = parameter.mean_interval;
+    let row = |parameter: &Population| {
+        let [low, high] = parameter.mean_interval.map(number);
         vec![
             parameter.name.as_str().into(),
             Cell::fixed(parameter.traces as f64, 0),
             number(parameter.mean),
-            number(low),
-            number(high),
+            low,
+            high,
             perhaps(parameter.spread),
             perhaps(parameter.next.map(|next| next[0])),
             perhaps(parameter.next.map(|next| next[1])),
         ]
-    });
-    Table {
-        name,
-        caption: caption.into(),
-        columns: [
-            "parameter",
-            "traces",
-            "mean",
-            "low",
-            "high",
-            "spread",
-            "next, low",
-            "next, high",
-        ]
-        .map(String::from)
-        .into(),
-        rows: rows.collect(),
-    }
+    };
+    let columns = "parameter | traces | mean | low | high | spread | next, low | next, high";
+    table(name, caption, columns, population.iter().map(row))
 }
 
 fn outliers(together: &Together) -> Table {
@@ -119,78 +86,54 @@ fn outliers(together: &Together) -> Table {
             Cell::fixed(out.deviations, 1),
         ]
     });
-    Table {
-        name: "outliers",
-        caption: "Parameters more than five standard deviations from the median of all traces"
-            .into(),
-        columns: ["trace", "parameter", "value", "median", "deviations"]
-            .map(String::from)
-            .into(),
-        rows: rows.collect(),
-    }
+    table(
+        "outliers",
+        "Parameters more than five standard deviations from the median of all traces",
+        "trace | parameter | value | median | deviations",
+        rows,
+    )
 }
 
 fn every_parameter(together: &Together) -> Table {
-    let row = |trace: &str, parameter: &Parameter| {
-        vec![
-            trace.into(),
-            parameter.name.as_str().into(),
-            perhaps(parameter.value),
-            perhaps(parameter.low),
-            perhaps(parameter.high),
-            parameter.unit.as_str().into(),
-        ]
-    };
-    let estimated = |told: &Told| -> Vec<Parameter> {
-        let parameters = told.parameters.iter();
-        parameters
-            .filter(|parameter| !parameter.fixed)
-            .cloned()
-            .collect()
-    };
     let rows = together.told().flat_map(|(trace, told)| {
-        let parameters = estimated(told);
-        parameters
-            .iter()
-            .map(|parameter| row(trace, parameter))
-            .collect::<Vec<_>>()
+        told.estimates().map(move |(name, entry)| {
+            let ends = ["value", "low", "high"].map(|key| perhaps(entry[key].as_f64()));
+            let mut row = vec![trace.into(), name.into()];
+            row.extend(ends);
+            row.push(entry["unit"].as_str().unwrap_or_default().into());
+            row
+        })
     });
-    Table {
-        name: "traces",
-        caption: "Estimated parameters of every trace with their 95 % intervals".into(),
-        columns: ["trace", "parameter", "value", "low", "high", "unit"]
-            .map(String::from)
-            .into(),
-        rows: rows.collect(),
-    }
+    table(
+        "traces",
+        "Estimated parameters of every trace with their 95 % intervals",
+        "trace | parameter | value | low | high | unit",
+        rows,
+    )
 }
 
 /// Every parameter by the number of its trace, with the mean of all.
 fn by_trace(together: &Together) -> Figure {
     let panels = together.population.iter().map(|parameter| {
-        let values: Vec<(f64, f64)> = together
-            .told()
-            .enumerate()
+        let told = together.told().enumerate();
+        let values: Vec<(f64, f64)> = told
             .filter_map(|(index, (_, told))| {
-                let own = told
-                    .parameters
-                    .iter()
-                    .find(|own| own.name == parameter.name);
-                Some((index as f64 + 1.0, own?.value?))
+                let mut own = told.estimates().filter(|(name, _)| *name == parameter.name);
+                Some((index as f64 + 1.0, own.next()?.1["value"].as_f64()?))
             })
             .collect();
-        let last = values.last().map_or(1.0, |point| point.0);
-        let mean = vec![(1.0, parameter.mean), (last.max(2.0), parameter.mean)];
-        Panel::Chart(Chart {
-            title: String::new(),
-            x: Axis::linear("trace"),
-            y: Axis::linear(&parameter.name),
-            series: vec![
-                Series::new("trace", 0, Mark::Circles, values),
-                Series::new("mean", 1, Mark::Dashed, mean),
-            ],
-            notes: Vec::new(),
-        })
+        let last = values.last().map_or(1.0, |point| point.0).max(2.0);
+        let mean = vec![(1.0, parameter.mean), (last, parameter.mean)];
+        let series = vec![
+            Series::new("trace", 0, Mark::Circles, values),
+            Series::new("mean", 1, Mark::Dashed, mean),
+        ];
+        chart(
+            "",
+            Axis::linear("trace"),
+            Axis::linear(&parameter.name),
+            series,
+        )
     });
     Figure {
         name: "by_trace",

@@ -1,11 +1,21 @@
-//! What traces tell together: the population of each parameter, and the traces that stand out of it.
+//! What traces tell together: the population of each parameter, one value for all, and the traces that stand out.
+//!
+//! The spread of a population is Paule and Mandel's (1982), which solves `sum w (q - mean)^2 = n - 1`, `w = 1/(variance + spread^2)`,
+//! over the inner coordinates `q` of all traces. The common values weight each trace with the inverse `A` of its covariance:
+//! `q = (sum A)^-1 sum A q_i`, as if all traces had been fitted at once.
+//!
+//! Errors of the model itself are the same in every trace of a screw. No mean takes them out: they widen the interval of the mean, by as
+//! much as the traces say each of itself, and have no part in the weights or the spread.
 
+use nalgebra::{DMatrix, DVector};
+use roots::{SimpleConvergency, find_root_brent};
 use serde::Serialize;
-use serde_json::{Value, json};
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
-use super::store::{Ended, Stored, Told};
-use crate::sums::{Population, Sums};
-use epas_page::failure::Failure;
+use super::answered::Answered;
+
+/// Half of a 95 % interval over its standard deviation.
+pub const HALF_INTERVAL: f64 = 1.96;
 
 /// Standard deviations beyond which a trace stands out: of a normal population one in 1.7 million does by chance.
 const OUT: f64 = 5.0;
@@ -13,11 +23,40 @@ const OUT: f64 = 5.0;
 /// Median of the distances from the median, of a normal population, over its standard deviation.
 const MEDIAN_DISTANCE: f64 = 0.6745;
 
-/// Half of a 95 % interval over its standard deviation.
-const HALF_INTERVAL: f64 = 1.96;
-
 /// Traces of which a median says something.
 const ENOUGH: usize = 5;
+
+/// A parameter of the traces together.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Population {
+    /// Name.
+    pub name: String,
+    /// Traces that tell it.
+    pub traces: u64,
+    /// Mean of the traces (geometric where the scale is logarithmic).
+    pub mean: f64,
+    /// 95 % interval of the mean.
+    pub mean_interval: [f64; 2],
+    /// Standard deviation between the traces beyond their own errors: of the value, or of its logarithm. `None` with one trace.
+    pub spread: Option<f64>,
+    /// Interval that holds the next unit with 95 %. `None` with fewer than three traces.
+    pub next: Option<[f64; 2]>,
+}
+
+/// Parameters with one value for all traces.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Common {
+    /// Name, value, and 95 % interval.
+    pub parameters: Vec<(String, f64, [f64; 2])>,
+    /// Chi-squared per degree of freedom, which is 1 where the traces differ by their errors only; `None` without any.
+    pub chi_squared: Option<f64>,
+    /// Rows of all traces.
+    pub rows: u64,
+    /// Rows that count as independent.
+    pub effective_rows: f64,
+    /// Root of the mean square of all rows' residuals.
+    pub residual_rms: f64,
+}
 
 /// A parameter of a trace that is far from the others'.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -34,182 +73,191 @@ pub struct Outlier {
     pub deviations: f64,
 }
 
-/// Answers of all traces, and what follows from them together.
-pub struct Together {
-    /// One for each trace, in the order of their names.
-    pub traces: Vec<Stored>,
-    /// Parameters of which at least one trace tells.
-    pub population: Vec<Population>,
-    /// The same without the traces that stand out; empty where none does.
-    pub without_outliers: Vec<Population>,
-    /// What stands out.
-    pub outliers: Vec<Outlier>,
+/// One parameter of one trace.
+struct Told {
+    place: f64,
+    variance: f64,
+    model_error: f64,
 }
 
-impl Together {
-    /// Puts traces in the order of their names, and adds up their sums.
-    ///
-    /// # Errors
-    /// Sums that do not belong together.
-    pub fn of(mut traces: Vec<Stored>) -> Result<Self, Failure> {
-        traces.sort_by(|one, other| one.trace.cmp(&other.trace));
-        let outliers = outliers(&traces);
-        let far = |stored: &&Stored| outliers.iter().any(|out| out.trace == stored.trace);
-        let population = population(traces.iter())?;
-        let without_outliers = if outliers.is_empty() {
-            Vec::new()
-        } else {
-            self::population(traces.iter().filter(|stored| !far(stored)))?
-        };
-        Ok(Self {
-            traces,
-            population,
-            without_outliers,
-            outliers,
-        })
-    }
-
-    /// Traces that told something.
-    pub fn told(&self) -> impl Iterator<Item = (&str, &Told)> {
-        self.traces.iter().filter_map(|stored| match &stored.ended {
-            Ended::Told(told) => Some((stored.trace.as_str(), &**told)),
-            Ended::Refused(_) => None,
-        })
-    }
-
-    /// Traces that were refused, with the reason.
-    pub fn refused(&self) -> impl Iterator<Item = (&str, &str)> {
-        self.traces.iter().filter_map(|stored| match &stored.ended {
-            Ended::Told(_) => None,
-            Ended::Refused(word) => Some((stored.trace.as_str(), word.as_str())),
-        })
-    }
-
-    /// The failure where no trace told anything.
-    pub fn nothing_told(&self) -> Option<Failure> {
-        if self.told().next().is_some() {
-            return None;
+/// Names in the order of their first appearance, with their scale.
+fn names<'a>(all: &[&'a Answered]) -> Vec<(&'a str, bool)> {
+    let mut names: Vec<(&str, bool)> = Vec::new();
+    for answered in all {
+        for (name, logarithmic) in answered.names.iter().zip(&answered.logarithmic) {
+            if !names.iter().any(|(known, _)| known == name) {
+                names.push((name, *logarithmic));
+            }
         }
-        let word = self.refused().next().map_or_else(
-            || "there is none".into(),
-            |(trace, word)| format!("{trace}: {word}"),
-        );
-        Some(Failure::Data(format!("no trace tells anything; {word}")))
     }
+    names
+}
 
-    /// One JSON object.
-    pub fn json(&self) -> Value {
-        let traces: serde_json::Map<String, Value> = self
-            .traces
+fn outer(logarithmic: bool, place: f64) -> f64 {
+    if logarithmic { place.exp() } else { place }
+}
+
+/// Half of Student's 95 % interval.
+fn student(freedom: f64) -> f64 {
+    StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
+}
+
+/// Mean and spread of every parameter that a trace tells.
+pub fn populations(all: &[&Answered]) -> Vec<Population> {
+    let names = names(all).into_iter();
+    names
+        .map(|(name, logarithmic)| {
+            let told = all.iter().filter_map(|answered| {
+                let k = answered.names.iter().position(|own| own == name)?;
+                Some(Told {
+                    place: answered.inner(k),
+                    variance: answered.variance(k),
+                    model_error: answered.model_errors[k],
+                })
+            });
+            population(name, logarithmic, &told.collect::<Vec<_>>())
+        })
+        .collect()
+}
+
+/// Sum of the weights at a spread's square, and the means with them: of the places, and of the model's errors.
+fn weighted(told: &[Told], spread: f64) -> [f64; 3] {
+    let mut sums = [0.0; 3];
+    for one in told {
+        let weight = 1.0 / (one.variance + spread);
+        sums[0] += weight;
+        sums[1] += weight * one.place;
+        sums[2] += weight * one.model_error;
+    }
+    [sums[0], sums[1] / sums[0], sums[2] / sums[0]]
+}
+
+/// Square of the spread. `sum w (q - mean)^2` falls as it grows; without their own errors the traces spread at most by their squares.
+fn spread(told: &[Told]) -> f64 {
+    let freedom = told.len() as f64 - 1.0;
+    let excess = |spread: f64| {
+        let [_, mean, _] = weighted(told, spread);
+        let squares = told
             .iter()
-            .map(|stored| {
-                let answer = match &stored.ended {
-                    Ended::Told(told) => {
-                        let parameters: serde_json::Map<String, Value> = told
-                            .parameters
-                            .iter()
-                            .map(|parameter| {
-                                let entry = json!({
-                                    "value": parameter.value,
-                                    "low": parameter.low,
-                                    "high": parameter.high,
-                                    "fixed": parameter.fixed,
-                                    "unit": parameter.unit,
-                                });
-                                (parameter.name.clone(), entry)
-                            })
-                            .collect();
-                        json!({
-                            "parameters": parameters,
-                            "residual_rms": told.residual_rms,
-                            "relative_error": told.relative_error,
-                            "cannot_tell": told.cannot_tell,
-                        })
-                    }
-                    Ended::Refused(word) => json!({ "error": word }),
-                };
-                (stored.trace.clone(), answer)
-            })
+            .map(|one| (one.place - mean).powi(2) / (one.variance + spread));
+        squares.sum::<f64>() - freedom
+    };
+    let [_, mean, _] = weighted(told, 0.0);
+    let most: f64 = told.iter().map(|one| (one.place - mean).powi(2)).sum();
+    if !(excess(0.0) > 0.0 && most > 0.0) {
+        return 0.0;
+    }
+    let mut end = SimpleConvergency {
+        eps: 1e-15,
+        max_iter: 200,
+    };
+    // As a part of the most, so that one tolerance fits every unit.
+    most * find_root_brent(0.0, 1.0, |part: f64| excess(most * part), &mut end).unwrap_or(0.0)
+}
+
+fn population(name: &str, logarithmic: bool, told: &[Told]) -> Population {
+    let traces = told.len();
+    let freedom = traces as f64 - 1.0;
+    let spread = if traces > 1 { spread(told) } else { 0.0 };
+    let [weight, mean, model_error] = weighted(told, spread);
+    let shared = HALF_INTERVAL * model_error;
+    let around = |half: f64| {
+        let half = half.hypot(shared);
+        [-half, half].map(|away| outer(logarithmic, mean + away))
+    };
+    // One trace alone has its own error only.
+    let quantile = if traces > 1 {
+        student(freedom)
+    } else {
+        HALF_INTERVAL
+    };
+    Population {
+        name: name.into(),
+        traces: traces as u64,
+        mean: outer(logarithmic, mean),
+        mean_interval: around(quantile / weight.sqrt()),
+        spread: (traces > 1).then(|| spread.sqrt()),
+        next: (traces > 2).then(|| around(student(freedom - 1.0) * (spread + 1.0 / weight).sqrt())),
+    }
+}
+
+/// Parameters with one value for all traces. `None` where the traces together do not tell all that any of them tells.
+pub fn common(all: &[&Answered]) -> Option<Common> {
+    let names = names(all);
+    let mut information = DMatrix::<f64>::zeros(names.len(), names.len());
+    let mut pull = DVector::zeros(names.len());
+    let mut traces = Vec::new();
+    for answered in all {
+        let own = answered.names.iter();
+        let places: Vec<usize> = own
+            .filter_map(|own| names.iter().position(|(name, _)| own == name))
             .collect();
-        json!({
-            "traces": traces,
-            "population": self.population,
-            "population_without_outliers": self.without_outliers,
-            "outliers": self.outliers,
-        })
-    }
-}
-
-/// Mean and spread of every parameter from the merged sums.
-fn population<'a>(traces: impl Iterator<Item = &'a Stored>) -> Result<Vec<Population>, Failure> {
-    let mut whole: Option<Sums> = None;
-    for stored in traces {
-        let Ended::Told(told) = &stored.ended else {
-            continue;
-        };
-        match &mut whole {
-            None => whole = Some(told.sums.clone()),
-            Some(whole) => whole
-                .merge(&told.sums)
-                .map_err(|error| Failure::Data(format!("{}: {error}", stored.trace)))?,
-        }
-    }
-    Ok(whole.map(|sums| sums.population()).unwrap_or_default())
-}
-
-/// Parameters far from the median. The median and the median distance hardly move with what stands out, as mean and spread do.
-fn outliers(traces: &[Stored]) -> Vec<Outlier> {
-    let mut names: Vec<&str> = Vec::new();
-    let mut all: Vec<(&str, &str, f64, f64)> = Vec::new();
-    for stored in traces {
-        let Ended::Told(told) = &stored.ended else {
-            continue;
-        };
-        for parameter in told.parameters.iter().filter(|parameter| !parameter.fixed) {
-            let (Some(value), Some(low), Some(high)) =
-                (parameter.value, parameter.low, parameter.high)
-            else {
-                continue;
-            };
-            let error = 0.5 * (high - low) / HALF_INTERVAL;
-            if !names.contains(&parameter.name.as_str()) {
-                names.push(&parameter.name);
-            }
-            all.push((&parameter.name, &stored.trace, value, error));
-        }
-    }
-    let mut outliers = Vec::new();
-    for name in names {
-        let own: Vec<_> = all.iter().filter(|entry| entry.0 == name).collect();
-        if own.len() < ENOUGH {
-            continue;
-        }
-        let median = middle(own.iter().map(|entry| entry.2).collect());
-        let distances = own.iter().map(|entry| (entry.2 - median).abs()).collect();
-        let spread = middle(distances) / MEDIAN_DISTANCE;
-        for (_, trace, value, error) in own {
-            let deviations = (value - median) / spread.hypot(*error).max(f64::MIN_POSITIVE);
-            if deviations.abs() > OUT {
-                outliers.push(Outlier {
-                    trace: (*trace).into(),
-                    parameter: name.into(),
-                    value: *value,
-                    median,
-                    deviations,
-                });
+        let inner = DVector::from_fn(places.len(), |k, _| answered.inner(k));
+        let weight = answered.information()?;
+        let pulled = &weight * &inner;
+        for (i, into) in places.iter().enumerate() {
+            pull[*into] += pulled[i];
+            for (j, column) in places.iter().enumerate() {
+                information[(*into, *column)] += weight[(i, j)];
             }
         }
+        traces.push((places, inner, weight));
     }
-    outliers
+    let covariance = information.cholesky()?.inverse();
+    let values = &covariance * pull;
+    let (mut chi, mut freedom) = (0.0, -(names.len() as f64));
+    let mut errors = vec![(0.0, 0.0); names.len()];
+    for (answered, (places, inner, weight)) in all.iter().zip(&traces) {
+        let away = DVector::from_fn(places.len(), |k, _| inner[k] - values[places[k]]);
+        chi += away.dot(&(weight * &away));
+        freedom += places.len() as f64;
+        for (place, error) in places.iter().zip(&answered.model_errors) {
+            errors[*place] = (errors[*place].0 + error, errors[*place].1 + 1.0);
+        }
+    }
+    let chi_squared = (freedom > 0.0).then(|| chi / freedom);
+    // Traces that differ by more than their errors say less (Birge 1932).
+    let wider = chi_squared.unwrap_or(1.0).max(1.0).sqrt();
+    let parameter = |(k, (name, logarithmic)): (usize, &(&str, bool))| {
+        let (shared, traces) = errors[k];
+        let own = covariance[(k, k)].sqrt() * wider;
+        let half = HALF_INTERVAL * own.hypot(shared / traces);
+        let at = |away: f64| outer(*logarithmic, values[k] + away);
+        ((*name).to_owned(), at(0.0), [at(-half), at(half)])
+    };
+    let rows: u64 = all.iter().map(|answered| answered.rows).sum();
+    let squares: f64 = all.iter().map(|answered| answered.residual_squares).sum();
+    Some(Common {
+        parameters: names.iter().enumerate().map(parameter).collect(),
+        chi_squared,
+        rows,
+        effective_rows: all.iter().map(|answered| answered.effective_rows).sum(),
+        residual_rms: (squares / rows as f64).sqrt(),
+    })
+}
+
+/// Traces far from the median of a parameter: name of the trace, value, standard error. The median and the median distance hardly move
+/// with what stands out, as mean and spread do.
+pub fn outliers(parameter: &str, told: &[(&str, f64, f64)]) -> Vec<Outlier> {
+    if told.len() < ENOUGH {
+        return Vec::new();
+    }
+    let median = middle(told.iter().map(|one| one.1).collect());
+    let spread = middle(told.iter().map(|one| (one.1 - median).abs()).collect()) / MEDIAN_DISTANCE;
+    let outlier = |(trace, value, error): &(&str, f64, f64)| Outlier {
+        trace: (*trace).into(),
+        parameter: parameter.into(),
+        value: *value,
+        median,
+        deviations: (value - median) / spread.hypot(*error).max(f64::MIN_POSITIVE),
+    };
+    let all = told.iter().map(outlier);
+    all.filter(|one| one.deviations.abs() > OUT).collect()
 }
 
 /// Median; the mean of both middle ones where there are two.
 fn middle(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
-    let half = values.len() / 2;
-    match (values.len() % 2, values.get(half), half.checked_sub(1)) {
-        (1, Some(middle), _) => *middle,
-        (0, Some(upper), Some(lower)) => 0.5 * (upper + values[lower]),
-        _ => f64::NAN,
-    }
+    let (low, high) = ((values.len() - 1) / 2, values.len() / 2);
+    0.5 * (values[low] + values[high])
 }

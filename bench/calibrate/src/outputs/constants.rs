@@ -4,24 +4,22 @@
 use std::fmt::Write as _;
 
 use epas_design::Folded;
+use epas_friction::law::coefficient::CoefficientLaw;
 
-use crate::outputs::firmware::{ElementsNumbers, Numbers};
+use crate::outputs::firmware::Numbers;
 use crate::page::shown::one_line;
+use crate::screw::friction::{COLDEST, ElementsKind};
 use epas_design::caged_scene::{certified, fold_for};
 use epas_design::files::Design;
-use epas_design::files::calibration::ElementsName;
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
 
 /// Constants of a design, to be pasted.
-///
-/// # Errors
-/// What the crate refuses of the design, or what of it cannot be folded.
 pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
     let numbers = Numbers::of(design)?;
     let friction = design.caged.friction;
     let coefficients = match &numbers.law {
-        Some(law) => law.law()?.extremes(),
+        Some(law) => CoefficientLaw::new(law)?.extremes(),
         None => (friction, friction),
     };
     let fold = fold_for(design, coefficients)
@@ -29,51 +27,30 @@ pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
     let progress = Progress::of_fold();
     let folded = certified(&fold, &|share| progress.share(share))
         .map_err(|failure| failure.of(&design.name))?;
-    let mut text = format!(
-        "// Ball screw {}, calibrated by trace {}.\n//\n\
-         // For a crate that depends on `epas-friction`. Everything is checked when it is compiled: a number out of range\n\
-         // stops the compiler.\n\n",
-        one_line(&design.name),
-        one_line(trace)
-    );
+    let what = format!("Ball screw {}", one_line(&design.name));
+    let mut text = head(&what, trace);
+    text.push('\n');
     text += &imports(&numbers);
     text += SOUND;
     text += &screw(&folded)?;
-    if let Some(law) = &numbers.law {
-        let _ = write!(
-            text,
-            "\n/// Friction coefficient by speed, temperature and direction.\n\
-             pub const COEFFICIENT: CoefficientLaw = sound(CoefficientLaw::new(&CoefficientParameters {{\n    \
-             boundary: {:?},\n    full_film: {:?},\n    half_share_speed: {:?},\n    reference_temperature: {:?},\n    \
-             viscosity: sound(Viscosity::through({:?}, {:?}, {:?})),\n    forward: {:?},\n    backward: {:?},\n    \
-             churning: {:?},\n    drag: RollingDrag {{ torque: {:?}, heating: {:?} }},\n}}));\n",
-            law.boundary,
-            law.full_film,
-            law.half_share_speed,
-            law.reference_temperature,
-            law.viscosity[0],
-            law.viscosity[1],
-            law.pour_point,
-            law.forward,
-            law.backward,
-            law.churning,
-            law.drag.torque,
-            law.drag.heating,
-        );
-    } else if numbers.elements.is_some() {
-        let _ = write!(
-            text,
-            "\n/// One friction coefficient at every speed and temperature.\n\
-             pub const COEFFICIENT: OneCoefficient = sound(OneCoefficient::new({friction:?}));\n"
-        );
-    }
-    text += &memory(&numbers, folded.block.nodes());
+    text += &coefficient(&numbers, friction);
+    text += &memory(&numbers, folded.block.nodes())?;
     text += &rig(design);
     Ok(text)
 }
 
+/// The comment at the top of a file of constants.
+pub(super) fn head(what: &str, trace: &str) -> String {
+    format!(
+        "// {what}, calibrated by trace {}.\n//\n\
+         // For a crate that depends on `epas-friction`. Everything is checked when it is compiled: a number out of range\n\
+         // stops the compiler.\n",
+        one_line(trace)
+    )
+}
+
 /// The value, or a stop of the compiler.
-const SOUND: &str = "
+pub(super) const SOUND: &str = "
 /// The value; a refused one stops the compiler here.
 const fn sound<T: Copy>(checked: Result<T, Error>) -> T {
     match checked {
@@ -84,39 +61,13 @@ const fn sound<T: Copy>(checked: Result<T, Error>) -> T {
 ";
 
 fn imports(numbers: &Numbers) -> String {
-    let mut text = String::new();
-    let memory = numbers.elements.is_some();
-    match (&numbers.law, memory) {
-        (Some(_), true) => {
-            text += "use epas_friction::law::coefficient::{\n    CoefficientLaw, CoefficientParameters, RollingDrag, TemperatureFade, Viscosity,\n};\n";
-        }
-        (Some(_), false) => {
-            text += "use epas_friction::law::coefficient::{\n    CoefficientLaw, CoefficientParameters, RollingDrag, Viscosity,\n};\n";
-        }
-        (None, true) => {
-            text += "use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};\n";
-        }
-        (None, false) => {}
-    }
-    if let Some(memory) = &numbers.elements {
-        text += match memory.kind {
-            ElementsName::Proportional => {
-                "use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};\n"
-            }
-            ElementsName::LoadExact => "use epas_friction::law::memory::LoadExactElements;\n",
-            ElementsName::Preloaded => {
-                "use epas_friction::law::memory::{LoadExactElements, PreloadedElements};\n"
-            }
-        };
-        text += "use epas_friction::scene::{\n    CagedConstants, Freshness, WithMemoryConfiguration, WithMemoryConstants,\n};\n";
-    } else {
-        text += "use epas_friction::scene::CagedConstants;\n";
-    }
-    text + "use epas_friction::Error;\n"
+    let law = match (numbers.law.is_some(), numbers.reference.is_some()) {
+        (_, true) => "use epas_friction::law::{coefficient, memory};\n",
+        (true, false) => "use epas_friction::law::coefficient;\n",
+        (false, false) => "",
+    };
+    format!("{law}use epas_friction::{{Error, scene}};\n")
 }
-
-/// Words in a line.
-const IN_A_LINE: usize = 6;
 
 /// The block of the screw, and the constants of the scene without memory.
 fn screw(folded: &Folded) -> Result<String, Failure> {
@@ -126,61 +77,81 @@ fn screw(folded: &Folded) -> Result<String, Failure> {
     for line in folded.summary() {
         let _ = writeln!(text, "// {line}");
     }
-    let _ = write!(
+    let _ = writeln!(
         text,
-        "#[rustfmt::skip]\nconst SCREW_BLOCK: [u32; {count}] = [\n"
+        "#[rustfmt::skip]\nconst SCREW_BLOCK: [u32; {count}] = ["
     );
-    for line in words.chunks(IN_A_LINE) {
-        text.push_str("   ");
-        for word in line {
-            let _ = write!(text, " 0x{word:08x},");
-        }
-        text.push('\n');
+    for line in words.chunks(6) {
+        let line = line.iter().map(|word| format!(" 0x{word:08x},"));
+        let _ = writeln!(text, "   {}", line.collect::<String>());
     }
     let _ = write!(
         text,
         "];\n\n/// The screw without memory: for a `static` that stands in flash.\n\
-         pub const SCREW: CagedConstants<{nodes}> = sound(CagedConstants::from_block(&SCREW_BLOCK));\n"
+         pub const SCREW: scene::CagedConstants<{nodes}> =\n    sound(scene::CagedConstants::from_block(&SCREW_BLOCK));\n"
     );
     Ok(text)
 }
 
-/// Elements, and the constants of the scene with them.
-fn memory(numbers: &Numbers, nodes: usize) -> String {
-    let Some(memory) = &numbers.elements else {
-        return String::new();
-    };
-    let ElementsNumbers {
-        torque,
-        breakaway_angle,
-        load,
-        kind,
-        largest_load,
-        play,
-    } = *memory;
-    let exact =
-        format!("LoadExactElements::new({torque:?}, {breakaway_angle:?}, {largest_load:?})");
-    let (kind, made) = match kind {
-        ElementsName::Proportional => (
-            "ProportionalElements<8>",
+/// The friction coefficient.
+fn coefficient(numbers: &Numbers, friction: f32) -> String {
+    let Some(law) = &numbers.law else {
+        return numbers.reference.map_or_else(String::new, |_| {
             format!(
-                "sound(ProportionalElements::new(\n    {torque:?},\n    &[Part {{\n        backbone: &SLIP_8.elements,\n        \
-                 share: 1.0,\n        breakaway_angle: {breakaway_angle:?},\n    }}],\n))"
+                "\n/// One friction coefficient at every speed and temperature.\n\
+                 pub const COEFFICIENT: coefficient::OneCoefficient =\n    sound(coefficient::OneCoefficient::new({friction:?}));\n"
+            )
+        });
+    };
+    let [cold, warm] = numbers.screw.viscosities(&numbers.values);
+    format!(
+        "\n/// Friction coefficient by speed, temperature and direction.\n\
+         pub const COEFFICIENT: coefficient::CoefficientLaw = sound(coefficient::CoefficientLaw::new(&coefficient::CoefficientParameters {{\n    \
+         boundary: {:?},\n    full_film: {:?},\n    half_share_speed: {:?},\n    reference_temperature: {:?},\n    \
+         viscosity: sound(coefficient::Viscosity::through({cold:?}, {warm:?}, {COLDEST:?})),\n    forward: {:?},\n    backward: {:?},\n    \
+         churning: {:?},\n    drag: coefficient::RollingDrag {{ torque: {:?}, heating: {:?} }},\n}}));\n",
+        law.boundary,
+        law.full_film,
+        law.half_share_speed,
+        law.reference_temperature,
+        law.forward,
+        law.backward,
+        law.churning,
+        law.drag.torque,
+        law.drag.heating,
+    )
+}
+
+/// Elements, and the constants of the scene with them.
+fn memory(numbers: &Numbers, nodes: usize) -> Result<String, Failure> {
+    let Some(reference) = &numbers.reference else {
+        return Ok(String::new());
+    };
+    let Numbers { screw, values, .. } = numbers;
+    let (torque, load, play) = (reference.torque, reference.load, numbers.play(reference)?);
+    let breakaway_angle = values.breakaway_angle as f32;
+    let largest_load = screw.largest_load_of_elements(reference);
+    let exact = format!(
+        "memory::LoadExactElements::new({torque:?}, {breakaway_angle:?}, {largest_load:?})"
+    );
+    let (kind, made) = match screw.elements {
+        ElementsKind::Proportional => (
+            "memory::ProportionalElements<8>",
+            format!(
+                "sound(memory::ProportionalElements::new(\n    {torque:?},\n    &[memory::Part {{\n        backbone: \
+                 &memory::SLIP_8.elements,\n        share: 1.0,\n        breakaway_angle: {breakaway_angle:?},\n    }}],\n))"
             ),
         ),
-        ElementsName::LoadExact => ("LoadExactElements<8>", format!("sound({exact})")),
-        ElementsName::Preloaded => (
-            "PreloadedElements<LoadExactElements<8>>",
-            format!("PreloadedElements::new(sound({exact}))"),
+        ElementsKind::LoadExact => ("memory::LoadExactElements<8>", format!("sound({exact})")),
+        ElementsKind::Preloaded => (
+            "memory::PreloadedElements<memory::LoadExactElements<8>>",
+            format!("memory::PreloadedElements::new(sound({exact}))"),
         ),
     };
-    let law = if numbers.law.is_some() {
-        "CoefficientLaw"
-    } else {
-        "OneCoefficient"
-    };
-    let temperature = numbers.reference_temperature;
-    format!(
+    let law = ["OneCoefficient", "CoefficientLaw"][usize::from(numbers.law.is_some())];
+    let types = format!("scene::CagedConstants<{nodes}>, {kind}, ");
+    let temperature = screw.reference_temperature as f32;
+    Ok(format!(
         "
 /// Friction after a reversal: {torque:?} N m of sliding after {breakaway_angle:?} rad.
 pub const ELEMENTS: {kind} = {made};
@@ -188,84 +159,67 @@ pub const ELEMENTS: {kind} = {made};
 /// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
 ///
 /// ```text
-/// static GEAR: WithMemoryConstants<CagedConstants<{nodes}>, {kind}, CountSensor, {law}> = with_memory(SENSOR);
+/// static GEAR: scene::WithMemoryConstants<{types}CountSensor, coefficient::{law}> = with_memory(SENSOR);
 /// ```
 pub const fn with_memory<A: Copy>(
     angle: A,
-) -> WithMemoryConstants<CagedConstants<{nodes}>, {kind}, A, {law}> {{
-    sound(WithMemoryConstants::new(
+) -> scene::WithMemoryConstants<{types}A, coefficient::{law}> {{
+    sound(scene::WithMemoryConstants::new(
         SCREW,
-        &WithMemoryConfiguration {{
+        &scene::WithMemoryConfiguration {{
             scene: (),
             elements: ELEMENTS,
             angle,
             reference_load: {load:?},
             play: {play:?},
             coefficient: COEFFICIENT,
-            temperature: sound(TemperatureFade::new({temperature:?}, 60.0, 60.0)),
-            freshness: Freshness::DEFAULT,
+            temperature: sound(coefficient::TemperatureFade::new({temperature:?}, 60.0, 60.0)),
+            freshness: scene::Freshness::DEFAULT,
         }},
     ))
 }}
 "
-    )
+    ))
 }
+
+/// What a trace may tell beside the friction of the screw: name and what it is, one a line.
+const RIG: &str = "\
+INERTIA: Inertia of all that turns, about the nut's axis, kg m²
+DRAG: Drag without a load over the speed, N m s/rad
+CHURNING: Torque of churned lubricant over its viscosity and the nut's speed, m³
+OFFSET: Torque that the motor's channel shows without any, N m
+GAIN: Torque of the load over that of a screw without friction
+BACKLASH: Free play between the sensor's angle and the nut's, rad";
 
 /// What a trace has told beside the friction of the screw.
 fn rig(design: &Design) -> String {
-    let Some(calibrated) = &design.calibrated else {
+    let Some(told) = &design.calibrated else {
         return String::new();
     };
     let mut text = String::new();
-    for (name, what, value) in [
-        (
-            "INERTIA",
-            "Inertia of all that turns, about the nut's axis, kg m²",
-            calibrated.inertia,
-        ),
-        (
-            "DRAG",
-            "Drag without a load over the speed, N m s/rad",
-            calibrated.drag,
-        ),
-        (
-            "CHURNING",
-            "Torque of churned lubricant over its viscosity and the nut's speed, m³",
-            calibrated.churning,
-        ),
-        (
-            "OFFSET",
-            "Torque that the motor's channel shows without any, N m",
-            calibrated.offset,
-        ),
-        (
-            "GAIN",
-            "Torque of the load over that of a screw without friction",
-            calibrated.gain,
-        ),
-        (
-            "BACKLASH",
-            "Free play between the sensor's angle and the nut's, rad",
-            calibrated.backlash,
-        ),
-    ] {
-        if let Some(value) = value {
+    let values = [
+        told.inertia,
+        told.drag,
+        told.churning,
+        told.offset,
+        told.gain,
+        told.backlash,
+    ];
+    for (line, value) in RIG.lines().zip(values) {
+        if let (Some((name, what)), Some(value)) = (line.split_once(": "), value) {
             let _ = write!(text, "\n/// {what}.\npub const {name}: f32 = {value:?};\n");
         }
     }
-    if !calibrated.harmonics.is_empty() {
-        let _ = write!(
+    if !told.harmonics.is_empty() {
+        let _ = writeln!(
             text,
             "\n/// Waves of the torque over a turn: order, amplitudes with cosine and sine of the angle, N m.\n\
-             pub const HARMONICS: [(u8, f32, f32); {}] = [\n",
-            calibrated.harmonics.len()
+             pub const HARMONICS: [(u8, f32, f32); {}] = [",
+            told.harmonics.len()
         );
-        for wave in &calibrated.harmonics {
-            let _ = writeln!(
-                text,
-                "    ({}, {:?}, {:?}),",
-                wave.order, wave.cosine, wave.sine
-            );
+        for wave in &told.harmonics {
+            let all = (wave.order, wave.cosine, wave.sine);
+            let _ = writeln!(text, "    {all:?},");
         }
         text += "];\n";
     }
@@ -320,22 +274,21 @@ harmonics = [{ order = 1, cosine = 1.5e-3, sine = -1e-3 }, { order = 2, sine = 8
 
     #[test]
     fn what_was_not_calibrated_is_left_out() {
-        let plain = of(DESIGN);
+        // A name cannot end the comment.
+        let plain = of(&DESIGN.replace("rack", "rack\\nmod evil;"));
+        assert!(plain.contains("// Ball screw rack mod evil;, calibrated"));
         for word in ["COEFFICIENT", "ELEMENTS", "INERTIA", "with_memory"] {
             assert!(!plain.contains(word), "{word}");
         }
         let exact = of(&format!(
             "{DESIGN}[calibration]\nbreakaway_angle = 1e-3\nreference_load = 500\nelements = \"load_exact\"\nlargest_load = 3000\n"
         ));
-        for word in ["sound(LoadExactElements::new", "OneCoefficient::new"] {
+        for word in [
+            "sound(memory::LoadExactElements::new",
+            "OneCoefficient::new",
+        ] {
             assert!(exact.contains(word), "{word}");
         }
         assert!(!exact.contains("CoefficientLaw"));
-    }
-
-    #[test]
-    fn a_name_cannot_end_the_comment() {
-        let design = DESIGN.replace("rack", "rack\\nmod evil;");
-        assert!(of(&design).contains("// Ball screw rack mod evil;, calibrated"));
     }
 }

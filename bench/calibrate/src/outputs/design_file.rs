@@ -10,48 +10,30 @@ use crate::screw::friction::{ElementsKind, Screw};
 use epas_design::files::{Design, read};
 
 /// Keys of a screw that a trace may tell, at the top of a design file.
-const KEYS: [&str; 7] = [
-    "friction",
-    "hysteresis_loss",
-    "lubricant_drag",
-    "rolling_tangent",
-    "clearance",
-    "preload",
-    "reversal_speed",
-];
+const KEYS: &str =
+    "friction hysteresis_loss lubricant_drag rolling_tangent clearance preload reversal_speed";
 
 /// Keys that say how the balls fit, of which a design has one.
-const FITS: [&str; 4] = ["preload", "clearance", "axial_preload", "axial_play"];
+const FITS: &str = "preload clearance axial_preload axial_play";
 
 /// Keys of the table `[calibration]` that the friction follows from: those that were set stand there too, because the
 /// estimated ones hold beside them.
-const FRICTION_KEYS: [&str; 9] = [
-    "full_film_ratio",
-    "half_share_speed",
-    "reference_temperature",
-    "viscosity_pole",
-    "direction_asymmetry",
-    "breakaway_angle",
-    "reference_load",
-    "largest_load",
-    "backlash",
-];
+const FRICTION_KEYS: &str = "full_film_ratio half_share_speed reference_temperature viscosity_pole \
+                             direction_asymmetry breakaway_angle reference_load largest_load backlash";
 
 /// Keys of the table for what is no friction of the screw: only where they were estimated.
-const OTHER_KEYS: [&str; 6] = [
-    "inertia",
-    "drag",
-    "churning",
-    "rolling_drag",
-    "offset",
-    "gain",
-];
+const OTHER_KEYS: &str = "inertia drag churning rolling_drag offset gain";
 
 /// Keys that a design file has together or not at all.
-const TOGETHER: [[&str; 2]; 2] = [
-    ["full_film_ratio", "half_share_speed"],
-    ["breakaway_angle", "largest_load"],
+const TOGETHER: [&str; 2] = [
+    "full_film_ratio half_share_speed",
+    "breakaway_angle largest_load",
 ];
+
+/// Whether a list of keys has this one.
+fn has(keys: &str, name: &str) -> bool {
+    keys.split(' ').any(|key| key == name)
+}
 
 /// What a comment of this program starts with.
 const MARK: &str = "calibrated: ";
@@ -69,27 +51,6 @@ pub struct Written {
     pub at_bound: Vec<String>,
 }
 
-/// At what a screw was calibrated, as parameters that were set: a design file needs them beside the estimated ones.
-fn circumstances(screw: &Screw) -> Vec<Estimate> {
-    let mut all = vec![
-        Estimate::fixed("reference_temperature", "K", screw.reference_temperature),
-        Estimate::fixed("reference_load", "N", screw.reference_load),
-    ];
-    if screw.elements != ElementsKind::Proportional {
-        all.push(Estimate::fixed("largest_load", "N", screw.largest_load));
-    }
-    all
-}
-
-/// How elements follow the load, as a design file names it.
-const fn elements(kind: ElementsKind) -> &'static str {
-    match kind {
-        ElementsKind::Proportional => "proportional",
-        ElementsKind::LoadExact => "load_exact",
-        ElementsKind::Preloaded => "preloaded",
-    }
-}
-
 /// The text of a design file with the estimated parameters in it, and beside each its interval and the trace's name.
 ///
 /// Everything else stays as it was: other keys, their order, comments, blank lines. A second calibration replaces the
@@ -105,53 +66,62 @@ pub fn written(
     let mut document = parsed(text)?.into_mut();
     let trace = one_line(trace);
     let mut left_out = Vec::new();
-    let mut waves = Waves::default();
-    let circumstances = screw.map(circumstances).unwrap_or_default();
-    let all = calibration.parameters.iter().chain(&circumstances);
+    let circumstances = screw.map(|screw| {
+        [
+            Estimate::fixed("reference_temperature", "K", screw.reference_temperature),
+            Estimate::fixed("reference_load", "N", screw.reference_load),
+            Estimate::fixed("largest_load", "N", screw.largest_load),
+        ]
+    });
+    // Elements in constant shares of the friction have no largest load.
+    let needless = screw.is_some_and(|screw| screw.elements == ElementsKind::Proportional);
+    let circumstances = circumstances.iter().flatten();
+    let circumstances = circumstances.take(if needless { 2 } else { 3 });
+    let all = calibration.parameters.iter().chain(circumstances);
     let (at_bound, told): (Vec<&Estimate>, Vec<&Estimate>) =
         all.partition(|estimate| ends_at_bound(calibration, &estimate.name));
-    for estimate in told {
+    for estimate in &told {
         let name = estimate.name.as_str();
-        if FRICTION_KEYS.contains(&name) || OTHER_KEYS.contains(&name) && !estimate.fixed {
+        if has(FRICTION_KEYS, name) || has(OTHER_KEYS, name) && !estimate.fixed {
             set(table(&mut document)?, estimate, &trace);
         } else if estimate.fixed {
             // The user's own number stays as it is written.
-        } else if KEYS.contains(&name) {
-            if FITS.contains(&name) {
+        } else if has(KEYS, name) {
+            if has(FITS, name) {
                 document = with_fit(&document, name)?;
             }
             set(document.as_table_mut(), estimate, &trace);
-        } else if !waves.take(estimate) {
+        } else if order(name).is_none() {
             left_out.push(estimate.name.clone());
         }
     }
     if let Some(screw) = screw.filter(|_| !ends_at_bound(calibration, "breakaway_angle")) {
-        let name = toml_edit::value(elements(screw.elements));
-        table(&mut document)?.insert("elements", name);
+        let name = match screw.elements {
+            ElementsKind::Proportional => "proportional",
+            ElementsKind::LoadExact => "load_exact",
+            ElementsKind::Preloaded => "preloaded",
+        };
+        table(&mut document)?.insert("elements", toml_edit::value(name));
     }
-    if let Some(list) = waves.list(&trace) {
+    if let Some(list) = waves(&told, &trace) {
         table(&mut document)?.insert("harmonics", Item::Value(list.into()));
     }
     let text = document.to_string();
     let design = read(&text, &trace)?;
+    let names = at_bound.iter().map(|estimate| estimate.name.clone());
     Ok(Written {
         text,
         design,
         left_out,
-        at_bound: at_bound
-            .iter()
-            .map(|estimate| estimate.name.clone())
-            .collect(),
+        at_bound: names.collect(),
     })
 }
 
 /// Whether a parameter ended at a bound, or one that it says nothing without.
 fn ends_at_bound(calibration: &Calibration, name: &str) -> bool {
-    let group = TOGETHER.iter().find(|group| group.contains(&name));
+    let group = TOGETHER.iter().find(|group| has(group, name));
     let mut ended = calibration.parameters.iter().filter(|other| other.at_bound);
-    ended.any(|other| {
-        other.name == name || group.is_some_and(|group| group.contains(&other.name.as_str()))
-    })
+    ended.any(|other| other.name == name || group.is_some_and(|group| has(group, &other.name)))
 }
 
 /// The keys of a text, with their places.
@@ -164,11 +134,8 @@ fn parsed(text: &str) -> Result<Document<String>, String> {
 fn with_fit(document: &DocumentMut, name: &str) -> Result<DocumentMut, String> {
     let parsed = parsed(&document.to_string())?;
     let root = parsed.as_table();
-    let others = FITS.iter().filter(|other| **other != name);
-    let place = others
-        .filter_map(|other| root.key(other)?.span())
-        .map(|span| span.start)
-        .next();
+    let mut others = FITS.split(' ').filter(|other| *other != name);
+    let place = others.find_map(|other| Some(root.key(other)?.span()?.start));
     match place {
         Some(place) if !root.contains_key(name) => {
             let (above, below) = parsed.raw().split_at(place);
@@ -204,16 +171,20 @@ fn set(table: &mut dyn TableLike, estimate: &Estimate, trace: &str) {
         .and_then(RawString::as_str)
         .map_or("", users_comment)
         .to_owned();
-    let before = if users.is_empty() {
-        " # ".to_owned()
+    let before = match users.as_str() {
+        "" => " # ".to_owned(),
+        users => format!(" {users}; "),
+    };
+    let known = if estimate.fixed {
+        "set, not estimated".into()
     } else {
-        format!(" {users}; ")
+        interval(estimate.low, estimate.high) + " (95 %)"
     };
     let mut value = number(estimate.value);
     value.decor_mut().set_prefix(" ");
     value
         .decor_mut()
-        .set_suffix(format!("{before}{}", note(estimate, trace)));
+        .set_suffix(format!("{before}{MARK}{known}, from {trace}"));
     if let Some(place) = table.get_mut(&estimate.name) {
         *place = Item::Value(value);
     } else {
@@ -228,17 +199,6 @@ fn users_comment(suffix: &str) -> &str {
     if own == "#" { "" } else { own }
 }
 
-/// What is known of a number.
-fn note(estimate: &Estimate, trace: &str) -> String {
-    if estimate.fixed {
-        return format!("{MARK}set, not estimated, from {trace}");
-    }
-    format!(
-        "{MARK}{} (95 %), from {trace}",
-        interval(estimate.low, estimate.high)
-    )
-}
-
 /// A number to the last digit of what a design holds.
 fn number(value: f64) -> Value {
     // The shortest digits that are this f32 again.
@@ -246,60 +206,45 @@ fn number(value: f64) -> Value {
     short.parse().unwrap_or_else(|_| Value::from(value))
 }
 
-/// Estimated waves over the turn: order, cosine, sine.
-#[derive(Default)]
-struct Waves(Vec<(u8, [Option<Estimate>; 2])>);
+/// The two parts of a wave over the turn: `cosine_1`, `sine_1`.
+const PARTS: [&str; 2] = ["cosine", "sine"];
 
-impl Waves {
-    /// Whether an estimate is a part of a wave, `cosine_1` or `sine_1`; then it is taken.
-    fn take(&mut self, estimate: &Estimate) -> bool {
-        let Some((part, order)) = estimate.name.split_once('_') else {
-            return false;
-        };
-        let (Ok(order), Some(place)) = (
-            order.parse::<u8>(),
-            ["cosine", "sine"].iter().position(|known| *known == part),
-        ) else {
-            return false;
-        };
-        let index = self
-            .0
-            .iter()
-            .position(|(known, _)| *known == order)
-            .unwrap_or_else(|| {
-                self.0.push((order, [None, None]));
-                self.0.len() - 1
-            });
-        self.0[index].1[place] = Some(estimate.clone());
-        true
-    }
+/// Waves in a turn, of a parameter that is a part of one.
+fn order(name: &str) -> Option<u8> {
+    let (part, order) = name.split_once('_')?;
+    order.parse().ok().filter(|_| PARTS.contains(&part))
+}
 
-    /// The list of a design file, one wave a line.
-    fn list(self, trace: &str) -> Option<Array> {
-        if self.0.is_empty() {
-            return None;
-        }
-        let mut list = Array::new();
-        let mut before = String::from("\n    ");
-        for (order, parts) in self.0 {
-            let mut wave = InlineTable::new();
-            wave.insert("order", i64::from(order).into());
-            let mut notes = Vec::new();
-            for (name, part) in ["cosine", "sine"].into_iter().zip(parts) {
-                if let Some(part) = part {
-                    wave.insert(name, number(part.value));
-                    notes.push(format!("{name} {}", interval(part.low, part.high)));
-                }
+/// Estimated waves as the list of a design file, one a line.
+fn waves(told: &[&Estimate], trace: &str) -> Option<Array> {
+    let estimated = told.iter().filter(|estimate| !estimate.fixed);
+    let mut orders: Vec<u8> = estimated
+        .clone()
+        .filter_map(|own| order(&own.name))
+        .collect();
+    let mut known = [false; 256];
+    orders.retain(|order| !std::mem::replace(&mut known[usize::from(*order)], true));
+    let mut list = Array::new();
+    let mut before = String::from("\n    ");
+    for order in orders {
+        let mut wave = InlineTable::new();
+        wave.insert("order", i64::from(order).into());
+        let mut notes = Vec::new();
+        for name in PARTS {
+            let own = format!("{name}_{order}");
+            if let Some(part) = estimated.clone().find(|part| part.name == own) {
+                wave.insert(name, number(part.value));
+                notes.push(format!("{name} {}", interval(part.low, part.high)));
             }
-            let mut wave = Value::InlineTable(wave);
-            wave.decor_mut().set_prefix(before);
-            list.push_formatted(wave);
-            before = format!(" # {MARK}{} (95 %), from {trace}\n    ", notes.join(", "));
         }
-        list.set_trailing_comma(true);
-        list.set_trailing(before.trim_end_matches(' '));
-        Some(list)
+        let mut wave = Value::InlineTable(wave);
+        wave.decor_mut().set_prefix(before);
+        list.push_formatted(wave);
+        before = format!(" # {MARK}{} (95 %), from {trace}\n    ", notes.join(", "));
     }
+    list.set_trailing_comma(true);
+    list.set_trailing(before.trim_end_matches(' '));
+    (!list.is_empty()).then_some(list)
 }
 
 #[cfg(test)]

@@ -4,34 +4,17 @@ use std::fmt::Write as _;
 
 use epas_friction::{Limits, LoadProportionalConfiguration, LoadProportionalConstants};
 
-use crate::page::shown::one_line;
+use crate::outputs::constants::{SOUND, head};
 use crate::without_design::drive::{Drive, Numbers};
 use epas_page::failure::Failure;
 
 /// Constants of a drive, to be pasted.
-///
-/// # Errors
-/// What the trace does not tell, or what the crate refuses.
 pub fn text(drive: &Drive, trace: &str) -> Result<String, Failure> {
     let numbers = drive.numbers()?;
     let configuration = configuration(&numbers);
     LoadProportionalConstants::new(&configuration)
         .map_err(|error| Failure::Data(format!("no constants: {error}")))?;
-    let LoadProportionalConfiguration {
-        load_lever,
-        coulomb_friction,
-        viscous_friction,
-        driving_loss,
-        back_driving_loss,
-        reversal_speed,
-        limits,
-    } = configuration;
-    let mut text = format!(
-        "// A drive without a drawing, calibrated by trace {}.\n//\n\
-         // For a crate that depends on `epas-friction`. Everything is checked when it is compiled: a number out of range\n\
-         // stops the compiler.\n",
-        one_line(trace)
-    );
+    let mut text = head("A drive without a drawing", trace);
     for (told, name) in numbers.told.into_iter().zip(["driving", "back-driving"]) {
         if !told {
             let _ = writeln!(
@@ -47,30 +30,10 @@ pub fn text(drive: &Drive, trace: &str) -> Result<String, Failure> {
         text,
         "
 use epas_friction::{{Error, Limits, LoadProportionalConfiguration, LoadProportionalConstants}};
-
-/// The value; a refused one stops the compiler here.
-const fn sound<T: Copy>(checked: Result<T, Error>) -> T {{
-    match checked {{
-        Ok(value) => value,
-        Err(_) => panic!(\"a calibrated number is out of range\"),
-    }}
-}}
-
+{SOUND}
 /// The drive: for a `static` that stands in flash. Its limits are twice what the trace has.
 pub const DRIVE: LoadProportionalConstants =
-    sound(LoadProportionalConstants::new(&LoadProportionalConfiguration {{
-        load_lever: {load_lever:?},
-        coulomb_friction: {coulomb_friction:?},
-        viscous_friction: {viscous_friction:?},
-        driving_loss: {driving_loss:?},
-        back_driving_loss: {back_driving_loss:?},
-        reversal_speed: {reversal_speed:?},
-        limits: Limits {{
-            nut_speed: {:?},
-            axial_load: {:?},
-            friction_torque: {:?},
-        }},
-    }}));
+    sound(LoadProportionalConstants::new(&{configuration:#?}));
 
 /// Inertia of all that turns, kg m².
 pub const INERTIA: f32 = {:?};
@@ -78,11 +41,7 @@ pub const INERTIA: f32 = {:?};
 /// Torque that the motor's channel shows without any, N m.
 pub const OFFSET: f32 = {:?};
 ",
-        limits.nut_speed,
-        limits.axial_load,
-        limits.friction_torque,
-        numbers.inertia as f32,
-        numbers.offset as f32,
+        numbers.inertia as f32, numbers.offset as f32,
     );
     Ok(text)
 }

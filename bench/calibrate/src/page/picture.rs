@@ -1,7 +1,7 @@
 //! What the page of a calibration draws, as plain data.
 
 use crate::fit::uncertainty::Uncertainty;
-use crate::signals::{Motion, Rows};
+use crate::signals::Motion;
 use crate::trace::{Coordinate, Trace};
 
 /// A fitted trace, row by row. All lists are as long as `time`.
@@ -39,40 +39,30 @@ pub struct Correlations {
 }
 
 impl Picture {
-    /// A fit whose rows are those of a trace: what was measured there, and what the model leaves of it.
+    /// A fit with a row at each of these samples of a trace: what was measured there, and what the model leaves of it.
     pub fn of(
         trace: &Trace,
         motion: &Motion,
-        rows: &Rows,
-        (measured, residual): (&[f64], &[f64]),
+        samples: &[usize],
+        (measured, residual): (Vec<f64>, &[f64]),
         sure: &Uncertainty,
     ) -> Self {
-        let samples: Vec<usize> = rows.samples(trace.len()).collect();
-        let at = |signal: &[f64]| -> Vec<f64> {
-            let values = samples.iter().map(|sample| signal.get(*sample));
-            values
-                .map(|value| value.copied().unwrap_or(f64::NAN))
-                .collect()
-        };
+        let at = |signal: &[f64]| samples.iter().map(|sample| signal[*sample]).collect();
         let time = |sample: &usize| trace.start + trace.step * *sample as f64;
-        let names = sure.intervals.iter().map(|interval| interval.name);
+        let left = measured.iter().zip(residual);
         let correlations = sure.correlation.row_iter();
         Self {
             name: trace.name.clone(),
             coordinate: trace.coordinate,
             time: samples.iter().map(time).collect(),
-            measured: measured.to_vec(),
-            model: measured
-                .iter()
-                .zip(residual)
-                .map(|(measured, residual)| measured - residual)
-                .collect(),
+            model: left.map(|(measured, left)| measured - left).collect(),
+            measured,
             position: at(&motion.position),
             speed: at(&motion.speed),
             load: trace.load.as_deref().map(at),
             temperature: trace.temperature.as_deref().map(at),
             correlations: Correlations {
-                names: names.map(String::from).collect(),
+                names: sure.intervals.iter().map(|own| own.name.into()).collect(),
                 rows: correlations
                     .map(|row| row.iter().copied().collect())
                     .collect(),
@@ -81,17 +71,14 @@ impl Picture {
     }
 
     /// What the model does not explain, at every row: measured less model.
-    pub fn residual(&self) -> impl Iterator<Item = f64> + Clone + '_ {
-        self.measured
-            .iter()
-            .zip(&self.model)
-            .map(|(measured, model)| measured - model)
+    pub fn residual(&self) -> Vec<f64> {
+        let rows = self.measured.iter().zip(&self.model);
+        rows.map(|(measured, model)| measured - model).collect()
     }
 
     /// Time between rows, s; none where there are fewer than two.
     pub fn step(&self) -> Option<f64> {
-        let (first, last) = (self.time.first()?, self.time.last()?);
-        let steps = self.time.len() - 1;
-        (steps > 0).then(|| (last - first) / steps as f64)
+        let steps = self.time.len().checked_sub(1).filter(|steps| *steps > 0)?;
+        Some((self.time[steps] - self.time[0]) / steps as f64)
     }
 }

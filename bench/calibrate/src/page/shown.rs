@@ -1,12 +1,14 @@
-//! Numbers as a page, a comment and a terminal show them.
+//! Numbers, tables and charts as pages, comments and a terminal show them.
+
+use epas_page::document::{Cell, Table};
+use epas_page::plot::{Axis, Chart, Panel, Series};
 
 /// A number with so many significant digits, by powers of ten where it is very large or very small.
 pub fn digits(value: f64, digits: usize) -> String {
     if !value.is_finite() {
         return value.to_string();
     }
-    let size = value.abs();
-    if size == 0.0 {
+    if value == 0.0 {
         return "0".into();
     }
     let scientific = format!("{value:.0$e}", digits.saturating_sub(1));
@@ -41,25 +43,65 @@ pub fn one_line(text: &str) -> String {
         .collect()
 }
 
+/// A number with four digits.
+pub fn number(value: f64) -> Cell {
+    Cell::Number(value, digits(value, 4))
+}
+
+/// A number, or nothing.
+pub fn perhaps(value: Option<f64>) -> Cell {
+    value.map_or("".into(), number)
+}
+
+/// A table, whose headings stand in one text: `parameter | value`.
+pub fn table(
+    name: &'static str,
+    caption: &str,
+    columns: &str,
+    rows: impl Iterator<Item = Vec<Cell>>,
+) -> Table {
+    Table {
+        name,
+        caption: caption.into(),
+        columns: columns.split(" | ").map(String::from).collect(),
+        rows: rows.collect(),
+    }
+}
+
+/// A chart.
+pub fn chart(title: &str, x: Axis, y: Axis, series: Vec<Series>) -> Panel {
+    Panel::Chart(Chart {
+        title: title.into(),
+        x,
+        y,
+        series,
+        notes: Vec::new(),
+    })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn digits_are_significant_ones() {
-        assert_eq!(digits(0.115_234, 4), "0.1152");
-        assert_eq!(digits(0.999_96, 4), "1.000");
-        assert_eq!(digits(-3.165_4e-5, 3), "-3.17e-5");
-        assert_eq!(digits(95_109.4, 4), "95109");
-        assert_eq!(digits(0.0, 4), "0");
-        assert_eq!(digits(f64::NAN, 4), "NaN");
-    }
-
-    #[test]
-    fn an_interval_says_where_nothing_bounds_it() {
-        assert_eq!(interval(0.1, 0.2), "0.1000 to 0.2000");
-        assert_eq!(interval(0.1, f64::INFINITY), "0.1000 or more");
-        assert_eq!(interval(f64::NEG_INFINITY, 2.0), "2.000 or less");
-        assert_eq!(interval(f64::NAN, f64::NAN), "without bounds");
+    fn digits_are_significant_and_intervals_say_where_nothing_bounds_them() {
+        for (value, count, shown) in [
+            (0.115_234, 4, "0.1152"),
+            (0.999_96, 4, "1.000"),
+            (-3.165_4e-5, 3, "-3.17e-5"),
+            (95_109.4, 4, "95109"),
+            (0.0, 4, "0"),
+            (f64::NAN, 4, "NaN"),
+        ] {
+            assert_eq!(digits(value, count), shown);
+        }
+        for (low, high, shown) in [
+            (0.1, 0.2, "0.1000 to 0.2000"),
+            (0.1, f64::INFINITY, "0.1000 or more"),
+            (f64::NEG_INFINITY, 2.0, "2.000 or less"),
+            (f64::NAN, f64::NAN, "without bounds"),
+        ] {
+            assert_eq!(interval(low, high), shown);
+        }
     }
 }

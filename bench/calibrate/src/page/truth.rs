@@ -18,15 +18,10 @@ pub type Truth = BTreeMap<String, f64>;
 
 /// What the lines of a trace's file say; nothing where it has none, or is no text.
 pub fn of(path: &Path) -> Truth {
-    if standard(path) {
-        // What is read from there is read once.
-        return Truth::new();
-    }
-    let Ok(file) = File::open(path) else {
-        return Truth::new();
-    };
-    let lines = BufReader::new(file.take(LONGEST)).lines();
-    let lines = lines.map_while(Result::ok);
+    // What is read from standard input is read once.
+    let file = (!standard(path)).then(|| File::open(path).ok()).flatten();
+    let lines = file.map(|file| BufReader::new(file.take(LONGEST)).lines());
+    let lines = lines.into_iter().flatten().map_while(Result::ok);
     let marked = lines.filter_map(|line| {
         let (name, value) = line.strip_prefix(MARK)?.split_once(" = ")?;
         Some((name.trim().to_owned(), value.trim().parse().ok()?))
@@ -34,23 +29,13 @@ pub fn of(path: &Path) -> Truth {
     marked.collect()
 }
 
-#[cfg(test)]
-mod tests {
-    use std::fs;
-
-    use super::*;
-
-    #[test]
-    fn lines_above_the_headings_say_the_truth() {
-        let place = tempfile::tempdir().unwrap();
-        let path = place.path().join("trace.csv");
-        let text = format!(
-            "{MARK}friction = 0.115\n# by hand\n{MARK}drag = a lot\ntime,nut_position\n0,1\n"
-        );
-        fs::write(&path, text).unwrap();
-        let truth = of(&path);
-        assert_eq!(truth.len(), 1);
-        assert_eq!(truth["friction"], 0.115);
-        assert!(of(Path::new("absent.csv")).is_empty());
-    }
+/// What the rig writes above its traces is what is read here.
+#[test]
+fn lines_above_the_headings_say_the_truth() {
+    let parameters = epas_rig::parameters::Parameters::default();
+    let path = tempfile::NamedTempFile::new().unwrap();
+    let text = parameters.header() + "# by hand\n# truth: drag = a lot\ntime,nut_position\n0,1\n";
+    std::fs::write(&path, text).unwrap();
+    assert_eq!(of(path.path()), parameters.named().into_iter().collect());
+    assert!(of(Path::new("absent.csv")).is_empty());
 }

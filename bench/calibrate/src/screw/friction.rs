@@ -6,6 +6,7 @@
 use std::sync::Arc;
 
 use epas_design::CagedDesign;
+pub use epas_design::files::calibration::ElementsName as ElementsKind;
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, DirectionalCoefficient, RollingDrag, Viscosity,
@@ -30,18 +31,7 @@ const SECOND: f32 = 60.0;
 const VISCOSITY: f32 = 0.1;
 
 /// Coldest temperature of a lubricant, K.
-const COLDEST: f32 = 150.0;
-
-/// How elements follow the load.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ElementsKind {
-    /// Constant shares of the friction of gross sliding: a preloaded screw.
-    Proportional,
-    /// Springs that come into contact with the load: any load, without a preload.
-    LoadExact,
-    /// The same at the load that both flanks of a preloaded nut share: any load, at a reference load of none.
-    Preloaded,
-}
+pub const COLDEST: f32 = 150.0;
 
 /// What of a screw is not estimated from a trace.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,16 +106,21 @@ impl Screw {
     /// # Errors
     /// [`Error`] naming `viscosity` for a pole too close to the reference temperature or too far from it.
     pub fn viscosity(&self, values: &Values) -> Result<Viscosity, Error> {
+        let [cold, warm] = self.viscosities(values);
+        Viscosity::through(cold, warm, COLDEST)
+    }
+
+    /// Two temperatures, K, with viscosities, Pa s, that have the values' pole: in proportion to the power -5 of the distance from it.
+    pub fn viscosities(&self, values: &Values) -> [(f32, f32); 2] {
         let (reference, pole) = (
             self.reference_temperature as f32,
             values.viscosity_pole as f32,
         );
         let ratio = (reference - pole) / (reference + SECOND - pole);
-        Viscosity::through(
+        [
             (reference, VISCOSITY),
             (reference + SECOND, VISCOSITY * ratio.powi(5)),
-            COLDEST,
-        )
+        ]
     }
 
     /// The exact ball, solved for what a fit asks for, from these values on.

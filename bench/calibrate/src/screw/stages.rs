@@ -15,7 +15,7 @@ use super::choice::Start;
 use super::exact::Grid;
 use super::friction::Screw;
 use super::problem::{Choice, Passage, ScrewProblem};
-use super::quantities::{LINEAR, NONLINEAR, Values, assumed_deviation};
+use super::quantities::{QUANTITIES, Quantity, Values, assumed_deviation};
 use crate::estimator::fit::{Block, Fit, fit as least_squares};
 use crate::estimator::record::{QUARTER, Record};
 use crate::estimator::rows::Rows;
@@ -509,19 +509,7 @@ fn linear(choice: &Choice, values: &Values) -> Vec<f64> {
 
 /// A problem linearised at values. `None` where a slope is no number.
 pub fn linearised(problem: &ScrewProblem<'_>, values: &Values) -> Option<Linearised> {
-    let named = |name: &str| {
-        let nonlinear = NONLINEAR
-            .iter()
-            .find(|of| of.name == name)
-            .map(|of| of.value(values));
-        nonlinear.or_else(|| {
-            LINEAR
-                .iter()
-                .find(|of| of.name == name)
-                .map(|of| of.value(values))
-        })
-    };
-    let at = |name| named(name).unwrap_or(0.0);
+    let at = |name: &str| Quantity::named(name).map_or(0.0, |of| of.value(values));
     let nonlinear: Vec<f64> = problem.nonlinear().iter().map(|of| at(of.name)).collect();
     let linear: Vec<f64> = problem.linear().iter().map(|of| at(of.name)).collect();
     let columns = slopes(problem, &nonlinear, &linear);
@@ -625,14 +613,13 @@ fn model_errors(
         choice.nonlinear.iter().any(|(of, _)| of.name == name)
             || set.iter().any(|(set, _)| set == name)
     };
-    for of in NONLINEAR.iter().filter(|of| !known(of.name)) {
+    for of in QUANTITIES.iter().filter(|of| !known(of.name)) {
         let Some(deviation) = assumed_deviation(of.name) else {
             continue;
         };
         let at = |side: f64| {
-            let mut values = *values;
-            *(of.of)(&mut values) += side * ASSUMED_STEP * deviation;
-            problem.model(&values)
+            let value = of.value(values) + side * ASSUMED_STEP * deviation;
+            problem.model(&of.with(value, values))
         };
         let rows = at(1.0).into_iter().zip(at(-1.0));
         let off: Vec<f64> = rows

@@ -16,7 +16,7 @@ use epas_friction::{Error, FrictionModel, Inputs, Outputs, Refusal, Scene};
 
 use super::memory::{self, Remembered};
 use super::summary::Lines;
-use epas_calibrate::outputs::firmware::{ELEMENTS, ElementsNumbers, LawNumbers, Numbers};
+use epas_calibrate::outputs::firmware::{self, ELEMENTS, Numbers};
 use epas_design::caged_scene::CagedScene;
 use epas_design::files::Design;
 use epas_design::files::calibration::ElementsName;
@@ -189,13 +189,8 @@ pub fn scene(design: &Design) -> Result<CagedScene, Failure> {
 /// What the crate refuses.
 pub fn coefficients(design: &Design) -> Result<(f32, f32), Failure> {
     let friction = design.caged.friction;
-    let law = design.calibrated.as_ref().and_then(|calibrated| {
-        calibrated
-            .has_law()
-            .then(|| LawNumbers::of(&design.caged, calibrated)?.law())
-    });
-    match law {
-        Some(law) => Ok(law.map_err(|error| refused(design, &error))?.extremes()),
+    match firmware::law(design)? {
+        Some(law) => Ok(CoefficientLaw::new(&law)?.extremes()),
         None => Ok((friction, friction)),
     }
 }
@@ -203,7 +198,7 @@ pub fn coefficients(design: &Design) -> Result<(f32, f32), Failure> {
 /// The friction coefficient of a calibrated design.
 fn law(design: &Design, numbers: &Numbers) -> Result<CoefficientLaw, Error> {
     match &numbers.law {
-        Some(law) => law.law(),
+        Some(law) => CoefficientLaw::new(law),
         None => CoefficientLaw::constant(design.caged.friction),
     }
 }
@@ -242,7 +237,7 @@ impl<A: Sensor> Wanted<'_, A> {
             angle: Deadband::new(angle, 0.5 * backlash).map_err(refused)?,
             law: law(design, &numbers).map_err(refused)?,
         };
-        match &numbers.elements {
+        match &numbers.reference {
             None => {
                 let remembered = by_design()?;
                 let elements = (remembered.elements, remembered.reference_load);
@@ -251,19 +246,24 @@ impl<A: Sensor> Wanted<'_, A> {
                     remembered.lines,
                 ))
             }
-            Some(told) => {
-                let made = match told.kind {
-                    ElementsName::Proportional => told
-                        .proportional()
-                        .and_then(|elements| built.with::<S, _, _>((elements, told.load), then)),
-                    ElementsName::LoadExact => told
-                        .load_exact()
-                        .and_then(|elements| built.with::<S, _, _>((elements, told.load), then)),
-                    ElementsName::Preloaded => told
-                        .preloaded()
-                        .and_then(|elements| built.with::<S, _, _>((elements, told.load), then)),
+            Some(reference) => {
+                let Numbers { screw, values, .. } = &numbers;
+                let load = reference.load;
+                let made = match screw.elements {
+                    ElementsName::Proportional => screw
+                        .proportional(values, reference)
+                        .and_then(|elements| built.with::<S, _, _>((elements, load), then)),
+                    ElementsName::LoadExact => screw
+                        .load_exact(values, reference)
+                        .and_then(|elements| built.with::<S, _, _>((elements, load), then)),
+                    ElementsName::Preloaded => screw
+                        .preloaded(values, reference)
+                        .and_then(|elements| built.with::<S, _, _>((elements, load), then)),
                 };
-                Ok((made.map_err(refused)?, lines(told)))
+                Ok((
+                    made.map_err(refused)?,
+                    lines(values.breakaway_angle, reference.torque),
+                ))
             }
         }
     }
@@ -310,14 +310,13 @@ fn by_design(caged: &CagedDesign, mean_load: f32) -> Result<Remembered, Error> {
     .remembered(mean_load)
 }
 
-fn lines(told: &ElementsNumbers) -> Lines {
+fn lines(breakaway_angle: f64, torque: f32) -> Lines {
     let mut lines = Lines::default();
     lines.add(
         "memory",
         format!(
-            "{ELEMENTS} elements as calibrated, full sliding after {:.4} mrad at {:.4} N m",
-            1e3 * told.breakaway_angle,
-            told.torque
+            "{ELEMENTS} elements as calibrated, full sliding after {:.4} mrad at {torque:.4} N m",
+            1e3 * breakaway_angle,
         ),
     );
     lines

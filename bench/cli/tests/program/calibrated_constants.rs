@@ -3,14 +3,8 @@
 // For a crate that depends on `epas-friction`. Everything is checked when it is compiled: a number out of range
 // stops the compiler.
 
-use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, RollingDrag, TemperatureFade, Viscosity,
-};
-use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
-use epas_friction::scene::{
-    CagedConstants, Freshness, WithMemoryConfiguration, WithMemoryConstants,
-};
-use epas_friction::Error;
+use epas_friction::law::{coefficient, memory};
+use epas_friction::{Error, scene};
 
 /// The value; a refused one stops the compiler here.
 const fn sound<T: Copy>(checked: Result<T, Error>) -> T {
@@ -103,26 +97,27 @@ const SCREW_BLOCK: [u32; 433] = [
 ];
 
 /// The screw without memory: for a `static` that stands in flash.
-pub const SCREW: CagedConstants<5> = sound(CagedConstants::from_block(&SCREW_BLOCK));
+pub const SCREW: scene::CagedConstants<5> =
+    sound(scene::CagedConstants::from_block(&SCREW_BLOCK));
 
 /// Friction coefficient by speed, temperature and direction.
-pub const COEFFICIENT: CoefficientLaw = sound(CoefficientLaw::new(&CoefficientParameters {
+pub const COEFFICIENT: coefficient::CoefficientLaw = sound(coefficient::CoefficientLaw::new(&coefficient::CoefficientParameters {
     boundary: 0.115,
     full_film: 0.060030002,
     half_share_speed: 6.0,
     reference_temperature: 303.15,
-    viscosity: sound(Viscosity::through((303.15, 0.1), (363.15, 0.008323944), 150.0)),
+    viscosity: sound(coefficient::Viscosity::through((303.15, 0.1), (363.15, 0.008323944), 150.0)),
     forward: 1.02,
     backward: 0.98,
     churning: 0.0,
-    drag: RollingDrag { torque: 0.0, heating: 0.0 },
+    drag: coefficient::RollingDrag { torque: 0.0, heating: 0.0 },
 }));
 
 /// Friction after a reversal: 0.13413055 N m of sliding after 0.002 rad.
-pub const ELEMENTS: ProportionalElements<8> = sound(ProportionalElements::new(
+pub const ELEMENTS: memory::ProportionalElements<8> = sound(memory::ProportionalElements::new(
     0.13413055,
-    &[Part {
-        backbone: &SLIP_8.elements,
+    &[memory::Part {
+        backbone: &memory::SLIP_8.elements,
         share: 1.0,
         breakaway_angle: 0.002,
     }],
@@ -131,22 +126,22 @@ pub const ELEMENTS: ProportionalElements<8> = sound(ProportionalElements::new(
 /// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
 ///
 /// ```text
-/// static GEAR: WithMemoryConstants<CagedConstants<5>, ProportionalElements<8>, CountSensor, CoefficientLaw> = with_memory(SENSOR);
+/// static GEAR: scene::WithMemoryConstants<scene::CagedConstants<5>, memory::ProportionalElements<8>, CountSensor, coefficient::CoefficientLaw> = with_memory(SENSOR);
 /// ```
 pub const fn with_memory<A: Copy>(
     angle: A,
-) -> WithMemoryConstants<CagedConstants<5>, ProportionalElements<8>, A, CoefficientLaw> {
-    sound(WithMemoryConstants::new(
+) -> scene::WithMemoryConstants<scene::CagedConstants<5>, memory::ProportionalElements<8>, A, coefficient::CoefficientLaw> {
+    sound(scene::WithMemoryConstants::new(
         SCREW,
-        &WithMemoryConfiguration {
+        &scene::WithMemoryConfiguration {
             scene: (),
             elements: ELEMENTS,
             angle,
             reference_load: 1333.8547,
             play: 0.0019728222,
             coefficient: COEFFICIENT,
-            temperature: sound(TemperatureFade::new(303.15, 60.0, 60.0)),
-            freshness: Freshness::DEFAULT,
+            temperature: sound(coefficient::TemperatureFade::new(303.15, 60.0, 60.0)),
+            freshness: scene::Freshness::DEFAULT,
         },
     ))
 }

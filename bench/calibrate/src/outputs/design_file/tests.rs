@@ -1,5 +1,4 @@
 use super::*;
-use epas_design::files::calibration::ElementsName;
 
 const USERS: &str = "\
 # Rack drive, second sample.
@@ -21,13 +20,10 @@ nut_speed = 300 # of the motor
 
 fn estimate(name: &str, value: f64) -> Estimate {
     Estimate {
-        name: name.into(),
-        unit: "",
-        value,
         low: 0.9 * value,
         high: 1.1 * value,
         fixed: false,
-        at_bound: false,
+        ..Estimate::fixed(name, "", value)
     }
 }
 
@@ -64,7 +60,12 @@ fn whole() -> Calibration {
 
 #[test]
 fn only_calibrated_numbers_change() {
-    let Written { text, left_out, .. } = written(USERS, (&whole(), None), "weave\n17").unwrap();
+    let Written {
+        text,
+        left_out,
+        design,
+        ..
+    } = written(USERS, (&whole(), None), "weave\n17").unwrap();
     assert_eq!(left_out, ["colour"]);
     let own = |line: &&str| !line.contains("calibrated: ") && !line.trim().is_empty();
     let kept: Vec<_> = text.lines().filter(own).collect();
@@ -84,6 +85,27 @@ fn only_calibrated_numbers_change() {
     for name in ["hysteresis_loss", "drag"] {
         assert!(!text.contains(name), "{text}");
     }
+    // It is read as what was calibrated.
+    let again = read(&text, "other").unwrap();
+    assert_eq!(again.caged, design.caged);
+    assert_eq!(again.calibrated, design.calibrated);
+    assert_eq!(again.caged.friction, 0.1152);
+    let told = again.calibrated.unwrap();
+    let found = [
+        told.full_film_ratio,
+        told.half_share_speed,
+        told.reference_temperature,
+        told.breakaway_angle,
+        told.inertia,
+        told.gain,
+    ];
+    let wanted = [0.5, 6.0, 303.0, 2e-3, 4e-4, 1.012].map(Some);
+    assert_eq!(found, wanted);
+    let waves = told.harmonics.iter();
+    let waves: Vec<_> = waves
+        .map(|wave| (wave.order, wave.cosine, wave.sine))
+        .collect();
+    assert_eq!(waves, [(1, 1.5e-3, -1e-3), (2, 0.0, 8e-4)]);
 }
 
 /// However a design says how its balls fit, the calibrated preload takes that key's place.
@@ -97,76 +119,40 @@ fn a_preload_takes_the_place_of_any_fit() {
     ] {
         let users = USERS.replace("clearance = -1e-6 # sorted balls", fit);
         let Written { text, design, .. } = written(&users, (&whole(), None), "weave").unwrap();
-        let lines = text.lines().filter(|line| {
-            let key = line.split(' ').next().unwrap_or_default();
-            FITS.contains(&key)
-        });
-        assert_eq!(lines.count(), 1, "{text}");
+        let key = |line: &&str| has(FITS, line.split(' ').next().unwrap_or_default());
+        assert_eq!(text.lines().filter(key).count(), 1, "{text}");
         assert!(text.contains("preload = 17.0 # calibrated: "), "{text}");
+        // Turned into a gap and back: two powers, each of some roundings of 6e-8.
         let preload = design.caged.clearance.preload(&design.caged.design);
         assert!((preload - 17.0).abs() < 17.0 * 1e-5, "{preload}");
     }
 }
 
 /// Comments stay beside what they speak of: below the new key those of the one that it replaces, and at the end of a table its own.
+/// A second calibration replaces the comments of the first.
 #[test]
 fn comments_stay_in_their_places() {
-    let users = format!(
-        "{USERS}# The motor's, not the nut's.\n"
-    )
-    .replace(
+    let users = format!("{USERS}# The motor's, not the nut's.\n").replace(
         "clearance = -1e-6 # sorted balls\n",
         "\n# -- Fit, one of four\nclearance = -1e-6 # sorted balls\n#   nominal ball\n# axial_play = 1e-5\n",
     );
-    let text = written(&users, (&whole(), None), "trace").unwrap().text;
+    let of = |text: &str, trace| written(text, (&whole(), None), trace).unwrap().text;
+    let text = of(&users, "trace");
     for lines in [
         "\n# -- Fit, one of four\npreload = 17.0 # calibrated: 15.30 to 18.70 (95 %), from trace\n# clearance = -1e-6 # sorted balls\n#   nominal ball\n# axial_play = 1e-5\nball_diameter",
         "nut_speed = 300 # of the motor\n# The motor's, not the nut's.\n\n[calibration]\n",
     ] {
         assert!(text.contains(lines), "{text}");
     }
-    let again = written(&text, (&whole(), None), "trace").unwrap().text;
-    assert_eq!(text, again);
-}
-
-#[test]
-fn what_is_written_is_read_as_what_was_calibrated() {
-    let Written { text, design, .. } = written(USERS, (&whole(), None), "weave").unwrap();
-    let again = read(&text, "other").unwrap();
-    assert_eq!(again.caged, design.caged);
-    assert_eq!(again.calibrated, design.calibrated);
-    assert_eq!(again.caged.friction, 0.1152);
-    let screw = &again.caged.design;
-    // Of a preload that is turned into a gap and back: two powers, each of some roundings of 6e-8.
-    let preload = again.caged.clearance.preload(screw);
-    assert!((preload - 17.0).abs() < 17.0 * 1e-5, "{preload}");
-    let calibrated = again.calibrated.unwrap();
-    assert_eq!(
-        (
-            calibrated.full_film_ratio,
-            calibrated.half_share_speed,
-            calibrated.reference_temperature
-        ),
-        (Some(0.5), Some(6.0), Some(303.0))
-    );
-    assert_eq!(calibrated.breakaway_angle, Some(2e-3));
-    assert_eq!(
-        (calibrated.inertia, calibrated.gain),
-        (Some(4e-4), Some(1.012))
-    );
-    let waves: Vec<_> = calibrated
-        .harmonics
-        .iter()
-        .map(|wave| (wave.order, wave.cosine, wave.sine))
-        .collect();
-    assert_eq!(waves, [(1, 1.5e-3, -1e-3), (2, 0.0, 8e-4)]);
+    assert_eq!(text, of(&text, "trace"));
+    let other = of(&text, "parking");
+    assert!(!other.contains("from trace") && other.contains("assumed; calibrated"));
 }
 
 #[test]
 fn circumstances_of_a_screw_stand_beside_its_numbers() {
-    let design = read(USERS, "design").unwrap();
     let screw = Screw {
-        caged: design.caged,
+        caged: read(USERS, "design").unwrap().caged,
         elements: ElementsKind::LoadExact,
         preloaded: true,
         reference_temperature: 300.0,
@@ -174,68 +160,49 @@ fn circumstances_of_a_screw_stand_beside_its_numbers() {
         largest_load: 3000.0,
     };
     let mut told = whole();
-    told.parameters
-        .retain(|estimate| estimate.name != "reference_temperature");
-    let calibrated = written(USERS, (&told, Some(&screw)), "weave")
-        .unwrap()
-        .design
-        .calibrated
-        .unwrap();
-    assert_eq!(
+    let parameters = &mut told.parameters;
+    parameters.retain(|estimate| estimate.name != "reference_temperature");
+    let written = written(USERS, (&told, Some(&screw)), "weave").unwrap();
+    let found = written.design.calibrated.unwrap();
+    let numbers = [
+        found.reference_temperature,
+        found.reference_load,
+        found.largest_load,
+    ];
+    assert_eq!(numbers, [300.0, 250.0, 3000.0].map(Some));
+    assert_eq!(found.elements, Some(ElementsKind::LoadExact));
+}
+
+#[test]
+fn what_is_wrong_is_named() {
+    for (users, parameters, word) in [
+        (USERS, vec![estimate("friction", 7.0)], "friction"),
+        (USERS, vec![estimate("drag", f64::NAN)], "drag"),
+        ("friction = ", Vec::new(), ""),
         (
-            calibrated.reference_temperature,
-            calibrated.reference_load,
-            calibrated.largest_load,
-            calibrated.elements
+            "calibration = 3",
+            vec![estimate("drag", 1.0)],
+            "calibration",
         ),
-        (
-            Some(300.0),
-            Some(250.0),
-            Some(3000.0),
-            Some(ElementsName::LoadExact)
-        )
-    );
-}
-
-#[test]
-fn a_second_calibration_replaces_the_first() {
-    let first = written(USERS, (&whole(), None), "weave").unwrap().text;
-    let again = written(&first, (&whole(), None), "weave").unwrap().text;
-    assert_eq!(first, again);
-    let other = written(&first, (&whole(), None), "parking").unwrap().text;
-    assert!(!other.contains("weave") && other.contains("assumed; calibrated"));
-}
-
-#[test]
-fn a_number_out_of_range_is_named() {
-    let wrong = calibration(vec![estimate("friction", 7.0)]);
-    let error = written(USERS, (&wrong, None), "weave").unwrap_err();
-    assert!(error.contains("friction"), "{error}");
-    let wrong = calibration(vec![estimate("drag", f64::NAN)]);
-    let error = written(USERS, (&wrong, None), "weave").unwrap_err();
-    assert!(error.contains("drag"), "{error}");
-    assert!(written("friction = ", (&whole(), None), "weave").is_err());
-    assert!(written("calibration = 3", (&whole(), None), "weave").is_err());
+    ] {
+        let wrong = calibration(parameters);
+        let error = written(users, (&wrong, None), "weave").unwrap_err();
+        assert!(error.contains(word), "{error}");
+    }
 }
 
 /// What ended at a bound is none of the user's numbers, nor of the constants that follow from them.
 #[test]
 fn what_is_at_a_bound_is_not_written() {
     let mut calibration = whole();
-    for name in ["full_film_ratio", "gain", "preload"] {
-        let parameters = &mut calibration.parameters;
-        let found = parameters
-            .iter_mut()
-            .find(|found| found.name == name)
-            .unwrap();
-        found.at_bound = true;
+    for estimate in &mut calibration.parameters {
+        let ended = ["full_film_ratio", "gain", "preload"];
+        estimate.at_bound = ended.contains(&estimate.name.as_str());
     }
     let written = written(USERS, (&calibration, None), "weave").unwrap();
-    assert_eq!(
-        written.at_bound,
-        ["full_film_ratio", "half_share_speed", "preload", "gain"]
-    );
-    for name in ["full_film_ratio", "half_share_speed", "gain", "preload"] {
+    let names = ["full_film_ratio", "half_share_speed", "preload", "gain"];
+    assert_eq!(written.at_bound, names);
+    for name in names {
         assert!(!written.text.contains(name), "{}", written.text);
     }
     assert!(written.text.contains("clearance = -1e-6"));

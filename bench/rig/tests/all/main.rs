@@ -1,4 +1,0 @@
-//! Traces of the rig: consistent in themselves, and with the crate's scene.
-
-mod same_scene;
-mod traces;
