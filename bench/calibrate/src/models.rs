@@ -21,49 +21,42 @@ pub const WITHOUT_MEMORY: &str = "this crate, without memory";
 /// Name of the scene with memory.
 pub const WITH_MEMORY: &str = "this crate, with memory";
 
+const fn law(name: &'static str, level: Level, passage: Passage, cost: Cost) -> Law {
+    Law {
+        name,
+        level,
+        passage,
+        cost,
+    }
+}
+
 /// Laws of the literature.
-pub const LITERATURE: [Law; 4] = [
-    Law {
-        name: "Coulomb and viscous",
-        level: Level::Constant,
-        passage: Passage::AtOnce,
-        cost: Cost::Estimated(10),
-    },
-    Law {
-        name: "Stribeck",
-        level: Level::Stribeck,
-        passage: Passage::AtOnce,
-        cost: Cost::Counted(&["stribeck_curve"]),
-    },
-    Law {
-        name: "Dahl",
-        level: Level::Constant,
-        passage: Passage::Dahl,
-        cost: Cost::Estimated(38),
-    },
-    Law {
-        name: "LuGre",
-        level: Level::Stribeck,
-        passage: Passage::LuGre,
-        cost: Cost::Counted(&["lugre_step"]),
-    },
-];
+pub const LITERATURE: [Law; 4] = {
+    use Cost::{Counted, Estimated};
+    use Level::{Constant, Stribeck};
+    let stribeck = Counted(&["stribeck_curve"]);
+    [
+        law(
+            "Coulomb and viscous",
+            Constant,
+            Passage::AtOnce,
+            Estimated(10),
+        ),
+        law("Stribeck", Stribeck, Passage::AtOnce, stribeck),
+        law("Dahl", Constant, Passage::Dahl, Estimated(38)),
+        law("LuGre", Stribeck, Passage::LuGre, Counted(&["lugre_step"])),
+    ]
+};
 
 /// This crate's laws of unit level, for a drive without a design.
-pub const OWN: [Law; 2] = [
-    Law {
-        name: WITHOUT_MEMORY,
-        level: Level::LoadShare,
-        passage: Passage::Speed,
-        cost: Cost::Counted(&["friction_coefficient"]),
-    },
-    Law {
-        name: WITH_MEMORY,
-        level: Level::LoadShare,
-        passage: Passage::Elements,
-        cost: Cost::Counted(&["friction_coefficient", "memory_8"]),
-    },
-];
+pub const OWN: [Law; 2] = {
+    let without = Cost::Counted(&["friction_coefficient"]);
+    let with = Cost::Counted(&["friction_coefficient", "memory_8"]);
+    [
+        law(WITHOUT_MEMORY, Level::LoadShare, Passage::Speed, without),
+        law(WITH_MEMORY, Level::LoadShare, Passage::Elements, with),
+    ]
+};
 
 /// Friction of gross sliding without a load: what a law of unit level is multiplied by.
 const LEVEL: LinearParameter = LinearParameter {

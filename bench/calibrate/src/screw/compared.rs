@@ -96,14 +96,10 @@ fn driven<'a>(
     problem: &'a ScrewProblem<'_>,
     values: &Values,
 ) -> Driven<'a> {
-    let (speed, load) = problem.signals();
+    let (position, speed, load) = problem.signals();
     let (record, screw) = (&prepared.record, &prepared.screw);
     Driven {
-        position: if record.speed_alone {
-            &record.path
-        } else {
-            &record.motion
-        },
+        position,
         speed,
         tick: record.tick,
         resolution: prepared.trace.resolution,
@@ -167,7 +163,7 @@ fn without_memory<'a>(
         let Ok(Ok(law)) = law else {
             return vec![f64::NAN; beside.target.len()];
         };
-        let (speed, load) = problem.signals();
+        let (_, speed, load) = problem.signals();
         let at = |(sample, speed): (usize, &f64)| {
             let load = load.map_or(0.0, |load| load[sample]);
             let full = law.sliding(load, 1_f64.copysign(*speed), values.friction);

@@ -69,6 +69,7 @@ pub enum Passage {
 
 /// Signals of a trace at every sample, smoothed as a kernel's rows need them.
 struct Samples {
+    position: Vec<f64>,
     speed: Vec<f64>,
     load: Option<Vec<f64>>,
     temperature: Vec<f64>,
@@ -184,9 +185,10 @@ impl<'a> ScrewProblem<'a> {
         &self.rows
     }
 
-    /// Samples' signals that a law of friction takes: speed, smoothed load.
-    pub fn signals(&self) -> (&[f64], Option<&[f64]>) {
-        (&self.samples.speed, self.samples.load.as_deref())
+    /// What a law of friction is told at every sample: position, speed, and load, all smoothed by the kernel.
+    pub fn signals(&self) -> (&[f64], &[f64], Option<&[f64]>) {
+        let samples = &self.samples;
+        (&samples.position, &samples.speed, samples.load.as_deref())
     }
 
     /// Covariance of the sensor's noise in the slopes of a row: in the columns of acceleration and speed.
@@ -436,6 +438,7 @@ impl Samples {
             angles.iter().map(|angle| of(order * angle)).collect()
         };
         Self {
+            position: kernel.along(0, angles),
             speed: kernel.along(record.order(1), &record.motion),
             load: trace.load.as_ref().map(|load| load_kernel.along(0, load)),
             temperature: match &trace.temperature {
