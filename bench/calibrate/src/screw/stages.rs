@@ -32,7 +32,7 @@ const LEAST_HALF: usize = 4;
 
 /// Way after a turn over the breakaway angle: friction that was full the other way is full again after twice the angle, and under the
 /// largest load later than under the reference load.
-pub const WAY: f64 = 4.0;
+const WAY: f64 = 4.0;
 
 /// Residual, in robust deviations, from which on a row is left out, and the share of the rows that may be.
 const OUTLIER: f64 = 6.0;
@@ -150,23 +150,21 @@ impl<'a> Prepared<'a> {
     /// The window of the first fit: the shortest kernel whose rows cover half as much as those of any; a shorter way where the strokes are
     /// short.
     fn first_window(&self, breakaway: f64) -> Result<Window, Failure> {
-        for way in [1.0, 0.5, 0.25].map(|share| share * WAY * breakaway) {
-            let windows = HALF_WIDTHS.map(|half| Window {
-                half: self.half(half),
-                way,
+        for share in [1.0, 0.5, 0.25] {
+            // A kernel of 8.5 ms is no first guess: its rows are the noisiest.
+            let windows = HALF_WIDTHS[1..].iter().map(|half| Window {
+                half: self.half(*half),
+                way: share * WAY * breakaway,
             });
-            let covered = windows.map(|window| {
+            let covered = |window: Window| {
                 let rows = self.rows(window);
                 rows.map_or(0, |rows| rows.len() * window.half)
-            });
-            let most = covered.iter().copied().max().unwrap_or(0);
-            let pairs = windows.into_iter().zip(covered);
-            // A kernel of 8.5 ms is no first guess: its rows are the noisiest.
-            let mut pairs = pairs.skip(1);
-            if let Some((window, _)) =
-                pairs.find(|(_, covered)| *covered > 0 && 2 * covered >= most)
-            {
-                return Ok(window);
+            };
+            let pairs: Vec<_> = windows.map(|window| (window, covered(window))).collect();
+            let most = pairs.iter().map(|(_, covered)| *covered).max();
+            let half = most.unwrap_or(0).div_ceil(2).max(1);
+            if let Some((window, _)) = pairs.iter().find(|(_, covered)| *covered >= half) {
+                return Ok(*window);
             }
         }
         Err(Failure::Data(
@@ -189,27 +187,18 @@ impl<'a> Prepared<'a> {
             let problem = self.sliding(window, (values, choice), grid)?;
             Some((window, linearised(&problem, values)?.fit))
         };
-        let tried: Vec<_> = HALF_WIDTHS.into_iter().map(at).collect();
-        let score = |place: usize| {
-            let (_, fit) = tried[place].as_ref()?;
-            let other = tried.get(place + 1).and_then(Option::as_ref);
-            let beside = place.checked_sub(1).and_then(|place| tried[place].as_ref());
-            let (_, other) = other.or(beside)?;
-            let widths = fit
-                .half_widths
-                .iter()
-                .zip(fit.values.iter().zip(&other.values));
-            Some(
-                widths
-                    .map(|(half, (one, other))| half.hypot(2.0 * (one - other)).max(1e-12).ln())
-                    .sum::<f64>(),
-            )
+        let tried: Vec<_> = HALF_WIDTHS.into_iter().filter_map(at).collect();
+        let score = |place: usize| -> f64 {
+            let (_, fit) = &tried[place];
+            let other = tried.get(place + 1).unwrap_or(&tried[place.max(1) - 1]);
+            let values = fit.values.iter().zip(&other.1.values);
+            let widths = fit.half_widths.iter().zip(values);
+            widths
+                .map(|(half, (one, other))| half.hypot(2.0 * (one - other)).max(1e-12).ln())
+                .sum()
         };
-        let best = (0..tried.len())
-            .filter_map(|place| Some((place, score(place)?)))
-            .min_by(|one, other| one.1.total_cmp(&other.1));
-        let best = best.and_then(|(place, _)| tried[place].as_ref());
-        best.map_or(first, |(window, _)| *window)
+        let best = (0..tried.len()).min_by(|one, other| score(*one).total_cmp(&score(*other)));
+        best.map_or(first, |place| tried[place].0)
     }
 
     /// The way after a turn by the breakaway angle that a first look finds, on rows after a way by its first guess.
@@ -273,8 +262,8 @@ impl<'a> Prepared<'a> {
             .filter(|(_, left)| left.abs() > limit)
             .map(|(centre, _)| centre - window.half..centre + window.half + 1)
             .collect();
-        let few = (beyond.len() as f64) < OUTLIERS * rows.len() as f64;
-        Ok((values, if few { beyond } else { Vec::new() }))
+        let exceptions = (beyond.len() as f64) < OUTLIERS * rows.len() as f64;
+        Ok((values, if exceptions { beyond } else { Vec::new() }))
     }
 
     /// The first stage from values near its answer.
