@@ -42,8 +42,8 @@ use epas_traces::source::Source;
 /// Without a design a mass or an inertia with Coulomb and viscous friction is fitted, in the trace's own coordinate, with losses in
 /// proportion to the load for driving and back-driving where one is measured.
 ///
-/// Models of friction are compared on what was not fitted: another trace (--validate), or the last third of this one; with a design that is
-/// every third twelfth. With --controller they are compared by the simulated closed loop.
+/// Models of friction are compared on what was not fitted: another trace (--validate), or the last third of this one. With --controller
+/// they are compared by the simulated closed loop.
 ///
 /// Of a folder every trace (*.csv, *.mf4) is fitted, and their parameters together; a run that was stopped goes on where it was.
 #[derive(Debug, clap::Args)]
