@@ -105,7 +105,8 @@ impl Law {
             parameters.push(Parameter {
                 name: SHARE_AT_REST,
                 unit: "",
-                start: 0.7,
+                // Near a law without: from a share below 1 the best level of a screw under grease would be none.
+                start: 1.1,
                 low: 0.1,
                 high: 3.0,
                 scale: Scale::Logarithmic,
@@ -131,7 +132,7 @@ impl Law {
             parameters.push(Parameter {
                 name: BRISTLE_TIME,
                 unit: "s",
-                start: scales.tick,
+                start: 0.1 * scales.tick,
                 low: 1e-3 * scales.tick,
                 high: 100.0 * scales.tick,
                 scale: Scale::Logarithmic,

@@ -7,7 +7,7 @@ use crate::answer::{Estimate, ModelScore};
 use crate::estimator::rows::Rows;
 use crate::fit::part::{Part, residual};
 use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
-use crate::fit::search::{Found, fit, fit_within};
+use crate::fit::search::{Found, fit};
 use crate::fit::uncertainty::uncertainty;
 use crate::laws::cost::cycles;
 use crate::laws::{Cost, Law, Level, Passage, Scales};
@@ -245,8 +245,6 @@ pub struct Entry<'a> {
     pub fitted: &'a dyn Separable,
     /// On another one.
     pub unseen: Option<&'a dyn Separable>,
-    /// Whether its first guess is near its answer.
-    pub start_known: bool,
 }
 
 /// Models beside each other.
@@ -308,11 +306,7 @@ pub fn score(entry: &Entry<'_>) -> Result<(ModelScore, Found), Failure> {
         Some(unseen) => (entry.fitted, unseen),
         None => (&parts[0], &parts[1]),
     };
-    let found = if entry.start_known {
-        fit(fitted)?
-    } else {
-        fit_within(fitted)?
-    };
+    let found = fit(fitted)?;
     let rest = residual(unseen, &found.nonlinear, &found.linear);
     let size = |rows: &[f64]| {
         let sum: f64 = rows.iter().map(|x| x * x).sum();

@@ -31,9 +31,6 @@ const TOLERANCE: f64 = 1e-8;
 const FIRST_STEP: f64 = 0.3;
 const PATIENCE: usize = 20;
 
-/// Places within the bounds, a parameter, among which a fit finds a second start.
-const PLACES: usize = 12;
-
 /// Least singular value of the linear columns, over the largest, that counts.
 const RANK: f64 = 1e-10;
 
@@ -67,44 +64,11 @@ impl Found {
 pub fn fit(problem: &dyn Separable) -> Result<Found, Failure> {
     check(problem)?;
     let start: Vec<f64> = problem.nonlinear().iter().map(Axis::start).collect();
-    from(problem, &start)
-        .ok_or_else(|| Failure::Data("the model is not finite at its first guess".into()))
-}
-
-/// The best fit from its start and from the place within the bounds, of an even set, at which least is left.
-///
-/// # Errors
-/// Those of [`fit`].
-pub fn fit_within(problem: &dyn Separable) -> Result<Found, Failure> {
-    let first = fit(problem)?;
-    let count = problem.nonlinear().len();
-    // Roberts' additive recurrence: the root of x^(d+1) = x + 1, by its own iteration, which contracts.
-    let golden = (0..64).fold(2.0_f64, |x, _| (1.0 + x).powf(1.0 / (count as f64 + 1.0)));
-    let place = |point: usize| -> Vec<f64> {
-        let parts = (0..count).map(|axis| {
-            let part = (0.5 + point as f64 * golden.powi(-(axis as i32 + 1))).fract();
-            SHIFT + (2.0 * part - 1.0).clamp(-1.0 + INSIDE, 1.0 - INSIDE).asin()
-        });
-        parts.collect()
-    };
-    let points: Vec<usize> = (1..=PLACES * count).collect();
-    let costs = points.into_par_iter().map(|point| {
-        let start = place(point);
-        (Point::at(problem, &start).cost, start)
-    });
-    let best = costs.min_by(|one, other| one.0.total_cmp(&other.0));
-    let other = best.and_then(|(_, start)| from(problem, &start));
-    Ok(match other {
-        Some(other) if other.cost() < first.cost() => other,
-        _ => first,
-    })
-}
-
-/// The fit from a start in outer coordinates. `None` where the model is not finite there.
-fn from(problem: &dyn Separable, start: &[f64]) -> Option<Found> {
-    let mut best = Point::at(problem, start);
+    let mut best = Point::at(problem, &start);
     if !best.cost.is_finite() {
-        return None;
+        return Err(Failure::Data(
+            "the model is not finite at its first guess".into(),
+        ));
     }
     if !start.is_empty() {
         let descent = Descent {
@@ -120,7 +84,7 @@ fn from(problem: &dyn Separable, start: &[f64]) -> Option<Found> {
             .with_patience(PATIENCE);
         best = method.minimize(descent).0.best;
     }
-    Some(Found {
+    Ok(Found {
         nonlinear: values(problem, best.outer.as_slice()),
         linear: best.linear,
         residual: best.residual.as_slice().to_vec(),

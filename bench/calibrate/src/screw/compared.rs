@@ -77,7 +77,6 @@ pub fn models(
             cost,
             fitted: &*fitted[0][k],
             unseen: fitted.get(1).map(|models| &*models[k]),
-            start_known: false,
         })
         .collect();
     entries.push(Entry {
@@ -85,7 +84,6 @@ pub fn models(
         cost: cost_with_memory(screw),
         fitted: &sides[0].1,
         unseen: sides.get(1).map(|(_, problem)| problem as &dyn Separable),
-        start_known: true,
     });
     Ok(compared(&entries))
 }
