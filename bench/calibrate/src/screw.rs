@@ -247,8 +247,8 @@ fn first_look<'a>(
 ) -> Result<(Prepared<'a>, Window, Values), Failure> {
     let mut left_out = rests(trace);
     let prepared = Prepared::new(trace, &left_out, first.screw);
-    let window = prepared.first_way((first, at_turns), grid)?;
-    let (values, outliers) = prepared.first_fit(window, first, grid)?;
+    let (window, values) = prepared.first_way((first, at_turns), grid)?;
+    let (values, outliers) = prepared.first_fit(window, (&values, &first.choice), grid)?;
     if !outliers.is_empty() {
         sentences.push(format!(
             "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",

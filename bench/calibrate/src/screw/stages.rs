@@ -20,7 +20,7 @@ use crate::estimator::fit::{Block, Fit, fit as least_squares};
 use crate::estimator::record::{QUARTER, Record};
 use crate::estimator::rows::Rows;
 use crate::fit::problem::{Scale, Separable, inner};
-use crate::fit::search::{Found, fit, slopes};
+use crate::fit::search::{Found, fit, fit_roughly, slopes};
 use crate::fit::uncertainty::{Interval, QUANTILE, intervals};
 use crate::trace::Trace;
 use epas_page::failure::Failure;
@@ -201,54 +201,51 @@ impl<'a> Prepared<'a> {
         best.map_or(first, |place| tried[place].0)
     }
 
-    /// The way after a turn by the breakaway angle that a first look finds, on rows after a way by its first guess.
+    /// Values of a first look, and the way after a turn by the breakaway angle that it finds, on rows after a way by its first guess.
     pub fn first_way(
         &self,
         (start, at_turns): (&Start, &Choice),
         grid: &Arc<Grid>,
-    ) -> Result<Window, Failure> {
+    ) -> Result<(Window, Values), Failure> {
         let guess = start.values.breakaway_angle.max(self.trace.resolution);
         let window = self.first_window(guess)?;
-        if !at_turns
-            .nonlinear
-            .iter()
-            .any(|(of, _)| of.name == AT_TURNS[0])
-        {
-            return Ok(window);
-        }
         let problem = self.sliding(window, (&start.values, &start.choice), grid);
         let problem = problem.ok_or_else(few)?;
-        let found = fit(&problem)?;
+        let found = fit_roughly(&problem)?;
         let values = problem.values(&found.nonlinear, &found.linear);
+        let mut asked = at_turns.nonlinear.iter();
+        if asked.all(|(of, _)| of.name != AT_TURNS[0]) {
+            return Ok((window, values));
+        }
         let rows = self.rows_over_turns(window, false);
         let Ok((problem, found)) = self.turn_fit(rows, (&values, at_turns), grid) else {
-            return Ok(window);
+            return Ok((window, values));
         };
-        let values = problem.values(&found.nonlinear, &found.linear);
-        self.first_window(guess.max(values.breakaway_angle))
+        let breakaway = problem
+            .values(&found.nonlinear, &found.linear)
+            .breakaway_angle;
+        Ok((self.first_window(guess.max(breakaway))?, values))
     }
 
-    /// The first fit: from several places of the speed law; and the samples of rows that are no part of it.
+    /// The first fit: from a first look, and from other places of the speed law; and the samples of rows that are no part of it.
     pub fn first_fit(
         &self,
         window: Window,
-        start: &Start,
+        (values, choice): (&Values, &Choice),
         grid: &Arc<Grid>,
     ) -> Result<(Values, Vec<Range<usize>>), Failure> {
         let mut best: Option<(Found, Values, Rows)> = None;
-        let speed = start.choice.nonlinear.iter();
+        let speed = choice.nonlinear.iter();
         let speed = speed.filter(|(of, _)| of.name == "half_share_speed");
         let starts = if speed.count() > 0 { 3 } else { 1 };
         for factor in &STARTS[..starts] {
-            let mut values = start.values;
+            let mut values = *values;
             values.half_share_speed *= factor;
-            let problem = self.sliding(window, (&values, &start.choice), grid);
+            let problem = self.sliding(window, (&values, choice), grid);
             let problem = problem.ok_or_else(few)?;
-            let found = fit(&problem)?;
-            if best
-                .as_ref()
-                .is_none_or(|(best, ..)| found.cost() < best.cost())
-            {
+            let found = fit_roughly(&problem)?;
+            let better = |best: &(Found, Values, Rows)| found.cost() < best.0.cost();
+            if best.as_ref().is_none_or(better) {
                 let values = problem.values(&found.nonlinear, &found.linear);
                 best = Some((found, values, problem.rows().clone()));
             }
