@@ -78,7 +78,7 @@ const SHARE_AT_REST: &str = "friction_share_at_rest";
 /// Speed at which half of the difference is gone, or Stribeck's.
 const HALF_SHARE_SPEED: &str = "half_share_speed";
 /// Travel to full sliding.
-const BREAKAWAY: &str = "breakaway";
+pub const BREAKAWAY: &str = "breakaway";
 /// Speed of a reversal.
 const REVERSAL_SPEED: &str = "reversal_speed";
 /// Damping of a bristle over its stiffness, s.

@@ -10,7 +10,7 @@ use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separab
 use crate::fit::search::{Found, fit};
 use crate::fit::uncertainty::uncertainty;
 use crate::laws::cost::cycles;
-use crate::laws::{Cost, Law, Level, Passage, Scales};
+use crate::laws::{BREAKAWAY, Cost, Law, Level, Passage, Scales};
 use epas_page::failure::Failure;
 
 /// Share of the rows that is fitted where no other trace scores.
@@ -94,6 +94,8 @@ pub struct Driven<'a> {
     pub rows: &'a Rows,
     /// Sum of both flanks' loads over that without a load; nothing where none was measured.
     pub share: Option<LoadShare<'a>>,
+    /// Travel to full sliding to begin with, rad or m, where it is known: from one far off, a law may do best without any friction.
+    pub breakaway: Option<f64>,
 }
 
 /// Sum of both flanks' loads over that without a load: with a large preload the friction does not follow the load at all, so that a law may
@@ -165,6 +167,10 @@ impl<'a> Model<'a> {
             tick: driven.tick,
         };
         let mut nonlinear = law.parameters(&scales, units);
+        for parameter in nonlinear.iter_mut().filter(|of| of.name == BREAKAWAY) {
+            let known = driven.breakaway.unwrap_or(parameter.start);
+            parameter.start = known.max(parameter.low).min(parameter.high);
+        }
         if let Some(share) = &driven.share {
             let [low, high] = PRELOADS.map(|part| part * share.largest);
             nonlinear.push(Parameter {

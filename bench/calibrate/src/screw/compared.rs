@@ -102,6 +102,7 @@ fn driven<'a>(
         tick: record.tick,
         resolution: prepared.trace.resolution,
         rows: problem.rows(),
+        breakaway: Some(values.breakaway_angle),
         share: load
             .filter(|_| screw.largest_load > 0.0)
             .map(|load| LoadShare {
