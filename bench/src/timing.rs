@@ -21,5 +21,5 @@ mod measure;
 mod race;
 mod trains;
 
-pub use competitors::{Competition, compete};
+pub use competitors::{Competition, compete, times};
 pub use measure::{Measure, Ratio, Spread};

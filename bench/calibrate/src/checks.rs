@@ -210,7 +210,7 @@ fn told_by_reader(trace: &Trace) -> Vec<Finding> {
         ));
     }
     for left_out in &repairs.left_out {
-        let count = left_out.rows.len() as f64;
+        let count = left_out.count() as f64;
         findings.push(Finding::new(FindingKind::LeftOut, count, left_out.told()));
     }
     for note in &repairs.notes {

@@ -7,11 +7,12 @@ use crate::controller::Controller;
 use crate::experiment;
 use crate::folder::answered::Answered;
 use crate::folder::{self, Folder, FolderArguments};
-use crate::outputs::{Outcome, OutputArguments, folder_name};
-use crate::page::truth;
+use crate::outputs::{Outcome, OutputArguments, folder_name, print_json};
+use crate::page::{self, truth};
 use crate::screw::Request;
 use crate::screw::choice::Wanted;
 use crate::screw::quantities::names;
+use crate::steady;
 use crate::trace::columns::{self, Frame};
 use crate::trace::{Coordinate, Trace};
 use crate::with_design;
@@ -42,8 +43,8 @@ use epas_traces::source::Source;
 /// Without a design a mass or an inertia with Coulomb and viscous friction is fitted, in the trace's own coordinate, with losses in
 /// proportion to the load for driving and back-driving where one is measured.
 ///
-/// Models of friction are compared on what was not fitted: another trace (--validate), or the last third of this one. With --controller
-/// they are compared by the simulated closed loop.
+/// Models of friction are compared on what was not fitted: another trace (--validate), or the last third of this one; with a design that is
+/// every third twelfth. With --controller they are compared by the simulated closed loop.
 ///
 /// Of a folder every trace (*.csv, *.mf4) is fitted, and their parameters together; a run that was stopped goes on where it was.
 #[derive(Debug, clap::Args)]
@@ -57,9 +58,12 @@ pub struct Arguments {
     /// Built-in design, or design file ending in .toml
     #[arg(long, value_name = "NAME|FILE.toml")]
     design: Option<DesignSource>,
-    /// Turns of the motor in a turn of the nut [default: 1]
-    #[arg(long, value_name = "RATIO", requires = "design", value_parser = ratio)]
+    /// Turns of the motor in a turn of the nut [default with a design: 1]
+    #[arg(long, value_name = "RATIO", value_parser = ratio)]
     ratio: Option<f64>,
+    /// Rated torque of the motor, N m, where the trace has its torque in percent of it
+    #[arg(long, value_name = "TORQUE", value_parser = rated_torque)]
+    rated_torque: Option<f64>,
     /// Parameters to estimate, by name [default: what the trace can tell]
     #[arg(
         long,
@@ -105,6 +109,14 @@ fn ratio(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
         Ok(value) if (0.01..=1000.0).contains(&value) => Ok(value),
         _ => Err("a ratio is 0.01 to 1000".into()),
+    }
+}
+
+/// A rated torque, N m.
+fn rated_torque(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if (1e-6..=1e6).contains(&value) => Ok(value),
+        _ => Err("a rated torque is 1e-6 to 1e6 N m".into()),
     }
 }
 
@@ -206,20 +218,27 @@ impl Arguments {
         Ok(())
     }
 
-    /// What refers motor and carriage to the nut of a design.
-    fn frame(&self, design: &Design) -> Frame {
-        Frame::of(design, self.ratio)
+    /// What refers motor and carriage to the nut.
+    fn frame(&self, design: Option<&Design>) -> Frame {
+        let alone = Frame {
+            ratio: self.ratio,
+            ..Frame::default()
+        };
+        let frame = design.map_or(alone, |design| Frame::of(design, self.ratio));
+        frame.rated(self.rated_torque)
     }
 
     /// The trace that is not fitted, where there is one.
-    fn unseen(
-        &self,
-        frame: Option<&Frame>,
-        mapping: Option<&Mapping>,
-    ) -> Result<Option<Trace>, Failure> {
+    fn unseen(&self, frame: &Frame, mapping: Option<&Mapping>) -> Result<Option<Trace>, Failure> {
         self.validate
             .as_deref()
-            .map(|path| columns::read(&Source(path), frame, mapping.filter(|_| mdf4::named(path))))
+            .map(|path| {
+                columns::read(
+                    &Source(path),
+                    Some(frame),
+                    mapping.filter(|_| mdf4::named(path)),
+                )
+            })
             .transpose()
     }
 
@@ -243,11 +262,11 @@ fn with_design(
     (design, text): (&Design, &str),
     mapping: Option<&Mapping>,
 ) -> Result<(), Failure> {
-    let frame = arguments.frame(design);
+    let frame = arguments.frame(Some(design));
     let truth = truth::of(trace);
     let trace = columns::read(&Source(trace), Some(&frame), mapping)?;
     let request = Request {
-        unseen: arguments.unseen(Some(&frame), mapping)?,
+        unseen: arguments.unseen(&frame, mapping)?,
         ..arguments.request()
     };
     let found = with_design::told(&trace, design, &request)?;
@@ -264,8 +283,9 @@ fn with_design(
 /// A trace without a design.
 fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Result<(), Failure> {
     let truth = truth::of(trace);
-    let trace = columns::read(&Source(trace), None, mapping)?;
-    let unseen = arguments.unseen(None, mapping)?;
+    let frame = arguments.frame(None);
+    let trace = columns::read(&Source(trace), Some(&frame), mapping)?;
+    let unseen = arguments.unseen(&frame, mapping)?;
     let told = without_design::calibrate(&trace, unseen.as_ref(), arguments.controller)?;
     if let Some(controller) = &told.controller {
         tell(controller, trace.coordinate);
@@ -306,11 +326,26 @@ fn whole_folder(
     if design.is_some() {
         arguments.request().check()?;
     }
+    let alone = arguments.folder.part.is_none() && arguments.folder.merge.is_empty();
+    if design.is_none()
+        && alone
+        && let Some(steady) =
+            steady::of_folder(traces, |path| read(arguments, None, mapping, path))?
+    {
+        let document = page::of_runs(&steady, &name);
+        epas_page::folder::mark(&output)?;
+        document.write(&output)?;
+        return if arguments.outputs.json {
+            print_json(&steady.answer)
+        } else {
+            document.print(&output)
+        };
+    }
     let mut settings = format!(
         "{} {:?} {:?} {:?} {:?}",
         env!("CARGO_PKG_VERSION"),
         design.map(|design| (&design.caged, design.branch, &design.calibrated)),
-        arguments.ratio,
+        (arguments.ratio, arguments.rated_torque),
         arguments.estimate,
         arguments.fix,
     );
@@ -327,20 +362,28 @@ fn whole_folder(
     folder::run(&folder, |path| one(arguments, design, mapping, path))
 }
 
-/// One trace of a folder.
+/// A trace of a folder.
+fn read(
+    arguments: &Arguments,
+    design: Option<&Design>,
+    mapping: Option<&Mapping>,
+    path: &Path,
+) -> Result<Trace, Failure> {
+    // A folder may hold tables beside measurement files.
+    let mapping = mapping.filter(|_| mdf4::named(path));
+    columns::read(&Source(path), Some(&arguments.frame(design)), mapping)
+}
+
+/// What one trace of a folder tells.
 fn one(
     arguments: &Arguments,
     design: Option<&Design>,
     mapping: Option<&Mapping>,
     path: &Path,
 ) -> Result<(Calibration, Answered), Failure> {
-    // A folder may hold tables beside measurement files.
-    let mapping = mapping.filter(|_| mdf4::named(path));
+    let trace = read(arguments, design, mapping, path)?;
     let Some(design) = design else {
-        let trace = columns::read(&Source(path), None, mapping)?;
-        let _ = trace;
-        return Err(Failure::Data("to be merged".into()));
+        return without_design::plain(&trace);
     };
-    let trace = columns::read(&Source(path), Some(&arguments.frame(design)), mapping)?;
     with_design::summed(&trace, design, &arguments.request())
 }

@@ -27,6 +27,7 @@ use answered::{Answered, alike};
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
 use population::{Common, HALF_INTERVAL, Outlier, Population, common, outliers, populations};
+pub use store::list;
 use store::{Key, Stored, Told};
 
 /// How the traces of a folder are taken.

@@ -2,6 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
+//! | [`estimator`] | the estimator of a drive: one linear least squares, intervals, words |
 //! | [`trace`] | a measured trace on one sample clock, in SI units: columns of a file, units, clock, angles without jumps |
 //! | [`signals`] | smoothed motion and the rows of a regression: filter, noise, spectrum, autocorrelation |
 //! | [`checks`] | whether a trace may be believed: what it excites, how effort and motion go together, what it does not tell |
@@ -11,6 +12,7 @@
 //! | [`screw`] | a trace of a screw whose design is known, as a problem of the estimator |
 //! | [`with_design`] | its calibration |
 //! | [`without_design`] | calibration of a trace without a design: models of friction, the period of a wave, the closed loop |
+//! | [`steady`] | runs at one speed each as one measurement |
 //! | [`answer`] | what a calibration answers: parameters with intervals, what cannot be told, scores of models |
 //! | [`page`] | the page of a calibration, and what it draws as plain data |
 //! | [`outputs`] | what a calibration writes, and where: design file, Rust constants |
@@ -43,6 +45,7 @@ pub mod outputs;
 pub mod page;
 pub mod screw;
 pub mod signals;
+pub mod steady;
 pub mod trace;
 pub mod with_design;
 pub mod without_design;
@@ -56,9 +59,10 @@ pub use command::{Arguments, run};
 /// Reads a trace without a design and with one, smooths it and looks whether it may be believed; its number of samples.
 pub fn accepts(text: &[u8]) -> Result<usize, String> {
     let frame = trace::columns::Frame {
-        lead: 7e-3,
-        ratio: 2.5,
-        fastest: 2e3,
+        lead: Some(7e-3),
+        ratio: Some(2.5),
+        fastest: Some(2e3),
+        rated_torque: None,
     };
     let look = |frame| -> Result<usize, Failure> {
         let trace = trace::columns::from_reader(Cursor::new(text), "trace", frame)?;

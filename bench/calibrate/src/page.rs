@@ -19,6 +19,7 @@ use crate::page::picture::{Correlations, Picture};
 use crate::page::shown::{chart, digits, number, table};
 use crate::page::truth::Truth;
 use crate::signals::spectrum::welch;
+use crate::steady::{Run, Steady};
 use crate::trace::Coordinate;
 use epas_page::document::{Block, Cell, Document, Figure, Section, Table};
 use epas_page::plot::{Axis, Mark, Panel, Series, thin};
@@ -71,6 +72,54 @@ pub fn document(
         sections.push(of("Manoeuvres", vec![Block::Text(note.into()), table]));
     }
     Document::of(format!("Calibration: {}", picture.name), sections)
+}
+
+/// The page of runs at one speed each: friction over speed.
+pub fn of_runs(steady: &Steady, name: &str) -> Document {
+    let words = Words::of(steady.coordinate);
+    let Words([effort, unit, _, length]) = words;
+    let points = |of: fn(&Run) -> f64| steady.runs.iter().map(|run| (run.speed, of(run))).collect();
+    let series = vec![
+        Series::new("runs", 0, Mark::Dots, points(|run| run.effort)),
+        Series::new("numbers", 1, Mark::Line, points(|run| run.model)),
+    ];
+    let figure = Figure {
+        name: "friction_over_speed",
+        caption: "Mean effort of each run, without the load's, over its speed".into(),
+        panels: vec![linear(
+            name,
+            &format!("speed ({length}/s)"),
+            &format!("{effort} ({unit})"),
+            series,
+        )],
+        columns: 1,
+        size: (1000, 400),
+    };
+    let rows = steady.runs.iter().map(|run| {
+        let values = [run.speed, run.effort, run.effort - run.model].map(number);
+        [run.name.as_str().into()]
+            .into_iter()
+            .chain(values)
+            .collect()
+    });
+    let runs = table(
+        "runs",
+        "Runs, each one row of the regression",
+        &format!("run | speed ({length}/s) | {effort} ({unit}) | not explained ({unit})"),
+        rows,
+    );
+    let of = |title, blocks| Section { title, blocks };
+    let sections = vec![
+        of(
+            "What the runs tell",
+            told(&steady.answer, &Truth::new(), &words),
+        ),
+        of(
+            "Friction over speed",
+            vec![Block::Figure(figure), Block::Table(runs)],
+        ),
+    ];
+    Document::of(format!("Calibration: {name}"), sections)
 }
 
 /// Parameters, and what the trace cannot tell.

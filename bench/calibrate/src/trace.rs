@@ -1,36 +1,31 @@
-//! A measured trace.
+//! A measured trace, from the tables of [`epas_traces`].
 //!
 //! | module | what |
 //! |---|---|
-//! | [`columns`] | reads a trace from a CSV file |
-//! | [`table`] | the file's numbers in SI units |
-//! | [`clock`] | one sample clock: tick, gaps, jitter |
-//! | [`acting`] | loads and known efforts of a table |
-//! | [`channels`] | angles without jumps, the step of a sensor |
-//! | [`outliers`] | samples that no mechanism makes |
-//! | [`clipped`] | where an effort is cut off |
-//! | [`stuck`] | a channel that is lost for a while |
-//! | [`rests`] | where a trace stands still |
+//! | [`columns`] | reads a trace: its columns referred to one coordinate |
 //! | [`free_load`] | a load that never leaves its noise |
+//! | [`clipped`] | where an effort is cut off |
+//! | [`rests`] | where a trace stands still |
 //! | [`known`] | an effort beside the motor's that is known |
 
-pub mod acting;
-pub mod channels;
 pub mod clipped;
-pub mod clock;
 pub mod columns;
 pub mod free_load;
 pub mod known;
-pub mod outliers;
 pub mod rests;
-pub mod stuck;
-pub mod table;
+// Tables of cases, a line each.
+#[cfg(test)]
+#[rustfmt::skip]
+mod tests;
 
 use std::borrow::Cow;
 use std::ops::Range;
 
+pub use epas_traces::channels;
+use epas_traces::marks::LeftOut;
+use epas_traces::units::Part;
+
 use self::known::KnownEffort;
-use self::outliers::LeftOut;
 
 /// What position, speed and effort are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +37,7 @@ pub enum Coordinate {
 }
 
 /// What a reader of a trace has repaired.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Repairs {
     /// Samples that were missing, and are interpolated now.
     pub missing: usize,
@@ -52,12 +47,36 @@ pub struct Repairs {
     pub repeated: usize,
     /// Samples of a clock that runs free, without an even tick: all of them are interpolated.
     pub free_running: usize,
-    /// Samples that no mechanism makes, by column.
+    /// Samples that are not believed, by column.
     pub left_out: Vec<LeftOut>,
-    /// Stretches in which a channel was lost, in samples of the trace: nothing in them counts.
-    pub lost: Vec<Range<usize>>,
     /// What else was done, a sentence each.
     pub notes: Vec<String>,
+}
+
+/// Which columns the channels are from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Origins {
+    /// The position, or the speed without one, and what it is of.
+    pub motion: Option<(String, Part)>,
+    /// The effort.
+    pub effort: String,
+    /// The load, or its torque.
+    pub load: Option<String>,
+    /// Whether a ratio of motor and nut was given.
+    pub ratio_known: bool,
+}
+
+impl Origins {
+    /// The columns between which a ratio is missing: the motor's motion beside a load, which acts at the nut, or the nut's motion beside an
+    /// effort of the motor; `None` where one was given, or none is needed.
+    pub fn without_ratio(&self) -> Option<[&str; 2]> {
+        let (motion, part) = self.motion.as_ref().filter(|_| !self.ratio_known)?;
+        match (part, &self.load) {
+            (Part::Motor, Some(load)) => Some([motion, load]),
+            (Part::Nut, _) => Some([motion, &self.effort]),
+            _ => None,
+        }
+    }
 }
 
 /// A trace on one sample clock, in SI units. All lists are as long as `effort`.
@@ -92,6 +111,11 @@ pub struct Trace {
     pub known: Option<KnownEffort>,
     /// Temperature, K.
     pub temperature: Option<Vec<f64>>,
+    /// Stretches in which some channel is not to be believed, in order and apart: dropouts, spikes, lost or clipped stretches, gaps. The
+    /// values there are interpolated.
+    pub left_out: Vec<Range<usize>>,
+    /// Which columns the channels are from.
+    pub origins: Origins,
     /// What was repaired.
     pub repairs: Repairs,
     /// Names of the file's columns that are none of these.

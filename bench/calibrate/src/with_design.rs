@@ -1,4 +1,4 @@
-//! Calibration of a trace of a screw whose design is known: the answer, what its page draws, what it adds to other traces.
+//! Calibration of a trace of a screw whose design is known: the answer, what its page draws, its sums.
 
 use crate::answer::Calibration;
 use crate::folder::answered::Answered;
@@ -33,7 +33,7 @@ pub fn told(trace: &Trace, design: &Design, request: &Request) -> Result<Told, F
     })
 }
 
-/// One trace of many, with what it adds to the others.
+/// One trace of many, with its sums about a reference that is the same for all.
 ///
 /// # Errors
 /// A trace or a request from which nothing can be told.

@@ -25,6 +25,8 @@ use crate::estimator::fit::Block;
 use crate::estimator::record::Record;
 use crate::estimator::terms::Term;
 use crate::estimator::words::{Diagnosis, diagnose};
+use crate::folder::answered::Answered;
+use crate::folder::population::HALF_INTERVAL;
 use crate::models::rank;
 use crate::page::picture::{Correlations, Picture};
 use crate::page::shown::digits;
@@ -62,7 +64,7 @@ pub fn calibrate(
         .map(|other| comparable(trace, other).map(|()| placed(other)))
         .transpose()?;
     let record = record(trace);
-    let (found, words, wave) = told(&record, trace.coordinate)?;
+    let (found, words, wave) = told(&record, trace)?;
     let mut answer = answer(&record, trace, &found, words);
     let beside = Beside {
         rich: true,
@@ -71,16 +73,17 @@ pub fn calibrate(
         load: loads(&found.terms),
     };
     let prepared = Prepared::new(trace, &record);
-    let seen = |prepared: &Prepared<'_>| {
-        controller
-            .and_then(|controller| SeenController::of(controller, prepared.trace, &prepared.motion))
+    let seen = |trace: &Trace, record: &Record| {
+        controller.and_then(|controller| SeenController::of(controller, trace, record))
     };
-    let own = seen(&prepared);
+    let own = seen(trace, &record);
     let other = unseen.as_deref().map(|other| (other, self::record(other)));
+    let other_controller = other
+        .as_ref()
+        .and_then(|(other, record)| seen(other, record));
     let other = other
         .as_ref()
         .map(|(other, record)| Prepared::new(other, record));
-    let other_controller = other.as_ref().and_then(&seen);
     // At one speed there is nothing to be compared.
     if found.of(Term::Coulomb).is_some() {
         let unseen = other
@@ -102,9 +105,60 @@ pub fn calibrate(
     })
 }
 
+/// One trace of many, and what it adds to the others: numbers of the drive itself, without the gain of a load's channel.
+///
+/// # Errors
+/// A trace from which nothing can be told, with the cause.
+pub fn plain(trace: &Trace) -> Result<(Calibration, Answered), Failure> {
+    let trace = &*placed(trace);
+    let record = record(trace);
+    let (found, words, _) = told(&record, trace)?;
+    let answer = answer(&record, trace, &found, words);
+    let own = |term: &Term| {
+        matches!(
+            term,
+            Term::Inertia
+                | Term::Viscous
+                | Term::Offset
+                | Term::Coulomb
+                | Term::OneSpeed
+                | Term::Driving
+                | Term::BackDriving
+        )
+    };
+    let places: Vec<usize> = (0..found.terms.len())
+        .filter(|k| own(&found.terms[*k]))
+        .collect();
+    // What other kernels say otherwise stretches each deviation of the jackknife to the interval's.
+    let deviation = |k: usize| found.half_widths[k] / HALF_INTERVAL;
+    let covariance = &found.fit.covariance;
+    let entry = |i: usize, j: usize| {
+        let both = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
+        covariance[(i, j)] / both * deviation(i) * deviation(j)
+    };
+    let answered = Answered {
+        with_design: false,
+        names: places
+            .iter()
+            .map(|k| found.terms[*k].name(trace.coordinate).into())
+            .collect(),
+        logarithmic: vec![false; places.len()],
+        values: places.iter().map(|k| found.values[*k]).collect(),
+        covariance: places
+            .iter()
+            .flat_map(|i| places.iter().map(|j| entry(*i, *j)))
+            .collect(),
+        model_errors: vec![0.0; places.len()],
+        rows: found.fit.residual.len() as u64,
+        effective_rows: answer.effective_rows,
+        residual_squares: found.fit.residual.iter().map(|left| left * left).sum(),
+    };
+    Ok((answer, answered.checked().map_err(Failure::Data)?))
+}
+
 /// A trace as the estimator takes it.
-fn record(trace: &Trace) -> Record {
-    Record::of(trace, &trace.repairs.lost)
+pub fn record(trace: &Trace) -> Record {
+    Record::of(trace, &[])
 }
 
 /// The trace with what is found of its known effort: whether the motor's effort holds it already. Some recorders add it, because it is made
@@ -160,14 +214,14 @@ fn comparable(trace: &Trace, other: &Trace) -> Result<(), Failure> {
 /// The estimate of a record with its words, and the wave number of a wave over the position.
 fn told(
     record: &Record,
-    coordinate: Coordinate,
+    trace: &Trace,
 ) -> Result<(choice::Estimate, Vec<String>, Option<f64>), Failure> {
     let Diagnosis {
         estimate,
         words,
         refusal,
         wave,
-    } = diagnose(record, coordinate);
+    } = diagnose(record, trace);
     match (refusal, estimate) {
         (None, Some(found)) => Ok((found, words, wave)),
         (refusal, _) => {

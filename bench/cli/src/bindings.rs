@@ -1,9 +1,9 @@
 //! What bindings to other languages take of the program: designs, scenes over traces, `eval` without its command line.
 
 pub use crate::simulate::bindings::{
-    Balls, Built, Caged, CagedRow, Folded, Friction, Linear, LinearRow, LinearSample, Lines,
-    Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewSample, Trace, TrainRow, Uncaged,
-    UncagedRow, Use, angle, coefficients, regime_name, remembering, trace, wrapped,
+    Balls, Built, Caged, CagedRow, EncoderStep, Folded, Friction, Linear, LinearRow, LinearSample,
+    Lines, Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewSample, Trace, TrainRow,
+    Uncaged, UncagedRow, Use, angle, coefficients, regime_name, remembering, trace, wrapped,
 };
 pub use epas_calibrate::controller::Controller;
 pub use epas_design::files::train::{LinearDesign, UncagedDesign};

@@ -7,6 +7,7 @@ pub mod bindings;
 mod caged;
 mod caged_exact;
 mod choice;
+pub(crate) mod encoder;
 mod exact_screw;
 pub(crate) mod linear;
 mod loads;
@@ -38,6 +39,7 @@ use std::path::PathBuf;
 use clap::error::ErrorKind;
 
 use choice::{Chosen, SceneName, choose};
+use encoder::EncoderStep;
 use epas_design::files::train::LinearDesign;
 use epas_design::files::{self as designs, DesignSource};
 use epas_page::failure::Failure;
@@ -156,7 +158,8 @@ pub struct Arguments {
     #[arg(long, value_name = "NAME|FILE.toml")]
     design: Option<DesignSource>,
     /// Trace with the columns or channels time, nut_speed, axial_load (linear: time, speed, normal_load, side_load), and if wanted
-    /// temperature (K); - for standard input
+    /// temperature (K), and of a screw nut_position (rad), which a memory of the scene caged follows in place of the sum of the speeds; - for standard
+    /// input
     #[arg(long, value_name = "TRACE.csv|TRACE.mf4", conflicts_with = "manoeuvre")]
     input: Option<PathBuf>,
     /// Which channel of a measurement file is which column, in TOML: nut_speed = "NAME", or with group, source and unit
@@ -199,6 +202,11 @@ pub struct Arguments {
     /// Friction that passes through a reversal with the speed, also in a manoeuvre: too low below some reversal speeds
     #[arg(long, conflicts_with = "memory")]
     no_memory: bool,
+    /// Step of the encoder, rad of the nut (m of a carriage): friction that remembers follows the motion behind a dead band of it, so that
+    /// flicker at rest moves nothing, and feels a reversal that much later; 0 for none [default: that of the flicker of
+    /// the trace's nut_position or speed]
+    #[arg(long, value_name = "RAD", value_parser = encoder::step, conflicts_with_all = ["mechanism", "loads", "no_memory"])]
+    encoder_step: Option<f64>,
     /// Time between two steps of the model, s, as of firmware at that rate, whatever the trace's is: between its samples the trace is
     /// interpolated linearly
     #[arg(long, value_name = "SECONDS", value_parser = tick::tick, conflicts_with_all = ["mechanism", "loads"])]
@@ -287,9 +295,9 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         arguments.manoeuvre,
         remembers(arguments),
     )? {
-        Chosen::Caged(scene) => simulate(&*scene, arguments, existing),
-        Chosen::Uncaged(scene) => simulate(&*scene, arguments, existing),
-        Chosen::Linear(scene) => simulate(&scene, arguments, existing),
+        Chosen::Caged(scene) => simulate(*scene, arguments, existing),
+        Chosen::Uncaged(scene) => simulate(*scene, arguments, existing),
+        Chosen::Linear(scene) => simulate(*scene, arguments, existing),
     }
 }
 
@@ -301,7 +309,11 @@ fn remembers(arguments: &Arguments) -> bool {
 }
 
 /// Runs one scene over its trace, and writes what is asked for.
-fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> Result<(), Failure> {
+fn simulate<S: Scene>(
+    mut scene: S,
+    arguments: &Arguments,
+    existing: Existing,
+) -> Result<(), Failure> {
     let mut scaled = None;
     let (trace, temperature) = match (&arguments.input, arguments.manoeuvre) {
         (Some(path), _) => {
@@ -318,6 +330,8 @@ fn simulate<S: Scene>(scene: &S, arguments: &Arguments, existing: Existing) -> R
         (None, None) => return Err(Failure::Data("there is no trace".into())),
     };
 
+    // Between samples a trace has no steps.
+    scene.set_encoder(EncoderStep::of(arguments.encoder_step, &trace));
     let (trace, temperature) = match arguments.tick {
         Some(tick) => tick::resampled(&trace, &temperature, tick)?,
         None => (trace, temperature),

@@ -1,10 +1,10 @@
-//! Scenes without cage whose friction remembers, as they are counted: a gear like that of the library's `firmware.md`, whose sensor
-//! counts, and a linear bearing.
+//! Scenes without cage whose friction remembers, as they are counted: a gear like that of the library's `firmware.md`, whose encoder
+//! counts behind a dead band of one count, and a linear bearing.
 
 use epas_friction::defaults::COEFFICIENT;
 use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, SpeedOverTick};
+use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband, SpeedOverTick};
 use epas_friction::scene::{
     Freshness, UncagedBallScrew, UncagedBallScrewConfiguration, WithMemory,
     WithMemoryConfiguration, WithMemoryInputs,
@@ -20,12 +20,18 @@ use crate::scenes::{
 /// Counts of the encoder in a turn of the nut.
 pub const COUNTS: u32 = 1 << 14;
 
+/// Turn of the nut for a count, rad.
+const TURN_PER_COUNT: f32 = core::f32::consts::TAU / COUNTS as f32;
+
+/// The encoder behind a dead band of one count: flicker at rest moves nothing.
+pub type Encoder = Deadband<CountSensor>;
+
 /// A ball screw with 37 balls, without cage, with an encoder and one friction coefficient.
 pub type Gear =
-    WithMemory<UncagedBallScrew<BALLS>, ProportionalElements<8>, CountSensor, OneCoefficient>;
+    WithMemory<UncagedBallScrew<BALLS>, ProportionalElements<8>, Encoder, OneCoefficient>;
 
 /// The same with a friction coefficient by speed and temperature.
-pub type GearByLaw = WithMemory<UncagedBallScrew<BALLS, 3>, ProportionalElements<8>, CountSensor>;
+pub type GearByLaw = WithMemory<UncagedBallScrew<BALLS, 3>, ProportionalElements<8>, Encoder>;
 
 /// A linear bearing with one friction coefficient.
 pub type Carriage =
@@ -51,7 +57,7 @@ pub fn gear_configuration() -> Result<
     WithMemoryConfiguration<
         UncagedBallScrewConfiguration,
         ProportionalElements<8>,
-        CountSensor,
+        Encoder,
         OneCoefficient,
     >,
     Error,
@@ -66,7 +72,7 @@ pub fn gear_configuration() -> Result<
 /// # Errors
 /// None.
 pub fn gear_law_configuration() -> Result<
-    WithMemoryConfiguration<UncagedBallScrewConfiguration<3>, ProportionalElements<8>, CountSensor>,
+    WithMemoryConfiguration<UncagedBallScrewConfiguration<3>, ProportionalElements<8>, Encoder>,
     Error,
 > {
     gear(
@@ -78,15 +84,18 @@ pub fn gear_law_configuration() -> Result<
 fn gear<C: Copy, L: Copy>(
     scene: C,
     coefficient: L,
-) -> Result<WithMemoryConfiguration<C, ProportionalElements<8>, CountSensor, L>, Error> {
+) -> Result<WithMemoryConfiguration<C, ProportionalElements<8>, Encoder, L>, Error> {
     Ok(WithMemoryConfiguration {
         scene,
         elements: elements(0.2, 2e-3)?,
-        angle: CountSensor::new(CountSensorParameters {
-            period: COUNTS,
-            turn_per_count: core::f32::consts::TAU / COUNTS as f32,
-            largest_turn: 0.5,
-        })?,
+        angle: Deadband::new(
+            CountSensor::new(CountSensorParameters {
+                period: COUNTS,
+                turn_per_count: TURN_PER_COUNT,
+                largest_turn: 0.5,
+            })?,
+            0.5 * TURN_PER_COUNT,
+        )?,
         reference_load: 1_000.0,
         play: 2e-3,
         coefficient,

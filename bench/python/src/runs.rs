@@ -1,8 +1,8 @@
 //! Whole traces as the command `simulate` runs them, and the float64 reference over them; single evaluations of `eval`.
 
 use epas_cli::bindings::{
-    self, Caged, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample, Trace,
-    Uncaged,
+    self, Caged, EncoderStep, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample,
+    Trace, Uncaged,
 };
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
@@ -73,6 +73,7 @@ fn screw_trace<'py>(py: Python<'py>, values: [&Any<'py>; 3]) -> PyResult<Trace<S
             time,
             nut_speed,
             axial_load,
+            nut_position: 0.0,
         }
     })
 }
@@ -80,13 +81,14 @@ fn screw_trace<'py>(py: Python<'py>, values: [&Any<'py>; 3]) -> PyResult<Trace<S
 /// What a scene makes of a trace; an interrupt ends it.
 fn rows<S>(
     py: Python<'_>,
-    scene: S,
+    mut scene: S,
     trace: Trace<S::Sample>,
     reference: Option<ReferenceModel>,
 ) -> PyResult<Vec<S::Row>>
 where
     S: Scene<Sample: Send + 'static, Row: Send + 'static> + Send + 'static,
 {
+    scene.set_encoder(EncoderStep::of(None, &trace));
     let made = interruptible(py, move |stop| {
         scene.rows(&trace, reference, &|| stop.check())
     })?;
@@ -114,6 +116,7 @@ fn uncaged(py: Python<'_>, design: &Design, memory: bool) -> PyResult<Uncaged> {
             design: inner,
             balls,
             memory,
+            encoder: EncoderStep::default(),
         });
     }
     let message = format!("{} says nothing of its circuit of balls", inner.name);
@@ -149,6 +152,7 @@ pub fn simulate_caged<'py>(
     let scene = Caged {
         design: (*design.inner).clone(),
         memory,
+        encoder: EncoderStep::default(),
     };
     let rows = rows(py, scene, trace, None)?;
     columns::<ScrewColumns>(py, rows.iter().map(|row| row.outputs))
@@ -232,6 +236,7 @@ pub fn simulate_linear<'py>(
     let scene = Linear {
         design: (*design.inner).clone(),
         memory,
+        encoder: EncoderStep::default(),
     };
     let rows = rows(py, scene, trace, None)?;
     columns::<LinearColumns>(py, rows.iter().map(|row| row.train.outputs))
@@ -281,6 +286,7 @@ pub fn reference_simulate_caged<'py>(
     let scene = Caged {
         design: (*design.inner).clone(),
         memory: false,
+        encoder: EncoderStep::default(),
     };
     let rows = rows(py, scene, trace, Some(ReferenceModel::Exact))?;
     reference_run(py, rows.iter().map(|row| row.reference))

@@ -125,7 +125,7 @@ def screws() -> list[tuple[Any, Callable[[Any], Any]]]:
     for one in [train, train_with_memory]:
         one.run(speed * 0.01, 200.0)
         made.append((one, lambda one: one.run(speed * 0.01, 200.0)))
-    remembering = ef.CagedBallScrewWithMemory(caged, reference_load=1000.0)
+    remembering = ef.CagedBallScrewWithMemory(caged, reference_load=1000.0, encoder_step=1e-4)
     angle = np.cumsum(speed) * 1e-3
     remembering.run(speed, load, angle)
     made.append((remembering, lambda one: one.run(speed, load, angle[::-1].copy())))

@@ -130,6 +130,8 @@ def test_scenes() -> None:
     assert refusal(lambda: ef.CagedBallScrew(design, branch="none")).field == "branch"
     assert refusal(lambda: ef.CagedBallScrew(design, friction=2.0)).range == (np.float32(1e-3), 0.5)
     assert refusal(lambda: ef.CagedBallScrewWithMemory(design, reference_load=-1.0)).field == "reference_load"
+    refused = refusal(lambda: ef.CagedBallScrewWithMemory(design, reference_load=1.0, encoder_step=1.0))
+    assert refused.field == "encoder_step"
     with pytest.raises(OverflowError):
         ef.CagedBallScrew(design, loaded_balls=70_000)
     with pytest.raises(TypeError):

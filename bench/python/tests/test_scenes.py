@@ -209,3 +209,16 @@ def test_a_range_that_no_block_holds_is_refused() -> None:
     with pytest.raises(ef.Error) as error:
         ef.CagedBallScrew(design).set_friction(0.2)
     assert error.value.field == "friction"
+
+
+def test_flicker_at_rest_moves_no_friction() -> None:
+    step = 2.0 * np.pi / 16384
+    # Behind a dead band of the step the nut stands; a turn of one and back is within it.
+    counts = np.concatenate([np.arange(0, 600, 10), 590 + np.tile([0, 1, 1, 0, 1], 100)])
+    still, moved = (
+        ef.CagedBallScrewWithMemory(ef.Design.built_in("lin-4.1"), reference_load=5000.0, encoder_step=size)
+        .run(0.0, 5000.0, counts * step)
+        .friction_torque[70:]
+        for size in (step, 0.0)
+    )
+    assert np.ptp(still) == 0.0 < np.ptp(moved)

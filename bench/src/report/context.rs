@@ -4,7 +4,6 @@ use super::accuracy::Accuracy;
 use super::flagship::Flagship;
 use crate::counts::Figures;
 use crate::timing::Competition;
-use epas_page::failure::Failure;
 
 /// What every section works with.
 pub struct Context {
@@ -18,14 +17,4 @@ pub struct Context {
     pub flagship: Flagship,
     /// Errors that README and the page of accuracy print: of this run, or stored ones of a quick look.
     pub accuracy: Vec<Accuracy>,
-}
-
-impl Context {
-    /// The times of a function by its key.
-    pub fn times(&self, key: &str) -> Result<&Competition, Failure> {
-        self.competition
-            .iter()
-            .find(|entry| entry.key == key)
-            .ok_or_else(|| Failure::Data(format!("nothing was timed as {key}")))
-    }
 }

@@ -1,5 +1,6 @@
 //! Friction of the whole screw, first of all: what the scenes that firmware runs say over a manoeuvre, their error and their cost.
 
+use crate::timing;
 use epas_reference::promises::{self, Promise};
 
 use super::context::Context;
@@ -128,7 +129,7 @@ fn cells(context: &Context, row: &SceneRow) -> Result<Vec<Cell>, Failure> {
         Cell::power(100.0 * row.found.rms),
         row.found.kind.as_str().into(),
         Cell::power(100.0 * row.promise.largest),
-        time(&context.times(row.time)?.latency, 0),
+        time(&timing::times(&context.competition, row.time)?.latency, 0),
         cycles.map_or("not counted".into(), |cycles| Cell::fixed(cycles, 0)),
         cycles.map_or("".into(), |cycles| {
             Cell::fixed(100.0 * cycles / CYCLES_A_MILLISECOND, 1)

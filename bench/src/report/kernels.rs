@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use super::context::Context;
 use super::statistics::{Errors, evenly};
 use super::times::time;
+use crate::timing;
 use crate::timing::kernels::{libm, micromath, own};
 use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
@@ -77,7 +78,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     ];
     let mut rows = Vec::new();
     for (kernel, backend, key, errors) in entries {
-        let times = context.times(key)?;
+        let times = timing::times(&context.competition, key)?;
         rows.push(vec![
             kernel.into(),
             backend.into(),

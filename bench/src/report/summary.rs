@@ -4,6 +4,7 @@ use super::context::Context;
 use super::statistics::Errors;
 use super::times::{quartiles, ratio, time};
 use super::{curvature, efficiency, hertz};
+use crate::timing;
 use epas_page::document::{Block, Cell, Figure, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
@@ -106,7 +107,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
 
 /// The tick of 37 balls that press on each other, against the exact whole screw.
 fn flagship(context: &Context) -> Result<Vec<Vec<Cell>>, Failure> {
-    let step = context.times("step_train_37")?;
+    let step = timing::times(&context.competition, "step_train_37")?;
     let found = &context.flagship.comparison;
     let rows = [
         (
@@ -139,7 +140,7 @@ fn flagship(context: &Context) -> Result<Vec<Vec<Cell>>, Failure> {
 fn errors_and_times(context: &Context, errors: [&Errors; 8]) -> Result<Table, Failure> {
     let mut rows = flagship(context)?;
     for ([key, name, kind, domain], errors) in FORMULAS.into_iter().zip(errors) {
-        let times = context.times(key)?;
+        let times = timing::times(&context.competition, key)?;
         rows.push(vec![
             Cell::from(name),
             Cell::power(errors.largest),
@@ -152,7 +153,7 @@ fn errors_and_times(context: &Context, errors: [&Errors; 8]) -> Result<Table, Fa
             domain.into(),
         ]);
     }
-    let step = context.times("step_caged")?;
+    let step = timing::times(&context.competition, "step_caged")?;
     rows.push(vec![
         "caged ball screw: step()".into(),
         "".into(),
@@ -213,7 +214,7 @@ fn ratios(context: &Context) -> Result<Table, Failure> {
         ),
         ("appendix_b_f64", "Appendix B, f64", "71.5"),
     ] {
-        let times = context.times(key)?;
+        let times = timing::times(&context.competition, key)?;
         rows.push(vec![
             Cell::from(name),
             time(&times.latency, 2),
@@ -282,7 +283,12 @@ fn picture(context: &Context, errors: &[Errors; 4]) -> Result<Figure, Failure> {
     for (colour, (name, mark, points)) in groups.into_iter().enumerate() {
         let mut places = Vec::new();
         for (key, text, error) in points {
-            let at = (context.times(key)?.latency.at_least_resolved(), error);
+            let at = (
+                timing::times(&context.competition, key)?
+                    .latency
+                    .at_least_resolved(),
+                error,
+            );
             places.push(at);
             notes.push(Note {
                 at,

@@ -6,6 +6,7 @@ mod settings;
 use super::context::Context;
 use super::flagship::Flagship;
 use super::times::time;
+use crate::timing;
 use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 
@@ -37,7 +38,7 @@ fn flagship(context: &Context) -> Result<Table, Failure> {
         turns,
         exact_state,
     } = &context.flagship;
-    let step = context.times("step_train_37")?;
+    let step = timing::times(&context.competition, "step_train_37")?;
     let error = |off: &crate::exact_ring::Off| off.relative().map(Cell::power);
     let off = [
         &comparison.force,

@@ -43,6 +43,17 @@ pub struct Competition {
     pub ratios: (Ratio, Ratio),
 }
 
+/// The times of a function by its key.
+///
+/// # Errors
+/// A key under which nothing was timed.
+pub fn times<'a>(competition: &'a [Competition], key: &str) -> Result<&'a Competition, Failure> {
+    competition
+        .iter()
+        .find(|entry| entry.key == key)
+        .ok_or_else(|| Failure::Data(format!("nothing was timed as {key}")))
+}
+
 /// Times everything.
 pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
     // Through `black_box`, or the constants would be folded into the loops.

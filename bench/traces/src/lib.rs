@@ -6,6 +6,10 @@
 //! | [`headings`], [`front`] | the headings of a table, and what stands above and below them |
 //! | [`source`] | where a trace comes from: a file or standard input, a table or a measurement file |
 //! | [`mdf4`] | measurement files, read and written |
+//! | [`table`], `gaps` | the numbers of either in SI units, with empty cells filled |
+//! | [`marks`] | samples that are not to be believed |
+//! | [`clock`] | one sample clock: tick, gaps, jitter |
+//! | [`channels`] | angles without jumps, the step of a sensor |
 //! | [`flags`] | flags of a step: names, meaning, reaction |
 
 // For the programs of this workspace: a failure is a sentence, whose causes the sentence names.
@@ -13,9 +17,14 @@
 // Pages are read by those who work on it: a link to a private item helps them.
 #![allow(rustdoc::private_intra_doc_links)]
 
+pub mod channels;
+pub mod clock;
 pub mod flags;
 pub mod front;
+mod gaps;
 pub mod headings;
+pub mod marks;
 pub mod mdf4;
 pub mod source;
+pub mod table;
 pub mod units;

@@ -73,6 +73,8 @@ pub enum Dimension {
     Angle,
     /// A length, or its speed.
     Length,
+    /// A share of what a motor is rated for.
+    Rated,
     /// Anything else.
     Other,
 }
@@ -111,7 +113,7 @@ const fn unit(
     }
 }
 
-use Dimension::{Angle, Length, Other, Unsaid};
+use Dimension::{Angle, Length, Other, Rated, Unsaid};
 
 const UNSAID: Unit = unit("", &[], 1.0, Unsaid);
 
@@ -164,6 +166,8 @@ const FORCE: &[Unit] = &[
 const TORQUE: &[Unit] = &[
     unit("Nm", &["Nm", "N*m", "N.m"], 1.0, Other),
     unit("mNm", &["mNm"], 1e-3, Other),
+    unit("percent", &["%"], 1e-2, Rated),
+    unit("permille", &["\u{2030}", "1/1000"], 1e-3, Rated),
 ];
 const TEMPERATURE: &[Unit] = &[
     unit("K", &["K", "kelvin"], 1.0, Other),
@@ -176,7 +180,7 @@ const TEMPERATURE: &[Unit] = &[
     },
 ];
 
-/// Every name without a unit. A longer name stands before one that it starts with.
+/// Every name without a unit.
 const NAMES: &[(&str, Quantity)] = &[
     ("time", Quantity::Time),
     ("timestamps", Quantity::Time),
@@ -200,6 +204,16 @@ const NAMES: &[(&str, Quantity)] = &[
     ("side_load", Quantity::SideLoad),
     ("rack_force", Quantity::Load),
     ("temperature", Quantity::Temperature),
+    // Objects of drives after CiA 402, as recorders of motion controllers name them.
+    ("position_actual_value", Quantity::Position(Part::Motor)),
+    ("position_demand_value", Quantity::ReferencePosition),
+    (
+        "velocity_actual_value_averaged",
+        Quantity::Speed(Part::Motor),
+    ),
+    ("velocity_actual_value", Quantity::Speed(Part::Motor)),
+    ("torque_actual_value_averaged", Quantity::MotorTorque),
+    ("torque_actual_value", Quantity::MotorTorque),
 ];
 
 impl Quantity {
@@ -336,19 +350,21 @@ fn brackets(heading: &str) -> (&str, Option<&str>) {
     (heading, None)
 }
 
-/// The quantity that a name starts with, its own name, and what follows.
+/// The quantity of the longest of our names that a name starts with, our name, and what follows.
 fn split(
     name: &str,
     same: impl Fn(&str, &str) -> bool,
 ) -> Option<(Quantity, &'static str, Option<&str>)> {
-    NAMES.iter().find_map(|(stem, quantity)| {
+    let all = NAMES.iter().filter_map(|(stem, quantity)| {
         let own = name.get(..stem.len()).filter(|own| same(own, stem))?;
         let rest = &name[own.len()..];
         match rest.strip_prefix('_') {
             Some(suffix) => Some((*quantity, *stem, Some(suffix))),
             None => rest.is_empty().then_some((*quantity, *stem, None)),
         }
-    })
+    });
+    // A name may start with another one.
+    all.max_by_key(|(_, stem, _)| stem.len())
 }
 
 /// The unit that ends a name.
@@ -379,6 +395,7 @@ fn fits(quantity: Quantity, dimension: Dimension) -> bool {
             Part::Motor | Part::Nut => dimension != Length,
             Part::Carriage => dimension != Angle,
         },
+        Quantity::LoadTorque => dimension != Rated,
         _ => true,
     }
 }

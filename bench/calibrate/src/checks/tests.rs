@@ -101,6 +101,8 @@ fn trace(path: Path) -> Trace {
         load_is_effort: false,
         known: None,
         temperature: Some((0..SAMPLES).map(|sample| 293.0 + time(sample)).collect()),
+        left_out: Vec::new(),
+        origins: crate::trace::Origins::default(),
         repairs: Repairs::default(),
         ignored: Vec::new(),
     }

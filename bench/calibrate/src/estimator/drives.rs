@@ -7,7 +7,7 @@ use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
 use crate::trace::channels::resolution;
-use crate::trace::{Coordinate, Repairs, Trace};
+use crate::trace::{Coordinate, Origins, Repairs, Trace};
 
 /// What is true of a drive.
 #[derive(Clone, Copy, Debug)]
@@ -32,6 +32,10 @@ pub struct Drive {
     pub stiffness: f64,
     /// Way over which friction builds up after a turn (Dahl), rad; 0 for at once.
     pub bristle: f64,
+    /// Friction at rest beyond Coulomb's over it, and the speed over which it falls, rad/s.
+    pub stribeck: (f64, f64),
+    /// Whether the loop has its speed from the difference of the last two positions of the trace's sensor.
+    pub differences: bool,
 }
 
 impl Drive {
@@ -55,6 +59,8 @@ impl Drive {
             rests: false,
             stiffness: 1.0,
             bristle: 0.0,
+            stribeck: (0.0, 1.0),
+            differences: false,
         }
     }
 
@@ -111,15 +117,23 @@ impl Drive {
         let mut moving = Moving::default();
         let [mut angles, mut efforts, mut loads] = [Vec::new(), Vec::new(), Vec::new()];
         let mut stood = 0.0;
+        let step_of_sensor = TAU / 2_f64.powi(bits as i32);
+        let (mut before, mut seen) = (0.0, 0.0);
         for step in 0..(seconds / STEP) as usize {
             let time = step as f64 * STEP;
             let load = self.torque_of_load(time);
             let wanted = self.reference(time);
             let rate = (self.reference(time + STEP) - wanted) / STEP;
-            let effort = self.inertia
-                * self.stiffness
-                * (2500.0 * (wanted - moving.angle)
-                    + 75.0 * (rate - moving.speed) / self.stiffness.sqrt());
+            if !self.differences {
+                seen = moving.speed;
+            } else if step % every == 0 {
+                let counted = (moving.angle / step_of_sensor).round() * step_of_sensor;
+                seen = (counted - before) * self.rate as f64;
+                before = counted;
+            }
+            let push =
+                2500.0 * (wanted - moving.angle) + 75.0 * (rate - seen) / self.stiffness.sqrt();
+            let effort = self.inertia * self.stiffness * push;
             if step % every == 0 {
                 angles.push(moving.angle);
                 efforts.push(effort + normal(self.noise[0]));
@@ -129,7 +143,7 @@ impl Drive {
             moving.step(self, effort, load);
         }
         let stood = stood / angles.len() as f64;
-        let step = TAU / 2_f64.powi(bits as i32);
+        let step = step_of_sensor;
         let counted: Vec<f64> = angles.iter().map(|x| (x / step).round() * step).collect();
         let tick = 1.0 / self.rate as f64;
         let speeds = lag.map(|lag| {
@@ -175,6 +189,8 @@ impl Drive {
             known: None,
             temperature: None,
             repairs: Repairs::default(),
+            left_out: Vec::new(),
+            origins: Origins::default(),
             ignored: Vec::new(),
         };
         (trace, stood)
@@ -195,9 +211,10 @@ struct Moving {
 impl Moving {
     fn step(&mut self, drive: &Drive, effort: f64, load: f64) {
         let push = effort - load - drive.offset;
-        let whole = |direction: f64| {
+        let whole = |direction: f64| -> f64 {
             let loss = drive.losses[usize::from(direction * load <= 0.0)];
-            drive.coulomb + loss * load.abs()
+            let rise = drive.stribeck.0 * (-self.speed.abs() / drive.stribeck.1).exp();
+            drive.coulomb * (1.0 + rise) + loss * load.abs()
         };
         let before = self.speed;
         if drive.bristle > 0.0 {

@@ -52,8 +52,8 @@ pub struct Record {
 }
 
 impl Record {
-    /// That of a trace.
-    pub fn of(trace: &Trace, left_out: &[Range<usize>]) -> Self {
+    /// That of a trace, with more samples left out.
+    pub fn of(trace: &Trace, more: &[Range<usize>]) -> Self {
         let tick = trace.step;
         let speed = trace.speed.as_ref().filter(|_| trace.position_summed);
         let measured = speed.unwrap_or(&trace.position);
@@ -84,7 +84,7 @@ impl Record {
             (DEVIATIONS * noise, measured.clone(), measured.clone())
         };
         let mut bad = vec![0; trace.len() + 1];
-        for range in left_out {
+        for range in trace.left_out.iter().chain(more) {
             bad[range.start.min(trace.len())..range.end.min(trace.len())].fill(1);
         }
         let mut before = 0;
@@ -209,21 +209,6 @@ pub struct Smoothed {
     pub speed: Vec<f64>,
     /// rad/s^2 or m/s^2.
     pub acceleration: Vec<f64>,
-}
-
-impl Record {
-    /// The motion as a kernel smooths it.
-    pub fn smoothed(&self, kernel: &Kernel) -> Smoothed {
-        Smoothed {
-            position: if self.speed_alone {
-                self.path.clone()
-            } else {
-                kernel.along(0, &self.motion)
-            },
-            speed: kernel.along(self.order(1), &self.motion),
-            acceleration: kernel.along(self.order(2), &self.motion),
-        }
-    }
 }
 
 /// Standard deviation of white noise, by the median of its fourth differences, whose variance is 70 times its own.

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::fit::Block;
+use super::kernel::Kernel;
 use super::record::Record;
 use super::rows::Rows;
 use crate::trace::Coordinate;
@@ -151,12 +152,18 @@ impl Block {
         }
     }
 
-    /// A run at one speed as one row, its means, which counts as `weight` rows.
+    /// A run at one speed as one row, which counts as `weight` rows: the kernel over the whole run, which passes less of a ripple whose last
+    /// period is cut than a mean does.
     pub fn of_run(record: &Record, terms: &[Term], weight: f64) -> Option<Self> {
         let (speed, range) = record.one_speed()?;
-        let mean = |signal: &[f64]| {
-            let part = &signal[range.clone()];
-            part.iter().sum::<f64>() / part.len().max(1) as f64
+        let half = (range.len() - 1) / 2;
+        let kernel = Kernel::new(half, record.tick);
+        let centre = range.start + half;
+        let mean = |signal: &[f64]| kernel.at(0, signal, centre);
+        let speed = if record.speed_alone {
+            mean(&record.motion)
+        } else {
+            speed
         };
         let direction = speed.signum();
         let load = record.load.as_deref().map_or(0.0, mean);

@@ -9,7 +9,7 @@ use super::drives::Drive;
 use super::record::Record;
 use super::terms::Term;
 use super::words::{Diagnosis, diagnose};
-use crate::trace::{Coordinate, Trace};
+use crate::trace::Trace;
 
 const TERMS: [Term; 6] = [
     Term::Inertia,
@@ -27,6 +27,7 @@ const SECONDS: f64 = 20.0;
 #[derive(Debug)]
 struct Coverage {
     held: [usize; 6],
+    #[allow(dead_code, reason = "printed")]
     halves: [f64; 6],
     /// Largest share of a trace's samples in which its drive stood.
     sticks: f64,
@@ -111,6 +112,11 @@ fn intervals_hold_the_truth_whole() {
             enough(format!("{hertz} Hz, rests {rests}"), &found);
         }
     }
+    // Loops that have their speed from the sensor: its noise is in the effort too.
+    for bits in [10, 14] {
+        let found = coverage(100, bits, None, |drive| drive.differences = true);
+        enough(format!("{bits} bits, differences"), &found);
+    }
     // Loops so soft that a drive stands at its turns.
     for (stiffness, least) in [(0.3, 0.04), (0.1, 0.1)] {
         let found = coverage(100, 14, None, |drive| drive.stiffness = stiffness);
@@ -141,8 +147,27 @@ fn friction_that_builds_up_after_a_turn_does_not_bias() {
     assert!(held.iter().sum::<usize>() >= 41, "{held:?}");
 }
 
+/// Friction that rises towards rest is named and told beside the others, where it is a half of Coulomb's.
+#[test]
+fn friction_that_rises_towards_rest_is_told() {
+    let (mut named, mut held) = (0, 0);
+    for seed in 0..6 {
+        let mut drive = Drive::drawn(seed);
+        drive.stribeck = (0.5, 4.0);
+        let found = told(&drive.trace(seed, SECONDS, 14, None).0);
+        named += usize::from(found.words.iter().any(|word| word.contains("towards rest")));
+        let estimate = found.estimate.unwrap();
+        for (k, term) in TERMS.into_iter().enumerate() {
+            let (value, half) = estimate.of(term).unwrap();
+            held += usize::from((value - drive.truth()[k]).abs() <= half);
+        }
+    }
+    println!("{named} of 6 named, {held} of 36 intervals hold");
+    assert!(named >= 5 && held >= 28, "{named}, {held}");
+}
+
 fn told(trace: &Trace) -> Diagnosis {
-    diagnose(&Record::of(trace, &[]), Coordinate::Rotation)
+    diagnose(&Record::of(trace, &[]), trace)
 }
 
 type Spoil = fn(&mut Trace);

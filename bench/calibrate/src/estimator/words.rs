@@ -13,8 +13,8 @@ use super::choice::{Estimate, Wanted, estimate};
 use super::record::Record;
 use super::terms::Term;
 use crate::page::shown::digits;
-use crate::trace::Coordinate;
 use crate::trace::channels::{range, resolution};
+use crate::trace::{Coordinate, Trace};
 
 /// Share of the effort that is left from which on nothing is explained, and from which on a fit is doubted.
 const NOTHING: f64 = 0.9;
@@ -45,8 +45,8 @@ impl Diagnosis {
 }
 
 /// What a record tells, and what is wrong with it.
-pub fn diagnose(record: &Record, coordinate: Coordinate) -> Diagnosis {
-    let names = Names::of(coordinate);
+pub fn diagnose(record: &Record, trace: &Trace) -> Diagnosis {
+    let names = Names::of(trace);
     if let Some(word) = ran_over(&record.effort, &names) {
         return Diagnosis::refused(None, word);
     }
@@ -68,7 +68,7 @@ pub fn diagnose(record: &Record, coordinate: Coordinate) -> Diagnosis {
 }
 
 /// Adds the terms that the residual asks for.
-fn with_more(record: &Record, found: Estimate, names: &Names) -> Diagnosis {
+fn with_more(record: &Record, found: Estimate, names: &Names<'_>) -> Diagnosis {
     let mut words = Vec::new();
     let (mut found, mut wave) = (found, None);
     let moves = found.of(Term::OneSpeed).is_none();
@@ -109,29 +109,34 @@ fn with_more(record: &Record, found: Estimate, names: &Names) -> Diagnosis {
     }
 }
 
-/// Names of a coordinate's columns and units.
-struct Names {
-    effort: &'static str,
+/// Names of a trace's columns, and units.
+struct Names<'a> {
+    effort: &'a str,
+    load: &'a str,
+    motion: &'a str,
     unit: &'static str,
-    load: &'static str,
-    per_angle: &'static str,
+    length: &'static str,
+    /// Columns between which a gear's ratio is missing.
+    without_ratio: Option<[&'a str; 2]>,
 }
 
-impl Names {
-    const fn of(coordinate: Coordinate) -> Self {
-        match coordinate {
-            Coordinate::Rotation => Self {
-                effort: "motor_torque",
-                unit: "N m",
-                load: "load_torque",
-                per_angle: "rad",
-            },
-            Coordinate::Translation => Self {
-                effort: "motor_force",
-                unit: "N",
-                load: "axial_load",
-                per_angle: "m",
-            },
+impl<'a> Names<'a> {
+    fn of(trace: &'a Trace) -> Self {
+        let [effort, load, unit, length] = match trace.coordinate {
+            Coordinate::Rotation => ["motor_torque", "load_torque", "N m", "rad"],
+            Coordinate::Translation => ["motor_force", "axial_load", "N", "m"],
+        };
+        let origins = &trace.origins;
+        let motion = origins.motion.as_ref().map(|(name, _)| name.as_str());
+        Self {
+            effort: Some(origins.effort.as_str())
+                .filter(|name| !name.is_empty())
+                .unwrap_or(effort),
+            load: origins.load.as_deref().unwrap_or(load),
+            motion: motion.unwrap_or("the position"),
+            unit,
+            length,
+            without_ratio: origins.without_ratio(),
         }
     }
 }
@@ -147,7 +152,7 @@ fn bad(found: &Estimate) -> bool {
 }
 
 /// An effort that fills a power of two of its steps, and jumps by as much between two samples.
-fn ran_over(effort: &[f64], names: &Names) -> Option<String> {
+fn ran_over(effort: &[f64], names: &Names<'_>) -> Option<String> {
     let step = resolution(effort);
     let (low, high) = range(effort);
     [8, 10, 12, 16].into_iter().find_map(|bits| {
@@ -172,7 +177,7 @@ fn ran_over(effort: &[f64], names: &Names) -> Option<String> {
 }
 
 /// Position and effort are exchanged: the other way round the equation holds.
-fn exchanged(record: &Record, found: Option<&Estimate>, names: &Names) -> Option<String> {
+fn exchanged(record: &Record, found: Option<&Estimate>, names: &Names<'_>) -> Option<String> {
     let left = found.map_or(1.0, |found| found.fit.relative);
     if record.speed_alone || left < DOUBTED {
         return None;
@@ -183,7 +188,8 @@ fn exchanged(record: &Record, found: Option<&Estimate>, names: &Names) -> Option
     let holds = other.fit.relative < 0.2_f64.min(0.5 * left);
     (holds && inertia > 2.0 * half && coulomb > 0.0).then(|| {
         format!(
-            "the names of the position and of {} are exchanged: the other way round the equation leaves {:.0} % of it, as it stands {:.0} %",
+            "{} and {} are exchanged: the other way round the equation leaves {:.0} % of the effort, as it stands {:.0} %",
+            names.motion,
             names.effort,
             100.0 * other.fit.relative,
             100.0 * left
@@ -192,7 +198,7 @@ fn exchanged(record: &Record, found: Option<&Estimate>, names: &Names) -> Option
 }
 
 /// Sign, unit or ratio of the load, by how much of it the effort carries: `((1 + driving_loss) + (1 - back_driving_loss))/2`.
-fn load(found: &Estimate, names: &Names) -> Option<String> {
+fn load(found: &Estimate, names: &Names<'_>) -> Option<String> {
     let ((driving, half), (back, _)) = (found.of(Term::Driving)?, found.of(Term::BackDriving)?);
     let carried = 1.0 + 0.5 * (driving - back);
     let sure = half < 0.2 * carried.abs().max(0.1);
@@ -212,10 +218,13 @@ fn load(found: &Estimate, names: &Names) -> Option<String> {
             names.effort, names.unit, names.load, names.unit
         )
     } else {
-        format!(
-            "a unit, or a gear of ratio {} between motor and load (--ratio)",
-            digits(1.0 / carried, 3)
-        )
+        let ratio = digits(1.0 / carried, 3);
+        match names.without_ratio {
+            Some([one, other]) => format!(
+                "a gear between {one} and {other} would do that: give --ratio (here {ratio}), or mend a unit"
+            ),
+            None => format!("mend a unit, or give the ratio of a gear (--ratio; here {ratio})"),
+        }
     };
     Some(format!(
         "{} carries {} times {}: {cause}",
@@ -226,7 +235,7 @@ fn load(found: &Estimate, names: &Names) -> Option<String> {
 }
 
 /// A jump that hides in the turns: Coulomb friction below zero beside a sound inertia and drag.
-fn hidden_jump(record: &Record, found: &Estimate, names: &Names) -> Option<String> {
+fn hidden_jump(record: &Record, found: &Estimate, names: &Names<'_>) -> Option<String> {
     let (coulomb, half) = found.of(Term::Coulomb)?;
     let above = |term: Term| found.of(term).is_some_and(|(value, _)| value > 0.0);
     let step = resolution(&record.effort);
@@ -248,7 +257,7 @@ fn hidden_jump(record: &Record, found: &Estimate, names: &Names) -> Option<Strin
 }
 
 /// Power out of friction: over closed ways inertia and a load of the position give none.
-fn turned(record: &Record, found: &Estimate, names: &Names) -> Option<String> {
+fn turned(record: &Record, found: &Estimate, names: &Names<'_>) -> Option<String> {
     let (coulomb, _) = found
         .of(Term::Coulomb)
         .or_else(|| found.of(Term::OneSpeed))?;
@@ -299,12 +308,12 @@ fn amplitude(found: &Estimate, wave: f64) -> f64 {
 fn load_of_position(
     record: &Record,
     found: &Estimate,
-    names: &Names,
+    names: &Names<'_>,
 ) -> Option<(Estimate, f64, String)> {
     let (low, high) = range(&record.path);
     let stroke = high - low;
     let mut waves = [1.5, 3.0, 6.0].map(|part| part / stroke).to_vec();
-    if names.per_angle == "rad" && stroke < 30.0 {
+    if names.length == "rad" && stroke < 30.0 {
         waves.insert(0, 1.0);
     }
     let mut best: Option<(f64, f64)> = None;
@@ -332,7 +341,7 @@ fn load_of_position(
         digits(amplitude(&better, wave), 3),
         names.unit,
         digits(TAU / wave, 3),
-        names.per_angle,
+        names.length,
         100.0 * found.fit.relative,
         100.0 * better.fit.relative,
         names.load
@@ -347,7 +356,7 @@ const HEIGHT: f64 = 30.0;
 const PERIODS: f64 = 5.0;
 
 /// A torque that repeats over the position.
-fn ripple(record: &Record, found: &Estimate, names: &Names) -> Option<(Estimate, f64, String)> {
+fn ripple(record: &Record, found: &Estimate, names: &Names<'_>) -> Option<(Estimate, f64, String)> {
     // Short kernels let it through.
     let sharp = Wanted {
         kernel: Some((found.length.min(6e-3), found.settling)),
@@ -366,7 +375,7 @@ fn ripple(record: &Record, found: &Estimate, names: &Names) -> Option<(Estimate,
     }
     let better = with_wave(record, wave)?;
     let period = TAU / wave;
-    let turns = if names.per_angle == "rad" {
+    let turns = if names.length == "rad" {
         format!("{} a turn", digits(wave, 4))
     } else {
         format!("a period of {} m", digits(period, 4))
@@ -491,7 +500,12 @@ fn surely(record: &Record, found: &Estimate, more: &[Term], term: Term) -> Optio
 }
 
 /// Viscous friction that differs by direction.
-fn asymmetry(record: &Record, found: &Estimate, more: &[Term], names: &Names) -> Option<String> {
+fn asymmetry(
+    record: &Record,
+    found: &Estimate,
+    more: &[Term],
+    names: &Names<'_>,
+) -> Option<String> {
     found.of(Term::Offset)?;
     let other = surely(record, found, more, Term::Asymmetry)?;
     let ((drag, _), (differs, half)) = (other.of(Term::Viscous)?, other.of(Term::Asymmetry)?);
@@ -512,7 +526,7 @@ fn stribeck(
     record: &Record,
     found: &Estimate,
     more: &[Term],
-    names: &Names,
+    names: &Names<'_>,
 ) -> Option<(Estimate, String)> {
     found.of(Term::Coulomb)?;
     let rows = found.rows.first()?.as_ref()?;
@@ -546,7 +560,7 @@ fn stribeck(
         digits(half, 2),
         names.unit,
         digits(speed, 2),
-        names.per_angle
+        names.length
     );
     Some((better, word))
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use crate::trace::{Coordinate, Repairs, Trace};
+use crate::trace::{Coordinate, Origins, Repairs, Trace};
 use epas_design::files::Design;
 
 /// A manoeuvre; its [`Manoeuvre::words`] say how it is driven.
@@ -153,6 +153,8 @@ impl Manoeuvre {
             known: None,
             temperature: Some(of(&|time| cold + rise * time)),
             repairs: Repairs::default(),
+            left_out: Vec::new(),
+            origins: Origins::default(),
             ignored: Vec::new(),
         }
     }

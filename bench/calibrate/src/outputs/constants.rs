@@ -34,7 +34,9 @@ pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
     text += SOUND;
     text += &screw(&folded)?;
     text += &coefficient(&numbers, friction);
-    text += &memory(&numbers, folded.block.nodes())?;
+    let calibrated = design.calibrated.as_ref();
+    let backlash = calibrated.and_then(|found| found.backlash).unwrap_or(0.0);
+    text += &memory(&numbers, folded.block.nodes(), backlash)?;
     text += &rig(design);
     Ok(text)
 }
@@ -62,7 +64,7 @@ const fn sound<T: Copy>(checked: Result<T, Error>) -> T {
 
 fn imports(numbers: &Numbers) -> String {
     let law = match (numbers.law.is_some(), numbers.reference.is_some()) {
-        (_, true) => "use epas_friction::law::{coefficient, memory};\n",
+        (_, true) => "use epas_friction::law::{coefficient, memory, motion};\n",
         (true, false) => "use epas_friction::law::coefficient;\n",
         (false, false) => "",
     };
@@ -122,8 +124,8 @@ fn coefficient(numbers: &Numbers, friction: f32) -> String {
     )
 }
 
-/// Elements, and the constants of the scene with them.
-fn memory(numbers: &Numbers, nodes: usize) -> Result<String, Failure> {
+/// Elements, and the constants of the scene with them: behind a dead band of the sensor's step and of the backlash, rad.
+fn memory(numbers: &Numbers, nodes: usize, backlash: f32) -> Result<String, Failure> {
     let Some(reference) = &numbers.reference else {
         return Ok(String::new());
     };
@@ -151,25 +153,34 @@ fn memory(numbers: &Numbers, nodes: usize) -> Result<String, Failure> {
     let law = ["OneCoefficient", "CoefficientLaw"][usize::from(numbers.law.is_some())];
     let types = format!("scene::CagedConstants<{nodes}>, {kind}, ");
     let temperature = screw.reference_temperature as f32;
+    // Plays in a row are one of the sum of their widths.
+    let (band, width) = if backlash > 0.0 {
+        ("the step and the backlash", "(step + BACKLASH)")
+    } else {
+        ("the step", "step")
+    };
     Ok(format!(
         "
 /// Friction after a reversal: {torque:?} N m of sliding after {breakaway_angle:?} rad.
 pub const ELEMENTS: {kind} = {made};
 
-/// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
+/// The screw with memory, for a sensor of the nut's angle and the sensor's step, rad of the nut: for a `static` that stands in flash.
+/// Flicker within the step moves nothing; after a reversal friction starts once the sensor has gone back by {band}.
 ///
 /// ```text
-/// static GEAR: scene::WithMemoryConstants<{types}CountSensor, coefficient::{law}> = with_memory(SENSOR);
+/// static GEAR: scene::WithMemoryConstants<{types}motion::Deadband<CountSensor>, coefficient::{law}> =
+///     with_memory(SENSOR, TURN_PER_COUNT);
 /// ```
 pub const fn with_memory<A: Copy>(
     angle: A,
-) -> scene::WithMemoryConstants<{types}A, coefficient::{law}> {{
+    step: f32,
+) -> scene::WithMemoryConstants<{types}motion::Deadband<A>, coefficient::{law}> {{
     sound(scene::WithMemoryConstants::new(
         SCREW,
         &scene::WithMemoryConfiguration {{
             scene: (),
             elements: ELEMENTS,
-            angle,
+            angle: sound(motion::Deadband::new(angle, 0.5 * {width})),
             reference_load: {load:?},
             play: {play:?},
             coefficient: COEFFICIENT,

@@ -233,9 +233,10 @@ fn a_drag_run_with_a_load_cell_of_noise() {
             writeln!(csv, "{time:.4},{angle:.9},{torque:.7},{:.3}", 4.0 * load).unwrap();
         }
         let frame = Frame {
-            lead: 0.007,
-            ratio: 1.0,
-            fastest: 2e3,
+            lead: Some(0.007),
+            ratio: Some(1.0),
+            fastest: Some(2e3),
+            rated_torque: None,
         };
         let trace = from_reader(Cursor::new(csv), "trace", Some(&frame)).unwrap();
         let mut request = Request {

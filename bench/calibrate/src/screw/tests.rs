@@ -44,6 +44,8 @@ fn trace(rig: &Rig, course: &Course, seed: u64) -> Trace {
         load_is_effort: false,
         known: None,
         temperature: Some(measured.temperature),
+        left_out: Vec::new(),
+        origins: crate::trace::Origins::default(),
         repairs: Repairs::default(),
         ignored: Vec::new(),
     }

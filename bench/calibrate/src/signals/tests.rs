@@ -48,6 +48,8 @@ fn trace(samples: usize, resolution: f64) -> Trace {
         load_is_effort: false,
         known: None,
         temperature: None,
+        left_out: Vec::new(),
+        origins: crate::trace::Origins::default(),
         repairs: Repairs::default(),
         ignored: Vec::new(),
     }

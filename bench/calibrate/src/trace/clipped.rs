@@ -1,4 +1,4 @@
-//! Where an effort is cut off at its limits: what it was there is not known.
+//! Where an effort is cut off at its limits, for those who have a trace without its table.
 
 use std::ops::Range;
 

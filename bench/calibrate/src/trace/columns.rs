@@ -1,4 +1,4 @@
-//! Reads a trace from the columns of a CSV file.
+//! Reads a trace from the columns of a table or the channels of a measurement file.
 //!
 //! Needed are `time`; a position or a speed, plain or of the motor, nut or carriage; `motor_force` or `motor_torque`.
 //! Taken where there are any: a reference position, `axial_load` (or `rack_force`, or the torque `load_torque`), `known_force` or
@@ -7,14 +7,8 @@
 //!
 //! Without a design the trace stays in its own coordinate: with a torque what turns, with a force what travels, and a
 //! plain position or speed is that of what the effort acts on. With a design everything is referred to the nut: there, a
-//! plain position or speed is the nut's beside a torque, and the carriage's beside a force.
+//! plain position or speed is the nut's beside a torque, and the carriage's beside a force. A ratio alone refers a motor to the nut.
 
-#[cfg(test)]
-mod tables;
-#[cfg(test)]
-mod tests;
-
-use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::io::{Read, Seek};
 use std::ops::Range;
@@ -23,108 +17,138 @@ use epas_design::files::Design;
 use epas_design::files::plausible::FASTEST;
 use epas_page::aside::say;
 use epas_page::failure::Failure;
+use epas_traces::channels::{resolution, unwrap};
+use epas_traces::clock::Clock;
+use epas_traces::marks;
 use epas_traces::mdf4::{self, Mapping};
 use epas_traces::source::Source;
-
-use crate::trace::acting;
-use crate::trace::channels::{resolution, unwrap};
-use crate::trace::clock::Clock;
-use crate::trace::free_load::{self, LoadKind};
-use crate::trace::known::KnownEffort;
-use crate::trace::outliers;
-use crate::trace::stuck;
-use crate::trace::table::{self, Column, Table};
-use crate::trace::{Coordinate, Repairs, Trace};
+use epas_traces::table::{self, Column, Request, Table};
 use epas_traces::units::{self, Dimension, Part, Quantity};
 
-/// Largest trace file, bytes: what twelve million samples of many columns need; a quoted field may span lines, and is
-/// held whole.
-const LARGEST_FILE: u64 = 1 << 31;
+use crate::trace::free_load;
+use crate::trace::known::KnownEffort;
+use crate::trace::{Coordinate, Origins, Repairs, Trace};
 
 /// Temperatures that a screw can have, K.
 const TEMPERATURES: (f64, f64) = (150.0, 620.0);
 
 /// What refers a motor and a carriage to the nut.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// Travel of the carriage in a turn of the nut, m.
-    pub lead: f64,
-    /// Turns of the motor in a turn of the nut.
-    pub ratio: f64,
-    /// Fastest that the nut is to turn, rad/s.
-    pub fastest: f64,
+    /// Travel of the carriage in a turn of the nut, m, of a design.
+    pub lead: Option<f64>,
+    /// Turns of the motor in a turn of the nut, where it was given; with a design it is 1 where it was not.
+    pub ratio: Option<f64>,
+    /// Fastest that the nut of a design is to turn, rad/s.
+    pub fastest: Option<f64>,
+    /// The motor's rated torque, N m.
+    pub rated_torque: Option<f64>,
 }
 
 impl Frame {
     /// That of a design whose motor makes so many turns in a turn of the nut, or one.
     pub fn of(design: &Design, ratio: Option<f64>) -> Self {
         Self {
-            lead: design.screw().lead().into(),
-            ratio: ratio.unwrap_or(1.0),
-            fastest: design.caged.limits.nut_speed.into(),
+            lead: Some(design.screw().lead().into()),
+            ratio,
+            fastest: Some(design.caged.limits.nut_speed.into()),
+            rated_torque: None,
+        }
+    }
+
+    /// The same with the motor's rated torque, N m.
+    #[must_use]
+    pub fn rated(self, rated_torque: Option<f64>) -> Self {
+        Self {
+            rated_torque,
+            ..self
+        }
+    }
+
+    /// How a position or speed of this part refers to the trace's coordinate: factor, and whether it is an angle.
+    fn refer(&self, column: &Column, part: Part, torque: bool) -> Result<(f64, bool), String> {
+        let angle = match (part, column.unit.dimension) {
+            (Part::Motor | Part::Nut, Dimension::Length) | (Part::Carriage, Dimension::Angle) => {
+                return Err(format!(
+                    "column {} has a unit that its part does not move in",
+                    column.name
+                ));
+            }
+            (Part::Motor | Part::Nut, _) | (_, Dimension::Angle) => true,
+            (Part::Carriage, _) | (_, Dimension::Length) => false,
+            (Part::Plain, _) => torque,
+        };
+        let factor = match (angle, self.lead) {
+            (true, lead) if torque || lead.is_some() => match part {
+                Part::Motor => 1.0 / self.ratio.unwrap_or(1.0),
+                _ => 1.0,
+            },
+            (false, Some(lead)) => TAU / lead,
+            (false, None) if !torque => 1.0,
+            _ => {
+                return Err(format!(
+                    "column {} and a {} need a design, which says the lead",
+                    column.name,
+                    if torque {
+                        "motor_torque"
+                    } else {
+                        "motor_force"
+                    }
+                ));
+            }
+        };
+        Ok((factor, angle))
+    }
+
+    /// What the motor's effort is multiplied by to act on the trace's coordinate.
+    fn effort_gain(&self, torque: bool) -> f64 {
+        match self.lead {
+            _ if torque => self.ratio.unwrap_or(1.0),
+            Some(lead) => lead / TAU,
+            None => 1.0,
         }
     }
 
     /// Refuses a motion whose name says no unit and that is far too fast for the design, but not where it is in degrees.
-    fn check_unsaid(&self, column: &Unsaid, mut speeds: Vec<f64>) -> Result<(), String> {
-        /// Share of the speeds that may be noise.
-        const NOISE: f64 = 0.05;
+    fn check_unit(
+        &self,
+        (column, part): &(Column, Part),
+        motion: &[f64],
+        tick: f64,
+    ) -> Result<(), String> {
+        /// Share of the speeds that may be noise, and length of a stretch, s, in which the steps of a sensor do not count.
+        const NOISE: (f64, f64) = (0.05, 0.05);
+        let unsaid = column.unit.dimension == Dimension::Unsaid && *part != Part::Carriage;
+        let Some(fastest) = self.fastest.filter(|_| unsaid) else {
+            return Ok(());
+        };
+        let (ticks, units) = match column.quantity {
+            Quantity::Position(_) => (((NOISE.1 / tick).round() as usize).max(1), "deg"),
+            _ => (0, "rpm] or {name} [deg/s"),
+        };
+        let mut speeds: Vec<f64> = if ticks == 0 {
+            motion.iter().map(|speed| speed.abs()).collect()
+        } else {
+            let ends = motion.iter().zip(motion.iter().skip(ticks)).step_by(ticks);
+            ends.map(|(from, to)| (to - from).abs() / (ticks as f64 * tick))
+                .collect()
+        };
         speeds.sort_by(f64::total_cmp);
-        let place = ((1.0 - NOISE) * speeds.len() as f64) as usize;
+        let place = ((1.0 - NOISE.0) * speeds.len() as f64) as usize;
         let speed = speeds.get(place).copied().unwrap_or_default();
-        if speed < FASTEST * self.fastest || speed.to_radians() > self.fastest {
+        if speed < FASTEST * fastest || speed.to_radians() > fastest {
             return Ok(());
         }
-        let Unsaid { name, units, part } = column;
-        let gear = if *part == Part::Nut {
-            ""
-        } else {
-            ", or that of a motor behind a gear (--ratio)"
+        let name = &column.name;
+        let gear = match part {
+            Part::Nut => "",
+            _ => ", or that of a motor behind a gear (--ratio)",
         };
         Err(format!(
-            "column {name}: the nut turns at {speed:.0} rad/s, and nut_speed in [limits] is {}; is the column in degrees{gear}? Then its name is {}; else raise nut_speed",
-            self.fastest,
-            units
-                .iter()
-                .map(|unit| format!("{name} [{unit}]"))
-                .collect::<Vec<_>>()
-                .join(" or "),
+            "column {name}: the nut turns at {speed:.0} rad/s, and nut_speed in [limits] is {fastest}; is the column in degrees{gear}? Then its name is {name} [{}]; else raise nut_speed",
+            units.replace("{name}", name)
         ))
     }
-}
-
-/// A column of a motion that may turn, and says no unit.
-struct Unsaid {
-    name: String,
-    /// Units that it may be in.
-    units: &'static [&'static str],
-    part: Part,
-}
-
-impl Unsaid {
-    fn of(
-        column: &Column,
-        part: Part,
-        reference: Reference,
-        units: &'static [&'static str],
-    ) -> Option<Self> {
-        (column.unit.dimension == Dimension::Unsaid && reference.angle).then(|| Self {
-            name: column.name.clone(),
-            units,
-            part,
-        })
-    }
-}
-
-/// Sizes of the mean speeds over stretches of a motion, so long that the steps of a sensor do not count.
-fn mean_speeds(position: &[f64], step: f64) -> Vec<f64> {
-    /// Length of a stretch, s.
-    const STRETCH: f64 = 0.05;
-    let ticks = ((STRETCH / step).round() as usize).max(1);
-    let ends = position.iter().zip(position.iter().skip(ticks));
-    ends.step_by(ticks)
-        .map(|(from, to)| (to - from).abs() / (ticks as f64 * step))
-        .collect()
 }
 
 /// Reads a trace from a file: a table, or a measurement file with the channels of a mapping or those that have a column's name.
@@ -136,7 +160,7 @@ pub fn read(
     frame: Option<&Frame>,
     channels: Option<&Mapping>,
 ) -> Result<Trace, Failure> {
-    let input = source.open(LARGEST_FILE)?;
+    let input = source.open(table::LARGEST_FILE)?;
     let name = source.name();
     let trace = if input.measurement {
         measured(input, &name, frame, channels)
@@ -157,39 +181,40 @@ pub fn measured(
     frame: Option<&Frame>,
     channels: Option<&Mapping>,
 ) -> Result<Trace, Failure> {
-    let wanted: Vec<mdf4::Wanted> = units::names()
-        .filter_map(|name| Some((name, units::quantity(name)?)))
-        // Of two names of a quantity the first, which messages use.
-        .filter(|(name, quantity)| {
-            *quantity != Quantity::Time
-                && units::names().find(|own| units::quantity(own) == Some(*quantity)) == Some(*name)
-        })
-        .map(|(name, quantity)| mdf4::Wanted {
-            name,
-            quantity,
-            refuses: None,
-        })
-        .collect();
-    let parts = [Part::Nut, Part::Motor, Part::Carriage, Part::Plain];
-    let master: Vec<Quantity> = parts
+    let mut wanted: Vec<mdf4::Wanted> = Vec::new();
+    for name in units::names() {
+        let new = |quantity: &Quantity| wanted.iter().all(|own| own.quantity != *quantity);
+        // Of several names of a quantity the first, which messages use.
+        if let Some(quantity) = units::quantity(name).filter(new)
+            && quantity != Quantity::Time
+        {
+            wanted.push(mdf4::Wanted {
+                name,
+                quantity,
+                refuses: None,
+            });
+        }
+    }
+    let master: Vec<Quantity> = PARTS
         .map(Quantity::Position)
         .into_iter()
-        .chain(parts.map(Quantity::Speed))
+        .chain(PARTS.map(Quantity::Speed))
         .collect();
     let request = mdf4::Request {
         wanted: &wanted,
         master: &master,
         mapping: channels,
     };
-    let found = mdf4::read(input, &request).map_err(Failure::Data)?;
-    for note in &found.notes {
+    let mut found = mdf4::read(input, &request).map_err(Failure::Data)?;
+    for note in std::mem::take(&mut found.notes) {
         say(format_args!("note: {name}: {note}"));
     }
-    let table = table::of_measurement(found).map_err(Failure::Data)?;
-    assemble(table, name, frame).map_err(Failure::Data)
+    let frame = frame.copied().unwrap_or_default();
+    let table = table::of_measurement(found, everything(&frame)).map_err(Failure::Data)?;
+    assemble(table, name, &frame).map_err(Failure::Data)
 }
 
-/// Reads a trace.
+/// Reads a trace from a table.
 ///
 /// # Errors
 /// What is wrong with it, with the line where there is one.
@@ -198,142 +223,163 @@ pub fn from_reader(
     name: &str,
     frame: Option<&Frame>,
 ) -> Result<Trace, Failure> {
-    let table = table::read(input).map_err(Failure::Data)?;
-    assemble(table, name, frame).map_err(Failure::Data)
+    let frame = frame.copied().unwrap_or_default();
+    let table = table::read(input, everything(&frame)).map_err(Failure::Data)?;
+    assemble(table, name, &frame).map_err(Failure::Data)
 }
 
-/// How a column's values refer to the trace's coordinate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Reference {
-    /// Factor.
-    factor: f64,
-    /// Whether the column is an angle, which may wrap.
-    angle: bool,
+fn everything(frame: &Frame) -> Request<'static> {
+    Request {
+        wants: &|_| true,
+        rated_torque: frame.rated_torque,
+    }
 }
 
-fn assemble(mut table: Table, name: &str, frame: Option<&Frame>) -> Result<Trace, String> {
-    let left_out = outliers::clean(&mut table)?;
-    let lost = stuck::clean(&mut table)?;
-    let lost: Vec<Range<f64>> = lost
-        .iter()
-        .map(|run| table.times[run.start]..table.times[run.end - 1])
+/// Parts in the order in which they tell the motion best.
+const PARTS: [Part; 4] = [Part::Nut, Part::Motor, Part::Carriage, Part::Plain];
+
+fn assemble(mut table: Table, name: &str, frame: &Frame) -> Result<Trace, String> {
+    marks::mark(&mut table)?;
+    let marked = table.left_out.iter().flat_map(|found| &found.samples);
+    let marked: Vec<[f64; 2]> = marked
+        .map(|run| [table.times[run.start], table.times[run.end - 1]])
         .collect();
-    let clock = Clock::of(std::mem::take(&mut table.times), table.repeated.len())?;
     let (effort, torque) = effort(&mut table)?;
+    if frame.ratio.is_some() && frame.lead.is_none() && !torque {
+        return Err(format!(
+            "column {} and --ratio: a ratio is of a motor that turns; a force needs --design, which says the lead",
+            effort.name
+        ));
+    }
     let position = motion(&mut table, Quantity::Position);
     let speed = motion(&mut table, Quantity::Speed);
-    let Some((_, part)) = position.as_ref().or(speed.as_ref()) else {
+    let Some((main, part)) = position.as_ref().or(speed.as_ref()) else {
         return Err(absent(
             "a column position or speed is missing (of nut_, motor_, carriage_ or plain)",
             &table,
         ));
     };
-    let reference = take(&mut table, Quantity::ReferencePosition).map(|column| (column, *part));
-    let (load, load_is_effort) = acting::load(&mut table, torque, frame)?;
-    let known = acting::known(&mut table, torque)?;
-    let temperature = take(&mut table, Quantity::Temperature);
+    let (main, part) = (main.name.clone(), *part);
+    let reference = table.take(Quantity::ReferencePosition);
+    let (load, load_is_effort) = load(&mut table, torque, frame)?;
+    let known = known(&mut table, torque)?;
+    let temperature = table.take(Quantity::Temperature);
     if let Some(column) = &temperature {
         check_temperature(column, &table)?;
     }
-    let refer = |column: &Column, part| refer(column, part, torque, frame);
-
-    let speed = speed
-        .map(|(column, part)| {
-            let reference = refer(&column, part)?;
-            let unsaid = Unsaid::of(&column, part, reference, &["rpm", "deg/s"]);
-            let values = clock.resample(scaled(column.values, reference.factor));
-            if let (Some(frame), Some(unsaid)) = (frame, unsaid) {
-                frame.check_unsaid(&unsaid, values.iter().map(|speed| speed.abs()).collect())?;
-            }
-            Ok::<_, String>(values)
-        })
-        .transpose()?;
-    // The sensor's step is found before samples are interpolated, which lie between its steps.
-    let mut step_of_sensor = 0.0;
-    let position = position
-        .map(|(mut column, part)| {
-            let reference = refer(&column, part)?;
-            let filled = std::mem::take(&mut column.left_out);
-            let unsaid = Unsaid::of(&column, part, reference, &["deg"]);
-            let values = angle(column, reference)?;
-            if let (Some(frame), Some(unsaid)) = (frame, &unsaid) {
-                frame.check_unsaid(unsaid, mean_speeds(&values, clock.step))?;
-            }
-            step_of_sensor = resolution(&measured_only(&values, &filled));
-            if let Some(unsaid) = &unsaid {
-                check_degrees(&unsaid.name, step_of_sensor / reference.factor)?;
-            }
-            Ok::<_, String>(values)
-        })
-        .transpose()?;
+    let clock = Clock::of(std::mem::take(&mut table.times), table.repeated)?;
+    let origins = Origins {
+        motion: Some((main, part)),
+        effort: effort.name.clone(),
+        load: load.as_ref().map(|column| column.name.clone()),
+        ratio_known: frame.ratio.is_some(),
+    };
+    let speed = speed.map(|own| {
+        let (factor, _) = frame.refer(&own.0, own.1, torque)?;
+        let values = clock.resample(scaled(&own.0.values, factor));
+        frame.check_unit(&own, &values, clock.step)?;
+        Ok::<_, String>(values)
+    });
+    let speed = speed.transpose()?;
     let position_summed = position.is_none();
-    let position = match position {
-        Some(values) => clock.resample(values),
-        None => sum_up(speed.as_deref().unwrap_or_default(), clock.step),
+    let (position, resolution) = match position {
+        Some(own) => position_of(&own, frame, torque, &clock)?,
+        None => (
+            sum_up(speed.as_deref().unwrap_or_default(), clock.step),
+            0.0,
+        ),
     };
-    let reference_position = reference
-        .map(|(column, part)| {
-            let reference = refer(&column, part)?;
-            let mut values = angle(column, reference)?;
-            if reference.angle {
-                same_turn(&mut values, &position, reference.factor);
-            }
-            Ok::<_, String>(clock.resample(values))
-        })
-        .transpose()?;
-    let effort = scaled(effort.values, effort_gain(torque, frame));
-    table
-        .ignored
-        .extend(table.columns.drain(..).map(|column| column.name));
-    let rotates = torque || frame.is_some();
-    let mut repairs = Repairs {
-        left_out,
-        lost: lost.iter().map(|times| clock.ticks(times)).collect(),
-        notes: table.notes,
-        ..clock.repairs.clone()
-    };
+    let reference_position = reference.map(|column| {
+        let (factor, angle) = frame.refer(&column, part, torque)?;
+        let mut values = angle_of(column, factor, angle)?;
+        if angle {
+            same_turn(&mut values, &position, factor);
+        }
+        Ok::<_, String>(clock.resample(values))
+    });
+    let gain = frame.effort_gain(torque);
+    let mut notes = table.notes;
+    let effort = scaled(&effort.values, gain);
     let unit = if load_is_effort && torque { "N m" } else { "N" };
-    let load =
-        load.and_then(|column| measured_load(column, unit, &effort, clock.step, &mut repairs));
-    let known = known.map(|column| scaled(column.values, effort_gain(torque, frame)));
+    let load = load.and_then(|column| measured_load(column, unit, &effort, clock.step, &mut notes));
+    let others = table.columns.drain(..).map(|column| column.name);
+    table.ignored.extend(others);
+    let effort = clock.resample(effort);
     Ok(Trace {
         name: name.into(),
-        coordinate: if rotates {
+        coordinate: if torque || frame.lead.is_some() {
             Coordinate::Rotation
         } else {
             Coordinate::Translation
         },
         start: clock.start,
         step: clock.step,
+        left_out: joined(&marked, &clock, effort.len()),
         position,
-        resolution: step_of_sensor,
+        resolution,
         position_summed,
         speed,
-        effort: clock.resample(effort),
-        reference_position,
+        effort,
+        reference_position: reference_position.transpose()?,
         load: load.map(|values| clock.resample(values)),
         load_is_effort,
-        known: known.map(|values| KnownEffort {
-            values: clock.resample(values),
+        known: known.map(|column| KnownEffort {
+            values: clock.resample(scaled(&column.values, gain)),
             in_effort: false,
         }),
         temperature: temperature.map(|column| clock.resample(column.values)),
-        repairs,
+        origins,
+        repairs: Repairs {
+            left_out: table.left_out,
+            notes,
+            missing: clock.missing,
+            jittered: clock.jittered,
+            repeated: table.repeated,
+            free_running: clock.free_running,
+        },
         ignored: table.ignored,
     })
 }
 
-/// The values without those that were filled in.
-fn measured_only<'a>(values: &'a [f64], filled: &[usize]) -> Cow<'a, [f64]> {
-    if filled.is_empty() {
-        return Cow::Borrowed(values);
-    }
-    let mut filled = filled.iter().copied().peekable();
-    let kept = values
+/// Ticks about the marked times, and those that fill a gap: in order and apart.
+fn joined(marked: &[[f64; 2]], clock: &Clock, samples: usize) -> Vec<Range<usize>> {
+    let marked = marked
         .iter()
-        .enumerate()
-        .filter(|(sample, _)| filled.next_if_eq(sample).is_none());
-    Cow::Owned(kept.map(|(_, value)| *value).collect())
+        .map(|[first, last]| clock.ticks(*first, *last));
+    let mut all: Vec<Range<usize>> = marked.chain(clock.filled.iter().cloned()).collect();
+    all.sort_by_key(|run| run.start);
+    let mut joined: Vec<Range<usize>> = Vec::new();
+    for run in all {
+        let run = run.start..run.end.min(samples);
+        match joined.last_mut() {
+            Some(last) if last.end >= run.start => last.end = last.end.max(run.end),
+            _ if run.is_empty() => {}
+            _ => joined.push(run),
+        }
+    }
+    joined
+}
+
+/// A position at the ticks of a clock, and the step of its sensor.
+fn position_of(
+    own: &(Column, Part),
+    frame: &Frame,
+    torque: bool,
+    clock: &Clock,
+) -> Result<(Vec<f64>, f64), String> {
+    let (factor, angle) = frame.refer(&own.0, own.1, torque)?;
+    let values = angle_of(own.0.clone(), factor, angle)?;
+    // What was interpolated lies between the sensor's steps.
+    let mut filled = own.0.left_out.iter().peekable();
+    let measured = values.iter().enumerate();
+    let measured = measured.filter(|(sample, _)| filled.next_if_eq(&sample).is_none());
+    let step = resolution(&measured.map(|(_, value)| *value).collect::<Vec<_>>());
+    let values = clock.resample(values);
+    frame.check_unit(own, &values, clock.step)?;
+    if own.0.unit.dimension == Dimension::Unsaid && angle {
+        check_degrees(&own.0.name, step / factor)?;
+    }
+    Ok((values, step))
 }
 
 /// The load, unless its channel holds noise alone: none then, or the load that stays.
@@ -342,58 +388,47 @@ fn measured_load(
     unit: &str,
     effort: &[f64],
     step: f64,
-    repairs: &mut Repairs,
+    notes: &mut Vec<String>,
 ) -> Option<Vec<f64>> {
-    match free_load::kind(&column.values, effort, step) {
-        LoadKind::Changes => Some(column.values),
-        LoadKind::Noise(mean, deviation) => {
-            repairs.notes.push(format!(
-                "column {}: it never leaves its own noise of {deviation:.3} {unit} (rms) about {mean:.3} {unit}, which is no load: it is not used; the load's gain stays 1, and friction is taken to be the same both ways",
-                column.name
-            ));
-            None
-        }
-        LoadKind::Constant(mean, deviation) => {
-            repairs.notes.push(format!(
-                "column {}: it stays at {mean:.4} {unit} within its own noise of {deviation:.3} {unit} (rms), and is taken as that load throughout",
-                column.name
-            ));
-            Some(vec![mean; column.values.len()])
-        }
-    }
+    /// A mean of so many deviations is a load that stays.
+    const STAYS: f64 = 2.0;
+    let Some((mean, deviation)) = free_load::noise(&column.values, effort, step) else {
+        return Some(column.values);
+    };
+    let stays = mean.abs() > STAYS * deviation;
+    notes.push(if stays {
+        format!(
+            "column {}: it stays at {mean:.4} {unit} within its own noise of {deviation:.3} {unit} (rms), and is taken as that load throughout",
+            column.name
+        )
+    } else {
+        format!(
+            "column {}: it never leaves its own noise of {deviation:.3} {unit} (rms) about {mean:.3} {unit}, which is no load: it is not used; the load's gain stays 1, and friction is taken to be the same both ways",
+            column.name
+        )
+    });
+    stays.then(|| vec![mean; column.values.len()])
 }
 
 /// Values times a factor.
-fn scaled(mut values: Vec<f64>, factor: f64) -> Vec<f64> {
-    for value in &mut values {
-        *value *= factor;
-    }
-    values
+fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
+    values.iter().map(|value| value * factor).collect()
 }
 
-/// A position in the trace's coordinate, without jumps of a turn.
-fn angle(column: Column, reference: Reference) -> Result<Vec<f64>, String> {
-    let mut values = column.values;
-    if reference.angle {
-        unwrap(&mut values).map_err(|message| format!("column {}: {message}", column.name))?;
+/// A position in the trace's coordinate, of an angle without jumps of a turn.
+fn angle_of(mut column: Column, factor: f64, angle: bool) -> Result<Vec<f64>, String> {
+    if angle {
+        unwrap(&mut column.values)
+            .map_err(|message| format!("column {}: {message}", column.name))?;
     }
-    Ok(scaled(values, reference.factor))
-}
-
-/// Takes the column of a quantity out of the table.
-pub(super) fn take(table: &mut Table, quantity: Quantity) -> Option<Column> {
-    let place = table
-        .columns
-        .iter()
-        .position(|column| column.quantity == quantity)?;
-    Some(table.columns.remove(place))
+    Ok(scaled(&column.values, factor))
 }
 
 /// The effort, and whether it is a torque.
 fn effort(table: &mut Table) -> Result<(Column, bool), String> {
     match (
-        take(table, Quantity::MotorTorque),
-        take(table, Quantity::MotorForce),
+        table.take(Quantity::MotorTorque),
+        table.take(Quantity::MotorForce),
     ) {
         (Some(torque), None) => Ok((torque, true)),
         (None, Some(force)) => Ok((force, false)),
@@ -408,6 +443,47 @@ fn effort(table: &mut Table) -> Result<(Column, bool), String> {
     }
 }
 
+/// The load's column, and whether it is in the effort's own unit. With a design, a torque about the nut's axis is the axial load over the
+/// lead.
+fn load(table: &mut Table, torque: bool, frame: &Frame) -> Result<(Option<Column>, bool), String> {
+    let force = table.take(Quantity::Load);
+    let moment = table.take(Quantity::LoadTorque);
+    match (force, moment, frame.lead) {
+        (Some(force), Some(moment), _) => Err(format!(
+            "columns {} and {}: give the load once",
+            force.name, moment.name
+        )),
+        (_, Some(mut moment), Some(lead)) => {
+            moment.values = scaled(&moment.values, TAU / lead);
+            Ok((Some(moment), false))
+        }
+        (_, Some(moment), None) if !torque => Err(format!(
+            "column {} and a motor_force: give the load as axial_load",
+            moment.name
+        )),
+        (_, Some(moment), None) => Ok((Some(moment), true)),
+        (force, None, lead) => Ok((force, lead.is_none() && !torque)),
+    }
+}
+
+/// The column of an effort that is known, of the motor's kind.
+fn known(table: &mut Table, torque: bool) -> Result<Option<Column>, String> {
+    let force = table.take(Quantity::KnownForce);
+    let moment = table.take(Quantity::KnownTorque);
+    let (own, other, kind) = if torque {
+        (moment, force, "torque")
+    } else {
+        (force, moment, "force")
+    };
+    match other {
+        Some(other) => Err(format!(
+            "column {} and a motor_{kind}: give what is known as known_{kind}",
+            other.name
+        )),
+        None => Ok(own),
+    }
+}
+
 /// What is missing, beside what is there.
 fn absent(missing: &str, table: &Table) -> String {
     let known = table.columns.iter().map(|column| &column.name);
@@ -419,58 +495,11 @@ fn absent(missing: &str, table: &Table) -> String {
     format!("{missing}; left are {}", names.join(", "))
 }
 
-/// The column that tells the motion best: the nut's, before the motor's, the carriage's and a plain one.
+/// The column that tells the motion best.
 fn motion(table: &mut Table, of: fn(Part) -> Quantity) -> Option<(Column, Part)> {
-    [Part::Nut, Part::Motor, Part::Carriage, Part::Plain]
+    PARTS
         .into_iter()
-        .find_map(|part| Some((take(table, of(part))?, part)))
-}
-
-/// How a position or speed of this part refers to the trace's coordinate.
-fn refer(
-    column: &Column,
-    part: Part,
-    torque: bool,
-    frame: Option<&Frame>,
-) -> Result<Reference, String> {
-    let angle = match (part, column.unit.dimension) {
-        (Part::Motor | Part::Nut, Dimension::Length) | (Part::Carriage, Dimension::Angle) => {
-            return Err(format!(
-                "column {} has a unit that its part does not move in",
-                column.name
-            ));
-        }
-        (Part::Motor | Part::Nut, _) | (_, Dimension::Angle) => true,
-        (Part::Carriage, _) | (_, Dimension::Length) => false,
-        (Part::Plain, _) => torque,
-    };
-    let factor = match (frame, angle) {
-        (Some(Frame { ratio, .. }), true) if part == Part::Motor => 1.0 / ratio,
-        (Some(_), true) => 1.0,
-        (Some(Frame { lead, .. }), false) => TAU / lead,
-        (None, _) if angle == torque => 1.0,
-        (None, _) => {
-            return Err(format!(
-                "column {} and a {} need a design, which says the lead",
-                column.name,
-                if torque {
-                    "motor_torque"
-                } else {
-                    "motor_force"
-                }
-            ));
-        }
-    };
-    Ok(Reference { factor, angle })
-}
-
-/// What the motor's effort is multiplied by to act on the trace's coordinate.
-fn effort_gain(torque: bool, frame: Option<&Frame>) -> f64 {
-    match frame {
-        Some(Frame { ratio, .. }) if torque => *ratio,
-        Some(Frame { lead, .. }) => lead / TAU,
-        None => 1.0,
-    }
+        .find_map(|part| Some((table.take(of(part))?, part)))
 }
 
 /// Refuses an angle whose sensor has a power of two of steps in 360 of its unit.
@@ -490,33 +519,28 @@ fn check_degrees(name: &str, step: f64) -> Result<(), String> {
 
 fn check_temperature(column: &Column, table: &Table) -> Result<(), String> {
     let (low, high) = TEMPERATURES;
-    let odd = column
-        .values
-        .iter()
-        .enumerate()
-        .find(|(_, value)| !(low..=high).contains(*value));
-    let Some((sample, value)) = odd else {
+    let odd = |value: &&f64| !(low..=high).contains(*value);
+    let Some(value) = column.values.iter().find(odd) else {
         return Ok(());
     };
+    let sample = column.values.iter().position(|other| other == value);
     Err(format!(
         "column {}: {value} K, in row {}, is no temperature of a screw; a column in degrees Celsius is named temperature_C",
         column.name,
-        table.row(sample)
+        table.row(sample.unwrap_or_default())
     ))
 }
 
 /// Position from speed: the sum of trapezoids.
 fn sum_up(speed: &[f64], step: f64) -> Vec<f64> {
     let mut position = 0.0;
-    let mut last = None;
-    speed
-        .iter()
-        .map(|speed| {
-            position += 0.5 * (last.unwrap_or(-speed) + speed) * step;
-            last = Some(*speed);
-            position
-        })
-        .collect()
+    let mut last = speed.first().map_or(0.0, |first| -first);
+    let sum = |speed: &f64| {
+        position += 0.5 * (last + speed) * step;
+        last = *speed;
+        position
+    };
+    speed.iter().map(sum).collect()
 }
 
 /// Shifts an angle by whole turns of its sensor to where another one starts.

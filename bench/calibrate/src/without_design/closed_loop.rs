@@ -2,7 +2,6 @@
 
 use std::collections::VecDeque;
 
-use crate::estimator::record::Smoothed;
 use crate::mechanism::Mechanism;
 use crate::trace::Trace;
 use crate::trace::known::KnownEffort;
@@ -18,8 +17,8 @@ const STEPS: usize = 4;
 pub struct Loop<'a> {
     /// The trace: its reference positions, loads, and where it starts.
     pub trace: &'a Trace,
-    /// Its smoothed motion, for the speed at the start.
-    pub motion: &'a Smoothed,
+    /// Speed at its start, rad/s or m/s.
+    pub speed: f64,
     /// The controller.
     pub controller: &'a SeenController,
 }
@@ -65,7 +64,7 @@ impl Loop<'_> {
         let trace = self.trace;
         let tick = trace.step;
         let start = trace.position.first().copied().unwrap_or(0.0);
-        let speed = self.motion.speed.first().copied().unwrap_or(0.0);
+        let speed = self.speed;
         let mut mechanism = Mechanism {
             inertia,
             position: start,

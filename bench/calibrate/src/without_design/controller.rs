@@ -1,7 +1,8 @@
 //! A controller as a trace shows it: where it has its speed from, and what of the effort is not its own.
 
 use crate::controller::Controller;
-use crate::estimator::record::Smoothed;
+use crate::estimator::kernel::Kernel;
+use crate::estimator::record::Record;
 use crate::trace::Trace;
 use crate::trace::known::KnownEffort;
 use crate::without_design::slide::size;
@@ -60,6 +61,9 @@ pub struct SeenController {
     pub share: f64,
 }
 
+/// Half-width of the kernel that smooths the speed of a sensor that is not in the trace, samples.
+const SMOOTH: usize = 8;
+
 /// Share of the effort from which on a controller is not the trace's.
 const UNEXPLAINED: f64 = 0.5;
 
@@ -68,19 +72,19 @@ impl SeenController {
     fn efforts(
         controller: &Controller,
         trace: &Trace,
-        motion: &Smoothed,
+        speed: &[f64],
         reference: &[f64],
         source: SpeedSource,
     ) -> Vec<f64> {
         let ticks = source.ticks();
-        let speeds = trace.speed.as_ref().unwrap_or(&motion.speed);
+        let speeds = trace.speed.as_deref().unwrap_or(speed);
         (0..trace.len())
             .map(|sample| {
                 let position = trace.position[sample];
                 let speed = if ticks == 0 {
                     speeds[sample]
                 } else if sample < ticks {
-                    motion.speed[sample]
+                    speed[sample]
                 } else {
                     (position - trace.position[sample - ticks]) / (ticks as f64 * trace.step)
                 };
@@ -90,12 +94,13 @@ impl SeenController {
     }
 
     /// The controller as this trace shows it; `None` without a reference position.
-    pub fn of(controller: Controller, trace: &Trace, motion: &Smoothed) -> Option<Self> {
+    pub fn of(controller: Controller, trace: &Trace, record: &Record) -> Option<Self> {
         let reference = trace.reference_position.as_ref()?;
+        let speed = Kernel::new(SMOOTH, trace.step).along(record.order(1), &record.motion);
         SpeedSource::ALL
             .into_iter()
             .map(|source| {
-                let efforts = Self::efforts(&controller, trace, motion, reference, source);
+                let efforts = Self::efforts(&controller, trace, &speed, reference, source);
                 let rest: Vec<f64> = trace
                     .effort
                     .iter()

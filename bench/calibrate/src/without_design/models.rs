@@ -72,17 +72,14 @@ pub fn scores(
 }
 
 /// Share of the residual of the crate's law with memory that a wave of the position takes to be in the models.
-const SHARE: f64 = 0.1;
+const SHARE: f64 = 0.05;
 
 /// The wave number of a wave over the position that the crate's law with memory leaves, 1/rad or 1/m.
 fn wave(prepared: &Prepared<'_>, beside: &Beside) -> Option<f64> {
     let slide = Slide::new(prepared, OURS, beside.clone());
     let left = fit(&slide).ok()?.residual;
-    let position = &prepared.motion.position;
-    let places: Vec<f64> = prepared.centres.iter().map(|k| position[*k]).collect();
-    let found = strongest_wave(&places, &left);
-    eprintln!("DEBUG {found:?} {} rows half", places.len());
-    let (wave, share) = found?;
+    let places = prepared.places();
+    let (wave, share) = strongest_wave(&places, &left)?;
     (share > SHARE).then_some(wave)
 }
 
@@ -101,7 +98,7 @@ fn course(
     let inertia = found.linear.first().copied().unwrap_or(0.0);
     let closed = Loop {
         trace: prepared.trace,
-        motion: &prepared.motion,
+        speed: prepared.motion.speed.first().copied().unwrap_or(0.0),
         controller,
     };
     Ok((inertia > 0.0).then(|| closed.run(inertia, resistance, slide.delay(&found.nonlinear))))

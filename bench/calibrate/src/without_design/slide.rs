@@ -6,8 +6,6 @@
 //!
 //! `T` is a law's friction of unit level, `x` counts from the middle of the way; the effort acts with a delay. Every term passes the kernel of the estimator.
 
-use std::sync::{Arc, Mutex, PoisonError};
-
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::{Record, Smoothed};
 use crate::estimator::terms::Term;
@@ -38,17 +36,42 @@ pub struct Beside {
     pub load: Vec<Term>,
 }
 
-/// A trace with its smoothed motion and its rows.
+/// Most samples at which a law of friction is followed, and most rows: models are compared on every so many samples of a longer trace.
+const SAMPLES: usize = 25_000;
+const ROWS: usize = 6_000;
+
+/// A trace with its smoothed motion, at every so many of its samples, and its rows.
 pub struct Prepared<'a> {
     /// The trace.
     pub trace: &'a Trace,
     /// Its motion.
     pub motion: Smoothed,
-    kernel: Kernel,
+    /// Its load, smoothed.
+    load: Vec<f64>,
+    /// Time between these samples, s.
+    tick: f64,
     /// Half way between the farthest places, rad or m.
     middle: f64,
-    /// Sample at the middle of each row.
-    pub centres: Vec<usize>,
+    /// Kernel over these samples.
+    kernel: Kernel,
+    /// Rows, as numbers of these samples.
+    centres: Vec<usize>,
+    target: Vec<f64>,
+    known: Option<Delayed>,
+}
+
+/// A column with its rate: `value + delay rate` where it comes later.
+#[derive(Clone, Debug)]
+struct Delayed {
+    value: Vec<f64>,
+    rate: Vec<f64>,
+}
+
+impl Delayed {
+    fn at(&self, delay: f64) -> Vec<f64> {
+        let both = self.value.iter().zip(&self.rate);
+        both.map(|(value, rate)| value + delay * rate).collect()
+    }
 }
 
 impl<'a> Prepared<'a> {
@@ -66,24 +89,90 @@ impl<'a> Prepared<'a> {
         };
         let half = LENGTHS.map(of).into_iter().find(sharp);
         let half = half.unwrap_or_else(|| of(LENGTHS[LENGTHS.len() - 1]));
-        let kernel = Kernel::new(half, trace.step);
-        let centres = (half..trace.len().saturating_sub(half))
-            .step_by((half / 3).max(1))
-            .filter(|centre| record.sound(centre - half, centre + half))
+        let stride = trace.len().div_ceil(SAMPLES).clamp(1, half);
+        // Both kernels are equally long: (half + 1) ticks.
+        let short = ((half + 1) / stride).max(2) - 1;
+        let half = (short + 1) * stride - 1;
+        let whole = Kernel::new(half, trace.step);
+        let samples = || (0..trace.len()).step_by(stride);
+        let smooth = |order: usize, signal: &[f64]| -> Vec<f64> {
+            samples().map(|k| whole.at(order, signal, k)).collect()
+        };
+        let places = if record.speed_alone {
+            &record.path
+        } else {
+            &record.motion
+        };
+        let motion = Smoothed {
+            position: smooth(0, places),
+            speed: smooth(record.order(1), &record.motion),
+            acceleration: smooth(record.order(2), &record.motion),
+        };
+        let tick = stride as f64 * trace.step;
+        let count = motion.speed.len();
+        let hop = count.div_ceil(ROWS);
+        let centres: Vec<usize> = (0..count)
+            .step_by(hop)
+            .filter(|centre| {
+                let middle = centre * stride;
+                middle >= half && record.sound(middle - half, middle + half)
+            })
             .collect();
+        let rows = |order: usize, signal: &[f64]| -> Vec<f64> {
+            let at = |centre: &usize| whole.at(order, signal, centre * stride);
+            centres.iter().map(at).collect()
+        };
+        let known = trace.known.as_ref().and_then(KnownEffort::beside);
+        let known = known.map(|known| Delayed {
+            value: rows(0, known),
+            rate: rows(1, known),
+        });
         let (low, high) = range(&trace.position);
         Self {
-            trace,
-            motion: record.smoothed(&kernel),
+            load: trace
+                .load
+                .as_deref()
+                .map_or_else(Vec::new, |load| smooth(0, load)),
+            target: rows(0, &trace.effort),
+            known,
+            kernel: Kernel::new(short, tick),
             middle: 0.5 * (low + high),
-            kernel,
+            trace,
+            motion,
+            tick,
             centres,
         }
     }
 
-    fn rows(&self, signal: &[f64]) -> Vec<f64> {
-        let at = |centre: &usize| self.kernel.at(0, signal, *centre);
+    /// Positions of the rows, rad or m.
+    pub fn places(&self) -> Vec<f64> {
+        self.picked(&self.motion.position)
+    }
+
+    fn picked(&self, signal: &[f64]) -> Vec<f64> {
+        self.centres.iter().map(|centre| signal[*centre]).collect()
+    }
+
+    fn rate(&self, signal: &[f64]) -> Vec<f64> {
+        let at = |centre: &usize| self.kernel.at(1, signal, *centre);
         self.centres.iter().map(at).collect()
+    }
+
+    /// A signal that is smooth already.
+    fn smooth(&self, signal: &[f64]) -> Delayed {
+        Delayed {
+            value: self.picked(signal),
+            rate: self.rate(signal),
+        }
+    }
+
+    /// A signal with corners, behind the kernel.
+    fn filtered(&self, signal: &[f64]) -> Delayed {
+        let at = |centre: &usize| self.kernel.at(0, signal, *centre);
+        Delayed {
+            value: self.centres.iter().map(at).collect(),
+            rate: self.rate(signal),
+        }
     }
 
     fn scales(&self) -> Scales {
@@ -94,7 +183,7 @@ impl<'a> Prepared<'a> {
             speed: speed.max(f64::MIN_POSITIVE),
             travel: (high - low).max(f64::MIN_POSITIVE),
             resolution: self.trace.resolution,
-            tick: self.trace.step,
+            tick: self.tick,
         }
     }
 }
@@ -107,12 +196,12 @@ pub struct Slide<'a> {
     scales: Scales,
     nonlinear: Vec<Parameter>,
     linear: Vec<LinearParameter>,
-    target: Vec<f64>,
-    /// Rows that the law does not change, by the delay: those of a point and of its slope.
-    kept: Mutex<Vec<(f64, Arc<Evaluation>)>>,
+    /// What the law does not change.
+    steady: Vec<Delayed>,
+    /// A load that is given.
+    fixed: Option<Delayed>,
 }
 
-const KEPT: usize = 3;
 const DELAY: &str = "effort_delay";
 const FORWARD: &str = "viscous_friction_forward";
 const STIFFNESS: &str = "position_stiffness";
@@ -146,79 +235,20 @@ impl<'a> Slide<'a> {
             scales,
             nonlinear,
             linear: linear(coordinate, &beside),
+            steady: steady(prepared, &beside),
+            fixed: fixed(prepared, &beside),
             beside,
-            target: prepared.rows(&prepared.trace.effort),
-            kept: Mutex::default(),
         }
-    }
-
-    /// What the law does not change, so many ticks later.
-    fn steady(&self, ticks: f64) -> Arc<Evaluation> {
-        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some((_, steady)) = kept.iter().find(|(at, _)| *at == ticks) {
-            return Arc::clone(steady);
-        }
-        let trace = self.prepared.trace;
-        let Smoothed {
-            position,
-            speed,
-            acceleration,
-        } = &self.prepared.motion;
-        let row = |signal: &[f64]| self.prepared.rows(&advanced(signal, ticks));
-        let mut columns = vec![row(acceleration)];
-        let part = |of: fn(f64) -> f64| -> Vec<f64> { speed.iter().map(|w| of(*w)).collect() };
-        if self.beside.rich {
-            columns.push(row(&part(|w| w.max(0.0))));
-            columns.push(row(&part(|w| w.min(0.0))));
-        } else {
-            columns.push(row(speed));
-        }
-        columns.push(vec![1.0; self.target.len()]);
-        if self.beside.position {
-            let middle = self.prepared.middle;
-            columns.push(row(&position
-                .iter()
-                .map(|x| x - middle)
-                .collect::<Vec<_>>()));
-        }
-        if let Some(wave) = self.beside.wave {
-            for of in [f64::sin, f64::cos] {
-                let signal: Vec<f64> = position.iter().map(|x| of(wave * x)).collect();
-                columns.push(row(&signal));
-            }
-        }
-        let mut fixed = vec![0.0; self.target.len()];
-        let mut add = |signal: &[f64], sign: f64| {
-            for (sum, value) in fixed.iter_mut().zip(row(signal)) {
-                *sum += sign * value;
-            }
-        };
-        if let Some(load) = &trace.load {
-            if self.beside.load.contains(&Term::Gain) {
-                columns.push(row(load));
-            } else if trace.load_is_effort {
-                add(load, 1.0);
-            }
-        }
-        if let Some(known) = trace.known.as_ref().and_then(KnownEffort::beside) {
-            add(known, -1.0);
-        }
-        let steady = Arc::new(Evaluation { fixed, columns });
-        if kept.len() == KEPT {
-            kept.remove(0);
-        }
-        kept.push((ticks, Arc::clone(&steady)));
-        steady
     }
 
     /// Rows of the friction and of the load's losses.
-    fn frictional(&self, nonlinear: &[f64], ticks: f64) -> Vec<Vec<f64>> {
+    fn frictional(&self, nonlinear: &[f64], delay: f64) -> Vec<Vec<f64>> {
         let motion = &self.prepared.motion;
         let friction = match self.law.friction(&self.scales, nonlinear) {
             Ok(law) => law.along(&motion.position, &motion.speed, self.scales.tick),
             Err(_) => vec![0.0; motion.position.len()],
         };
-        let row = |signal: &[f64]| self.prepared.rows(&advanced(signal, ticks));
+        let row = |signal: &[f64]| self.prepared.filtered(signal).at(delay);
         let mut columns = vec![row(&friction)];
         if self.beside.position {
             let middle = self.prepared.middle;
@@ -228,7 +258,6 @@ impl<'a> Slide<'a> {
                 .collect();
             columns.push(row(&sloped));
         }
-        let load = self.prepared.trace.load.as_deref().unwrap_or(&[]);
         for term in &self.beside.load {
             let counts: fn(f64) -> bool = match term {
                 Term::Driving => |power| power > 0.0,
@@ -236,7 +265,8 @@ impl<'a> Slide<'a> {
                 Term::Loss => |_| true,
                 _ => continue,
             };
-            let lost = load.iter().zip(&friction).map(|(load, friction)| {
+            let lost = self.prepared.load.iter().zip(&friction);
+            let lost = lost.map(|(load, friction)| {
                 if counts(load * friction) {
                     load.abs() * friction
                 } else {
@@ -295,6 +325,43 @@ impl<'a> Slide<'a> {
     }
 }
 
+/// Columns that the law does not change, in the order of [`linear`].
+fn steady(prepared: &Prepared<'_>, beside: &Beside) -> Vec<Delayed> {
+    let Smoothed {
+        position,
+        speed,
+        acceleration,
+    } = &prepared.motion;
+    let of = |signal: &[f64], of: &dyn Fn(f64) -> f64| -> Vec<f64> {
+        signal.iter().map(|x| of(*x)).collect()
+    };
+    let mut columns = vec![prepared.smooth(acceleration)];
+    if beside.rich {
+        columns.push(prepared.filtered(&of(speed, &|w| w.max(0.0))));
+        columns.push(prepared.filtered(&of(speed, &|w| w.min(0.0))));
+    } else {
+        columns.push(prepared.smooth(speed));
+    }
+    columns.push(prepared.smooth(&vec![1.0; speed.len()]));
+    if beside.position {
+        columns.push(prepared.smooth(&of(position, &|x| x - prepared.middle)));
+    }
+    if let Some(wave) = beside.wave {
+        columns.push(prepared.filtered(&of(position, &|x| (wave * x).sin())));
+        columns.push(prepared.filtered(&of(position, &|x| (wave * x).cos())));
+    }
+    if beside.load.contains(&Term::Gain) {
+        columns.push(prepared.smooth(&prepared.load));
+    }
+    columns
+}
+
+/// The load where its effort has no parameter.
+fn fixed(prepared: &Prepared<'_>, beside: &Beside) -> Option<Delayed> {
+    let given = prepared.trace.load_is_effort && !prepared.load.is_empty();
+    (given && !beside.load.contains(&Term::Gain)).then(|| prepared.smooth(&prepared.load))
+}
+
 fn linear(coordinate: Coordinate, beside: &Beside) -> Vec<LinearParameter> {
     let of = |term: Term, low: f64| LinearParameter {
         name: term.name(coordinate),
@@ -349,37 +416,28 @@ impl Separable for Slide<'_> {
     }
 
     fn target(&self) -> &[f64] {
-        &self.target
+        &self.prepared.target
     }
 
     fn row_step(&self) -> f64 {
-        let hop = (self.prepared.kernel.half() / 3).max(1);
+        let hop = self.prepared.motion.speed.len().div_ceil(ROWS);
         hop as f64 * self.scales.tick
     }
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
-        let ticks = self.delay(nonlinear) / self.scales.tick;
-        let mut found = Evaluation::clone(&self.steady(ticks));
-        found.columns.extend(self.frictional(nonlinear, ticks));
-        found
+        let delay = self.delay(nonlinear);
+        let mut fixed = vec![0.0; self.prepared.target.len()];
+        for (known, sign) in [(&self.fixed, 1.0), (&self.prepared.known, -1.0)] {
+            if let Some(known) = known {
+                for (sum, value) in fixed.iter_mut().zip(known.at(delay)) {
+                    *sum += sign * value;
+                }
+            }
+        }
+        let mut columns: Vec<Vec<f64>> = self.steady.iter().map(|of| of.at(delay)).collect();
+        columns.extend(self.frictional(nonlinear, delay));
+        Evaluation { fixed, columns }
     }
-}
-
-/// A signal as it will be so many ticks later, between samples by a line; its ends stay.
-fn advanced(signal: &[f64], ticks: f64) -> Vec<f64> {
-    if ticks == 0.0 || signal.is_empty() {
-        return signal.to_vec();
-    }
-    let last = signal.len() - 1;
-    (0..signal.len())
-        .map(|sample| {
-            let place = (sample as f64 + ticks).clamp(0.0, last as f64);
-            let before = place.floor() as usize;
-            let part = place - before as f64;
-            let after = (before + 1).min(last);
-            signal[before] + part * (signal[after] - signal[before])
-        })
-        .collect()
 }
 
 /// Root mean square of values.

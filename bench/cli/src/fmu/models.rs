@@ -9,6 +9,7 @@ use super::rows::Row;
 use super::running::{ByAngle, Moving, Running};
 use super::scene::SceneName;
 use crate::simulate::balls::CAPACITY;
+use crate::simulate::encoder::EncoderStep;
 use crate::simulate::linear::Linear;
 use crate::simulate::memory::{self, Remembered, Remembering};
 use crate::simulate::nut::STEPS;
@@ -34,7 +35,12 @@ pub fn caged(design: &Design) -> Result<Box<dyn Running>, String> {
 /// The parameter that is wrong, its value and what is allowed.
 pub fn caged_with_memory(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running>, String> {
     let angle = memory::angle().map_err(said)?;
-    with_memory(design, mean_load(values)?, angle, ByAngle)
+    with_memory(
+        design,
+        mean_load(values)?,
+        (angle, encoder_step(values)?),
+        ByAngle,
+    )
 }
 
 fn said(error: Error) -> String {
@@ -43,6 +49,13 @@ fn said(error: Error) -> String {
 
 fn mean_load(values: &Values<'_>) -> Result<f32, String> {
     values.within("mean_load", 0.0, 1e7).map(|load| load as f32)
+}
+
+/// Step of the encoder, rad (m).
+fn encoder_step(values: &Values<'_>) -> Result<f32, String> {
+    values
+        .within("encoder_step", 0.0, 0.1)
+        .map(|step| step as f32)
 }
 
 /// The tick of a scene that has one, s.
@@ -54,7 +67,7 @@ fn checked_tick(values: &Values<'_>) -> Result<f64, String> {
 fn with_memory<A, U>(
     design: &Design,
     load: f32,
-    angle: A,
+    sensor: (A, f32),
     then: U,
 ) -> Result<Box<dyn Running>, String>
 where
@@ -63,7 +76,7 @@ where
 {
     // A wrong number of the design is told under its own name, whatever a law or elements make of it.
     design.check().map_err(said)?;
-    match remembering(design, load, angle, then) {
+    match remembering(design, load, sensor, then) {
         Ok((running, _)) => Ok(running),
         Err(failure) => Err(failure.message().into()),
     }
@@ -85,7 +98,8 @@ pub fn mechanism(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running
         tick,
     };
     let speed = memory::speed((tick / STEPS as f64) as f32).map_err(said)?;
-    with_memory(design, mean_load(values)?, speed, moving)
+    // The nut's own motion has no noise.
+    with_memory(design, mean_load(values)?, (speed, 0.0), moving)
 }
 
 /// A row of balls of a screw's design.
@@ -97,6 +111,7 @@ pub fn row(design: &Design) -> Result<Uncaged, String> {
         design: design.clone(),
         balls: design.uncaged.ok_or_else(|| no_row(&design.name))?,
         memory: true,
+        encoder: EncoderStep::default(),
     })
 }
 
@@ -112,7 +127,9 @@ pub fn uncaged(
     let row = row(design)?;
     row.balls.gear.checked().map_err(said)?;
     let remembered = if scene.has_memory() {
-        Some(row.remembered_at(mean_load(values)?).map_err(said)?)
+        let mut remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
+        remembered.encoder_step = encoder_step(values)?;
+        Some(remembered)
     } else {
         None
     };
@@ -146,7 +163,7 @@ fn row_of<const K: usize>(
         tick,
     };
     if let Some(remembered) = remembered {
-        let speed = memory::speed(tick).map_err(said)?;
+        let speed = memory::rows_speed(tick, remembered.encoder_step).map_err(said)?;
         let model = memory::configuration(configuration, remembered, speed, balls.gear.friction)
             .and_then(|whole| {
                 FrictionModel::<Remembering<UncagedBallScrew<CAPACITY, K>>>::new(&whole)
@@ -175,10 +192,11 @@ pub fn linear(
         let row = Linear {
             design,
             memory: true,
+            encoder: EncoderStep::default(),
         };
         let remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
         let friction = configuration.friction;
-        let speed = memory::speed(configuration.tick).map_err(said)?;
+        let speed = memory::rows_speed(configuration.tick, encoder_step(values)?).map_err(said)?;
         let model = memory::configuration(configuration, &remembered, speed, friction)
             .and_then(|whole| {
                 FrictionModel::<Remembering<LinearBearingTrain<CAPACITY>>>::new(&whole)

@@ -155,6 +155,9 @@ fn a_wrong_parameter_is_told_with_its_value_and_range() {
         (SceneName::UncagedWithMemory, "clearance", 1.0),
         (SceneName::Linear, "wavelength", -1.0),
         (SceneName::LinearWithMemory, "mean_load", -1.0),
+        (SceneName::CagedWithMemory, "encoder_step", -1.0),
+        (SceneName::UncagedWithMemory, "encoder_step", 1.0),
+        (SceneName::LinearWithMemory, "encoder_step", f64::NAN),
     ] {
         let unit = unit(scene);
         let message = start(&unit, &with(&unit, name, value)).unwrap_err();

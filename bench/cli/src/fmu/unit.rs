@@ -8,6 +8,7 @@ use super::parameters::{Values, changed_bearing, changed_screw, of_bearing, of_s
 use super::running::Running;
 use super::scene::SceneName;
 use super::variables::{Causality, Kind, TIME, Variable, inputs, outputs, parameter};
+use crate::simulate::encoder::EncoderStep;
 use crate::simulate::linear::Linear;
 use crate::simulate::nut::Nut;
 use crate::simulate::remembering::coefficients;
@@ -272,6 +273,25 @@ fn beside(scene: SceneName, source: &Source, tick: Option<f64>) -> Vec<Variable>
             load.unwrap_or(MEAN_LOAD).into(),
         ));
     }
+    if scene.has_memory() && scene != SceneName::Mechanism {
+        let (unit, about) = match source {
+            Source::Screw(_) => (
+                "rad",
+                "step of the nut's encoder, 0 to 0.1: the memory follows the motion behind a dead band of it",
+            ),
+            Source::Bearing(_) => (
+                "m",
+                "step of the carriage's encoder, 0 to 0.1: the memory follows the motion behind a dead band of it",
+            ),
+        };
+        list.push(parameter(
+            Kind::Float32,
+            "encoder_step",
+            Some(unit),
+            about,
+            0.0,
+        ));
+    }
     if let Some(tick) = tick {
         list.push(parameter(
             Kind::Float64,
@@ -345,6 +365,7 @@ fn longest_tick(scene: SceneName, source: &Source) -> Result<Option<f64>, String
             let row = Linear {
                 design,
                 memory: false,
+                encoder: EncoderStep::default(),
             };
             Box::new(move |tick| row.model(tick as f32, None).map(drop))
         }

@@ -9,7 +9,7 @@ use epas_friction::{Error, Refusal};
 
 pub use bearing::bearing;
 use memory::RememberingConfiguration;
-pub use memory::{ELEMENTS, Elements, Remembering, TEMPERATURE, fresh};
+pub use memory::{ELEMENTS, Elements, Remembering, Speed, TEMPERATURE, fresh};
 pub use screw::screw;
 
 /// Most balls of a row: one compiled model serves all numbers up to it.

@@ -4,6 +4,7 @@ pub use epas_design::uncaged::Folded;
 
 pub use super::balls::{Balls, Built};
 pub use super::caged::{Caged, CagedRow, wrapped};
+pub use super::encoder::EncoderStep;
 pub use super::linear::{Linear, LinearRow};
 pub use super::manoeuvre::{Manoeuvre, trace};
 pub use super::memory::{Remembered, angle};

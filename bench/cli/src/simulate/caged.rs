@@ -6,6 +6,7 @@ use epas_reference::promises::{self, Promise};
 
 use super::beyond::Beyond;
 use super::caged_exact::ExactCaged;
+use super::encoder::EncoderStep;
 use super::manoeuvre::{Manoeuvre, trace};
 use super::memory;
 use super::picture::{self, Form, Labels, Moment};
@@ -31,6 +32,8 @@ pub struct Caged {
     pub design: Design,
     /// Whether friction remembers.
     pub memory: bool,
+    /// Step of the encoder whose noise it does not follow.
+    pub encoder: EncoderStep,
 }
 
 /// What runs beside the scene.
@@ -83,7 +86,14 @@ impl Caged {
         let refused = |error: Error| Failure::Data(format!("{}: {error}", self.design.name));
         if self.memory {
             let angle = memory::angle().map_err(refused)?;
-            return remembering(&self.design, memory::mean_load(trace), angle, Boxed);
+            let sensor = (angle, self.encoder.size());
+            let load = memory::mean_load(trace);
+            let (model, mut lines) = remembering(&self.design, load, sensor, Boxed)?;
+            if trace.has_position() {
+                lines.add("angle", "the trace's nut_position");
+            }
+            lines.add_some("encoder", self.encoder.told("rad"));
+            return Ok((model, lines));
         }
         let mut model = CagedScene::of(&self.design)?.model().map_err(refused)?;
         let plain = Box::new(move |inputs, _, _| model.step(inputs));
@@ -112,6 +122,7 @@ impl Caged {
         if let Some(Reference::Exact(exact)) = &reference {
             lines.append(exact.told(&trace.samples));
         }
+        let measured = trace.has_position();
         let mut angle = 0.0;
         let mut last = trace.samples.first().copied();
         let rows = trace
@@ -121,6 +132,9 @@ impl Caged {
             .map(|(index, &sample)| {
                 if let Some(last) = last.replace(sample) {
                     angle += 0.5 * (last.nut_speed + sample.nut_speed) * (sample.time - last.time);
+                }
+                if measured {
+                    angle = sample.nut_position;
                 }
                 let temperature = temperature(index).unwrap_or(memory::TEMPERATURE);
                 let outputs = model(sample.inputs(), wrapped(angle), temperature);
@@ -198,6 +212,10 @@ impl Scene for Caged {
         let fold = fold(&self.design, false).ok().flatten();
         let block = fold.map(|fold| fold.axial_load[1] * balls);
         screw::within(trace, &self.design, balls, block)
+    }
+
+    fn set_encoder(&mut self, encoder: EncoderStep) {
+        self.encoder = encoder;
     }
 
     fn check_errors(&self) -> Result<(), Failure> {
@@ -349,6 +367,7 @@ impl Caged {
                 let slipping = Self {
                     design,
                     memory: self.memory,
+                    encoder: self.encoder,
                 };
                 let at = |sample: usize| rows.get(sample).map(|row| row.temperature);
                 slipping.follow(trace, at, None, &|| ())

@@ -191,6 +191,7 @@ mod tests {
                 time: 0.5 * place as f64,
                 nut_speed: 10.0,
                 axial_load,
+                nut_position: 0.0,
             })
             .collect();
         let torques: Vec<f64> = samples

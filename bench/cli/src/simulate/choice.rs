@@ -1,6 +1,7 @@
 //! Which scene a run has: asked for, or what the design or the manoeuvre is made for.
 
 use super::caged::Caged;
+use super::encoder::EncoderStep;
 use super::linear::Linear;
 use super::manoeuvre::Manoeuvre;
 use super::uncaged::Uncaged;
@@ -26,7 +27,7 @@ pub enum Chosen {
     /// A ball screw whose balls press on each other.
     Uncaged(Box<Uncaged>),
     /// A linear bearing whose balls press on each other.
-    Linear(Linear),
+    Linear(Box<Linear>),
 }
 
 /// Scene and design that are asked for, or that the manoeuvre is made for.
@@ -52,6 +53,7 @@ pub fn choose(
         SceneName::Caged => Ok(Chosen::Caged(Box::new(Caged {
             design: screw("lin-4.1")?,
             memory,
+            encoder: EncoderStep::default(),
         }))),
         SceneName::Uncaged => {
             let design = screw("lin-3.6")?;
@@ -62,11 +64,16 @@ pub fn choose(
                 design,
                 balls,
                 memory,
+                encoder: EncoderStep::default(),
             })))
         }
         SceneName::Linear => {
             let design = source.map_or_else(LinearDesign::built_in, DesignSource::load_bearing)?;
-            Ok(Chosen::Linear(Linear { design, memory }))
+            Ok(Chosen::Linear(Box::new(Linear {
+                design,
+                memory,
+                encoder: EncoderStep::default(),
+            })))
         }
     }
 }

@@ -85,9 +85,9 @@ fn within_limits(design: &UncagedDesign, trace: &Trace<ScrewSample>) -> Vec<Scre
         .samples
         .iter()
         .map(|sample| ScrewSample {
-            time: sample.time,
             nut_speed: within(sample.nut_speed, limits.nut_speed),
             axial_load: within(sample.axial_load, limits.axial_load),
+            ..*sample
         })
         .collect()
 }

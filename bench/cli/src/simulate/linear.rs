@@ -5,6 +5,7 @@ use epas_reference::promises;
 
 use super::balls::{Built, bearing};
 use super::beyond::Beyond;
+use super::encoder::EncoderStep;
 use super::manoeuvre::{Manoeuvre, linear_trace};
 use super::memory::{self, Remembered};
 use super::picture::{self, Form, Labels};
@@ -25,6 +26,8 @@ pub struct Linear {
     pub design: LinearDesign,
     /// Whether friction remembers.
     pub memory: bool,
+    /// Step of the encoder whose noise it does not follow.
+    pub encoder: EncoderStep,
 }
 
 /// One sample with what the model says to it.
@@ -85,10 +88,16 @@ impl Linear {
 
     /// Elements at the trace's mean load, where friction remembers.
     fn remembered(&self, trace: &Trace<LinearSample>) -> Result<Option<Remembered>, Failure> {
-        self.memory
+        let mut remembered = self
+            .memory
             .then(|| self.remembered_at(memory::mean_load(trace)))
             .transpose()
-            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))
+            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
+        if let Some(remembered) = &mut remembered {
+            remembered.encoder_step = self.encoder.size();
+            remembered.lines.add_some("encoder", self.encoder.told("m"));
+        }
+        Ok(remembered)
     }
 }
 
@@ -102,6 +111,10 @@ impl Scene for Linear {
 
     fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<LinearSample>, Failure> {
         linear_trace(manoeuvre)
+    }
+
+    fn set_encoder(&mut self, encoder: EncoderStep) {
+        self.encoder = encoder;
     }
 
     fn rows(

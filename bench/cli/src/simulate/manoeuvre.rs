@@ -51,6 +51,7 @@ pub fn trace(manoeuvre: Manoeuvre, design: &BallScrew) -> Result<Trace<ScrewSamp
         time: moment.time,
         nut_speed: moment.speed,
         axial_load: moment.force,
+        nut_position: 0.0,
     });
     Ok(Trace {
         name: manoeuvre.name().into(),

@@ -203,7 +203,8 @@ fn moved(course: Course<'_>) -> Result<(Vec<Row>, Lines), Failure> {
         / acting.len() as f64;
     let speed = memory::speed((tick / STEPS as f64) as f32)
         .map_err(|error| Failure::Data(format!("{}: {error}", design.name)))?;
-    remembering(design, load as f32, speed, course)
+    // The nut's own motion has no noise.
+    remembering(design, load as f32, (speed, 0.0), course)
 }
 
 /// What moves the nut.

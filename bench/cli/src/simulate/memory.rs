@@ -11,7 +11,8 @@ use epas_friction::scene::{Freshness, WithMemoryConfiguration};
 use epas_friction::{BallScrew, Clearance, Error, LinearBearingConfiguration, RollingResistance};
 
 use super::balls::Configuration;
-pub use super::balls::{ELEMENTS, Elements, Remembering, TEMPERATURE, fresh};
+pub use super::balls::{ELEMENTS, Elements, Remembering, Speed, TEMPERATURE, fresh};
+use super::encoder;
 use super::summary::Lines;
 use super::trace::{Sample, Trace};
 
@@ -44,6 +45,8 @@ pub struct Remembered {
     pub elements: Elements,
     /// Load at which they are designed, N.
     pub reference_load: f32,
+    /// Step of the encoder whose noise they do not follow, rad (m); 0 without.
+    pub encoder_step: f32,
     /// What the summary says.
     pub lines: Lines,
 }
@@ -89,6 +92,7 @@ impl Screw<'_> {
         Ok(Remembered {
             elements,
             reference_load: axial_load.max(1e-3),
+            encoder_step: 0.0,
             lines,
         })
     }
@@ -129,6 +133,7 @@ pub fn of_bearing(
     Ok(Remembered {
         elements,
         reference_load: normal_load.max(1e-3),
+        encoder_step: 0.0,
         lines,
     })
 }
@@ -215,7 +220,8 @@ pub fn whole<C: Copy>(
     Ok(match remembered {
         None => Configuration::Plain(scene),
         Some(remembered) => {
-            Configuration::Remembering(configuration(scene, remembered, speed(tick)?, friction)?)
+            let speed = rows_speed(tick, remembered.encoder_step)?;
+            Configuration::Remembering(configuration(scene, remembered, speed, friction)?)
         }
     })
 }
@@ -226,6 +232,14 @@ pub fn whole<C: Copy>(
 /// [`Error`] naming `tick`.
 pub fn speed(tick: f32) -> Result<SpeedOverTick, Error> {
     SpeedOverTick::new(tick, 1e3)
+}
+
+/// The same behind a dead band of an encoder's step, rad (m), for a row of balls.
+///
+/// # Errors
+/// [`Error`] naming `tick` or `half_width`.
+pub fn rows_speed(tick: f32, step: f32) -> Result<Speed, Error> {
+    encoder::behind(speed(tick)?, step, 0.0)
 }
 
 /// A sensor of an angle of half a turn either way, rad.

@@ -6,7 +6,7 @@ use epas_design::caged::NODES;
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::CoefficientLaw;
 use epas_friction::law::memory::Hysteresis;
-use epas_friction::law::motion::{Deadband, NutAngle};
+use epas_friction::law::motion::NutAngle;
 use epas_friction::scene::{
     CagedBallScrew, ClosedFormScrew, CoefficientFor, Sliding, StoredScene, WithMemory,
     WithMemoryConfiguration, WithMemoryInputs,
@@ -14,6 +14,7 @@ use epas_friction::scene::{
 use epas_friction::stored::{Fingerprinted, Stored};
 use epas_friction::{Error, FrictionModel, Inputs, Outputs, Refusal, Scene};
 
+use super::encoder;
 use super::memory::{self, Remembered};
 use super::summary::Lines;
 use epas_calibrate::outputs::firmware::{self, ELEMENTS, Numbers};
@@ -136,15 +137,16 @@ pub trait Use {
     fn with(self, screw: impl Remembers + 'static) -> Self::Made;
 }
 
-/// A design with a sensor and a mean size of the load, N.
+/// A design with a sensor, its step, rad, and a mean size of the load, N.
 struct Wanted<'a, A> {
     design: &'a Design,
     mean_load: f32,
     angle: A,
+    step: f32,
 }
 
-/// Builds the screw of a design for a sensor and a mean size of the load, N, and does something with it; what the summary tells of
-/// it beside that.
+/// Builds the screw of a design for a sensor behind a dead band of its step, rad, and a mean size of the load, N, and does something with it;
+/// what the summary tells of it beside that.
 ///
 /// The screw is folded for the friction coefficients that its calibration has.
 ///
@@ -153,7 +155,7 @@ struct Wanted<'a, A> {
 pub fn remembering<A, U>(
     design: &Design,
     mean_load: f32,
-    angle: A,
+    (angle, step): (A, f32),
     then: U,
 ) -> Result<(U::Made, Lines), Failure>
 where
@@ -164,6 +166,7 @@ where
         design,
         mean_load,
         angle,
+        step,
     };
     match scene(design)? {
         CagedScene::One(block) => wanted.around::<CagedBallScrew, _>(block, then),
@@ -220,21 +223,24 @@ impl<A: Sensor> Wanted<'_, A> {
             design,
             mean_load,
             angle,
+            step,
         } = *self;
         let refused = |error: Error| refused(design, &error);
         let by_design = || by_design(&design.caged, mean_load).map_err(refused);
-        let Some(calibrated) = &design.calibrated else {
+        let calibrated = design.calibrated.as_ref();
+        let backlash = calibrated.and_then(|found| found.backlash).unwrap_or(0.0);
+        let angle = encoder::behind(angle, step, backlash).map_err(refused)?;
+        if calibrated.is_none() {
             let remembered = by_design()?;
             let whole = memory::configuration(scene, &remembered, angle, design.caged.friction);
             let model =
                 whole.and_then(|whole| FrictionModel::<WithMemory<S, _, _, _>>::new(&whole));
             return Ok((then.with(model.map_err(refused)?), remembered.lines));
-        };
+        }
         let numbers = Numbers::of(design)?;
-        let backlash = calibrated.backlash.unwrap_or(0.0);
         let built = Built {
             scene,
-            angle: Deadband::new(angle, 0.5 * backlash).map_err(refused)?,
+            angle,
             law: law(design, &numbers).map_err(refused)?,
         };
         match &numbers.reference {

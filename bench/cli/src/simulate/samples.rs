@@ -1,5 +1,7 @@
 //! Moments of traces: one type for screws, one for bearings.
 
+use std::f64::consts::TAU;
+
 use epas_friction::{Inputs, LinearInputs};
 
 use super::trace::{Sample, SceneSample};
@@ -13,6 +15,8 @@ pub struct ScrewSample {
     pub nut_speed: f64,
     /// Axial load, N.
     pub axial_load: f64,
+    /// Angle of the nut as its encoder reads it, rad, joined or from turn to turn; 0 at every moment of a trace without.
+    pub nut_position: f64,
 }
 
 /// One moment of a linear bearing's trace.
@@ -31,18 +35,38 @@ pub struct LinearSample {
 impl Sample for ScrewSample {
     const COLUMNS: &'static [&'static str] = &["time", "nut_speed", "axial_load"];
 
+    const OPTIONAL: &'static [&'static str] = &["nut_position"];
+
     fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
         Ok(Self {
             time: column("time")?,
             nut_speed: column("nut_speed")?,
             axial_load: column("axial_load")?,
+            nut_position: column("nut_position")?,
         })
     }
 
+    fn between(low: &Self, high: &Self, of: &dyn Fn(f64, f64) -> f64) -> Self {
+        // The shorter way round: an angle may start again after a turn.
+        let turn = high.nut_position - low.nut_position;
+        let turn = turn - TAU * (turn / TAU).round();
+        Self {
+            time: of(low.time, high.time),
+            nut_speed: of(low.nut_speed, high.nut_speed),
+            axial_load: of(low.axial_load, high.axial_load),
+            nut_position: of(low.nut_position, low.nut_position + turn),
+        }
+    }
+
     fn record(&self) -> Vec<String> {
-        [self.time, self.nut_speed, self.axial_load]
-            .map(|value| value.to_string())
-            .to_vec()
+        [
+            self.time,
+            self.nut_speed,
+            self.axial_load,
+            self.nut_position,
+        ]
+        .map(|value| value.to_string())
+        .to_vec()
     }
 
     fn time(&self) -> f64 {
@@ -97,6 +121,10 @@ impl SceneSample for ScrewSample {
             nut_speed: self.nut_speed as f32,
             axial_load: self.axial_load as f32,
         }
+    }
+
+    fn position(&self) -> f64 {
+        self.nut_position
     }
 }
 

@@ -1,17 +1,18 @@
 //! What a scene does with a trace. Each has its own samples, rows, columns and words; which one it is is
 //! decided once, from the design.
 
+use super::encoder::EncoderStep;
 use super::manoeuvre::Manoeuvre;
 use super::picture::Form;
 use super::reference::ReferenceModel;
 use super::summary::Lines;
-use super::trace::{Sample, Temperature, Trace};
+use super::trace::{SceneSample, Temperature, Trace};
 use epas_page::failure::Failure;
 
 /// A scene with its design.
 pub trait Scene {
     /// One moment of its traces.
-    type Sample: Sample;
+    type Sample: SceneSample;
     /// One sample with what the models say to it.
     type Row;
 
@@ -28,6 +29,9 @@ pub trait Scene {
     fn within(&self, trace: Trace<Self::Sample>) -> (Trace<Self::Sample>, Option<String>) {
         (trace, None)
     }
+
+    /// Takes the encoder of the trace, whose noise friction that remembers does not follow.
+    fn set_encoder(&mut self, encoder: EncoderStep);
 
     /// Refuses a design whose block is too far from the exact model, as `design` does.
     ///

@@ -125,6 +125,7 @@ pub const REFERENCE_COLUMNS: [&str; 2] = ["reference_friction_torque", "referenc
 /// The values of [`columns`].
 pub fn record(sample: &ScrewSample, outputs: &Outputs) -> Vec<String> {
     let mut record = sample.record();
+    record.truncate(ScrewSample::COLUMNS.len());
     record.extend([
         outputs.friction_torque.to_string(),
         outputs.load_torque.to_string(),
@@ -347,6 +348,7 @@ mod tests {
                     time: 0.0,
                     nut_speed: 1.0,
                     axial_load,
+                    nut_position: 0.0,
                 })
                 .to_vec(),
         };

@@ -1,6 +1,7 @@
 //! Scenes beside each other over one manoeuvre of one screw, for the report.
 
 use super::caged::Caged;
+use super::encoder::EncoderStep;
 use super::manoeuvre::Manoeuvre;
 use super::picture::Moment;
 use super::reference::ReferenceModel;
@@ -35,6 +36,7 @@ pub fn courses(design: &str, manoeuvre: Manoeuvre) -> Result<Courses, Failure> {
         let scene = Caged {
             design: design.clone(),
             memory,
+            encoder: EncoderStep::default(),
         };
         let trace = scene.manoeuvre(manoeuvre)?;
         let (rows, _) = scene.rows(&trace, reference, &|| ())?;
@@ -44,6 +46,7 @@ pub fn courses(design: &str, manoeuvre: Manoeuvre) -> Result<Courses, Failure> {
         design: design.clone(),
         balls,
         memory: true,
+        encoder: EncoderStep::default(),
     };
     let trace = row.manoeuvre(manoeuvre)?;
     let (rows, _) = row.rows(&trace, None, &|| ())?;

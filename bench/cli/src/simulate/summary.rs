@@ -17,6 +17,13 @@ impl Lines {
         self.0.push((name.into(), text.into()));
     }
 
+    /// One more line where there is something to say.
+    pub fn add_some(&mut self, name: &str, text: Option<String>) {
+        if let Some(text) = text {
+            self.add(name, text);
+        }
+    }
+
     /// More words at the end of the line with a name, where it is there.
     pub fn amend(&mut self, name: &str, words: &str) {
         if let Some((_, text)) = self.0.iter_mut().find(|(own, _)| own == name) {

@@ -82,6 +82,7 @@ mod tests {
                     time,
                     nut_speed,
                     axial_load: 100.0 * nut_speed,
+                    nut_position: 0.0,
                 })
                 .to_vec(),
         };

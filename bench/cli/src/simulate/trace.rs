@@ -2,19 +2,15 @@
 
 use std::io::{Read, Seek};
 
-use csv::{ErrorKind, Position, Reader, ReaderBuilder, StringRecord, Trim};
-
-use epas_calibrate::trace::outliers::{self, LeftOut};
-use epas_calibrate::trace::table;
 use epas_design::files::calibration::TEMPERATURES;
 use epas_page::aside::say;
 use epas_page::failure::Failure;
-use epas_page::files::line_of;
-use epas_traces::front;
-use epas_traces::headings;
+use epas_traces::clock::check_raster;
+use epas_traces::marks::{self, LeftOut};
 use epas_traces::mdf4::{self, Mapping};
 use epas_traces::source::Source;
-use epas_traces::units::{Dimension, Quantity, Unit, channel, cut, heading, quantity};
+use epas_traces::table::{self, Request, Table};
+use epas_traces::units::{Dimension, Quantity, cut, heading, quantity};
 
 /// One moment of a trace: what one scene's columns hold.
 pub trait Sample: Copy {
@@ -71,6 +67,11 @@ pub trait SceneSample: Sample {
 
     /// Its inputs at this moment.
     fn inputs(&self) -> Self::Inputs;
+
+    /// Position as its sensor reads it, rad (m); 0 where the trace has none.
+    fn position(&self) -> f64 {
+        0.0
+    }
 }
 
 /// A trace, never empty, its times never going back.
@@ -98,12 +99,12 @@ impl<S: Sample> Trace<S> {
     }
 }
 
-/// Most samples of a trace: more than an hour at 1 kHz, and less than fills a memory.
-const MOST_SAMPLES: usize = 5_000_000;
-
-/// Largest trace file, bytes: what five million samples need; a quoted field may span lines, and is held
-/// whole.
-const LARGEST_FILE: u64 = 1 << 29;
+impl<S: SceneSample> Trace<S> {
+    /// Whether it has a position beside the speed.
+    pub fn has_position(&self) -> bool {
+        self.samples.iter().any(|sample| sample.position() != 0.0)
+    }
+}
 
 /// A column of temperatures beside the samples of a trace.
 #[derive(Clone, Debug, PartialEq)]
@@ -145,6 +146,18 @@ impl Temperature {
         }
     }
 
+    /// Whether a table has temperatures, and whether they were taken.
+    fn of(table: &Table) -> Self {
+        let named = |name: &String| matches!(heading(name), Ok(Some((Quantity::Temperature, _))));
+        if table.column(Quantity::Temperature).is_some() {
+            return Self::Followed(Vec::new());
+        }
+        if table.ignored.iter().any(named) {
+            return Self::Ignored;
+        }
+        Self::None
+    }
+
     /// Refuses what is no temperature, K.
     fn check(value: f64) -> Result<(), String> {
         let (low, high) = TEMPERATURES;
@@ -173,18 +186,27 @@ pub fn read<S: Sample>(
     channels: Option<&Mapping>,
     followed: bool,
 ) -> Result<(Trace<S>, Temperature), Failure> {
-    let input = source.open(LARGEST_FILE)?;
-    let (samples, temperature) = if input.measurement {
-        let found = channels_of(input, channels, followed);
-        found.map_err(|message| Failure::Data(format!("{}: {message}", source.shown())))?
+    let input = source.open(table::LARGEST_FILE)?;
+    let found = if input.measurement {
+        channels_of(input, channels, followed)
     } else {
         source.without_channels(channels)?;
-        parse(input, followed).map_err(|Fault { line, message }| {
-            Failure::Data(format!("{}, line {line}: {message}", source.shown()))
-        })?
+        columns_of(input, followed)
     };
+    let (samples, temperature) =
+        found.map_err(|message| Failure::Data(message).of(&source.shown()))?;
     let name = source.name();
     Ok((Trace { name, samples }, temperature))
+}
+
+/// The samples of a table.
+pub fn samples<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, String> {
+    columns_of(input, false).map(|(samples, _)| samples)
+}
+
+/// The samples of a measurement file.
+pub fn measured<S: Sample>(input: impl Read, channels: Option<&Mapping>) -> Result<Vec<S>, String> {
+    channels_of(input, channels, false).map(|(samples, _)| samples)
 }
 
 /// What a column cannot be measured in: a carriage travels, and a wanted angle of the nut is one.
@@ -196,438 +218,128 @@ fn refused(column: &str) -> Option<Dimension> {
     }
 }
 
-/// The samples of a measurement file.
-pub fn measured<S: Sample>(input: impl Read, channels: Option<&Mapping>) -> Result<Vec<S>, String> {
-    channels_of(input, channels, false).map(|(samples, _)| samples)
-}
-
-/// The samples of a measurement file, with its temperatures where they are `followed`.
-fn channels_of<S: Sample>(
-    input: impl Read,
-    channels: Option<&Mapping>,
-    followed: bool,
-) -> Result<(Vec<S>, Temperature), String> {
-    let optional = || S::OPTIONAL.iter().chain(followed.then_some(&TEMPERATURE));
-    let wanted: Vec<mdf4::Wanted> = S::COLUMNS
-        .iter()
-        .chain(optional())
+/// Columns of a scene but the time, those that a trace must have first.
+fn wanted<S: Sample>(followed: bool) -> Vec<mdf4::Wanted> {
+    let names = S::COLUMNS.iter().chain(S::OPTIONAL);
+    names
+        .chain(followed.then_some(&TEMPERATURE))
         .filter_map(|name| {
-            let (quantity, _) = channel(name).ok()??;
+            let quantity = quantity(name)?;
             (quantity != Quantity::Time).then(|| mdf4::Wanted {
                 name,
                 quantity,
                 refuses: refused(name),
             })
         })
-        .collect();
-    let first: Vec<Quantity> = wanted
-        .iter()
-        .take(1)
-        .map(|wanted| wanted.quantity)
-        .collect();
+        .collect()
+}
+
+fn columns_of<S: Sample>(
+    input: impl Read + Seek,
+    followed: bool,
+) -> Result<(Vec<S>, Temperature), String> {
+    let wanted = wanted::<S>(followed);
+    let request = Request {
+        wants: &|quantity| wanted.iter().any(|wanted| wanted.quantity == quantity),
+        rated_torque: None,
+    };
+    samples_of(table::read(input, request)?, &wanted, "column")
+}
+
+fn channels_of<S: Sample>(
+    input: impl Read,
+    channels: Option<&Mapping>,
+    followed: bool,
+) -> Result<(Vec<S>, Temperature), String> {
+    let wanted = wanted::<S>(followed);
+    let first: Vec<Quantity> = wanted.iter().take(1).map(|first| first.quantity).collect();
     let request = mdf4::Request {
         wanted: &wanted,
         master: &first,
         mapping: channels,
     };
-    let mut found = mdf4::read(input, &request)?;
-    for note in &found.notes {
-        say(format_args!("note: {note}"));
-    }
-    leave_out(&mut found)?;
-    let mut places = Vec::new();
-    for wanted in &wanted {
-        let column = found
-            .columns
-            .iter()
-            .find(|column| column.quantity == wanted.quantity);
-        if column.is_none() && !optional().any(|name| *name == wanted.name) {
-            return Err(format!(
-                "channel {} is missing; a file for --channels says which channel it is",
-                wanted.name
-            ));
-        }
-        places.push(column);
-    }
-    let warm = found
-        .columns
-        .iter()
-        .find(|column| column.quantity == Quantity::Temperature);
-    let named = |name: &String| matches!(channel(name), Ok(Some((Quantity::Temperature, _))));
-    let mut temperature = match warm {
-        Some(_) => Temperature::Followed(Vec::new()),
-        None if found.ignored.iter().any(named) => Temperature::Ignored,
-        None => Temperature::None,
+    let found = mdf4::read(input, &request)?;
+    let request = Request {
+        wants: &|_| true,
+        rated_torque: None,
     };
-    let mut samples: Vec<S> = Vec::new();
-    for (row, time) in found.times.iter().enumerate() {
-        let sample = S::read(|column| {
-            let place = wanted.iter().position(|wanted| wanted.name == column);
-            let value = match place.and_then(|place| places.get(place)) {
-                None => Some(*time),
-                Some(None) => Some(0.0),
-                Some(Some(column)) => column.values.get(row).copied(),
-            };
-            value.ok_or("a sample is missing")
-        })?;
-        let next = follows(&samples, sample).and_then(|next| {
-            let value = warm.and_then(|column| column.values.get(row));
-            value.map_or(Ok(()), |value| temperature.take(*value))?;
-            Ok(next)
-        });
-        samples.push(next.map_err(|message| format!("sample {row}: {message}"))?);
-    }
-    enough(&samples)?;
-    Ok((samples, temperature))
+    let table = table::of_measurement(found, request)?;
+    samples_of(table, &wanted, "channel")
 }
 
-/// Leaves out what no mechanism makes.
-fn leave_out(found: &mut mdf4::Table) -> Result<(), String> {
-    let columns = found
-        .columns
-        .iter()
-        .map(|column| table::Column::si(&column.name, column.quantity, column.values.clone()));
-    let mut table = table::Table::of(found.times.clone(), columns.collect())?;
-    for left_out in outliers::clean(&mut table)? {
-        say(format_args!("note: {}", left_out.told()));
-    }
-    for (column, cleaned) in found.columns.iter_mut().zip(table.columns) {
-        column.values = cleaned.values;
-    }
-    Ok(())
-}
-
-/// A trace has a duration.
-fn enough<S>(samples: &[S]) -> Result<(), String> {
-    match samples.len() {
-        0 => Err("the trace is empty".into()),
-        1 => Err("the trace has a single sample: at least 2".into()),
-        _ => Ok(()),
-    }
-}
-
-/// The samples of a trace, or what is wrong in which line.
-pub fn samples<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, String> {
-    parse(input, false)
-        .map(|(samples, _)| samples)
-        .map_err(|Fault { line, message }| format!("line {line}: {message}"))
-}
-
-/// What is wrong with a trace, and in which line.
-#[derive(Debug, PartialEq)]
-struct Fault {
-    line: u64,
-    message: String,
-}
-
-impl Fault {
-    fn new(line: u64, message: impl Into<String>) -> Self {
-        Self {
-            line,
-            message: message.into(),
-        }
-    }
-
-    /// A fault that the CSV reader found in the record that starts at `start`.
-    fn from_csv(error: &csv::Error, reader: Reader<impl Read + Seek>, start: &Position) -> Self {
-        let message = match error.kind() {
-            ErrorKind::UnequalLengths {
-                expected_len, len, ..
-            } => format!("{len} columns where the first line has {expected_len}"),
-            ErrorKind::Utf8 { .. } => "no UTF-8".into(),
-            _ => error.to_string(),
-        };
-        Self::new(
-            line_of(reader.into_inner(), start.byte(), start.line()),
-            message,
-        )
-    }
-}
-
-fn parse<S: Sample>(
-    input: impl Read + Seek,
-    followed: bool,
-) -> Result<(Vec<S>, Temperature), Fault> {
-    let input = front::Table::new(input);
-    let (separator, above) = (input.separator, input.lines);
-    let mut reader = ReaderBuilder::new()
-        .trim(Trim::All)
-        .delimiter(separator)
-        .from_reader(input);
-    let below = |mut fault: Fault| {
-        fault.line += above;
-        fault
-    };
-    let start = reader.position().clone();
-    let header = match reader.headers() {
-        Ok(header) => header.clone(),
-        Err(error) => return Err(below(Fault::from_csv(&error, reader, &start))),
-    };
-    let mut rows = Rows::of::<S>(&header, followed).map_err(below)?;
-    rows.separator = separator;
-    let mut record = StringRecord::new();
-    loop {
-        let start = reader.position().clone();
-        match reader.read_record(&mut record) {
-            Ok(true) => {}
-            Ok(false) => break,
-            Err(error) => return Err(below(Fault::from_csv(&error, reader, &start))),
-        }
-        if let Err(message) = rows.add(&record) {
-            let line = line_of(reader.into_inner(), start.byte(), start.line());
-            return Err(below(Fault::new(line, message)));
-        }
-    }
-    let last = above + reader.position().line();
-    rows.samples().map_err(|message| Fault::new(last, message))
-}
-
-/// Rows of a table as they are read.
-struct Rows {
-    /// Name, place and unit of the columns, time first; the temperature last where it is followed.
-    places: Vec<(&'static str, usize, Option<Unit>)>,
-    values: Vec<Vec<f64>>,
-    temperature: Temperature,
-    separator: u8,
-}
-
-impl Rows {
-    fn of<S: Sample>(header: &StringRecord, followed: bool) -> Result<Self, Fault> {
-        if !header.is_empty() {
-            headings::separated(header).map_err(|message| Fault::new(1, message))?;
-        }
-        let mut places = S::COLUMNS
-            .iter()
-            .map(|column| place(header, column).map(|(place, unit)| (*column, place, unit)))
-            .collect::<Result<Vec<_>, _>>()?;
-        for column in S::OPTIONAL {
-            let optional = found(header, column)?;
-            places.extend(optional.map(|(place, unit)| (*column, place, unit)));
-        }
-        let warm = if followed {
-            found(header, TEMPERATURE)?
-        } else {
-            None
-        };
-        let named = |name| matches!(heading(name), Ok(Some((Quantity::Temperature, _))));
-        let temperature = match warm {
-            Some(_) => Temperature::Followed(Vec::new()),
-            None if header.iter().any(named) => Temperature::Ignored,
-            None => Temperature::None,
-        };
-        places.extend(warm.map(|(place, unit)| (TEMPERATURE, place, unit)));
-        Ok(Self {
-            values: vec![Vec::new(); places.len()],
-            places,
-            temperature,
-            separator: b',',
-        })
-    }
-
-    /// Takes units from a row below the headings; whether there are any.
-    fn takes_units(&mut self, record: &StringRecord) -> Result<bool, String> {
-        let columns: Vec<_> = self
-            .places
-            .iter()
-            .filter_map(|(name, place, unit)| {
-                let quantity = quantity(name)?;
-                Some((*place, *name, quantity, unit.unwrap_or(Unit::SI)))
-            })
-            .collect();
-        let Some(units) = front::units(record.as_byte_record(), &columns) else {
-            return Ok(false);
-        };
-        for ((name, _, unit), below) in self.places.iter_mut().zip(units?) {
-            if refused(name) == Some(below.dimension) {
-                return Err(format!("{name} is not measured in {}", below.shown()));
+/// The samples of a table whose times are a raster without long gaps, with what no mechanism makes left out.
+fn samples_of<S: Sample>(
+    mut table: Table,
+    wanted: &[mdf4::Wanted],
+    kind: &str,
+) -> Result<(Vec<S>, Temperature), String> {
+    let must = S::COLUMNS.len() - 1;
+    for (place, wanted) in wanted.iter().enumerate() {
+        match table.column(wanted.quantity) {
+            Some(column) if wanted.refuses == Some(column.unit.dimension) => {
+                return Err(format!(
+                    "{kind} {}: {} is not measured in {}",
+                    cut(&column.name),
+                    wanted.name,
+                    column.unit.shown()
+                ));
             }
-            *unit = Some(below);
-        }
-        Ok(true)
-    }
-
-    fn add(&mut self, record: &StringRecord) -> Result<(), String> {
-        let times = self.values.first().map_or(0, Vec::len);
-        if times == 0 && self.takes_units(record)? {
-            return Ok(());
-        }
-        let all = self.places.iter().zip(&mut self.values).enumerate();
-        for (column, ((name, place, unit), values)) in all {
-            let cell = record.get(*place).unwrap_or_default();
-            let value = match number(cell, name, self.separator)? {
-                Some(value) => unit.map_or(value, |unit| unit.si(value)),
-                None if column == 0 => return Err(format!("{name} has no number")),
-                None => f64::NAN,
-            };
-            if column == 0 {
-                rises(values, value)?;
+            None if place < must => {
+                let other = table.columns.iter().map(|column| &column.name);
+                let names: Vec<&str> = other.chain(&table.ignored).map(String::as_str).collect();
+                let names = names.get(..12).unwrap_or(&names).join(", ");
+                return Err(format!(
+                    "{kind} {} is missing; beside the time there are {names}{}",
+                    wanted.name,
+                    match kind {
+                        "channel" => "; a file for --channels says which channel it is",
+                        _ => "",
+                    }
+                ));
             }
-            if *name == TEMPERATURE && !value.is_nan() {
-                Temperature::check(value)?;
-            }
-            values.push(value);
-        }
-        Ok(())
-    }
-
-    /// The samples: empty cells filled, and what no mechanism makes left out.
-    fn samples<S: Sample>(self) -> Result<(Vec<S>, Temperature), String> {
-        let mut values = self.values.into_iter();
-        let times = values.next().unwrap_or_default();
-        enough(&times)?;
-        let names = self.places.iter().skip(1).zip(values);
-        let columns = names.filter_map(|((name, ..), values)| {
-            Some(table::Column::si(name, quantity(name)?, values))
-        });
-        let mut table = table::Table::of(times, columns.collect())?;
-        let left_out = outliers::clean(&mut table)?;
-        let repaired = left_out.iter().map(LeftOut::told);
-        for note in table.notes.iter().cloned().chain(repaired) {
-            say(format_args!("note: {note}"));
-        }
-        let mut temperature = self.temperature;
-        for value in table.values(TEMPERATURE).unwrap_or_default() {
-            temperature.take(*value)?;
-        }
-        let samples = (0..table.times.len()).map(|row| {
-            S::read(|column| {
-                let values = if column == "time" {
-                    Some(&table.times[..])
-                } else {
-                    table.values(column)
-                };
-                let value = match values {
-                    None if S::OPTIONAL.contains(&column) => Some(0.0),
-                    None => None,
-                    Some(values) => values.get(row).copied(),
-                };
-                value.ok_or_else(|| "a column is missing".to_owned())
-            })
-        });
-        Ok((samples.collect::<Result<_, _>>()?, temperature))
-    }
-}
-
-/// Refuses a time that does not rise, and a trace that is too long.
-fn rises(times: &[f64], time: f64) -> Result<(), String> {
-    if times.len() == MOST_SAMPLES {
-        return Err(format!("a trace has at most {MOST_SAMPLES} samples"));
-    }
-    match times.last() {
-        Some(last) if time < *last => Err(format!("time goes back from {last} to {time}")),
-        Some(last) if time == *last => Err(format!(
-            "time = {time} stands twice: samples at the same time cannot be told apart"
-        )),
-        _ => Ok(()),
-    }
-}
-
-/// The sample, where it may follow those before it.
-fn follows<S: Sample>(samples: &[S], sample: S) -> Result<S, String> {
-    if samples.len() == MOST_SAMPLES {
-        return Err(format!("a trace has at most {MOST_SAMPLES} samples"));
-    }
-    let last = samples.last().map(Sample::time);
-    rises(last.as_slice(), sample.time()).map(|()| sample)
-}
-
-/// Place of a column and its unit, which must be there once: under its own name, else with a unit behind it or in brackets.
-fn place(header: &StringRecord, column: &str) -> Result<(usize, Option<Unit>), Fault> {
-    if header.is_empty() {
-        return Err(Fault::new(1, "the file is empty"));
-    }
-    found(header, column)?.ok_or_else(|| Fault::new(1, headings::missing(column, header)))
-}
-
-/// The same, where it is there.
-fn found(header: &StringRecord, column: &str) -> Result<Option<(usize, Option<Unit>)>, Fault> {
-    let fault = |message: String| Err(Fault::new(1, message));
-    // A spreadsheet may put a byte-order mark before the first name.
-    let names = || {
-        header
-            .iter()
-            .map(|name| name.trim_start_matches('\u{feff}'))
-            .enumerate()
-    };
-    let exact: Vec<usize> = names()
-        .filter(|(_, name)| *name == column)
-        .map(|(place, _)| place)
-        .collect();
-    match exact[..] {
-        [place] => {
-            return match names().find(|(other, name)| *other != place && says_unit(name, column)) {
-                None => Ok(Some((place, None))),
-                Some((_, name)) => fault(format!(
-                    "columns {column} and {} are both {column}; leave one of them out",
-                    cut(name)
-                )),
-            };
-        }
-        [_, _, ..] => return fault(format!("column {column} is there twice")),
-        [] => {}
-    }
-    let wanted = channel(column).ok().flatten().map(|(quantity, _)| quantity);
-    let mut found = Vec::new();
-    let mut unknown = None;
-    for (place, name) in names() {
-        match heading(name) {
-            Ok(Some((quantity, unit))) if Some(quantity) == wanted => {
-                found.push((place, name, unit));
-            }
-            Err(message) if starts_like(name, column) => unknown = Some(message),
             _ => {}
         }
     }
-    match (&found[..], unknown) {
-        ([(_, name, unit)], _) if refused(column) == Some(unit.dimension) => fault(format!(
-            "column {}: {column} is not measured in {}",
-            cut(name),
-            unit.shown()
-        )),
-        ([(place, _, unit)], _) => Ok(Some((*place, Some(*unit)))),
-        ([(_, one, _), (_, other, _), ..], _) => fault(format!(
-            "columns {} and {} are both {column}",
-            cut(one),
-            cut(other)
-        )),
-        ([], Some(message)) => fault(message),
-        ([], None) => Ok(None),
+    match table.times.len() {
+        0 => return Err("the trace is empty".into()),
+        1 => return Err("the trace has a single sample: at least 2".into()),
+        _ => {}
     }
+    check_raster(&table.times, table.repeated)?;
+    marks::mark(&mut table)?;
+    tell(&table);
+    let mut temperature = Temperature::of(&table);
+    if let Some(column) = table.column(Quantity::Temperature) {
+        for value in &column.values {
+            temperature.take(*value)?;
+        }
+    }
+    let values = |name: &str| Some(&table.column(quantity(name)?)?.values[..]);
+    let samples = (0..table.times.len()).map(|row| {
+        S::read(|column| {
+            let values = match column {
+                "time" => Some(&table.times[..]),
+                name => values(name),
+            };
+            let value = values.map_or(Some(0.0), |values| values.get(row).copied());
+            value.ok_or_else(|| "a sample is missing".to_owned())
+        })
+    });
+    Ok((samples.collect::<Result<_, _>>()?, temperature))
 }
 
-/// Whether a name is a column's with a unit.
-fn says_unit(name: &str, column: &str) -> bool {
-    let own = channel(column).ok().flatten().map(|(quantity, _)| quantity);
-    let found = heading(name).ok().flatten();
-    starts_like(name, column)
-        && found.is_some_and(|(quantity, unit)| Some(quantity) == own && unit != Unit::SI)
-}
-
-fn starts_like(name: &str, column: &str) -> bool {
-    let own = name
-        .get(..column.len())
-        .unwrap_or_default()
-        .replace([' ', '-'], "_");
-    own.eq_ignore_ascii_case(column)
-}
-
-/// A number that f32 can hold; none where the sample is missing.
-fn number(text: &str, column: &str, separator: u8) -> Result<Option<f64>, String> {
-    let fault = |problem: &str| {
-        let shown: String = text.chars().take(40).collect();
-        format!("{column} = {shown:?} {problem}")
-    };
-    let Some(number) = front::number(text.as_bytes(), separator) else {
-        return Ok(None);
-    };
-    let value = number.map_err(|()| fault(headings::no_number(text.as_bytes())))?;
-    if !value.is_finite() {
-        return Err(fault("is not finite"));
+/// Says what was done to the samples.
+fn tell(table: &Table) {
+    let left_out = table.left_out.iter().map(LeftOut::told);
+    for note in table.notes.iter().cloned().chain(left_out) {
+        say(format_args!("note: {note}"));
     }
-    if value.abs() > f64::from(f32::MAX) {
-        return Err(fault("is beyond the range of float32"));
+    if table.repeated > 0 {
+        say(format_args!(
+            "note: {} samples have the time of the one before, and are dropped",
+            table.repeated
+        ));
     }
-    Ok(Some(value))
 }
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use epas_reference::promises;
 
 use super::balls::{Built, screw as screw_of};
 use super::beyond::Beyond;
+use super::encoder::EncoderStep;
 use super::exact_screw::exact_screw;
 use super::manoeuvre::{Manoeuvre, trace};
 use super::memory::{self, Remembered};
@@ -39,6 +40,8 @@ pub struct Uncaged {
     pub balls: UncagedDesign,
     /// Whether friction remembers.
     pub memory: bool,
+    /// Step of the encoder whose noise it does not follow.
+    pub encoder: EncoderStep,
 }
 
 /// One sample with what the models say to it.
@@ -167,6 +170,12 @@ impl Uncaged {
             .then(|| self.remembered_at(memory::mean_load(trace)))
             .transpose()
             .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
+        if let Some(remembered) = &mut remembered {
+            remembered.encoder_step = self.encoder.size();
+            remembered
+                .lines
+                .add_some("encoder", self.encoder.told("rad"));
+        }
         if let (Some(remembered), true) = (&mut remembered, told) {
             let text = "left out: what a trace has told is that of the scene caged";
             remembered.lines.add("calibration", text);
@@ -196,6 +205,10 @@ impl Scene for Uncaged {
             .filter(|_| self.design.fold.says_axial_load());
         let block = block.map(|fold| fold.axial_load[1] * balls);
         screw::within(trace, &self.design, balls, block)
+    }
+
+    fn set_encoder(&mut self, encoder: EncoderStep) {
+        self.encoder = encoder;
     }
 
     fn rows(

@@ -75,7 +75,11 @@ fn a_folder_of_the_users_stays() {
     assert!(run.stderr.contains("such as slide.csv"), "{}", run.stderr);
     let forced = ["calibrate", "slide.csv", "--output", ".", "--force"];
     let run = run_in(folder.path(), &forced, "");
-    assert!(run.stderr.contains("too few"), "{}", run.stderr);
+    assert!(
+        run.stderr.contains("motor_force is missing"),
+        "{}",
+        run.stderr
+    );
 }
 
 #[test]
@@ -160,7 +164,7 @@ fn what_cannot_be_is_refused_with_a_word() {
         ),
         (&["calibrate", "slide.csv", "--rows", "0"], 2, "cut-off"),
         (&["calibrate", "slide.csv", "--rows", "400"], 1, "Hz"),
-        (&["calibrate", "slide.csv", "--ratio", "2"], 2, "--design"),
+        (&["calibrate", "slide.csv", "--ratio", "2"], 1, "--design"),
         (
             &[
                 "calibrate",

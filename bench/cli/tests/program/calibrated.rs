@@ -44,20 +44,23 @@ breakaway_angle = 2e-3
 
 type Sensor = Deadband<WrappedAngle>;
 
-const SENSOR: Sensor = {
+const ANGLE: WrappedAngle = {
     let angle = WrappedAngle::new(WrappedAngleParameters {
         lowest: -std::f32::consts::PI,
         period: std::f32::consts::TAU,
         largest_turn: std::f32::consts::PI,
     });
     match angle {
-        Ok(angle) => match Deadband::new(angle, 0.0) {
-            Ok(sensor) => sensor,
-            Err(_) => panic!(),
-        },
+        Ok(angle) => angle,
         Err(_) => panic!(),
     }
 };
+
+/// Of an encoder of 12 bits.
+const STEP: f32 = std::f32::consts::TAU / 4096.0;
+
+/// A simulation's angle is rounded to single precision: its dead band is wider by what two such angles may be off.
+const ROUNDED: f32 = 2.0 * f32::EPSILON;
 
 /// Friction coefficients of the block.
 const NODES: usize = 5;
@@ -68,7 +71,7 @@ static GEAR: WithMemoryConstants<
     ProportionalElements<8>,
     Sensor,
     CoefficientLaw,
-> = constants::with_memory(SENSOR);
+> = constants::with_memory(ANGLE, STEP + ROUNDED);
 
 /// Both are the same arithmetic on the same numbers.
 #[test]
@@ -109,9 +112,11 @@ fn a_simulation_runs_what_firmware_evaluates() {
             && said.contains("temperature                    the trace's is ignored"),
         "{said}"
     );
-    let said = simulated(&["--memory"]);
+    let said = simulated(&["--memory", "--encoder-step", &STEP.to_string()]);
     assert!(
-        said.contains("as calibrated") && said.contains("293.1 to 333.1 K"),
+        said.contains("as calibrated")
+            && said.contains("dead band of 1.5340 mrad")
+            && said.contains("293.1 to 333.1 K"),
         "{said}"
     );
 

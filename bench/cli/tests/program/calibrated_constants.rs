@@ -3,7 +3,7 @@
 // For a crate that depends on `epas-friction`. Everything is checked when it is compiled: a number out of range
 // stops the compiler.
 
-use epas_friction::law::{coefficient, memory};
+use epas_friction::law::{coefficient, memory, motion};
 use epas_friction::{Error, scene};
 
 /// The value; a refused one stops the compiler here.
@@ -123,20 +123,23 @@ pub const ELEMENTS: memory::ProportionalElements<8> = sound(memory::Proportional
     }],
 ));
 
-/// The screw with memory, for a sensor of the nut's angle: for a `static` that stands in flash.
+/// The screw with memory, for a sensor of the nut's angle and the sensor's step, rad of the nut: for a `static` that stands in flash.
+/// Flicker within the step moves nothing; after a reversal friction starts once the sensor has gone back by the step.
 ///
 /// ```text
-/// static GEAR: scene::WithMemoryConstants<scene::CagedConstants<5>, memory::ProportionalElements<8>, CountSensor, coefficient::CoefficientLaw> = with_memory(SENSOR);
+/// static GEAR: scene::WithMemoryConstants<scene::CagedConstants<5>, memory::ProportionalElements<8>, motion::Deadband<CountSensor>, coefficient::CoefficientLaw> =
+///     with_memory(SENSOR, TURN_PER_COUNT);
 /// ```
 pub const fn with_memory<A: Copy>(
     angle: A,
-) -> scene::WithMemoryConstants<scene::CagedConstants<5>, memory::ProportionalElements<8>, A, coefficient::CoefficientLaw> {
+    step: f32,
+) -> scene::WithMemoryConstants<scene::CagedConstants<5>, memory::ProportionalElements<8>, motion::Deadband<A>, coefficient::CoefficientLaw> {
     sound(scene::WithMemoryConstants::new(
         SCREW,
         &scene::WithMemoryConfiguration {
             scene: (),
             elements: ELEMENTS,
-            angle,
+            angle: sound(motion::Deadband::new(angle, 0.5 * step)),
             reference_load: 1333.8547,
             play: 0.0019728222,
             coefficient: COEFFICIENT,

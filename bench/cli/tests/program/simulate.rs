@@ -401,8 +401,8 @@ fn the_trace_is_never_overwritten() {
 fn a_malformed_trace_stops_with_its_line_and_leaves_nothing() {
     for (text, line, word) in [
         ("", "line 1", "empty"),
-        ("time,nut_speed,axial_load\n", "line 2", "empty"),
-        ("time,axial_load\n0,1\n", "line 1", "nut_speed"),
+        ("time,nut_speed,axial_load\n", "trace.csv", "empty"),
+        ("time,axial_load\n0,1\n", "trace.csv", "nut_speed"),
         (
             "time,nut_speed,axial_load\n0,1,2\n1,fast,2\n",
             "line 3",

@@ -2,6 +2,7 @@
 //! each.
 
 use crate::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
+use epas_bench::timing;
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
@@ -342,12 +343,21 @@ fn figure_11(context: &Context) -> Result<Figure, Failure> {
         ("appendix_b_f64", "Appendix B, f64"),
     ];
     let ends = (
-        0.5 * context.times(keys[0].0)?.latency.at_least_resolved(),
-        4.0 * context.times(keys[5].0)?.latency.at_least_resolved(),
+        0.5 * timing::times(&context.competition, keys[0].0)?
+            .latency
+            .at_least_resolved(),
+        4.0 * timing::times(&context.competition, keys[5].0)?
+            .latency
+            .at_least_resolved(),
     );
     let mut series = Vec::new();
     for (colour, (key, name)) in keys.into_iter().enumerate() {
-        series.push(histogram(context.times(key)?, colour, name, ends));
+        series.push(histogram(
+            timing::times(&context.competition, key)?,
+            colour,
+            name,
+            ends,
+        ));
     }
     Ok(Figure {
         name: "curvature_figure_11",

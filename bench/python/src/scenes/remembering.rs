@@ -18,6 +18,9 @@ use crate::restored::{self, Recipe, Reduced, reduced};
 /// Largest load at which elements are designed, N.
 const LARGEST_LOAD: f64 = 1e6;
 
+/// Largest step of an encoder, rad.
+const LARGEST_STEP: f64 = 0.1;
+
 /// A screw that remembers, whatever its elements and its friction coefficient are.
 trait Memory: Send + Sync {
     fn step(&mut self, inputs: Inputs, angle: f32) -> Outputs;
@@ -78,6 +81,8 @@ impl Use for Boxed {
 /// Args:
 ///     design: its geometry and what stands beside it.
 ///     reference_load: axial load at which the elements are designed, N; 1 kN is where reversals matter in a steering gear.
+///     encoder_step: step of the encoder, rad of the nut, 0 to 0.1: friction follows the angle behind a dead band of it, so that flicker at rest moves
+///         nothing, and feels a reversal that much later.
 ///
 /// Raises:
 ///     Error: a value out of its range.
@@ -86,6 +91,7 @@ pub struct CagedBallScrewWithMemory {
     model: Box<dyn Memory>,
     recipe: Recipe,
     reference_load: f32,
+    encoder_step: f32,
     /// The words of its block; none of a closed form.
     words: Arc<[u32]>,
 }
@@ -93,17 +99,27 @@ pub struct CagedBallScrewWithMemory {
 #[pymethods]
 impl CagedBallScrewWithMemory {
     #[new]
-    #[pyo3(signature = (design, *, reference_load))]
-    fn new(py: Python<'_>, design: &Design, reference_load: f64) -> PyResult<Self> {
+    #[pyo3(signature = (design, *, reference_load, encoder_step=0.0))]
+    fn new(
+        py: Python<'_>,
+        design: &Design,
+        reference_load: f64,
+        encoder_step: f64,
+    ) -> PyResult<Self> {
         if !(0.0..=LARGEST_LOAD).contains(&reference_load) {
             let error = Refused::range("reference_load", reference_load, 0.0, LARGEST_LOAD);
             return Err(refused(py, error));
         }
+        if !(0.0..=LARGEST_STEP).contains(&encoder_step) {
+            let error = Refused::range("encoder_step", encoder_step, 0.0, LARGEST_STEP);
+            return Err(refused(py, error));
+        }
         let reference_load = single(py, "reference_load", reference_load)?;
+        let encoder_step = single(py, "encoder_step", encoder_step)?;
         let angle = bindings::angle().map_err(|error| refused(py, error))?;
         let inner = design.inner.clone();
         let made = interruptible(py, move |_| {
-            let (model, _) = remembering(&inner, reference_load, angle, Boxed)?;
+            let (model, _) = remembering(&inner, reference_load, (angle, encoder_step), Boxed)?;
             // Solved before: its words are at hand.
             let words = caged::words(&inner, coefficients(&inner)?)?;
             Ok::<_, Failure>((model, words.unwrap_or_default()))
@@ -113,6 +129,7 @@ impl CagedBallScrewWithMemory {
             model,
             recipe: design.recipe.clone(),
             reference_load,
+            encoder_step,
             words: words.into(),
         })
     }
@@ -217,7 +234,8 @@ impl CagedBallScrewWithMemory {
         let state = restored::state(py, self.model.export())?;
         let (name, text) = self.recipe.arguments();
         let block = restored::bytes(py, &self.words);
-        let arguments = (name, text, self.reference_load, block, state);
+        let made = (self.reference_load, self.encoder_step);
+        let arguments = (name, text, made, block, state);
         reduced(py, "remembering", arguments)
     }
 
@@ -227,27 +245,29 @@ impl CagedBallScrewWithMemory {
             model: self.model.copied(),
             recipe: self.recipe.clone(),
             reference_load: self.reference_load,
+            encoder_step: self.encoder_step,
             words: self.words.clone(),
         }
     }
 }
 
-/// A screw as pickle has it: its design, load and block, its state.
+/// A screw as pickle has it: its design, load and encoder's step, block, state.
 #[pyfunction]
 #[pyo3(name = "_restored_remembering")]
 pub fn restored_remembering(
     py: Python<'_>,
     name: String,
     text: Option<String>,
-    reference_load: f64,
+    made: (f64, f64),
     block: &[u8],
     state: &[u8],
 ) -> PyResult<CagedBallScrewWithMemory> {
+    let (reference_load, encoder_step) = made;
     let design = restored_design(py, name, text)?;
     if !block.is_empty() {
         caged::keep_words(&words(py, block)?).map_err(|error| refused(py, error))?;
     }
-    let mut screw = CagedBallScrewWithMemory::new(py, &design, reference_load)?;
+    let mut screw = CagedBallScrewWithMemory::new(py, &design, reference_load, encoder_step)?;
     let done = screw.model.import(state);
     done.map_err(|error| refused(py, error.to_string()))?;
     Ok(screw)

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use epas_cli::bindings::{
-    self, Balls, Built, Failure, Folded, Linear, ScrewConfiguration, Uncaged, UncagedDesign,
+    self, Balls, Built, EncoderStep, Failure, Folded, Linear, ScrewConfiguration, Uncaged,
+    UncagedDesign,
 };
 use epas_design::uncaged::UncagedBlock;
 use epas_design::uncaged_scene::{configuration_with, fold_for, folded, read};
@@ -416,6 +417,7 @@ fn scene(py: Python<'_>, design: &Design, memory_load: Option<f32>) -> PyResult<
         design: (*design.inner).clone(),
         balls,
         memory: memory_load.is_some(),
+        encoder: EncoderStep::default(),
     })
 }
 
@@ -623,6 +625,7 @@ impl LinearBearingTrain {
         let scene = Linear {
             design: linear,
             memory: made.memory_load.is_some(),
+            encoder: EncoderStep::default(),
         };
         let remembered = made
             .memory_load

@@ -6,48 +6,55 @@ mod sample;
 
 use epas_eval::BadField;
 use epas_page::document::Cell;
-use epas_page::plot::{Axis, ColourMap, Colours, Panel};
+use epas_page::plot::{self, ColourMap, Colours, Panel};
 use epas_reference::promises;
 use rayon::prelude::*;
 
 pub use every::MAPS;
-use sample::{Sample, Tally};
+use sample::{Answers, Sample, Tally};
+
+/// Heading and ends of an axis.
+type Axis = (&'static str, f64, f64);
 
 /// One formula over two of its inputs.
 pub struct Map {
     /// Title of its panel, with what the error is of.
     title: &'static str,
-    /// Heading and ends of the horizontal axis.
-    x: (&'static str, f64, f64),
-    /// Heading and ends of the vertical axis.
-    y: (&'static str, f64, f64),
-    /// What crate and reference say at a point.
-    at: fn(f64, f64) -> Result<Sample, BadField>,
-    /// Where the numbers stand in `in_loop` and in `reference` of the answer to the point's line, as JSON pointers.
-    value: (&'static str, &'static str),
-    /// Where the number of the reference stands that the error is divided by; none for an absolute error.
-    over: Option<&'static str>,
-    /// Entry of what is promised on the promise's own domain, a part of the map.
-    promise: Option<&'static str>,
+    x: Axis,
+    y: Axis,
+    /// What crate and reference answer at a point.
+    at: fn(f64, f64) -> Result<Answers, BadField>,
+    /// Where the numbers stand in `in_loop` and in `reference` of the answer to the point's line, and in `reference` the one that the error is
+    /// over: JSON pointers, an empty one for an absolute error.
+    places: [&'static str; 3],
+    /// Where in `reference` it says that the quantity does not count; empty where it always does.
+    unless: &'static str,
+    /// Entry of what is promised on the promise's own domain, a part of the map; empty without.
+    promise: &'static str,
     /// Cells of a side over those of the others: where the reference takes long.
     fineness: f64,
 }
 
-/// What [`Map`]s have in common.
-const PLAIN: Map = Map {
-    title: "",
-    x: ("", 0.0, 1.0),
-    y: ("", 0.0, 1.0),
-    at: |x, y| {
-        sample::ask(&requests::friction(x, y), |f, r| {
-            sample::Numbers::of(f.force, r.force)
-        })
-    },
-    value: ("", ""),
-    over: None,
-    promise: None,
-    fineness: 1.0,
-};
+/// A map that counts everywhere, as fine as the others.
+const fn map(
+    title: &'static str,
+    x: Axis,
+    y: Axis,
+    at: fn(f64, f64) -> Result<Answers, BadField>,
+    places: [&'static str; 3],
+    promise: &'static str,
+) -> Map {
+    Map {
+        title,
+        x,
+        y,
+        at,
+        places,
+        unless: "",
+        promise,
+        fineness: 1.0,
+    }
+}
 
 /// Bounds of the bands: every half decade where errors of f32 lie.
 const BOUNDS: [(f64, &str); 12] = [
@@ -105,21 +112,36 @@ pub struct Drawn {
 }
 
 impl Map {
+    /// The map without the points where `reference` says so.
+    const fn unless(mut self, place: &'static str) -> Self {
+        self.unless = place;
+        self
+    }
+
+    /// The map with a quarter of the cells of a side.
+    const fn coarse(mut self) -> Self {
+        self.fineness = 0.25;
+        self
+    }
+
     /// What became of the points, and the sizes of their errors, line by line.
     fn errors(&self, cells: usize) -> (Tally, Vec<Vec<f64>>) {
-        let place = |(_, low, high): (&str, f64, f64), index: usize| {
+        let place = |(_, low, high): Axis, index: usize| {
             low + (high - low) * (index as f64 + 0.5) / cells as f64
         };
         let lines: Vec<Vec<_>> = (0..cells)
             .into_par_iter()
             .map(|row| {
                 (0..cells)
-                    .map(|column| (self.at)(place(self.x, column), place(self.y, row)))
+                    .map(|column| {
+                        let answers = (self.at)(place(self.x, column), place(self.y, row))?;
+                        Ok(answers.sample(self.places, self.unless))
+                    })
                     .collect()
             })
             .collect();
         let mut tally = Tally::default();
-        let mut sizes = |line: Vec<_>| {
+        let mut sizes = |line: Vec<Result<Sample, BadField>>| {
             line.into_iter()
                 .map(|point| tally.add(point).unwrap_or(f64::NAN))
                 .collect()
@@ -136,8 +158,8 @@ impl Map {
         let (y, y_low, y_high) = self.y;
         let panel = Panel::Map(ColourMap {
             title: self.title.into(),
-            x: Axis::linear(x).between(x_low, x_high),
-            y: Axis::linear(y).between(y_low, y_high),
+            x: plot::Axis::linear(x).between(x_low, x_high),
+            y: plot::Axis::linear(y).between(y_low, y_high),
             quantity: "error".into(),
             colours: Colours::Sequential,
             bounds: BOUNDS
@@ -158,8 +180,9 @@ impl Map {
     fn row(&self, tally: Tally) -> Vec<Cell> {
         let count = |points: u32| Cell::fixed(f64::from(points), 0);
         let errors = tally.errors;
-        let promise = self.promise.map(|name| promises::of(name).largest);
-        let (in_loop, reference) = self.value;
+        let name = Some(self.promise).filter(|name| !name.is_empty());
+        let promise = name.map(|name| promises::of(name).largest);
+        let [in_loop, reference, over] = self.places;
         let worst = tally.worst.map(|(_, sample)| sample.line);
         vec![
             self.title.into(),
@@ -173,7 +196,7 @@ impl Map {
             promised(promise, errors.largest),
             in_loop.into(),
             reference.into(),
-            self.over.unwrap_or("").into(),
+            over.into(),
             worst.map_or_else(|| "".into(), Cell::Code),
         ]
     }
@@ -203,12 +226,14 @@ mod tests {
                 serde_json::from_str(&epas_eval::answer_line(&sample.line)).unwrap();
             let number = |side: &str, place: &str| answer[side].pointer(place)?.as_f64();
             let numbers = sample.numbers;
-            let (found, exact) = map.value;
+            let [found, exact, over] = map.places;
             assert_eq!(number("in_loop", found), numbers.found, "{}", sample.line);
             assert_eq!(number("reference", exact), numbers.exact, "{}", sample.line);
-            let scale = map
-                .over
-                .map_or(Some(1.0), |place| number("reference", place));
+            let scale = if over.is_empty() {
+                Some(1.0)
+            } else {
+                number("reference", over)
+            };
             assert_eq!(scale, numbers.scale, "{}", sample.line);
         }
     }

@@ -8,6 +8,7 @@ use epas_reference::friction::chain::solve_chain;
 use crate::report::context::Context;
 use crate::report::times::{quartiles, time};
 use crate::study::{self, turned_ball};
+use crate::timing;
 use crate::timing::Measure;
 use epas_page::document::{Block, Cell, Figure, Table};
 use epas_page::failure::Failure;
@@ -79,8 +80,13 @@ fn printed_times(context: &Context) -> Result<Table, Failure> {
         screw.solve(ScrewSupport::Load(-100.0))?;
         Ok(())
     })?;
-    let time =
-        |key: &str| Ok::<f64, Failure>(1e-9 * context.times(key)?.latency.at_least_resolved());
+    let time = |key: &str| {
+        Ok::<f64, Failure>(
+            1e-9 * timing::times(&context.competition, key)?
+                .latency
+                .at_least_resolved(),
+        )
+    };
     row(
         "linear bearing, closed form (3.43), (3.51), f32",
         time("pair_analytic")?,
@@ -130,11 +136,14 @@ fn train_times(context: &Context) -> Result<Table, Failure> {
     for (balls, keys) in TRAINS {
         let mut row = vec![Cell::fixed(balls.into(), 0)];
         for key in keys {
-            let times = context.times(key)?;
+            let times = timing::times(&context.competition, key)?;
             row.push(time(&times.latency, 1));
             row.push(quartiles(&times.latency, 1));
         }
-        row.push(share(&context.times(keys[2])?.latency, balls));
+        row.push(share(
+            &timing::times(&context.competition, keys[2])?.latency,
+            balls,
+        ));
         rows.push(row);
     }
     Ok(Table {
@@ -175,7 +184,9 @@ fn picture(context: &Context) -> Result<Figure, Failure> {
         for (balls, keys) in TRAINS {
             points.push((
                 f64::from(balls),
-                context.times(keys[colour])?.latency.at_least_resolved(),
+                timing::times(&context.competition, keys[colour])?
+                    .latency
+                    .at_least_resolved(),
             ));
         }
         series.push(Series::new("", colour, Mark::Circles, points.clone()));

@@ -8,6 +8,7 @@ use crate::report::context::Context;
 use crate::report::statistics::{Errors, evenly};
 use crate::report::times::time;
 use crate::study::{self, turned_ball};
+use crate::timing;
 use epas_page::document::{Block, Cell, Figure, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, ColourMap, Colours, Panel};
@@ -196,7 +197,7 @@ fn published(form: &Closed) -> Result<Table, Failure> {
 }
 
 fn summary(context: &Context, grid: &Grid) -> Result<Table, Failure> {
-    let times = context.times("ball_analytic")?;
+    let times = timing::times(&context.competition, "ball_analytic")?;
     let rows = DOMAINS
         .into_iter()
         .map(|domain| {

@@ -9,6 +9,7 @@ use crate::report::context::Context;
 use crate::report::statistics::Errors;
 use crate::report::times::time;
 use crate::study;
+use crate::timing;
 use epas_page::document::{Block, Cell, Figure, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
@@ -98,7 +99,7 @@ fn third_load(ball: &ScrewMotion) -> f64 {
 }
 
 fn table(context: &Context, cases: &[Case]) -> Result<Table, Failure> {
-    let times = context.times("screw_row_pair")?;
+    let times = timing::times(&context.competition, "screw_row_pair")?;
     let mut rows = Vec::new();
     for (sign, name) in SIGNS.into_iter().enumerate() {
         for load in LOADS {

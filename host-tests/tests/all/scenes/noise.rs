@@ -270,3 +270,93 @@ fn without_a_play_friction_follows_the_counts() {
         assert!(screw.largest <= 1.00001 * torque_of_a_count(), "{screw:?}");
     }
 }
+
+/// Sliding friction at 5 kN, for which the elements are designed, N m.
+fn full_at_5_kn() -> f32 {
+    let mut model = FrictionModel::<CagedScrew>::new(&caged()).unwrap();
+    let outputs = model.step(Inputs {
+        nut_speed: 100.0,
+        axial_load: 5e3,
+    });
+    outputs.friction_torque
+}
+
+/// Friction of the caged screw under 5 kN at such counts, one a tick, behind a dead band of `half_width` counts to either side.
+fn under_5_kn(half_width: f32, counts_of_ticks: impl IntoIterator<Item = i32>) -> Vec<f32> {
+    type Model =
+        FrictionModel<WithMemory<CagedScrew, ProportionalElements<8>, Deadband<CountSensor>>>;
+    let mut model = Model::new(&WithMemoryConfiguration {
+        scene: caged(),
+        elements: slip(full_at_5_kn()),
+        angle: Deadband::new(counts(), half_width * ClosedLoop::COUNT as f32).unwrap(),
+        reference_load: 5e3,
+        play: BREAKAWAY,
+        coefficient: CoefficientLaw::constant(caged().friction).unwrap(),
+        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
+        freshness: Freshness::DEFAULT,
+    })
+    .unwrap();
+    let friction = |count: i32| {
+        let inputs = Inputs {
+            nut_speed: 0.0,
+            axial_load: 5e3,
+        };
+        let reading = (8000 + count).rem_euclid(16_384) as u32;
+        model.step(at(inputs, reading, TEMPERATURE)).friction_torque
+    };
+    counts_of_ticks.into_iter().map(friction).collect()
+}
+
+/// Counts until every element slides forward.
+const SLID: i32 = 2 * (BREAKAWAY as f64 / ClosedLoop::COUNT) as i32;
+
+/// Flicker of one count at rest: the dead band is as wide as a count. The nut stops with the play at its forward edge, `p = h`; a count back makes
+/// `p = h - 2h = -h`, exactly, because 2h is the count in f32; a count on makes `p = h` again. Neither is beyond the play: no turn, the same
+/// bits. Without the dead band a count back takes at least `F count / breakaway` off full sliding F: friction after a reversal falls by
+/// `2 T(turn / 2)` with a concave T that reaches F at the breakaway angle.
+#[test]
+fn a_flicker_of_one_count_moves_no_friction_behind_a_dead_band_of_it() {
+    let mut random = Random(3);
+    let flicker: Vec<i32> = (0..TICKS)
+        .map(|_| SLID - i32::from(random.between(0.0, 1.0) < 0.5))
+        .collect();
+    let run = |half_width| under_5_kn(half_width, (0..=SLID).chain(flicker.iter().copied()));
+    let rest = |torque: Vec<f32>| torque[SLID as usize..].to_vec();
+    let behind = rest(run(0.5));
+    assert!(
+        behind.iter().all(|torque| *torque == behind[0]),
+        "{behind:?}"
+    );
+    let without = rest(run(0.0));
+    let least = without
+        .iter()
+        .fold(f32::MAX, |least, &torque| least.min(torque));
+    let fall = without[0] - least;
+    let derived = without[0] * (ClosedLoop::COUNT / f64::from(BREAKAWAY)) as f32;
+    assert!(
+        without[0] == behind[0] && fall > derived,
+        "{fall} {derived}"
+    );
+}
+
+/// The price of the dead band: the model is half a count behind the encoder in either direction, so that a reversal takes a count before friction
+/// falls. From there on it is the friction that it would be a count earlier, but for roundings: each turn is a difference of f32 near a count
+/// (2^-24 of 1.5 counts), which `SLID` turns add up, at the initial stiffness.
+#[test]
+fn a_dead_band_of_a_count_delays_a_reversal_by_a_count() {
+    let reversal = || (0..=SLID).chain((0..SLID).rev());
+    let (behind, without) = (under_5_kn(0.5, reversal()), under_5_kn(0.0, reversal()));
+    let back = SLID as usize + 1;
+    assert_eq!(behind[back], behind[back - 1], "a count back is not felt");
+    let count_torque = slip(full_at_5_kn()).initial_stiffness() * ClosedLoop::COUNT as f32;
+    let bound = count_torque * 1.5 * SLID as f32 * 0.5 * f32::EPSILON;
+    for tick in back + 1..behind.len() {
+        let off = (behind[tick] - without[tick - 1]).abs();
+        assert!(off <= bound, "{tick}: {off} {bound}");
+    }
+    // What is lost in between is that of a count.
+    let late = (back..behind.len()).map(|tick| (behind[tick] - without[tick]).abs());
+    let most = late.fold(0.0, f32::max);
+    let count = without[back - 1] - without[back];
+    assert!(most <= count + bound, "{most} {count}");
+}

@@ -2,7 +2,7 @@
 
 use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::law::memory::ProportionalElements;
-use epas_friction::law::motion::SpeedOverTick;
+use epas_friction::law::motion::{Deadband, SpeedOverTick};
 use epas_friction::scene::{WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 
 /// Elements of every row.
@@ -11,12 +11,14 @@ pub const ELEMENTS: usize = 8;
 /// What they are.
 pub type Elements = ProportionalElements<ELEMENTS>;
 
-/// A scene with them, which follows the speed of every tick.
-pub type Remembering<S> = WithMemory<S, Elements, SpeedOverTick, OneCoefficient>;
+/// The speed of every tick, behind a dead band of an encoder's step.
+pub type Speed = Deadband<SpeedOverTick>;
+
+/// A scene with them, which follows it.
+pub type Remembering<S> = WithMemory<S, Elements, Speed, OneCoefficient>;
 
 /// What is set for it.
-pub type RememberingConfiguration<C> =
-    WithMemoryConfiguration<C, Elements, SpeedOverTick, OneCoefficient>;
+pub type RememberingConfiguration<C> = WithMemoryConfiguration<C, Elements, Speed, OneCoefficient>;
 
 /// Temperature at which such a scene is stepped, K. The friction coefficient does not follow it.
 pub const TEMPERATURE: f32 = 293.15;

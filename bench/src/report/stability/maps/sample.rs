@@ -1,6 +1,8 @@
 //! What crate and reference say at a point of a map.
 
 use epas_eval::{BadField, Both, Model};
+use serde::Serialize;
+use serde_json::Value;
 
 use crate::report::statistics::Errors;
 
@@ -15,34 +17,6 @@ pub struct Numbers {
     pub scale: Option<f64>,
 }
 
-impl Numbers {
-    /// An absolute error.
-    pub fn of(found: impl Into<Option<f64>>, exact: impl Into<Option<f64>>) -> Self {
-        Self {
-            found: found.into().filter(|number| number.is_finite()),
-            exact: exact.into().filter(|number| number.is_finite()),
-            scale: Some(1.0),
-        }
-    }
-
-    /// The error over this number.
-    pub fn over(self, scale: impl Into<Option<f64>>) -> Self {
-        let divides = |number: &f64| number.is_finite() && *number != 0.0;
-        Self {
-            scale: scale.into().filter(divides),
-            ..self
-        }
-    }
-
-    /// Where this holds, the quantity does not count.
-    pub fn unless(self, excluded: bool) -> Self {
-        Self {
-            exact: self.exact.filter(|_| !excluded),
-            ..self
-        }
-    }
-}
-
 /// A point of a map.
 #[derive(Clone, Debug)]
 pub struct Sample {
@@ -51,16 +25,48 @@ pub struct Sample {
     pub numbers: Numbers,
 }
 
+/// What crate and reference answer to a line.
+pub struct Answers {
+    line: String,
+    in_loop: Value,
+    reference: Value,
+}
+
+/// Every answer has a JSON text: a number that is not finite is null.
+fn json(answer: &impl Serialize) -> Value {
+    serde_json::to_value(answer).unwrap_or_default()
+}
+
 /// Asks crate and reference; what they refuse is an error.
-pub fn ask<M: Model>(
-    request: &M,
-    numbers: impl Fn(&M::InLoop, &M::Reference) -> Numbers,
-) -> Result<Sample, BadField> {
+pub fn ask<M: Model>(request: &M) -> Result<Answers, BadField> {
     let Both { in_loop, reference } = request.evaluate()?;
-    Ok(Sample {
+    Ok(Answers {
         line: request.line()?,
-        numbers: numbers(&in_loop, &reference),
+        in_loop: json(&in_loop),
+        reference: json(&reference),
     })
+}
+
+impl Answers {
+    /// The numbers at these places of the crate and of the reference, and that of the reference which the error is over, 1 for an empty place;
+    /// the reference's counts not where the place `unless` says so.
+    pub fn sample(self, [found, exact, over]: [&str; 3], unless: &str) -> Sample {
+        let number = |answer: &Value, place: &str| answer.pointer(place)?.as_f64();
+        let excluded = self.reference.pointer(unless) == Some(&Value::Bool(true));
+        let scale = if over.is_empty() {
+            Some(1.0)
+        } else {
+            number(&self.reference, over)
+        };
+        Sample {
+            numbers: Numbers {
+                found: number(&self.in_loop, found),
+                exact: number(&self.reference, exact).filter(|_| !excluded),
+                scale: scale.filter(|scale| *scale != 0.0),
+            },
+            line: self.line,
+        }
+    }
 }
 
 /// What became of the points of a map: each is counted once.
@@ -115,30 +121,35 @@ impl Tally {
 
 #[cfg(test)]
 mod tests {
+    use serde_json::json;
+
     use super::*;
 
     /// A refusal, a number that only one side has, and one that does not count are four things, and none is an error.
     #[test]
     fn every_point_is_counted_once() {
         let mut tally = Tally::default();
-        let mut add = |numbers: Numbers| {
-            tally.add(Ok(Sample {
+        let mut add = |found: f64, exact: f64, over: f64, locked: bool| {
+            let answers = Answers {
                 line: String::new(),
-                numbers,
-            }))
+                in_loop: json!({ "value": found }),
+                reference: json!({ "value": exact, "over": over, "locked": locked }),
+            };
+            let places = ["/value", "/value", "/over"];
+            tally.add(Ok(answers.sample(places, "/locked")))
         };
-        assert_eq!(add(Numbers::of(3.0, 2.0).over(-4.0)), Some(0.25));
-        assert_eq!(add(Numbers::of(2.0, 2.0)), Some(0.0));
-        assert_eq!(add(Numbers::of(f64::NAN, 2.0)), None);
-        assert_eq!(add(Numbers::of(2.0, None)), None);
-        assert_eq!(add(Numbers::of(2.0, f64::INFINITY)), None);
-        assert_eq!(add(Numbers::of(2.0, 2.0).over(0.0)), None);
-        assert_eq!(add(Numbers::of(2.0, 2.0).unless(true)), None);
+        assert_eq!(add(3.0, 2.0, -4.0, false), Some(0.25));
+        assert_eq!(add(2.0, 2.0, 1.0, false), Some(0.0));
+        assert_eq!(add(f64::NAN, 2.0, 1.0, false), None);
+        assert_eq!(add(2.0, f64::NAN, 1.0, false), None);
+        assert_eq!(add(2.0, f64::INFINITY, 1.0, false), None);
+        assert_eq!(add(2.0, 2.0, 0.0, false), None);
+        assert_eq!(add(2.0, 2.0, 1.0, true), None);
         let friction = epas_eval::friction_map::Request {
             axis_ratio: 2.0,
             offset: 0.0,
         };
-        let refused = ask(&friction, |f, r| Numbers::of(f.force, r.force));
+        let refused = ask(&friction).map(|answers| answers.sample(["/force", "/force", ""], ""));
         assert_eq!(tally.add(refused), None);
         let counts = [
             tally.compared,

@@ -118,6 +118,8 @@ fn measured(trace: &epas_rig::Trace) -> Trace {
         load_is_effort: false,
         known: None,
         temperature: Some(trace.temperature.clone()),
+        left_out: Vec::new(),
+        origins: epas_calibrate::trace::Origins::default(),
         repairs: Repairs::default(),
         ignored: Vec::new(),
     }

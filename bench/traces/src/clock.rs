@@ -2,8 +2,6 @@
 
 use std::ops::Range;
 
-use crate::trace::Repairs;
-
 /// Distance from the tick, in ticks, within which a sample counts as on it.
 const ON_TICK: f64 = 0.1;
 /// Distance, in ticks, below which nothing is interpolated.
@@ -12,20 +10,24 @@ const EXACT: f64 = 1e-3;
 const STRETCH: usize = 16;
 /// Longest gap that is filled, in ticks.
 pub const LONGEST_GAP: f64 = 10.0;
+/// Distance of neighbours, in ticks, from which a sample between them is missing.
+const GAP: f64 = 1.75;
 /// Largest share of samples that may be missing, and of samples that may stand twice.
-pub const MOST_MISSING: f64 = 0.02;
+const MOST_MISSING: f64 = 0.02;
 /// Largest root mean square of the distance from the tick, in ticks.
 const MOST_JITTER: f64 = 0.3;
 /// Distance of samples, in ticks, below which no cubic is laid through them.
 const SQUEEZED: f64 = 0.2;
 /// Largest share of samples that may have the tick of the one before.
 const MOST_SHARED: f64 = 0.1;
-/// Slowest tick, s: friction's transitions are over within less.
-const SLOWEST: f64 = 0.05;
+/// Slowest tick, s: steady runs are recorded so.
+const SLOWEST: f64 = 0.2;
 /// Shortest tick, s.
 const FASTEST: f64 = 1e-7;
 /// Fewest samples.
 const FEWEST: usize = 100;
+/// Share of ticks near their median from which samples come from a raster.
+const RASTER: f64 = 0.9;
 
 /// A clock that ticks evenly, and where its ticks lie among the samples.
 #[derive(Clone, Debug, PartialEq)]
@@ -34,20 +36,18 @@ pub struct Clock {
     pub start: f64,
     /// Tick, s.
     pub step: f64,
-    /// What has to be repaired.
-    pub repairs: Repairs,
-    /// Times of the samples, and how each tick comes from them; none where every sample is on its tick.
+    /// Samples that are missing, in gaps that are filled.
+    pub missing: usize,
+    /// Samples whose time is off by more than a tenth of a tick, and are interpolated.
+    pub jittered: usize,
+    /// Samples of a clock that runs free, without an even tick: all of them are interpolated.
+    pub free_running: usize,
+    /// Ticks in gaps between samples.
+    pub filled: Vec<Range<usize>>,
+    /// Times of the samples.
     times: Vec<f64>,
-    places: Vec<Place>,
-}
-
-/// Where a tick lies among the samples.
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Place {
-    /// The sample on the tick, or the one before.
-    sample: u32,
-    /// Whether the tick lies between it and the next.
-    between: bool,
+    /// The sample before each tick; none where every sample is on its tick.
+    places: Vec<usize>,
 }
 
 impl Clock {
@@ -60,128 +60,90 @@ impl Clock {
         if samples < FEWEST {
             return Err(format!("{samples} samples are too few: at least {FEWEST}"));
         }
-        let all = samples + repeated;
-        if repeated as f64 > MOST_MISSING * all as f64 {
-            return Err(format!(
-                "{repeated} of {all} samples have the time of the one before: the time has too few digits, or samples stand twice"
-            ));
-        }
+        few_repeated(samples, repeated)?;
         let median = median_tick(&times, STRETCH / 2);
         check_tick(median)?;
         check_gaps(&times, median)?;
-        match Self::even(&times, repeated) {
-            Ok(clock) => Ok(clock),
-            Err(why) => match free_tick(&times) {
-                Some(step) => Self::free(times, step, repeated),
-                None => Err(why),
-            },
+        let (start, step, free) = match (grid(&times), free_tick(&times)) {
+            (Ok((start, step)), _) => (start, step, false),
+            (Err(_), Some(step)) => (times[0], step, true),
+            (Err(why), None) => return Err(why),
+        };
+        let ticks = ((times[samples - 1] - start) / step + ON_TICK) as usize + 1;
+        let mut missing = ticks.saturating_sub(samples);
+        if free {
+            let gaps = times.windows(2).map(|pair| (pair[1] - pair[0]) / step);
+            missing = gaps.map(|gap| gap.round().max(1.0) as usize - 1).sum();
         }
-    }
-
-    /// The clock of a tick that is even.
-    fn even(times: &[f64], repeated: usize) -> Result<Self, String> {
-        let samples = times.len();
-        let (start, step, rough) = grid(times)?;
-        if rough > MOST_JITTER {
+        // No list is made for what cannot be right.
+        if missing as f64 > MOST_MISSING * ticks as f64 {
             return Err(format!(
-                "the samples have no even tick: they stand {rough:.2} ticks of {step:.6} s off it (root mean square, at most {MOST_JITTER}); where their times are exact, resample them to even ticks"
+                "{missing} of {ticks} samples are missing: at most {:.0} % are filled",
+                100.0 * MOST_MISSING
             ));
         }
-        let last = times.last().copied().unwrap_or_default();
-        let ticks = ((last - start) / step + ON_TICK) as usize + 1;
-        // The count proper comes with the places; no list is made for what cannot be right.
-        if ticks as f64 > (1.0 + 2.0 * MOST_MISSING) * samples as f64 {
-            return Err(missing(ticks - samples, ticks));
-        }
-        let mut clock = Self::ticking(start, step, repeated);
-        clock.place(times.to_vec(), ticks);
-        let found = clock.repairs.missing;
-        if found as f64 > MOST_MISSING * ticks as f64 {
-            return Err(missing(found, ticks));
-        }
-        Ok(clock)
-    }
-
-    /// A clock of even ticks for samples without: every tick is interpolated.
-    fn free(times: Vec<f64>, step: f64, repeated: usize) -> Result<Self, String> {
-        let first = times.first().copied().unwrap_or_default();
-        let last = times.last().copied().unwrap_or_default();
-        let ticks = ((last - first) / step) as usize + 1;
-        let left_out = times
-            .windows(2)
-            .map(|pair| ((pair[1] - pair[0]) / step).round().max(1.0) as usize - 1)
-            .sum();
-        if left_out as f64 > MOST_MISSING * ticks as f64 {
-            return Err(missing(left_out, ticks));
-        }
-        let mut clock = Self::ticking(first, step, repeated);
-        clock.place(times, ticks);
-        clock.repairs.missing = left_out;
-        clock.repairs.jittered = 0;
-        clock.repairs.free_running = ticks;
-        Ok(clock)
-    }
-
-    fn ticking(start: f64, step: f64, repeated: usize) -> Self {
-        Self {
+        let mut clock = Self {
             start,
             step,
-            repairs: Repairs {
-                repeated,
-                ..Repairs::default()
-            },
-            times: Vec::new(),
-            places: Vec::new(),
-        }
+            missing,
+            jittered: 0,
+            free_running: 0,
+            filled: Vec::new(),
+            times,
+            places: Vec::with_capacity(ticks),
+        };
+        clock.place(ticks, free);
+        Ok(clock)
     }
 
     /// Finds every tick among the samples, and counts what has to be repaired.
-    fn place(&mut self, times: Vec<f64>, ticks: usize) {
+    fn place(&mut self, ticks: usize, free: bool) {
         let mut sample = 0;
-        let mut places = Vec::with_capacity(ticks);
-        let mut even = ticks == times.len();
+        let mut even = ticks == self.times.len() && !free;
         let mut interpolated = 0usize;
         for tick in 0..ticks {
             let time = self.start + self.step * tick as f64;
-            while times.get(sample + 1).is_some_and(|next| *next <= time) {
+            while self.times.get(sample + 1).is_some_and(|next| *next <= time) {
                 sample += 1;
             }
-            let before = times.get(sample).copied().unwrap_or(time);
-            let after = times.get(sample + 1).copied().unwrap_or(before);
+            self.places.push(sample);
+            let before = self.times[sample];
+            let after = self.times.get(sample + 1).copied().unwrap_or(before);
             let near = ON_TICK * self.step;
-            let on_tick = if (time - before).abs() <= near || after <= before {
+            let last = after <= before;
+            let on_tick = if (time - before).abs() <= near || last {
                 Some(sample)
             } else {
                 (after - time <= near).then_some(sample + 1)
             };
-            if on_tick.is_none() {
-                interpolated += 1;
-            }
             even &= on_tick == Some(tick);
-            // On an uneven clock a small distance counts as well.
-            let exact = on_tick.filter(|on| {
-                let own = times.get(*on).copied().unwrap_or(time);
-                (time - own).abs() <= EXACT * self.step || time < before || after <= before
-            });
-            places.push(Place {
-                sample: exact.unwrap_or(sample) as u32,
-                between: exact.is_none(),
-            });
+            if on_tick.is_some() {
+                continue;
+            }
+            interpolated += 1;
+            if after - before > GAP * self.step {
+                match self.filled.last_mut().filter(|gap| gap.end == tick) {
+                    Some(gap) => gap.end = tick + 1,
+                    None => self.filled.push(tick..tick + 1),
+                }
+            }
         }
-        // What there are fewer samples than ticks was never there; the others are beside their tick.
-        self.repairs.missing = ticks.saturating_sub(times.len());
-        self.repairs.jittered = interpolated.saturating_sub(self.repairs.missing);
-        if !even {
-            self.places = places;
-            self.times = times;
+        if free {
+            self.free_running = ticks;
+        } else {
+            // What there are fewer samples than ticks was never there; the others are beside their tick.
+            self.jittered = interpolated.saturating_sub(self.missing);
+        }
+        if even {
+            self.places.clear();
         }
     }
 
     /// The ticks about some times.
-    pub fn ticks(&self, times: &Range<f64>) -> Range<usize> {
+    pub fn ticks(&self, first: f64, last: f64) -> Range<usize> {
         let at = |time: f64| (time - self.start) / self.step;
-        // Times have roundings; a tick more on either side does no harm.
-        (at(times.start).floor().max(0.0) as usize)..(at(times.end).ceil().max(0.0) as usize + 1)
+        let start = (at(first) + ON_TICK).floor().max(0.0) as usize;
+        start..((at(last) - ON_TICK).ceil().max(0.0) as usize + 1).max(start + 1)
     }
 
     /// The channel at every tick: a sample where one is on it, else on the cubic through the four about it.
@@ -190,28 +152,47 @@ impl Clock {
             return channel;
         }
         let at = |index: usize| channel.get(index).copied().unwrap_or_default();
-        self.places
-            .iter()
-            .enumerate()
-            .map(|(tick, place)| {
-                let sample = place.sample as usize;
-                if !place.between {
+        let time_of = |index: usize| self.times.get(index).copied().unwrap_or_default();
+        let ticks = self.places.iter().enumerate();
+        ticks
+            .map(|(tick, sample)| {
+                let (sample, time) = (*sample, self.start + self.step * tick as f64);
+                let (before, after) = (time_of(sample), time_of(sample + 1));
+                if (time - before).abs() <= EXACT * self.step || time < before || after <= before {
                     return at(sample);
                 }
                 let near = neighbours(sample, channel.len());
-                let times = near.map(|index| self.times.get(index).copied().unwrap_or_default());
-                let time = self.start + self.step * tick as f64;
-                if let Some(cubic) = cubic(times, near.map(at), time, SQUEEZED * self.step) {
-                    return cubic;
-                }
-                let [before, after] = [sample, sample + 1].map(|index| {
-                    let time = self.times.get(index).copied().unwrap_or_default();
-                    (time, at(index))
-                });
-                before.1 + (after.1 - before.1) * (time - before.0) / (after.0 - before.0)
+                let cubic = cubic(near.map(time_of), near.map(at), time, SQUEEZED * self.step);
+                let slope = (at(sample + 1) - at(sample)) / (after - before);
+                cubic.unwrap_or(at(sample) + slope * (time - before))
             })
             .collect()
     }
+}
+
+/// Refuses samples that stand twice too often, and a gap in samples that come from a raster; those of a solver may stand anywhere.
+///
+/// # Errors
+/// How many, or where.
+pub fn check_raster(times: &[f64], repeated: usize) -> Result<(), String> {
+    few_repeated(times.len(), repeated)?;
+    let median = median_tick(times, STRETCH / 2);
+    let near = |pair: &&[f64]| (0.5..1.5).contains(&((pair[1] - pair[0]) / median));
+    let even = times.windows(2).filter(near).count();
+    if times.len() < FEWEST || (even as f64) < RASTER * times.len() as f64 {
+        return Ok(());
+    }
+    check_gaps(times, median)
+}
+
+fn few_repeated(samples: usize, repeated: usize) -> Result<(), String> {
+    let all = samples + repeated;
+    if repeated as f64 <= MOST_MISSING * all as f64 || repeated == 1 {
+        return Ok(());
+    }
+    Err(format!(
+        "{repeated} of {all} samples have the time of the one before: the time has too few digits, or samples stand twice"
+    ))
 }
 
 /// The four samples about the interval after this one; those at the ends for intervals there.
@@ -309,13 +290,6 @@ fn check_gaps(times: &[f64], median: f64) -> Result<(), String> {
     Ok(())
 }
 
-fn missing(missing: usize, ticks: usize) -> String {
-    format!(
-        "{missing} of {ticks} samples are missing: at most {:.0} % are filled",
-        100.0 * MOST_MISSING
-    )
-}
-
 /// Mean tick of a clock that runs free: its distances vary, each by itself. Where samples come evenly and only their times
 /// jitter, a distance that is too long is followed by one too short, and neighbours correlate by -0.5.
 fn free_tick(times: &[f64]) -> Option<f64> {
@@ -340,8 +314,8 @@ fn free_tick(times: &[f64]) -> Option<f64> {
     (free && 2.0 * count > times.len() as f64).then_some(mean)
 }
 
-/// First tick, tick, and the root mean square of the samples' distance from their ticks, in ticks.
-fn grid(times: &[f64]) -> Result<(f64, f64, f64), String> {
+/// First tick and tick of samples that come evenly.
+fn grid(times: &[f64]) -> Result<(f64, f64), String> {
     let first = times.first().copied().unwrap_or_default();
     let last = times.last().copied().unwrap_or_default();
     // A time printed with few digits, or one that jitters, has a median that is off; the mean of longer stretches is not.
@@ -370,6 +344,11 @@ fn grid(times: &[f64]) -> Result<(f64, f64, f64), String> {
     let middle = offsets.len() / 2;
     let offset = *offsets.select_nth_unstable_by(middle, f64::total_cmp).1;
     let square: f64 = offsets.iter().map(|x| (x - offset) * (x - offset)).sum();
-    let rough = (square / offsets.len() as f64).sqrt();
-    Ok((first + offset, step, rough / step))
+    let rough = (square / offsets.len() as f64).sqrt() / step;
+    if !(rough <= MOST_JITTER) {
+        return Err(format!(
+            "the samples have no even tick: they stand {rough:.2} ticks of {step:.6} s off it (root mean square, at most {MOST_JITTER}); where their times are exact, resample them to even ticks"
+        ));
+    }
+    Ok((first + offset, step))
 }

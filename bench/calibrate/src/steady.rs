@@ -1,0 +1,184 @@
+//! Runs at one speed each, and traces with reversals beside them, as one measurement.
+//!
+//! A run is one row, its means: `effort - tau = b w + offset + s (T_C + losses)`, beside the rows of the traces that turn. Where friction
+//! rises towards rest the runs tell it as `s T_S exp(-|w|/w_s)`.
+
+use std::path::Path;
+
+use crate::answer::Calibration;
+use crate::estimator::choice::{Estimate, Wanted, estimate};
+use crate::estimator::fit::Block;
+use crate::estimator::record::Record;
+use crate::estimator::terms::Term;
+use crate::folder::list;
+use crate::page::shown::digits;
+use crate::trace::{Coordinate, Trace};
+use crate::without_design;
+use epas_page::failure::Failure;
+
+/// Fewest runs that are one measurement.
+const FEWEST: usize = 3;
+
+/// Residual with friction that changes towards rest over that without it, from which on it is told.
+const TAKES: f64 = 0.9;
+
+/// A run at one speed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// Name of its trace.
+    pub name: String,
+    /// Speed, rad/s or m/s.
+    pub speed: f64,
+    /// Mean effort without the load's, N m or N.
+    pub effort: f64,
+    /// What the numbers say to it.
+    pub model: f64,
+}
+
+/// What runs tell together.
+#[derive(Clone, Debug)]
+pub struct Steady {
+    /// What position, speed and effort are.
+    pub coordinate: Coordinate,
+    /// The answer.
+    pub answer: Calibration,
+    /// The runs, by speed.
+    pub runs: Vec<Run>,
+}
+
+/// Traces of a folder among which a run at one speed is looked for.
+const LOOKED_AT: usize = 16;
+
+/// What the traces of a folder tell together, read by `read`, where some of them are runs at one speed; `None` where none of the first
+/// sixteen is.
+///
+/// # Errors
+/// A folder that cannot be read, and runs from which nothing can be told.
+pub fn of_folder(
+    folder: &Path,
+    read: impl Fn(&Path) -> Result<Trace, Failure>,
+) -> Result<Option<Steady>, Failure> {
+    let paths = list(folder, &["csv", "mf4"])?;
+    let (mut traces, mut refused) = (Vec::new(), Vec::new());
+    for (number, path) in paths.iter().enumerate() {
+        match read(path) {
+            Ok(trace) => traces.push(trace),
+            Err(Failure::Data(word)) => refused.push(format!("left out: {word}")),
+            Err(other) => return Err(other),
+        }
+        let steady = |trace: &Trace| without_design::record(trace).one_speed().is_some();
+        if number + 1 == LOOKED_AT && !traces.iter().any(steady) {
+            return Ok(None);
+        }
+    }
+    let mut found = told(&traces)?;
+    if let Some(found) = &mut found {
+        found.answer.cannot_tell.extend(refused);
+    }
+    Ok(found)
+}
+
+/// What traces tell together, where some of them are runs at one speed; `None` where they are not.
+///
+/// # Errors
+/// Traces of two coordinates, and runs from which nothing can be told.
+pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
+    let records: Vec<Record> = traces.iter().map(without_design::record).collect();
+    let speeds: Vec<Option<f64>> = records
+        .iter()
+        .map(|record| record.one_speed().map(|(speed, _)| speed))
+        .collect();
+    if speeds.iter().flatten().count() < FEWEST {
+        return Ok(None);
+    }
+    let coordinate = traces[0].coordinate;
+    if let Some(other) = traces.iter().find(|trace| trace.coordinate != coordinate) {
+        return Err(Failure::Data(format!(
+            "{} and {} are not of one coordinate: one is of an angle and a torque, one of a travel and a force",
+            traces[0].name, other.name
+        )));
+    }
+    let untold = || {
+        Failure::Data("the runs tell nothing: give three or more speeds, in both directions".into())
+    };
+    let plain = estimate(&records, &Wanted::default()).ok_or_else(untold)?;
+    let found = dip(&records, &speeds, &plain).unwrap_or(plain);
+    let mut answer = Calibration {
+        parameters: without_design::estimates(&found, coordinate),
+        residual_rms: found.fit.residual_rms,
+        relative_error: found.fit.relative,
+        effective_rows: found.fit.pieces.iter().copied().fold(0.0, f64::max),
+        cannot_tell: Vec::new(),
+        models: Vec::new(),
+        winner: None,
+    };
+    let has = |term: Term| found.of(term).is_some();
+    if !has(Term::Offset) {
+        answer.cannot_tell.push(
+            "offset: all runs go one way, and it is one number with the friction; run both ways"
+                .into(),
+        );
+    }
+    if has(Term::OneSpeed) {
+        answer.cannot_tell.push("viscous friction: all runs have one speed; run at several, over a factor of three or more".into());
+    }
+    if let Some(Term::Stribeck(speed)) = found
+        .terms
+        .iter()
+        .copied()
+        .find(|term| matches!(term, Term::Stribeck(_)))
+    {
+        answer.cannot_tell.push(format!(
+            "how friction changes below the slowest run; over the runs it changes towards rest over {} {}",
+            digits(speed, 2),
+            match coordinate {
+                Coordinate::Rotation => "rad/s",
+                Coordinate::Translation => "m/s",
+            }
+        ));
+    }
+    let runs = traces.iter().zip(&records).zip(&speeds);
+    let mut runs: Vec<Run> = runs
+        .filter_map(|((trace, record), speed)| run(trace, record, (*speed)?, &found))
+        .collect();
+    runs.sort_by(|one, other| one.speed.total_cmp(&other.speed));
+    Ok(Some(Steady {
+        coordinate,
+        answer,
+        runs,
+    }))
+}
+
+fn run(trace: &Trace, record: &Record, speed: f64, found: &Estimate) -> Option<Run> {
+    let block = Block::of_run(record, &found.terms, 1.0)?;
+    let model = block.columns.iter().zip(&found.fit.coefficients);
+    Some(Run {
+        name: trace.name.clone(),
+        speed,
+        effort: *block.target.first()?,
+        model: model.map(|(column, value)| column[0] * value).sum(),
+    })
+}
+
+/// Friction that changes towards rest, over the speed that explains the runs best, where it is told and takes a tenth of the residual.
+fn dip(records: &[Record], speeds: &[Option<f64>], plain: &Estimate) -> Option<Estimate> {
+    plain.of(Term::Viscous)?;
+    let mut sizes: Vec<f64> = speeds.iter().flatten().map(|speed| speed.abs()).collect();
+    sizes.sort_by(f64::total_cmp);
+    let (slow, fast) = (*sizes.first()?, *sizes.last()?);
+    let places = 8;
+    let tried = (0..=places).map(|k| slow * (fast / slow).powf(f64::from(k) / f64::from(places)));
+    tried
+        .filter_map(|speed| {
+            let term = Term::Stribeck(speed);
+            let wanted = Wanted {
+                more: vec![term],
+                ..Wanted::default()
+            };
+            let found = estimate(records, &wanted)?;
+            let (value, half) = found.of(term)?;
+            (value.abs() > 2.0 * half).then_some(found)
+        })
+        .filter(|found| found.fit.residual_rms < TAKES * plain.fit.residual_rms)
+        .min_by(|one, other| one.fit.residual_rms.total_cmp(&other.fit.residual_rms))
+}
