@@ -11,7 +11,6 @@ use std::io::{self, Write};
 use nalgebra::DMatrix;
 
 use crate::experiment::manoeuvre::{Manoeuvre, Reach};
-use crate::fit::cramer_rao::information;
 use crate::fit::problem::{Scale, Separable, inner, outer};
 use crate::fit::search::slopes_at_start;
 use crate::screw::choice::{Start, Wanted};
@@ -32,11 +31,11 @@ const BESIDE: &str =
 /// Noise of a row, N m: a hundredth of the torque of a steering gear at its rack force.
 const NOISE: f64 = 5e-3;
 
+/// Half-width of the kernel of a row, ticks: about as long as that of a fit.
+const WINDOW: Window = Window { half: 17, way: 0.0 };
+
 /// Tick of the manoeuvres, s.
 const STEP: f64 = 1e-3;
-
-/// Rows of the manoeuvres: half-width of the kernel, ticks.
-const WINDOW: Window = Window { half: 17, way: 0.0 };
 
 /// What one manoeuvre says.
 struct Said {
@@ -64,8 +63,7 @@ impl Said {
         let all: Vec<_> = nonlinear.chain(linear).collect();
         let place = all.iter().position(|(name, ..)| *name == wanted);
         let place = place.ok_or_else(|| Failure::Data(format!("{wanted}: no such parameter")))?;
-        let rows = information(&jacobian, &[NOISE * NOISE])
-            .ok_or_else(|| Failure::Data(format!("{}: no information", manoeuvre.words()[0])))?;
+        let rows = jacobian.tr_mul(&jacobian) / (NOISE * NOISE);
         let mut own = rows.clone();
         for (k, (_, scale, [low, high], _)) in all.iter().enumerate() {
             let range = inner(*scale, *high) - inner(*scale, *low);
@@ -147,8 +145,8 @@ fn said(
     reach: &Reach,
 ) -> Result<Said, Failure> {
     let trace = &manoeuvre.trace(STEP, reach);
-    let motion = &Motion::of(trace, &SmoothingSettings::default())?;
-    let mut evidence = Evidence::of(trace, motion);
+    let motion = Motion::of(trace, &SmoothingSettings::default())?;
+    let mut evidence = Evidence::of(trace, &motion);
     // All problems have the same parameters and starts.
     evidence.load = Some([-reach.load, reach.load]);
     evidence.temperature = Some(reach.temperature);
@@ -161,11 +159,8 @@ fn said(
     let grid = screw.grid(&values, Spacing::FINE)?;
     let prepared = Prepared::new(trace, &[], screw);
     let rows = prepared.rows_over_turns(WINDOW, true);
-    Said::of(
-        name,
-        manoeuvre,
-        &prepared.remembered(rows, (&values, &choice), &grid),
-    )
+    let problem = prepared.remembered(rows, (&values, &choice), &grid);
+    Said::of(name, manoeuvre, &problem)
 }
 
 /// Prints the manoeuvres, the best first.

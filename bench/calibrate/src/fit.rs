@@ -6,9 +6,7 @@
 //! | [`search`] | the fit: linear parameters eliminated, Levenberg-Marquardt for the others |
 //! | [`part`] | a part of a problem's rows |
 //! | [`uncertainty`] | intervals and covariance |
-//! | [`cramer_rao`] | the least covariance that any estimator can have |
 
-pub mod cramer_rao;
 pub mod part;
 pub mod problem;
 pub mod search;

@@ -3,9 +3,6 @@
 pub mod cost;
 
 use epas_friction::Error;
-use epas_friction::law::coefficient::{
-    CoefficientAtTemperature, CoefficientLaw, CoefficientParameters,
-};
 use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::{Elements, SlidingLimits};
 
@@ -81,7 +78,7 @@ const SHARE_AT_REST: &str = "friction_share_at_rest";
 /// Speed at which half of the difference is gone, or Stribeck's.
 const HALF_SHARE_SPEED: &str = "half_share_speed";
 /// Travel to full sliding.
-const BREAKAWAY: &str = "breakaway";
+pub const BREAKAWAY: &str = "breakaway";
 /// Speed of a reversal.
 const REVERSAL_SPEED: &str = "reversal_speed";
 /// Damping of a bristle over its stiffness, s.
@@ -94,7 +91,7 @@ impl Law {
     /// Parameters that do not enter linearly, for a motion of such a size; rad or m as `units` says.
     pub fn parameters(&self, scales: &Scales, units: [&'static str; 2]) -> Vec<Parameter> {
         let [length, speed] = units;
-        let shortest = (2.0 * scales.resolution).max(1e-7 * scales.travel);
+        let shortest = scales.shortest();
         let speeds = |name, start: f64| Parameter {
             name,
             unit: speed,
@@ -108,7 +105,8 @@ impl Law {
             parameters.push(Parameter {
                 name: SHARE_AT_REST,
                 unit: "",
-                start: 0.7,
+                // Near a law without: from a share below 1 the best level of a screw under grease would be none.
+                start: 1.1,
                 low: 0.1,
                 high: 3.0,
                 scale: Scale::Logarithmic,
@@ -134,7 +132,7 @@ impl Law {
             parameters.push(Parameter {
                 name: BRISTLE_TIME,
                 unit: "s",
-                start: scales.tick,
+                start: 0.1 * scales.tick,
                 low: 1e-3 * scales.tick,
                 high: 100.0 * scales.tick,
                 scale: Scale::Logarithmic,
@@ -149,116 +147,51 @@ impl Law {
     /// [`Error`] naming a parameter that the crate refuses.
     pub fn friction(&self, scales: &Scales, values: &[f64]) -> Result<Friction, Error> {
         let mut values = values.iter().copied();
-        let mut next = || values.next().unwrap_or(f64::NAN);
-        let level = match self.level {
-            Level::Constant => LevelAt::Constant,
-            Level::Stribeck => LevelAt::Stribeck {
-                at_rest: next(),
-                speed: next(),
-            },
-            Level::LoadShare => load_share(next(), next())?,
+        let mut next = |has: bool, without: f64| {
+            let value = if has { values.next() } else { Some(without) };
+            value.unwrap_or(f64::NAN)
         };
-        let memory = match self.passage {
-            Passage::AtOnce => Memory::AtOnce {
-                breakaway: (2.0 * scales.resolution).max(1e-7 * scales.travel),
-                held: 0.0,
-            },
-            Passage::Speed => Memory::Speed(next()),
-            Passage::Dahl => Memory::Bristle {
-                breakaway: next(),
-                held: 0.0,
-            },
-            Passage::LuGre => Memory::Damped {
-                breakaway: next(),
-                time: next(),
-                held: 0.0,
-            },
-            Passage::Elements => {
-                let part = Part {
-                    backbone: &SLIP_8.elements,
-                    share: 1.0,
-                    breakaway_angle: 1.0,
-                };
-                Memory::Elements {
-                    elements: ProportionalElements::new(1.0, &[part])?,
-                    state: ProportionalElements::<ELEMENTS>::VIRGIN,
-                    breakaway: next(),
-                }
-            }
+        let has_level = self.level != Level::Constant;
+        let has_breakaway = !matches!(self.passage, Passage::AtOnce | Passage::Speed);
+        let whole = Part {
+            backbone: &SLIP_8.elements,
+            share: 1.0,
+            breakaway_angle: 1.0,
         };
-        Ok(Friction { level, memory })
+        Ok(Friction {
+            law: *self,
+            at_rest: next(has_level, 1.0),
+            half_share_speed: next(has_level, 1.0),
+            reversal_speed: next(self.passage == Passage::Speed, 0.0),
+            breakaway: next(has_breakaway, scales.shortest()),
+            bristle_time: next(self.passage == Passage::LuGre, 0.0),
+            held: 0.0,
+            elements: ProportionalElements::new(1.0, &[whole])?,
+            state: ProportionalElements::<ELEMENTS>::VIRGIN,
+        })
     }
 }
 
-/// The crate's law, over the half-share speed, in units of the full-film coefficient.
-fn load_share(at_rest: f64, speed: f64) -> Result<LevelAt, Error> {
-    let viscosity = epas_friction::defaults::COEFFICIENT.viscosity;
-    let mut parameters = CoefficientParameters::constant(FULL_FILM, viscosity);
-    parameters.boundary = (f64::from(FULL_FILM) * at_rest) as f32;
-    let law = CoefficientLaw::new(&parameters)?;
-    let at = law.at_temperature(parameters.reference_temperature);
-    Ok(LevelAt::LoadShare { at, speed })
-}
-
-/// Coefficient for which a level stands; shares of it keep within the crate's range.
-const FULL_FILM: f32 = 0.1;
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum LevelAt {
-    Constant,
-    Stribeck {
-        at_rest: f64,
-        speed: f64,
-    },
-    LoadShare {
-        at: CoefficientAtTemperature,
-        speed: f64,
-    },
-}
-
-impl LevelAt {
-    fn at(&self, speed: f64) -> f64 {
-        match self {
-            Self::Constant => 1.0,
-            Self::Stribeck {
-                at_rest,
-                speed: stribeck_speed,
-            } => stribeck(speed, [*at_rest, 1.0], *stribeck_speed),
-            Self::LoadShare { at, speed: half } => {
-                f64::from(at.at((speed / half) as f32)) / f64::from(FULL_FILM)
-            }
-        }
+impl Scales {
+    /// Shortest travel to full sliding that a sensor sees.
+    fn shortest(&self) -> f64 {
+        (2.0 * self.resolution).max(1e-7 * self.travel)
     }
-}
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Memory {
-    Speed(f64),
-    AtOnce {
-        breakaway: f64,
-        held: f64,
-    },
-    Bristle {
-        breakaway: f64,
-        held: f64,
-    },
-    Damped {
-        breakaway: f64,
-        time: f64,
-        held: f64,
-    },
-    Elements {
-        elements: ProportionalElements<ELEMENTS>,
-        state: MemoryState<ELEMENTS>,
-        breakaway: f64,
-    },
 }
 
 /// A law of friction with what it remembers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    level: LevelAt,
-    memory: Memory,
+    law: Law,
+    at_rest: f64,
+    half_share_speed: f64,
+    reversal_speed: f64,
+    breakaway: f64,
+    bristle_time: f64,
+    /// Friction of a bristle.
+    held: f64,
+    elements: ProportionalElements<ELEMENTS>,
+    state: MemoryState<ELEMENTS>,
 }
 
 impl Friction {
@@ -268,9 +201,9 @@ impl Friction {
     /// sample to sample alone would let friction turn round half a sample late. Friction that is late pushes where the acceleration
     /// is largest, and counts as inertia (1.5 % of it in a drive with half of its effort in friction, sampled at 500 Hz).
     pub fn along(mut self, position: &[f64], speed: &[f64], tick: f64) -> Vec<f64> {
-        if let Memory::AtOnce { breakaway, .. } = self.memory {
-            let directions = directions(position, breakaway);
-            let levels = speed.iter().map(|speed| self.level.at(*speed));
+        if self.law.passage == Passage::AtOnce {
+            let directions = directions(position, self.breakaway);
+            let levels = speed.iter().map(|speed| self.level(*speed));
             return directions
                 .iter()
                 .zip(levels)
@@ -302,39 +235,39 @@ impl Friction {
             .collect()
     }
 
+    /// Friction of sliding at a speed, over its highest level.
+    fn level(&self, speed: f64) -> f64 {
+        match self.law.level {
+            Level::Constant => 1.0,
+            Level::Stribeck => stribeck(speed, [self.at_rest, 1.0], self.half_share_speed),
+            Level::LoadShare => {
+                1.0 + (self.at_rest - 1.0) / (1.0 + speed.abs() / self.half_share_speed)
+            }
+        }
+    }
+
     /// Friction after a step, over its highest level, and remembered. The level is that of the speed at the step's start.
     pub fn follow(&mut self, step: &Step) -> f64 {
-        let level = self.level.at(step.speed);
-        match &mut self.memory {
-            Memory::Speed(reversal) => {
+        let level = self.level(step.speed);
+        let turn = step.turn / self.breakaway;
+        match self.law.passage {
+            Passage::Speed => {
                 let speed = step.end_speed;
-                level * speed / speed.hypot(*reversal)
+                level * speed / speed.hypot(self.reversal_speed)
             }
-            Memory::AtOnce { breakaway, held } | Memory::Bristle { breakaway, held } => {
-                *held = bristle(*held, step.turn / *breakaway, level);
-                *held
+            Passage::AtOnce | Passage::Dahl | Passage::LuGre => {
+                let before = self.held;
+                self.held = bristle(before, turn, level);
+                self.held + self.bristle_time * (self.held - before) / step.time
             }
-            Memory::Damped {
-                breakaway,
-                time,
-                held,
-            } => {
-                let found = bristle(*held, step.turn / *breakaway, level);
-                let moved = found - *held;
-                *held = found;
-                found + *time * moved / step.time
-            }
-            Memory::Elements {
-                elements,
-                state,
-                breakaway,
-            } => {
+            Passage::Elements => {
                 let limits = SlidingLimits {
                     forward: level as f32,
                     backward: level as f32,
                     load: 1.0,
                 };
-                f64::from(elements.follow(state, (step.turn / *breakaway) as f32, &limits))
+                let friction = self.elements.follow(&mut self.state, turn as f32, &limits);
+                friction.into()
             }
         }
     }

@@ -7,10 +7,10 @@ use crate::answer::{Estimate, ModelScore};
 use crate::estimator::rows::Rows;
 use crate::fit::part::{Part, residual};
 use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
-use crate::fit::search::{Found, fit, fit_within};
+use crate::fit::search::{Found, fit};
 use crate::fit::uncertainty::uncertainty;
 use crate::laws::cost::cycles;
-use crate::laws::{Cost, Law, Level, Passage, Scales};
+use crate::laws::{BREAKAWAY, Cost, Law, Level, Passage, Scales};
 use epas_page::failure::Failure;
 
 /// Share of the rows that is fitted where no other trace scores.
@@ -21,49 +21,42 @@ pub const WITHOUT_MEMORY: &str = "this crate, without memory";
 /// Name of the scene with memory.
 pub const WITH_MEMORY: &str = "this crate, with memory";
 
+const fn law(name: &'static str, level: Level, passage: Passage, cost: Cost) -> Law {
+    Law {
+        name,
+        level,
+        passage,
+        cost,
+    }
+}
+
 /// Laws of the literature.
-pub const LITERATURE: [Law; 4] = [
-    Law {
-        name: "Coulomb and viscous",
-        level: Level::Constant,
-        passage: Passage::AtOnce,
-        cost: Cost::Estimated(10),
-    },
-    Law {
-        name: "Stribeck",
-        level: Level::Stribeck,
-        passage: Passage::AtOnce,
-        cost: Cost::Counted(&["stribeck_curve"]),
-    },
-    Law {
-        name: "Dahl",
-        level: Level::Constant,
-        passage: Passage::Dahl,
-        cost: Cost::Estimated(38),
-    },
-    Law {
-        name: "LuGre",
-        level: Level::Stribeck,
-        passage: Passage::LuGre,
-        cost: Cost::Counted(&["lugre_step"]),
-    },
-];
+pub const LITERATURE: [Law; 4] = {
+    use Cost::{Counted, Estimated};
+    use Level::{Constant, Stribeck};
+    let stribeck = Counted(&["stribeck_curve"]);
+    [
+        law(
+            "Coulomb and viscous",
+            Constant,
+            Passage::AtOnce,
+            Estimated(10),
+        ),
+        law("Stribeck", Stribeck, Passage::AtOnce, stribeck),
+        law("Dahl", Constant, Passage::Dahl, Estimated(38)),
+        law("LuGre", Stribeck, Passage::LuGre, Counted(&["lugre_step"])),
+    ]
+};
 
 /// This crate's laws of unit level, for a drive without a design.
-pub const OWN: [Law; 2] = [
-    Law {
-        name: WITHOUT_MEMORY,
-        level: Level::LoadShare,
-        passage: Passage::Speed,
-        cost: Cost::Counted(&["friction_coefficient"]),
-    },
-    Law {
-        name: WITH_MEMORY,
-        level: Level::LoadShare,
-        passage: Passage::Elements,
-        cost: Cost::Counted(&["friction_coefficient", "memory_8"]),
-    },
-];
+pub const OWN: [Law; 2] = {
+    let without = Cost::Counted(&["friction_coefficient"]);
+    let with = Cost::Counted(&["friction_coefficient", "memory_8"]);
+    [
+        law(WITHOUT_MEMORY, Level::LoadShare, Passage::Speed, without),
+        law(WITH_MEMORY, Level::LoadShare, Passage::Elements, with),
+    ]
+};
 
 /// Friction of gross sliding without a load: what a law of unit level is multiplied by.
 const LEVEL: LinearParameter = LinearParameter {
@@ -101,6 +94,8 @@ pub struct Driven<'a> {
     pub rows: &'a Rows,
     /// Sum of both flanks' loads over that without a load; nothing where none was measured.
     pub share: Option<LoadShare<'a>>,
+    /// Travel to full sliding to begin with, rad or m, where it is known: from one far off, a law may do best without any friction.
+    pub breakaway: Option<f64>,
 }
 
 /// Sum of both flanks' loads over that without a load: with a large preload the friction does not follow the load at all, so that a law may
@@ -172,6 +167,10 @@ impl<'a> Model<'a> {
             tick: driven.tick,
         };
         let mut nonlinear = law.parameters(&scales, units);
+        for parameter in nonlinear.iter_mut().filter(|of| of.name == BREAKAWAY) {
+            let known = driven.breakaway.unwrap_or(parameter.start);
+            parameter.start = known.max(parameter.low).min(parameter.high);
+        }
         if let Some(share) = &driven.share {
             let [low, high] = PRELOADS.map(|part| part * share.largest);
             nonlinear.push(Parameter {
@@ -252,8 +251,6 @@ pub struct Entry<'a> {
     pub fitted: &'a dyn Separable,
     /// On another one.
     pub unseen: Option<&'a dyn Separable>,
-    /// Whether its first guess is near its answer.
-    pub start_known: bool,
 }
 
 /// Models beside each other.
@@ -315,11 +312,7 @@ pub fn score(entry: &Entry<'_>) -> Result<(ModelScore, Found), Failure> {
         Some(unseen) => (entry.fitted, unseen),
         None => (&parts[0], &parts[1]),
     };
-    let found = if entry.start_known {
-        fit(fitted)?
-    } else {
-        fit_within(fitted)?
-    };
+    let found = fit(fitted)?;
     let rest = residual(unseen, &found.nonlinear, &found.linear);
     let size = |rows: &[f64]| {
         let sum: f64 = rows.iter().map(|x| x * x).sum();

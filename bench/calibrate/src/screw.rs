@@ -35,8 +35,8 @@ use self::evidence::Evidence;
 use self::exact::{Grid, Spacing};
 use self::friction::Screw;
 use self::problem::Choice;
-use self::quantities::Values;
-use self::stages::{AT_TURNS, Prepared, Sliding, WAY, Window};
+use self::quantities::{QUANTITIES, Values};
+use self::stages::{AT_TURNS, Prepared, Sliding, Window};
 use crate::answer::{Calibration, Estimate};
 use crate::checks::finding::{Finding, FindingKind};
 use crate::checks::{examine, load_gain};
@@ -113,13 +113,7 @@ pub fn calibrate(
     request: &Request,
 ) -> Result<ScrewCalibration, Failure> {
     request.check()?;
-    for trace in std::iter::once(trace).chain(&request.unseen) {
-        if trace.coordinate != Coordinate::Rotation {
-            return Err(Failure::Data(
-                "a screw's trace is one of the nut's angle and the torque on it".into(),
-            ));
-        }
-    }
+    comparable(trace, request.unseen.as_ref())?;
     let motion = Motion::of(trace, &SmoothingSettings::default())?;
     let trace = &*placed(trace, &motion);
     let findings = examine(trace, &motion)?;
@@ -127,17 +121,10 @@ pub fn calibrate(
     let evidence = Evidence::of(trace, &motion);
     plausible(design, &evidence)?;
     let mut start = Start::of(design, &evidence, &request.wanted)?;
-    if let Some(unseen) = &request.unseen {
-        if unseen.load.is_some() != trace.load.is_some() {
-            return Err(Failure::Data(format!(
-                "one of {} and {} has an axial load and the other none: one cannot score the other's models",
-                trace.name, unseen.name
-            )));
-        }
-        let loads = unseen.load.iter().flatten();
-        let largest = loads.fold(start.screw.largest_load, |most, load| most.max(load.abs()));
-        start.screw.largest_load = largest;
-    }
+    let unseen = request.unseen.iter();
+    let loads = unseen.flat_map(|unseen| &unseen.load).flatten();
+    let screw = &mut start.screw;
+    screw.largest_load = loads.fold(screw.largest_load, |most, load| most.max(load.abs()));
     let (prepared, told) = told(trace, &start, &evidence, request)?;
     let rows = prepared.rows_over_turns(told.window, true);
     let choice = &told.choice;
@@ -147,17 +134,13 @@ pub fn calibrate(
     let residual: Vec<f64> = measured.iter().zip(model).map(|(a, b)| a - b).collect();
     let uncertainty = uncertainty(&told, &residual);
     let mut answer = answer(&told, &measured, &residual, &uncertainty);
+    let said = |name: &str| {
+        let words = name.replace('_', " ");
+        told.sentences.iter().any(|said| said.starts_with(&words))
+    };
     let fixed = answer.parameters.iter().filter(|of| of.fixed);
-    let fixed: Vec<&str> = fixed
-        .map(|of| of.name.as_str())
-        .filter(|name| {
-            !told
-                .sentences
-                .iter()
-                .any(|said| said.starts_with(&name.replace('_', " ")))
-        })
-        .collect();
-    let left_out = telling::left_out(&fixed, &evidence);
+    let fixed = fixed.map(|of| of.name.as_str()).filter(|name| !said(name));
+    let left_out = telling::left_out(&fixed.collect::<Vec<_>>(), &evidence);
     let sentences = told.sentences.iter().cloned();
     answer.cannot_tell = sentences.chain(left_out).chain(spoiled(findings)).collect();
     if !request.without_models {
@@ -176,18 +159,37 @@ pub fn calibrate(
     })
 }
 
-/// Both stages; the first anew where the breakaway angle turns out larger than its rows allow for.
+/// Whether a trace is one of a screw, and another one may score its models.
+fn comparable(trace: &Trace, unseen: Option<&Trace>) -> Result<(), Failure> {
+    let traces = [Some(trace), unseen];
+    if traces
+        .into_iter()
+        .flatten()
+        .any(|trace| trace.coordinate != Coordinate::Rotation)
+    {
+        return Err(Failure::Data(
+            "a screw's trace is one of the nut's angle and the torque on it".into(),
+        ));
+    }
+    match unseen {
+        Some(unseen) if unseen.load.is_some() != trace.load.is_some() => {
+            Err(Failure::Data(format!(
+                "one of {} and {} has an axial load and the other none: one cannot score the other's models",
+                trace.name, unseen.name
+            )))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Both stages.
 fn told<'a>(
     trace: &'a Trace,
     start: &Start,
     evidence: &Evidence,
     request: &Request,
 ) -> Result<(Prepared<'a>, Told), Failure> {
-    let screw = start.screw;
-    let mut left_out = rests(trace);
-    let prepared = Prepared::new(trace, &left_out, screw);
-    let coarse = screw.grid(&start.values, Spacing::COARSE)?;
-    let breakaway = start.values.breakaway_angle;
+    let coarse = start.screw.grid(&start.values, Spacing::COARSE)?;
     let mut at_turns = start.choice.clone();
     at_turns.linear.clear();
     at_turns
@@ -198,29 +200,16 @@ fn told<'a>(
         first.choice = first.choice.without(name);
     }
     let mut sentences = Vec::new();
-    let window = prepared.first_way((&first, &at_turns), &coarse)?;
-    let (mut values, outliers) = prepared.first_fit(window, &first, &coarse)?;
-    if !outliers.is_empty() {
-        sentences.push(format!(
-            "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",
-            outliers.len()
-        ));
-        left_out.extend(outliers);
-    }
-    let prepared = Prepared::new(trace, &left_out, screw);
-    let mut window = prepared.best_window(window, (&values, &first.choice), &coarse);
+    let (prepared, window, values) =
+        first_look(trace, (&first, &at_turns), &coarse, &mut sentences)?;
     let set = &request.wanted.fix;
     let mut choice = first.choice;
     let mut kept = Vec::new();
     let mut sliding = prepared.slid(window, (&values, &choice), set, &coarse)?;
     while let Some(untold) = telling::untold(&sliding, &start.values, evidence, &kept) {
         let less = choice.without(untold.name);
-        let mut without = sliding.values;
-        telling::set(
-            untold.name,
-            telling::value_of(untold.name, &start.values),
-            &mut without,
-        );
+        let value = telling::value_of(untold.name, &start.values);
+        let without = telling::with(untold.name, value, &sliding.values);
         let next = prepared.slid(window, (&without, &less), set, &coarse)?;
         if next.residual_rms > GROWTH * sliding.residual_rms {
             // The trace does object to that value.
@@ -230,62 +219,80 @@ fn told<'a>(
             (choice, sliding) = (less, next);
         }
     }
-    values = sliding.values;
-    let grid = screw.grid(&values, Spacing::FINE)?;
-    sliding = prepared.slid(window, (&values, &choice), set, &grid)?;
-    let mut intervals = Vec::new();
-    if !at_turns.nonlinear.is_empty() {
-        let turned = prepared.turned(window, &sliding, (&at_turns, &choice), &grid)?;
-        let angle = |intervals: &[Interval]| {
-            let angle = intervals.iter().find(|of| of.name == "breakaway_angle");
-            angle.map_or(breakaway, |of| of.value)
-        };
-        let way = WAY * turned.as_deref().map_or(breakaway, angle);
-        intervals = if way > LONGER * window.way && window.way >= WAY * breakaway {
-            window.way = way;
-            sliding = prepared.slid(window, (&sliding.values, &choice), set, &grid)?;
-            prepared.turned(window, &sliding, (&at_turns, &choice), &grid)?
-        } else {
-            turned
-        }
-        .unwrap_or_default();
-    }
-    let step = trace.resolution;
-    values = sliding.values;
-    intervals.retain(|of| {
-        let design = telling::value_of(of.name, &start.values);
-        let coarse = of.value > 0.0 && of.value < STEPS * step;
-        if coarse {
-            sentences.insert(0, telling::too_coarse(of.name, step, design));
-        } else if of.at_bound {
-            sentences.push(telling::beyond_bound(of.name, design));
-        }
-        !coarse && !of.at_bound
-    });
-    for of in &intervals {
-        telling::set(of.name, of.value, &mut values);
-    }
+    let grid = start.screw.grid(&sliding.values, Spacing::FINE)?;
+    let sliding = prepared.slid(window, (&sliding.values, &choice), set, &grid)?;
     let bounds = sliding.intervals.iter().filter(|of| of.at_bound);
     sentences.extend(bounds.map(|of| telling::at_bound(of, evidence)));
-    for (parameter, of) in at_turns.nonlinear {
-        if intervals.iter().any(|interval| interval.name == of.name) {
-            choice.nonlinear.push((parameter, of));
-        }
-    }
-    let told = Told {
-        values,
+    let mut told = Told {
+        values: sliding.values,
         choice,
-        intervals,
+        intervals: Vec::new(),
         sliding,
         window,
         sentences,
         grid,
     };
+    if !at_turns.nonlinear.is_empty() {
+        told.turn(&prepared, at_turns, &start.values)?;
+    }
     Ok((prepared, told))
 }
 
-/// A way after a turn that is longer by this than the one of the rows is one of its own.
-const LONGER: f64 = 1.3;
+/// The trace without outliers, the window of its rows and values near the answer.
+fn first_look<'a>(
+    trace: &'a Trace,
+    (first, at_turns): (&Start, &Choice),
+    grid: &Arc<Grid>,
+    sentences: &mut Vec<String>,
+) -> Result<(Prepared<'a>, Window, Values), Failure> {
+    let mut left_out = rests(trace);
+    let prepared = Prepared::new(trace, &left_out, first.screw);
+    let (window, values) = prepared.first_way((first, at_turns), grid)?;
+    let (values, outliers) = prepared.first_fit(window, (&values, &first.choice), grid)?;
+    if !outliers.is_empty() {
+        sentences.push(format!(
+            "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",
+            outliers.len()
+        ));
+        left_out.extend(outliers);
+    }
+    let prepared = Prepared::new(trace, &left_out, first.screw);
+    let window = prepared.best_window(window, (&values, &first.choice), grid);
+    Ok((prepared, window, values))
+}
+
+impl Told {
+    /// Adds what the rows over turns tell; what they do not is set to the design's.
+    fn turn(
+        &mut self,
+        prepared: &Prepared<'_>,
+        at_turns: Choice,
+        design: &Values,
+    ) -> Result<(), Failure> {
+        let choices = (&at_turns, &self.choice);
+        let turned = prepared.turned(self.window, &self.sliding, choices, &self.grid)?;
+        let step = prepared.trace.resolution;
+        for of in turned.into_iter().flatten() {
+            let design = telling::value_of(of.name, design);
+            if of.value > 0.0 && of.value < STEPS * step {
+                let sentence = telling::too_coarse(of.name, step, design);
+                self.sentences.insert(0, sentence);
+            } else if of.at_bound {
+                self.sentences.push(telling::beyond_bound(of.name, design));
+            } else {
+                self.values = telling::with(of.name, of.value, &self.values);
+                self.intervals.push(of);
+            }
+        }
+        let told = |name: &str| self.intervals.iter().any(|of| of.name == name);
+        let told = at_turns
+            .nonlinear
+            .into_iter()
+            .filter(|(of, _)| told(of.name));
+        self.choice.nonlinear.extend(told);
+        Ok(())
+    }
+}
 
 /// A parameter stays free where the residual is larger by this without it.
 const GROWTH: f64 = 1.02;
@@ -378,12 +385,13 @@ fn answer(
     residual: &[f64],
     uncertainty: &Uncertainty,
 ) -> Calibration {
-    let parameters = quantities::all(&told.values).map(|(name, unit, value)| {
+    let parameters = QUANTITIES.iter().map(|of| {
         let mut intervals = uncertainty.intervals.iter();
-        match intervals.find(|interval| interval.name == name) {
-            Some(interval) => Estimate::from(interval),
-            None => Estimate::fixed(name, unit, value),
-        }
+        let interval = intervals.find(|interval| interval.name == of.name);
+        interval.map_or_else(
+            || Estimate::fixed(of.name, of.unit, of.value(&told.values)),
+            Estimate::from,
+        )
     });
     let square = |rows: &[f64]| rows.iter().map(|x| x * x).sum::<f64>();
     let left = square(residual);

@@ -7,11 +7,10 @@ use epas_calibrate::answer::{Calibration, Estimate, ModelScore};
 use epas_calibrate::page::picture::Picture;
 use epas_calibrate::screw::Request;
 use epas_calibrate::screw::choice::Wanted;
-use epas_calibrate::signals::{RowSettings, SmoothingSettings};
 use epas_calibrate::trace::Trace;
 use epas_calibrate::trace::columns::{self, Frame};
 use epas_calibrate::with_design;
-use epas_calibrate::without_design::{self, Filters};
+use epas_calibrate::without_design;
 use epas_cli::bindings::{Controller, Failure};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -26,8 +25,6 @@ use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
 
-/// Cut-offs of filters, Hz.
-const FREQUENCIES: (f64, f64) = (1e-3, 1e6);
 /// Ratios of a gear.
 const RATIOS: (f64, f64) = (0.01, 1000.0);
 
@@ -144,8 +141,6 @@ fn within(py: Python<'_>, field: &str, value: Option<f64>, range: (f64, f64)) ->
 ///     models: whether other models of friction are fitted beside it; with a design.
 ///     validate: another trace, which is not fitted, by which models are scored; without a design.
 ///     controller: gains (P, V) of force = V (P (reference_position - position) - speed); without a design.
-///     smoothing: cut-off of the filter of the motion, Hz, 1e-3 to 1e6.
-///     rows: cut-off of the filter of both sides of the regression, Hz, 1e-3 to 1e6.
 ///
 /// Returns:
 ///     Calibration: parameters with 95 % intervals, models, what cannot be told, and the fit over time.
@@ -153,7 +148,7 @@ fn within(py: Python<'_>, field: &str, value: Option<f64>, range: (f64, f64)) ->
 /// Raises:
 ///     Error: a trace or a request from which nothing can be told.
 #[pyfunction]
-#[pyo3(signature = (trace, design=None, *, ratio=None, estimate=None, fix=None, models=true, validate=None, controller=None, smoothing=None, rows=None))]
+#[pyo3(signature = (trace, design=None, *, ratio=None, estimate=None, fix=None, models=true, validate=None, controller=None))]
 pub fn calibrate<'py>(
     py: Python<'py>,
     trace: Any<'py>,
@@ -164,12 +159,8 @@ pub fn calibrate<'py>(
     models: bool,
     validate: Option<Any<'py>>,
     controller: Option<(f64, f64)>,
-    smoothing: Option<f64>,
-    rows: Option<f64>,
 ) -> PyResult<Any<'py>> {
     geared(py, ratio)?;
-    within(py, "smoothing", smoothing, FREQUENCIES)?;
-    within(py, "rows", rows, FREQUENCIES)?;
     let of_a_design = [
         ("ratio", ratio.is_some()),
         ("estimate", estimate.is_some()),
@@ -187,7 +178,7 @@ pub fn calibrate<'py>(
             Some(fix) => dict("fix", fix)?.extract::<BTreeMap<String, f64>>()?,
             None => BTreeMap::new(),
         };
-        let request = request(estimate, fix, models, [smoothing, rows]);
+        let request = request(estimate, fix, models);
         let design = design.inner.clone();
         interruptible(py, move |_| {
             let trace = read(text, frame.as_ref())?;
@@ -199,11 +190,10 @@ pub fn calibrate<'py>(
         let controller = controller
             .map(|gains| self::controller(py, gains))
             .transpose()?;
-        let filters = Filters { smoothing, rows };
         interruptible(py, move |_| {
             let trace = read(text, None)?;
             let unseen = unseen.map(|text| read(text, None)).transpose()?;
-            let told = without_design::calibrate(&trace, unseen.as_ref(), controller, &filters)?;
+            let told = without_design::calibrate(&trace, unseen.as_ref(), controller)?;
             Ok((told.answer, told.picture))
         })?
     };
@@ -236,26 +226,13 @@ pub fn options(
     }
 }
 
-/// What is asked of a trace whose design is known; cut-offs of motion and rows.
-fn request(
-    estimate: Option<Vec<String>>,
-    fix: BTreeMap<String, f64>,
-    models: bool,
-    [smoothing, rows]: [Option<f64>; 2],
-) -> Request {
+/// What is asked of a trace whose design is known.
+fn request(estimate: Option<Vec<String>>, fix: BTreeMap<String, f64>, models: bool) -> Request {
     Request {
         wanted: Wanted {
             estimate,
             fix: fix.into_iter().collect(),
             ..Wanted::default()
-        },
-        smoothing: SmoothingSettings {
-            cutoff: smoothing,
-            ..SmoothingSettings::default()
-        },
-        rows: RowSettings {
-            cutoff: rows,
-            ..RowSettings::default()
         },
         without_models: !models,
         ..Request::default()

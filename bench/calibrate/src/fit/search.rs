@@ -26,13 +26,14 @@ const AT_BOUND: f64 = 1e-3;
 /// Step of the differences in the inner coordinate, over the size of a value that is not logarithmic: models with a memory round to f32.
 const STEP: f64 = 1e-2;
 
-/// Relative change of the cost that ends a descent, its first step, and the most evaluations of a parameter.
+/// The same of the one-sided differences on the way down.
+const ASIDE: f64 = 1e-3;
+
+/// Relative change of the cost that ends a descent, or a rough one; its first step, and the most evaluations of a parameter.
 const TOLERANCE: f64 = 1e-8;
+const ROUGH: f64 = 1e-3;
 const FIRST_STEP: f64 = 0.3;
 const PATIENCE: usize = 20;
-
-/// Parts of the bounds' inner range at which a fit starts beside its first guess.
-const PLACES: [f64; 2] = [0.3, 0.7];
 
 /// Least singular value of the linear columns, over the largest, that counts.
 const RANK: f64 = 1e-10;
@@ -65,39 +66,25 @@ impl Found {
 /// # Errors
 /// Fewer rows than parameters, bounds that hold no start, a model that is not finite there.
 pub fn fit(problem: &dyn Separable) -> Result<Found, Failure> {
-    check(problem)?;
-    let start: Vec<f64> = problem.nonlinear().iter().map(Axis::start).collect();
-    from(problem, &start)
-        .ok_or_else(|| Failure::Data("the model is not finite at its first guess".into()))
+    descend(problem, TOLERANCE)
 }
 
-/// The best fit from its start and from two places within the bounds.
+/// The same until another step changes little: enough to see which valley a start lies in.
 ///
 /// # Errors
 /// Those of [`fit`].
-pub fn fit_within(problem: &dyn Separable) -> Result<Found, Failure> {
-    let first = fit(problem)?;
-    if problem.nonlinear().is_empty() {
-        return Ok(first);
-    }
-    let others = PLACES.iter().filter_map(|place| {
-        let start = vec![SHIFT + (2.0 * place - 1.0_f64).asin(); problem.nonlinear().len()];
-        from(problem, &start)
-    });
-    Ok(others.fold(first, |best, other| {
-        if other.cost() < best.cost() {
-            other
-        } else {
-            best
-        }
-    }))
+pub fn fit_roughly(problem: &dyn Separable) -> Result<Found, Failure> {
+    descend(problem, ROUGH)
 }
 
-/// The fit from a start in outer coordinates. `None` where the model is not finite there.
-fn from(problem: &dyn Separable, start: &[f64]) -> Option<Found> {
-    let mut best = Point::at(problem, start);
+fn descend(problem: &dyn Separable, tolerance: f64) -> Result<Found, Failure> {
+    check(problem)?;
+    let start: Vec<f64> = problem.nonlinear().iter().map(Axis::start).collect();
+    let mut best = Point::at(problem, &start);
     if !best.cost.is_finite() {
-        return None;
+        return Err(Failure::Data(
+            "the model is not finite at its first guess".into(),
+        ));
     }
     if !start.is_empty() {
         let descent = Descent {
@@ -106,14 +93,14 @@ fn from(problem: &dyn Separable, start: &[f64]) -> Option<Found> {
             point: best,
         };
         let method = LevenbergMarquardt::new()
-            .with_ftol(TOLERANCE)
-            .with_xtol(1e-2 * TOLERANCE.sqrt())
-            .with_gtol(1e-2 * TOLERANCE.sqrt())
+            .with_ftol(tolerance)
+            .with_xtol(1e-2 * tolerance.sqrt())
+            .with_gtol(1e-2 * tolerance.sqrt())
             .with_stepbound(FIRST_STEP)
             .with_patience(PATIENCE);
         best = method.minimize(descent).0.best;
     }
-    Some(Found {
+    Ok(Found {
         nonlinear: values(problem, best.outer.as_slice()),
         linear: best.linear,
         residual: best.residual.as_slice().to_vec(),
@@ -238,13 +225,26 @@ impl<'a> Axis<'a> {
         0.5 * self.range * (u - SHIFT).cos()
     }
 
+    /// A size of the inner coordinate, of which a step is a part.
+    fn size(&self, place: f64) -> f64 {
+        match self.parameter.scale {
+            Scale::Logarithmic => 1.0,
+            Scale::Linear => place.abs().max(STEP * self.range),
+        }
+    }
+
+    /// A value beside another, towards the middle of the range, and its distance in the inner coordinate.
+    fn aside(&self, value: f64) -> (f64, f64) {
+        let place = inner(self.parameter.scale, value);
+        let step = ASIDE * self.size(place);
+        let step = if self.part(value) < 0.5 { step } else { -step };
+        (self.value(place + step), step)
+    }
+
     /// Values on both sides, within the bounds, and the distance of their inner coordinates.
     fn beside(&self, value: f64) -> ([f64; 2], f64) {
         let place = inner(self.parameter.scale, value);
-        let size = match self.parameter.scale {
-            Scale::Logarithmic => 1.0,
-            Scale::Linear => place.abs().max(STEP * self.range),
-        };
+        let size = self.size(place);
         let above = (place + STEP * size).min(self.low + self.range);
         let below = (place - STEP * size).max(self.low);
         ([self.value(below), self.value(above)], above - below)
@@ -306,9 +306,13 @@ fn within_bounds(
         .iter()
         .map(|column| dot(column, column).sqrt().max(f64::MIN_POSITIVE))
         .collect();
-    let normal = DMatrix::from_fn(count, count, |i, j| {
-        dot(&columns[i], &columns[j]) / (sizes[i] * sizes[j])
-    });
+    let mut normal = DMatrix::zeros(count, count);
+    for i in 0..count {
+        for j in 0..=i {
+            normal[(i, j)] = dot(&columns[i], &columns[j]) / (sizes[i] * sizes[j]);
+            normal[(j, i)] = normal[(i, j)];
+        }
+    }
     let right = DVector::from_fn(count, |k, _| dot(&columns[k], target.as_slice()) / sizes[k]);
     let mut held: Vec<Option<f64>> = vec![None; count];
     loop {
@@ -385,13 +389,11 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Descent<'_> {
         let known = values(self.problem, self.point.outer.as_slice());
         let slope = |k: usize| {
             let axis = Axis::of(&self.problem.nonlinear()[k]);
-            let ([below, above], step) = axis.beside(known[k]);
-            let [below, above] = [below, above].map(|value| {
-                let mut values = known.clone();
-                values[k] = value;
-                projected(self.problem, &values).1
-            });
-            (above - below) * (axis.slope(self.point.outer[k]) / step)
+            let (value, step) = axis.aside(known[k]);
+            let mut values = known.clone();
+            values[k] = value;
+            let aside = projected(self.problem, &values).1;
+            (aside - &self.point.residual) * (axis.slope(self.point.outer[k]) / step)
         };
         let columns: Vec<DVector<f64>> = (0..known.len()).into_par_iter().map(slope).collect();
         let jacobian = DMatrix::from_columns(&columns);

@@ -10,8 +10,8 @@ use epas_friction::defaults;
 use super::evidence::Evidence;
 use super::friction::{ElementsKind, Screw};
 use super::problem::Choice;
-use super::quantities::{Factor, HARMONICS, LINEAR, Linear, NONLINEAR, Nonlinear, Values, names};
-use crate::fit::problem::Parameter;
+use super::quantities::{Factor, HARMONICS, Kind, QUANTITIES, Quantity, Values, names};
+use crate::fit::problem::{Parameter, Scale};
 use epas_design::files::Design;
 use epas_page::failure::Failure;
 
@@ -88,40 +88,38 @@ impl Start {
     pub fn of(design: &Design, evidence: &Evidence, wanted: &Wanted) -> Result<Self, Failure> {
         let (mut screw, mut values) = begin(design, evidence, wanted)?;
         for (name, value) in &wanted.fix {
-            if let Some(of) = Nonlinear::named(name) {
-                *(of.of)(&mut values) = *value;
-            } else if let Some(of) = Linear::named(name) {
-                *(of.of)(&mut values) = *value;
+            if let Some(of) = Quantity::named(name) {
+                values = of.with(*value, &values);
             }
         }
         if let Some(elements) = wanted.elements {
             screw.elements = elements;
         }
         let fixed = |name: &str| wanted.fix.iter().any(|(fixed, _)| fixed == name);
-        let chosen = |name: &str, wave: bool, by_default: bool| {
-            let asked = |list: &Vec<String>| {
-                list.iter()
-                    .any(|asked| asked == name || wave && asked == HARMONICS)
+        let mut choice = Choice {
+            nonlinear: Vec::new(),
+            linear: Vec::new(),
+        };
+        for of in &QUANTITIES {
+            let factor = of.factor();
+            let wave = matches!(factor, Some(Factor::Wave(_)));
+            let asked = |asked: &String| asked == of.name || wave && asked == HARMONICS;
+            let told = || match factor {
+                Some(factor) => tells_linear(factor, evidence),
+                None => tells(of.name, evidence, &screw, &fixed),
             };
-            !fixed(name) && wanted.estimate.as_ref().map_or(by_default, asked)
-        };
-        let nonlinear = NONLINEAR
-            .iter()
-            .filter(|of| chosen(of.name, false, tells(of.name, evidence, &screw, &fixed)));
-        let linear = LINEAR.iter().filter(|of| {
-            chosen(
-                of.name,
-                of.factor.is_wave(),
-                tells_linear(of.factor, evidence),
-            )
-        });
-        let nonlinear: Result<Vec<_>, Failure> = nonlinear
-            .map(|of| Ok((parameter(of, &values, &screw, evidence)?, of)))
-            .collect();
-        let choice = Choice {
-            nonlinear: nonlinear?,
-            linear: linear.collect(),
-        };
+            let wanted = wanted.estimate.as_ref();
+            if fixed(of.name) || !wanted.map_or_else(told, |list| list.iter().any(asked)) {
+                continue;
+            }
+            match of.kind {
+                Kind::Linear(..) => choice.linear.push(of),
+                Kind::Nonlinear(scale) => {
+                    let parameter = parameter(of, scale, &values, &screw, evidence)?;
+                    choice.nonlinear.push((parameter, of));
+                }
+            }
+        }
         if choice.nonlinear.is_empty() && choice.linear.is_empty() {
             return Err(Failure::Data("nothing is left to be estimated".into()));
         }
@@ -267,7 +265,7 @@ fn tells_linear(factor: Factor, evidence: &Evidence) -> bool {
         Factor::Speed => fast > 2.0 * slow,
         Factor::One => evidence.both_ways(),
         Factor::Load => varies(evidence),
-        Factor::Cosine(_) | Factor::Sine(_) => evidence.range >= needs::TURN,
+        Factor::Wave(_) => evidence.range >= needs::TURN,
         Factor::Viscosity => false,
         // At one temperature it cannot be told from the drag and the film.
         Factor::RollingDrag => {
@@ -278,7 +276,8 @@ fn tells_linear(factor: Factor, evidence: &Evidence) -> bool {
 
 /// Start and bounds of a nonlinear quantity.
 fn parameter(
-    of: &Nonlinear,
+    of: &Quantity,
+    scale: Scale,
     values: &Values,
     screw: &Screw,
     evidence: &Evidence,
@@ -318,7 +317,7 @@ fn parameter(
         start: start.max(low).min(high),
         low,
         high,
-        scale: of.scale,
+        scale,
     })
 }
 

@@ -77,7 +77,6 @@ pub fn models(
             cost,
             fitted: &*fitted[0][k],
             unseen: fitted.get(1).map(|models| &*models[k]),
-            start_known: false,
         })
         .collect();
     entries.push(Entry {
@@ -85,7 +84,6 @@ pub fn models(
         cost: cost_with_memory(screw),
         fitted: &sides[0].1,
         unseen: sides.get(1).map(|(_, problem)| problem as &dyn Separable),
-        start_known: true,
     });
     Ok(compared(&entries))
 }
@@ -96,18 +94,15 @@ fn driven<'a>(
     problem: &'a ScrewProblem<'_>,
     values: &Values,
 ) -> Driven<'a> {
-    let (speed, load) = problem.signals();
+    let (position, speed, load) = problem.signals();
     let (record, screw) = (&prepared.record, &prepared.screw);
     Driven {
-        position: if record.speed_alone {
-            &record.path
-        } else {
-            &record.motion
-        },
+        position,
         speed,
         tick: record.tick,
         resolution: prepared.trace.resolution,
         rows: problem.rows(),
+        breakaway: Some(values.breakaway_angle),
         share: load
             .filter(|_| screw.largest_load > 0.0)
             .map(|load| LoadShare {
@@ -167,7 +162,7 @@ fn without_memory<'a>(
         let Ok(Ok(law)) = law else {
             return vec![f64::NAN; beside.target.len()];
         };
-        let (speed, load) = problem.signals();
+        let (_, speed, load) = problem.signals();
         let at = |(sample, speed): (usize, &f64)| {
             let load = load.map_or(0.0, |load| load[sample]);
             let full = law.sliding(load, 1_f64.copysign(*speed), values.friction);

@@ -19,7 +19,7 @@ use nalgebra::DMatrix;
 
 use super::exact::Grid;
 use super::friction::{Course, Screw};
-use super::quantities::{Factor, LINEAR, Linear, Nonlinear, Values};
+use super::quantities::{Factor, Kind, QUANTITIES, Quantity, Values};
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::{QUARTER, Record};
 use crate::estimator::rows::Rows;
@@ -32,9 +32,9 @@ use epas_page::failure::Failure;
 #[derive(Clone, Debug)]
 pub struct Choice {
     /// Nonlinear quantities, with start and bounds.
-    pub nonlinear: Vec<(Parameter, &'static Nonlinear)>,
+    pub nonlinear: Vec<(Parameter, &'static Quantity)>,
     /// Linear ones.
-    pub linear: Vec<&'static Linear>,
+    pub linear: Vec<&'static Quantity>,
 }
 
 impl Choice {
@@ -69,6 +69,7 @@ pub enum Passage {
 
 /// Signals of a trace at every sample, smoothed as a kernel's rows need them.
 struct Samples {
+    position: Vec<f64>,
     speed: Vec<f64>,
     load: Option<Vec<f64>>,
     temperature: Vec<f64>,
@@ -76,6 +77,15 @@ struct Samples {
     direction: Vec<f64>,
     /// Cosine and sine of one and of two angles.
     waves: [Vec<f64>; 4],
+}
+
+/// A linear quantity that is estimated or not zero.
+struct Term {
+    of: &'static Quantity,
+    factor: Factor,
+    estimated: bool,
+    /// What it multiplies in every row; empty where that follows what is estimated.
+    still: Vec<f64>,
 }
 
 /// A trace of a screw, with what is estimated and what is not.
@@ -88,12 +98,10 @@ pub struct ScrewProblem<'a> {
     course: Option<Course>,
     grid: Arc<Grid>,
     values: Values,
-    nonlinear: Vec<&'static Nonlinear>,
+    nonlinear: Vec<&'static Quantity>,
     parameters: Vec<Parameter>,
-    linear: Vec<&'static Linear>,
-    linear_parameters: Vec<LinearParameter>,
-    /// Columns of all linear quantities that do not follow the nonlinear ones; empty for those that do.
-    columns: Vec<Vec<f64>>,
+    terms: Vec<Term>,
+    linear: Vec<LinearParameter>,
     target: Vec<f64>,
 }
 
@@ -114,6 +122,8 @@ impl<'a> ScrewProblem<'a> {
             temperature: samples.temperature.clone(),
         });
         let choice = choice.from(values);
+        let (parameters, nonlinear): (Vec<Parameter>, Vec<_>) =
+            choice.nonlinear.into_iter().unzip();
         let mut problem = Self {
             screw: *screw,
             trace,
@@ -122,24 +132,40 @@ impl<'a> ScrewProblem<'a> {
             course,
             grid: Arc::clone(grid),
             values: *values,
-            nonlinear: choice.nonlinear.iter().map(|(_, of)| *of).collect(),
-            parameters: choice.nonlinear.into_iter().map(|(of, _)| of).collect(),
-            linear_parameters: choice.linear.iter().map(|of| of.parameter()).collect(),
-            linear: choice.linear,
-            columns: Vec::new(),
+            nonlinear,
+            parameters,
+            terms: Vec::new(),
+            linear: Vec::new(),
             target: rows.sums(0, &record.effort),
             rows,
         };
-        let columns = LINEAR.iter().map(|of| {
-            let needed =
-                of.value(values) != 0.0 || problem.linear.iter().any(|l| l.name == of.name);
-            if problem.moves(of.factor) || !needed {
-                Vec::new()
-            } else {
-                problem.column(of.factor, values)
+        for of in &QUANTITIES {
+            let Kind::Linear(factor, low) = of.kind else {
+                continue;
+            };
+            let estimated = choice.linear.iter().any(|linear| linear.name == of.name);
+            if estimated {
+                problem.linear.push(LinearParameter {
+                    name: of.name,
+                    unit: of.unit,
+                    low,
+                    high: f64::INFINITY,
+                });
             }
-        });
-        problem.columns = columns.collect();
+            if estimated || of.value(values) != 0.0 {
+                let still = if problem.moves(factor) {
+                    Vec::new()
+                } else {
+                    problem.column(factor, values)
+                };
+                problem.terms.push(Term {
+                    of,
+                    factor,
+                    estimated,
+                    still,
+                });
+            }
+        }
         problem
     }
 
@@ -149,7 +175,7 @@ impl<'a> ScrewProblem<'a> {
         match factor {
             Factor::Viscosity => free("viscosity_pole"),
             Factor::RollingDrag => free("viscosity_pole") || free("preload"),
-            Factor::Cosine(_) | Factor::Sine(_) => free("preload"),
+            Factor::Wave(_) => free("preload"),
             _ => false,
         }
     }
@@ -159,21 +185,23 @@ impl<'a> ScrewProblem<'a> {
         &self.rows
     }
 
-    /// Samples' signals that a law of friction takes: speed, smoothed load.
-    pub fn signals(&self) -> (&[f64], Option<&[f64]>) {
-        (&self.samples.speed, self.samples.load.as_deref())
+    /// What a law of friction is told at every sample: position, speed, and load, all smoothed by the kernel.
+    pub fn signals(&self) -> (&[f64], &[f64], Option<&[f64]>) {
+        let samples = &self.samples;
+        (&samples.position, &samples.speed, samples.load.as_deref())
     }
 
     /// Covariance of the sensor's noise in the slopes of a row: in the columns of acceleration and speed.
     pub fn noise(&self) -> DMatrix<f64> {
-        let order = |k: usize| {
-            let linear = k.checked_sub(self.parameters.len())?;
-            match self.linear[linear].factor {
+        let free = self.terms.iter().filter(|term| term.estimated);
+        let orders: Vec<Option<usize>> = free
+            .map(|term| match term.factor {
                 Factor::Acceleration => Some(self.record.order(2)),
                 Factor::Speed => Some(self.record.order(1)),
                 _ => None,
-            }
-        };
+            })
+            .collect();
+        let order = |k: usize| orders.get(k.checked_sub(self.parameters.len())?).copied()?;
         let count = self.parameters.len() + self.linear.len();
         DMatrix::from_fn(count, count, |i, j| {
             let (Some(one), Some(other)) = (order(i), order(j)) else {
@@ -211,8 +239,9 @@ impl<'a> ScrewProblem<'a> {
             // What is no number becomes the low bound.
             *(of.of)(&mut values) = value.max(*low).min(*high);
         }
-        for (of, value) in self.linear.iter().zip(linear) {
-            *(of.of)(&mut values) = *value;
+        let free = self.terms.iter().filter(|term| term.estimated);
+        for (term, value) in free.zip(linear) {
+            *(term.of.of)(&mut values) = *value;
         }
         values
     }
@@ -248,11 +277,12 @@ impl<'a> ScrewProblem<'a> {
     /// Rows of the whole model.
     pub fn model(&self, values: &Values) -> Vec<f64> {
         let mut sum = self.friction(values);
-        for (place, of) in LINEAR.iter().enumerate() {
-            let value = of.value(values);
-            if value != 0.0 {
-                add(&mut sum, value, &self.column_of(place, of, values));
-            }
+        for term in &self.terms {
+            add(
+                &mut sum,
+                term.of.value(values),
+                &self.column_of(term, values),
+            );
         }
         sum
     }
@@ -260,36 +290,33 @@ impl<'a> ScrewProblem<'a> {
     /// What stands beside the friction, for other models of it.
     pub fn beside(&self, values: &Values) -> Beside {
         let mut fixed = vec![0.0; self.target.len()];
-        self.add_set(&mut fixed, values);
         Beside {
             target: self.target.clone(),
+            columns: self.add_terms(&mut fixed, values),
             fixed,
-            linear: self.linear_parameters.clone(),
-            columns: self.free_columns(values),
+            linear: self.linear.clone(),
         }
     }
 
-    fn free_columns(&self, values: &Values) -> Vec<Vec<f64>> {
-        let free = LINEAR.iter().enumerate();
-        free.filter(|(_, of)| self.linear.iter().any(|free| free.name == of.name))
-            .map(|(place, of)| self.column_of(place, of, values))
-            .collect()
-    }
-
-    /// Adds what is not estimated and not zero.
-    fn add_set(&self, sum: &mut [f64], values: &Values) {
-        for (place, of) in LINEAR.iter().enumerate() {
-            let value = of.value(values);
-            if value != 0.0 && self.linear.iter().all(|free| free.name != of.name) {
-                add(sum, value, &self.column_of(place, of, values));
+    /// Adds what is not estimated; the columns of what is.
+    fn add_terms(&self, sum: &mut [f64], values: &Values) -> Vec<Vec<f64>> {
+        let mut columns = Vec::new();
+        for term in &self.terms {
+            let column = self.column_of(term, values);
+            if term.estimated {
+                columns.push(column);
+            } else {
+                add(sum, term.of.value(values), &column);
             }
         }
+        columns
     }
 
-    fn column_of(&self, place: usize, of: &Linear, values: &Values) -> Vec<f64> {
-        match self.columns.get(place) {
-            Some(still) if !still.is_empty() => still.clone(),
-            _ => self.column(of.factor, values),
+    fn column_of(&self, term: &Term, values: &Values) -> Vec<f64> {
+        if term.still.is_empty() {
+            self.column(term.factor, values)
+        } else {
+            term.still.clone()
         }
     }
 
@@ -310,8 +337,7 @@ impl<'a> ScrewProblem<'a> {
             },
             Factor::Viscosity => self.viscous(values),
             Factor::RollingDrag => self.dragged(values),
-            Factor::Cosine(order) => self.wave(2 * usize::from(order) - 2, values),
-            Factor::Sine(order) => self.wave(2 * usize::from(order) - 1, values),
+            Factor::Wave(place) => self.wave(place, values),
         };
         rows.sums(0, &signal)
     }
@@ -412,6 +438,7 @@ impl Samples {
             angles.iter().map(|angle| of(order * angle)).collect()
         };
         Self {
+            position: kernel.along(0, angles),
             speed: kernel.along(record.order(1), &record.motion),
             load: trace.load.as_ref().map(|load| load_kernel.along(0, load)),
             temperature: match &trace.temperature {
@@ -488,25 +515,13 @@ pub fn flank_sum(preload: f64, load: f64) -> f64 {
     }
 }
 
-impl Linear {
-    fn parameter(&self) -> LinearParameter {
-        let (low, high) = self.bounds;
-        LinearParameter {
-            name: self.name,
-            unit: self.unit,
-            low,
-            high,
-        }
-    }
-}
-
 impl Separable for ScrewProblem<'_> {
     fn nonlinear(&self) -> &[Parameter] {
         &self.parameters
     }
 
     fn linear(&self) -> &[LinearParameter] {
-        &self.linear_parameters
+        &self.linear
     }
 
     fn target(&self) -> &[f64] {
@@ -520,10 +535,7 @@ impl Separable for ScrewProblem<'_> {
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
         let values = self.values(nonlinear, &[]);
         let mut fixed = self.friction(&values);
-        self.add_set(&mut fixed, &values);
-        Evaluation {
-            fixed,
-            columns: self.free_columns(&values),
-        }
+        let columns = self.add_terms(&mut fixed, &values);
+        Evaluation { fixed, columns }
     }
 }

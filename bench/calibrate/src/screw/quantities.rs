@@ -41,32 +41,26 @@ pub struct Values {
     pub harmonics: [f64; 4],
 }
 
-/// A quantity that does not enter linearly.
+/// A quantity that a trace may tell.
 #[derive(Clone, Copy, Debug)]
-pub struct Nonlinear {
+pub struct Quantity {
     /// Name.
     pub name: &'static str,
     /// Unit.
     pub unit: &'static str,
-    /// How it is stepped.
-    pub scale: Scale,
+    /// How it enters.
+    pub kind: Kind,
     /// Its place.
     pub of: fn(&mut Values) -> &mut f64,
 }
 
-/// A quantity that enters linearly.
-#[derive(Clone, Copy, Debug)]
-pub struct Linear {
-    /// Name.
-    pub name: &'static str,
-    /// Unit.
-    pub unit: &'static str,
-    /// Smallest and largest value.
-    pub bounds: (f64, f64),
-    /// What it multiplies.
-    pub factor: Factor,
-    /// Its place.
-    pub of: fn(&mut Values) -> &mut f64,
+/// How a quantity enters the torque.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Kind {
+    /// Not linearly; how it is stepped.
+    Nonlinear(Scale),
+    /// As what multiplies a factor; its least value.
+    Linear(Factor, f64),
 }
 
 /// What a linear quantity multiplies.
@@ -84,74 +78,111 @@ pub enum Factor {
     One,
     /// Torque of the load without friction.
     Load,
-    /// Sum of both flanks' loads over that at the reference load, times the cosine of so many angles.
-    Cosine(u8),
-    /// The same with the sine.
-    Sine(u8),
+    /// Sum of both flanks' loads over that at the reference load, times cosine and sine of one angle, then of two.
+    Wave(usize),
 }
 
-/// The nonlinear ones, in the order in which they are told.
-pub const NONLINEAR: [Nonlinear; 10] = [
-    nonlinear("friction", "", Scale::Logarithmic, |v| &mut v.friction),
-    nonlinear("full_film_ratio", "", Scale::Linear, |v| {
-        &mut v.full_film_ratio
-    }),
-    nonlinear("half_share_speed", "rad/s", Scale::Logarithmic, |v| {
-        &mut v.half_share_speed
-    }),
-    nonlinear("viscosity_pole", "K", Scale::Linear, |v| {
-        &mut v.viscosity_pole
-    }),
-    nonlinear("direction_asymmetry", "", Scale::Linear, |v| {
-        &mut v.direction_asymmetry
-    }),
-    nonlinear("hysteresis_loss", "", Scale::Linear, |v| {
-        &mut v.hysteresis_loss
-    }),
-    nonlinear("lubricant_drag", "N", Scale::Linear, |v| {
-        &mut v.lubricant_drag
-    }),
-    nonlinear("preload", "N", Scale::Logarithmic, |v| &mut v.preload),
-    nonlinear("breakaway_angle", "rad", Scale::Logarithmic, |v| {
-        &mut v.breakaway_angle
-    }),
-    nonlinear("backlash", "rad", Scale::Linear, |v| &mut v.backlash),
-];
-
-/// The linear ones, in the order in which they are told.
-pub const LINEAR: [Linear; 10] = {
-    use Factor::{Acceleration, Cosine, Load, One, RollingDrag, Sine, Speed, Viscosity};
-    const FREE: (f64, f64) = (f64::NEG_INFINITY, f64::INFINITY);
-    const POSITIVE: (f64, f64) = (0.0, f64::INFINITY);
+/// All of them, in the order in which they are told: what does not enter linearly first.
+pub const QUANTITIES: [Quantity; 20] = {
+    use Factor::{Acceleration, Load, One, RollingDrag, Speed, Viscosity, Wave};
+    use Kind::{Linear, Nonlinear};
+    const FREE: f64 = f64::NEG_INFINITY;
+    const LOGARITHM: Kind = Nonlinear(Scale::Logarithmic);
+    const VALUE: Kind = Nonlinear(Scale::Linear);
     [
-        linear("inertia", "kg m^2", POSITIVE, Acceleration, |v| {
+        quantity("friction", "", LOGARITHM, |v| &mut v.friction),
+        quantity("full_film_ratio", "", VALUE, |v| &mut v.full_film_ratio),
+        quantity("half_share_speed", "rad/s", LOGARITHM, |v| {
+            &mut v.half_share_speed
+        }),
+        quantity("viscosity_pole", "K", VALUE, |v| &mut v.viscosity_pole),
+        quantity("direction_asymmetry", "", VALUE, |v| {
+            &mut v.direction_asymmetry
+        }),
+        quantity("hysteresis_loss", "", VALUE, |v| &mut v.hysteresis_loss),
+        quantity("lubricant_drag", "N", VALUE, |v| &mut v.lubricant_drag),
+        quantity("preload", "N", LOGARITHM, |v| &mut v.preload),
+        quantity("breakaway_angle", "rad", LOGARITHM, |v| {
+            &mut v.breakaway_angle
+        }),
+        quantity("backlash", "rad", VALUE, |v| &mut v.backlash),
+        quantity("inertia", "kg m^2", Linear(Acceleration, 0.0), |v| {
             &mut v.inertia
         }),
-        linear("drag", "N m s/rad", FREE, Speed, |v| &mut v.drag),
-        linear("churning", "m^3", POSITIVE, Viscosity, |v| &mut v.churning),
-        linear("rolling_drag", "", POSITIVE, RollingDrag, |v| {
+        quantity("drag", "N m s/rad", Linear(Speed, FREE), |v| &mut v.drag),
+        quantity("churning", "m^3", Linear(Viscosity, 0.0), |v| {
+            &mut v.churning
+        }),
+        quantity("rolling_drag", "", Linear(RollingDrag, 0.0), |v| {
             &mut v.rolling_drag
         }),
-        linear("offset", "N m", FREE, One, |v| &mut v.offset),
-        linear("gain", "", FREE, Load, |v| &mut v.gain),
-        linear("cosine_1", "N m", FREE, Cosine(1), |v| {
-            let [first, ..] = &mut v.harmonics;
-            first
+        quantity("offset", "N m", Linear(One, FREE), |v| &mut v.offset),
+        quantity("gain", "", Linear(Load, FREE), |v| &mut v.gain),
+        quantity("cosine_1", "N m", Linear(Wave(0), FREE), |v| {
+            &mut v.harmonics[0]
         }),
-        linear("sine_1", "N m", FREE, Sine(1), |v| {
-            let [_, second, ..] = &mut v.harmonics;
-            second
+        quantity("sine_1", "N m", Linear(Wave(1), FREE), |v| {
+            &mut v.harmonics[1]
         }),
-        linear("cosine_2", "N m", FREE, Cosine(2), |v| {
-            let [_, _, third, _] = &mut v.harmonics;
-            third
+        quantity("cosine_2", "N m", Linear(Wave(2), FREE), |v| {
+            &mut v.harmonics[2]
         }),
-        linear("sine_2", "N m", FREE, Sine(2), |v| {
-            let [.., last] = &mut v.harmonics;
-            last
+        quantity("sine_2", "N m", Linear(Wave(3), FREE), |v| {
+            &mut v.harmonics[3]
         }),
     ]
 };
+
+const fn quantity(
+    name: &'static str,
+    unit: &'static str,
+    kind: Kind,
+    of: fn(&mut Values) -> &mut f64,
+) -> Quantity {
+    Quantity {
+        name,
+        unit,
+        kind,
+        of,
+    }
+}
+
+impl Quantity {
+    /// The one of a name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        QUANTITIES.iter().find(|quantity| quantity.name == name)
+    }
+
+    /// Its value.
+    pub fn value(&self, values: &Values) -> f64 {
+        let mut values = *values;
+        *(self.of)(&mut values)
+    }
+
+    /// The same values with another of this one.
+    #[must_use]
+    pub fn with(&self, value: f64, values: &Values) -> Values {
+        let mut values = *values;
+        *(self.of)(&mut values) = value;
+        values
+    }
+
+    /// What it multiplies, where it enters linearly.
+    pub const fn factor(&self) -> Option<Factor> {
+        match self.kind {
+            Kind::Linear(factor, _) => Some(factor),
+            Kind::Nonlinear(_) => None,
+        }
+    }
+}
+
+/// Word that stands for all waves over the turn in a request.
+pub const HARMONICS: &str = "harmonics";
+
+/// Names of everything, for a request that is wrong.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    QUANTITIES.iter().map(|quantity| quantity.name)
+}
 
 /// Standard deviation of the pole of a lubricant's viscosity, K, where nobody has told the lubricant: oils with viscosity indices of 0 to 140
 /// have it at 178 to 227 K, by their viscosities at 40 and 100 degrees Celsius, and an even spread over these has 14 K.
@@ -160,87 +191,6 @@ const POLE_DEVIATION: f64 = 15.0;
 /// Standard deviation of what is assumed of a quantity that others depend on, where it is neither estimated nor set.
 pub fn assumed_deviation(name: &str) -> Option<f64> {
     (name == "viscosity_pole").then_some(POLE_DEVIATION)
-}
-
-/// Word that stands for all waves over the turn in a request.
-pub const HARMONICS: &str = "harmonics";
-
-const fn nonlinear(
-    name: &'static str,
-    unit: &'static str,
-    scale: Scale,
-    of: fn(&mut Values) -> &mut f64,
-) -> Nonlinear {
-    Nonlinear {
-        name,
-        unit,
-        scale,
-        of,
-    }
-}
-
-const fn linear(
-    name: &'static str,
-    unit: &'static str,
-    bounds: (f64, f64),
-    factor: Factor,
-    of: fn(&mut Values) -> &mut f64,
-) -> Linear {
-    Linear {
-        name,
-        unit,
-        bounds,
-        factor,
-        of,
-    }
-}
-
-impl Nonlinear {
-    /// The one of a name.
-    pub fn named(name: &str) -> Option<&'static Self> {
-        NONLINEAR.iter().find(|quantity| quantity.name == name)
-    }
-
-    /// Its value.
-    pub fn value(&self, values: &Values) -> f64 {
-        let mut values = *values;
-        *(self.of)(&mut values)
-    }
-}
-
-impl Linear {
-    /// The one of a name.
-    pub fn named(name: &str) -> Option<&'static Self> {
-        LINEAR.iter().find(|quantity| quantity.name == name)
-    }
-
-    /// Its value.
-    pub fn value(&self, values: &Values) -> f64 {
-        let mut values = *values;
-        *(self.of)(&mut values)
-    }
-}
-
-impl Factor {
-    /// Whether it is a wave over the turn.
-    pub const fn is_wave(self) -> bool {
-        matches!(self, Self::Cosine(_) | Self::Sine(_))
-    }
-}
-
-/// Names of everything, for a request that is wrong.
-pub fn names() -> impl Iterator<Item = &'static str> {
-    let nonlinear = NONLINEAR.iter().map(|quantity| quantity.name);
-    nonlinear.chain(LINEAR.iter().map(|quantity| quantity.name))
-}
-
-/// Name, unit and value of everything.
-pub fn all(values: &Values) -> impl Iterator<Item = (&'static str, &'static str, f64)> {
-    let nonlinear = NONLINEAR
-        .iter()
-        .map(|of| (of.name, of.unit, of.value(values)));
-    let linear = LINEAR.iter().map(|of| (of.name, of.unit, of.value(values)));
-    nonlinear.chain(linear)
 }
 
 #[cfg(test)]

@@ -15,12 +15,12 @@ use super::choice::Start;
 use super::exact::Grid;
 use super::friction::Screw;
 use super::problem::{Choice, Passage, ScrewProblem};
-use super::quantities::{LINEAR, NONLINEAR, Values, assumed_deviation};
+use super::quantities::{QUANTITIES, Quantity, Values, assumed_deviation};
 use crate::estimator::fit::{Block, Fit, fit as least_squares};
 use crate::estimator::record::{QUARTER, Record};
 use crate::estimator::rows::Rows;
 use crate::fit::problem::{Scale, Separable, inner};
-use crate::fit::search::{Found, fit, slopes};
+use crate::fit::search::{Found, fit, fit_roughly, slopes};
 use crate::fit::uncertainty::{Interval, QUANTILE, intervals};
 use crate::trace::Trace;
 use epas_page::failure::Failure;
@@ -32,7 +32,7 @@ const LEAST_HALF: usize = 4;
 
 /// Way after a turn over the breakaway angle: friction that was full the other way is full again after twice the angle, and under the
 /// largest load later than under the reference load.
-pub const WAY: f64 = 4.0;
+const WAY: f64 = 4.0;
 
 /// Residual, in robust deviations, from which on a row is left out, and the share of the rows that may be.
 const OUTLIER: f64 = 6.0;
@@ -150,23 +150,21 @@ impl<'a> Prepared<'a> {
     /// The window of the first fit: the shortest kernel whose rows cover half as much as those of any; a shorter way where the strokes are
     /// short.
     fn first_window(&self, breakaway: f64) -> Result<Window, Failure> {
-        for way in [1.0, 0.5, 0.25].map(|share| share * WAY * breakaway) {
-            let windows = HALF_WIDTHS.map(|half| Window {
-                half: self.half(half),
-                way,
+        for share in [1.0, 0.5, 0.25] {
+            // A kernel of 8.5 ms is no first guess: its rows are the noisiest.
+            let windows = HALF_WIDTHS[1..].iter().map(|half| Window {
+                half: self.half(*half),
+                way: share * WAY * breakaway,
             });
-            let covered = windows.map(|window| {
+            let covered = |window: Window| {
                 let rows = self.rows(window);
                 rows.map_or(0, |rows| rows.len() * window.half)
-            });
-            let most = covered.iter().copied().max().unwrap_or(0);
-            let pairs = windows.into_iter().zip(covered);
-            // A kernel of 8.5 ms is no first guess: its rows are the noisiest.
-            let mut pairs = pairs.skip(1);
-            if let Some((window, _)) =
-                pairs.find(|(_, covered)| *covered > 0 && 2 * covered >= most)
-            {
-                return Ok(window);
+            };
+            let pairs: Vec<_> = windows.map(|window| (window, covered(window))).collect();
+            let most = pairs.iter().map(|(_, covered)| *covered).max();
+            let half = most.unwrap_or(0).div_ceil(2).max(1);
+            if let Some((window, _)) = pairs.iter().find(|(_, covered)| *covered >= half) {
+                return Ok(*window);
             }
         }
         Err(Failure::Data(
@@ -189,77 +187,65 @@ impl<'a> Prepared<'a> {
             let problem = self.sliding(window, (values, choice), grid)?;
             Some((window, linearised(&problem, values)?.fit))
         };
-        let tried: Vec<_> = HALF_WIDTHS.into_iter().map(at).collect();
-        let score = |place: usize| {
-            let (_, fit) = tried[place].as_ref()?;
-            let other = tried.get(place + 1).and_then(Option::as_ref);
-            let beside = place.checked_sub(1).and_then(|place| tried[place].as_ref());
-            let (_, other) = other.or(beside)?;
-            let widths = fit
-                .half_widths
-                .iter()
-                .zip(fit.values.iter().zip(&other.values));
-            Some(
-                widths
-                    .map(|(half, (one, other))| half.hypot(2.0 * (one - other)).max(1e-12).ln())
-                    .sum::<f64>(),
-            )
+        let tried: Vec<_> = HALF_WIDTHS.into_iter().filter_map(at).collect();
+        let score = |place: usize| -> f64 {
+            let (_, fit) = &tried[place];
+            let other = tried.get(place + 1).unwrap_or(&tried[place.max(1) - 1]);
+            let values = fit.values.iter().zip(&other.1.values);
+            let widths = fit.half_widths.iter().zip(values);
+            widths
+                .map(|(half, (one, other))| half.hypot(2.0 * (one - other)).max(1e-12).ln())
+                .sum()
         };
-        let best = (0..tried.len())
-            .filter_map(|place| Some((place, score(place)?)))
-            .min_by(|one, other| one.1.total_cmp(&other.1));
-        let best = best.and_then(|(place, _)| tried[place].as_ref());
-        best.map_or(first, |(window, _)| *window)
+        let best = (0..tried.len()).min_by(|one, other| score(*one).total_cmp(&score(*other)));
+        best.map_or(first, |place| tried[place].0)
     }
 
-    /// The way after a turn by the breakaway angle that a first look finds, on rows after a way by its first guess.
+    /// Values of a first look, and the way after a turn by the breakaway angle that it finds, on rows after a way by its first guess.
     pub fn first_way(
         &self,
         (start, at_turns): (&Start, &Choice),
         grid: &Arc<Grid>,
-    ) -> Result<Window, Failure> {
+    ) -> Result<(Window, Values), Failure> {
         let guess = start.values.breakaway_angle.max(self.trace.resolution);
         let window = self.first_window(guess)?;
-        if !at_turns
-            .nonlinear
-            .iter()
-            .any(|(of, _)| of.name == AT_TURNS[0])
-        {
-            return Ok(window);
-        }
         let problem = self.sliding(window, (&start.values, &start.choice), grid);
         let problem = problem.ok_or_else(few)?;
-        let found = fit(&problem)?;
+        let found = fit_roughly(&problem)?;
         let values = problem.values(&found.nonlinear, &found.linear);
+        let mut asked = at_turns.nonlinear.iter();
+        if asked.all(|(of, _)| of.name != AT_TURNS[0]) {
+            return Ok((window, values));
+        }
         let rows = self.rows_over_turns(window, false);
         let Ok((problem, found)) = self.turn_fit(rows, (&values, at_turns), grid) else {
-            return Ok(window);
+            return Ok((window, values));
         };
-        let values = problem.values(&found.nonlinear, &found.linear);
-        self.first_window(guess.max(values.breakaway_angle))
+        let breakaway = problem
+            .values(&found.nonlinear, &found.linear)
+            .breakaway_angle;
+        Ok((self.first_window(guess.max(breakaway))?, values))
     }
 
-    /// The first fit: from several places of the speed law; and the samples of rows that are no part of it.
+    /// The first fit: from a first look, and from other places of the speed law; and the samples of rows that are no part of it.
     pub fn first_fit(
         &self,
         window: Window,
-        start: &Start,
+        (values, choice): (&Values, &Choice),
         grid: &Arc<Grid>,
     ) -> Result<(Values, Vec<Range<usize>>), Failure> {
         let mut best: Option<(Found, Values, Rows)> = None;
-        let speed = start.choice.nonlinear.iter();
+        let speed = choice.nonlinear.iter();
         let speed = speed.filter(|(of, _)| of.name == "half_share_speed");
         let starts = if speed.count() > 0 { 3 } else { 1 };
         for factor in &STARTS[..starts] {
-            let mut values = start.values;
+            let mut values = *values;
             values.half_share_speed *= factor;
-            let problem = self.sliding(window, (&values, &start.choice), grid);
+            let problem = self.sliding(window, (&values, choice), grid);
             let problem = problem.ok_or_else(few)?;
-            let found = fit(&problem)?;
-            if best
-                .as_ref()
-                .is_none_or(|(best, ..)| found.cost() < best.cost())
-            {
+            let found = fit_roughly(&problem)?;
+            let better = |best: &(Found, Values, Rows)| found.cost() < best.0.cost();
+            if best.as_ref().is_none_or(better) {
                 let values = problem.values(&found.nonlinear, &found.linear);
                 best = Some((found, values, problem.rows().clone()));
             }
@@ -273,8 +259,8 @@ impl<'a> Prepared<'a> {
             .filter(|(_, left)| left.abs() > limit)
             .map(|(centre, _)| centre - window.half..centre + window.half + 1)
             .collect();
-        let few = (beyond.len() as f64) < OUTLIERS * rows.len() as f64;
-        Ok((values, if few { beyond } else { Vec::new() }))
+        let exceptions = (beyond.len() as f64) < OUTLIERS * rows.len() as f64;
+        Ok((values, if exceptions { beyond } else { Vec::new() }))
     }
 
     /// The first stage from values near its answer.
@@ -509,19 +495,7 @@ fn linear(choice: &Choice, values: &Values) -> Vec<f64> {
 
 /// A problem linearised at values. `None` where a slope is no number.
 pub fn linearised(problem: &ScrewProblem<'_>, values: &Values) -> Option<Linearised> {
-    let named = |name: &str| {
-        let nonlinear = NONLINEAR
-            .iter()
-            .find(|of| of.name == name)
-            .map(|of| of.value(values));
-        nonlinear.or_else(|| {
-            LINEAR
-                .iter()
-                .find(|of| of.name == name)
-                .map(|of| of.value(values))
-        })
-    };
-    let at = |name| named(name).unwrap_or(0.0);
+    let at = |name: &str| Quantity::named(name).map_or(0.0, |of| of.value(values));
     let nonlinear: Vec<f64> = problem.nonlinear().iter().map(|of| at(of.name)).collect();
     let linear: Vec<f64> = problem.linear().iter().map(|of| at(of.name)).collect();
     let columns = slopes(problem, &nonlinear, &linear);
@@ -625,14 +599,13 @@ fn model_errors(
         choice.nonlinear.iter().any(|(of, _)| of.name == name)
             || set.iter().any(|(set, _)| set == name)
     };
-    for of in NONLINEAR.iter().filter(|of| !known(of.name)) {
+    for of in QUANTITIES.iter().filter(|of| !known(of.name)) {
         let Some(deviation) = assumed_deviation(of.name) else {
             continue;
         };
         let at = |side: f64| {
-            let mut values = *values;
-            *(of.of)(&mut values) += side * ASSUMED_STEP * deviation;
-            problem.model(&values)
+            let value = of.value(values) + side * ASSUMED_STEP * deviation;
+            problem.model(&of.with(value, values))
         };
         let rows = at(1.0).into_iter().zip(at(-1.0));
         let off: Vec<f64> = rows

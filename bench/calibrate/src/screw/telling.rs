@@ -2,7 +2,7 @@
 
 use super::choice::needs;
 use super::evidence::Evidence;
-use super::quantities::{LINEAR, NONLINEAR, Values, assumed_deviation};
+use super::quantities::{Quantity, Values, assumed_deviation};
 use super::stages::Sliding;
 use crate::fit::problem::Scale;
 use crate::fit::uncertainty::Interval;
@@ -108,21 +108,12 @@ fn half_range(of: &Interval) -> f64 {
 
 /// Value of a quantity by its name.
 pub fn value_of(name: &str, values: &Values) -> f64 {
-    let nonlinear = NONLINEAR.iter().find(|of| of.name == name);
-    let nonlinear = nonlinear.map(|of| of.value(values));
-    let linear = LINEAR.iter().find(|of| of.name == name);
-    nonlinear
-        .or(linear.map(|of| of.value(values)))
-        .unwrap_or(0.0)
+    Quantity::named(name).map_or(0.0, |of| of.value(values))
 }
 
-/// Sets a quantity by its name.
-pub fn set(name: &str, value: f64, values: &mut Values) {
-    if let Some(of) = NONLINEAR.iter().find(|of| of.name == name) {
-        *(of.of)(values) = value;
-    } else if let Some(of) = LINEAR.iter().find(|of| of.name == name) {
-        *(of.of)(values) = value;
-    }
+/// The same values with another of a quantity.
+pub fn with(name: &str, value: f64, values: &Values) -> Values {
+    Quantity::named(name).map_or(*values, |of| of.with(value, values))
 }
 
 /// "a", "a and b", "a, b and c", in plain words.

@@ -3,7 +3,7 @@
 use crate::answer::ModelScore;
 use crate::estimator::words::strongest_wave;
 use crate::fit::problem::Separable;
-use crate::fit::search::{Found, at_bound, fit_within};
+use crate::fit::search::{Found, at_bound, fit};
 use crate::laws::{Cost, Law, Level, Passage};
 use crate::models::{self, Entry, FITTED, LITERATURE, OWN, left_out};
 use crate::without_design::closed_loop::{Course, Loop};
@@ -77,7 +77,7 @@ const SHARE: f64 = 0.05;
 /// The wave number of a wave over the position that the crate's law with memory leaves, 1/rad or 1/m.
 fn wave(prepared: &Prepared<'_>, beside: &Beside) -> Option<f64> {
     let slide = Slide::new(prepared, OURS, beside.clone());
-    let left = fit_within(&slide).ok()?.residual;
+    let left = fit(&slide).ok()?.residual;
     let places = prepared.places();
     let (wave, share) = strongest_wave(&places, &left)?;
     (share > SHARE).then_some(wave)
@@ -120,7 +120,6 @@ fn score(
         cost: law.cost,
         fitted: &slide,
         unseen: other.as_ref().map(|(_, slide)| slide as &dyn Separable),
-        start_known: false,
     })?;
     if let Some(closed) = course(fitted, &slide, &found)? {
         score.relative_error = closed.relative_error;
@@ -144,7 +143,7 @@ pub fn reversal_speed(prepared: &Prepared<'_>, beside: &Beside) -> Result<Option
         ..Beside::default()
     };
     let slide = Slide::new(prepared, LOAD_PROPORTIONAL, plain);
-    let found = fit_within(&slide)?;
+    let found = fit(&slide)?;
     let speed = slide.nonlinear().iter().zip(&found.nonlinear).next();
     Ok(speed
         .filter(|(of, speed)| !at_bound(of, **speed))
