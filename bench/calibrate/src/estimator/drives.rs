@@ -53,7 +53,7 @@ impl Drive {
             losses: [log(0.01, 0.15), log(0.01, 0.2)],
             amplitude: log(10.0, 45.0),
             load: log(0.9, 5.6),
-            phase: log(1e-3, 6.28),
+            phase: log(1e-3, TAU),
             noise: [log(2e-3, 0.02), log(5e-3, 0.03)],
             rate: [500, 1000, 2000][(seed % 3) as usize],
             rests: false,

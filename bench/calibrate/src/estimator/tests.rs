@@ -187,7 +187,9 @@ const WRONG: [(&str, bool, Spoil); 11] = [
     }),
     ("turn the sign of load_torque", true, |trace| {
         let load = trace.load.as_mut().unwrap();
-        load.iter_mut().for_each(|load| *load = -*load);
+        for load in load {
+            *load = -*load;
+        }
     }),
     ("motor_torque is in mN m", true, |trace| {
         trace.effort.iter_mut().for_each(|effort| *effort *= 1e3);

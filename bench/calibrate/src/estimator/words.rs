@@ -58,13 +58,39 @@ pub fn diagnose(record: &Record, trace: &Trace) -> Diagnosis {
         let word = "no stretch of one direction is long enough to tell anything: move to and fro by more, or faster, than the sensor's steps";
         return Diagnosis::refused(None, word.into());
     };
-    let wrong = load(&found, &names)
-        .or_else(|| hidden_jump(record, &found, &names))
-        .or_else(|| turned(record, &found, &names));
-    if let Some(word) = wrong {
+    if let Some(word) = of_signs(record, &found, &names) {
         return Diagnosis::refused(Some(found), word);
     }
     with_more(record, found, &names)
+}
+
+/// What is wrong with sign, unit or ratio.
+fn of_signs(record: &Record, found: &Estimate, names: &Names<'_>) -> Option<String> {
+    load(found, names)
+        .or_else(|| hidden_jump(record, found, names))
+        .or_else(|| turned(record, found, names))
+}
+
+/// What is wrong with a trace whose friction has another equation, and how late a channel is.
+///
+/// # Errors
+/// Why the trace is refused.
+pub fn wrong(record: &Record, trace: &Trace) -> Result<Option<String>, String> {
+    let names = Names::of(trace);
+    if let Some(word) = ran_over(&record.effort, &names) {
+        return Err(word);
+    }
+    let found = estimate_of(record, &Wanted::default());
+    if let Some(word) = exchanged(record, found.as_ref(), &names) {
+        return Err(word);
+    }
+    let Some(found) = found else {
+        return Ok(None);
+    };
+    if let Some(word) = of_signs(record, &found, &names) {
+        return Err(word);
+    }
+    Ok(late(record, &found, &[]).map(|(_, word)| word))
 }
 
 /// Adds the terms that the residual asks for.
@@ -537,8 +563,8 @@ fn stribeck(
 ) -> Option<(Estimate, String)> {
     found.of(Term::Coulomb)?;
     let rows = found.rows.first()?.as_ref()?;
-    let mut speeds: Vec<f64> = rows.sums(record.order(1), &record.motion);
-    speeds.iter_mut().for_each(|speed| *speed = speed.abs());
+    let speeds = rows.sums(record.order(1), &record.motion).into_iter();
+    let mut speeds: Vec<f64> = speeds.map(f64::abs).collect();
     speeds.sort_by(f64::total_cmp);
     let fast = speeds[speeds.len() * 9 / 10];
     let tried = [0.02, 0.05, 0.12, 0.3].map(|share| Term::Stribeck(share * fast));

@@ -1,6 +1,6 @@
 //! What a trace of a screw can tell, before anything is fitted.
 
-use crate::signals::Motion;
+use crate::estimator::record::Smoothed;
 use crate::trace::Trace;
 
 /// What a trace excites.
@@ -27,7 +27,7 @@ const MOVES: f64 = 4.0;
 
 impl Evidence {
     /// What a trace excites.
-    pub fn of(trace: &Trace, motion: &Motion) -> Self {
+    pub fn of(trace: &Trace, motion: &Smoothed) -> Self {
         let [speed_noise, acceleration_noise] = motion.noise;
         let samples = motion.speed.len().max(1) as f64;
         let share = |direction: f64| {
