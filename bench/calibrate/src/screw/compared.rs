@@ -1,6 +1,7 @@
 //! Models of friction on a trace of a screw: laws of the literature times the load that both flanks share, and this crate's without and
 //! with memory.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::Told;
@@ -31,12 +32,7 @@ pub fn models(
     unseen: Option<&Trace>,
 ) -> Result<Table, Failure> {
     let screw = &prepared.screw;
-    let unseen = unseen
-        .map(|unseen| {
-            let motion = Motion::of(unseen, &SmoothingSettings::default())?;
-            Ok::<_, Failure>(placed(unseen, &motion))
-        })
-        .transpose()?;
+    let unseen = unseen.map(beside_known).transpose()?;
     let other = unseen
         .as_deref()
         .map(|unseen| Prepared::new(unseen, &rests(unseen), *screw));
@@ -86,6 +82,12 @@ pub fn models(
         unseen: sides.get(1).map(|(_, problem)| problem as &dyn Separable),
     });
     Ok(compared(&entries))
+}
+
+/// A trace with what is found of its known effort.
+fn beside_known(trace: &Trace) -> Result<Cow<'_, Trace>, Failure> {
+    let motion = Motion::of(trace, &SmoothingSettings::default())?;
+    Ok(placed(trace, &motion))
 }
 
 /// A trace as a law of the literature is told it.

@@ -139,34 +139,39 @@ impl<'a> ScrewProblem<'a> {
             target: rows.sums(0, &record.effort),
             rows,
         };
+        problem.add_linear(values, &choice.linear);
+        problem
+    }
+
+    /// Takes the linear quantities that are estimated or not zero.
+    fn add_linear(&mut self, values: &Values, estimated: &[&'static Quantity]) {
         for of in &QUANTITIES {
             let Kind::Linear(factor, low) = of.kind else {
                 continue;
             };
-            let estimated = choice.linear.iter().any(|linear| linear.name == of.name);
-            if estimated {
-                problem.linear.push(LinearParameter {
+            let is_estimated = estimated.iter().any(|linear| linear.name == of.name);
+            if is_estimated {
+                self.linear.push(LinearParameter {
                     name: of.name,
                     unit: of.unit,
                     low,
                     high: f64::INFINITY,
                 });
             }
-            if estimated || of.value(values) != 0.0 {
-                let still = if problem.moves(factor) {
+            if is_estimated || of.value(values) != 0.0 {
+                let still = if self.moves(factor) {
                     Vec::new()
                 } else {
-                    problem.column(factor, values)
+                    self.column(factor, values)
                 };
-                problem.terms.push(Term {
+                self.terms.push(Term {
                     of,
                     factor,
-                    estimated,
+                    estimated: is_estimated,
                     still,
                 });
             }
         }
-        problem
     }
 
     /// Whether a column follows what is estimated.
