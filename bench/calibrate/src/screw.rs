@@ -134,8 +134,11 @@ pub fn calibrate(
         let words = name.replace('_', " ");
         told.sentences.iter().any(|said| said.starts_with(&words))
     };
+    let wanted = &request.wanted;
+    let set = |name: &str| wanted.fix.iter().any(|(set, _)| set == name);
     let fixed = answer.parameters.iter().filter(|of| of.fixed);
-    let fixed = fixed.map(|of| of.name.as_str()).filter(|name| !said(name));
+    let fixed = fixed.map(|of| of.name.as_str());
+    let fixed = fixed.filter(|name| wanted.estimate.is_none() && !set(name) && !said(name));
     let left_out = telling::left_out(&fixed.collect::<Vec<_>>(), &evidence);
     let sentences = told.sentences.iter().cloned();
     answer.cannot_tell = sentences

@@ -1,6 +1,7 @@
 //! What a trace of a screw can tell, before anything is fitted.
 
 use crate::estimator::record::Smoothed;
+use crate::estimator::stretches::of_position;
 use crate::trace::Trace;
 
 /// What a trace excites.
@@ -102,20 +103,9 @@ fn ends(list: &[f64]) -> Option<[f64; 2]> {
 
 /// How often a path turns back by more than a distance.
 fn reversals(path: &[f64], distance: f64) -> usize {
-    let Some(&first) = path.first() else { return 0 };
-    let (mut direction, mut farthest, mut count) = (0.0, first, 0);
-    for &place in path {
-        let gone = place - farthest;
-        if direction == 0.0 {
-            if gone.abs() > distance {
-                (direction, farthest) = (gone.signum(), place);
-            }
-        } else if direction * gone > 0.0 {
-            farthest = place;
-        } else if direction * gone < -distance {
-            (direction, farthest) = (-direction, place);
-            count += 1;
-        }
-    }
-    count
+    let stretches = of_position(path, distance, path.len());
+    let turns = stretches
+        .windows(2)
+        .filter(|pair| pair[0].turn != pair[1].turn);
+    turns.count()
 }

@@ -272,31 +272,7 @@ impl Grid {
         let (first, _) = weights(friction_place(least.into(), logarithm));
         let (last, _) = weights(friction_place(largest.into(), logarithm));
         let frictions = (last - first) as usize + POINTS;
-        let rolling = &caged.rolling_resistance;
-        let parts = [
-            (Part::Whole, 1.0),
-            (
-                Part::Hysteresis,
-                f64::from(rolling.hysteresis_loss) - self.rolling.hysteresis_loss,
-            ),
-            (
-                Part::Drag,
-                f64::from(rolling.lubricant_drag) - self.rolling.lubricant_drag,
-            ),
-        ];
-        let mut nodes = Vec::new();
-        for (part, share) in parts.into_iter().filter(|(_, share)| *share != 0.0) {
-            for (number, weight) in gap_weights.iter().enumerate() {
-                for friction in 0..frictions {
-                    let node = (part, first + friction as i32, first_gap + number as i32);
-                    nodes.push((node, friction, share * weight));
-                }
-            }
-        }
-        let curves = nodes
-            .par_iter()
-            .map(|(node, friction, weight)| Ok((self.at(*node)?, *friction, *weight)))
-            .collect::<Result<Vec<_>, ReferenceError>>()?;
+        let curves = self.curves(caged, (first, frictions), (first_gap, &gap_weights))?;
         let lift_off = if preloaded { self.lift_off(gap) } else { 0.0 };
         let points = curves.iter().map(|(curves, ..)| curves[0].len()).min();
         let values = [0, 1].map(|side: usize| {
@@ -325,6 +301,40 @@ impl Grid {
             frictions,
             values,
         })
+    }
+
+    /// Curves that make a law: each with the number of its friction coefficient and its weight.
+    fn curves(
+        &self,
+        caged: &CagedDesign,
+        (first, frictions): (i32, usize),
+        (first_gap, gap_weights): (i32, &[f64]),
+    ) -> Result<Vec<(Arc<Curves>, usize, f64)>, ReferenceError> {
+        let rolling = &caged.rolling_resistance;
+        let parts = [
+            (Part::Whole, 1.0),
+            (
+                Part::Hysteresis,
+                f64::from(rolling.hysteresis_loss) - self.rolling.hysteresis_loss,
+            ),
+            (
+                Part::Drag,
+                f64::from(rolling.lubricant_drag) - self.rolling.lubricant_drag,
+            ),
+        ];
+        let mut nodes = Vec::new();
+        for (part, share) in parts.into_iter().filter(|(_, share)| *share != 0.0) {
+            for (number, weight) in gap_weights.iter().enumerate() {
+                for friction in 0..frictions {
+                    let node = (part, first + friction as i32, first_gap + number as i32);
+                    nodes.push((node, friction, share * weight));
+                }
+            }
+        }
+        nodes
+            .par_iter()
+            .map(|(node, friction, weight)| Ok((self.at(*node)?, *friction, *weight)))
+            .collect()
     }
 
     /// What is solved at a node, now or before.

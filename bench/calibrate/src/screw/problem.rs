@@ -116,7 +116,7 @@ impl<'a> ScrewProblem<'a> {
     ) -> Self {
         let samples = Samples::of((trace, record), &rows, passage, screw);
         let course = (passage == Passage::Remembered).then(|| Course {
-            angle: path(trace, &rows.kernel),
+            angle: path(trace, record, &rows.kernel),
             speed: samples.speed.clone(),
             load: samples.load.clone(),
             temperature: samples.temperature.clone(),
@@ -139,34 +139,39 @@ impl<'a> ScrewProblem<'a> {
             target: rows.sums(0, &record.effort),
             rows,
         };
+        problem.add_linear(values, &choice.linear);
+        problem
+    }
+
+    /// Takes the linear quantities that are estimated or not zero.
+    fn add_linear(&mut self, values: &Values, estimated: &[&'static Quantity]) {
         for of in &QUANTITIES {
             let Kind::Linear(factor, low) = of.kind else {
                 continue;
             };
-            let estimated = choice.linear.iter().any(|linear| linear.name == of.name);
-            if estimated {
-                problem.linear.push(LinearParameter {
+            let is_estimated = estimated.iter().any(|linear| linear.name == of.name);
+            if is_estimated {
+                self.linear.push(LinearParameter {
                     name: of.name,
                     unit: of.unit,
                     low,
                     high: f64::INFINITY,
                 });
             }
-            if estimated || of.value(values) != 0.0 {
-                let still = if problem.moves(factor) {
+            if is_estimated || of.value(values) != 0.0 {
+                let still = if self.moves(factor) {
                     Vec::new()
                 } else {
-                    problem.column(factor, values)
+                    self.column(factor, values)
                 };
-                problem.terms.push(Term {
+                self.terms.push(Term {
                     of,
                     factor,
-                    estimated,
+                    estimated: is_estimated,
                     still,
                 });
             }
         }
-        problem
     }
 
     /// Whether a column follows what is estimated.
@@ -458,47 +463,35 @@ impl Samples {
 
 /// Positions that a memory follows: a counted one on straight lines between the instants at which its count changes, with each turn at the
 /// middle of its outermost count; one with noise smoothed by the kernel.
-fn path(trace: &Trace, kernel: &Kernel) -> Vec<f64> {
+fn path(trace: &Trace, record: &Record, kernel: &Kernel) -> Vec<f64> {
     let position = &trace.position;
     if trace.position_summed || trace.resolution == 0.0 {
         return kernel.along(0, position);
     }
-    let mut corners: Vec<(f64, f64)> = Vec::new();
-    let mut last: Option<(f64, f64, f64)> = None;
+    let mut path = record.motion.clone();
+    let mut last: Option<(usize, f64)> = None;
     for (sample, pair) in position.windows(2).enumerate() {
         let step = pair[1] - pair[0];
         if step == 0.0 {
             continue;
         }
-        let time = sample as f64 + 0.5;
-        if let Some((before, place, moved)) = last
+        if let Some((before, moved)) = last
             && moved * step < 0.0
         {
-            corners.push((0.5 * (before + time), place));
+            let half = 0.5 * (sample - before) as f64;
+            let middle = 0.5 * (before + sample + 1) as f64;
+            for (k, place) in path
+                .iter_mut()
+                .enumerate()
+                .take(sample + 1)
+                .skip(before + 1)
+            {
+                *place += 0.5 * moved * (1.0 - (k as f64 - middle).abs() / half);
+            }
         }
-        corners.push((time, 0.5 * (pair[0] + pair[1])));
-        last = Some((time, pair[1], step));
+        last = Some((sample, step));
     }
-    let (Some(first), Some(end)) = (corners.first().copied(), corners.last().copied()) else {
-        return position.clone();
-    };
-    let mut next = 0;
-    (0..position.len())
-        .map(|sample| {
-            let time = sample as f64;
-            while corners.get(next).is_some_and(|corner| corner.0 < time) {
-                next += 1;
-            }
-            let before = next.checked_sub(1).map_or(first, |before| corners[before]);
-            let after = corners.get(next).copied().unwrap_or(end);
-            let length = after.0 - before.0;
-            if length > 0.0 {
-                before.1 + (after.1 - before.1) * (time - before.0) / length
-            } else {
-                before.1
-            }
-        })
-        .collect()
+    path
 }
 
 /// Sum of the axial forces of two flanks that share one Hertzian deflection, N, under a load: the series

@@ -275,6 +275,15 @@ impl<'a> Prepared<'a> {
         let problem = problem.ok_or_else(few)?;
         let found = fit(&problem)?;
         let values = problem.values(&found.nonlinear, &found.linear);
+        if choice.nonlinear.is_empty() && choice.linear.is_empty() {
+            return Ok(Sliding {
+                values,
+                intervals: Vec::new(),
+                covariance: DMatrix::zeros(0, 0),
+                condition: (1.0, Vec::new()),
+                residual_rms: found.residual_rms(),
+            });
+        }
         let other = |window: Window| {
             let problem = self.sliding(window, (&values, choice), grid)?;
             Some(linearised(&problem, &values)?.fit.values)
@@ -450,7 +459,8 @@ impl<'a> Prepared<'a> {
             &nonlinear(choice, &values),
             &linear(choice, &values),
         );
-        let pull = solver(&here.columns).map(|solver| {
+        let pull = solver(&here.columns).filter(|_| !others.is_empty());
+        let pull = pull.map(|solver| {
             let moved: Vec<DVector<f64>> = others.iter().map(|rows| solver(rows)).collect();
             DMatrix::from_columns(&moved)
         });
@@ -499,7 +509,7 @@ pub fn linearised(problem: &ScrewProblem<'_>, values: &Values) -> Option<Lineari
     let nonlinear: Vec<f64> = problem.nonlinear().iter().map(|of| at(of.name)).collect();
     let linear: Vec<f64> = problem.linear().iter().map(|of| at(of.name)).collect();
     let columns = slopes(problem, &nonlinear, &linear);
-    if columns.iter().flatten().any(|slope| !slope.is_finite()) {
+    if columns.is_empty() || columns.iter().flatten().any(|slope| !slope.is_finite()) {
         return None;
     }
     let scales = problem.nonlinear().iter().zip(&nonlinear);

@@ -9,10 +9,14 @@ use epas_rig::{Rig, Sensors};
 use rayon::prelude::*;
 
 use super::choice::Wanted;
-use super::friction::Screw;
+use super::friction::{ElementsKind, Screw};
+use super::quantities::QUANTITIES;
 use super::{Request, ScrewCalibration, calibrate};
 use crate::trace::{Coordinate, Repairs, Trace};
 use epas_design::files::{Design, DesignSource};
+
+/// Quantities that the rig has none of, or as the design has them.
+const ON_REQUEST: [&str; 4] = ["hysteresis_loss", "lubricant_drag", "backlash", "churning"];
 
 /// The rig's screw with another preload and friction coefficient: what an engineer has before a calibration.
 fn design() -> Design {
@@ -126,6 +130,44 @@ fn a_short_trace_tells_what_the_rig_was_made_with() {
         friction.half_width() < 0.02 * friction.value,
         "{friction:?}"
     );
+}
+
+/// With everything else known, the turns alone tell the breakaway angle.
+#[test]
+fn the_breakaway_angle_is_told_alone() {
+    let rig = rig(Sensors::default());
+    let trace = trace(&rig, &Course::vehicle().times(0.2), 3);
+    let screw = design().caged;
+    let known = QUANTITIES.iter().filter(|of| of.name != "breakaway_angle");
+    let known: Vec<(&str, f64)> = known
+        .filter(|of| !ON_REQUEST.contains(&of.name))
+        .map(|of| {
+            (
+                of.name,
+                truth(
+                    of.name,
+                    &Screw {
+                        caged: screw,
+                        elements: ElementsKind::Preloaded,
+                        preloaded: true,
+                        reference_temperature: 303.15,
+                        reference_load: 0.0,
+                        largest_load: 3000.0,
+                    },
+                ),
+            )
+        })
+        .collect();
+    let mut request = request(&known);
+    request.wanted.estimate = Some(vec!["breakaway_angle".into()]);
+    let found = calibrate(&trace, &design(), &request).unwrap().answer;
+    let angle = found.parameter("breakaway_angle").unwrap();
+    assert!(
+        !angle.fixed && (angle.value - 2e-3).abs() < 2.0 * angle.half_width(),
+        "{angle:?}"
+    );
+    assert!(angle.half_width() < 0.1 * 2e-3, "{angle:?}");
+    assert_eq!(found.parameters.iter().filter(|of| !of.fixed).count(), 1);
 }
 
 /// What is estimated on request only: rolling resistance and backlash, each of a screw that has more of it than the design says, beside
