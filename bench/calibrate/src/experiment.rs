@@ -10,6 +10,7 @@ use std::io::{self, Write};
 
 use nalgebra::DMatrix;
 
+use crate::estimator::record::Smoothed;
 use crate::experiment::manoeuvre::{Manoeuvre, Reach};
 use crate::fit::problem::{Scale, Separable, inner, outer};
 use crate::fit::search::slopes_at_start;
@@ -17,7 +18,6 @@ use crate::screw::choice::{Start, Wanted};
 use crate::screw::evidence::Evidence;
 use crate::screw::exact::Spacing;
 use crate::screw::stages::{Prepared, Window};
-use crate::signals::{Motion, SmoothingSettings};
 use epas_design::files::Design;
 use epas_page::failure::Failure;
 
@@ -145,8 +145,7 @@ fn said(
     reach: &Reach,
 ) -> Result<Said, Failure> {
     let trace = &manoeuvre.trace(STEP, reach);
-    let motion = Motion::of(trace, &SmoothingSettings::default())?;
-    let mut evidence = Evidence::of(trace, &motion);
+    let mut evidence = Evidence::of(trace, &Smoothed::of(trace));
     // All problems have the same parameters and starts.
     evidence.load = Some([-reach.load, reach.load]);
     evidence.temperature = Some(reach.temperature);

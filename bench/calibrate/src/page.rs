@@ -18,7 +18,6 @@ use crate::experiment::manoeuvre::Manoeuvre;
 use crate::page::picture::{Correlations, Picture};
 use crate::page::shown::{chart, digits, number, table};
 use crate::page::truth::Truth;
-use crate::signals::spectrum::welch;
 use crate::steady::{Run, Steady};
 use crate::trace::Coordinate;
 use epas_page::document::{Block, Cell, Document, Figure, Section, Table};
@@ -283,7 +282,7 @@ fn over_time(picture: &Picture, words: &Words) -> Figure {
     }
 }
 
-/// The residual against everything that was measured, and its spectrum.
+/// The residual against everything that was measured.
 fn residual(picture: &Picture, words: &Words) -> Vec<Block> {
     let residual = picture.residual();
     let turn = picture.position.iter().map(|angle| angle.rem_euclid(TAU));
@@ -311,7 +310,7 @@ fn residual(picture: &Picture, words: &Words) -> Vec<Block> {
     });
     let note = "What a model leaves out shows here as a mean that is not zero: a slope over speed is drag, over load a wrong \
                 coefficient or gain, a wave over the turn an error of the screw.";
-    let mut blocks = vec![
+    let blocks = vec![
         Block::Text(note.into()),
         Block::Figure(Figure {
             name: "residual",
@@ -323,28 +322,7 @@ fn residual(picture: &Picture, words: &Words) -> Vec<Block> {
             size: (560, 320),
         }),
     ];
-    blocks.extend(spectrum(picture, &residual, words).map(Block::Figure));
     blocks
-}
-
-fn spectrum(picture: &Picture, residual: &[f64], words: &Words) -> Option<Figure> {
-    let step = picture.step()?;
-    let series = |name, colour, values: &[f64]| {
-        let lines = welch(values, step).into_iter();
-        let points = lines.filter(|(_, density)| *density > 0.0).collect();
-        Series::new(name, colour, Mark::Line, points)
-    };
-    let left = series("residual", 3, residual);
-    let both =
-        (!left.points.is_empty()).then(|| vec![series("measured", 0, &picture.measured), left])?;
-    let density = Axis::log(&format!("density (({})²/Hz)", words.0[1]));
-    Some(Figure {
-        name: "spectrum",
-        caption: "Power spectral density by Welch's method".into(),
-        panels: vec![chart("", Axis::log("frequency (Hz)"), density, both)],
-        columns: 1,
-        size: (1000, 360),
-    })
 }
 
 /// Pairs of finite numbers.

@@ -38,15 +38,13 @@ use self::problem::Choice;
 use self::quantities::{QUANTITIES, Values};
 use self::stages::{AT_TURNS, Prepared, Sliding, Window};
 use crate::answer::{Calibration, Estimate};
-use crate::checks::finding::{Finding, FindingKind};
-use crate::checks::{examine, load_gain};
+use crate::estimator::record::{Record, Smoothed};
+use crate::estimator::words::wrong;
+use crate::fit::autocorrelation::effective_rows;
 use crate::fit::problem::Separable as _;
 use crate::fit::uncertainty::{Interval, Uncertainty, correlation};
-use crate::signals::autocorrelation::effective_rows;
-use crate::signals::{Motion, SmoothingSettings};
-use crate::trace::known::placed;
-use crate::trace::rests::rests;
 use crate::trace::{Coordinate, Trace};
+use crate::without_design::placed;
 use epas_design::files::Design;
 use epas_page::failure::Failure;
 
@@ -114,11 +112,9 @@ pub fn calibrate(
 ) -> Result<ScrewCalibration, Failure> {
     request.check()?;
     comparable(trace, request.unseen.as_ref())?;
-    let motion = Motion::of(trace, &SmoothingSettings::default())?;
-    let trace = &*placed(trace, &motion);
-    let findings = examine(trace, &motion)?;
-    load_gain(trace, &motion, reduced_lead(design), request.ratio_unsaid)?;
-    let evidence = Evidence::of(trace, &motion);
+    let trace = &*placed(trace);
+    let late = looked_at(trace, reduced_lead(design))?;
+    let evidence = Evidence::of(trace, &Smoothed::of(trace));
     plausible(design, &evidence)?;
     let mut start = Start::of(design, &evidence, &request.wanted)?;
     let unseen = request.unseen.iter();
@@ -145,9 +141,13 @@ pub fn calibrate(
     let fixed = fixed.filter(|name| wanted.estimate.is_none() && !set(name) && !said(name));
     let left_out = telling::left_out(&fixed.collect::<Vec<_>>(), &evidence);
     let sentences = told.sentences.iter().cloned();
-    answer.cannot_tell = sentences.chain(left_out).chain(spoiled(findings)).collect();
+    answer.cannot_tell = sentences
+        .chain(left_out)
+        .chain(late)
+        .chain(trace.told())
+        .collect();
     if !request.without_models {
-        let table = compared::models(&prepared, &told, request.unseen.as_ref())?;
+        let table = compared::models(&prepared, &told, request.unseen.as_ref());
         (answer.models, answer.winner) = (table.models, table.winner);
         answer.cannot_tell.extend(table.left_out);
     }
@@ -248,7 +248,7 @@ fn first_look<'a>(
     grid: &Arc<Grid>,
     sentences: &mut Vec<String>,
 ) -> Result<(Prepared<'a>, Window, Values), Failure> {
-    let mut left_out = rests(trace);
+    let mut left_out = Record::of(trace, &[]).rests();
     let prepared = Prepared::new(trace, &left_out, first.screw);
     let (window, values) = prepared.first_way((first, at_turns), grid)?;
     let (values, outliers) = prepared.first_fit(window, (&values, &first.choice), grid)?;
@@ -332,26 +332,15 @@ fn reduced_lead(design: &Design) -> f64 {
     f64::from(design.screw().lead()) / std::f64::consts::TAU
 }
 
-/// What was wrong with the trace itself. What it does not excite is told by the parameters.
-fn spoiled(findings: Vec<Finding>) -> impl Iterator<Item = String> {
-    let itself = |kind: FindingKind| {
-        matches!(
-            kind,
-            FindingKind::ClippedEffort
-                | FindingKind::ShiftedEffort
-                | FindingKind::ShiftedSpeed
-                | FindingKind::SignUnchecked
-                | FindingKind::DeadChannel
-                | FindingKind::LeftOut
-                | FindingKind::Rests
-                | FindingKind::Repaired
-                | FindingKind::IgnoredColumns
-        )
-    };
-    findings
-        .into_iter()
-        .filter(move |finding| itself(finding.kind))
-        .map(|finding| finding.message)
+/// Whether signs, units and columns fit: the estimator's words on the trace as a drive with the load's torque, friction whatever it is; and
+/// how late a channel is.
+fn looked_at(trace: &Trace, reduced_lead: f64) -> Result<Option<String>, Failure> {
+    let mut drive = trace.clone();
+    for load in drive.load.iter_mut().flatten() {
+        *load *= reduced_lead;
+    }
+    drive.load_is_effort = true;
+    wrong(&Record::of(&drive, &[]), &drive).map_err(Failure::Data)
 }
 
 /// How sure everything is: both stages' parameters, in the order in which quantities are told; the stages' errors count as independent.

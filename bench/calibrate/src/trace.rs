@@ -4,15 +4,11 @@
 //! |---|---|
 //! | [`columns`] | reads a trace: its columns referred to one coordinate |
 //! | [`free_load`] | a load that never leaves its noise |
-//! | [`clipped`] | where an effort is cut off |
-//! | [`rests`] | where a trace stands still |
 //! | [`known`] | an effort beside the motor's that is known |
 
-pub mod clipped;
 pub mod columns;
 pub mod free_load;
 pub mod known;
-pub mod rests;
 // Tables of cases, a line each.
 #[cfg(test)]
 #[rustfmt::skip]
@@ -137,6 +133,31 @@ impl Trace {
             }
             None => Cow::Borrowed(&self.effort),
         }
+    }
+
+    /// What the reader has repaired and left aside, a sentence each.
+    pub fn told(&self) -> Vec<String> {
+        let repairs = &self.repairs;
+        let mut told = Vec::new();
+        if repairs.missing + repairs.jittered + repairs.repeated > 0 {
+            told.push(format!(
+                "{} missing samples and {} beside their tick were interpolated, {} that stood twice were dropped",
+                repairs.missing, repairs.jittered, repairs.repeated
+            ));
+        }
+        if repairs.free_running > 0 {
+            told.push(format!(
+                "the samples have no even tick, as of a logger that runs free: all {} of them were interpolated at their own times to ticks of {:.4} ms",
+                repairs.free_running,
+                1e3 * self.step
+            ));
+        }
+        told.extend(repairs.left_out.iter().map(LeftOut::told));
+        told.extend(repairs.notes.iter().cloned());
+        if !self.ignored.is_empty() {
+            told.push(format!("columns left aside: {}", self.ignored.join(", ")));
+        }
+        told
     }
 
     /// Whether there is none.

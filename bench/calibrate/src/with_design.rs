@@ -1,11 +1,11 @@
 //! Calibration of a trace of a screw whose design is known: the answer, what its page draws, its sums.
 
 use crate::answer::Calibration;
+use crate::estimator::record::Smoothed;
 use crate::folder::answered::Answered;
 use crate::page::picture::Picture;
 use crate::screw::friction::Screw;
 use crate::screw::{Request, ScrewCalibration, calibrate};
-use crate::signals::{Motion, SmoothingSettings};
 use crate::trace::Trace;
 use epas_design::files::Design;
 use epas_page::failure::Failure;
@@ -27,7 +27,7 @@ pub struct Told {
 pub fn told(trace: &Trace, design: &Design, request: &Request) -> Result<Told, Failure> {
     let found = calibrate(trace, design, request)?;
     Ok(Told {
-        picture: picture(trace, &found)?,
+        picture: picture(trace, &found),
         screw: found.screw,
         answer: found.answer,
     })
@@ -52,9 +52,9 @@ pub fn summed(
 }
 
 /// What the page draws.
-fn picture(trace: &Trace, found: &ScrewCalibration) -> Result<Picture, Failure> {
-    let motion = Motion::of(trace, &SmoothingSettings::default())?;
+fn picture(trace: &Trace, found: &ScrewCalibration) -> Picture {
+    let motion = Smoothed::of(trace);
     let measured = (found.measured.clone(), &*found.residual);
     let sure = &found.uncertainty;
-    Ok(Picture::of(trace, &motion, &found.samples, measured, sure))
+    Picture::of(trace, &motion, &found.samples, measured, sure)
 }

@@ -163,7 +163,7 @@ pub fn record(trace: &Trace) -> Record {
 
 /// The trace with what is found of its known effort: whether the motor's effort holds it already. Some recorders add it, because it is made
 /// at the controller's output; others do not: whichever explains the motion better.
-fn placed(trace: &Trace) -> Cow<'_, Trace> {
+pub fn placed(trace: &Trace) -> Cow<'_, Trace> {
     let Some(known) = &trace.known else {
         return Cow::Borrowed(trace);
     };
@@ -263,7 +263,7 @@ fn answer(
     words: Vec<String>,
 ) -> Calibration {
     let mut cannot_tell = words;
-    cannot_tell.extend(trace.repairs.notes.iter().cloned());
+    cannot_tell.extend(trace.told());
     cannot_tell.extend(untold(record, trace, found));
     Calibration {
         parameters: estimates(found, trace.coordinate),

@@ -53,7 +53,7 @@ impl Drive {
             losses: [log(0.01, 0.15), log(0.01, 0.2)],
             amplitude: log(10.0, 45.0),
             load: log(0.9, 5.6),
-            phase: log(1e-3, 6.28),
+            phase: log(1e-3, TAU),
             noise: [log(2e-3, 0.02), log(5e-3, 0.03)],
             rate: [500, 1000, 2000][(seed % 3) as usize],
             rests: false,
@@ -118,22 +118,24 @@ impl Drive {
         let [mut angles, mut efforts, mut loads] = [Vec::new(), Vec::new(), Vec::new()];
         let mut stood = 0.0;
         let step_of_sensor = TAU / 2_f64.powi(bits as i32);
-        let (mut before, mut seen) = (0.0, 0.0);
+        let (mut before, mut effort) = (0.0, 0.0);
         for step in 0..(seconds / STEP) as usize {
             let time = step as f64 * STEP;
             let load = self.torque_of_load(time);
             let wanted = self.reference(time);
             let rate = (self.reference(time + STEP) - wanted) / STEP;
+            let now = |angle: f64, speed: f64| {
+                let stiff = self.inertia * self.stiffness;
+                stiff * (2500.0 * (wanted - angle) + 75.0 * (rate - speed) / self.stiffness.sqrt())
+            };
             if !self.differences {
-                seen = moving.speed;
+                effort = now(moving.angle, moving.speed);
             } else if step % every == 0 {
+                // A controller that holds its effort for a tick.
                 let counted = (moving.angle / step_of_sensor).round() * step_of_sensor;
-                seen = (counted - before) * self.rate as f64;
+                effort = now(counted, (counted - before) * self.rate as f64);
                 before = counted;
             }
-            let push =
-                2500.0 * (wanted - moving.angle) + 75.0 * (rate - seen) / self.stiffness.sqrt();
-            let effort = self.inertia * self.stiffness * push;
             if step % every == 0 {
                 angles.push(moving.angle);
                 efforts.push(effort + normal(self.noise[0]));

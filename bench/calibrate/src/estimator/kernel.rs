@@ -11,6 +11,12 @@ pub struct Kernel {
     weights: [Vec<f64>; 4],
 }
 
+fn scale(weights: &mut [f64], factor: f64) {
+    for weight in weights {
+        *weight *= factor;
+    }
+}
+
 impl Kernel {
     /// Of `half` samples to each side, 1 or more, of a tick, s.
     pub fn new(half: usize, tick: f64) -> Self {
@@ -31,7 +37,7 @@ impl Kernel {
         };
         let mut phi = sampled(&|_, v| v.powi(4));
         let sum = moment(&phi, 0);
-        phi.iter_mut().for_each(|w| *w /= sum);
+        scale(&mut phi, 1.0 / sum);
         // A correlation with phi' is minus the derivative, one with phi'' the second one, one with phi''' minus the third.
         let mut first = sampled(&|u, v| 8.0 * u * v.powi(3) / (sum * length));
         let mut second =
@@ -40,19 +46,19 @@ impl Kernel {
             (192.0 * u.powi(3) * v - 144.0 * u * v.powi(2)) / (sum * length.powi(3))
         });
         let slope = moment(&first, 1);
-        first.iter_mut().for_each(|w| *w /= slope);
+        scale(&mut first, 1.0 / slope);
         let mean = moment(&second, 0);
         for (w, phi) in second.iter_mut().zip(&phi) {
             *w -= mean * phi;
         }
         let curvature = moment(&second, 2) / 2.0;
-        second.iter_mut().for_each(|w| *w /= curvature);
+        scale(&mut second, 1.0 / curvature);
         let slope = moment(&third, 1);
         for (w, first) in third.iter_mut().zip(&first) {
             *w -= slope * first;
         }
         let jerk = moment(&third, 3) / 6.0;
-        third.iter_mut().for_each(|w| *w /= jerk);
+        scale(&mut third, 1.0 / jerk);
         Self {
             half,
             weights: [phi, first, second, third],

@@ -18,6 +18,9 @@ const DEVIATIONS: f64 = 8.0;
 const DEVIATIONS_OF_SPEED: f64 = 4.0;
 const STANDS: f64 = 0.01;
 
+/// Least length of a rest, s.
+const RESTS: f64 = 0.3;
+
 /// Deviation over mean of a speed that counts as one.
 const ONE_SPEED: f64 = 0.05;
 
@@ -150,6 +153,34 @@ impl Record {
         of(first) == of(last + 1) && of(first).is_some()
     }
 
+    /// Standard deviation of the sensor's noise in a derivative behind a kernel.
+    pub fn noise_in(&self, kernel: &Kernel, derivative: usize) -> f64 {
+        let weights = kernel.weights(self.order(derivative)).iter();
+        self.noise * weights.map(|w| w * w).sum::<f64>().sqrt()
+    }
+
+    /// Where it rests: no progress that its sensor tells for 0.3 s or longer.
+    pub fn rests(&self) -> Vec<Range<usize>> {
+        let mut rests = Vec::new();
+        let mut from = 0;
+        for sample in 1..=self.len() {
+            let moved = self.counted.get(sample).is_none_or(|now| {
+                if self.speed_alone {
+                    now.abs() > self.least
+                } else {
+                    (now - self.counted[from]).abs() >= self.least && *now != self.counted[from]
+                }
+            });
+            if moved {
+                if (sample - from) as f64 * self.tick >= RESTS {
+                    rests.push(from..sample);
+                }
+                from = sample;
+            }
+        }
+        rests
+    }
+
     /// Stretches of one direction for a kernel of a half-width, samples.
     pub fn stretches(&self, half: usize) -> Vec<Stretch> {
         if self.speed_alone {
@@ -209,6 +240,31 @@ pub struct Smoothed {
     pub speed: Vec<f64>,
     /// rad/s^2 or m/s^2.
     pub acceleration: Vec<f64>,
+    /// Standard deviations of the sensor's noise in speed and acceleration.
+    pub noise: [f64; 2],
+}
+
+/// Half-width of the kernel of a smoothed motion, s.
+const SMOOTHED: f64 = 12e-3;
+
+impl Smoothed {
+    /// That of a trace, behind a kernel of 12 ms to each side, four samples at least.
+    pub fn of(trace: &Trace) -> Self {
+        let record = Record::of(trace, &[]);
+        let half = ((SMOOTHED / trace.step).round() as usize).max(4);
+        let kernel = Kernel::new(half, trace.step);
+        let places = if record.speed_alone {
+            &record.path
+        } else {
+            &record.motion
+        };
+        Self {
+            position: kernel.along(0, places),
+            speed: kernel.along(record.order(1), &record.motion),
+            acceleration: kernel.along(record.order(2), &record.motion),
+            noise: [1, 2].map(|k| record.noise_in(&kernel, k)),
+        }
+    }
 }
 
 /// Standard deviation of white noise, by the median of its fourth differences, whose variance is 70 times its own.

@@ -58,13 +58,39 @@ pub fn diagnose(record: &Record, trace: &Trace) -> Diagnosis {
         let word = "no stretch of one direction is long enough to tell anything: move to and fro by more, or faster, than the sensor's steps";
         return Diagnosis::refused(None, word.into());
     };
-    let wrong = load(&found, &names)
-        .or_else(|| hidden_jump(record, &found, &names))
-        .or_else(|| turned(record, &found, &names));
-    if let Some(word) = wrong {
+    if let Some(word) = of_signs(record, &found, &names) {
         return Diagnosis::refused(Some(found), word);
     }
     with_more(record, found, &names)
+}
+
+/// What is wrong with sign, unit or ratio.
+fn of_signs(record: &Record, found: &Estimate, names: &Names<'_>) -> Option<String> {
+    load(found, names)
+        .or_else(|| hidden_jump(record, found, names))
+        .or_else(|| turned(record, found, names))
+}
+
+/// What is wrong with a trace whose friction has another equation, and how late a channel is.
+///
+/// # Errors
+/// Why the trace is refused.
+pub fn wrong(record: &Record, trace: &Trace) -> Result<Option<String>, String> {
+    let names = Names::of(trace);
+    if let Some(word) = ran_over(&record.effort, &names) {
+        return Err(word);
+    }
+    let found = estimate_of(record, &Wanted::default());
+    if let Some(word) = exchanged(record, found.as_ref(), &names) {
+        return Err(word);
+    }
+    let Some(found) = found else {
+        return Ok(None);
+    };
+    if let Some(word) = of_signs(record, &found, &names) {
+        return Err(word);
+    }
+    Ok(late(record, &found, &[]).map(|(_, word)| word))
 }
 
 /// Adds the terms that the residual asks for.
@@ -483,20 +509,24 @@ fn late(record: &Record, found: &Estimate, more: &[Term]) -> Option<(Estimate, S
     Some((better, word))
 }
 
-/// Least share of the residual that a term takes to be named.
+/// Residual with a viscous friction that differs by direction over that without, below which it is named.
 const TAKES: f64 = 0.97;
 
-/// A term more that is sure and takes some of the residual, with the kernel that was chosen.
-fn surely(record: &Record, found: &Estimate, more: &[Term], term: Term) -> Option<Estimate> {
+/// A term more that is twice its interval from zero, with the kernel that was chosen.
+fn surely(
+    record: &Record,
+    found: &Estimate,
+    more: &[Term],
+    (term, settling): (Term, f64),
+) -> Option<Estimate> {
     let wanted = Wanted {
         more: [more, &[term]].concat(),
         lag: !record.speed_alone && found.of(Term::Lag).is_some(),
-        kernel: Some((found.length, found.settling)),
+        kernel: Some((found.length, settling)),
     };
     let other = estimate_of(record, &wanted)?;
     let (value, half) = other.of(term)?;
-    let sure = value.abs() > 2.0 * half;
-    (sure && other.fit.residual_rms < TAKES * found.fit.residual_rms).then_some(other)
+    (value.abs() > 2.0 * half).then_some(other)
 }
 
 /// Viscous friction that differs by direction.
@@ -507,7 +537,10 @@ fn asymmetry(
     names: &Names<'_>,
 ) -> Option<String> {
     found.of(Term::Offset)?;
-    let other = surely(record, found, more, Term::Asymmetry)?;
+    let other = surely(record, found, more, (Term::Asymmetry, found.settling))?;
+    if other.fit.residual_rms > TAKES * found.fit.residual_rms {
+        return None;
+    }
     let ((drag, _), (differs, half)) = (other.of(Term::Viscous)?, other.of(Term::Asymmetry)?);
     let (offset, offset_half) = other.of(Term::Offset)?;
     Some(format!(
@@ -530,14 +563,15 @@ fn stribeck(
 ) -> Option<(Estimate, String)> {
     found.of(Term::Coulomb)?;
     let rows = found.rows.first()?.as_ref()?;
-    let mut speeds: Vec<f64> = rows.sums(record.order(1), &record.motion);
-    speeds.iter_mut().for_each(|speed| *speed = speed.abs());
+    let speeds = rows.sums(record.order(1), &record.motion).into_iter();
+    let mut speeds: Vec<f64> = speeds.map(f64::abs).collect();
     speeds.sort_by(f64::total_cmp);
     let fast = speeds[speeds.len() * 9 / 10];
     let tried = [0.02, 0.05, 0.12, 0.3].map(|share| Term::Stribeck(share * fast));
     let best = tried
         .into_iter()
-        .filter_map(|term| Some((term, surely(record, found, more, term)?)))
+        // Slow rows are those near the turns.
+        .filter_map(|term| Some((term, surely(record, found, more, (term, 0.0))?)))
         .min_by(|one, other| one.1.fit.residual_rms.total_cmp(&other.1.fit.residual_rms))?;
     let term = best.0;
     let Term::Stribeck(speed) = term else {

@@ -2,10 +2,10 @@
 
 use nalgebra::DMatrix;
 
+use super::autocorrelation::effective_rows;
 use super::problem::{Scale, Separable, inner, outer};
 use super::search::{Found, at_bound, slopes};
 use crate::estimator::fit::{Block, fit as least_squares};
-use crate::signals::autocorrelation::effective_rows;
 
 /// Half of a 95 % interval over its standard error.
 pub const QUANTILE: f64 = 1.959_964;

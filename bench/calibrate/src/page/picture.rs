@@ -1,7 +1,7 @@
 //! What the page of a calibration draws, as plain data.
 
+use crate::estimator::record::Smoothed;
 use crate::fit::uncertainty::Uncertainty;
-use crate::signals::Motion;
 use crate::trace::{Coordinate, Trace};
 
 /// A fitted trace, row by row. All lists are as long as `time`.
@@ -42,7 +42,7 @@ impl Picture {
     /// A fit with a row at each of these samples of a trace: what was measured there, and what the model leaves of it.
     pub fn of(
         trace: &Trace,
-        motion: &Motion,
+        motion: &Smoothed,
         samples: &[usize],
         (measured, residual): (Vec<f64>, &[f64]),
         sure: &Uncertainty,

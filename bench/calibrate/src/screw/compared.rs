@@ -1,7 +1,6 @@
 //! Models of friction on a trace of a screw: laws of the literature times the load that both flanks share, and this crate's without and
 //! with memory.
 
-use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::Told;
@@ -10,32 +9,27 @@ use super::friction::{ElementsKind, Screw};
 use super::problem::{ScrewProblem, flank_sum};
 use super::quantities::Values;
 use super::stages::Prepared;
+use crate::estimator::record::Record;
 use crate::fit::problem::{Parameter, Scale, Separable};
 use crate::laws::Cost;
 use crate::models::{
     Beside, Driven, Entry, LITERATURE, LoadShare, Model, Table, WITH_MEMORY, WITHOUT_MEMORY,
     compared,
 };
-use crate::signals::{Motion, SmoothingSettings};
 use crate::trace::Trace;
-use crate::trace::known::placed;
-use crate::trace::rests::rests;
-use epas_page::failure::Failure;
+use crate::without_design::placed;
 
 /// Speeds of a reversal, rad/s: least, first guess, most.
 const REVERSAL_SPEEDS: [f64; 3] = [1e-3, 0.2, 50.0];
 
 /// Models of friction beside each other, on another trace or on the last third of the fitted one.
-pub fn models(
-    prepared: &Prepared<'_>,
-    told: &Told,
-    unseen: Option<&Trace>,
-) -> Result<Table, Failure> {
+pub fn models(prepared: &Prepared<'_>, told: &Told, unseen: Option<&Trace>) -> Table {
     let screw = &prepared.screw;
-    let unseen = unseen.map(beside_known).transpose()?;
-    let other = unseen
-        .as_deref()
-        .map(|unseen| Prepared::new(unseen, &rests(unseen), *screw));
+    let unseen = unseen.map(placed);
+    let other = unseen.as_deref().map(|unseen| {
+        let rests = Record::of(unseen, &[]).rests();
+        Prepared::new(unseen, &rests, *screw)
+    });
     let sides: Vec<(&Prepared<'_>, ScrewProblem<'_>)> = std::iter::once(prepared)
         .chain(&other)
         .map(|side| {
@@ -81,13 +75,7 @@ pub fn models(
         fitted: &sides[0].1,
         unseen: sides.get(1).map(|(_, problem)| problem as &dyn Separable),
     });
-    Ok(compared(&entries))
-}
-
-/// A trace with what is found of its known effort.
-fn beside_known(trace: &Trace) -> Result<Cow<'_, Trace>, Failure> {
-    let motion = Motion::of(trace, &SmoothingSettings::default())?;
-    Ok(placed(trace, &motion))
+    compared(&entries)
 }
 
 /// A trace as a law of the literature is told it.

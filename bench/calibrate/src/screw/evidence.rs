@@ -1,7 +1,7 @@
 //! What a trace of a screw can tell, before anything is fitted.
 
+use crate::estimator::record::Smoothed;
 use crate::estimator::stretches::of_position;
-use crate::signals::Motion;
 use crate::trace::Trace;
 
 /// What a trace excites.
@@ -28,7 +28,7 @@ const MOVES: f64 = 4.0;
 
 impl Evidence {
     /// What a trace excites.
-    pub fn of(trace: &Trace, motion: &Motion) -> Self {
+    pub fn of(trace: &Trace, motion: &Smoothed) -> Self {
         let [speed_noise, acceleration_noise] = motion.noise;
         let samples = motion.speed.len().max(1) as f64;
         let share = |direction: f64| {

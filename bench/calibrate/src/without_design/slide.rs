@@ -81,11 +81,9 @@ impl<'a> Prepared<'a> {
         let sharp = |half: &usize| {
             let kernel = Kernel::new(*half, trace.step);
             let order = record.order(2);
-            let weights = kernel.weights(order).iter();
-            let noise = record.noise * weights.map(|w| w * w).sum::<f64>().sqrt();
             let at = (0..record.len()).step_by(*half);
             let sizes: Vec<f64> = at.map(|k| kernel.at(order, &record.motion, k)).collect();
-            noise <= NOISE * size(&sizes)
+            record.noise_in(&kernel, 2) <= NOISE * size(&sizes)
         };
         let half = LENGTHS.map(of).into_iter().find(sharp);
         let half = half.unwrap_or_else(|| of(LENGTHS[LENGTHS.len() - 1]));
@@ -107,6 +105,7 @@ impl<'a> Prepared<'a> {
             position: smooth(0, places),
             speed: smooth(record.order(1), &record.motion),
             acceleration: smooth(record.order(2), &record.motion),
+            noise: [1, 2].map(|k| record.noise_in(&whole, k)),
         };
         let tick = stride as f64 * trace.step;
         let count = motion.speed.len();
@@ -331,6 +330,7 @@ fn steady(prepared: &Prepared<'_>, beside: &Beside) -> Vec<Delayed> {
         position,
         speed,
         acceleration,
+        ..
     } = &prepared.motion;
     let of = |signal: &[f64], of: &dyn Fn(f64) -> f64| -> Vec<f64> {
         signal.iter().map(|x| of(*x)).collect()

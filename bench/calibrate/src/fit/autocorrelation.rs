@@ -3,18 +3,6 @@
 /// The window of a summed correlation: so many correlation times (Sokal 1997).
 const WINDOW: f64 = 5.0;
 
-/// Lags of a long-run variance: so many correlation times. Bartlett's weights then lose about 4 % of the variance of a first-order
-/// process, 2 rho / (1 - rho^2) over the lags, whatever its memory.
-const LAGS: f64 = 12.0;
-
-/// Autocovariance of rows about zero at lags 0 to `lags`, over the number of rows.
-pub fn autocovariance(rows: &[f64], lags: usize) -> Vec<f64> {
-    let product = |lag: usize| -> f64 { rows.iter().skip(lag).zip(rows).map(|(a, b)| a * b).sum() };
-    (0..=lags.min(rows.len().saturating_sub(1)))
-        .map(|lag| product(lag) / rows.len() as f64)
-        .collect()
-}
-
 /// Rows that count as one: 1 + 2 x the sum of the correlations, over the shortest window that holds five of them; at least 1.
 pub fn correlation_time(rows: &[f64]) -> f64 {
     let power: f64 = rows.iter().map(|x| x * x).sum();
@@ -35,9 +23,4 @@ pub fn correlation_time(rows: &[f64]) -> f64 {
 /// Rows that count as independent.
 pub fn effective_rows(rows: &[f64]) -> f64 {
     rows.len() as f64 / correlation_time(rows)
-}
-
-/// Lags over which a long-run variance is summed.
-pub fn lags(rows: &[f64]) -> usize {
-    ((LAGS * correlation_time(rows)).ceil() as usize).min(rows.len() / 4)
 }
