@@ -165,6 +165,7 @@ impl Law {
             reversal_speed: next(self.passage == Passage::Speed, 0.0),
             breakaway: next(has_breakaway, scales.shortest()),
             bristle_time: next(self.passage == Passage::LuGre, 0.0),
+            shortest_time: 0.1 * scales.tick,
             held: 0.0,
             elements: ProportionalElements::new(1.0, &[whole])?,
             state: ProportionalElements::<ELEMENTS>::VIRGIN,
@@ -188,6 +189,8 @@ pub struct Friction {
     reversal_speed: f64,
     breakaway: f64,
     bristle_time: f64,
+    /// Time over which a bristle's speed is told, s: after a turn just before a sample there would be none.
+    shortest_time: f64,
     /// Friction of a bristle.
     held: f64,
     elements: ProportionalElements<ELEMENTS>,
@@ -258,7 +261,8 @@ impl Friction {
             Passage::AtOnce | Passage::Dahl | Passage::LuGre => {
                 let before = self.held;
                 self.held = bristle(before, turn, level);
-                self.held + self.bristle_time * (self.held - before) / step.time
+                let time = step.time.max(self.shortest_time);
+                self.held + self.bristle_time * (self.held - before) / time
             }
             Passage::Elements => {
                 let limits = SlidingLimits {
