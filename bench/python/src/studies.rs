@@ -5,7 +5,7 @@ use epas_calibrate::folder::population::populations;
 use epas_calibrate::screw::Request;
 use epas_calibrate::trace::columns::Frame;
 use epas_calibrate::with_design;
-use epas_calibrate::without_design::{self, Filters};
+use epas_calibrate::without_design;
 use epas_cli::design_study::{Design as StudiedDesign, Duty, figures};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -169,7 +169,7 @@ pub fn trace_sums(
     let text = text(py, trace)?;
     let design = design.map(|design| design.inner.clone());
     let summed = interruptible(py, move |_| match design {
-        None => without_design::plain(&read(text, None)?, &Filters::default()),
+        None => without_design::plain(&read(text, None)?),
         Some(design) => {
             let frame = Frame::of(&design, ratio);
             let request = Request::default();

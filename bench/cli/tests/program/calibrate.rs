@@ -162,8 +162,6 @@ fn what_cannot_be_is_refused_with_a_word() {
             2,
             "gain_speed",
         ),
-        (&["calibrate", "slide.csv", "--rows", "0"], 2, "cut-off"),
-        (&["calibrate", "slide.csv", "--rows", "400"], 1, "Hz"),
         (&["calibrate", "slide.csv", "--ratio", "2"], 1, "--design"),
         (
             &[

@@ -210,8 +210,6 @@ def calibrate(
     models: bool = True,
     validate: Mapping[str, ArrayLike] | None = None,
     controller: tuple[float, float] | None = None,
-    smoothing: float | None = None,
-    rows: float | None = None,
 ) -> Calibration: ...
 
 def design_figures(
