@@ -252,6 +252,13 @@ fn first_look<'a>(
     let prepared = Prepared::new(trace, &left_out, first.screw);
     let (window, values) = prepared.first_way((first, at_turns), grid)?;
     let (values, outliers) = prepared.first_fit(window, (&values, &first.choice), grid)?;
+    if let Some(late) = prepared.late(window, (&values, &first.choice), grid) {
+        return Err(Failure::Data(format!(
+            "the torque fits the motion and the load best {:.0} ms {}: shift the channels to one clock",
+            1e3 * trace.step * late.unsigned_abs() as f64,
+            if late > 0 { "earlier" } else { "later" }
+        )));
+    }
     if !outliers.is_empty() {
         sentences.push(format!(
             "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",
@@ -317,6 +324,11 @@ fn plausible(design: &Design, evidence: &Evidence) -> Result<(), Failure> {
         return Err(Failure::Data(format!(
             "a travel of {travel:.3} m with balls at {speed:.1} m/s does not fit this screw: is the angle in degrees (nut_position_deg), or the motor's with a ratio (--ratio)?"
         )));
+    }
+    if evidence.range == 0.0 {
+        return Err(Failure::Data(
+            "the position never moves: no friction shows".into(),
+        ));
     }
     let pressed = design.caged.clearance.gap() < 0.0;
     if !pressed && evidence.load.is_some() && evidence.largest_load() == 0.0 {

@@ -232,7 +232,14 @@ fn load(found: &Estimate, names: &Names<'_>) -> Option<String> {
         return None;
     }
     let cause = if (-1.4..-0.7).contains(&carried) {
-        format!("turn the sign of {}", names.load)
+        // A turned effort turns the friction too.
+        let coulomb = found.of(Term::Coulomb).map_or(0.0, |(coulomb, _)| coulomb);
+        let turned = if coulomb < 0.0 {
+            names.effort
+        } else {
+            names.load
+        };
+        format!("turn the sign of {turned}")
     } else if (700.0..1400.0).contains(&carried) {
         format!(
             "{} is in m{}, or {} in k{}",

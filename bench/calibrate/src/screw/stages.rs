@@ -38,6 +38,10 @@ const WAY: f64 = 4.0;
 const OUTLIER: f64 = 6.0;
 const OUTLIERS: f64 = 0.02;
 
+/// Longest shift of the effort that is sought, s; from so many ticks and this much less left with it, a trace is refused.
+const LATEST: f64 = 0.03;
+const LATE: (isize, f64) = (3, 1.3);
+
 /// Factors of the first guess of the speed law from which a fit starts.
 const STARTS: [f64; 3] = [1.0, 0.2, 5.0];
 
@@ -261,6 +265,43 @@ impl<'a> Prepared<'a> {
             .collect();
         let exceptions = (beyond.len() as f64) < OUTLIERS * rows.len() as f64;
         Ok((values, if exceptions { beyond } else { Vec::new() }))
+    }
+
+    /// By how many samples the effort comes later than everything else, where another shift leaves far less of it.
+    ///
+    /// The estimator's own test is a lag of the motion, which a load of the right time hides.
+    pub fn late(
+        &self,
+        window: Window,
+        (values, choice): (&Values, &Choice),
+        grid: &Arc<Grid>,
+    ) -> Option<isize> {
+        let problem = self.sliding(window, (values, choice), grid)?;
+        let here = linearised(&problem, values)?;
+        let solver = solver(&here.columns)?;
+        let model = problem.model(values);
+        let most = (LATEST / self.record.tick).round() as isize;
+        let left = |shift: isize| -> f64 {
+            let last = self.record.len() as isize - 1;
+            let shifted: Vec<f64> = (0..=last)
+                .map(|sample| self.record.effort[(sample + shift).clamp(0, last) as usize])
+                .collect();
+            let mut rows = problem.rows().sums(0, &shifted);
+            for (row, model) in rows.iter_mut().zip(&model) {
+                *row -= model;
+            }
+            let found = solver(&rows);
+            for (column, value) in here.columns.iter().zip(found.iter()) {
+                for (row, slope) in rows.iter_mut().zip(column) {
+                    *row -= value * slope;
+                }
+            }
+            rows.iter().map(|row| row * row).sum::<f64>().sqrt()
+        };
+        let shifts = (-most..=most).map(|shift| (shift, left(shift)));
+        let (best, least) = shifts.min_by(|one, other| one.1.total_cmp(&other.1))?;
+        let refused = best.abs() >= LATE.0 && LATE.1 * least < left(0);
+        refused.then_some(best)
     }
 
     /// The first stage from values near its answer.
