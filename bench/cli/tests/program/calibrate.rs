@@ -141,7 +141,7 @@ fn a_slide_is_told_with_intervals_that_hold_the_truth() {
         assert!(found < 0.03, "{law}: {found}");
     }
     let sentences = answer["cannot_tell"].to_string();
-    assert!(sentences.contains("no load is measured"), "{sentences}");
+    assert!(sentences.contains("losses in proportion to a load"), "{sentences}");
     assert!(folder.path().join("out/report.html").exists());
 }
 
