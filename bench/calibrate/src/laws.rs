@@ -230,7 +230,8 @@ impl Friction {
                 match whole.halves() {
                     Some((there, back)) => {
                         self.follow(&there);
-                        self.follow(&back)
+                        // A bristle's damping is that of its mean rate over the tick: the way back may be as short as one likes.
+                        self.follow(&Step { time: tick, ..back })
                     }
                     None => self.follow(&whole),
                 }
@@ -315,6 +316,29 @@ mod tests {
         assert!(wrong.count() <= 8 * 23);
         assert_eq!(directions(&[0.0, 0.1, 0.0], 0.2), [0.0; 3]);
         assert!(directions(&[], 0.2).is_empty());
+    }
+
+    /// However late in a tick a motion turns round, the damping of LuGre is at most that of two levels in a tick.
+    #[test]
+    fn a_late_turn_is_no_spike() {
+        let scales = Scales {
+            speed: 1.0,
+            travel: 1.0,
+            resolution: 1e-7,
+            tick: 1e-3,
+        };
+        let law = crate::models::LITERATURE[3];
+        let (share, breakaway, time) = (1.0, 2e-7, 0.5 * scales.tick);
+        let friction = law
+            .friction(&scales, &[share, 0.1, breakaway, time])
+            .unwrap();
+        let position = [0.0, 1e-3, 1.5e-3, 1.4999e-3];
+        let speed = [1.0, 1.0, 1.0, -1e-3];
+        let found = friction.along(&position, &speed, scales.tick);
+        assert!(
+            found.iter().all(|friction| friction.abs() <= 2.0),
+            "{found:?}"
+        );
     }
 
     #[test]

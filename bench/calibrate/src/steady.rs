@@ -17,7 +17,11 @@ use crate::without_design;
 use epas_page::failure::Failure;
 
 /// Fewest runs that are one measurement.
-const FEWEST: usize = 3;
+const FEWEST: usize = 2;
+
+/// Share of the efforts that is left from which on nothing is explained, and from which on it is said.
+const NOTHING: f64 = 0.9;
+const MUCH: f64 = 0.1;
 
 /// Residual with friction that changes towards rest over that without it, from which on it is told.
 const TAKES: f64 = 0.9;
@@ -66,8 +70,7 @@ pub fn of_folder(
             Err(Failure::Data(word)) => refused.push(format!("left out: {word}")),
             Err(other) => return Err(other),
         }
-        let steady = |trace: &Trace| without_design::record(trace).one_speed().is_some();
-        if number + 1 == LOOKED_AT && !traces.iter().any(steady) {
+        if number + 1 == LOOKED_AT && told(&traces)?.is_none() {
             return Ok(None);
         }
     }
@@ -88,7 +91,12 @@ pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
         .iter()
         .map(|record| record.one_speed().map(|(speed, _)| speed))
         .collect();
-    if speeds.iter().flatten().count() < FEWEST {
+    let one_speed = |record: &Record| {
+        record.one_speed().is_some()
+            || estimate(std::slice::from_ref(record), &Wanted::default())
+                .is_some_and(|found| found.of(Term::OneSpeed).is_some())
+    };
+    if records.iter().filter(|record| one_speed(record)).count() < FEWEST {
         return Ok(None);
     }
     let coordinate = traces[0].coordinate;
@@ -103,6 +111,13 @@ pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
     };
     let plain = estimate(&records, &Wanted::default()).ok_or_else(untold)?;
     let found = dip(&records, &speeds, &plain).unwrap_or(plain);
+    let left = found.fit.relative;
+    if left > NOTHING {
+        return Err(Failure::Data(format!(
+            "nothing explains the runs: {:.0} % of their efforts are left; has each effort its sign, and is it in one unit?",
+            100.0 * left
+        )));
+    }
     let mut answer = Calibration {
         parameters: without_design::estimates(&found, coordinate),
         residual_rms: found.fit.residual_rms,
@@ -142,6 +157,21 @@ pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
         .filter_map(|((trace, record), speed)| run(trace, record, (*speed)?, &found))
         .collect();
     runs.sort_by(|one, other| one.speed.total_cmp(&other.speed));
+    let off = |run: &Run| (run.effort - run.model).abs();
+    let farthest = runs
+        .iter()
+        .max_by(|one, other| off(one).total_cmp(&off(other)));
+    if let Some(run) = farthest.filter(|_| left > MUCH) {
+        answer.cannot_tell.push(format!(
+            "the numbers leave {:.0} % of the efforts, most of run {}: look at it, and whether friction differs by direction",
+            100.0 * left,
+            run.name
+        ));
+    }
+    let loaded = traces.iter().all(|trace| trace.load.is_some());
+    if loaded && !has(Term::Driving) && !has(Term::BackDriving) && !has(Term::Loss) {
+        answer.cannot_tell.push(without_design::OF_ONE_SIZE.into());
+    }
     Ok(Some(Steady {
         coordinate,
         answer,
@@ -167,7 +197,11 @@ fn dip(records: &[Record], speeds: &[Option<f64>], plain: &Estimate) -> Option<E
     sizes.sort_by(f64::total_cmp);
     let (slow, fast) = (*sizes.first()?, *sizes.last()?);
     let places = 8;
-    let tried = (0..=places).map(|k| slow * (fast / slow).powf(f64::from(k) / f64::from(places)));
+    let most = fast / 4.0;
+    if most <= slow {
+        return None;
+    }
+    let tried = (0..=places).map(|k| slow * (most / slow).powf(f64::from(k) / f64::from(places)));
     tried
         .filter_map(|speed| {
             let term = Term::Stribeck(speed);
@@ -177,7 +211,8 @@ fn dip(records: &[Record], speeds: &[Option<f64>], plain: &Estimate) -> Option<E
             };
             let found = estimate(records, &wanted)?;
             let (value, half) = found.of(term)?;
-            (value.abs() > 2.0 * half).then_some(found)
+            let (coulomb, _) = found.of(Term::Coulomb)?;
+            (value.abs() > 2.0 * half && coulomb > 0.0).then_some(found)
         })
         .filter(|found| found.fit.residual_rms < TAKES * plain.fit.residual_rms)
         .min_by(|one, other| one.fit.residual_rms.total_cmp(&other.fit.residual_rms))

@@ -276,6 +276,9 @@ fn answer(
     }
 }
 
+/// The sentence on a load that keeps its size.
+pub const OF_ONE_SIZE: &str = "losses in proportion to the load: it keeps its size; the friction and the offset hold what is lost at this load, and are right at it alone; change the load";
+
 /// What the trace does not tell, and what would.
 fn untold(record: &Record, trace: &Trace, found: &choice::Estimate) -> Vec<String> {
     let has = |term: Term| found.of(term).is_some();
@@ -302,19 +305,19 @@ fn untold(record: &Record, trace: &Trace, found: &choice::Estimate) -> Vec<Strin
     } else {
         sentences.push("offset: the motion goes one way, and it is one number with the friction; move both ways".into());
     }
+    let losses = [Term::Driving, Term::BackDriving].map(has);
     match (&trace.load, trace.load_is_effort) {
         (None, _) => sentences.push("losses in proportion to a load: none is measured; measure its torque (load_torque) or force".into()),
-        (Some(_), true) => {
-            let quadrants = [
-                (Term::Driving, "driving_loss: no load that changes opposes the motion"),
-                (Term::BackDriving, "back_driving_loss: no load that changes assists the motion"),
-            ];
-            let missing = quadrants.into_iter().filter(|(term, _)| !has(*term));
-            sentences.extend(missing.map(|(_, word)| word.to_string()));
+        (Some(_), true) if losses == [false; 2] => sentences.push(OF_ONE_SIZE.into()),
+        (Some(_), true) if losses != [true; 2] => {
+            let (name, side) = if losses[0] {
+                ("back_driving_loss", "assists")
+            } else {
+                ("driving_loss", "opposes")
+            };
+            sentences.push(format!("{name}: no load that changes {side} the motion"));
         }
-        (Some(_), false) if !has(Term::Loss) => {
-            sentences.push("load_loss: the load keeps its size, and its loss is one number with the Coulomb friction".into());
-        }
+        (Some(_), false) if !has(Term::Loss) => sentences.push(OF_ONE_SIZE.into()),
         _ => {}
     }
     sentences

@@ -41,7 +41,7 @@ pub mod untrusted {
         crate::simulate::accepts(text)
     }
 
-    /// Reads a trace as `calibrate` does, without a design and with one, smooths it and looks whether it may be believed;
+    /// Reads a trace as `calibrate` does, without a design and with one, and calibrates it as a drive;
     /// its number of samples.
     pub fn calibration_trace(text: &[u8]) -> Result<usize, String> {
         epas_calibrate::accepts(text)

@@ -273,6 +273,14 @@ fn one(records: &[Record], runs: &Runs, wanted: &Wanted, tried: Tried) -> Option
         return None;
     }
     let fit = fit(&blocks, &|coefficients| meaning(&terms, coefficients));
+    if !fit
+        .values
+        .iter()
+        .chain(&fit.half_widths)
+        .all(|x| x.is_finite())
+    {
+        return None;
+    }
     Some(Estimate {
         values: fit.values.clone(),
         half_widths: fit.half_widths.clone(),

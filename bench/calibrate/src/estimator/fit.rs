@@ -63,6 +63,10 @@ fn solved(normal: &DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
     if let Some(factor) = normal.clone().cholesky() {
         return factor.solve(right);
     }
+    // Numbers that are none have no singular values: the search for them would not end.
+    if !normal.iter().all(|x| x.is_finite()) {
+        return DVector::from_element(right.len(), f64::NAN);
+    }
     let singular = normal.clone().svd(true, true);
     let least = RANK * singular.singular_values.max();
     singular
@@ -96,7 +100,11 @@ pub fn fit(blocks: &[Block], meaning: Meaning<'_>) -> Fit {
         let left = solved(&(&normal - &piece.normal), &(&right - &piece.right));
         meaning(&unscaled(&left))
     };
-    let inverse = normal.clone().pseudo_inverse(0.0).unwrap_or(normal.clone());
+    let sound = normal.iter().all(|x| x.is_finite());
+    let inverse = sound
+        .then(|| normal.clone().pseudo_inverse(0.0).ok())
+        .flatten();
+    let inverse = inverse.unwrap_or_else(|| normal.clone());
     let whole = jackknife((&stretches, false), &values, &inverse, &without);
     let parts = jackknife((&short, true), &values, &inverse, &without);
     let half_widths = (0..count)

@@ -119,6 +119,7 @@ fn with_more(record: &Record, found: Estimate, names: &Names<'_>) -> Diagnosis {
             words.push(word);
         }
     }
+    words.extend(doubts(&found, names));
     if found.fit.relative > NOTHING {
         let word = format!(
             "nothing in the trace explains its effort: {:.0} % of it are left; is the right column the {}, and does what moves belong to it?",
@@ -133,6 +134,51 @@ fn with_more(record: &Record, found: Estimate, names: &Names<'_>) -> Diagnosis {
         refusal: None,
         wave,
     }
+}
+
+/// Share of the effort that is left from which on it is said.
+const MUCH: f64 = 0.2;
+
+/// What no drive has: friction or losses below zero, much of the effort unexplained.
+fn doubts(found: &Estimate, names: &Names<'_>) -> Vec<String> {
+    let below = |term: Term| {
+        let (value, half) = found.of(term)?;
+        (value < -half).then_some((value, half))
+    };
+    let mut words = Vec::new();
+    for (term, name) in [
+        (Term::Coulomb, "Coulomb friction"),
+        (Term::OneSpeed, "friction"),
+        (Term::Viscous, "viscous friction"),
+    ] {
+        if let Some((value, half)) = below(term) {
+            words.push(format!(
+                "{name} is {} +- {}, below zero, which none is: the equation lacks a term; the numbers beside it are in doubt too",
+                digits(value, 3),
+                digits(half, 2)
+            ));
+        }
+    }
+    for (term, name) in [
+        (Term::Driving, "driving loss"),
+        (Term::BackDriving, "back-driving loss"),
+    ] {
+        if let Some((value, half)) = below(term) {
+            words.push(format!(
+                "the {name} is {} +- {}, below zero, which none is: {} reads too much or too little, or has an offset",
+                digits(value, 3),
+                digits(half, 2),
+                names.load
+            ));
+        }
+    }
+    if (MUCH..NOTHING).contains(&found.fit.relative) {
+        words.push(format!(
+            "the equation leaves {:.0} % of the effort: something acts that is not in it, and the intervals do not hold that",
+            100.0 * found.fit.relative
+        ));
+    }
+    words
 }
 
 /// Names of a trace's columns, and units.
@@ -561,7 +607,10 @@ fn asymmetry(
     ))
 }
 
-/// Friction that is larger, or smaller, near rest: `s T_S exp(-|w|/w_s)`, the speed one of four over the range of speeds.
+/// Speeds over which friction changes towards rest, over one that a tenth of the rows exceed. A faster one is a drag that is not linear.
+const STRIBECK: [f64; 3] = [0.02, 0.05, 0.12];
+
+/// Friction that is larger, or smaller, near rest: `s T_S exp(-|w|/w_s)`, the speed one of three, well below those of the motion.
 fn stribeck(
     record: &Record,
     found: &Estimate,
@@ -574,7 +623,7 @@ fn stribeck(
     let mut speeds: Vec<f64> = speeds.map(f64::abs).collect();
     speeds.sort_by(f64::total_cmp);
     let fast = speeds[speeds.len() * 9 / 10];
-    let tried = [0.02, 0.05, 0.12, 0.3].map(|share| Term::Stribeck(share * fast));
+    let tried = STRIBECK.map(|share| Term::Stribeck(share * fast));
     let best = tried
         .into_iter()
         // Slow rows are those near the turns.
@@ -591,7 +640,8 @@ fn stribeck(
     };
     let better = estimate_of(record, &wanted)?;
     let (rise, half) = better.of(term)?;
-    if rise.abs() < 2.0 * half {
+    let (coulomb, _) = better.of(Term::Coulomb)?;
+    if rise.abs() < 2.0 * half || coulomb <= 0.0 {
         return None;
     }
     let word = format!(

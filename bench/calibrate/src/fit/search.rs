@@ -304,7 +304,9 @@ fn within_bounds(
         |one: &[f64], other: &[f64]| -> f64 { one.iter().zip(other).map(|(a, b)| a * b).sum() };
     let sizes: Vec<f64> = columns
         .iter()
-        .map(|column| dot(column, column).sqrt().max(f64::MIN_POSITIVE))
+        .map(|column| dot(column, column).sqrt())
+        // A column of zeros stays one: the product of two smallest numbers would be none.
+        .map(|size| if size > 0.0 { size } else { 1.0 })
         .collect();
     let mut normal = DMatrix::zeros(count, count);
     for i in 0..count {
@@ -326,7 +328,9 @@ fn within_bounds(
         };
         let small = DMatrix::from_fn(free.len(), free.len(), |i, j| normal[(free[i], free[j])]);
         let wanted = DVector::from_fn(free.len(), |i, _| rest(free[i]));
-        let solved = if free.is_empty() {
+        // Numbers that are none have no singular values: the search for them would not end.
+        let sound = small.iter().all(|x| x.is_finite());
+        let solved = if free.is_empty() || !sound {
             wanted
         } else {
             let parts = small.svd(true, true);

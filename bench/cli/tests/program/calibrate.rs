@@ -92,31 +92,34 @@ fn a_slide_is_told_with_intervals_that_hold_the_truth() {
         folder.path(),
         &["--controller", &controller, "--validate", "other.csv"],
     );
-    // Half a tick of the controller's hold is a delay, which the plain model puts into the mass: measured 0.4 %, and 0.9 % of the
-    // friction. Its interval knows nothing of it.
-    for (name, truth, allowed) in [
-        ("mass", MASS, 0.01),
-        ("viscous_friction", VISCOUS, 0.05),
-        ("coulomb_friction", COULOMB, 0.03),
-        ("offset", OFFSET, 0.03),
+    // Half a tick of the controller's hold is a delay, which the estimate puts into its numbers: measured 0.2 % of the mass, 0.7 % of both
+    // frictions. Its intervals know nothing of it.
+    for (name, truth) in [
+        ("mass", MASS),
+        ("viscous_friction", VISCOUS),
+        ("coulomb_friction", COULOMB),
+        ("offset", OFFSET),
     ] {
         let told = answer["parameters"][name]["value"].as_f64().unwrap();
-        assert!((told / truth - 1.0).abs() < allowed, "{name}: {told}");
+        assert!((told / truth - 1.0).abs() < 0.01, "{name}: {told}");
     }
     let models = answer["models"].as_array().unwrap();
-    let error = |name: &str, key: &str| {
-        let model = models.iter().find(|model| model["name"] == name).unwrap();
-        model[key].as_f64().unwrap()
-    };
-    // The truth is Coulomb and viscous: with the delay of the hold that model closes the loop to the encoder's noise and the backward
-    // Euler rule; nothing does much better on what was not fitted.
+    let model = |name: &str| models.iter().find(|model| model["name"] == name).unwrap();
+    // The truth is Coulomb and viscous, to which every law comes down: it closes the loop on what was not fitted, and none does much better.
     let truth = "Coulomb and viscous, with the drive's other terms";
-    for key in ["relative_error", "relative_error_unseen"] {
-        assert!(error(truth, key) < 0.02, "{key}: {}", error(truth, key));
+    let error = |name: &str| model(name)["relative_error_unseen"].as_f64().unwrap();
+    for law in [
+        truth,
+        "Stribeck",
+        "Dahl",
+        "LuGre",
+        "this crate, with memory",
+    ] {
+        let found = error(law);
+        assert!(0.5 * error(truth) < found && found < 0.02, "{law}: {found}");
     }
-    // With the delay the intervals hold the truth; three thousandths are left to the twenty explicit steps of the truth, which are 5 %
-    // of the tick of which the delay is half (measured: the delay's interval begins 1.3e-3 above it).
-    let values = &models.iter().find(|model| model["name"] == truth).unwrap()["values"];
+    // With the delay the intervals hold the truth.
+    let values = &model(truth)["values"];
     for (name, truth) in [
         ("mass", MASS),
         ("viscous_friction_forward", VISCOUS),
@@ -127,18 +130,10 @@ fn a_slide_is_told_with_intervals_that_hold_the_truth() {
     ] {
         let number = |key: &str| values[name][key].as_f64().unwrap();
         assert!(
-            number("low") < 1.003 * truth && 0.997 * truth < number("high"),
+            number("low") < truth && truth < number("high"),
             "{name}: {}",
             values[name]
         );
-    }
-    for law in ["Stribeck", "Dahl", "LuGre", "this crate, with memory"] {
-        let found = error(law, "relative_error_unseen");
-        assert!(
-            found > 0.5 * error(truth, "relative_error_unseen"),
-            "{law}: {found}"
-        );
-        assert!(found < 0.03, "{law}: {found}");
     }
     let sentences = answer["cannot_tell"].to_string();
     assert!(sentences.contains("losses in proportion to a load"), "{sentences}");
