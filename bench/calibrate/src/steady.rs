@@ -17,7 +17,7 @@ use crate::without_design;
 use epas_page::failure::Failure;
 
 /// Fewest runs that are one measurement.
-const FEWEST: usize = 2;
+const FEWEST: usize = 3;
 
 /// Share of the efforts that is left from which on nothing is explained, and from which on it is said.
 const NOTHING: f64 = 0.9;

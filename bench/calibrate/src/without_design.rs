@@ -105,7 +105,8 @@ pub fn calibrate(
     })
 }
 
-/// One trace of many, and what it adds to the others: numbers of the drive itself, without the gain of a load's channel.
+/// One trace of many, and what it adds to the others: numbers of the drive itself, without the gain of a load's channel and the friction at
+/// one speed.
 ///
 /// # Errors
 /// A trace from which nothing can be told, with the cause.
@@ -121,7 +122,6 @@ pub fn plain(trace: &Trace) -> Result<(Calibration, Answered), Failure> {
                 | Term::Viscous
                 | Term::Offset
                 | Term::Coulomb
-                | Term::OneSpeed
                 | Term::Driving
                 | Term::BackDriving
         )
@@ -129,6 +129,12 @@ pub fn plain(trace: &Trace) -> Result<(Calibration, Answered), Failure> {
     let places: Vec<usize> = (0..found.terms.len())
         .filter(|k| own(&found.terms[*k]))
         .collect();
+    if places.is_empty() {
+        return Err(Failure::Data(format!(
+            "{}: it moves at one speed in one direction, and adds no number to other traces; give a folder of three such runs or more",
+            trace.name
+        )));
+    }
     // What other kernels say otherwise stretches each deviation of the jackknife to the interval's.
     let deviation = |k: usize| found.half_widths[k] / HALF_INTERVAL;
     let covariance = &found.fit.covariance;

@@ -136,7 +136,10 @@ fn a_slide_is_told_with_intervals_that_hold_the_truth() {
         );
     }
     let sentences = answer["cannot_tell"].to_string();
-    assert!(sentences.contains("losses in proportion to a load"), "{sentences}");
+    assert!(
+        sentences.contains("losses in proportion to a load"),
+        "{sentences}"
+    );
     assert!(folder.path().join("out/report.html").exists());
 }
 
