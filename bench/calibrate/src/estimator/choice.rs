@@ -137,29 +137,39 @@ fn with_spare(records: &[Record], wanted: &Wanted, spare: f64) -> Option<Estimat
     }
     let apart = apart(records, wanted, &best);
     for (k, half) in best.half_widths.iter_mut().enumerate() {
-        *half = half.hypot(of_length[k]).hypot(of_way[k]);
-        if best.terms[k] == Term::Inertia {
-            *half = half.hypot(apart);
-        }
+        *half = half.hypot(of_length[k]).hypot(of_way[k]).hypot(apart[k]);
     }
     Some(best)
 }
 
-/// What channels that are sampled up to half a tick apart move the inertia by: the viscous friction times the time, or what the records
-/// themselves tell of it where that is less.
-fn apart(records: &[Record], wanted: &Wanted, best: &Estimate) -> f64 {
-    let (Some((drag, _)), None) = (best.of(Term::Viscous), best.of(Term::Lag)) else {
-        return 0.0;
+/// What channels that are sampled up to half a tick apart move each number by: what an effort that comes a tick later does, times half of it,
+/// or times what the records themselves tell of the shift where that is less. An effort that a controller holds for a tick acts half a tick
+/// later than it is written down.
+fn apart(records: &[Record], wanted: &Wanted, best: &Estimate) -> Vec<f64> {
+    let none = vec![0.0; best.values.len()];
+    if best.of(Term::Inertia).is_none() || best.of(Term::Lag).is_some() {
+        return none;
+    }
+    let at = |records: &[Record], lag: bool| {
+        let wanted = Wanted {
+            lag,
+            kernel: Some((best.length, best.settling)),
+            ..wanted.clone()
+        };
+        estimate(records, &wanted)
+    };
+    let later: Vec<Record> = records.iter().map(Record::with_later_effort).collect();
+    let (Some(now), Some(later)) = (at(records, false), at(&later, false)) else {
+        return none;
     };
     let tick = records.iter().map(|record| record.tick).fold(0.0, f64::max);
-    let late = Wanted {
-        lag: true,
-        kernel: Some((best.length, best.settling)),
-        ..wanted.clone()
-    };
-    let told = estimate(records, &late).and_then(|late| late.of(Term::Lag));
+    let told = at(records, true).and_then(|late| late.of(Term::Lag));
     let told = told.map_or(f64::INFINITY, |(lag, half)| lag.abs() + half);
-    drag * told.min(0.5 * tick)
+    let ticks = (told / tick).min(0.5);
+    let pairs = now.values.iter().zip(&later.values);
+    pairs
+        .map(|(now, later)| ticks * (now - later).abs())
+        .collect()
 }
 
 /// The fit with one kernel, and twice what one of twice the length says otherwise in its intervals.
