@@ -142,34 +142,47 @@ fn with_spare(records: &[Record], wanted: &Wanted, spare: f64) -> Option<Estimat
     Some(best)
 }
 
-/// What channels that are sampled up to half a tick apart move each number by: what an effort that comes a tick later does, times half of it,
-/// or times what the records themselves tell of the shift where that is less. An effort that a controller holds for a tick acts half a tick
-/// later than it is written down.
+/// What channels that are sampled up to half a tick apart move each number by: an effort that is later by a time `D` is less by
+/// `D (J x''' + b x'' + tau')`, which the columns explain in part. `D` is half a tick, or what the records themselves tell of it where that is
+/// less. An effort that a controller holds for a tick acts half a tick later than it is written down.
 fn apart(records: &[Record], wanted: &Wanted, best: &Estimate) -> Vec<f64> {
     let none = vec![0.0; best.values.len()];
-    if best.of(Term::Inertia).is_none() || best.of(Term::Lag).is_some() {
+    let (Some((inertia, _)), None) = (best.of(Term::Inertia), best.of(Term::Lag)) else {
+        return none;
+    };
+    let drag = best.of(Term::Viscous).map_or(0.0, |(drag, _)| drag);
+    let changed = |record: &Record, rows: &Rows| {
+        let mut block = Block::of(record, rows, &best.terms);
+        let motion = |k: usize| rows.sums(record.order(k), &record.motion);
+        let of_motion = motion(3).into_iter().zip(motion(2));
+        block.target = of_motion
+            .map(|(jerk, acceleration)| inertia * jerk + drag * acceleration)
+            .collect();
+        if let Some(load) = record.load.as_deref().filter(|_| record.load_is_effort) {
+            for (target, rate) in block.target.iter_mut().zip(rows.sums(1, load)) {
+                *target += rate;
+            }
+        }
+        block
+    };
+    let pairs = records.iter().zip(&best.rows);
+    let blocks: Vec<Block> = pairs
+        .filter_map(|(record, rows)| Some(changed(record, rows.as_ref()?)))
+        .collect();
+    if blocks.is_empty() {
         return none;
     }
-    let at = |records: &[Record], lag: bool| {
-        let wanted = Wanted {
-            lag,
-            kernel: Some((best.length, best.settling)),
-            ..wanted.clone()
-        };
-        estimate(records, &wanted)
+    let late = Wanted {
+        lag: true,
+        kernel: Some((best.length, best.settling)),
+        ..wanted.clone()
     };
-    let later: Vec<Record> = records.iter().map(Record::with_later_effort).collect();
-    let (Some(now), Some(later)) = (at(records, false), at(&later, false)) else {
-        return none;
-    };
-    let tick = records.iter().map(|record| record.tick).fold(0.0, f64::max);
-    let told = at(records, true).and_then(|late| late.of(Term::Lag));
+    let told = estimate(records, &late).and_then(|late| late.of(Term::Lag));
     let told = told.map_or(f64::INFINITY, |(lag, half)| lag.abs() + half);
-    let ticks = (told / tick).min(0.5);
-    let pairs = now.values.iter().zip(&later.values);
-    pairs
-        .map(|(now, later)| ticks * (now - later).abs())
-        .collect()
+    let tick = records.iter().map(|record| record.tick).fold(0.0, f64::max);
+    let shift = told.min(0.5 * tick);
+    let slopes = fit(&blocks, &<[f64]>::to_vec).values;
+    slopes.iter().map(|slope| (shift * slope).abs()).collect()
 }
 
 /// The fit with one kernel, and twice what one of twice the length says otherwise in its intervals.

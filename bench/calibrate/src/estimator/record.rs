@@ -137,15 +137,6 @@ impl Record {
         }
     }
 
-    /// The same with the effort a tick later.
-    #[must_use]
-    pub fn with_later_effort(&self) -> Self {
-        let mut later = self.clone();
-        let last = later.effort.last().copied();
-        later.effort = self.effort.iter().skip(1).copied().chain(last).collect();
-        later
-    }
-
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.effort.len()
