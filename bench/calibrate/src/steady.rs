@@ -70,7 +70,7 @@ pub fn of_folder(
             Err(Failure::Data(word)) => refused.push(format!("left out: {word}")),
             Err(other) => return Err(other),
         }
-        if number + 1 == LOOKED_AT && told(&traces)?.is_none() {
+        if number + 1 == LOOKED_AT && !steady(&records(&traces)) {
             return Ok(None);
         }
     }
@@ -81,24 +81,33 @@ pub fn of_folder(
     Ok(found)
 }
 
-/// What traces tell together, where some of them are runs at one speed; `None` where they are not.
-///
-/// # Errors
-/// Traces of two coordinates, and runs from which nothing can be told.
-pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
-    let records: Vec<Record> = traces.iter().map(without_design::record).collect();
-    let speeds: Vec<Option<f64>> = records
-        .iter()
-        .map(|record| record.one_speed().map(|(speed, _)| speed))
-        .collect();
+fn records(traces: &[Trace]) -> Vec<Record> {
+    traces.iter().map(without_design::record).collect()
+}
+
+/// Whether some of them are runs at one speed, or move at one by turns.
+fn steady(records: &[Record]) -> bool {
     let one_speed = |record: &Record| {
         record.one_speed().is_some()
             || estimate(std::slice::from_ref(record), &Wanted::default())
                 .is_some_and(|found| found.of(Term::OneSpeed).is_some())
     };
-    if records.iter().filter(|record| one_speed(record)).count() < FEWEST {
+    records.iter().filter(|record| one_speed(record)).count() >= FEWEST
+}
+
+/// What traces tell together, where some of them are runs at one speed; `None` where they are not.
+///
+/// # Errors
+/// Traces of two coordinates, and runs from which nothing can be told.
+pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
+    let records = records(traces);
+    if !steady(&records) {
         return Ok(None);
     }
+    let speeds: Vec<Option<f64>> = records
+        .iter()
+        .map(|record| record.one_speed().map(|(speed, _)| speed))
+        .collect();
     let coordinate = traces[0].coordinate;
     if let Some(other) = traces.iter().find(|trace| trace.coordinate != coordinate) {
         return Err(Failure::Data(format!(

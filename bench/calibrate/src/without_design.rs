@@ -24,7 +24,7 @@ use crate::estimator::choice::{self, Wanted, estimate};
 use crate::estimator::fit::Block;
 use crate::estimator::record::Record;
 use crate::estimator::terms::Term;
-use crate::estimator::words::{Diagnosis, diagnose};
+use crate::estimator::words::diagnose;
 use crate::folder::answered::Answered;
 use crate::folder::population::HALF_INTERVAL;
 use crate::models::rank;
@@ -222,20 +222,8 @@ fn told(
     record: &Record,
     trace: &Trace,
 ) -> Result<(choice::Estimate, Vec<String>, Option<f64>), Failure> {
-    let Diagnosis {
-        estimate,
-        words,
-        refusal,
-        wave,
-    } = diagnose(record, trace);
-    match (refusal, estimate) {
-        (None, Some(found)) => Ok((found, words, wave)),
-        (refusal, _) => {
-            Err(Failure::Data(refusal.unwrap_or_else(|| {
-                "nothing can be told from the trace".into()
-            })))
-        }
-    }
+    let found = diagnose(record, trace).map_err(Failure::Data)?;
+    Ok((found.estimate, found.words, found.wave))
 }
 
 /// Terms of the load.

@@ -39,6 +39,23 @@ pub fn unwrap(angle: &mut [f64]) -> Result<(), String> {
     Ok(())
 }
 
+/// Median: of an even number the upper of the two in the middle; 0 of none.
+pub fn median(mut values: Vec<f64>) -> f64 {
+    let middle = values.len() / 2;
+    if values.is_empty() {
+        return 0.0;
+    }
+    *values.select_nth_unstable_by(middle, f64::total_cmp).1
+}
+
+/// Mean and standard deviation.
+pub fn moments(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
+    let count = values.clone().count().max(1) as f64;
+    let mean = values.clone().sum::<f64>() / count;
+    let square: f64 = values.map(|x| (x - mean).powi(2)).sum();
+    (mean, (square / count).sqrt())
+}
+
 /// Smallest and largest value.
 pub fn range(signal: &[f64]) -> (f64, f64) {
     signal

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::channels::median;
+
 /// Distance from the tick, in ticks, within which a sample counts as on it.
 const ON_TICK: f64 = 0.1;
 /// Distance, in ticks, below which nothing is interpolated.
@@ -225,16 +227,8 @@ pub fn cubic(times: [f64; 4], values: [f64; 4], time: f64, closest: f64) -> Opti
 
 /// Median of the mean ticks of so many samples.
 pub fn median_tick(times: &[f64], samples: usize) -> f64 {
-    let mut ticks: Vec<f64> = times
-        .iter()
-        .zip(times.iter().skip(samples))
-        .map(|(a, b)| (b - a) / samples as f64)
-        .collect();
-    let middle = ticks.len() / 2;
-    if middle >= ticks.len() {
-        return 0.0;
-    }
-    *ticks.select_nth_unstable_by(middle, f64::total_cmp).1
+    let pairs = times.iter().zip(times.iter().skip(samples));
+    median(pairs.map(|(a, b)| (b - a) / samples as f64).collect())
 }
 
 fn check_tick(tick: f64) -> Result<(), String> {
@@ -337,12 +331,11 @@ fn grid(times: &[f64]) -> Result<(f64, f64), String> {
             times.len()
         ));
     }
-    let mut offsets: Vec<f64> = follow(times, step)
+    let offsets: Vec<f64> = follow(times, step)
         .map(|(tick, time)| time - first - step * tick)
         .collect();
     // Most samples are on their tick, whatever the others do.
-    let middle = offsets.len() / 2;
-    let offset = *offsets.select_nth_unstable_by(middle, f64::total_cmp).1;
+    let offset = median(offsets.clone());
     let square: f64 = offsets.iter().map(|x| (x - offset) * (x - offset)).sum();
     let rough = (square / offsets.len() as f64).sqrt() / step;
     if !(rough <= MOST_JITTER) {

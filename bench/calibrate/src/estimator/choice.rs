@@ -1,9 +1,10 @@
 //! What a record tells, with the kernel's length and the way after a turn that tell it best.
 
-use super::fit::{Block, Fit, fit, quantile};
+use super::fit::{Block, Fit, fit};
 use super::record::Record;
 use super::rows::Rows;
 use super::terms::Term;
+use crate::trace::channels::moments;
 
 /// Shortest and longest half-width of the kernel, s, its fewest samples, and the ratio of neighbours.
 const LENGTHS: [f64; 2] = [6e-3, 0.14];
@@ -366,14 +367,6 @@ fn size(columns: &[Vec<f64>]) -> f64 {
     (squares / count.max(1) as f64).sqrt()
 }
 
-/// Mean and standard deviation.
-fn moments(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
-    let count = values.clone().count().max(1) as f64;
-    let mean = values.clone().sum::<f64>() / count;
-    let square: f64 = values.map(|x| (x - mean).powi(2)).sum();
-    (mean, (square / count).sqrt())
-}
-
 /// The terms that records tell: those whose columns stand over the sensor's noise and differ from one another.
 fn terms(
     records: &[Record],
@@ -503,9 +496,4 @@ fn noisy(records: &[Record], rows: &[Option<Rows>], blocks: &[Block], terms: &[T
     let own = fit(&alone, &<[f64]>::to_vec);
     let own: f64 = own.residual.iter().map(|r| r * r).sum();
     noise > NOISY * own
-}
-
-/// Half-width of an interval from a standard deviation and an effective number of pieces.
-pub fn half_width(deviation: f64, pieces: f64) -> f64 {
-    quantile(pieces - 1.0) * deviation
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use super::kernel::Kernel;
 use super::stretches::{Stretch, of_position, of_speed};
 use crate::trace::Trace;
-use crate::trace::channels::resolution;
+use crate::trace::channels::{median, resolution};
 
 /// Shares of a kernel's half-width: within which a step of the sensor must come, and over which the sign of a load is told.
 pub const QUARTER: usize = 4;
@@ -269,19 +269,14 @@ impl Smoothed {
 
 /// Standard deviation of white noise, by the median of its fourth differences, whose variance is 70 times its own.
 pub fn white_noise(signal: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> = signal
+    let sizes = signal
         .windows(5)
         .filter_map(|window| match window {
             [a, b, c, d, e] => Some((a - 4.0 * b + 6.0 * c - 4.0 * d + e).abs()),
             _ => None,
         })
         .collect();
-    if sizes.is_empty() {
-        return 0.0;
-    }
-    let middle = sizes.len() / 2;
-    let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
-    *median / (0.6745 * 70_f64.sqrt())
+    median(sizes) / (0.6745 * 70_f64.sqrt())
 }
 
 /// A counted position on straight lines between the instants at which its count changes, each half way between both counts.

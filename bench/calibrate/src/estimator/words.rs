@@ -13,55 +13,49 @@ use super::choice::{Estimate, Wanted, estimate};
 use super::record::Record;
 use super::terms::Term;
 use crate::page::shown::digits;
-use crate::trace::channels::{range, resolution};
+use crate::trace::channels::{median, range, resolution};
 use crate::trace::{Coordinate, Trace};
 
 /// Share of the effort that is left from which on nothing is explained, and from which on a fit is doubted.
 const NOTHING: f64 = 0.9;
 const DOUBTED: f64 = 0.5;
 
-/// What a diagnosis says.
+/// What a trace tells with all that was found in it.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
-    /// What the trace tells with all that was found.
-    pub estimate: Option<Estimate>,
+    /// The numbers.
+    pub estimate: Estimate,
     /// Sentences on what was found.
     pub words: Vec<String>,
-    /// Why the trace is refused.
-    pub refusal: Option<String>,
     /// The ripple over the position, or the load that follows it: its wave number, 1/rad or 1/m.
     pub wave: Option<f64>,
 }
 
-impl Diagnosis {
-    fn refused(estimate: Option<Estimate>, word: String) -> Self {
-        Self {
-            estimate,
-            words: Vec::new(),
-            refusal: Some(word),
-            wave: None,
-        }
-    }
+/// What a record tells, and what is in it beside the equation.
+///
+/// # Errors
+/// Why the trace is refused: what is wrong with it.
+pub fn diagnose(record: &Record, trace: &Trace) -> Result<Diagnosis, String> {
+    let names = Names::of(trace);
+    let Some(found) = screened(record, &names)? else {
+        return Err("no stretch of one direction is long enough to tell anything: move to and fro by more, or faster, than the sensor's steps".into());
+    };
+    with_more(record, found, &names)
 }
 
-/// What a record tells, and what is wrong with it.
-pub fn diagnose(record: &Record, trace: &Trace) -> Diagnosis {
-    let names = Names::of(trace);
-    if let Some(word) = ran_over(&record.effort, &names) {
-        return Diagnosis::refused(None, word);
+/// What a record tells by the equation alone, where nothing is wrong with its columns; nothing where no stretch is long enough.
+fn screened(record: &Record, names: &Names<'_>) -> Result<Option<Estimate>, String> {
+    if let Some(word) = ran_over(&record.effort, names) {
+        return Err(word);
     }
     let found = estimate_of(record, &Wanted::default());
-    if let Some(word) = exchanged(record, found.as_ref(), &names) {
-        return Diagnosis::refused(found, word);
+    if let Some(word) = exchanged(record, found.as_ref(), names) {
+        return Err(word);
     }
-    let Some(found) = found else {
-        let word = "no stretch of one direction is long enough to tell anything: move to and fro by more, or faster, than the sensor's steps";
-        return Diagnosis::refused(None, word.into());
-    };
-    if let Some(word) = of_signs(record, &found, &names) {
-        return Diagnosis::refused(Some(found), word);
-    }
-    with_more(record, found, &names)
+    let wrong = found
+        .as_ref()
+        .and_then(|found| of_signs(record, found, names));
+    wrong.map_or(Ok(found), Err)
 }
 
 /// What is wrong with sign, unit or ratio.
@@ -76,25 +70,14 @@ fn of_signs(record: &Record, found: &Estimate, names: &Names<'_>) -> Option<Stri
 /// # Errors
 /// Why the trace is refused.
 pub fn wrong(record: &Record, trace: &Trace) -> Result<Option<String>, String> {
-    let names = Names::of(trace);
-    if let Some(word) = ran_over(&record.effort, &names) {
-        return Err(word);
-    }
-    let found = estimate_of(record, &Wanted::default());
-    if let Some(word) = exchanged(record, found.as_ref(), &names) {
-        return Err(word);
-    }
-    let Some(found) = found else {
-        return Ok(None);
-    };
-    if let Some(word) = of_signs(record, &found, &names) {
-        return Err(word);
-    }
-    Ok(late(record, &found, &[]).map(|(_, word)| word))
+    let found = screened(record, &Names::of(trace))?;
+    Ok(found
+        .and_then(|found| late(record, &found, &[]))
+        .map(|(_, word)| word))
 }
 
 /// Adds the terms that the residual asks for.
-fn with_more(record: &Record, found: Estimate, names: &Names<'_>) -> Diagnosis {
+fn with_more(record: &Record, found: Estimate, names: &Names<'_>) -> Result<Diagnosis, String> {
     let mut words = Vec::new();
     let (mut found, mut wave) = (found, None);
     let moves = found.of(Term::OneSpeed).is_none();
@@ -126,14 +109,13 @@ fn with_more(record: &Record, found: Estimate, names: &Names<'_>) -> Diagnosis {
             100.0 * found.fit.relative,
             names.effort
         );
-        return Diagnosis::refused(Some(found), word);
+        return Err(word);
     }
-    Diagnosis {
-        estimate: Some(found),
+    Ok(Diagnosis {
+        estimate: found,
         words,
-        refusal: None,
         wave,
-    }
+    })
 }
 
 /// Share of the effort that is left from which on it is said.
@@ -356,10 +338,7 @@ fn energy(record: &Record) -> f64 {
     let own = record.load.as_deref().filter(|_| record.load_is_effort);
     let at = |sample: usize| record.effort[sample] - own.map_or(0.0, |load| load[sample]);
     let efforts: Vec<f64> = (0..record.len()).map(at).collect();
-    let mut sorted = efforts.clone();
-    let middle = sorted.len() / 2;
-    let (_, median, _) = sorted.select_nth_unstable_by(middle, f64::total_cmp);
-    let median = *median;
+    let median = median(efforts.clone());
     let (mut work, mut size) = (0.0, 0.0);
     for (effort, pair) in efforts.iter().zip(record.path.windows(2)) {
         let part = (effort - median) * (pair[1] - pair[0]);
@@ -494,10 +473,7 @@ pub fn strongest_wave(places: &[f64], residual: &[f64]) -> Option<(f64, f64)> {
     let powers: Vec<f64> = line[..bins].iter().map(Complex::norm_sqr).collect();
     let first = (2.0 * PERIODS).ceil() as usize;
     let top = (first..bins).max_by(|one, other| powers[*one].total_cmp(&powers[*other]))?;
-    let mut sorted = powers[first..].to_vec();
-    let middle = sorted.len() / 2;
-    let (_, median, _) = sorted.select_nth_unstable_by(middle, f64::total_cmp);
-    if powers[top] < HEIGHT * *median {
+    if powers[top] < HEIGHT * median(powers[first..].to_vec()) {
         return None;
     }
     let total: f64 = residual.iter().map(|rest| (rest - mean).powi(2)).sum();

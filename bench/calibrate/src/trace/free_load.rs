@@ -3,6 +3,8 @@
 //! The means of blocks of noise vary by far less than its samples. A load that the screw carries varies with the manoeuvre, or where it
 //! alternates fast, the effort follows it.
 
+use crate::trace::channels::moments;
+
 /// Length of a block, s, and fewest samples of one.
 const BLOCK: (f64, usize) = (0.5, 64);
 /// Fewest blocks.
@@ -20,8 +22,10 @@ pub fn noise(load: &[f64], effort: &[f64], step: f64) -> Option<(f64, f64)> {
     if blocks < FEWEST {
         return None;
     }
-    let (mean, deviation) = moments(load);
-    let means = load.chunks_exact(block).map(|block| moments(block).0);
+    let (mean, deviation) = moments(load.iter().copied());
+    let means = load
+        .chunks_exact(block)
+        .map(|block| moments(block.iter().copied()).0);
     let means: Vec<f64> = means.collect();
     let far = load
         .iter()
@@ -30,22 +34,15 @@ pub fn noise(load: &[f64], effort: &[f64], step: f64) -> Option<(f64, f64)> {
     let chance = 1.0 / (blocks as f64).sqrt();
     let noise = deviation > 0.0
         && !far
-        && moments(&means).1 <= MEANS * deviation
+        && moments(means.iter().copied()).1 <= MEANS * deviation
         && correlation(load, effort).abs() <= chance;
     noise.then_some((mean, deviation))
 }
 
-/// Mean and standard deviation.
-fn moments(signal: &[f64]) -> (f64, f64) {
-    let count = signal.len().max(1) as f64;
-    let mean = signal.iter().sum::<f64>() / count;
-    let square: f64 = signal.iter().map(|x| (x - mean) * (x - mean)).sum();
-    (mean, (square / count).sqrt())
-}
-
 /// Correlation of two signals; 0 where one never changes.
 pub fn correlation(one: &[f64], other: &[f64]) -> f64 {
-    let ((mean, deviation), (mean_other, deviation_other)) = (moments(one), moments(other));
+    let ((mean, deviation), (mean_other, deviation_other)) =
+        (moments(one.iter().copied()), moments(other.iter().copied()));
     let pairs = one.iter().zip(other);
     let both: f64 = pairs
         .map(|(one, other)| (one - mean) * (other - mean_other))

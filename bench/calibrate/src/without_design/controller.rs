@@ -4,6 +4,7 @@ use crate::controller::Controller;
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::Record;
 use crate::trace::Trace;
+use crate::trace::channels::median;
 use crate::trace::known::KnownEffort;
 use crate::without_design::slide::size;
 
@@ -169,11 +170,5 @@ fn within(trace: &Trace, sample: usize) -> f64 {
 
 /// Standard deviation of most of the values, by the median of their sizes.
 fn robust_spread(values: &[f64]) -> f64 {
-    let mut sizes: Vec<f64> = values.iter().map(|value| value.abs()).collect();
-    let middle = sizes.len() / 2;
-    if sizes.is_empty() {
-        return 0.0;
-    }
-    let (_, median, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
-    1.4826 * *median
+    1.4826 * median(values.iter().map(|value| value.abs()).collect())
 }

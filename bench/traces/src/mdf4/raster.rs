@@ -9,6 +9,7 @@ use std::f64::consts::TAU;
 
 use super::columns::{Column, Table, Times};
 use super::samples::Samples;
+use crate::channels::median;
 use crate::units::{Dimension, Quantity, Unit, cut};
 
 /// Largest share of samples that may be invalid: what `calibrate` fills.
@@ -201,9 +202,7 @@ impl Curve {
                 times.len()
             ));
         }
-        let mut ticks: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        let middle = ticks.len() / 2;
-        let tick = *ticks.select_nth_unstable_by(middle, f64::total_cmp).1;
+        let tick = median(times.windows(2).map(|pair| pair[1] - pair[0]).collect());
         let angle = track.unit.dimension == Dimension::Angle
             && matches!(
                 track.quantity,
