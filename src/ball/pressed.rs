@@ -3,6 +3,7 @@
 //! The control interrupt evaluates it: the numbers of two knots around the load are blended, and a ball's answer is three polynomials in the
 //! deviations of the two grooves at its position. Nothing is solved, and no ball has a state of its own but its position.
 
+mod neighbours;
 mod node;
 mod numbers;
 
@@ -12,11 +13,12 @@ use crate::train::IMPEDANCE_RANGE;
 use node::KnotInterval;
 use numbers::IMPEDANCES;
 
-pub use node::{BallKnot, BallNode, KNOTS};
-pub use numbers::{BallNumbers, FreeMotion, LARGEST_GRIP, LARGEST_WORK, POWERS};
+pub use neighbours::{LoadedBall, NEIGHBOUR_KNOTS, NeighbourLaw, NeighbourNumbers, Pressed};
+pub use node::{BallKnot, BallNode, KNOTS, Knot, NeighbourKnot};
+pub use numbers::{BallNumbers, FreeMotion, LARGEST_WORK, POWERS};
 
-/// Largest mean friction force between balls that a law holds, over `mu W`.
-const HELD_RUBBING: f32 = 0.05;
+/// Largest friction of both neighbours of a ball that a law holds, over `mu W`.
+const HELD_RUBBING: f32 = 0.3;
 
 /// Least and largest `mu W` that count, N.
 const SLIDING_LOADS: [f32; 2] = [1e-6, 5e5];
@@ -37,6 +39,18 @@ pub struct BallLaw<const NODES: usize> {
     pub deviations: [f32; 2],
     /// Axial load of one ball at which the preload's unloaded side lifts off, N, 0 to 1e7; 0 without a preload.
     pub lift_off: f32,
+}
+
+/// What the balls of a row have in common beside their law.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RowConstants {
+    /// Friction of two balls that press over the force along the track: friction coefficient between balls over the cosine of the chord's angle.
+    pub ball_friction: f32,
+    /// Tangent of the chord's angle: outward force of two balls that press, over the force along the track.
+    pub outward: f32,
+    /// Half the nominal speed against the nut, m per unit of nut speed.
+    pub half_speed: f32,
 }
 
 /// Friction coefficient times load, N, within what keeps impedances within those of a train.
@@ -157,7 +171,6 @@ impl<const NODES: usize> BallLaw<NODES> {
             speed: motion.speed,
             impedance: motion.impedance * load,
             torque: motion.torque * load,
-            grip: motion.grip,
         }
     }
 
@@ -177,16 +190,46 @@ impl<const NODES: usize> BallLaw<NODES> {
         node.unheld[branch & 1] >> (knot % KNOTS) & 1 == 0
     }
 
-    /// Whether balls that rub on each other are held, by friction force and load `W`, N, both of one ball in the mean or both summed over all balls: up to
-    /// a friction force of 0.05 `mu W`.
-    ///
-    /// A ball that is rubbed more needs less of net push than in proportion to that force. Where balls deviate in long waves, each alike to its
-    /// neighbours, forces and what is wrong with them grow from ball to ball: torque off by 2 % rms below this limit, 4 % at it, 14 % at twice as much
-    /// (240 rows of 37 balls of lin-3.6 in waves, friction of 0.05 to 0.15 between balls).
+    /// What neighbours change in balls under a load `W`, N, with a friction coefficient and these numbers of [`Self::numbers`]; `ball_friction` between
+    /// balls, `outward` the tangent of the chord's angle, `half_speed` half the nominal speed against the nut.
     #[inline(always)]
     #[must_use]
-    pub fn holds_rubbing(&self, load: f32, friction: FrictionInterval, rubbing: f32) -> bool {
-        rubbing <= HELD_RUBBING * friction.friction() * load
+    pub fn neighbours(
+        &self,
+        load: f32,
+        branch: usize,
+        friction: FrictionInterval,
+        numbers: &BallNumbers,
+        row: RowConstants,
+    ) -> NeighbourLaw {
+        let found = self.nodes[friction.node() % NODES].neighbours(branch, load);
+        let found = if NODES == 1 {
+            found
+        } else {
+            let above = &self.nodes[(friction.node() + 1) % NODES];
+            found.towards(&above.neighbours(branch, load), friction.fraction())
+        };
+        NeighbourLaw {
+            numbers: found.on_chord(friction.friction() * row.outward),
+            ball_friction: row.ball_friction,
+            held_speed: numbers.held_speed(),
+            slope: numbers.slope / sliding_load(friction, load),
+            curvature: row.half_speed * numbers.work,
+        }
+    }
+
+    /// `mu W` of a ball, N, under a load `W`, N, within what a law counts.
+    #[inline(always)]
+    #[must_use]
+    pub fn sliding(&self, load: f32, friction: FrictionInterval) -> f32 {
+        sliding_load(friction, load)
+    }
+
+    /// Whether the torque is accurate by the friction of both neighbours on the ball that is rubbed most, N, and its `mu W`, N: up to 0.3 of it.
+    #[inline(always)]
+    #[must_use]
+    pub fn holds_rubbing(&self, rubbing: f32, sliding: f32) -> bool {
+        rubbing <= HELD_RUBBING * sliding
     }
 }
 

@@ -16,7 +16,7 @@ use super::outputs::UncagedOutputs;
 use super::reversal::Reversal;
 use crate::ball::LoadShare;
 use crate::ball::folded::{FrictionInterval, node_octaves};
-use crate::ball::pressed::BallLaw;
+use crate::ball::pressed::{BallLaw, RowConstants};
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
 
@@ -65,12 +65,10 @@ pub struct UncagedConstants<const N: usize, const NODES: usize = 1> {
     /// The configuration's friction coefficient.
     friction: FrictionInterval,
     circuit: Circuit,
-    /// Friction coefficient of ball and ball.
-    ball_friction: f32,
+    /// What the balls have in common beside their law.
+    row: RowConstants,
     /// Deviations of one unit of the maps of screw and nut, over the law's largest.
     units: [f32; 2],
-    /// Nominal speed of a ball against the nut, m per unit of nut speed, halved.
-    half_speed: f32,
     /// Load of the ball that carries most over the mean one.
     heaviest: f32,
     /// Whether all balls carry the same load.
@@ -188,9 +186,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             friction: law.interval(friction),
             node_octaves: node_octaves(&law.frictions()),
             circuit,
-            ball_friction,
+            row: configuration.row(),
             units: [units.0 / screw, units.1 / nut],
-            half_speed: 0.5 * speed,
             heaviest: load_shares.heaviest().share(),
             even: load_shares.are_even(),
             tick,

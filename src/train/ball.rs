@@ -1,12 +1,14 @@
 //! What a train keeps of one ball.
 
+use super::grip::Grip;
+use super::losses::RubbedBall;
 use crate::error::Range;
 use crate::stored::{Port, Refusal, Stored};
 
 /// Forces that balls may press with, in the unit of speed times impedance: what 255 balls of the largest impedance do.
 const FORCES: Range = Range::new(0.0, 1e12);
 
-/// One ball of a train: 32 bytes, of which two words hold one thing after the other in the phases of a tick.
+/// One ball of a train: 36 bytes, of which two words hold one thing after the other in the phases of a tick.
 ///
 /// | | taken in | at the end of a cluster | settled |
 /// |---|---|---|---|
@@ -28,6 +30,8 @@ pub(super) struct Ball {
     of_cluster: f32,
     /// Part of the force behind it that the ball in front feels; 1 where no neighbour rubs on it.
     transmitted: f32,
+    /// Change of the friction torque with the speed, N m.
+    torque_slope: f32,
     /// Place on the track, as a part of its length in units of 2^-32.
     position: u32,
     /// Sixteenths of a unit beyond the position, 0 to 15.
@@ -37,7 +41,7 @@ pub(super) struct Ball {
     rubs: bool,
 }
 
-const _: () = assert!(size_of::<Ball>() == 32);
+const _: () = assert!(size_of::<Ball>() == 36);
 
 /// Taken in: what the ball would do on its own.
 impl Ball {
@@ -49,6 +53,7 @@ impl Ball {
         force: 0.0,
         of_cluster: 0.0,
         transmitted: 1.0,
+        torque_slope: 0.0,
         position: 0,
         sixteenths: 0,
         others: 0,
@@ -63,11 +68,20 @@ impl Ball {
         self.slack = slack;
     }
 
-    /// Neighbours rub on it: it passes on this part of the force behind it.
+    /// A ball that neighbours rub on, and its [`slack`](Self::slack).
     #[inline(always)]
-    pub(super) fn set_rubbed(&mut self, transmitted: f32) {
+    pub(super) fn take_in_rubbed(&mut self, rubbed: &RubbedBall, slack: f32) {
+        let grip = Grip::within(rubbed.grip);
         self.rubs = true;
-        self.transmitted = transmitted;
+        self.transmitted = grip.transmitted();
+        self.torque_slope = rubbed.torque_slope;
+        self.take_in(rubbed.speed, rubbed.impedance * grip.of_impedance(), slack);
+    }
+
+    /// Change of its friction torque with its speed, N m.
+    #[inline(always)]
+    pub(super) fn torque_slope(&self) -> f32 {
+        self.torque_slope
     }
 
     /// No neighbour rubs on it.

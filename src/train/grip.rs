@@ -10,18 +10,19 @@
 /// but for a factor from ball to ball. Weighed by the product of the factors of all balls ahead, the net pushes on a cluster add up to
 /// zero as without friction, so that clusters are joined as ever.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Grip {
+pub(super) struct Grip {
     transmitted: f32,
     per_growth: f32,
 }
 
 /// Largest size of `r`: with it a force falls or grows by 1.9 from ball to ball.
-pub(crate) const LARGEST_GRIP: f32 = 0.3;
+const LARGEST_GRIP: f32 = 0.3;
 
 impl Grip {
-    /// Of this `r`, at most [`LARGEST_GRIP`] in size.
+    /// Of this `r`, limited to [`LARGEST_GRIP`] in size.
     #[inline(always)]
-    pub(crate) const fn within(grip: f32) -> Self {
+    pub(super) fn within(grip: f32) -> Self {
+        let grip = limited_grip(grip);
         let per_growth = 1.0 / (1.0 + grip);
         Self {
             transmitted: (1.0 - grip) * per_growth,
@@ -31,13 +32,13 @@ impl Grip {
 
     /// `k`: part of the force behind the ball that the ball in front feels.
     #[inline(always)]
-    pub(crate) const fn transmitted(&self) -> f32 {
+    pub(super) const fn transmitted(&self) -> f32 {
         self.transmitted
     }
 
     /// Factor of the impedance of a ball on which its neighbours rub.
     #[inline(always)]
-    pub(crate) const fn of_impedance(&self) -> f32 {
+    pub(super) const fn of_impedance(&self) -> f32 {
         self.per_growth
     }
 }
@@ -56,6 +57,7 @@ pub(crate) fn limited_grip(grip: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::losses::{Losses, RubbedBall};
     use super::super::press::Press;
 
     const BALLS: usize = 9;
@@ -85,7 +87,17 @@ mod tests {
             room[round % BALLS] = if round % 2 == 0 { f32::INFINITY } else { 0.08 };
             let grip: [f32; BALLS] = core::array::from_fn(|_| 0.6 * random(&mut seed) - 0.3);
             let mut press = Press::<BALLS>::new();
-            assert!(press.solve_rubbing(&free, &impedance, &room, &grip));
+            let balls: [RubbedBall; BALLS] = core::array::from_fn(|j| RubbedBall {
+                speed: free[j],
+                impedance: impedance[j],
+                grip: grip[j],
+                torque_slope: 0.0,
+            });
+            assert!(
+                press
+                    .solve_rubbing(&balls, &room, &Losses::default())
+                    .is_some()
+            );
             let forces: [f32; BALLS] = core::array::from_fn(|j| press.forces().nth(j).unwrap());
             let speeds: [f32; BALLS] = core::array::from_fn(|j| press.speeds().nth(j).unwrap());
             let largest = forces.iter().copied().fold(0.0, f32::max);
@@ -118,7 +130,13 @@ mod tests {
         let (mut smooth, mut rubbing) = (Press::<BALLS>::new(), Press::<BALLS>::new());
         let room = [0.0, 0.0, 1e-3, 0.0, 0.0, 0.0, 0.0, 2e-3, f32::INFINITY];
         assert!(smooth.solve(&free, &[500.0; BALLS], &room));
-        assert!(rubbing.solve_rubbing(&free, &[500.0; BALLS], &room, &[0.0; BALLS]));
+        let balls = free.map(|speed| RubbedBall {
+            speed,
+            impedance: 500.0,
+            ..RubbedBall::default()
+        });
+        let found = rubbing.solve_rubbing(&balls, &room, &Losses::default());
+        assert!(found.is_some());
         for (one, other) in smooth.forces().zip(rubbing.forces()) {
             assert!((one - other).abs() < 1e-5, "{one} {other}");
         }

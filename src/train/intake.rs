@@ -1,17 +1,12 @@
 //! A tick of a train: each ball is taken in once, from the front backwards, then all are joined, settled and moved.
 
-use core::mem::ManuallyDrop;
-
 use super::ball::Ball;
-use super::grip::Grip;
+use super::losses::{Losses, RubbedBall, RubbedRow};
 use super::positions::Train;
-use super::press::{IMPEDANCE_RANGE, InputCheck};
+use super::press::InputCheck;
 use super::settle::Pressing;
 use super::track::Rooms;
 use super::track::{Motion, SIXTEENTHS};
-
-/// Impedance of a ball for which the scene gave no values: the least allowed, so that it follows its neighbours.
-const DEFAULT_IMPEDANCE: f32 = IMPEDANCE_RANGE.0;
 
 /// A tick of a train that has begun: the balls that are still to come, from the last one (the front of the row)
 /// backwards to the first.
@@ -26,6 +21,8 @@ pub(crate) struct Intake<'train, const N: usize> {
     /// Travel of the nominal speed in this tick, in units.
     travel: f32,
     ahead: Ahead,
+    /// Ball that was foremost in the last tick.
+    overlap: usize,
 }
 
 /// What a ball has to know of the one in front of it.
@@ -34,12 +31,13 @@ struct Ahead {
     free_speed: f32,
 }
 
-/// One ball that is to be taken in: it asks for its free speed and impedance. Dropped without an answer it runs at
-/// the nominal speed and hardly pushes.
+/// One ball that is to be taken in: it asks for its free speed and impedance.
 #[must_use = "a ball needs its free speed and impedance"]
 pub(crate) struct FreeBall<'intake> {
     ball: &'intake mut Ball,
     ahead: &'intake mut Ahead,
+    /// Force of the ball behind by the pass before.
+    force_behind: f32,
 }
 
 impl<const N: usize> Train<N> {
@@ -57,14 +55,20 @@ impl<const N: usize> Train<N> {
     /// [`Press::solve`](super::Press::solve), whose answer is returned: where it is false, all balls move with the
     /// nominal speed and press on none.
     pub fn step(&mut self, free: &[f32], impedance: &[f32], travel: f32) -> bool {
-        let mut check = InputCheck::of_lists(self.press.balls().len(), [free, impedance]);
+        let mut check =
+            InputCheck::of_lengths(self.press.balls().len(), [free.len(), impedance.len()]);
         let (travel, mut ahead) = self.begin(travel);
         let inputs = free.iter().zip(impedance);
         for (ball, (&speed, &impedance)) in self.press.balls_mut().iter_mut().zip(inputs).rev() {
             check.add(speed, impedance);
-            ahead.take_in(ball, speed, impedance);
+            let slack = ahead.slack(ball, speed);
+            ball.take_in(speed, impedance, slack);
         }
-        self.finish::<false>(travel, &ahead, check.passed());
+        let overlap = self.press.foremost();
+        self.complete(&ahead.rooms, overlap);
+        let motion = self.motion(travel);
+        self.press.join::<false>(check.passed());
+        self.press.settle(motion);
         check.passed()
     }
 
@@ -76,6 +80,7 @@ impl<const N: usize> Train<N> {
             left: self.balls().min(N),
             travel,
             ahead,
+            overlap: self.press.foremost(),
             train: self,
         }
     }
@@ -93,22 +98,12 @@ impl<const N: usize> Train<N> {
         (travel, ahead)
     }
 
-    /// Joins, settles and moves the balls; where some input does not count, all move at the nominal speed.
-    #[inline(always)]
-    fn finish<const RUBBED: bool>(&mut self, travel: f32, ahead: &Ahead, valid: bool) -> Pressing {
-        self.complete(&ahead.rooms);
-        let motion = self.motion(travel);
-        self.press.join::<RUBBED>(valid);
-        self.press.settle::<RUBBED>(motion)
-    }
-
     /// Puts in the two slacks that a walk from the front backwards cannot know: that of the last ball, because the ball in
     /// front of it, the first, comes at the end; and that of the ball that was foremost in the last tick. That tick moved
     /// it first and the ball in front of it last: these two pairs alone may overlap by rounding.
     #[inline(always)]
-    fn complete(&mut self, rooms: &Rooms) {
+    fn complete(&mut self, rooms: &Rooms, foremost: usize) {
         let last = usize::from(self.press.last());
-        let foremost = self.press.foremost();
         let balls = self.press.balls_mut();
         for index in [last, foremost] {
             let ahead = if index == last { 0 } else { index + 1 };
@@ -137,46 +132,78 @@ impl<const N: usize> Train<N> {
     }
 }
 
-impl<const N: usize> Intake<'_, N> {
+impl<'train, const N: usize> Intake<'train, N> {
     /// The next ball, backwards from the last one; none when all have come.
     #[inline(always)]
     pub(crate) fn next_ball(&mut self) -> Option<FreeBall<'_>> {
         self.left = self.left.checked_sub(1)?;
-        let ball = self.train.press.places.get_mut(self.left)?;
+        let press = &mut self.train.press;
+        let behind = self
+            .left
+            .checked_sub(1)
+            .unwrap_or(usize::from(press.last()));
+        let force_behind = press.places.get(behind).map_or(0.0, Ball::force);
+        let ball = press.places.get_mut(self.left)?;
         Some(FreeBall {
             ball,
             ahead: &mut self.ahead,
+            force_behind,
         })
     }
 
-    /// Which balls press on each other, and how hard; moves all balls. Balls that have not come are taken as dropped.
+    /// Which balls press on each other, and how hard; moves all balls.
     #[inline(always)]
     pub(crate) fn press(self) -> Pressing {
-        self.end::<false>()
+        self.train.complete(&self.ahead.rooms, self.overlap);
+        let motion = self.train.motion(self.travel);
+        self.train.press.join::<false>(true);
+        self.train.press.settle(motion)
     }
 
-    /// The same for balls that rub on each other.
+    /// The same for balls that rub on each other, with what they lose.
     #[inline(always)]
-    pub(crate) fn press_rubbing(self) -> Pressing {
-        self.end::<true>()
+    pub(crate) fn press_rubbing(self, losses: &Losses) -> RubbedRow {
+        self.train.complete(&self.ahead.rooms, self.overlap);
+        let motion = self.train.motion(self.travel);
+        self.train.press.join::<true>(true);
+        self.train.press.settle_rubbing::<true>(motion, losses)
     }
 
+    /// A first pass of balls that rub, which moves none; all balls come once more.
     #[inline(always)]
-    fn end<const RUBBED: bool>(mut self) -> Pressing {
-        while let Some(ball) = self.next_ball() {
-            drop(ball);
+    pub(crate) fn press_once(self) -> Self {
+        let Self {
+            train,
+            travel,
+            ahead,
+            overlap,
+            ..
+        } = self;
+        train.complete(&ahead.rooms, overlap);
+        train.press.join::<true>(true);
+        let losses = Losses::default();
+        train.press.settle_rubbing::<false>(Motion::NONE, &losses);
+        let first = train.press.balls().first().map_or(0, Ball::position);
+        Self {
+            left: train.balls().min(N),
+            travel,
+            ahead: Ahead {
+                rooms: Rooms::behind(first, train.track, travel),
+                free_speed: 0.0,
+            },
+            overlap,
+            train,
         }
-        self.train.finish::<RUBBED>(self.travel, &self.ahead, true)
     }
 }
 
 impl Ahead {
-    /// Takes in a ball, which then is the one ahead.
+    /// Slack of a ball with this free speed, which then is the one ahead.
     #[inline(always)]
-    fn take_in(&mut self, ball: &mut Ball, speed: f32, impedance: f32) {
-        let room = self.rooms.next(ball.position());
-        ball.take_in(speed, impedance, room + (self.free_speed - speed));
+    fn slack(&mut self, ball: &Ball, speed: f32) -> f32 {
+        let slack = self.rooms.next(ball.position()) + (self.free_speed - speed);
         self.free_speed = speed;
+        slack
     }
 }
 
@@ -187,21 +214,32 @@ impl FreeBall<'_> {
         self.ball.position()
     }
 
+    /// Sum of the forces of both neighbours by the pass before.
+    #[inline(always)]
+    pub(crate) fn forces(&self) -> f32 {
+        self.force_behind + self.ball.force()
+    }
+
+    /// Speed by the pass before.
+    #[inline(always)]
+    pub(crate) fn speed(&self) -> f32 {
+        self.ball.speed()
+    }
+
     /// What the ball would do on its own: its free speed, a deviation from the nominal one over the size of that, within
-    /// [`LARGEST_FREE_SPEED`](super::LARGEST_FREE_SPEED), and its impedance, N, within [`IMPEDANCE_RANGE`]. Neither is
+    /// [`LARGEST_FREE_SPEED`](super::LARGEST_FREE_SPEED), and its impedance, N, within [`IMPEDANCE_RANGE`](super::IMPEDANCE_RANGE). Neither is
     /// checked here: the scene's set-up has to see to it.
     #[inline(always)]
     pub(crate) fn put(self, speed: f32, impedance: f32) {
-        let mut answered = ManuallyDrop::new(self);
-        let Self { ball, ahead } = &mut *answered;
-        ahead.take_in(ball, speed, impedance);
+        let slack = self.ahead.slack(self.ball, speed);
+        self.ball.take_in(speed, impedance, slack);
     }
 
-    /// The same of a train whose balls rub on each other, with what friction of its neighbours does to this one.
+    /// The same of a train whose balls rub on each other.
     #[inline(always)]
-    pub(crate) fn put_rubbed(self, speed: f32, impedance: f32, grip: Grip) {
-        self.ball.set_rubbed(grip.transmitted());
-        self.put(speed, impedance * grip.of_impedance());
+    pub(crate) fn put_rubbed(self, rubbed: &RubbedBall) {
+        let slack = self.ahead.slack(self.ball, rubbed.speed);
+        self.ball.take_in_rubbed(rubbed, slack);
     }
 
     /// The same of a ball there on which no neighbour rubs.
@@ -209,13 +247,6 @@ impl FreeBall<'_> {
     pub(crate) fn put_smooth(self, speed: f32, impedance: f32) {
         self.ball.set_smooth();
         self.put(speed, impedance);
-    }
-}
-
-impl Drop for FreeBall<'_> {
-    #[inline(always)]
-    fn drop(&mut self) {
-        self.ahead.take_in(self.ball, 0.0, DEFAULT_IMPEDANCE);
     }
 }
 
@@ -251,24 +282,6 @@ mod tests {
             assert_eq!(usize::from(pressing.contacts), forces().count());
             assert_eq!(pressing.largest, forces().fold(0.0, f32::max));
         }
-    }
-
-    /// Balls without an answer, and balls that were never asked for, run at the nominal speed and hardly push.
-    #[test]
-    fn forgotten_balls_run_at_the_nominal_speed() {
-        let (mut listed, mut asked) = (train(), train());
-        assert!(listed.step(
-            &[0.0, 0.0, 0.0, 0.02, 0.0],
-            &[1e-9, 1e-9, 1e-9, 1e3, 1e-9],
-            1e-4
-        ));
-        let mut balls = asked.intake(1e-4);
-        drop(balls.next_ball());
-        if let Some(ball) = balls.next_ball() {
-            ball.put(0.02, 1e3);
-        }
-        let _ = balls.press();
-        assert_eq!(listed, asked);
     }
 
     /// A tick that is given up moves nothing, and the next one is whole.

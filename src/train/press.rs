@@ -1,7 +1,7 @@
 //! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
 
 use super::ball::Ball;
-use super::grip::{Grip, limited_grip};
+use super::losses::{Losses, RubbedBall, RubbedRow};
 use super::pool::pool;
 use super::rubbing::settle_rubbing;
 use super::settle::{Pressing, settle};
@@ -41,8 +41,8 @@ impl InputCheck {
 
     /// For lists of numbers that each have to have one for each ball.
     #[inline(always)]
-    pub(super) fn of_lists<const LISTS: usize>(balls: usize, lists: [&[f32]; LISTS]) -> Self {
-        let complete = lists.iter().all(|list| list.len() == balls);
+    pub(super) fn of_lengths<const LISTS: usize>(balls: usize, lengths: [usize; LISTS]) -> Self {
+        let complete = lengths.iter().all(|&length| length == balls);
         Self {
             outside: if complete { 0 } else { 1 << 31 },
         }
@@ -193,7 +193,10 @@ impl<const N: usize> Press<N> {
     /// more). Exact otherwise: no iteration, at most `N - 1` joins, one division for each cluster of two or
     /// more balls. Cost for 37 balls: 6,900 modelled cycles.
     pub fn solve(&mut self, free: &[f32], impedance: &[f32], room: &[f32]) -> bool {
-        let mut check = InputCheck::of_lists(usize::from(self.count), [free, impedance, room]);
+        let mut check = InputCheck::of_lengths(
+            usize::from(self.count),
+            [free.len(), impedance.len(), room.len()],
+        );
         let mut ahead = free.first().copied().unwrap_or(0.0);
         let inputs = free.iter().zip(impedance).zip(room);
         for (ball, ((&speed, &impedance), &room)) in self.balls_mut().iter_mut().zip(inputs).rev() {
@@ -203,47 +206,30 @@ impl<const N: usize> Press<N> {
             ahead = speed;
         }
         self.join::<false>(check.passed());
-        self.settle::<false>(Motion::NONE);
+        self.settle(Motion::NONE);
         check.passed()
     }
 
-    /// The same for balls that rub on each other: friction between balls changes the net push that a ball needs,
-    ///
-    /// ```text
-    /// F_(j-1) - F_j = (v_j - u_j)/Y_j + r (F_(j-1) + F_j)
-    /// ```
-    ///
-    /// with `grip` for each ball's `r`, its grip ([`BallNumbers::grip`](crate::ball::pressed::BallNumbers)) times the friction coefficient between balls, at
-    /// most 0.3 in size. Forces and cost as in [`Self::solve`].
+    /// The same for balls that rub on each other; returns what their contacts add up to, or none where some number does not count. Forces and cost as
+    /// in [`Self::solve`].
     pub fn solve_rubbing(
         &mut self,
-        free: &[f32],
-        impedance: &[f32],
+        balls: &[RubbedBall],
         room: &[f32],
-        grip: &[f32],
-    ) -> bool {
-        let lists = [free, impedance, room, grip];
-        let mut check = InputCheck::of_lists(usize::from(self.count), lists);
-        let mut ahead = free.first().copied().unwrap_or(0.0);
-        let inputs = free.iter().zip(impedance).zip(room);
-        let inputs = inputs.zip(grip);
-        for (ball, (((&speed, &impedance), &room), &grip)) in
-            self.balls_mut().iter_mut().zip(inputs).rev()
-        {
-            check.add(speed, impedance);
+        losses: &Losses,
+    ) -> Option<RubbedRow> {
+        let mut check = InputCheck::of_lengths(usize::from(self.count), [balls.len(), room.len()]);
+        let mut ahead = balls.first().map_or(0.0, |ball| ball.speed);
+        let inputs = balls.iter().zip(room);
+        for (ball, (rubbed, &room)) in self.balls_mut().iter_mut().zip(inputs).rev() {
+            check.add(rubbed.speed, rubbed.impedance);
             let room = if room < 0.0 { 0.0 } else { room };
-            let grip = Grip::within(limited_grip(grip));
-            ball.take_in(
-                speed,
-                impedance * grip.of_impedance(),
-                room + (ahead - speed),
-            );
-            ball.set_rubbed(grip.transmitted());
-            ahead = speed;
+            ball.take_in_rubbed(rubbed, room + (ahead - rubbed.speed));
+            ahead = rubbed.speed;
         }
         self.join::<true>(check.passed());
-        self.settle::<true>(Motion::NONE);
-        check.passed()
+        let row = self.settle_rubbing::<true>(Motion::NONE, losses);
+        check.passed().then_some(row)
     }
 
     /// Joins balls to clusters, or leaves all at the nominal speed where not all that was taken in counts.
@@ -269,13 +255,20 @@ impl<const N: usize> Press<N> {
 
     /// Speeds and forces of the clusters, and where the balls go.
     #[inline(always)]
-    pub(super) fn settle<const RUBBED: bool>(&mut self, motion: Motion) -> Pressing {
+    pub(super) fn settle(&mut self, motion: Motion) -> Pressing {
         let foremost = self.foremost();
-        if RUBBED {
-            settle_rubbing(self.balls_mut(), foremost, motion)
-        } else {
-            settle(self.balls_mut(), foremost, motion)
-        }
+        settle(self.balls_mut(), foremost, motion)
+    }
+
+    /// The same of balls that rub.
+    #[inline(always)]
+    pub(super) fn settle_rubbing<const LAST: bool>(
+        &mut self,
+        motion: Motion,
+        losses: &Losses,
+    ) -> RubbedRow {
+        let foremost = self.foremost();
+        settle_rubbing::<LAST>(self.balls_mut(), foremost, motion, losses)
     }
 }
 

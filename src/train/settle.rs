@@ -12,12 +12,8 @@ pub(crate) struct Pressing {
     pub(crate) contacts: u8,
     /// Largest force, in the unit of speed times impedance.
     pub(crate) largest: f32,
-    /// Sum of the forces of the pairs that rub, in the same unit: of all pairs of a train whose balls do not rub.
+    /// Sum of the forces, in the same unit.
     pub(crate) force: f32,
-    /// Sums over the balls, where they rub: of the square of the speed's change by the neighbours, times the impedance; and of
-    /// the change of the balls that rub.
-    pub(crate) work: f32,
-    pub(crate) change: f32,
 }
 
 /// Gives each ball its speed and its force, and moves it, from the foremost ball backwards.
@@ -48,8 +44,6 @@ pub(super) fn settle(balls: &mut [Ball], foremost: usize, motion: Motion) -> Pre
         largest,
         // Forces that rounding makes negative may leave a sum that is.
         force: not_negative(sums.force),
-        work: 0.0,
-        change: 0.0,
     }
 }
 

@@ -211,13 +211,14 @@ impl Balls {
         &self,
         grooves: &DeviatingBall,
         along: AlongTrack,
-        rubbing: [f64; 2],
+        neighbours: [f64; 2],
         start: Option<&BallStart>,
     ) -> Option<HeldBallFriction> {
         let drive = BallDrive {
             axial_load: self.axial_load,
             along,
-            rubbing,
+            rubbing: neighbours.map(|force| self.ball_friction * force),
+            outward: self.ball.outward() * (neighbours[0] + neighbours[1]),
         };
         grooves.solve(&drive, start).ok()
     }
@@ -238,9 +239,8 @@ impl Balls {
         let mut speed = front.orbital_speed + force / front.stiffness;
         for _ in 0..ROUNDS {
             let held = AlongTrack::Held(speed);
-            let rubbing = self.ball_friction * force;
-            rear = self.run(&behind.grooves, held, [0.0, rubbing], Some(&rear.start))?;
-            front = self.run(&ahead.grooves, held, [rubbing, 0.0], Some(&front.start))?;
+            rear = self.run(&behind.grooves, held, [0.0, force], Some(&rear.start))?;
+            front = self.run(&ahead.grooves, held, [force, 0.0], Some(&front.start))?;
             let left = rear.force + front.force;
             let found = 0.5 * (front.force - rear.force).max(0.0);
             let change = (found - force).abs();

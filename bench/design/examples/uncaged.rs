@@ -83,7 +83,6 @@ fn main() -> Result<(), Failure> {
     );
     figures("no friction between balls", &certificate.smooth);
     figures("friction 0.1 between balls", &certificate.rubbing);
-    figures("of them, lightly", &certificate.lightly_rubbing);
     figures("in waves, no friction between balls", &certificate.waves);
     figures(
         "in waves, friction 0.1 between balls",

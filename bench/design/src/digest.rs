@@ -128,12 +128,14 @@ pub(crate) fn of_uncaged(fold: &UncagedFold) -> u64 {
     let UncagedFold {
         gear,
         friction,
+        ball_friction,
         axial_load,
         seed,
     } = fold;
     let mut digest = Digest::of(2, uncaged::ALGORITHM);
     digest.gear(&gear.gear);
     digest.numbers(&gear.deviations);
+    digest.numbers(&[*ball_friction]);
     digest.domain(*friction, *axial_load, *seed);
     digest.0
 }

@@ -214,13 +214,13 @@ impl FoldedUncaged {
         let certificate = &self.certificate;
         let rows = [
             ("without friction between balls", &certificate.smooth),
-            ("with 0.1 between balls", &certificate.rubbing),
+            ("with friction between balls", &certificate.rubbing),
             (
                 "in waves, without friction between balls",
                 &certificate.waves,
             ),
             (
-                "in waves, with 0.1 between balls",
+                "in waves, with friction between balls",
                 &certificate.rubbing_waves,
             ),
         ];

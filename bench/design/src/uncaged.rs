@@ -4,13 +4,15 @@ mod ball;
 mod certificate;
 mod fit;
 mod knots;
+mod neighbours;
 mod ring;
 
 use std::time::Instant;
 
 use epas_friction::Range;
-use epas_friction::ball::pressed::{BallKnot, BallLaw, BallNode, BallNumbers, KNOTS};
+use epas_friction::ball::pressed::{BallLaw, BallNode, BallNumbers, Knot, NeighbourNumbers};
 use epas_friction::scene::FoldedBall;
+use epas_friction::train::RUBBINGS;
 use rayon::prelude::*;
 
 use crate::Failure;
@@ -21,7 +23,7 @@ pub use certificate::{RowFigures, UncagedCertificate, UncagedFigure};
 use fit::{Branch, Fit, Numbers};
 
 /// Version of the way from a design to a block, which the digest of a block covers: raised by every change that gives the same design other bits.
-pub const ALGORITHM: u32 = 4;
+pub const ALGORITHM: u32 = 5;
 
 /// Nodes of a range of friction coefficients.
 pub const NODES: usize = 3;
@@ -39,6 +41,15 @@ const UNHELD: f64 = 0.016;
 
 /// A largest error of the torque of a row without friction between balls, from which on a domain is not held.
 const LARGEST_ERROR: f64 = 0.03;
+
+/// The same of rows with friction between balls that a step does not flag.
+const LARGEST_RUBBING_ERROR: f64 = 0.1;
+
+/// Friction coefficient between balls where none is given.
+pub const BALL_FRICTION: f32 = 0.1;
+
+/// Least friction coefficient between balls by which an outward force is taken along with friction: with less of it balls hardly rub.
+const LEAST_BALL_FRICTION: f64 = 0.03;
 
 /// Share of the work that the fold is, beside its certificate.
 const FOLDED: f64 = 0.3;
@@ -62,6 +73,9 @@ pub struct UncagedFold {
     pub gear: UncagedDesign,
     /// Least and largest friction coefficient for which the law holds, where it is more than one: 1e-3 to 0.5.
     pub friction: Option<[f32; 2]>,
+    /// Friction coefficient between balls, 0 to 1: that of the rows of the certificate, and by which an outward force of neighbours goes with their
+    /// friction.
+    pub ball_friction: f32,
     /// Least and largest axial load of one ball for which the law holds, N, 0.01 to 1e5.
     pub axial_load: [f32; 2],
     /// Seed of the rows of the certificate.
@@ -119,6 +133,7 @@ impl UncagedFold {
         Self {
             gear,
             friction: None,
+            ball_friction: BALL_FRICTION,
             axial_load: crate::caged::AXIAL_LOAD,
             seed: 1,
         }
@@ -147,15 +162,33 @@ impl UncagedFold {
             UncagedBlock::Range(block) => UncagedCertificate::of(self, &block.law, &certified),
         }?;
         let rows = [
-            ("random deviations", &certificate.smooth.torque),
-            ("deviations in waves", &certificate.waves.torque),
+            (
+                "random deviations",
+                &certificate.smooth.torque,
+                LARGEST_ERROR,
+            ),
+            (
+                "deviations in waves",
+                &certificate.waves.torque,
+                LARGEST_ERROR,
+            ),
+            (
+                "random deviations and friction between balls",
+                &certificate.rubbing.unflagged_torque,
+                LARGEST_RUBBING_ERROR,
+            ),
+            (
+                "deviations in waves and friction between balls",
+                &certificate.rubbing_waves.unflagged_torque,
+                LARGEST_RUBBING_ERROR,
+            ),
         ];
-        if let Some((which, torque)) = rows
+        if let Some((which, torque, _)) = rows
             .into_iter()
-            .find(|(_, torque)| torque.largest > LARGEST_ERROR)
+            .find(|(_, torque, most)| torque.largest > *most)
         {
             return Err(Failure::Domain(format!(
-                "the torque of a row of balls with {which} is held to {:.1} % only, largest at {:.3} N a ball, friction coefficient {:.4}; narrow \
+                "the torque of a row of balls with {which} is accurate to {:.1} % only, largest at {:.3} N a ball, friction coefficient {:.4}; narrow \
                  the domain there, or the deviations",
                 100.0 * torque.largest,
                 torque.worst_load,
@@ -247,7 +280,8 @@ impl UncagedFold {
             };
             BallNode {
                 friction: frictions[node],
-                branches: [knots_of(of(0)), knots_of(of(1))],
+                branches: [of(0), of(1)].map(|branch| knots_of(&branch.knots, rounded)),
+                neighbours: [of(0), of(1)].map(|branch| knots_of(&branch.neighbours, neighbours)),
                 unheld: [unheld(0), unheld(1)],
             }
         });
@@ -285,6 +319,7 @@ impl UncagedFold {
             lift_off,
             loads,
             side,
+            ball_friction: f64::from(self.ball_friction).max(LEAST_BALL_FRICTION),
         };
         let samples = balls.samples()?;
         let least = f64::from(self.axial_load[0]) + lift_off;
@@ -310,16 +345,14 @@ impl UncagedFold {
 }
 
 /// The knots of a branch; those that it does not need are its last one.
-fn knots_of(branch: &Branch) -> [BallKnot; KNOTS] {
-    let at = |knot: usize| branch.knots[knot.min(branch.knots.len() - 1)];
+fn knots_of<T, U: Copy, const K: usize>(
+    knots: &[(f64, T)],
+    rounded: impl Fn(&T) -> U,
+) -> [Knot<U>; K] {
+    let at = |knot: usize| &knots[knot.min(knots.len() - 1)];
     std::array::from_fn(|knot| {
-        let ((load, numbers), (next, _)) = (at(knot), at(knot + 1));
-        let (load, next) = (load as f32, next as f32);
-        BallKnot {
-            load,
-            per_width: BallKnot::per_width(load, next),
-            numbers: rounded(&numbers),
-        }
+        let ((load, numbers), (next, _)) = (at(knot), at((knot + 1).min(K - 1)));
+        Knot::between(*load as f32, *next as f32, rounded(numbers))
     })
 }
 
@@ -330,8 +363,17 @@ fn rounded(numbers: &Numbers) -> BallNumbers {
         torque: numbers.torque.map(|number| number as f32),
         slope: numbers.slope as f32,
         work: numbers.work as f32,
-        grip: numbers.grip.map(|number| number as f32),
-        rubbing: numbers.rubbing as f32,
+    }
+}
+
+fn neighbours(numbers: &neighbours::Numbers) -> NeighbourNumbers {
+    let lines = |nodes: [[f64; 3]; RUBBINGS.len()]| nodes.map(|line| line.map(|x| x as f32));
+    NeighbourNumbers {
+        push: lines(numbers.push),
+        impedance: lines(numbers.impedance),
+        torque: lines(numbers.torque),
+        outward: numbers.outward.map(|number| number as f32),
+        outward_torque: numbers.outward_torque as f32,
     }
 }
 

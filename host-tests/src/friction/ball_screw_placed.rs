@@ -7,10 +7,11 @@
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.69).
 
-use nalgebra::{SVector, Vector3, Vector4};
+use nalgebra::{Matrix2, SMatrix, SVector, Vector2, Vector3, Vector4};
 
 use super::ball_screw_ball::{Groove, ScrewRow};
 use super::ball_screw_grooves::ElasticGrooves;
+use super::ball_screw_rubbing::BallContact;
 use super::patch::Integration;
 
 /// Spin over which friction of a contact that sticks is smoothed, over the nut's speed.
@@ -96,11 +97,69 @@ pub(crate) struct PlacedBall<'a> {
     pub direction: f64,
     /// Axial force of the screw on the ball, N; positive along z.
     pub axial_load: f64,
-    /// From the neighbours.
+    /// From the neighbours, whatever the ball does.
     pub rubbing: Rubbing,
+    /// Neighbours that move as the ball does, whose friction follows its motion.
+    pub alike: Option<AlikeNeighbours>,
     pub integration: Integration,
     /// Spin over which friction of a contact that sticks is smoothed, over the nut's speed: [`STICK_SPIN`], or larger on the path to it.
     pub rest_spin: f64,
+}
+
+/// Two neighbours that move as the ball itself does.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AlikeNeighbours {
+    /// A contact of two balls, with a friction coefficient of one.
+    pub contact: BallContact,
+    /// Friction forces of the ball behind and of the one ahead, N.
+    pub friction: [f64; 2],
+    /// Outward force of both, N.
+    pub outward: f64,
+}
+
+/// Slip over `R_B w_N` below which friction of alike neighbours is smoothed.
+const STICK_SLIP: f64 = 1e-7;
+
+impl AlikeNeighbours {
+    /// Direction of the slip, and its size.
+    fn slip(&self, state: &BallState) -> (Vector2<f64>, f64) {
+        let slip = self.contact.slip(state, state);
+        let size = slip.norm().hypot(STICK_SLIP);
+        (slip / size, size)
+    }
+
+    /// Friction with a slip in a direction, of size 1 at most.
+    fn rubbing(&self, direction: Vector2<f64>) -> Rubbing {
+        let [behind, ahead] = self.friction;
+        let [_, mut sum] = self.contact.rubbing(behind, direction);
+        let [on_rear, _] = self.contact.rubbing(ahead, direction);
+        sum += on_rear;
+        sum
+    }
+
+    /// What both do to the ball.
+    pub fn on_ball(&self, state: &BallState) -> Rubbing {
+        let mut sum = self.rubbing(self.slip(state).0);
+        sum.in_plane[0] += self.outward;
+        sum
+    }
+
+    /// How that changes with the motion: columns of orbital speed and angular velocity.
+    pub fn by_motion(&self, state: &BallState) -> SMatrix<f64, 7, 4> {
+        let (direction, size) = self.slip(state);
+        let turn = (Matrix2::identity() - direction * direction.transpose()) / size;
+        let mut all = SMatrix::<f64, 7, 4>::zeros();
+        for column in 0..4 {
+            let moved = BallState::new(state.place, Vector4::ith(column, 1.0), 0.0);
+            let change = self.rubbing(turn * self.contact.slip(&moved, &moved));
+            let [x, z] = change.in_plane;
+            all[(0, column)] = x;
+            all[(1, column)] = z;
+            all.fixed_view_mut::<4, 1>(3, column)
+                .copy_from(&change.motion);
+        }
+        all
+    }
 }
 
 /// Unbalanced forces, N: x, z, axial, along the track (times path over ball radius), moments over the ball radius.

@@ -315,6 +315,7 @@ impl<'a> March<'a> {
             direction,
             axial_load: if load.abs() > NO_LOAD { load } else { 1.0 },
             rubbing: Rubbing::default(),
+            alike: None,
             integration: self.ring.integration,
             rest_spin: STICK_SPIN,
         };

@@ -96,6 +96,7 @@ impl<'a> Instant<'a> {
             direction: self.neighbours.direction,
             axial_load: seat.axial_load,
             rubbing: Rubbing::default(),
+            alike: None,
             integration: self.integration,
             rest_spin: STICK_SPIN,
         }

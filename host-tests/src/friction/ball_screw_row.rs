@@ -123,6 +123,7 @@ impl ElasticRow {
                 direction,
                 axial_load: ball.axial_load,
                 rubbing: Rubbing::default(),
+                alike: None,
                 integration: self.integration,
                 rest_spin: STICK_SPIN,
             })

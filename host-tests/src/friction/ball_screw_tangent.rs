@@ -111,14 +111,22 @@ impl PlacedBall<'_> {
                 column += self.of_contact(row, 0.0, &by_motion);
             }
         }
+        if let Some(alike) = &self.alike {
+            let mut motion = sum.jacobian.fixed_columns_mut::<4>(3);
+            motion += alike.by_motion(state);
+        }
         let mut all = sum.balance.iter().chain(&sum.jacobian);
         all.all(|x| x.is_finite()).then_some(sum)
     }
 
     /// Forces that do not come from the contacts.
     pub fn given(&self, state: &BallState) -> Balance {
-        let [rub_x, rub_z] = self.rubbing.in_plane;
-        let mut motion = self.rubbing.motion;
+        let mut rubbing = self.rubbing;
+        if let Some(alike) = &self.alike {
+            rubbing += alike.on_ball(state);
+        }
+        let [rub_x, rub_z] = rubbing.in_plane;
+        let mut motion = rubbing.motion;
         motion[0] += self.path() * state.force;
         let mut all = Balance::zeros();
         all.fixed_rows_mut::<3>(0)
@@ -229,6 +237,7 @@ mod tests {
                 direction,
                 axial_load: load,
                 rubbing: Rubbing::default(),
+                alike: None,
                 integration: Integration::Full,
                 rest_spin: STICK_SPIN,
             };

@@ -67,6 +67,7 @@ impl CagedBall {
                     direction: 1.0,
                     axial_load,
                     rubbing: Rubbing::default(),
+                    alike: None,
                     integration: self.integration,
                     rest_spin: STICK_SPIN,
                 };

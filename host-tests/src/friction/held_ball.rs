@@ -11,33 +11,27 @@
 //! friction on this ball          -(f_behind S_front' + f_ahead S_rear') s/|s|
 //! ```
 //!
-//! with the friction forces `f` of the two contacts, N. The motion under friction gives the direction of the slip, and the direction the friction:
-//! a secant method on its angle finds the one that answers itself.
+//! with the friction forces `f` of the two contacts, N. Friction follows the slip inside Newton's method, as that of the grooves does: with a
+//! friction of given direction a ball has no balance beyond 0.15 to 0.5 of the grooves' friction, with one that follows it has one at any.
+//! Beside friction, neighbours on a curved track push a ball outward, in proportion to their forces on it ([`HeldBall::outward`]).
 //!
-//! Every answer is as exact as that of a row: forces are balanced to 1e-8 of the contacts' loads, and the slip has its direction to 1e-8 rad.
+//! Every answer is as exact as that of a row: forces are balanced to 1e-8 of the contacts' loads.
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77).
 
-use std::f64::consts::{PI, TAU};
-
-use nalgebra::Vector2;
-
 use super::ball_screw_ball::dimensional;
 use super::ball_screw_grooves::ElasticGrooves;
-use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_placed::{
+    AlikeNeighbours, BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved,
+};
 use super::ball_screw_row::RowBallMotion;
 use super::ball_screw_rubbing::BallContact;
-use super::ball_screw_settle::{near, settle};
+use super::ball_screw_settle::{near, settle, unit};
 use super::patch::Integration;
 use super::rolling_resistance::{RollingResistance, rolling_losses};
 use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
-
-/// Passes in which the direction of the slip settles, the angle that is left, rad, and the largest turn in a pass.
-const PASSES: usize = 60;
-const SETTLED: f64 = 1e-8;
-const LARGEST_TURN: f64 = 0.1;
 
 /// A ball of a screw that its neighbours may hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,6 +73,8 @@ pub struct BallDrive {
     pub along: AlongTrack,
     /// Friction forces of the ball behind and of the one ahead, N, 0 to 1e5: friction coefficient between balls times the force between them.
     pub rubbing: [f64; 2],
+    /// Outward force of both neighbours because the track is curved, N, 0 to 1e5: [`HeldBall::outward`] times the sum of their forces along it.
+    pub outward: f64,
 }
 
 /// A state from which the next one starts, when it is near.
@@ -106,6 +102,12 @@ pub struct HeldBallFriction {
 }
 
 impl HeldBall {
+    /// Outward force of two balls that press on each other on the curved track, on either, over that along the track.
+    #[must_use]
+    pub fn outward(&self) -> f64 {
+        BallContact::new(&(&self.design).into(), 0.0, 1.0, true).outward_force(1.0)
+    }
+
     /// The ball where the arc centres of the screw's and the nut's groove are turned by these angles, rad, -0.2 to 0.2.
     ///
     /// # Errors
@@ -162,6 +164,7 @@ impl DeviatingBall {
             direction: 1.0,
             axial_load,
             rubbing: Rubbing::default(),
+            alike: None,
             integration: self.ball.integration,
             rest_spin: STICK_SPIN,
         }
@@ -183,71 +186,62 @@ impl DeviatingBall {
         for friction in drive.rubbing {
             within("rubbing", friction, 0.0, 1e5)?;
         }
+        within("outward", drive.outward, 0.0, 1e5)?;
         let along = match drive.along {
             AlongTrack::Free => Drive::Force(0.0),
             AlongTrack::Held(speed) => Drive::Speed(within("orbital_speed", speed, -10.0, 10.0)?),
         };
-        let mut ball = self.placed(drive.axial_load);
+        let ball = self.placed(drive.axial_load);
         let start = start.map(|start| &start.0);
-        let solved = if drive.rubbing == [0.0; 2] {
+        let solved = if drive.rubbing == [0.0; 2] && drive.outward == 0.0 {
             settle(&ball, along, start)?
         } else {
-            self.rubbed(&mut ball, along, drive.rubbing, start)?
+            self.rubbed(&ball, along, drive, start)?
         };
         self.friction_of(&ball, &solved)
     }
 
-    /// The ball with friction of its neighbours: the direction of their slip gives the friction, and friction the direction, one number.
+    /// The ball with friction of its neighbours: from the start, at once or in steps of that friction.
     fn rubbed(
         &self,
-        ball: &mut PlacedBall<'_>,
+        ball: &PlacedBall<'_>,
         along: Drive,
-        rubbing: [f64; 2],
+        drive: &BallDrive,
         start: Option<&BallState>,
     ) -> Result<Solved, ReferenceError> {
-        let contact = self.contact();
-        let angle_of = |state: &BallState| {
-            let slip = contact.slip(state, state);
-            slip.y.atan2(slip.x)
+        let first = match start {
+            Some(start) => *start,
+            None => settle(ball, along, None)?.state,
         };
-        let mut solved = settle(ball, along, start)?;
-        let mut angle = angle_of(&solved.state);
-        let mut last: Option<[f64; 2]> = None;
-        let mut off = f64::INFINITY;
-        for _ in 0..PASSES {
-            ball.rubbing = self.rubbing_along(rubbing, angle);
-            solved = settle(ball, along, Some(&solved.state))?;
-            off = (angle_of(&solved.state) - angle + PI).rem_euclid(TAU) - PI;
-            if off.abs() <= SETTLED {
+        let mut residual = f64::INFINITY;
+        for steps in [1, 3, 10] {
+            let mut last = Some(first);
+            let mut solved = None;
+            for step in 1..=steps {
+                let share = f64::from(step) / f64::from(steps);
+                let rubbed = PlacedBall {
+                    alike: Some(AlikeNeighbours {
+                        contact: self.contact(),
+                        friction: drive.rubbing.map(|friction| share * friction),
+                        outward: share * drive.outward,
+                    }),
+                    ..*ball
+                };
+                let found = last.and_then(|last| rubbed.newton(&last, along, unit(ball)));
+                solved = found.filter(|found| found.residual <= ball.accuracy(&found.state).1);
+                last = solved.map(|found| found.state);
+                residual = found.map_or(residual, |found| found.residual);
+            }
+            if let Some(solved) = solved {
                 return Ok(solved);
             }
-            // The secant through the last two passes; where it leads far, a part of what is missing.
-            let secant = last.map(|[before, missed]| -off * (angle - before) / (off - missed));
-            let step = secant
-                .filter(|step| step.is_finite() && step.abs() <= LARGEST_TURN)
-                .unwrap_or_else(|| off.clamp(-LARGEST_TURN, LARGEST_TURN));
-            last = Some([angle, off]);
-            angle += step;
         }
-        Err(ReferenceError::NotConverged {
-            residual: off,
-            unit: "rad of the slip between balls",
-        })
+        Err(ReferenceError::unbalanced(residual))
     }
 
     /// Contact with a neighbour; a friction coefficient of one makes its force its friction.
     fn contact(&self) -> BallContact {
         BallContact::new(&self.grooves.track, 1.0, 1.0, false)
-    }
-
-    /// Friction of two neighbours that move as this ball, their slip at this angle.
-    fn rubbing_along(&self, [behind, ahead]: [f64; 2], angle: f64) -> Rubbing {
-        let contact = self.contact();
-        let direction = Vector2::new(angle.cos(), angle.sin());
-        let [_, mut sum] = contact.rubbing(behind, direction);
-        let [on_rear, _] = contact.rubbing(ahead, direction);
-        sum += on_rear;
-        sum
     }
 
     fn friction_of(
@@ -307,6 +301,7 @@ mod tests {
         axial_load: 60.0,
         along: AlongTrack::Free,
         rubbing: [0.0; 2],
+        outward: 0.0,
     };
 
     fn row(balls: Vec<RowBall>, ball_friction: f64) -> ElasticRow {
@@ -422,11 +417,17 @@ mod tests {
         };
         let ball = smooth.in_grooves(0.015, -0.006).unwrap();
         let free = ball.solve(&FREE, None).unwrap();
-        for (axial_load, rubbing) in [(60.0, [0.1, 0.02]), (-35.0, [0.0, 0.05])] {
+        // Up to nine tenths of the grooves' friction.
+        for (axial_load, rubbing, outward) in [
+            (60.0, [0.1, 0.02], 0.0),
+            (-35.0, [0.0, 0.05], 0.8),
+            (60.0, [2.4, 1.9], 5.0),
+        ] {
             let drive = BallDrive {
                 axial_load,
                 along: AlongTrack::Held(free.orbital_speed * 1.002),
                 rubbing,
+                outward,
             };
             let found = ball.solve(&drive, None).unwrap();
             let again = ball.solve(&drive, Some(&free.start)).unwrap();
@@ -438,9 +439,12 @@ mod tests {
                 direction: 1.0,
                 axial_load,
                 rubbing: {
-                    let slip = ball.contact().slip(&state, &state);
-                    ball.rubbing_along(rubbing, slip.y.atan2(slip.x))
+                    let slip = ball.contact().slip(&state, &state).normalize();
+                    let [_, mut sum] = ball.contact().rubbing(rubbing[0], slip);
+                    sum += ball.contact().rubbing(rubbing[1], slip)[0];
+                    sum
                 },
+                alike: None,
                 integration: smooth.integration,
                 rest_spin: STICK_SPIN,
             };

@@ -1,5 +1,6 @@
 //! The law of one ball for one friction coefficient: knots over the load.
 
+use super::neighbours::{NEIGHBOUR_KNOTS, NeighbourNumbers};
 use super::numbers::{BallNumbers, FreeMotion};
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
@@ -7,22 +8,46 @@ use crate::ranges;
 /// Knots of a branch.
 pub const KNOTS: usize = 32;
 
-/// A load with what a ball does under it.
+/// A load with numbers of a ball under it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct BallKnot {
+pub struct Knot<T> {
     /// Load `W` of the ball, N, rising from knot to knot.
     pub load: f32,
     /// 1 over the distance to the next knot, 1/N; 0 of the last one.
     pub per_width: f32,
     /// What a ball does.
-    pub numbers: BallNumbers,
+    pub numbers: T,
 }
 
-impl BallKnot {
-    /// [`Self::per_width`] of a knot with this load, N, and that of the next one.
+/// What a ball does on its own.
+pub type BallKnot = Knot<BallNumbers>;
+
+/// What neighbours change in it.
+pub type NeighbourKnot = Knot<NeighbourNumbers>;
+
+impl<T: Copy> Knot<T> {
+    /// A knot at no load, in the place of one that is read.
+    pub(crate) const fn none(numbers: T) -> Self {
+        Self {
+            load: 0.0,
+            per_width: 0.0,
+            numbers,
+        }
+    }
+
+    /// Numbers under a load, N, with the one of the next knot, or this one's of the last.
     #[must_use]
-    pub const fn per_width(load: f32, next: f32) -> f32 {
+    pub const fn between(load: f32, next: f32, numbers: T) -> Self {
+        Self {
+            load,
+            per_width: Self::per_width(load, next),
+            numbers,
+        }
+    }
+
+    /// 1 over the distance of two loads, N; 0 where they are one.
+    const fn per_width(load: f32, next: f32) -> f32 {
         if next > load {
             1.0 / (next - load)
         } else {
@@ -39,6 +64,8 @@ pub struct BallNode {
     pub friction: f32,
     /// Under a load that opposes the motion, and under one that assists it.
     pub branches: [[BallKnot; KNOTS]; 2],
+    /// What neighbours change, under the same.
+    pub neighbours: [[NeighbourKnot; NEIGHBOUR_KNOTS]; 2],
     /// A bit for each knot from which up to the next the forces between balls are not held, of both branches.
     pub unheld: [u32; 2],
 }
@@ -52,28 +79,44 @@ pub(super) struct KnotInterval {
     fraction: f32,
 }
 
-impl BallNode {
-    /// The knot below a load, and the load's fraction of the distance to the next knot, 0 to 1.
+impl KnotInterval {
+    /// Among knots of rising load, a power of two of them.
     #[inline(always)]
-    pub(super) fn interval(&self, branch: usize, load: f32) -> KnotInterval {
-        let knots = &self.branches[branch & 1];
+    fn among<T, const K: usize>(knots: &[Knot<T>; K], load: f32) -> Self {
         // Loads are not negative: integers compare their bits.
         let bits = load.to_bits().cast_signed();
         let mut knot = 0;
-        let mut step = KNOTS / 2;
+        let mut step = K / 2;
         while step > 0 {
             // The mask tells the compiler what the halving ensures.
-            if bits >= knots[(knot + step) % KNOTS].load.to_bits().cast_signed() {
+            if bits >= knots[(knot + step) % K].load.to_bits().cast_signed() {
                 knot += step;
             }
             step /= 2;
         }
-        let below = &knots[knot % KNOTS];
+        let below = &knots[knot % K];
         let fraction = (load - below.load) * below.per_width;
         KnotInterval {
             knot,
             fraction: if fraction > 0.0 { fraction } else { 0.0 },
         }
+    }
+}
+
+impl BallNode {
+    /// The knots of a branch between which a load lies.
+    #[inline(always)]
+    pub(super) fn interval(&self, branch: usize, load: f32) -> KnotInterval {
+        KnotInterval::among(&self.branches[branch & 1], load)
+    }
+
+    /// What neighbours change under a load, over `mu W`.
+    #[inline(always)]
+    pub(super) fn neighbours(&self, branch: usize, load: f32) -> NeighbourNumbers {
+        let knots = &self.neighbours[branch & 1];
+        let KnotInterval { knot, fraction } = KnotInterval::among(knots, load);
+        let [below, above] = [knot, knot + 1].map(|knot| &knots[knot % NEIGHBOUR_KNOTS].numbers);
+        below.towards(above, fraction)
     }
 
     /// What a ball does under a load, over `mu W`.
@@ -101,34 +144,49 @@ impl BallNode {
         let mut branch = 0;
         while branch < 2 {
             let knots = &self.branches[branch];
+            attempt!(check_loads(knots));
             let mut number = 0;
             while number < KNOTS {
-                let BallKnot {
-                    load,
-                    per_width,
-                    numbers,
-                } = knots[number];
-                attempt!(in_range("load", load, 1e-6, 1e7));
-                attempt!(numbers.checked());
-                let width = if number + 1 < KNOTS {
-                    knots[number + 1].load - load
-                } else {
-                    0.0
-                };
-                attempt!(in_range("load", width, 0.0, 1e7));
-                // A fraction of 1 at the next knot but for roundings; knots that are not needed repeat the last one's load.
-                let fraction = width * per_width;
-                let (least, most) = if width > 0.0 {
-                    (1.0 - 1e-5, 1.0 + 1e-5)
-                } else {
-                    (0.0, 0.0)
-                };
-                attempt!(in_range("per_width", fraction, least, most));
-                attempt!(in_range("per_width", per_width, 0.0, 1e9));
+                attempt!(knots[number].numbers.checked());
+                number += 1;
+            }
+            let knots = &self.neighbours[branch];
+            attempt!(check_loads(knots));
+            let mut number = 0;
+            while number < NEIGHBOUR_KNOTS {
+                attempt!(knots[number].numbers.checked());
                 number += 1;
             }
             branch += 1;
         }
         Ok(())
     }
+}
+
+/// Refuses knots whose loads do not rise, or whose widths are not theirs.
+const fn check_loads<T, const K: usize>(knots: &[Knot<T>; K]) -> Result<(), Error> {
+    let mut number = 0;
+    while number < K {
+        let Knot {
+            load, per_width, ..
+        } = knots[number];
+        attempt!(in_range("load", load, 1e-6, 1e7));
+        let width = if number + 1 < K {
+            knots[number + 1].load - load
+        } else {
+            0.0
+        };
+        attempt!(in_range("load", width, 0.0, 1e7));
+        // A fraction of 1 at the next knot but for roundings; knots that are not needed repeat the last one's load.
+        let fraction = width * per_width;
+        let (least, most) = if width > 0.0 {
+            (1.0 - 1e-5, 1.0 + 1e-5)
+        } else {
+            (0.0, 0.0)
+        };
+        attempt!(in_range("per_width", fraction, least, most));
+        attempt!(in_range("per_width", per_width, 0.0, 1e9));
+        number += 1;
+    }
+    Ok(())
 }

@@ -15,10 +15,7 @@ const LARGEST_ARM: f32 = 1.0;
 /// Largest loss by a net push over its work.
 pub const LARGEST_WORK: f32 = 4.0;
 
-/// Largest size of a grip within the largest deviations.
-pub const LARGEST_GRIP: f32 = 10.0;
-
-/// What one ball does under a load, all over `mu W` but the free speed, the work, the grip and the speed of rubbing.
+/// What one ball does under a load, all over `mu W` but the free speed and the work.
 ///
 /// With the deviations `s` of the screw's and `n` of the nut's contact angles, each over its largest ([`BallLaw::deviations`](super::BallLaw::deviations)), and `x` the
 /// ball's speed less its free speed:
@@ -43,11 +40,6 @@ pub struct BallNumbers {
     pub slope: f32,
     /// Loss by the net push over its work `P x v / 2`, 0 to 4: 1 where a push is in proportion to the speed, more where it saturates.
     pub work: f32,
-    /// Net push that a ball needs in addition, over the friction of its neighbours on it, -10 to 10: what friction between balls does to the
-    /// speed of a ball; powers `1, s, n`.
-    pub grip: [f32; 3],
-    /// Speed with which two balls alike rub against each other, m per unit of nut speed.
-    pub rubbing: f32,
 }
 
 /// What a ball does on its own in a tick.
@@ -60,8 +52,6 @@ pub struct FreeMotion {
     pub impedance: f32,
     /// Friction torque on the nut at the free speed, N m per unit.
     pub torque: f32,
-    /// Net push in addition, over the friction of its neighbours.
-    pub grip: f32,
 }
 
 impl BallNumbers {
@@ -72,8 +62,6 @@ impl BallNumbers {
         torque: [0.0; POWERS],
         slope: 0.0,
         work: 1.0,
-        grip: [0.0; 3],
-        rubbing: 0.0,
     };
 
     /// These numbers, interpolated towards others by a fraction, 0 to 1.
@@ -94,8 +82,6 @@ impl BallNumbers {
             torque: all(&self.torque, &others.torque, fraction),
             slope: one(self.slope, others.slope),
             work: one(self.work, others.work),
-            grip: all(&self.grip, &others.grip, fraction),
-            rubbing: one(self.rubbing, others.rubbing),
         }
     }
 
@@ -116,10 +102,17 @@ impl BallNumbers {
     pub fn at(&self, [screw, nut]: [f32; 2]) -> FreeMotion {
         FreeMotion {
             speed: powers(&self.free, screw, nut),
-            impedance: linear(&self.impedance, screw, nut),
+            impedance: line(&self.impedance, [screw, nut]),
             torque: powers(&self.torque, screw, nut),
-            grip: linear(&self.grip, screw, nut),
         }
+    }
+
+    /// Mean free speed over all deviations.
+    #[inline(always)]
+    #[must_use]
+    pub fn held_speed(&self) -> f32 {
+        // The mean of a square from -1 to 1 is a third.
+        self.free[0] + (self.free[3] + self.free[5]) * (1.0 / 3.0)
     }
 
     /// Refuses numbers that some deviations make a ball that a train does not accept.
@@ -138,13 +131,6 @@ impl BallNumbers {
         attempt!(in_range("torque", torque, 0.0, LARGEST_ARM));
         attempt!(in_range("slope", self.slope, -LARGEST_ARM, LARGEST_ARM));
         attempt!(in_range("work", self.work, 0.0, LARGEST_WORK));
-        attempt!(in_range(
-            "grip",
-            sum_of_sizes(&self.grip, 0),
-            0.0,
-            LARGEST_GRIP
-        ));
-        attempt!(in_range("rubbing", self.rubbing, 0.0, LARGEST_ARM));
         Ok(self)
     }
 }
@@ -158,7 +144,6 @@ impl FreeMotion {
             speed: one(self.speed, other.speed),
             impedance: one(self.impedance, other.impedance),
             torque: one(self.torque, other.torque),
-            grip: one(self.grip, other.grip),
         }
     }
 }
@@ -171,7 +156,7 @@ fn powers([a, s, n, ss, sn, nn]: &[f32; POWERS], screw: f32, nut: f32) -> f32 {
 
 /// A straight line over two deviations.
 #[inline(always)]
-fn linear([a, s, n]: &[f32; 3], screw: f32, nut: f32) -> f32 {
+pub(super) fn line([a, s, n]: &[f32; 3], [screw, nut]: [f32; 2]) -> f32 {
     a + screw * s + nut * n
 }
 

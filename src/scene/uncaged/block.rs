@@ -4,12 +4,15 @@
 //! |---|---|
 //! | 9 | friction coefficient, lead, ball radius, path radius, nominal speed against the nut, reversal speed, limits of nut speed, axial load and friction torque |
 //! | 3 | largest deviations of screw and nut, lift-off load of a ball |
-//! | 1 411 a node | friction coefficient; 2 times 32 knots, each a load and 21 numbers; the bits of both branches where forces are not held |
+//! | 2 243 a node | friction coefficient; 2 times 32 knots, each a load and 17 numbers; 2 times 16 knots, each a load and the 31 numbers of what neighbours change; the bits of both branches where forces are not held |
 //!
 //! Numbers are the bits of an `f32`.
 
 use super::FoldedBall;
-use crate::ball::pressed::{BallKnot, BallLaw, BallNode, BallNumbers, KNOTS};
+use crate::ball::pressed::{
+    BallKnot, BallLaw, BallNode, BallNumbers, KNOTS, Knot, NEIGHBOUR_KNOTS, NeighbourKnot,
+    NeighbourNumbers,
+};
 use crate::error::{Error, attempt};
 use crate::scene::contract::Limits;
 use crate::scene::words::{HEADER, Layout, float, floats, word};
@@ -18,12 +21,15 @@ use crate::scene::words::{HEADER, Layout, float, floats, word};
 const MAGIC: u32 = 0x5541_5045;
 
 /// Version of the layout.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// Numbers that do not depend on the nodes; words of a knot, and of a node.
 const COMMON: usize = 12;
-const KNOT: usize = 22;
-const NODE: usize = 1 + 2 * KNOTS * KNOT + 2;
+const KNOT: usize = 18;
+const NEIGHBOUR_KNOT: usize = 32;
+const BRANCH: usize = KNOTS * KNOT;
+const NEIGHBOUR_BRANCH: usize = NEIGHBOUR_KNOTS * NEIGHBOUR_KNOT;
+const NODE: usize = 1 + 2 * BRANCH + 2 * NEIGHBOUR_BRANCH + 2;
 
 impl<const NODES: usize> FoldedBall<NODES> {
     /// Words of its block.
@@ -128,6 +134,12 @@ impl<const NODES: usize> FoldedBall<NODES> {
 fn of_node(node: &BallNode) -> impl Iterator<Item = u32> {
     core::iter::once(node.friction.to_bits())
         .chain(node.branches.as_flattened().iter().flat_map(of_knot))
+        .chain(
+            node.neighbours
+                .as_flattened()
+                .iter()
+                .flat_map(of_neighbours),
+        )
         .chain(node.unheld)
 }
 
@@ -139,28 +151,37 @@ fn of_knot(knot: &BallKnot) -> impl Iterator<Item = u32> + use<> {
         torque,
         slope,
         work,
-        grip,
-        rubbing,
     } = knot.numbers;
     core::iter::once(knot.load)
         .chain(free)
         .chain(impedance)
         .chain(torque)
         .chain([slope, work])
-        .chain(grip)
-        .chain([rubbing])
         .map(f32::to_bits)
 }
 
-const NO_KNOT: BallKnot = BallKnot {
-    load: 0.0,
-    per_width: 0.0,
-    numbers: BallNumbers::NONE,
-};
+/// Words of a knot of what neighbours change.
+fn of_neighbours(knot: &NeighbourKnot) -> impl Iterator<Item = u32> + use<> {
+    let NeighbourNumbers {
+        push,
+        impedance,
+        torque,
+        outward,
+        outward_torque,
+    } = knot.numbers;
+    core::iter::once(knot.load)
+        .chain(push.into_iter().flatten())
+        .chain(impedance.into_iter().flatten())
+        .chain(torque.into_iter().flatten())
+        .chain(outward)
+        .chain([outward_torque])
+        .map(f32::to_bits)
+}
 
 const NO_NODE: BallNode = BallNode {
     friction: 0.0,
-    branches: [[NO_KNOT; KNOTS]; 2],
+    branches: [[Knot::none(BallNumbers::NONE); KNOTS]; 2],
+    neighbours: [[Knot::none(NeighbourNumbers::NONE); NEIGHBOUR_KNOTS]; 2],
     unheld: [0; 2],
 };
 
@@ -169,36 +190,56 @@ const fn read_node(node: &mut BallNode, words: &[u32], at: usize) {
     node.friction = float(words, at);
     let mut branch = 0;
     while branch < 2 {
-        let knots = at + 1 + branch * KNOTS * KNOT;
+        let knots = at + 1 + branch * BRANCH;
         let mut number = 0;
         while number < KNOTS {
-            node.branches[branch][number] = knot(words, knots + number * KNOT, number + 1 < KNOTS);
+            let at = knots + number * KNOT;
+            let next = if number + 1 < KNOTS { at + KNOT } else { at };
+            node.branches[branch][number] = Knot::between(
+                float(words, at),
+                float(words, next),
+                BallNumbers {
+                    free: floats(words, at + 1),
+                    impedance: floats(words, at + 7),
+                    torque: floats(words, at + 10),
+                    slope: float(words, at + 16),
+                    work: float(words, at + 17),
+                },
+            );
             number += 1;
         }
-        node.unheld[branch] = word(words, at + 1 + 2 * KNOTS * KNOT + branch);
+        let knots = at + 1 + 2 * BRANCH + branch * NEIGHBOUR_BRANCH;
+        let mut number = 0;
+        while number < NEIGHBOUR_KNOTS {
+            let at = knots + number * NEIGHBOUR_KNOT;
+            let next = if number + 1 < NEIGHBOUR_KNOTS {
+                at + NEIGHBOUR_KNOT
+            } else {
+                at
+            };
+            node.neighbours[branch][number] = Knot::between(
+                float(words, at),
+                float(words, next),
+                NeighbourNumbers {
+                    push: lines(words, at + 1),
+                    impedance: lines(words, at + 10),
+                    torque: lines(words, at + 19),
+                    outward: floats(words, at + 28),
+                    outward_torque: float(words, at + 31),
+                },
+            );
+            number += 1;
+        }
+        node.unheld[branch] = word(words, at + NODE - 2 + branch);
         branch += 1;
     }
 }
 
-/// The knot that begins at a word, with or without one after it.
-const fn knot(words: &[u32], at: usize, followed: bool) -> BallKnot {
-    let load = float(words, at);
-    let next = if followed {
-        float(words, at + KNOT)
-    } else {
-        load
-    };
-    BallKnot {
-        load,
-        per_width: BallKnot::per_width(load, next),
-        numbers: BallNumbers {
-            free: floats(words, at + 1),
-            impedance: floats(words, at + 7),
-            torque: floats(words, at + 10),
-            slope: float(words, at + 16),
-            work: float(words, at + 17),
-            grip: floats(words, at + 18),
-            rubbing: float(words, at + 21),
-        },
-    }
+/// The lines of three nodes that begin at a word.
+const fn lines(words: &[u32], at: usize) -> [[f32; 3]; 3] {
+    [
+        floats(words, at),
+        floats(words, at + 3),
+        floats(words, at + 6),
+    ]
 }

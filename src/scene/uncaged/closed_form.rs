@@ -1,11 +1,15 @@
 //! The law of a ball by the papers' closed form, without a host: for a first look.
 
 use super::FoldedBall;
-use crate::ball::pressed::{BallKnot, BallLaw, BallNode, BallNumbers, KNOTS};
+use crate::ball::pressed::{
+    BallKnot, BallLaw, BallNode, BallNumbers, KNOTS, Knot, NEIGHBOUR_KNOTS, NeighbourKnot,
+    NeighbourNumbers,
+};
 use crate::ball::{Clearance, GrooveFit, LoadShare, ScrewRow, ScrewTick};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::scene::contract::Limits;
+use crate::train::RUBBINGS;
 
 /// What catalogue numbers say of a ball screw without cage; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -71,11 +75,13 @@ impl FoldedBall<1> {
         let lift_off = 2.828_427_1 * preload * design.axial_per_normal();
         let speed = design.path_radius() - row.nominal_speed();
         let branches = knots(&row, ball, lift_off, speed);
+        let neighbours = neighbours(&row, axial_load, lift_off);
         Ok(Self {
             law: BallLaw {
                 nodes: [BallNode {
                     friction,
                     branches,
+                    neighbours,
                     unheld: [0; 2],
                 }],
                 deviations: [screw, nut],
@@ -105,11 +111,7 @@ const fn knots(
         axial_load,
         ..
     } = *ball;
-    let mut branches = [[BallKnot {
-        load: 0.0,
-        per_width: 0.0,
-        numbers: BallNumbers::NONE,
-    }; KNOTS]; 2];
+    let mut branches = [[Knot::none(BallNumbers::NONE); KNOTS]; 2];
     let mut number = 0;
     while number < 2 * KNOTS {
         let (branch, knot) = (number / KNOTS, number % KNOTS);
@@ -117,15 +119,9 @@ const fn knots(
         let next = knot_load(lift_off, axial_load, knot + 1);
         let side = if branch == 0 { 1.0 } else { -1.0 };
         let tick = row.at(1.0, side * (load - lift_off));
-        branches[branch][knot] = BallKnot {
-            load,
-            per_width: if knot + 1 < KNOTS {
-                BallKnot::per_width(load, next)
-            } else {
-                0.0
-            },
-            numbers: numbers(&tick, deviations, speed, 1.0 / (friction * load)),
-        };
+        let next = if knot + 1 < KNOTS { next } else { load };
+        let numbers = numbers(&tick, deviations, speed, 1.0 / (friction * load));
+        branches[branch][knot] = Knot::between(load, next, numbers);
         number += 1;
     }
     branches
@@ -166,9 +162,34 @@ const fn numbers(
         torque: parabola(&at[2]),
         slope: 0.0,
         work: 1.0,
-        grip: [0.0; 3],
-        rubbing: 2.0 * tick.rubbing(),
     }
+}
+
+/// What neighbours change under the least load and under the largest, of both branches: the closed form knows what is lost between balls, and
+/// nothing of what that does to their motion.
+const fn neighbours(
+    row: &ScrewRow,
+    axial_load: f32,
+    lift_off: f32,
+) -> [[NeighbourKnot; NEIGHBOUR_KNOTS]; 2] {
+    let mut branches = [[Knot::none(NeighbourNumbers::NONE); NEIGHBOUR_KNOTS]; 2];
+    let ends = [LEAST * axial_load, axial_load];
+    let mut number = 0;
+    while number < 2 * NEIGHBOUR_KNOTS {
+        let (branch, knot) = (number / NEIGHBOUR_KNOTS, number % NEIGHBOUR_KNOTS);
+        let load = ends[if knot == 0 { 0 } else { 1 }];
+        let side = if branch == 0 { 1.0 } else { -1.0 };
+        let rubbing = row.at(1.0, side * load).rubbing();
+        let mut numbers = NeighbourNumbers::NONE;
+        let mut node = 0;
+        while node < RUBBINGS.len() {
+            numbers.torque[node][0] = RUBBINGS[node] * rubbing;
+            node += 1;
+        }
+        branches[branch][knot] = Knot::between(lift_off + load, lift_off + ends[1], numbers);
+        number += 1;
+    }
+    branches
 }
 
 /// Coefficients of `1, s, n, s^2, s n, n^2` from values at -1, 0 and 1 of both.

@@ -3,8 +3,9 @@
 use core::f32::consts::TAU;
 
 use crate::ball::LoadShares;
-use crate::ball::pressed::BallLaw;
+use crate::ball::pressed::{BallLaw, RowConstants};
 use crate::error::{Error, attempt, in_range};
+use crate::math::constant;
 use crate::math::elliptic::arc_sine;
 use crate::scene::circuit::{Circuit, CircuitConfiguration, DeviationMap, LONGEST_TRACK};
 use crate::scene::contract::Limits;
@@ -107,6 +108,17 @@ impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
             largest_speed: limits.nut_speed,
         }
         .folded(most)
+    }
+
+    /// What its balls have in common, with the chord's angle `sin(b) = R_B/R_path` (Lin 2019, eq. (3.72)).
+    pub(super) const fn row(&self) -> RowConstants {
+        let sin = self.folded.ball_radius / self.folded.path_radius;
+        let per_cos = 1.0 / constant::sqrt(1.0 - sin * sin);
+        RowConstants {
+            ball_friction: self.ball_friction * per_cos,
+            outward: sin * per_cos,
+            half_speed: 0.5 * self.folded.speed,
+        }
     }
 
     /// Length of the loaded track, m.

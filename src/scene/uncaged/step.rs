@@ -1,14 +1,14 @@
 //! What a tick computes: every ball at its position, then how they press.
 
 use super::{UncagedConstants, UncagedState};
-use crate::ball::pressed::{BallNumbers, FreeMotion};
+use crate::ball::pressed::{BallNumbers, LoadedBall, NeighbourLaw, Pressed};
 use crate::scene::circuit::UNLOADED;
 use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::reversal::{ReversalState, direction};
 use crate::scene::row::TrainFriction;
-use crate::train::{Grip, Intake, LARGEST_GRIP, limited_grip};
+use crate::train::{Intake, Losses, RubbedBall, RubbedRow};
 
 /// Sliding friction of a ball screw without cage, in the direction in which its balls go.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,17 +48,28 @@ impl UncagedFriction {
 struct Common {
     /// Mean axial load of a ball, N.
     mean: f32,
-    /// Load of a ball under the mean axial load, N.
+    /// Load of a ball under the mean axial load, N, and friction coefficient times it.
     load: f32,
+    sliding: f32,
     /// 0 where the load opposes the motion, else 1.
     branch: usize,
     /// -1 where the nut turns backward, else 1.
     direction: f32,
-    /// What a ball does under the mean load, its grip with the friction between balls; both its free speed and its grip with the sign of
-    /// the direction.
+    /// What a ball does alone under the mean load.
     numbers: BallNumbers,
-    /// Whether a train takes all of this grip, within the largest deviations.
-    holds_grip: bool,
+    /// What neighbours change in it.
+    neighbours: NeighbourLaw,
+}
+
+/// A look at all balls.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Pass {
+    /// The first one of balls that rub.
+    First,
+    /// The second one.
+    Second,
+    /// The only one of balls that do not rub.
+    Smooth,
 }
 
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
@@ -75,51 +86,43 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         } = inputs;
         let common = self.common(state, inputs);
         let phase = state.circuit.phase();
-        let travel = self.circuit.travel(nut_speed);
-        let mut balls = state.circuit.train.intake(travel);
-        let torque = if self.even {
-            let numbers = common.numbers;
-            let motion = move |_, deviations| numbers.at(deviations);
-            self.take_in(&mut balls, phase, axial_load, &common, motion)
+        let friction = state.friction;
+        let balls = state.circuit.train.intake(self.circuit.travel(nut_speed));
+        let (torque, row) = if self.even {
+            let alone = |_, deviations| LoadedBall {
+                alone: common.numbers.at(deviations),
+                sliding: common.sliding,
+                deviations,
+            };
+            self.press(balls, phase, axial_load, &common, alone)
         } else {
-            let friction = state.friction;
-            let motion = |share, deviations| {
+            let alone = |share, deviations| {
                 let load = self.law.load_of(common.mean * share);
-                let motion = self.law.at(load, common.branch, friction, deviations);
-                let grip = common.direction * self.ball_friction * motion.grip;
-                FreeMotion {
-                    speed: common.direction * motion.speed,
-                    grip: limited_grip(grip),
-                    ..motion
+                LoadedBall {
+                    alone: self.law.at(load, common.branch, friction, deviations),
+                    sliding: self.law.sliding(load, friction),
+                    deviations,
                 }
             };
-            self.take_in(&mut balls, phase, axial_load, &common, motion)
+            self.press(balls, phase, axial_load, &common, alone)
         };
-        let pressing = balls.press_rubbing();
         state.circuit.advance(&self.circuit, nut_speed);
 
-        let numbers = &common.numbers;
-        let work = self.half_speed * numbers.work * pressing.work;
-        let rubbing_force = self.ball_friction * pressing.force;
-        let ball_torque = numbers.rubbing * rubbing_force;
         let most = self.law.load_of(self.heaviest * common.mean);
-        let friction = state.friction;
-        let load = common.load * self.balls;
+        let rubbing = self.row.ball_friction * row.largest_of_both;
         let held = self.law.holds_forces(common.load, common.branch, friction)
             && self.law.holds_load(most)
             && self.law.holds(friction.friction())
-            && self.law.holds_rubbing(load, friction, rubbing_force)
-            && common.holds_grip;
+            && self.law.holds_rubbing(rubbing, common.sliding);
+        let outward = common.neighbours.numbers.outward_torque * row.forces;
         UncagedFriction {
             row: TrainFriction {
-                groove: not_negative(
-                    torque + numbers.slope * common.direction * pressing.change + work,
-                ),
-                ball: ball_torque,
+                groove: not_negative(torque + row.by_speed + outward),
+                ball: not_negative(row.by_rubbing),
                 ratios: [1.0; 2],
-                load,
-                contacts: pressing.contacts,
-                largest_contact_force: pressing.largest,
+                load: common.load * self.balls,
+                contacts: row.contacts,
+                largest_contact_force: row.largest,
             },
             faults: Faults::NONE.with(!held, Faults::BEYOND_MODEL),
         }
@@ -131,26 +134,50 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let mean = inputs.axial_load * self.per_ball;
         let branch = usize::from(direction * mean < 0.0);
         let load = self.law.load_of(mean);
-        let mut numbers = self.law.numbers(load, branch, state.friction);
-        let [grip, screw, nut] = numbers.grip.map(f32::abs);
-        let size = self.ball_friction * (grip + screw + nut);
-        let holds_grip = size <= LARGEST_GRIP;
-        let limited = if holds_grip { 1.0 } else { LARGEST_GRIP / size };
-        let ball_friction = direction * self.ball_friction * limited;
-        numbers.grip = numbers.grip.map(|grip| ball_friction * grip);
-        numbers.free = numbers.free.map(|free| direction * free);
+        let numbers = self.law.numbers(load, branch, state.friction);
+        let neighbours = self
+            .law
+            .neighbours(load, branch, state.friction, &numbers, self.row);
         Common {
             mean,
             load,
+            sliding: self.law.sliding(load, state.friction),
             branch,
             direction,
             numbers,
-            holds_grip,
+            neighbours,
         }
     }
 
-    /// Gives each ball its free speed and impedance, a loaded one by `motion` from its share of the load and its deviations; returns the sum of their
-    /// torques, N m. Not inlined: what the rest of a step holds would take its registers.
+    /// How balls press, in two passes where they rub; and the sum of their torques at the held speed, N m.
+    #[inline(always)]
+    fn press(
+        &self,
+        mut balls: Intake<'_, N>,
+        phase: u32,
+        axial_load: f32,
+        common: &Common,
+        alone: impl Fn(f32, [f32; 2]) -> LoadedBall,
+    ) -> (f32, RubbedRow) {
+        let rub = self.row.ball_friction > 0.0;
+        if rub {
+            self.take_in(&mut balls, phase, axial_load, common, &alone, Pass::First);
+            balls = balls.press_once();
+        }
+        let last = if rub { Pass::Second } else { Pass::Smooth };
+        let torque = self.take_in(&mut balls, phase, axial_load, common, &alone, last);
+        let losses = common
+            .neighbours
+            .losses(common.sliding, common.numbers.impedance[0]);
+        let row = balls.press_rubbing(&Losses {
+            held_speed: common.direction * losses.held_speed,
+            ..losses
+        });
+        (torque, row)
+    }
+
+    /// Gives each ball its free speed and impedance in a pass, a loaded one by what it does `alone` with its share of the load and its deviations;
+    /// returns the sum of their torques at the held speed, N m. Not inlined: what the rest of a step holds would take its registers.
     #[inline(never)]
     fn take_in(
         &self,
@@ -158,14 +185,18 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         phase: u32,
         axial_load: f32,
         common: &Common,
-        motion: impl Fn(f32, [f32; 2]) -> FreeMotion,
+        alone: &impl Fn(f32, [f32; 2]) -> LoadedBall,
+        pass: Pass,
     ) -> f32 {
-        let Common {
-            direction, numbers, ..
+        let &Common {
+            direction,
+            ref numbers,
+            ref neighbours,
+            ..
         } = common;
         let shares = self.shares(axial_load);
         let units = self.units.map(|unit| direction * unit);
-        let idle = numbers.free[0];
+        let idle = direction * numbers.free[0];
         let mut torque = 0.0;
         while let Some(ball) = balls.next_ball() {
             let Some(loaded) = self.circuit.loaded_ball(ball.position(), phase, shares) else {
@@ -173,10 +204,25 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 continue;
             };
             let deviations = [units[0] * loaded.passing, units[1] * loaded.recirculating];
-            let motion = motion(loaded.load.share(), deviations);
-            torque += motion.torque;
-            let grip = Grip::within(motion.grip);
-            ball.put_rubbed(motion.speed, motion.impedance, grip);
+            let alone = alone(loaded.load.share(), deviations);
+            let (rubbed, at_held) = match pass {
+                Pass::First => (neighbours.first(&alone), 0.0),
+                Pass::Second => neighbours.second(
+                    &alone,
+                    Pressed {
+                        forces: ball.forces(),
+                        speed: direction * ball.speed(),
+                    },
+                ),
+                Pass::Smooth => neighbours.smooth(&alone),
+            };
+            torque += at_held;
+            ball.put_rubbed(&RubbedBall {
+                speed: direction * rubbed.speed,
+                grip: direction * rubbed.grip,
+                torque_slope: direction * rubbed.torque_slope,
+                ..rubbed
+            });
         }
         torque
     }

@@ -339,7 +339,7 @@ fn of_ball(figure: &Figure) -> ShownFigure {
     }
 }
 
-/// Figures of rows of balls, flagged ones in the count: of rows without friction between balls, with it, those of them that rub lightly, and the same of rows in waves.
+/// Figures of rows of balls, flagged ones in the count: of rows without friction between balls, with it, and the same of rows in waves.
 fn of_rows(certificate: &UncagedCertificate) -> impl Iterator<Item = ShownFigure> {
     let shown = |quantity, figure: &UncagedFigure, of: &RowFigures, unit| ShownFigure {
         quantity,
@@ -356,11 +356,6 @@ fn of_rows(certificate: &UncagedCertificate) -> impl Iterator<Item = ShownFigure
             "rubbing_ring_torque",
             "rubbing_ring_force",
             &certificate.rubbing,
-        ),
-        (
-            "lightly_rubbing_ring_torque",
-            "lightly_rubbing_ring_force",
-            &certificate.lightly_rubbing,
         ),
         ("wave_ring_torque", "wave_ring_force", &certificate.waves),
         (
@@ -425,10 +420,9 @@ fn notes_of_rows(out: &mut dyn Write, folded: &FoldedUncaged) -> io::Result<()> 
         out,
         "Errors against the exact solver, on rows of {} touching balls that were not fitted (seed {}), flagged rows in the count: of the torque of \
          a row, relative, without friction between balls largest at {worst_load:.4} N a ball, friction coefficient {worst_friction:.4}; of the forces \
-         between its balls, over the largest of the row. Rubbing: with a friction coefficient of 0.1 between balls, which takes from a ball the \
-         hold on its grooves where it is large; lightly: where no friction force between balls is above a tenth of friction coefficient times load. Wave: deviations go in waves along the \
+         between its balls, over the largest of the row. Rubbing: with a friction coefficient of {} between balls. Wave: deviations go in waves along the \
          grooves, else each ball's is random.",
-        certificate.balls, certificate.seed,
+        certificate.balls, certificate.seed, folded.fold.ball_friction,
     )?;
     unsolved(out, certificate.unsolved, "rows")
 }

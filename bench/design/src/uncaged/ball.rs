@@ -16,15 +16,23 @@ use crate::{CagedDesign, Failure};
 pub(super) const POINTS: usize = SIDE * SIDE;
 const SIDE: usize = 5;
 
-/// Places of the grid at which friction of the neighbours is put on a ball: the corners, the middles of the edges and the centre.
+/// Points of the grid at which neighbours act on a ball: the corners, the middles of the edges and the centre.
 const RUBBED: [usize; 9] = [0, 2, 4, 10, 12, 14, 20, 22, 24];
 
-/// Friction force of each neighbour over the root mean square of the forces that hold balls, with which grip and loss by rubbing are found: the
-/// mean of those in rows of 37 balls with friction of 0.1 between them, each weighed by itself (0.31 in three designs; 0.2 unweighed).
-const RUBBING: f64 = 0.3;
+/// One load in so many at which neighbours act on balls.
+const RUBBED_LOADS: usize = 4;
 
-/// Largest friction force of a neighbour over `mu W`: a ball that is rubbed more loses its hold on the grooves.
-const MOST_RUBBING: f64 = 0.12;
+/// Friction of both neighbours over `mu W` that balls are solved under.
+const RUBBINGS: [f64; 9] = [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.45, 0.65, 0.9];
+
+/// Speeds of rubbed balls less the held one, over `mu W` by the impedance, in the direction in which rubbing moves a row: a stiff row moves less.
+const SHIFTS: [f64; 4] = [-0.12, 0.0, 0.15, 0.35];
+
+/// Friction over `mu W` that tells that direction.
+const DIRECTING: f64 = 0.1;
+
+/// Outward force over the load `W` whose effect is taken as linear: neighbours that press with a tenth of the load on a chord of ten degrees.
+const OUTWARD: f64 = 0.02;
 
 /// Loads that may be left without an exact answer, as a share.
 const UNSOLVED: f64 = 0.02;
@@ -57,6 +65,8 @@ pub(super) struct Speeds {
     nominal: f64,
     /// Against the nut.
     pub against_nut: f64,
+    /// Outward force of neighbours over that along the track: the tangent of the chord's angle.
+    pub outward: f64,
 }
 
 impl Speeds {
@@ -70,6 +80,7 @@ impl Speeds {
             path,
             nominal,
             against_nut: path - nominal,
+            outward: (design.ball_radius / path).asin().tan(),
         }
     }
 
@@ -79,7 +90,7 @@ impl Speeds {
     }
 
     /// Orbital speed over the nut's of a deviation.
-    fn orbital(&self, deviation: f64) -> f64 {
+    pub fn orbital(&self, deviation: f64) -> f64 {
         (self.nominal + self.against_nut * deviation) / self.path
     }
 
@@ -111,19 +122,32 @@ pub(super) struct BallSample {
     pub held: f64,
     /// Balls of the grid.
     pub points: [BallPoint; POINTS],
-    /// Some of them with friction of both neighbours.
-    pub rubbed: Rubbed,
+    /// What neighbours change, under some of the loads.
+    pub neighbours: Option<Neighbours>,
 }
 
-/// Some of the balls of the grid, on which both neighbours rub, at a speed at which their mean net push is about zero; over `mu W`.
+/// What neighbours change in balls under one load, at a speed that is kept.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Rubbed {
-    /// Speed of the balls, a deviation.
-    pub speed: f64,
-    /// Friction force of each neighbour.
-    pub friction: f64,
-    /// Balls: their points of the grid, net push, and friction torque with their part of the loss between balls, m.
-    pub balls: Vec<(usize, f64, f64)>,
+pub(super) struct Neighbours {
+    /// By friction of both.
+    pub rubbed: Vec<RubbedBall>,
+    /// By an outward force of one newton: the points of the grid, net push and friction torque, m, each over the friction coefficient.
+    pub outward: Vec<(usize, f64, f64)>,
+}
+
+/// What friction of both neighbours changes in a ball; over `mu W`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RubbedBall {
+    /// Point of the grid.
+    pub point: usize,
+    /// Friction of both.
+    pub rubbing: f64,
+    /// Speed less the held one, a deviation.
+    pub shift: f64,
+    /// Net push.
+    pub push: f64,
+    /// Friction torque, with the ball's part of the loss between balls, m.
+    pub torque: f64,
 }
 
 /// What is solved: a design with a friction coefficient, under loads of one sign.
@@ -138,6 +162,8 @@ pub(super) struct Balls<'a> {
     pub loads: &'a [f64],
     /// 1 where they oppose the motion, -1 where they assist it.
     pub side: f64,
+    /// Friction coefficient between balls by which an outward force goes with the friction of neighbours.
+    pub ball_friction: f64,
 }
 
 /// Answers of one point along the loads; `None` without one.
@@ -168,9 +194,17 @@ impl Balls<'_> {
             }
         }
         self.check_solved(&[&free, &pushed])?;
-        let rubbed = with_nearest(&self.rubbed(&balls, &pushed, &held, &speeds));
         let mut samples: Vec<BallSample> = (0..self.loads.len())
-            .filter_map(|load| self.sample(load, held[load], &free, &pushed, &rubbed, &speeds))
+            .into_par_iter()
+            .filter_map(|load| {
+                let mut sample = self.sample(load, held[load], &free, &pushed, &speeds)?;
+                if load % RUBBED_LOADS == 0 || load + 1 == self.loads.len() {
+                    let smooth = pushed.iter().map(|along| along[load]);
+                    let smooth: Option<Vec<HeldBallFriction>> = smooth.collect();
+                    sample.neighbours = Some(self.neighbours(&balls, &smooth?, &sample, &speeds));
+                }
+                Some(sample)
+            })
             .collect();
         samples.reverse();
         Ok(samples)
@@ -247,6 +281,7 @@ impl Balls<'_> {
                         axial_load: self.side * load,
                         along: drive(point, number),
                         rubbing: [0.0; 2],
+                        outward: 0.0,
                     };
                     let found = ball.solve(&drive, last.as_ref()).ok();
                     failed += usize::from(found.is_none());
@@ -258,71 +293,81 @@ impl Balls<'_> {
             .collect()
     }
 
-    /// Some of the balls under each load, with friction of their neighbours; `None` where most of them have lost their hold.
-    ///
-    /// In a row friction between balls moves the common speed until the net pushes add up to zero again. What a ball needs then is not what it
-    /// would need at the speed of balls that do not rub, because its push saturates with the speed.
-    fn rubbed(
+    /// What neighbours change in balls under the load of a sample; `smooth`: the balls of the grid at the held speed.
+    fn neighbours(
         &self,
         balls: &[DeviatingBall],
-        pushed: &[Along],
-        held: &[f64],
+        smooth: &[HeldBallFriction],
+        sample: &BallSample,
         speeds: &Speeds,
-    ) -> Vec<Option<Rubbed>> {
-        let of = |load: usize| {
-            let smooth: Option<Vec<HeldBallFriction>> =
-                pushed.iter().map(|along| along[load]).collect();
-            let smooth = smooth?;
-            let squares: f64 = smooth.iter().map(|found| found.force.powi(2)).sum();
-            let rms = (squares / POINTS as f64).sqrt();
-            let sliding = (self.loads[load] + self.lift_off) * self.ball.friction;
-            let friction = (MOST_RUBBING * sliding).min(RUBBING * rms);
-            let at = |speed: f64| {
-                let drive = BallDrive {
-                    axial_load: self.side * self.loads[load],
-                    along: AlongTrack::Held(speeds.orbital(speed)),
-                    rubbing: [friction; 2],
-                };
-                // A ball that finds no balance does not count.
-                let found: Vec<(usize, HeldBallFriction)> = RUBBED
-                    .into_iter()
-                    .filter_map(|point| {
-                        let found = balls[point].solve(&drive, Some(&smooth[point].start));
-                        Some((point, found.ok()?))
-                    })
-                    .collect();
-                (found.len() as f64 > 0.5 * RUBBED.len() as f64).then_some(found)
+    ) -> Neighbours {
+        let sliding = sample.load * self.ball.friction;
+        let axial_load = self.side * (sample.load - self.lift_off);
+        let at = |point: usize, speed: f64, start: &BallStart, rubbing: f64, outward: f64| {
+            let drive = BallDrive {
+                axial_load,
+                along: AlongTrack::Held(speeds.orbital(speed)),
+                rubbing: [0.5 * rubbing * sliding; 2],
+                outward,
             };
-            let first = at(held[load])?;
-            let mean = |value: &dyn Fn(&HeldBallFriction) -> f64| {
-                let values: Vec<(usize, f64)> = first
-                    .iter()
-                    .map(|(point, found)| (*point, value(found)))
-                    .collect();
-                line(&values)[0]
-            };
-            let impedance = mean(&|found| speeds.impedance(found.stiffness));
-            let push = mean(&|found| found.force);
-            let speed = if impedance > 0.0 {
-                held[load] - push / impedance
-            } else {
-                held[load]
-            };
-            let balls = at(speed)?
-                .into_iter()
-                .map(|(point, found)| {
-                    // Each contact's loss is shared by its two balls.
-                    let torque = found.torque + 2.0 * friction * found.half_slip;
-                    (point, found.force / sliding, torque / sliding)
-                })
-                .collect();
-            Some(Rubbed {
-                speed,
-                friction: friction / sliding,
-                balls,
-            })
+            balls[point].solve(&drive, Some(start)).ok()
         };
-        (0..self.loads.len()).into_par_iter().map(of).collect()
+        let rms = |value: &dyn Fn(&BallPoint) -> f64| {
+            let squares: f64 = sample.points.iter().map(|point| value(point).powi(2)).sum();
+            squares.sqrt()
+        };
+        let impedance = rms(&|point| point.force) / rms(&|point| point.free - sample.held);
+        let directing: f64 = RUBBED
+            .into_iter()
+            .filter_map(|point| {
+                let smooth = &smooth[point];
+                let rubbed = at(point, sample.held, &smooth.start, DIRECTING, 0.0)?;
+                Some(rubbed.force - smooth.force)
+            })
+            .sum();
+        let sin_chord = speeds.outward / speeds.outward.hypot(1.0);
+        let mut found = Neighbours::default();
+        for point in RUBBED {
+            let held = &smooth[point];
+            let outward = OUTWARD * sample.load;
+            let Some(pressed) = at(point, sample.held, &held.start, 0.0, outward) else {
+                continue;
+            };
+            let per_newton = 1.0 / (outward * self.ball.friction);
+            let by_outward = [
+                (pressed.force - held.force) * per_newton,
+                (pressed.torque - held.torque) * per_newton,
+            ];
+            found.outward.push((point, by_outward[0], by_outward[1]));
+            for shift in SHIFTS {
+                let shift = -directing.signum() * shift / impedance;
+                let speed = sample.held + shift;
+                let Some(alone) = at(point, speed, &held.start, 0.0, 0.0) else {
+                    continue;
+                };
+                let mut last = alone;
+                for rubbing in RUBBINGS {
+                    // What the outward force that goes with this friction does beside the friction is not linear in both; its own part is.
+                    let outward = rubbing * sliding * sin_chord / self.ball_friction;
+                    let Some(here) = at(point, speed, &last.start, rubbing, outward) else {
+                        break;
+                    };
+                    let outward = outward * self.ball.friction;
+                    let push = here.force - alone.force - outward * by_outward[0];
+                    let torque = here.torque - alone.torque - outward * by_outward[1];
+                    found.rubbed.push(RubbedBall {
+                        point,
+                        rubbing,
+                        shift,
+                        push: push / sliding,
+                        // Each contact's loss is shared by its two balls.
+                        torque: torque / sliding + rubbing * here.half_slip,
+                    });
+                    last = here;
+                }
+            }
+        }
+        found
     }
 
     fn sample(
@@ -331,7 +376,6 @@ impl Balls<'_> {
         held: f64,
         free: &[Along],
         pushed: &[Along],
-        rubbed: &[Rubbed],
         speeds: &Speeds,
     ) -> Option<BallSample> {
         let whole = self.loads[load] + self.lift_off;
@@ -350,21 +394,9 @@ impl Balls<'_> {
             load: whole,
             held,
             points,
-            rubbed: rubbed[load].clone(),
+            neighbours: None,
         })
     }
-}
-
-/// Values, each that is missing as the one before it, and the first as the next.
-fn with_nearest(values: &[Option<Rubbed>]) -> Vec<Rubbed> {
-    let mut last = values.iter().flatten().next().cloned().unwrap_or_default();
-    let nearest = values.iter().map(|value| {
-        if let Some(value) = value {
-            last = value.clone();
-        }
-        last.clone()
-    });
-    nearest.collect()
 }
 
 /// Mean of the free speeds under each load, each ball with its impedance as weight.

@@ -23,12 +23,6 @@ pub const WAVES: usize = 48;
 /// Least and most waves in a row.
 const IN_A_ROW: [f32; 2] = [0.5, 9.0];
 
-/// Friction coefficient between the balls of every fourth pair of rows; the others have none.
-const BALL_FRICTION: f32 = 0.1;
-
-/// Friction force between two balls over `mu W` up to which balls rub lightly.
-const LIGHT: f64 = 0.1;
-
 /// Rows that may be left without an exact answer, as a share. With one more no further row is solved: a search without an answer is the longest.
 const UNSOLVED: f64 = 0.06;
 
@@ -43,14 +37,11 @@ pub struct UncagedCertificate {
     pub unsolved: usize,
     /// Rows of random deviations without friction between balls.
     pub smooth: RowFigures,
-    /// Rows of random deviations with a friction coefficient of 0.1 between balls.
+    /// Rows of random deviations with the fold's friction coefficient between balls.
     pub rubbing: RowFigures,
-    /// Those of them in which no friction force between balls is above a tenth of `mu W`. Where one is, it takes from a ball the hold on its
-    /// grooves, of which the law knows nothing.
-    pub lightly_rubbing: RowFigures,
     /// Rows in waves without friction between balls.
     pub waves: RowFigures,
-    /// Rows in waves with a friction coefficient of 0.1 between balls.
+    /// Rows in waves with the fold's friction coefficient between balls.
     pub rubbing_waves: RowFigures,
 }
 
@@ -91,7 +82,6 @@ struct Found {
     row: Row,
     exact: RowAnswer,
     folded: RowAnswer,
-    flagged: bool,
     /// Load `W` of a ball, N.
     load: f64,
     /// Whether its deviations go in waves.
@@ -105,12 +95,6 @@ impl Found {
 
     fn largest_force(&self) -> f64 {
         self.exact.forces.iter().copied().fold(0.0, f64::max)
-    }
-
-    /// Largest friction force between two balls over `mu W`.
-    fn rubbing(&self) -> f64 {
-        let friction = f64::from(self.row.ball_friction) * self.largest_force();
-        friction / (f64::from(self.row.friction) * self.load)
     }
 
     fn force_errors(&self) -> Vec<f64> {
@@ -147,7 +131,11 @@ impl UncagedFigure {
 impl RowFigures {
     fn of<'a>(rows: impl Iterator<Item = &'a Found>) -> Self {
         let all: Vec<&Found> = rows.collect();
-        let unflagged: Vec<&Found> = all.iter().copied().filter(|row| !row.flagged).collect();
+        let unflagged: Vec<&Found> = all
+            .iter()
+            .copied()
+            .filter(|row| !row.folded.flagged)
+            .collect();
         let flagged = all.len() - unflagged.len();
         Self {
             rows: all.len(),
@@ -187,7 +175,6 @@ impl UncagedCertificate {
                 let folded = row.folded(law, &speeds);
                 Some(Found {
                     exact,
-                    flagged: row.is_flagged(law, &folded.forces),
                     folded,
                     load: law.load_of(row.axial_load).into(),
                     in_waves: number >= ROWS,
@@ -216,16 +203,13 @@ impl UncagedCertificate {
             unsolved,
             smooth: RowFigures::of(of(false, false)),
             rubbing: RowFigures::of(of(false, true)),
-            lightly_rubbing: RowFigures::of(
-                of(false, true).filter(|found| found.rubbing() <= LIGHT),
-            ),
             waves: RowFigures::of(of(true, false)),
             rubbing_waves: RowFigures::of(of(true, true)),
         })
     }
 }
 
-/// Rows over the whole domain: in turns with a load that opposes the motion and one that assists it, and a quarter of each with friction
+/// Rows over the whole domain: in turns with a load that opposes the motion and one that assists it, and half of each with friction
 /// between balls. First those of random deviations, then those in waves.
 fn rows(fold: &UncagedFold, (low, high): (f32, f32)) -> Vec<Row> {
     let mut random = Pcg64::seed_from_u64(fold.seed);
@@ -235,7 +219,11 @@ fn rows(fold: &UncagedFold, (low, high): (f32, f32)) -> Vec<Row> {
             let load = by_octaves(fold.axial_load, &mut random);
             Row {
                 friction: by_octaves([low, high], &mut random).clamp(low, high),
-                ball_friction: if row / 2 % 4 == 3 { BALL_FRICTION } else { 0.0 },
+                ball_friction: if row / 2 % 2 == 1 {
+                    fold.ball_friction
+                } else {
+                    0.0
+                },
                 axial_load: side * load,
                 deviations: if row < ROWS {
                     std::array::from_fn(|_| {

@@ -4,12 +4,13 @@
 //! the errors of the force at the held speed count most, and those of the free speed beside them. The impedance is therefore the secant from
 //! the free speed to the held one, not the tangent at either.
 
-use epas_friction::ball::pressed::{KNOTS, LARGEST_GRIP, LARGEST_WORK, POWERS};
+use epas_friction::ball::pressed::{KNOTS, LARGEST_WORK, POWERS};
 use nalgebra::{DMatrix, DVector, Matrix2, SMatrix, SVector, Vector2};
 
 use super::Column;
-use super::ball::{BallSample, POINTS, line, powers};
+use super::ball::{BallSample, POINTS, powers};
 use super::knots::{Between, Knots};
+use super::neighbours;
 
 /// Errors that weigh as much as each other where knots are placed: of the torque, of the force over its root mean square, and of the free
 /// speed over the root mean square of its distance from the held one.
@@ -34,7 +35,7 @@ const MOST_WORK: f64 = 0.999 * LARGEST_WORK as f64;
 const SLOPES: usize = 3;
 const TOGETHER: usize = POWERS + SLOPES;
 
-/// Numbers at a knot, all over `mu W` but speeds, work and grip; see `BallNumbers`.
+/// Numbers at a knot, all over `mu W` but speeds and work; see `BallNumbers`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Numbers {
     pub free: [f64; POWERS],
@@ -42,8 +43,6 @@ pub(super) struct Numbers {
     pub torque: [f64; POWERS],
     pub slope: f64,
     pub work: f64,
-    pub grip: [f64; SLOPES],
-    pub rubbing: f64,
 }
 
 /// A fitted branch.
@@ -51,6 +50,8 @@ pub(super) struct Numbers {
 pub(super) struct Branch {
     /// Knots: load, N, and numbers.
     pub knots: Vec<(f64, Numbers)>,
+    /// What neighbours change, at knots of its own.
+    pub neighbours: Vec<(f64, neighbours::Numbers)>,
     /// Errors at each load.
     pub errors: Vec<Errors>,
 }
@@ -97,14 +98,6 @@ impl Grid {
     }
 }
 
-/// A grip as large as a law may have it: where a ball is held that much firmer or looser, a scene flags the forces between balls.
-fn limited_grip(grip: [f64; SLOPES]) -> [f64; SLOPES] {
-    let size: f64 = grip.iter().map(|part| part.abs()).sum();
-    // A little less, which rounding does not pass.
-    let share = (0.999 * f64::from(LARGEST_GRIP) / size).min(1.0);
-    grip.map(|part| share * part)
-}
-
 /// Root mean square.
 fn rms(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = values.len() as f64;
@@ -149,7 +142,6 @@ impl<'a> Fit<'a> {
         let speeds = self.speeds(&knots, &places);
         let gains = self.gains(&knots, &places);
         let torques = self.torques(&knots, &places, &speeds, &gains);
-        let [grips @ .., rubbings] = self.rubbed(&knots, &places, &speeds, &gains, &torques);
         let numbers: Vec<(f64, Numbers)> = (0..knots.at.len())
             .map(|knot| {
                 let numbers = Numbers {
@@ -158,9 +150,6 @@ impl<'a> Fit<'a> {
                     torque: torques[knot].into(),
                     slope: gains[knot][0],
                     work: gains[knot][1],
-                    grip: limited_grip(std::array::from_fn(|power| grips[power][knot])),
-                    // Where balls hardly press, nothing is lost.
-                    rubbing: rubbings[knot].max(0.0),
                 };
                 (loads[knots.at[knot]], numbers)
             })
@@ -168,6 +157,7 @@ impl<'a> Fit<'a> {
         let errors = self.errors(&speeds, &places);
         Branch {
             knots: numbers,
+            neighbours: neighbours::fitted(self.samples),
             errors,
         }
     }
@@ -214,42 +204,6 @@ impl<'a> Fit<'a> {
             }
         }
         columns
-    }
-
-    /// What friction of their neighbours adds to balls, at the knots: powers of the grip, what the net push lacks over that friction; and the
-    /// speed with which two balls alike rub, the one with which they lose what the torque lacks.
-    fn rubbed(
-        &self,
-        knots: &Knots<'_>,
-        places: &[Between],
-        speeds: &[SVector<f64, TOGETHER>],
-        gains: &[[f64; 2]],
-        torques: &[SVector<f64, POWERS>],
-    ) -> [Vec<f64>; SLOPES + 1] {
-        let mut columns: [Column; SLOPES + 1] = std::array::from_fn(|_| Column {
-            values: Vec::new(),
-            weights: self.weights.to_vec(),
-        });
-        for (sample, place) in self.samples.iter().zip(places) {
-            let rubbed = &sample.rubbed;
-            let here = blended(speeds, place);
-            let torque_here = blended(torques, place);
-            let (mut grips, mut losses) = (Vec::new(), Vec::new());
-            for &(point, force, torque) in &rubbed.balls {
-                let (free, impedance) = self.free_and_impedance(point, &here);
-                let push = rubbed.speed - free;
-                let smooth = (self.grid.powers.row(point) * torque_here)[0]
-                    + self.gained(place, gains, impedance, push);
-                grips.push((point, (force - impedance * push) / (2.0 * rubbed.friction)));
-                losses.push((point, (torque - smooth) / rubbed.friction));
-            }
-            let [grip @ .., rubbing] = &mut columns;
-            for (power, value) in grip.iter_mut().zip(line(&grips)) {
-                power.values.push(value);
-            }
-            rubbing.values.push(line(&losses)[0]);
-        }
-        columns.map(|column| knots.fitted(places, &column))
     }
 
     /// What a ball loses by a change of speed more than at its free speed.

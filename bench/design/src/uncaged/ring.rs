@@ -1,8 +1,7 @@
 //! A row of touching balls: by the exact solver, and by a folded law as a control interrupt evaluates it.
 
-use epas_friction::ball::folded::FrictionInterval;
-use epas_friction::ball::pressed::BallLaw;
-use epas_friction::train::Press;
+use epas_friction::ball::pressed::{BallLaw, LoadedBall, Pressed, RowConstants};
+use epas_friction::train::{Press, RubbedBall};
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall};
 use epas_reference::friction::caged_ball::CagedBall;
@@ -33,6 +32,8 @@ pub(super) struct RowAnswer {
     pub torque: f64,
     /// Forces between neighbours, N.
     pub forces: Vec<f64>,
+    /// Whether the step flags it.
+    pub flagged: bool,
 }
 
 impl Row {
@@ -73,46 +74,65 @@ impl Row {
         Ok(RowAnswer {
             torque,
             forces: found.contact_forces,
+            flagged: false,
         })
     }
 
-    /// By a law.
+    /// By a law, as a step evaluates it.
     pub fn folded<const N: usize>(&self, law: &BallLaw<N>, speeds: &Speeds) -> RowAnswer {
         let interval = law.interval(self.friction);
         let (load, branch) = self.load(law);
         let numbers = law.numbers(load, branch, interval);
-        let motions = self.deviations.map(|at| numbers.at(at));
+        let sliding = law.sliding(load, interval);
+        let row = RowConstants {
+            ball_friction: self.ball_friction * (speeds.outward as f32).hypot(1.0),
+            outward: speeds.outward as f32,
+            half_speed: 0.5 * speeds.against_nut as f32,
+        };
+        let neighbours = law.neighbours(load, branch, interval, &numbers, row);
+        let losses = neighbours.losses(sliding, numbers.impedance[0]);
+        let balls = self.deviations.map(|deviations| LoadedBall {
+            alone: numbers.at(deviations),
+            sliding,
+            deviations,
+        });
         let mut room = [0.0; BALLS];
         room[BALLS - 1] = f32::INFINITY;
         let mut press = Press::<BALLS>::new();
-        press.solve_rubbing(
-            &motions.map(|motion| motion.speed),
-            &motions.map(|motion| motion.impedance),
-            &room,
-            &motions.map(|motion| motion.grip * self.ball_friction),
-        );
         let mut torque = 0.0;
-        for (motion, speed) in motions.iter().zip(press.speeds()) {
-            let x = f64::from(speed - motion.speed);
-            let push = f64::from(motion.impedance) * x;
-            torque += f64::from(motion.torque)
-                + (f64::from(numbers.slope)
-                    + 0.5 * f64::from(numbers.work) * speeds.against_nut * push)
-                    * x;
+        let mut second = [RubbedBall::default(); BALLS];
+        if self.ball_friction > 0.0 {
+            let first = balls.map(|ball| neighbours.first(&ball));
+            press.solve_rubbing(&first, &room, &losses);
+            let mut behind = 0.0;
+            let found = press.forces().zip(press.speeds());
+            for (ball, (second, (force, speed))) in balls.iter().zip(second.iter_mut().zip(found)) {
+                let forces = behind + force;
+                let (rubbed, at_held) = neighbours.second(ball, Pressed { forces, speed });
+                behind = force;
+                torque += f64::from(at_held);
+                *second = rubbed;
+            }
+        } else {
+            for (ball, second) in balls.iter().zip(&mut second) {
+                let (smooth, at_held) = neighbours.smooth(ball);
+                torque += f64::from(at_held);
+                *second = smooth;
+            }
         }
-        let forces: Vec<f64> = press.forces().take(BALLS - 1).map(f64::from).collect();
-        let rubbing = f64::from(self.ball_friction * numbers.rubbing);
-        torque += rubbing * forces.iter().sum::<f64>();
-        RowAnswer { torque, forces }
-    }
-
-    /// Whether the law says that it does not hold these forces between balls.
-    pub fn is_flagged<const N: usize>(&self, law: &BallLaw<N>, forces: &[f64]) -> bool {
-        let interval: FrictionInterval = law.interval(self.friction);
-        let (load, branch) = self.load(law);
-        let mean = forces.iter().sum::<f64>() / BALLS as f64;
-        let rubbing = self.ball_friction * mean as f32;
-        !(law.holds_forces(load, branch, interval) && law.holds_rubbing(load, interval, rubbing))
+        let row = press
+            .solve_rubbing(&second, &room, &losses)
+            .unwrap_or_default();
+        let outward = neighbours.numbers.outward_torque * row.forces;
+        torque += f64::from(row.by_speed + row.by_rubbing + outward);
+        let forces = press.forces().take(BALLS - 1).map(f64::from).collect();
+        let rubbing = neighbours.ball_friction * row.largest_of_both;
+        RowAnswer {
+            torque,
+            forces,
+            flagged: !(law.holds_forces(load, branch, interval)
+                && law.holds_rubbing(rubbing, sliding)),
+        }
     }
 
     fn load<const N: usize>(&self, law: &BallLaw<N>) -> (f32, usize) {
