@@ -166,7 +166,6 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             ref law,
             friction,
             lead,
-            speed,
             reversal_speed,
             limits,
             ..

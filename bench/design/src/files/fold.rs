@@ -122,7 +122,6 @@ impl FoldTable {
         let domain = self.domain(fold.gear.friction, design.mark("friction"))?;
         fold.gear.friction = domain.friction;
         fold.friction = domain.range;
-        fold.ball_friction = row.map_or(fold.ball_friction, |row| row.ball_friction);
         fold.axial_load = self.loads().unwrap_or(fold.axial_load);
         fold.seed = self.seed.map_or(fold.seed, u64::from);
         Ok(fold)
