@@ -223,7 +223,8 @@ impl Limits {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Regime {
-    /// The mechanism is slower than the reversal speed: friction is between its two directions.
+    /// The mechanism is slower than the reversal speed, or with memory its elements still stick or the nut has just turned back: friction is
+    /// between its two directions.
     Standing,
     /// The motor moves the load (or turns against friction alone).
     Driving,

@@ -59,6 +59,11 @@ pub trait Sliding: Scene<ValidInputs = <Self as Scene>::Inputs, Inputs: Motion> 
     /// Its sizes in both directions, and the load.
     fn by_direction(sliding: &Self::Friction) -> SlidingFriction;
 
+    /// Takes over what the friction of the last tick leaves to this one; `travelled`: the balls' travel in this tick over half the play. Nothing
+    /// in a scene whose friction does not depend on where its balls went.
+    #[inline(always)]
+    fn continue_from(_sliding: &mut Self::Friction, _last: &Self::Friction, _travelled: f32) {}
+
     /// What the scene puts out at this reversal state.
     fn outputs_at(
         constants: &Self::Constants,

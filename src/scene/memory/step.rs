@@ -86,13 +86,11 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         let factor = if limit > 0.0 { friction / limit } else { 0.0 };
         let reversal = ReversalState {
             factor: factor * remembered.level.of(friction),
-            direction: if remembered.play.direction() == 0.0 {
-                direction(friction)
-            } else {
-                remembered.play.direction()
-            },
+            carried: factor.abs(),
+            // Where there is friction and the nut does not stand, that of its motion.
+            direction: direction(if limit > 0.0 { friction } else { turn }),
             standing: if limit > 0.0 {
-                factor.abs() < SLIDES
+                factor.abs() < SLIDES || turn * friction < 0.0
             } else {
                 turn == 0.0
             },

@@ -26,14 +26,14 @@ impl UncagedFriction {
         load_torque: f32,
         reversal: ReversalState,
     ) -> UncagedOutputs {
-        let (groove_torque, ball_torque) = self.row.outputs_at(reversal);
+        let row = self.row.outputs_at(reversal);
         UncagedOutputs {
-            friction_torque: groove_torque + ball_torque,
-            groove_torque,
-            ball_torque,
+            friction_torque: row.groove + row.ball,
+            groove_torque: row.groove,
+            ball_torque: row.ball,
             load_torque,
-            contacts: self.row.contacts,
-            largest_contact_force: self.row.largest_contact_force,
+            contacts: row.contacts,
+            largest_contact_force: row.largest_contact_force,
             regime: Regime::under(
                 reversal.standing,
                 reversal.direction * load_torque,
@@ -116,7 +116,10 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                     torque + numbers.slope * common.direction * pressing.change + work,
                 ),
                 ball: ball_torque,
+                free: not_negative(torque),
                 ratios: [1.0; 2],
+                fading: [0.0; 2],
+                direction: common.direction,
                 load,
                 contacts: pressing.contacts,
                 largest_contact_force: pressing.largest,
