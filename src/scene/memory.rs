@@ -58,8 +58,6 @@ pub struct WithMemoryConstants<C, E, A, L = CoefficientLaw> {
     /// 1 / reference load, 1/N.
     per_reference_load: f32,
     play: Play,
-    /// 1 / half width of the play, 1/rad (1/m); at most 1e9.
-    per_half_play: f32,
     coefficient: L,
     temperature: TemperatureFade,
     /// Factor of a load by its age.
@@ -198,7 +196,7 @@ where
             L::both(&remembered.at_temperature, measured).within(S::FRICTION.maximum),
         );
         if let Some(last) = &remembered.sliding {
-            let travelled = turn_now.abs() * constants.per_half_play;
+            let travelled = turn_now.abs() / constants.play.half_width();
             S::continue_from(&mut sliding, last, travelled);
         }
         let by_direction = S::by_direction(&sliding);
@@ -243,7 +241,6 @@ impl<C: Copy, E: Copy, A: Copy, L: Copy> WithMemoryConstants<C, E, A, L> {
             angle: configuration.angle,
             per_reference_load: 1.0 / reference_load,
             play: attempt!(Play::new(configuration.play)),
-            per_half_play: 1.0 / at_least(configuration.play, 1e-9),
             coefficient: configuration.coefficient,
             temperature: configuration.temperature,
             load: attempt!(configuration.freshness.fade()),
@@ -257,9 +254,4 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
     pub const fn scene(&self) -> &C {
         &self.scene
     }
-}
-
-/// The larger of two numbers.
-const fn at_least(number: f32, least: f32) -> f32 {
-    if number > least { number } else { least }
 }

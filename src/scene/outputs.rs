@@ -160,12 +160,16 @@ impl Outputs {
         if load_torque == 0.0 || matches!(self.regime, Regime::Standing) {
             return 0.0;
         }
-        let drives = matches!(self.regime, Regime::Driving);
         // Signs, because the product of two small torques would vanish.
         let alike = (load_torque < 0.0) == (friction_torque < 0.0);
-        if drives != alike && friction_torque != 0.0 {
+        let against_motion = match self.regime {
+            Regime::Driving => alike,
+            Regime::BackDriving => !alike,
+            Regime::Standing | Regime::Locked => true,
+        };
+        if friction_torque != 0.0 && !against_motion {
             0.0
-        } else if drives {
+        } else if alike {
             load_torque / (load_torque + friction_torque)
         } else {
             let efficiency = 1.0 + friction_torque / load_torque;
@@ -228,6 +232,8 @@ mod tests {
             (2.0, -0.0, BackDriving, 1.0),
             // The motor helps the load along.
             (2.0, -3.0, Locked, -0.5),
+            // No torque moves the load; friction is cut.
+            (2.0, 6.0, Locked, 0.25),
             // No load: nothing comes out.
             (0.0, 1.0, Driving, 0.0),
             (-0.0, 1.0, Driving, 0.0),

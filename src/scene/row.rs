@@ -95,26 +95,28 @@ impl TrainFriction {
     }
 
     /// Takes over what the friction of the last tick leaves. Where balls turn round, limits that fall begin where they were, in proportion to
-    /// the load, and fade as the balls go on; `travelled`: that over half the play.
+    /// the load, and fade by the whole friction with each half of the play that the balls go on; `travelled`: their travel over that half.
     #[inline(always)]
     pub(super) fn continue_from(&mut self, last: &Self, travelled: f32) {
-        self.fading = if self.direction == last.direction {
-            last.fading.map(|fading| not_negative(fading - travelled))
+        let excess = if self.direction == last.direction {
+            last.fading
         } else {
             let (now, before) = (self.friction(), last.friction());
+            let scale = self.load / last.load;
             let excess = |now: f32, before: f32| {
-                let excess = before * self.load / (now * last.load) - 1.0;
-                not_negative(if excess > LARGEST_FADING {
+                let excess = before * scale / now - 1.0;
+                if excess > LARGEST_FADING {
                     LARGEST_FADING
                 } else {
                     excess
-                })
+                }
             };
             [
                 excess(now.forward, before.forward),
                 excess(now.backward, before.backward),
             ]
         };
+        self.fading = excess.map(|excess| not_negative(excess - travelled));
     }
 }
 

@@ -100,19 +100,19 @@ impl RowMemory {
         let (direction, travel) = self.play(turn);
         let row = row(direction, travel);
         let sliding = row.limits(direction);
-        let fading = self.last.map_or([0.0; 2], |last| {
+        let excess = self.last.map_or([0.0; 2], |last| {
             if last.direction == direction {
-                let travelled = travel.abs() / self.half_width;
-                last.fading.map(|fading| (fading - travelled).max(0.0))
+                last.fading
             } else {
-                let excess =
-                    |now: f64, before: f64| (before / last.load * row.load / now - 1.0).max(0.0);
+                let excess = |now: f64, before: f64| before / last.load * row.load / now - 1.0;
                 [
                     excess(sliding.forward, last.limits.forward),
                     excess(sliding.backward, last.limits.backward),
                 ]
             }
         });
+        let travelled = travel.abs() / self.half_width;
+        let fading = excess.map(|excess| (excess - travelled).max(0.0));
         let limits = Limits {
             forward: sliding.forward * (1.0 + fading[0]),
             backward: sliding.backward * (1.0 + fading[1]),
