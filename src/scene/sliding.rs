@@ -7,7 +7,8 @@ use crate::error::Range;
 use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
 
-/// Friction of gross sliding in both directions at a tick, and the load under which it slides.
+/// Friction of gross sliding in both directions at a tick, and the load under which it slides. Against the direction in which a row's balls
+/// went last it is friction of the grooves alone: balls that press part there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SlidingFriction {

@@ -1328,7 +1328,8 @@ typedef struct epas_memory_inputs_t {
 typedef struct epas_outputs_t {
     /**
      * Torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign
-     * of the nut speed.
+     * of the nut speed; with memory it keeps the old sign after a reversal, until the regime is
+     * standing no more.
      */
     float friction_torque;
     /**
@@ -1336,8 +1337,8 @@ typedef struct epas_outputs_t {
      */
     float load_torque;
     /**
-     * Efficiency of motion in the present direction, away from the reversal; 0 without load or in a
-     * fault, negative where the direction is locked.
+     * Work out over work in of the two torques above, in the direction of motion; 0 without load,
+     * while standing or in a fault, negative where the direction is locked.
      */
     float efficiency;
     /**

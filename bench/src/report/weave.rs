@@ -183,3 +183,26 @@ fn row_of_37(
     };
     Ok(row.with(folded))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Weave;
+
+    /// The pictured reversal: balls that press part after it, and the torque of the row goes on as that of the cage does.
+    #[test]
+    fn the_reversal_of_the_picture_has_no_step() {
+        let weave = Weave::new().unwrap();
+        for pair in weave.rows.windows(2) {
+            println!(
+                "{:.3} {:.4} {:.1} {:.5} {:.5} {:?}",
+                pair[0].time,
+                pair[0].speed,
+                pair[0].load,
+                pair[0].memory,
+                pair[1].balls[0] - pair[0].balls[0],
+                pair[0].balls
+            );
+        }
+        panic!();
+    }
+}

@@ -19,7 +19,7 @@ pub struct WithMemoryConfiguration<C, E, A, L = CoefficientLaw> {
     /// load-exact elements read it.
     pub reference_load: f32,
     /// Half the turn, rad (m), by which the motion has to go back before balls go back too; 0 to 1e3. Set it to the elements'
-    /// breakaway angle: after twice that angle friction has turned round.
+    /// breakaway angle: after twice that angle friction has turned round. With 0 what presses leaves at a reversal in one step.
     pub play: f32,
     /// Friction coefficient: by speed, temperature and direction, or one alone.
     pub coefficient: L,
