@@ -19,7 +19,6 @@
 //! play that the balls go on. Constant springs between limits that hold zero are passive, however the limits change: torque is continuous in the
 //! angle and takes work out of every closed path.
 
-mod coefficient;
 mod configuration;
 mod inputs;
 mod remembered;
@@ -38,8 +37,7 @@ use crate::law::coefficient::{CoefficientLaw, CoefficientModel, TemperatureFade}
 use crate::law::fade::Fade;
 use crate::law::motion::{NutAngle, Play};
 
-pub use coefficient::CoefficientFor;
-pub use configuration::WithMemoryConfiguration;
+pub use configuration::{CoefficientFor, WithMemoryConfiguration};
 pub use inputs::{Freshness, ValidMemoryInputs, WithMemoryInputs};
 pub use remembered::SceneMemory;
 use remembered::checked;
