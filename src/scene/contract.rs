@@ -32,11 +32,6 @@ pub trait Scene {
     /// The state before the first tick.
     fn initial_state(constants: &Self::Constants) -> Self::State;
 
-    /// Brings a state back to that before the first tick.
-    fn reset(constants: &Self::Constants, state: &mut Self::State) {
-        *state = Self::initial_state(constants);
-    }
-
     /// Continues a state that other constants left under these: balls and memory stay.
     ///
     /// # Errors

@@ -38,7 +38,7 @@ use crate::law::fade::Fade;
 use crate::law::motion::{NutAngle, Play};
 
 pub use configuration::{CoefficientFor, WithMemoryConfiguration};
-pub use inputs::{Freshness, ValidMemoryInputs, WithMemoryInputs};
+pub use inputs::{Freshness, WithMemoryInputs};
 pub use remembered::SceneMemory;
 use remembered::checked;
 
@@ -107,7 +107,8 @@ where
     type Constants = WithMemoryConstants<S::Constants, E, A, L>;
     type State = WithMemoryState<S, E, A, L>;
     type Inputs = WithMemoryInputs<S::Inputs, A::Reading>;
-    type ValidInputs = ValidMemoryInputs<S::Inputs, A::Reading>;
+    /// Without the scene's inputs where one of them is NaN or infinite.
+    type ValidInputs = WithMemoryInputs<Option<S::Inputs>, A::Reading>;
     type Outputs = S::Outputs;
 
     fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
@@ -130,12 +131,6 @@ where
                 constants.temperature.fallback(),
             ),
         }
-    }
-
-    fn reset(constants: &Self::Constants, state: &mut Self::State) {
-        S::reset(&constants.scene, &mut state.scene);
-        state.remembered =
-            SceneMemory::nothing(constants.coefficient, constants.temperature.fallback());
     }
 
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
@@ -167,7 +162,7 @@ where
             faults,
         } = S::check_inputs(&constants.scene, scene);
         CheckedInputs {
-            inputs: Some(ValidMemoryInputs {
+            inputs: Some(WithMemoryInputs {
                 scene,
                 reading,
                 load_age,

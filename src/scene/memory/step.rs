@@ -1,6 +1,6 @@
 //! Parts of a step with memory: temperature, turn of the nut, friction of the elements.
 
-use super::{SceneMemory, ValidMemoryInputs, WithMemoryConstants};
+use super::{SceneMemory, WithMemoryConstants, WithMemoryInputs};
 use crate::law::Elements;
 use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
@@ -20,7 +20,7 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
     pub(super) fn take_temperature<S: Sliding>(
         &self,
         remembered: &mut SceneMemory<S, E, A, L>,
-        known: &ValidMemoryInputs<S::Inputs, A::Reading>,
+        known: &WithMemoryInputs<Option<S::Inputs>, A::Reading>,
     ) -> Faults {
         let fade = &self.temperature;
         let temperature = fade.at(known.temperature, known.temperature_age);
