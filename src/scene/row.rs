@@ -128,7 +128,7 @@ const fn of_direction([forward, backward]: [f32; 2], direction: f32) -> f32 {
 
 /// 0 for a number below 0, and for what is no number.
 #[inline(always)]
-const fn not_negative(number: f32) -> f32 {
+pub(super) const fn not_negative(number: f32) -> f32 {
     if number > 0.0 { number } else { 0.0 }
 }
 

@@ -7,7 +7,7 @@ use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::reversal::{ReversalState, direction};
-use crate::scene::row::TrainFriction;
+use crate::scene::row::{TrainFriction, not_negative};
 use crate::train::{Grip, Intake, LARGEST_GRIP, limited_grip};
 
 /// Sliding friction of a ball screw without cage, in the direction in which its balls go.
@@ -183,10 +183,4 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
         torque
     }
-}
-
-/// A torque, or none where it is below zero.
-#[inline(always)]
-fn not_negative(torque: f32) -> f32 {
-    if torque > 0.0 { torque } else { 0.0 }
 }
