@@ -19,8 +19,8 @@ pub struct Outputs {
     /// pi`. The motor's torque at constant speed is the sum of the two.
     pub load_torque: f32,
     /// Work out over work in of the two torques above: `load/(load + friction)` where the motor drives, `1 + friction/load` where
-    /// the load does, with their signs. 0 without a load, while standing, where friction is not against the motion and in a fault; negative where the motor has to help the
-    /// load along (not below -1e6).
+    /// the load does, with their signs. 0 without a load, while standing, where friction is not against the motion and in a fault; negative
+    /// where the motor has to help the load along (not below -1e6).
     pub efficiency: f32,
     /// What the mechanism does.
     pub regime: Regime,

@@ -736,7 +736,8 @@ extern "C" {
 #define EPAS_BRANCH_SLIDING 2u
 
 /**
- * The mechanism is slower than the reversal speed: friction is between its two directions.
+ * The mechanism is slower than the reversal speed, or with memory its elements still stick or the nut has
+ * just turned back: friction is between its two directions.
  */
 #define EPAS_REGIME_STANDING 0u
 

@@ -14,7 +14,8 @@ pub const EPAS_BRANCH_ROLLING: u32 = 1u32;
 /// The ball slides along the path at both contacts: a paper's closed form, a pessimistic bound.
 pub const EPAS_BRANCH_SLIDING: u32 = 2u32;
 
-/// The mechanism is slower than the reversal speed: friction is between its two directions.
+/// The mechanism is slower than the reversal speed, or with memory its elements still stick or the nut has
+/// just turned back: friction is between its two directions.
 pub const EPAS_REGIME_STANDING: u32 = 0u32;
 /// The motor moves the load.
 pub const EPAS_REGIME_DRIVING: u32 = 1u32;
