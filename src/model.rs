@@ -165,7 +165,7 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
 
     /// Back to the state before the first tick.
     pub fn reset(&mut self) {
-        S::reset(self.constants.borrow(), &mut self.state);
+        self.state = S::initial_state(self.constants.borrow());
         self.faulted_ticks = 0;
     }
 

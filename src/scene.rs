@@ -54,7 +54,7 @@ pub use load_proportional::{
     LoadProportionalState,
 };
 pub use memory::{
-    CoefficientFor, Freshness, SceneMemory, ValidMemoryInputs, WithMemory, WithMemoryConfiguration,
+    CoefficientFor, Freshness, SceneMemory, WithMemory, WithMemoryConfiguration,
     WithMemoryConstants, WithMemoryInputs, WithMemoryState,
 };
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};

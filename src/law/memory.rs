@@ -24,24 +24,49 @@
 //! Turn is an angle, rad, and friction a torque, N m, of a screw; of a linear bearing they are a path, m, and a force, N.
 
 pub mod backbone;
-mod hysteresis;
 mod load_exact;
 mod parallel;
 mod preloaded;
 mod proportional;
-mod quadrature;
 mod seat;
-mod slider;
 mod state;
 mod stored;
 
 pub use backbone::{
     Backbone, BackboneElement, SLIP_4, SLIP_6, SLIP_8, SLIP_10, SPIN_4, SPIN_6, SPIN_8, SPIN_10,
 };
-pub use hysteresis::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
 pub use load_exact::LoadExactElements;
 pub use parallel::{ParallelElements, ParallelElementsState};
 pub use preloaded::PreloadedElements;
 pub use proportional::{Part, ProportionalElements};
 pub use seat::{SeatElement, SeatState};
 pub use state::MemoryState;
+
+use super::{Elements, SlidingLimits};
+use crate::error::Range;
+
+/// Friction of gross sliding at the reference load: 1e-9 to 1e9 N m (N).
+pub const REFERENCE_LIMIT: Range = Range::new(1e-9, 1e9);
+
+/// Turn from no friction to full sliding: 1e-9 to 1e3 rad (m).
+pub const BREAKAWAY: Range = Range::new(1e-9, 1e3);
+
+/// Elements that hold, store energy, and have a stiffness and a breakaway.
+pub trait Hysteresis: Elements {
+    /// Friction without a turn: what is remembered, cut to the limits. For a tick without an angle.
+    #[inline]
+    fn hold(&self, state: &mut Self::State, limits: &SlidingLimits) -> f32 {
+        self.follow(state, 0.0, limits)
+    }
+
+    /// Energy in the springs, J: `sum f_i²/(2 k_i)`.
+    ///
+    /// It never grows by more than the work `T dtheta` of the same tick.
+    fn stored_energy(&self, state: &Self::State) -> f32;
+
+    /// Friction over turn from rest at the reference load, N m/rad (N/m).
+    fn initial_stiffness(&self) -> f32;
+
+    /// Turn from rest to full sliding at the reference load, rad (m).
+    fn breakaway(&self) -> f32;
+}

@@ -32,11 +32,6 @@ pub trait Scene {
     /// The state before the first tick.
     fn initial_state(constants: &Self::Constants) -> Self::State;
 
-    /// Brings a state back to that before the first tick.
-    fn reset(constants: &Self::Constants, state: &mut Self::State) {
-        *state = Self::initial_state(constants);
-    }
-
     /// Continues a state that other constants left under these: balls and memory stay.
     ///
     /// # Errors
@@ -223,7 +218,8 @@ impl Limits {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Regime {
-    /// The mechanism is slower than the reversal speed: friction is between its two directions.
+    /// The mechanism is slower than the reversal speed, or with memory its elements still stick or the nut has just turned back: friction is
+    /// between its two directions.
     Standing,
     /// The motor moves the load (or turns against friction alone).
     Driving,

@@ -154,6 +154,11 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     }
 
     #[inline(always)]
+    fn continue_from(sliding: &mut LinearFriction, last: &LinearFriction, travelled: f32) {
+        sliding.row.continue_from(&last.row, travelled);
+    }
+
+    #[inline(always)]
     fn outputs_at(
         _: &LinearConstants<N>,
         _: LinearInputs,

@@ -148,6 +148,7 @@ impl Scene for LoadProportionalScrew {
             factor,
             direction,
             standing,
+            ..
         } = constants.reversal.at(nut_speed);
         let load_torque = constants.load_lever * axial_load;
         let opposing_torque = direction * load_torque;

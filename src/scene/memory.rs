@@ -1,7 +1,24 @@
 //! A scene whose friction remembers: a hysteresis in the nut's angle, with a friction coefficient that follows speed and
 //! temperature.
+//!
+//! # Balls that press on each other, at a reversal
+//!
+//! A ball presses on the next one because friction of its grooves pushes it on while that of the other's grooves holds the other back: along
+//! the path nothing else acts on them. So forces between balls are in proportion to what the grooves carry of their sliding friction, and none is
+//! left where that is zero: friction of the other sign would part the balls. Friction `f` of the elements, positive in the direction in which the
+//! balls went last, lies between
+//!
+//! ```text
+//! -T_0 <= f <= T_g + T_b,   between balls: T_b f/(T_g + T_b) where f > 0, else 0
+//! ```
+//!
+//! with the sliding friction of the grooves `T_g`, between balls `T_b`, and of the grooves where no ball presses `T_0`. After a reversal springs
+//! of constant stiffness take `f` from the upper limit to the lower one over twice the breakaway angle, the whole width of the play; then the balls
+//! turn round, and those that pressed have nothing left to lose. A limit `L` that falls there all the same (elements that turn later, under
+//! a load far above their reference) is `L (1 + e)`, with `e >= 0` from its value before over the load, and `e` falls by one with each half of the
+//! play that the balls go on. Constant springs between limits that hold zero are passive, however the limits change: torque is continuous in the
+//! angle and takes work out of every closed path.
 
-mod coefficient;
 mod configuration;
 mod inputs;
 mod remembered;
@@ -20,9 +37,8 @@ use crate::law::coefficient::{CoefficientLaw, CoefficientModel, TemperatureFade}
 use crate::law::fade::Fade;
 use crate::law::motion::{NutAngle, Play};
 
-pub use coefficient::CoefficientFor;
-pub use configuration::WithMemoryConfiguration;
-pub use inputs::{Freshness, ValidMemoryInputs, WithMemoryInputs};
+pub use configuration::{CoefficientFor, WithMemoryConfiguration};
+pub use inputs::{Freshness, WithMemoryInputs};
 pub use remembered::SceneMemory;
 use remembered::checked;
 
@@ -37,14 +53,15 @@ const CREEP: f32 = 1e-9;
 ///
 /// Friction passes between its two directions with the angle: elements stick and slip under the limits that sliding friction
 /// of the same tick sets them. In steady sliding it is the friction of `S` away from its reversal; its reversal speed has no
-/// meaning here. Standing is where elements still stick.
+/// meaning here. Standing is where elements still stick, or where the nut has just turned back against the friction: elsewhere friction has the
+/// sign of the motion.
 ///
 /// Wrong inputs: without a valid speed and load the last ones are used, flagged; without a valid reading of the angle friction
 /// stays as it is, flagged, and the next reading spans the gap. A load that is too old fades to zero; a temperature that is too
 /// old is replaced by the configuration's.
 ///
 /// Balls of a train move only by the turn beyond a play ([`WithMemoryConfiguration::play`]): noise of the encoder does not
-/// reverse them.
+/// reverse them, and after a reversal what presses leaves with the friction of the grooves before they part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WithMemory<S, E, A, L = CoefficientLaw>(PhantomData<(S, E, A, L)>);
@@ -90,7 +107,8 @@ where
     type Constants = WithMemoryConstants<S::Constants, E, A, L>;
     type State = WithMemoryState<S, E, A, L>;
     type Inputs = WithMemoryInputs<S::Inputs, A::Reading>;
-    type ValidInputs = ValidMemoryInputs<S::Inputs, A::Reading>;
+    /// Without the scene's inputs where one of them is NaN or infinite.
+    type ValidInputs = WithMemoryInputs<Option<S::Inputs>, A::Reading>;
     type Outputs = S::Outputs;
 
     fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
@@ -113,12 +131,6 @@ where
                 constants.temperature.fallback(),
             ),
         }
-    }
-
-    fn reset(constants: &Self::Constants, state: &mut Self::State) {
-        S::reset(&constants.scene, &mut state.scene);
-        state.remembered =
-            SceneMemory::nothing(constants.coefficient, constants.temperature.fallback());
     }
 
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
@@ -150,7 +162,7 @@ where
             faults,
         } = S::check_inputs(&constants.scene, scene);
         CheckedInputs {
-            inputs: Some(ValidMemoryInputs {
+            inputs: Some(WithMemoryInputs {
                 scene,
                 reading,
                 load_age,
@@ -189,12 +201,16 @@ where
             direction * CREEP
         };
         let moving = inputs.with(speed, factor);
-        let sliding = S::sliding_friction(
+        let mut sliding = S::sliding_friction(
             &constants.scene,
             &mut state.scene,
             moving,
             L::both(&remembered.at_temperature, measured).within(S::FRICTION.maximum),
         );
+        if let Some(last) = &remembered.sliding {
+            let travelled = turn_now.abs() / constants.play.half_width();
+            S::continue_from(&mut sliding, last, travelled);
+        }
         let by_direction = S::by_direction(&sliding);
         remembered.limits = by_direction.limits(constants.per_reference_load);
         remembered.sliding = Some(sliding);

@@ -12,14 +12,15 @@ const LEAST_EFFICIENCY: f32 = -1e6;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Outputs {
     /// Torque about the nut's axis that the motor has to add to overcome friction, N m. It has the
-    /// sign of the nut speed; friction itself acts on the nut with the opposite sign.
+    /// sign of the nut speed, with memory from where the nut does not stand ([`Regime::Standing`]): after a reversal it keeps the old sign
+    /// until the elements have turned round. Friction itself acts on the nut with the opposite sign.
     pub friction_torque: f32,
     /// Torque about the nut's axis that holds the load without friction, N m: `axial_load lead / 2
     /// pi`. The motor's torque at constant speed is the sum of the two.
     pub load_torque: f32,
     /// Work out over work in of the two torques above: `load/(load + friction)` where the motor drives, `1 + friction/load` where
-    /// the load does, with their signs. 0 without a load, while standing and in a fault; negative where the motor has to help the
-    /// load along (not below -1e6).
+    /// the load does, with their signs. 0 without a load, while standing, where friction is not against the motion and in a fault; negative
+    /// where the motor has to help the load along (not below -1e6).
     pub efficiency: f32,
     /// What the mechanism does.
     pub regime: Regime,
@@ -34,11 +35,12 @@ pub struct UncagedOutputs {
     /// Torque about the nut's axis that the motor has to add to overcome friction, N m, within its limit: the sum of the
     /// next two, and of the lubricant's drag where a memory's law of the friction coefficient has one
     /// ([`CoefficientAtTemperature::drag_torque`](crate::law::coefficient::CoefficientAtTemperature::drag_torque)),
-    /// which neither of them holds. It has the sign of the nut speed; friction itself acts on the nut with the opposite sign.
+    /// which neither of them holds. Its sign is that of [`Outputs::friction_torque`].
     pub friction_torque: f32,
     /// Its part from the grooves, N m.
     pub groove_torque: f32,
-    /// Its part from balls that rub against each other (Lin 2019, eqs. (3.73), (3.74)), N m.
+    /// Its part from balls that rub against each other (Lin 2019, eqs. (3.73), (3.74)), N m. With memory grooves carry it, and the forces
+    /// below: all three fall with the friction after a reversal, to none where that turns its sign.
     pub ball_torque: f32,
     /// Torque about the nut's axis that holds the load without friction, N m: `axial_load lead / 2 pi`.
     pub load_torque: f32,
@@ -57,11 +59,12 @@ pub struct UncagedOutputs {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearOutputs {
     /// Force along the rail that has to be added to overcome friction, N: the sum of the next two, within its limit.
-    /// It has the sign of the speed; friction itself acts on the carriage with the opposite sign.
+    /// It has the sign of the speed, with memory as [`Outputs::friction_torque`]; friction itself acts on the carriage with the opposite sign.
     pub friction_force: f32,
     /// Its part from the grooves, N.
     pub groove_force: f32,
-    /// Its part from balls that rub against each other (Lin 2019, eqs. (3.52), (3.53)), N.
+    /// Its part from balls that rub against each other (Lin 2019, eqs. (3.52), (3.53)), N; with memory as
+    /// [`UncagedOutputs::ball_torque`].
     pub ball_force: f32,
     /// Pairs of balls that press on each other, 0 to `N`.
     pub contacts: u8,
@@ -146,7 +149,7 @@ impl SceneOutputs for LinearOutputs {
 
 impl Outputs {
     /// Work out over work in of the torques that are put out: `load/(load + friction)` where the motor drives, `1 + friction/load`
-    /// where the load does; 0 without a load and while standing.
+    /// where the load does; 0 without a load, while standing, and where friction is not against the motion.
     #[inline(always)]
     fn efficiency_of_torques(&self) -> f32 {
         let Self {
@@ -158,7 +161,15 @@ impl Outputs {
             return 0.0;
         }
         // Signs, because the product of two small torques would vanish.
-        if (load_torque < 0.0) == (friction_torque < 0.0) {
+        let alike = (load_torque < 0.0) == (friction_torque < 0.0);
+        let against_motion = match self.regime {
+            Regime::Driving => alike,
+            Regime::BackDriving => !alike,
+            Regime::Standing | Regime::Locked => true,
+        };
+        if friction_torque != 0.0 && !against_motion {
+            0.0
+        } else if alike {
             load_torque / (load_torque + friction_torque)
         } else {
             let efficiency = 1.0 + friction_torque / load_torque;
@@ -209,28 +220,34 @@ mod tests {
     /// Work out over work in, for all signs of load and motion; friction has the sign of the motion.
     #[test]
     fn efficiency_in_all_four_quadrants() {
-        for (load, friction, expected) in [
-            (2.0, 2.0, 0.5),
-            (-2.0, -2.0, 0.5),
-            (2.0, -0.5, 0.75),
-            (-2.0, 0.5, 0.75),
+        use Regime::{BackDriving, Driving, Locked};
+        for (load, friction, regime, expected) in [
+            (2.0, 2.0, Driving, 0.5),
+            (-2.0, -2.0, Driving, 0.5),
+            (2.0, -0.5, BackDriving, 0.75),
+            (-2.0, 0.5, BackDriving, 0.75),
             // Without friction nothing is lost, in either direction.
-            (2.0, 0.0, 1.0),
-            (-2.0, 0.0, 1.0),
-            (2.0, -0.0, 1.0),
-            // Locked: the motor helps the load along.
-            (2.0, -3.0, -0.5),
+            (2.0, 0.0, Driving, 1.0),
+            (-2.0, 0.0, Driving, 1.0),
+            (2.0, -0.0, BackDriving, 1.0),
+            // The motor helps the load along.
+            (2.0, -3.0, Locked, -0.5),
+            // No torque moves the load; friction is cut.
+            (2.0, 6.0, Locked, 0.25),
             // No load: nothing comes out.
-            (0.0, 1.0, 0.0),
-            (-0.0, 1.0, 0.0),
+            (0.0, 1.0, Driving, 0.0),
+            (-0.0, 1.0, Driving, 0.0),
             // A load that hardly counts beside the friction.
-            (1e-9, -1.0, LEAST_EFFICIENCY),
-            (-1e-9, 1.0, LEAST_EFFICIENCY),
+            (1e-9, -1.0, Locked, LEAST_EFFICIENCY),
+            (-1e-9, 1.0, Locked, LEAST_EFFICIENCY),
+            // Friction that is not against the motion.
+            (2.0, -0.5, Driving, 0.0),
+            (2.0, 0.5, BackDriving, 0.0),
         ] {
             assert_eq!(
-                efficiency_of(load, friction, Regime::Driving),
+                efficiency_of(load, friction, regime),
                 expected,
-                "{load} {friction}"
+                "{load} {friction} {regime:?}"
             );
             assert_eq!(efficiency_of(load, friction, Regime::Standing), 0.0);
         }

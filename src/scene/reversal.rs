@@ -10,6 +10,9 @@ pub struct ReversalState {
     /// Factor on sliding friction, with the sign of the direction in which friction opposes motion: -1 to 1, times the
     /// [level](crate::law::FrictionLevel) of that direction where one is set.
     pub factor: f32,
+    /// Part of the forces between balls that friction of the grooves carries, 0 to 1: with memory the size of the factor, without its
+    /// level; 1 in a scene without memory, whose forces are those of sliding at any speed.
+    pub carried: f32,
     /// -1 where the motion goes, or went last, in the negative direction, else 1.
     pub direction: f32,
     /// Whether the mechanism stands: friction is between its two directions.
@@ -69,6 +72,7 @@ impl Reversal {
     pub(super) fn at(&self, speed: f32) -> ReversalState {
         ReversalState {
             factor: self.factor(speed),
+            carried: 1.0,
             direction: direction(speed),
             standing: self.stands(speed),
         }

@@ -7,7 +7,8 @@ use crate::error::Range;
 use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
 
-/// Friction of gross sliding in both directions at a tick, and the load under which it slides.
+/// Friction of gross sliding in both directions at a tick, and the load under which it slides. Against the direction in which a row's balls
+/// went last it is friction of the grooves alone: balls that press part there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SlidingFriction {
@@ -58,6 +59,11 @@ pub trait Sliding: Scene<ValidInputs = <Self as Scene>::Inputs, Inputs: Motion> 
 
     /// Its sizes in both directions, and the load.
     fn by_direction(sliding: &Self::Friction) -> SlidingFriction;
+
+    /// Takes over what the friction of the last tick leaves to this one; `travelled`: the balls' travel in this tick over half the play. Nothing
+    /// in a scene whose friction does not depend on where its balls went.
+    #[inline(always)]
+    fn continue_from(_sliding: &mut Self::Friction, _last: &Self::Friction, _travelled: f32) {}
 
     /// What the scene puts out at this reversal state.
     fn outputs_at(

@@ -736,7 +736,8 @@ extern "C" {
 #define EPAS_BRANCH_SLIDING 2u
 
 /**
- * The mechanism is slower than the reversal speed: friction is between its two directions.
+ * The mechanism is slower than the reversal speed, or with memory its elements still stick or the nut has
+ * just turned back: friction is between its two directions.
  */
 #define EPAS_REGIME_STANDING 0u
 
@@ -1328,7 +1329,8 @@ typedef struct epas_memory_inputs_t {
 typedef struct epas_outputs_t {
     /**
      * Torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign
-     * of the nut speed.
+     * of the nut speed; with memory it keeps the old sign after a reversal, until the regime is
+     * standing no more.
      */
     float friction_torque;
     /**
@@ -1336,8 +1338,8 @@ typedef struct epas_outputs_t {
      */
     float load_torque;
     /**
-     * Efficiency of motion in the present direction, away from the reversal; 0 without load or in a
-     * fault, negative where the direction is locked.
+     * Work out over work in of the two torques above, in the direction of motion; 0 without load,
+     * while standing or in a fault, negative where the direction is locked.
      */
     float efficiency;
     /**

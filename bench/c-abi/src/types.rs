@@ -14,7 +14,8 @@ pub const EPAS_BRANCH_ROLLING: u32 = 1u32;
 /// The ball slides along the path at both contacts: a paper's closed form, a pessimistic bound.
 pub const EPAS_BRANCH_SLIDING: u32 = 2u32;
 
-/// The mechanism is slower than the reversal speed: friction is between its two directions.
+/// The mechanism is slower than the reversal speed, or with memory its elements still stick or the nut has
+/// just turned back: friction is between its two directions.
 pub const EPAS_REGIME_STANDING: u32 = 0u32;
 /// The motor moves the load.
 pub const EPAS_REGIME_DRIVING: u32 = 1u32;
@@ -110,12 +111,13 @@ pub struct Inputs {
 #[repr(C)]
 pub struct Outputs {
     /// Torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign
-    /// of the nut speed.
+    /// of the nut speed; with memory it keeps the old sign after a reversal, until the regime is
+    /// standing no more.
     pub friction_torque: f32,
     /// Torque about the nut's axis that holds the load without friction, N m.
     pub load_torque: f32,
-    /// Efficiency of motion in the present direction, away from the reversal; 0 without load or in a
-    /// fault, negative where the direction is locked.
+    /// Work out over work in of the two torques above, in the direction of motion; 0 without load,
+    /// while standing or in a fault, negative where the direction is locked.
     pub efficiency: f32,
     /// What the mechanism does, one of `EPAS_REGIME_...`.
     pub regime: u32,

@@ -144,7 +144,7 @@ fn between(rows: &[Row], (start, end): (f64, f64)) -> &[Row] {
 }
 
 /// The start of the reversal under the largest load, s.
-fn reversal(rows: &[Row]) -> f64 {
+pub(super) fn reversal(rows: &[Row]) -> f64 {
     let reversals = rows
         .windows(2)
         .filter(|pair| pair[0].speed * pair[1].speed <= 0.0);

@@ -11,6 +11,7 @@
 //! | [`masing`] | exact hysteresis under constant limits: a stack of turning points |
 //! | [`load_exact`] | exact hysteresis of a Hertzian contact under a changing load, by the method of dimensionality reduction |
 //! | [`elements`] | a few elements in place of either, with the energy that they store |
+//! | [`row`] | balls that press on each other, behind such elements |
 //! | [`tables`] | angles and shares of elements that follow a backbone |
 //! | [`physics`] | stiffness of a contact, and breakaway of a screw, from first principles |
 //! | [`answers`] | torques over a path, as asked for by a request or a stored case |
@@ -24,6 +25,7 @@ pub mod elements;
 pub mod load_exact;
 pub mod masing;
 pub mod physics;
+pub mod row;
 pub mod tables;
 
 /// Limits of sliding at a tick, over the limit under the reference load.

@@ -154,8 +154,8 @@ impl NeighbourLaw {
         self.rubbed(ball, stiffness, 0.0, grip)
     }
 
-    /// The ball in the second pass, Newton's line through what the first one found; and its friction torque at `v_h`, with what its deviations
-    /// change of the torque that rubbing adds, N m.
+    /// The ball in the second pass, Newton's line through what the first one found; and what its friction torque is more at `v_h` than free, with
+    /// what its deviations change of the torque that rubbing adds, N m.
     #[inline(always)]
     #[must_use]
     pub fn second(&self, ball: &LoadedBall, found: Pressed) -> (RubbedBall, f32) {
@@ -172,39 +172,20 @@ impl NeighbourLaw {
         // What the train cuts off stays as it is at these forces.
         let constant = push - (grip - outward) * found.forces / ball.sliding;
         let rubbed = self.rubbed(ball, stiffness, constant, grip);
-        let FreeMotion {
-            speed,
-            impedance,
-            torque,
-        } = ball.alone;
-        let held = self.held_speed - speed;
-        let at_held = torque
-            + (self.slope * ball.sliding + self.curvature * impedance * held) * held
-            + by_deviations * ball.sliding;
-        (rubbed, at_held)
+        (rubbed, self.held(ball) + by_deviations * ball.sliding)
     }
 
-    /// A ball whose neighbours do not rub, but press it outward; and its friction torque at `v_h`.
+    /// A ball whose neighbours do not rub, but press it outward; and what its friction torque is more at `v_h` than free, N m.
     #[inline(always)]
     #[must_use]
     pub fn smooth(&self, ball: &LoadedBall) -> (RubbedBall, f32) {
-        let FreeMotion {
-            speed,
-            impedance,
-            torque,
-        } = ball.alone;
-        let grip = limited_grip(line(&self.numbers.outward, ball.deviations));
-        let held = self.held_speed - speed;
-        let slope = self.slope * ball.sliding + 2.0 * self.curvature * impedance * held;
         let rubbed = RubbedBall {
-            speed,
-            impedance,
-            grip,
-            torque_slope: slope,
+            speed: ball.alone.speed,
+            impedance: ball.alone.impedance,
+            grip: limited_grip(line(&self.numbers.outward, ball.deviations)),
+            torque_slope: self.torque_slope(ball),
         };
-        let at_held =
-            torque + (self.slope * ball.sliding + self.curvature * impedance * held) * held;
-        (rubbed, at_held)
+        (rubbed, self.held(ball))
     }
 
     /// How the torque of a row of balls follows from their speeds and forces, for balls of the mean `mu W`, N, and impedance, N.
@@ -217,6 +198,20 @@ impl NeighbourLaw {
             per_force: self.ball_friction / sliding,
             rubbing: self.numbers.torque.map(|[middle, ..]| sliding * middle),
         }
+    }
+
+    /// What a ball alone loses more at `v_h` than at its free speed, N m.
+    #[inline(always)]
+    fn held(&self, ball: &LoadedBall) -> f32 {
+        let change = self.held_speed - ball.alone.speed;
+        (self.slope * ball.sliding + self.curvature * ball.alone.impedance * change) * change
+    }
+
+    /// Change of that with the speed there, N m.
+    #[inline(always)]
+    fn torque_slope(&self, ball: &LoadedBall) -> f32 {
+        let change = self.held_speed - ball.alone.speed;
+        self.slope * ball.sliding + 2.0 * self.curvature * ball.alone.impedance * change
     }
 
     /// With an impedance and a push more than the ball alone has, over `mu W`.
@@ -233,7 +228,7 @@ impl NeighbourLaw {
             speed: bounded(free, -LARGEST_SPEED, LARGEST_SPEED),
             impedance: stiff,
             grip,
-            torque_slope: self.slope * ball.sliding + 2.0 * self.curvature * impedance * held,
+            torque_slope: self.torque_slope(ball),
         }
     }
 }

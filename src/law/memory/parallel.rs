@@ -1,6 +1,6 @@
 //! Two kinds of elements side by side.
 
-use super::hysteresis::Hysteresis;
+use super::Hysteresis;
 use crate::error::{Error, attempt, in_range};
 use crate::law::{Elements, SlidingLimits};
 

@@ -1,6 +1,6 @@
 //! Elements of a preloaded screw, at the load that its flanks share.
 
-use super::hysteresis::Hysteresis;
+use super::Hysteresis;
 use crate::ball::PreloadSum;
 use crate::law::{Elements, SlidingLimits};
 

@@ -1,9 +1,8 @@
 //! Elements whose limits are constant shares of the friction of gross sliding.
 
 use super::backbone::BackboneElement;
-use super::hysteresis::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
-use super::slider::{held, held_pair, turned};
-use super::state::MemoryState;
+use super::state::{MemoryState, held, held_pair, turned};
+use super::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
 use crate::error::{Error, attempt, in_range};
 use crate::law::{Elements, SlidingLimits};
 

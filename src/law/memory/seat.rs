@@ -1,7 +1,7 @@
 //! The seat of a ball: free play, then a contact that stiffens, until all slides.
 
-use super::hysteresis::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
-use super::slider::{not_negative, turned};
+use super::state::{not_negative, turned};
+use super::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
 use crate::error::{Error, Range, attempt};
 use crate::law::{Elements, SlidingLimits};
 use crate::math::{cbrt_squared, constant, sqrt};

@@ -1,4 +1,6 @@
-//! What a set of elements remembers.
+//! What a set of elements remembers, and what a slider lets through.
+//!
+//! Sliders compare in an order that leaves a finite number finite, whatever the limits are: what is no number never stays in a state.
 
 use crate::error::{Error, attempt, in_range};
 
@@ -44,4 +46,45 @@ impl<const N: usize> defmt::Format for MemoryState<N> {
     fn format(&self, formatter: defmt::Formatter<'_>) {
         defmt::write!(formatter, "MemoryState {{ held: {=[?]} }}", &self.held[..]);
     }
+}
+
+/// Turns below this size, rad (m), are turns: `2^20`, 1.05e6, far beyond any sensor's.
+const TURN_BEYOND: f32 = 1_048_576.0;
+
+/// A turn: none where it is no number, or beyond any sensor's.
+///
+/// Bits of positive numbers rise with them, and those of what is no number stand above all: a comparison of integers costs
+/// three cycles less than one of numbers. A power of two is a constant that the comparison itself holds.
+#[inline(always)]
+pub(super) fn turned(turn: f32) -> f32 {
+    let size = turn.to_bits() << 1;
+    if size < TURN_BEYOND.to_bits() << 1 {
+        turn
+    } else {
+        0.0
+    }
+}
+
+/// A force, or the limit that it is beyond.
+#[inline(always)]
+pub(super) fn held(force: f32, low: f32, high: f32) -> f32 {
+    let force = if force > high { high } else { force };
+    if force < low { low } else { force }
+}
+
+/// Two at once, operation by operation: a core without reordering waits a cycle where an operation needs the result
+/// of the one before.
+#[inline(always)]
+pub(super) fn held_pair([f, g]: [f32; 2], low: [f32; 2], high: [f32; 2]) -> [f32; 2] {
+    let f = if f > high[0] { high[0] } else { f };
+    let g = if g > high[1] { high[1] } else { g };
+    let f = if f < low[0] { low[0] } else { f };
+    let g = if g < low[1] { low[1] } else { g };
+    [f, g]
+}
+
+/// A quantity that is not negative: 0 where it is.
+#[inline(always)]
+pub(super) fn not_negative(value: f32) -> f32 {
+    if value < 0.0 { 0.0 } else { value }
 }

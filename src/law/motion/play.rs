@@ -61,6 +61,12 @@ impl Play {
         Ok(Self { half_width })
     }
 
+    /// Half its width, rad (m).
+    #[inline(always)]
+    pub(crate) const fn half_width(&self) -> f32 {
+        self.half_width
+    }
+
     /// Makes a state that another play left one of this play.
     pub(crate) const fn take_over(&self, state: &mut PlayState) {
         if state.position.abs() > self.half_width {

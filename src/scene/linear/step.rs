@@ -76,11 +76,15 @@ impl<const N: usize> LinearConstants<N> {
                 .grooves
                 .leaves_four_points(&tick.loss, pressing.largest, tick.compliance);
         // Losses and forces are in proportion to the friction coefficient, the balls' compliances to its inverse.
+        let groove = friction * (tick.loss.friction * shares);
         LinearFriction {
             row: TrainFriction {
-                groove: friction * (tick.loss.friction * shares),
+                groove,
                 ball: friction * (self.rubbing * pressing.force),
+                free: groove,
                 ratios: [1.0; 2],
+                fading: [0.0; 2],
+                direction: direction(speed),
                 load: (up + down) / (2.0 * self.normal),
                 contacts: pressing.contacts,
                 largest_contact_force: friction * pressing.largest,
@@ -119,13 +123,13 @@ impl<const N: usize> LinearConstants<N> {
 
     #[inline(always)]
     pub(super) fn outputs_at(sliding: &LinearFriction, reversal: ReversalState) -> LinearOutputs {
-        let (groove_force, ball_force) = sliding.row.outputs_at(reversal);
+        let row = sliding.row.outputs_at(reversal);
         LinearOutputs {
-            friction_force: groove_force + ball_force,
-            groove_force,
-            ball_force,
-            contacts: sliding.row.contacts,
-            largest_contact_force: sliding.row.largest_contact_force,
+            friction_force: row.groove + row.ball,
+            groove_force: row.groove,
+            ball_force: row.ball,
+            contacts: row.contacts,
+            largest_contact_force: row.largest_contact_force,
             regime: Regime::of(reversal.standing, true, true),
             faults: Faults::NONE.with(sliding.beyond_model, Faults::BEYOND_MODEL),
         }

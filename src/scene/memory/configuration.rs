@@ -1,9 +1,10 @@
-//! What the engineer sets for a scene with memory.
+//! What the engineer sets for a scene with memory, and which friction coefficient goes with which scene.
 
 use super::inputs::Freshness;
 use crate::error::Error;
-use crate::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
+use crate::law::coefficient::{CoefficientLaw, CoefficientModel, OneCoefficient, TemperatureFade};
 use crate::law::memory::Hysteresis;
+use crate::scene::contract::Inputs;
 
 /// What the engineer sets for a scene with memory; elements, sensor and law are checked already.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,7 +20,7 @@ pub struct WithMemoryConfiguration<C, E, A, L = CoefficientLaw> {
     /// load-exact elements read it.
     pub reference_load: f32,
     /// Half the turn, rad (m), by which the motion has to go back before balls go back too; 0 to 1e3. Set it to the elements'
-    /// breakaway angle: after twice that angle friction has turned round.
+    /// breakaway angle: after twice that angle friction has turned round. With 0 what presses leaves at a reversal in one step.
     pub play: f32,
     /// Friction coefficient: by speed, temperature and direction, or one alone.
     pub coefficient: L,
@@ -54,3 +55,32 @@ impl<C: Copy, E: Hysteresis + Copy, A: Copy> WithMemoryConfiguration<C, E, A, On
         })
     }
 }
+
+/// A friction coefficient that a scene with the inputs `I` takes, because it reads their speed in its own unit and what it adds
+/// to the friction is of the scene's unit.
+///
+/// [`OneCoefficient`] reads no speed and adds nothing: it goes with every scene. [`CoefficientLaw`] reads the speed of a nut,
+/// rad/s, and adds the lubricant's drag torque, N m: it goes with ball screws alone. Around a linear bearing, whose speed is
+/// in m/s and whose friction is a force, it does not compile:
+///
+/// ```compile_fail,E0277
+/// use epas_friction::law::coefficient::CoefficientLaw;
+/// # use epas_friction::law::{memory::ProportionalElements, motion::SpeedOverTick};
+/// # use epas_friction::{LinearBearingTrain, Scene, scene::WithMemory};
+/// # fn is_a_scene<S: Scene>() {}
+/// is_a_scene::<WithMemory<LinearBearingTrain<12>, ProportionalElements<8>, SpeedOverTick, CoefficientLaw>>();
+/// ```
+///
+/// ```
+/// use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient};
+/// # use epas_friction::law::{memory::ProportionalElements, motion::SpeedOverTick};
+/// # use epas_friction::{CagedBallScrew, LinearBearingTrain, Scene, scene::WithMemory};
+/// # fn is_a_scene<S: Scene>() {}
+/// is_a_scene::<WithMemory<LinearBearingTrain<12>, ProportionalElements<8>, SpeedOverTick, OneCoefficient>>();
+/// is_a_scene::<WithMemory<CagedBallScrew, ProportionalElements<8>, SpeedOverTick, CoefficientLaw>>();
+/// ```
+pub trait CoefficientFor<I>: CoefficientModel {}
+
+impl<I> CoefficientFor<I> for OneCoefficient {}
+
+impl CoefficientFor<Inputs> for CoefficientLaw {}

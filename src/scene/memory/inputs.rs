@@ -19,17 +19,6 @@ pub struct WithMemoryInputs<I, R> {
     pub temperature_age: f32,
 }
 
-/// Inputs with the scene's own within their limits.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ValidMemoryInputs<I, R> {
-    /// `None` where one of the scene's inputs is NaN or infinite.
-    pub(super) scene: Option<I>,
-    pub(super) reading: R,
-    pub(super) load_age: f32,
-    pub(super) temperature: f32,
-    pub(super) temperature_age: f32,
-}
-
 /// How old a load may be.
 ///
 /// An age that is no number is too old; one below zero counts as none. What fades is friction; the torque that holds the load, and the

@@ -1,6 +1,6 @@
 //! Parts of a step with memory: temperature, turn of the nut, friction of the elements.
 
-use super::{SceneMemory, ValidMemoryInputs, WithMemoryConstants};
+use super::{SceneMemory, WithMemoryConstants, WithMemoryInputs};
 use crate::law::Elements;
 use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
@@ -20,7 +20,7 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
     pub(super) fn take_temperature<S: Sliding>(
         &self,
         remembered: &mut SceneMemory<S, E, A, L>,
-        known: &ValidMemoryInputs<S::Inputs, A::Reading>,
+        known: &WithMemoryInputs<Option<S::Inputs>, A::Reading>,
     ) -> Faults {
         let fade = &self.temperature;
         let temperature = fade.at(known.temperature, known.temperature_age);
@@ -86,13 +86,11 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         let factor = if limit > 0.0 { friction / limit } else { 0.0 };
         let reversal = ReversalState {
             factor: factor * remembered.level.of(friction),
-            direction: if remembered.play.direction() == 0.0 {
-                direction(friction)
-            } else {
-                remembered.play.direction()
-            },
+            carried: factor.abs(),
+            // Where there is friction and the nut does not stand, that of its motion.
+            direction: direction(if limit > 0.0 { friction } else { turn }),
             standing: if limit > 0.0 {
-                factor.abs() < SLIDES
+                factor.abs() < SLIDES || turn * friction < 0.0
             } else {
                 turn == 0.0
             },

@@ -36,6 +36,11 @@ impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> 
     }
 
     #[inline(always)]
+    fn continue_from(sliding: &mut UncagedFriction, last: &UncagedFriction, travelled: f32) {
+        sliding.row.continue_from(&last.row, travelled);
+    }
+
+    #[inline(always)]
     fn outputs_at(
         constants: &UncagedConstants<N, NODES>,
         inputs: Inputs,

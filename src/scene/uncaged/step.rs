@@ -7,7 +7,7 @@ use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::reversal::{ReversalState, direction};
-use crate::scene::row::TrainFriction;
+use crate::scene::row::{TrainFriction, not_negative};
 use crate::train::{Intake, Losses, RubbedBall, RubbedRow};
 
 /// Sliding friction of a ball screw without cage, in the direction in which its balls go.
@@ -26,14 +26,14 @@ impl UncagedFriction {
         load_torque: f32,
         reversal: ReversalState,
     ) -> UncagedOutputs {
-        let (groove_torque, ball_torque) = self.row.outputs_at(reversal);
+        let row = self.row.outputs_at(reversal);
         UncagedOutputs {
-            friction_torque: groove_torque + ball_torque,
-            groove_torque,
-            ball_torque,
+            friction_torque: row.groove + row.ball,
+            groove_torque: row.groove,
+            ball_torque: row.ball,
             load_torque,
-            contacts: self.row.contacts,
-            largest_contact_force: self.row.largest_contact_force,
+            contacts: row.contacts,
+            largest_contact_force: row.largest_contact_force,
             regime: Regime::under(
                 reversal.standing,
                 reversal.direction * load_torque,
@@ -59,6 +59,15 @@ struct Common {
     numbers: BallNumbers,
     /// What neighbours change in it.
     neighbours: NeighbourLaw,
+}
+
+/// Friction torques of all balls that a look at them adds up, N m.
+#[derive(Clone, Copy, Default)]
+struct Torques {
+    /// Alone, at their free speeds.
+    free: f32,
+    /// What they are more at the held speed, with what deviations change of the torque that rubbing adds.
+    held: f32,
 }
 
 /// A look at all balls.
@@ -117,9 +126,12 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let outward = common.neighbours.numbers.outward_torque * row.forces;
         UncagedFriction {
             row: TrainFriction {
-                groove: not_negative(torque + row.by_speed + outward),
+                groove: not_negative(torque.free + torque.held + row.by_speed + outward),
                 ball: not_negative(row.by_rubbing),
+                free: not_negative(torque.free),
                 ratios: [1.0; 2],
+                fading: [0.0; 2],
+                direction: common.direction,
                 load: common.load * self.balls,
                 contacts: row.contacts,
                 largest_contact_force: row.largest,
@@ -149,7 +161,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
     }
 
-    /// How balls press, in two passes where they rub; and the sum of their torques at the held speed, N m.
+    /// How balls press, in two passes where they rub; and the sums of their torques.
     #[inline(always)]
     fn press(
         &self,
@@ -158,7 +170,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         axial_load: f32,
         common: &Common,
         alone: impl Fn(f32, [f32; 2]) -> LoadedBall,
-    ) -> (f32, RubbedRow) {
+    ) -> (Torques, RubbedRow) {
         let rub = self.row.ball_friction > 0.0;
         if rub {
             self.take_in(&mut balls, phase, axial_load, common, &alone, Pass::First);
@@ -177,7 +189,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     }
 
     /// Gives each ball its free speed and impedance in a pass, a loaded one by what it does `alone` with its share of the load and its deviations;
-    /// returns the sum of their torques at the held speed, N m. Not inlined: what the rest of a step holds would take its registers.
+    /// returns the sums of their torques. Not inlined: what the rest of a step holds would take its registers.
     #[inline(never)]
     fn take_in(
         &self,
@@ -187,7 +199,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         common: &Common,
         alone: &impl Fn(f32, [f32; 2]) -> LoadedBall,
         pass: Pass,
-    ) -> f32 {
+    ) -> Torques {
         let &Common {
             direction,
             ref numbers,
@@ -197,7 +209,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let shares = self.shares(axial_load);
         let units = self.units.map(|unit| direction * unit);
         let idle = direction * numbers.free[0];
-        let mut torque = 0.0;
+        let mut torques = Torques::default();
         while let Some(ball) = balls.next_ball() {
             let Some(loaded) = self.circuit.loaded_ball(ball.position(), phase, shares) else {
                 ball.put_smooth(idle, UNLOADED);
@@ -205,7 +217,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             };
             let deviations = [units[0] * loaded.passing, units[1] * loaded.recirculating];
             let alone = alone(loaded.load.share(), deviations);
-            let (rubbed, at_held) = match pass {
+            let (rubbed, held) = match pass {
                 Pass::First => (neighbours.first(&alone), 0.0),
                 Pass::Second => neighbours.second(
                     &alone,
@@ -216,7 +228,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 ),
                 Pass::Smooth => neighbours.smooth(&alone),
             };
-            torque += at_held;
+            torques.free += alone.alone.torque;
+            torques.held += held;
             ball.put_rubbed(&RubbedBall {
                 speed: direction * rubbed.speed,
                 grip: direction * rubbed.grip,
@@ -224,12 +237,6 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 ..rubbed
             });
         }
-        torque
+        torques
     }
-}
-
-/// A torque, or none where it is below zero.
-#[inline(always)]
-fn not_negative(torque: f32) -> f32 {
-    if torque > 0.0 { torque } else { 0.0 }
 }

@@ -189,13 +189,12 @@ fn output(
 /// Outputs of a scene, in the order in which it writes them; named as those of the crate and of C.
 pub fn outputs(scene: SceneName) -> Vec<Variable> {
     let mut outputs = if scene.is_linear() {
-        let about = "force along the rail that overcomes friction, with the sign of the speed";
+        let about = "force along the rail that overcomes friction, with the sign of the speed where the bearing does not stand";
         vec![output(Kind::Float32, "friction_force", Some("N"), about)]
     } else {
-        let friction =
-            "torque about the nut's axis that overcomes friction, with the sign of the nut speed";
+        let friction = "torque about the nut's axis that overcomes friction, with the sign of the nut speed where the nut does not stand";
         let load = "torque about the nut's axis that holds the load without friction";
-        let efficiency = "efficiency of motion in the present direction; 0 without a load or in a fault, negative where it is locked";
+        let efficiency = "work out over work in, in the direction of motion; 0 without a load, while standing or in a fault, negative where it is locked";
         vec![
             output(Kind::Float32, "friction_torque", Some("N.m"), friction),
             output(Kind::Float32, "load_torque", Some("N.m"), load),

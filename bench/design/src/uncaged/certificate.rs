@@ -82,8 +82,6 @@ struct Found {
     row: Row,
     exact: RowAnswer,
     folded: RowAnswer,
-    /// Load `W` of a ball, N.
-    load: f64,
     /// Whether its deviations go in waves.
     in_waves: bool,
 }
@@ -176,7 +174,6 @@ impl UncagedCertificate {
                 Some(Found {
                     exact,
                     folded,
-                    load: law.load_of(row.axial_load).into(),
                     in_waves: number >= ROWS,
                     row,
                 })

@@ -99,7 +99,7 @@ impl Row {
         let mut room = [0.0; BALLS];
         room[BALLS - 1] = f32::INFINITY;
         let mut press = Press::<BALLS>::new();
-        let mut torque = 0.0;
+        let mut torque: f64 = balls.iter().map(|ball| f64::from(ball.alone.torque)).sum();
         let mut second = [RubbedBall::default(); BALLS];
         if self.ball_friction > 0.0 {
             let first = balls.map(|ball| neighbours.first(&ball));
@@ -108,15 +108,15 @@ impl Row {
             let found = press.forces().zip(press.speeds());
             for (ball, (second, (force, speed))) in balls.iter().zip(second.iter_mut().zip(found)) {
                 let forces = behind + force;
-                let (rubbed, at_held) = neighbours.second(ball, Pressed { forces, speed });
+                let (rubbed, held) = neighbours.second(ball, Pressed { forces, speed });
                 behind = force;
-                torque += f64::from(at_held);
+                torque += f64::from(held);
                 *second = rubbed;
             }
         } else {
             for (ball, second) in balls.iter().zip(&mut second) {
-                let (smooth, at_held) = neighbours.smooth(ball);
-                torque += f64::from(at_held);
+                let (smooth, held) = neighbours.smooth(ball);
+                torque += f64::from(held);
                 *second = smooth;
             }
         }

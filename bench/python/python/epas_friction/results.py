@@ -207,9 +207,11 @@ class Outputs(NamedTuple):
     """What a ball screw puts out at one tick.
 
     Attributes:
-        friction_torque: torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign of the speed.
+        friction_torque: torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign of the speed; with
+            memory it keeps the old sign after a reversal, until ``regime`` is ``STANDING`` no more.
         load_torque: torque that holds the load without friction, N m.
-        efficiency: work out over work in; 0 without a load, negative where the direction is locked.
+        efficiency: work out over work in, in the direction of motion; 0 without a load and while standing, negative where the
+            direction is locked.
         regime: what the mechanism does.
         faults: what was wrong.
     """
@@ -226,9 +228,11 @@ class Run(_Flagged):
     """What a ball screw puts out over a trace of ``n`` samples; every array has the shape ``(n,)``.
 
     Attributes:
-        friction_torque: torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign of the speed.
+        friction_torque: torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign of the speed; with
+            memory it keeps the old sign after a reversal, until ``regime`` is ``STANDING`` no more.
         load_torque: torque that holds the load without friction, N m.
-        efficiency: work out over work in; 0 without a load, negative where the direction is locked.
+        efficiency: work out over work in, in the direction of motion; 0 without a load and while standing, negative where the
+            direction is locked.
         regime: a number of :class:`Regime` for each sample.
         faults: bits of :class:`Faults` for each sample.
     """
@@ -244,9 +248,10 @@ class UncagedOutputs(NamedTuple):
     """What a ball screw whose balls press on each other puts out at one tick.
 
     Attributes:
-        friction_torque: the sum of the next two within its limit, N m, with the sign of the speed.
+        friction_torque: the sum of the next two within its limit, N m, with the sign of the speed; with memory the
+            old one after a reversal, until ``regime`` is ``STANDING`` no more.
         groove_torque: its part from the grooves, N m.
-        ball_torque: its part from balls that rub on each other, N m.
+        ball_torque: its part from balls that rub on each other, N m; with memory it falls with the friction after a reversal.
         load_torque: torque that holds the load without friction, N m.
         contacts: pairs of balls that press on each other.
         largest_contact_force: between two balls, N.
@@ -269,9 +274,10 @@ class UncagedRun(_Flagged):
     """What a ball screw whose balls press on each other puts out over a trace; every array has the shape ``(n,)``.
 
     Attributes:
-        friction_torque: the sum of the next two within its limit, N m, with the sign of the speed.
+        friction_torque: the sum of the next two within its limit, N m, with the sign of the speed; with memory the
+            old one after a reversal, until ``regime`` is ``STANDING`` no more.
         groove_torque: its part from the grooves, N m.
-        ball_torque: its part from balls that rub on each other, N m.
+        ball_torque: its part from balls that rub on each other, N m; with memory it falls with the friction after a reversal.
         load_torque: torque that holds the load without friction, N m.
         contacts: pairs of balls that press on each other.
         largest_contact_force: between two balls, N.
@@ -293,9 +299,10 @@ class LinearOutputs(NamedTuple):
     """What a linear bearing puts out at one tick.
 
     Attributes:
-        friction_force: the sum of the next two within its limit, N, with the sign of the speed.
+        friction_force: the sum of the next two within its limit, N, with the sign of the speed; with memory the
+            old one after a reversal, until ``regime`` is ``STANDING`` no more.
         groove_force: its part from the grooves, N.
-        ball_force: its part from balls that rub on each other, N.
+        ball_force: its part from balls that rub on each other, N; with memory it falls with the friction after a reversal.
         contacts: pairs of balls that press on each other.
         largest_contact_force: between two balls, N.
         regime: ``STANDING`` or ``DRIVING``.
@@ -316,9 +323,10 @@ class LinearRun(_Flagged):
     """What a linear bearing puts out over a trace; every array has the shape ``(n,)``.
 
     Attributes:
-        friction_force: the sum of the next two within its limit, N, with the sign of the speed.
+        friction_force: the sum of the next two within its limit, N, with the sign of the speed; with memory the
+            old one after a reversal, until ``regime`` is ``STANDING`` no more.
         groove_force: its part from the grooves, N.
-        ball_force: its part from balls that rub on each other, N.
+        ball_force: its part from balls that rub on each other, N; with memory it falls with the friction after a reversal.
         contacts: pairs of balls that press on each other.
         largest_contact_force: between two balls, N.
         regime: a number of :class:`Regime` for each sample.

@@ -2,6 +2,7 @@
 //! what changes while they run.
 
 mod coefficients;
+mod reversal;
 
 use std::f32::consts::TAU;
 

@@ -440,8 +440,8 @@ fn blocks_are_as_small_as_said() {
     assert_eq!(bytes::<Uncaged>(), 370);
     assert_eq!(bytes::<Linear>(), 181);
     assert_eq!(bytes::<CagedByAngle>(), 116);
-    assert_eq!(bytes::<UncagedByCounts>(), 471);
-    assert_eq!(bytes::<LinearBySpeed>(), 284);
+    assert_eq!(bytes::<UncagedByCounts>(), 487);
+    assert_eq!(bytes::<LinearBySpeed>(), 300);
 }
 
 /// A block says which scene it is of, by numbers that stay.

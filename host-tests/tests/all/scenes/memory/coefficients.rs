@@ -115,8 +115,8 @@ fn coefficients_beyond_the_scene_are_refused() {
     assert_ne!(*model.state(), before);
 }
 
-/// Full friction in a direction is what the scene puts out where all of it passes that way: what presses rubs both ways alike, and
-/// grooves go with their direction's coefficient.
+/// Full friction in a direction is what the scene puts out where all of it passes that way: grooves go with their direction's coefficient, and
+/// balls press in the direction in which they go.
 #[test]
 fn full_friction_is_what_passes_in_its_direction() {
     fn check<S>(
@@ -133,41 +133,51 @@ fn full_friction_is_what_passes_in_its_direction() {
             forward: 0.07,
             backward: 0.09,
         };
-        let mut pressing = 0;
+        let (mut pressing, mut free) = (0, 0);
         for tick in 0..4000 {
             let direction = if tick < 2000 { 1.0 } else { -1.0 };
             let inputs = load.with(direction * speed, 1.0);
             let full = S::sliding_friction(&constants, &mut state, inputs, coefficients);
             let friction = S::by_direction(&full);
-            let [[groove, ball], [groove_back, ball_back]] = [1.0, -1.0].map(|factor| {
+            let all = [1.0, -1.0].map(|factor| {
                 let standing = false;
                 let reversal = ReversalState {
                     factor,
+                    carried: 1.0,
                     direction,
                     standing,
                 };
                 parts(&S::outputs_at(&constants, inputs, &full, reversal))
             });
-            pressing += i32::from(ball > 0.0);
-            assert_eq!(ball, -ball_back, "tick {tick}");
-            for (found, expected) in [
-                (groove + ball, friction.forward),
-                (-groove_back - ball_back, friction.backward),
-                (
-                    groove * coefficients.backward,
-                    -groove_back * coefficients.forward,
-                ),
-            ] {
+            let [[groove, ball], [groove_back, ball_back]] = all;
+            let [with, against] = if direction > 0.0 {
+                [ball, ball_back]
+            } else {
+                [-ball_back, ball]
+            };
+            assert_eq!(against, 0.0, "tick {tick}");
+            let is_close = |found: f32, expected: f32| {
                 // Measured: 1.8e-7; two sides of three roundings and their ratio could have seven of 6e-8.
                 assert!(
                     (found / expected - 1.0).abs() < 3e-7,
                     "tick {tick}: {found} {expected}"
                 );
+            };
+            is_close(groove + ball, friction.forward);
+            is_close(-groove_back - ball_back, friction.backward);
+            if with > 0.0 {
+                pressing += 1;
+            } else {
+                free += 1;
+                is_close(
+                    groove * coefficients.backward,
+                    -groove_back * coefficients.forward,
+                );
             }
         }
         assert!(
-            (100..4000).contains(&pressing),
-            "{}: {pressing}",
+            pressing > 100 && free > 50,
+            "{}: {pressing} {free}",
             std::any::type_name::<S>()
         );
     }
