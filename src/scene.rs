@@ -34,7 +34,9 @@ mod stored;
 mod uncaged;
 mod words;
 
-pub use caged::{CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState};
+pub use caged::{
+    BUILT_IN_NODES, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState, built_in,
+};
 pub use caged_friction::CagedFriction;
 #[doc(hidden)]
 pub use circuit::deviation::SINES;

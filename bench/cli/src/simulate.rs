@@ -9,6 +9,7 @@ mod caged_exact;
 mod choice;
 pub(crate) mod encoder;
 mod exact_screw;
+mod lawful;
 pub(crate) mod linear;
 mod loads;
 mod manoeuvre;
@@ -184,8 +185,8 @@ pub struct Arguments {
     /// Where the plot goes: a picture, or a page in which to look closer
     #[arg(long, value_name = "OUT.svg|OUT.html")]
     plot: Option<PathBuf>,
-    /// Compute the float64 reference beside the model. Caged: one ball in elastic balance, exactly, or the closed form that the
-    /// design asks for. Uncaged: all balls, exactly without a name
+    /// Compute the float64 reference beside the model. Caged: one ball in elastic balance, exactly, or a closed
+    /// form: the design's, or of a rolling ball. Uncaged: all balls, exactly without a name
     #[arg(
         long,
         value_enum,
@@ -319,8 +320,12 @@ fn simulate<S: Scene>(
         (Some(path), _) => {
             let channels = arguments.channels.as_deref();
             let mapping = channels.map(Mapping::read).transpose()?;
-            let followed = scene.follows_temperature();
-            trace::read(&Source(path), mapping.as_ref(), followed)?
+            let followed = scene.follows_temperature(arguments.reference.is_some());
+            let (trace, temperature) = trace::read(&Source(path), mapping.as_ref(), followed)?;
+            if let Temperature::Followed(_) = temperature {
+                scene.follow_temperature();
+            }
+            (trace, temperature)
         }
         (None, Some(manoeuvre)) => {
             let (trace, words) = scene.within(scene.manoeuvre(manoeuvre)?);
