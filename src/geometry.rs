@@ -18,11 +18,11 @@ mod profile;
 pub use angle::ContactAngle;
 pub use ball_screw::BallScrew;
 pub use ball_screw_parameters::BallScrewParameters;
+pub(crate) use catalogue::{BUILT_IN, position};
 pub use catalogue::{
     CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, FINE_LEAD_SIZES, NamedDesign, STEERING_SIZES,
     named,
 };
-pub(crate) use catalogue::{BUILT_IN, position};
 pub use limits::{
     BALL_RADIUS, LARGEST_CONFORMITY, LARGEST_CONTACT_ANGLE, LEAD, PITCH_RADIUS, SMALLEST_AREA,
     SMALLEST_CONFORMITY,

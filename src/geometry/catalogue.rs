@@ -105,7 +105,7 @@ const fn dissertation(
     }
 }
 
-/// The 31 sizes of Tables A1 and A2 (Bertolino et al. 2023), in their order.
+/// The 31 sizes of Tables A1 and A2 (Bertolino et al. 2023), in their order. [`scene::built_in`](crate::scene::built_in) has the friction of each by its name.
 ///
 /// The row printed as 20 x 65 x 3.5 is here 20 x 60 x 3.5: its printed lead angle (43.68
 /// degrees) and its printed errors are those of a lead of 60 mm.
@@ -219,10 +219,8 @@ pub(crate) const fn position(name: &str) -> Option<usize> {
 }
 
 /// How many there are.
-pub(crate) const BUILT_IN: usize = CATALOGUE.len()
-    + FINE_LEAD_SIZES.len()
-    + STEERING_SIZES.len()
-    + DISSERTATION_DESIGNS.len();
+pub(crate) const BUILT_IN: usize =
+    CATALOGUE.len() + FINE_LEAD_SIZES.len() + STEERING_SIZES.len() + DISSERTATION_DESIGNS.len();
 
 const SIZES: [&[CatalogueSize]; 3] = [&CATALOGUE, &FINE_LEAD_SIZES, &STEERING_SIZES];
 

@@ -37,7 +37,7 @@ use made::Made;
 /// For --scene uncaged it may also have screw_deviation and nut_deviation (largest, rad; without, what the maps of [uncaged] reach, at
 /// least 1e-4).
 ///
-/// A closed form (branch = "rolling" or "sliding") is refused, because it needs no fold. So is a domain over which the torque is not held to
+/// A closed form (branch = "rolling" or "sliding") is refused, because it needs no fold: simulate --reference compares it with the exact ball. So is a domain over which the torque is not held to
 /// 3 %: the exit code is 1, and the message says where.
 ///
 /// --json prints one object: version (of the layout), digest (of the inputs and of the version of the fold), bytes, domain (axial_load of a ball, N, friction, and without

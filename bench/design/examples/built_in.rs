@@ -43,11 +43,19 @@ fn main() -> Result<(), Failure> {
         let design = block(name).ok_or_else(missing)?;
         let [torque] = fold.errors(&design)?.figures;
         between.add(&torque);
-        print!("{name}: {:.2} % largest, {:.3} % rms; alone", 100.0 * torque.largest, 100.0 * torque.rms);
+        print!(
+            "{name}: {:.2} % largest, {:.3} % rms; alone",
+            100.0 * torque.largest,
+            100.0 * torque.rms
+        );
         for friction in [0.05, defaults::FRICTION, 0.15] {
             let [torque] = fold.errors(&design.nearest(friction))?.figures;
             alone.add(&torque);
-            print!(" {:.3} % ({:.4})", 100.0 * torque.largest, 100.0 * torque.rms);
+            print!(
+                " {:.3} % ({:.4})",
+                100.0 * torque.largest,
+                100.0 * torque.rms
+            );
         }
         println!();
     }

@@ -512,11 +512,13 @@ impl DesignFile {
             .transpose()
             .map_err(|message| format!("calibration: {message}"))?;
         replace(&mut design.friction_law, self.friction_law);
-        if let (FrictionLaw::Constant, Some(calibrated)) =
-            (design.friction_law, &design.calibrated)
+        if let (FrictionLaw::Constant, Some(calibrated)) = (design.friction_law, &design.calibrated)
             && calibrated.has_law()
         {
-            return Err("friction_law = \"constant\" contradicts the law of [calibration]; remove one".into());
+            return Err(
+                "friction_law = \"constant\" contradicts the law of [calibration]; remove one"
+                    .into(),
+            );
         }
         if let Some(table) = self.fold {
             table

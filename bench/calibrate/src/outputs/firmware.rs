@@ -64,7 +64,9 @@ impl Numbers {
 pub fn law(design: &Design) -> Result<Option<CoefficientParameters>, Failure> {
     if design.by_default_law {
         let law = design.default_coefficient();
-        return law.map(Some).map_err(|error| Failure::Data(error.to_string()));
+        return law
+            .map(Some)
+            .map_err(|error| Failure::Data(error.to_string()));
     }
     let Some(told) = design.calibrated.as_ref().filter(|told| told.has_law()) else {
         return Ok(None);

@@ -18,9 +18,9 @@ use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
 use super::summary::Lines;
 use super::trace::{SceneSample, Temperature, Trace};
+use epas_calibrate::outputs::firmware;
 use epas_design::caged_scene::{self as caged, CagedScene};
 use epas_design::files::Design;
-use epas_calibrate::outputs::firmware;
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
 
@@ -107,10 +107,10 @@ impl Caged {
             Box::new(move |inputs, _, _| model.step(inputs))
         };
         let mut lines = Lines::default();
+        lines.add_some("closed form", self.design.branch.map(range_of));
         let calibrated = self.design.calibrated.as_ref();
-        let left = calibrated.map_or_else(Vec::new, |calibrated| {
-            calibrated.remembered(law.is_none())
-        });
+        let left =
+            calibrated.map_or_else(Vec::new, |calibrated| calibrated.remembered(law.is_none()));
         if !left.is_empty() {
             let text = format!("without --memory left out: {}", left.join(", "));
             lines.add("calibration", text);
@@ -188,6 +188,17 @@ pub fn fold(design: &Design, by_law: bool) -> Result<Option<CagedFold>, Failure>
     fold.map(Some).map_err(|failure| failure.of(&design.name))
 }
 
+/// What a closed form is worth.
+fn range_of(branch: FrictionBranch) -> String {
+    let range = match branch {
+        FrictionBranch::Rolling => "0.03 to 1.1",
+        FrictionBranch::Sliding => "2.1 to 13",
+    };
+    format!(
+        "{range} times the exact torque over the built-in designs; --reference compares it, and without branch in the design file the exact ball is folded"
+    )
+}
+
 /// An angle within half a turn either way, rad.
 pub fn wrapped(angle: f64) -> f32 {
     let half = std::f64::consts::PI;
@@ -230,7 +241,15 @@ impl Scene for Caged {
     }
 
     fn check_errors(&self) -> Result<(), Failure> {
-        check_errors(&self.design, self.memory || self.temperature)
+        let checked = check_errors(&self.design, self.memory || self.temperature);
+        if !self.design.by_default_law {
+            return checked;
+        }
+        checked.map_err(|failure| {
+            Failure::Data(format!(
+                "{failure}; the trace's temperature moves the friction coefficient: friction_law = \"constant\" in the design file switches that off"
+            ))
+        })
     }
 
     fn rows(

@@ -109,8 +109,7 @@ pub fn run(
         None => moments::<Torque>(&source, mapping.as_ref(), follows, |sample| sample.0)?,
     };
     let mut design = design.clone();
-    design.by_default_law =
-        calibrated.is_none() && matches!(temperature, Temperature::Followed(_));
+    design.by_default_law = calibrated.is_none() && matches!(temperature, Temperature::Followed(_));
     let design = &design;
     let outputs = targets([output, plot], &name, &design.name);
     for path in outputs.iter().flatten() {

@@ -143,7 +143,9 @@ impl Temperature {
             Self::Followed(values) => {
                 let low = values.iter().copied().fold(f32::INFINITY, f32::min);
                 let high = values.iter().copied().fold(0.0, f32::max);
-                Some(format!("{low:.1} to {high:.1} K, followed by the friction coefficient"))
+                Some(format!(
+                    "{low:.1} to {high:.1} K, followed by the friction coefficient"
+                ))
             }
         }
     }

@@ -61,7 +61,9 @@ impl Design {
         match (&self.calibrated, self.friction_law) {
             (Some(calibrated), _) if calibrated.follows_temperature() => Ok(()),
             (Some(_), _) => Err("the design's [calibration] has no full_film_ratio"),
-            (None, FrictionLaw::Constant) => Err("the design file says friction_law = \"constant\""),
+            (None, FrictionLaw::Constant) => {
+                Err("the design file says friction_law = \"constant\"")
+            }
             (None, FrictionLaw::Default) => Ok(()),
         }
     }
@@ -102,11 +104,26 @@ mod tests {
             read(&text, "gear")
         };
         assert!(design("").unwrap().follows_temperature().is_ok());
-        assert!(design("friction_law = \"default\"").unwrap().follows_temperature().is_ok());
+        assert!(
+            design("friction_law = \"default\"")
+                .unwrap()
+                .follows_temperature()
+                .is_ok()
+        );
         let constant = design("friction_law = \"constant\"").unwrap();
-        assert!(constant.follows_temperature().unwrap_err().contains("friction_law"));
+        assert!(
+            constant
+                .follows_temperature()
+                .unwrap_err()
+                .contains("friction_law")
+        );
         let measured = design("[calibration]\nbacklash = 0.001").unwrap();
-        assert!(measured.follows_temperature().unwrap_err().contains("full_film_ratio"));
+        assert!(
+            measured
+                .follows_temperature()
+                .unwrap_err()
+                .contains("full_film_ratio")
+        );
         let refused = design(
             "friction_law = \"constant\"\n[calibration]\nfull_film_ratio = 0.5\nhalf_share_speed = 5",
         );

@@ -327,14 +327,25 @@ fn default_half_share_speed_is_of_skf_mixture() {
     };
     let speed = mixture.half_share_speed();
     let film = |roughness: f64| {
-        let film = FilmContact { roughness, ..film() };
+        let film = FilmContact {
+            roughness,
+            ..film()
+        };
         film.half_share_speed(viscosity) / ENTRAINMENT
     };
     let films = [0.08e-6, 0.15e-6].map(film);
     println!("half-share speed {speed:.3} rad/s; of a film {films:.2?}");
-    assert!((speed - f64::from(law.half_share_speed)).abs() < 5e-3, "{speed}");
+    assert!(
+        (speed - f64::from(law.half_share_speed)).abs() < 5e-3,
+        "{speed}"
+    );
     assert!((mixture.boundary_share(speed) - 0.5).abs() < 1e-12);
-    assert!(films.iter().all(|film| *film > speed / 3.3 && *film < speed), "{films:?}");
+    assert!(
+        films
+            .iter()
+            .all(|film| *film > speed / 3.3 && *film < speed),
+        "{films:?}"
+    );
     // SKF's share and the law's, over the speed: as the default says of them.
     let differences = (1..=2000).map(|step| {
         let ratio = 0.01 * f64::from(step);
@@ -343,7 +354,10 @@ fn default_half_share_speed_is_of_skf_mixture() {
     let (least, most) = differences.fold((0.0_f64, 0.0_f64), |(least, most), difference| {
         (least.min(difference), most.max(difference))
     });
-    assert!((least + 0.21).abs() < 5e-3 && (most - 0.11).abs() < 5e-3, "{least} {most}");
+    assert!(
+        (least + 0.21).abs() < 5e-3 && (most - 0.11).abs() < 5e-3,
+        "{least} {most}"
+    );
 }
 
 /// NaN is standstill, or the warmest temperature; what lies beyond counts as the end. The half-share speed keeps its range.

@@ -1,7 +1,9 @@
 //! Friction over temperature: the grease's film lowers the coefficient in the cold, and its drag rises.
 
 use crate::measured::Usual;
-use crate::measured::cold::{Friction, LEAST, LOADS, Lubricant, SPEEDS, STEERING, growth, over_temperature};
+use crate::measured::cold::{
+    Friction, LEAST, LOADS, Lubricant, SPEEDS, STEERING, growth, over_temperature,
+};
 
 use epas_reference::error::ReferenceError;
 
