@@ -88,7 +88,7 @@ use trace::Temperature;
 /// table [ball_material], [groove_material]; steel without).
 ///
 /// Friction: friction (0.1 without), friction_law ("constant": a column temperature of the trace moves nothing; "default" without), hysteresis_loss (0.01 without), lubricant_drag (N a contact under 100 N; 0 without), branch ("contacts", or a
-/// paper's closed form "rolling", 0.03 to 1.1 times the exact torque, or "sliding", 2.1 to 13 times), rolling_tangent (closed forms), reversal_speed (2 rad/s without).
+/// paper's closed form "rolling", 0.02 to 1.1 times the exact torque, or "sliding", 2.1 to 13 times), rolling_tangent (closed forms), reversal_speed (2 rad/s without).
 ///
 /// Fit of the balls, one of: clearance (radial gap of every contact, m; play above 0, oversize below), axial_play (of the nut, m), preload (force
 /// of one contact without a load, N), axial_preload (of the nut, N). Without, 1 um of oversize (clearance = -1e-6). loaded_balls is

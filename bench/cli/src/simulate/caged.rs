@@ -191,7 +191,7 @@ pub fn fold(design: &Design, by_law: bool) -> Result<Option<CagedFold>, Failure>
 /// What a closed form is worth.
 fn range_of(branch: FrictionBranch) -> String {
     let range = match branch {
-        FrictionBranch::Rolling => "0.03 to 1.1",
+        FrictionBranch::Rolling => "0.02 to 1.1",
         FrictionBranch::Sliding => "2.1 to 13",
     };
     format!(
@@ -247,7 +247,8 @@ impl Scene for Caged {
         }
         checked.map_err(|failure| {
             Failure::Data(format!(
-                "{failure}; the trace's temperature moves the friction coefficient: friction_law = \"constant\" in the design file switches that off"
+                "{}; the trace's temperature moves the friction coefficient: friction_law = \"constant\" in the design file switches that off",
+                failure.message()
             ))
         })
     }

@@ -55,7 +55,7 @@ fn blocks_are_as_exact_as_the_page_says() {
         let [alone] = fold.errors(&design.nearest(0.1)).unwrap().figures;
         println!("{name}: {:.2e}, rms {:.1e}", alone.largest, alone.rms);
         assert!(
-            alone.largest < 2.4e-3 && alone.rms < 3e-4,
+            alone.largest < 2.4e-3 && alone.rms < 6e-4,
             "{name}: {alone:?}"
         );
         let [range] = fold.errors(&design).unwrap().figures;
