@@ -87,8 +87,11 @@ use trace::Temperature;
 /// table [screw_groove], [nut_groove]), contact_angle; and if wanted name, youngs_modulus, poisson_ratio, density (for both bodies, or each in a
 /// table [ball_material], [groove_material]; steel without).
 ///
-/// Friction: friction (0.1 without), friction_law ("constant": a column temperature of the trace moves nothing; "default" without), hysteresis_loss (0.01 without), lubricant_drag (N a contact under 100 N; 0 without), branch ("contacts", or a
-/// paper's closed form "rolling", 0.02 to 1.1 times the exact torque, or "sliding", 2.1 to 13 times), rolling_tangent (closed forms), reversal_speed (2 rad/s without).
+/// Friction: friction (0.1 without), friction_law ("default" without, or "constant"), hysteresis_loss (0.01 without), lubricant_drag (N a contact
+/// under 100 N; 0 without), reversal_speed (2 rad/s without).
+///
+/// branch ("contacts", or a paper's closed form: "rolling" has 0.02 to 1.1 times the exact torque, "sliding" 2.1 to 13 times), rolling_tangent
+/// (closed forms).
 ///
 /// Fit of the balls, one of: clearance (radial gap of every contact, m; play above 0, oversize below), axial_play (of the nut, m), preload (force
 /// of one contact without a load, N), axial_preload (of the nut, N). Without, 1 um of oversize (clearance = -1e-6). loaded_balls is
@@ -112,9 +115,11 @@ use trace::Temperature;
 /// reference_temperature and viscosity_pole (K), direction_asymmetry, breakaway_angle (rad) at reference_load (N), elements ("proportional", or
 /// with largest_load, N, "load_exact" or "preloaded"), backlash (rad), churning.
 ///
-/// A column temperature (K; temperature_C in degrees Celsius) of the trace is followed by the scene caged, with memory and without, and by
-/// --mechanism: by the law of [calibration], or without that table by the default law, which has friction at standstill, 0.42 of it on a
-/// film, and the lubricant's drag. Beside --reference, and with friction_law = "constant", it is not.
+/// A column temperature (K; temperature_C in degrees Celsius) of the trace is followed by the scene caged and by --mechanism: by the law of
+/// [calibration]; without that table by the default law.
+///
+/// The default law has the coefficient at standstill, 0.42 of it on a film, and the lubricant's drag. Beside --reference a temperature is not
+/// followed, nor with friction_law = "constant".
 ///
 /// Its rolling_drag is the drag of the lubricant over that of the default grease (1 for that; none without).
 ///

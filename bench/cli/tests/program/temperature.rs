@@ -66,30 +66,30 @@ fn a_trace_is_followed_by_the_default_law() {
     fs::write(folder.path().join("trace.csv"), trace()).unwrap();
     let design = read(DESIGN, "design").unwrap();
     let law = CoefficientLaw::new(&design.default_coefficient().unwrap()).unwrap();
-    let mut all = Vec::new();
+    let expected = [20.0_f32, -20.0].map(|celsius| {
+        let now = law.at_temperature(celsius + 273.15);
+        let drag = f64::from(now.drag_torque(5.0, 4e3, 0.0));
+        let friction = now.at(5.0);
+        let text =
+            DESIGN.to_owned() + &format!("friction = {friction}\nfriction_law = \"constant\"\n");
+        let (_, alone) = simulated(folder.path(), &text, &["--no-memory"]);
+        alone[90] + drag
+    });
     for memory in ["--no-memory", "--memory"] {
         let (said, torques) = simulated(folder.path(), DESIGN, &[memory]);
         assert!(
             said.contains("253.1 to 293.1 K, followed by the friction coefficient"),
             "{said}"
         );
-        let found = [torques[90], torques[190]];
-        for (celsius, torque) in [20.0_f32, -20.0].into_iter().zip(found) {
-            let now = law.at_temperature(celsius + 273.15);
-            let drag = f64::from(now.drag_torque(5.0, 4e3, 0.0));
-            let friction = now.at(5.0);
-            let text = DESIGN.to_owned()
-                + &format!("friction = {friction}\nfriction_law = \"constant\"\n");
-            let (_, alone) = simulated(folder.path(), &text, &["--no-memory"]);
-            let expected = alone[90] + drag;
-            // The block's promise for a range of friction coefficients.
+        for (torque, expected) in [torques[90], torques[190]].into_iter().zip(expected) {
+            // The promise of a block for a range of friction coefficients.
             assert!(
                 (torque / expected - 1.0).abs() < 0.01,
-                "{memory} {celsius} C: {torque} {expected}"
+                "{memory}: {torque} {expected}"
             );
         }
-        all.push(found);
     }
+    let [warm, cold] = expected;
     // Under load and at this speed the film of cold grease saves more than its drag costs.
     assert!(
         all.iter().all(|[warm, cold]| *cold < 0.75 * warm),
