@@ -52,7 +52,7 @@ const fn words(bytes: &[u8]) -> [u32; ALL] {
 /// block's own 3.7 KB, or 0.4 KB behind [`nearest`](CagedBallScrewConfiguration::nearest).
 ///
 /// ```
-/// use epas_friction::scene::{CagedBallScrewConfiguration, CagedConstants, built_in};
+/// use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, built_in};
 /// use epas_friction::{FrictionModel, Inputs};
 ///
 /// static GEAR: CagedConstants = match built_in("25x5x3.175") {
@@ -63,7 +63,7 @@ const fn words(bytes: &[u8]) -> [u32; ALL] {
 ///     None => panic!("no built-in design has this name"),
 /// };
 ///
-/// let mut model = FrictionModel::of(&GEAR);
+/// let mut model = FrictionModel::<CagedBallScrew, _>::of(&GEAR);
 /// let torque = model.step(Inputs { nut_speed: 10.0, axial_load: 5e3 }).friction_torque;
 /// assert!(torque > 0.2 && torque < 0.6, "{torque}");
 /// ```
