@@ -218,10 +218,6 @@ pub(crate) const fn position(name: &str) -> Option<usize> {
     Some(before + index)
 }
 
-/// How many there are.
-pub(crate) const BUILT_IN: usize =
-    CATALOGUE.len() + FINE_LEAD_SIZES.len() + STEERING_SIZES.len() + DISSERTATION_DESIGNS.len();
-
 const SIZES: [&[CatalogueSize]; 3] = [&CATALOGUE, &FINE_LEAD_SIZES, &STEERING_SIZES];
 
 /// List and place in it of a name; behind the lists of sizes that of [`DISSERTATION_DESIGNS`].
