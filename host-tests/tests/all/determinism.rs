@@ -210,8 +210,8 @@ fn memories_give_the_stored_bits() {
 }
 
 const STORED_MEMORIES: [&str; 3] = [
-    "0x4ba4f55075eab686",
-    "0x8da5ab866d635373",
+    "0x1b6e2dd216ce7a34",
+    "0x3e3032ea5be7ab73",
     "0xff4bfbe98965b81e",
 ];
 
