@@ -103,28 +103,40 @@ const fn steering_drag() -> Result<RollingDrag, Error> {
     RollingDrag::of(&design, loaded_balls, FLOODING)
 }
 
-/// Friction coefficient by speed and temperature: 0.12 at standstill, 0.05 on a full film, half-way at 4.9 rad/s of the nut and
+/// Density of [`STEERING_GREASE`]'s base oil at 15 degrees Celsius, kg/m³, with which its kinematic viscosities become dynamic ones.
+pub const STEERING_GREASE_DENSITY: f32 = 833.0;
+
+/// Friction coefficient by speed and temperature: 0.12 at standstill, 0.05 on a full film, half-way at 15.35 rad/s of the nut and
 /// 20 degrees Celsius, both directions alike; lubricant drag beside it, no churning.
 ///
 /// Assumed, not measured. 0.12 is the middle of boundary-lubricated steel (0.1 to 0.15), 0.05 a usual traction of a rolling
-/// contact's film (0.03 to 0.07). The speed is that of a film as thick as 0.41 of a roughness of 0.08 um, by Hamrock and Dowson
-/// 1977, in the screw of Lin 2019, Table 4.1, under 1 kN, with [`STEERING_GREASE`] (0.15 um with [`VISCOSITY`]); for another one it
-/// goes with 1/(viscosity x pitch radius) and with roughness to the power of 3/2. With torques at two speeds and two
-/// temperatures should fit it.
+/// contact's film (0.03 to 0.07), as in SKF's friction model for mineral oil. The speed is that at which SKF's model (Rolling Bearings, "The SKF model for
+/// calculating the frictional moment") weighs boundary and film friction alike:
+///
+/// ```text
+/// exp(-2.6e-8 (n nu)^1.4 d_m) = 1/2        n, 1/min    nu, mm²/s    d_m, mm
+/// w_ref = (pi/30) (ln 2/(2.6e-8 d_m))^(1/1.4)/nu
+/// ```
+///
+/// with the pitch circle of the screw of Lin 2019, Table 4.1, for the mean diameter (29 mm) and [`STEERING_GREASE`] at 20 degrees (124 mm²/s). For
+/// another screw it goes with 1/(viscosity x pitch radius to the power of 0.714); `epas simulate` and `epas calibrate` take the design's own. SKF's share falls later and
+/// then faster than the law's `1/(1 + w/w_ref)`: by up to 0.11 of the difference of both coefficients more below the half-share speed, 0.21 less at three times it. The model is for bearings that run; a
+/// film as thick as 0.41 of a roughness of 0.15 um (Hamrock and Dowson 1977, Olver and Spikes 1998) has its half share at 12 rad/s, of 0.08 um at 5. Torques at two
+/// speeds and two temperatures should fit it.
 ///
 /// Cold grease makes a film at lower speeds, which lowers the coefficient, and resists rolling more, which raises the drag. Without a load
-/// the sum rises from 20 to -40 degrees by 1.3 at 1 rad/s of the nut, 4 at 5 and 12 at 20; under 5 kN it falls at 1 rad/s, by 0.4, because friction
-/// under load goes with the square of the coefficient. Measured gears rise two- to threefold, by report. The report's section "Measured and
-/// computed" has the figure.
+/// the sum rises from 20 to -40 degrees by 1.3 at 1 rad/s of the nut, 3.6 at 5 and 10 at 20; under 5 kN it falls at 1 rad/s, by 0.42, and under 14 kN at 0.7 rad/s by 0.29, the
+/// least, because friction under load goes with the square of the coefficient. Figures above 5 rad/s at -40 degrees are upper bounds: the drag is that of contacts which lubricant
+/// keeps supplied. Measured gears rise two- to threefold, by report. The report's section "Measured and computed" has the figure.
 ///
 /// Starvation does not explain that difference: with SKF's factor for grease on the film (see [`RollingDrag`]), 0.76 at -40 degrees and 1 rad/s,
-/// the coefficient there is 0.053 in place of 0.052. A traction of the film that rises in the cold would: 0.08 at -40 degrees gives as much
+/// the coefficient there is 0.059 in place of 0.056. A traction of the film that rises in the cold would: 0.10 at -40 degrees gives as much
 /// friction as at 20. Limiting shear stress does depend on the temperature (Wikström and Höglund 1994, J. Tribol. 116:612, measured from -20 to 110
 /// degrees at 5.8 to 7 GPa), but for greases of this kind and pressures of a screw no figures were found, so `full_film` is one number.
 pub const COEFFICIENT: CoefficientParameters = CoefficientParameters {
     boundary: 0.12,
     full_film: 0.05,
-    half_share_speed: 4.9,
+    half_share_speed: 15.35,
     reference_temperature: 293.15,
     viscosity: STEERING_GREASE,
     forward: 1.0,

@@ -18,6 +18,7 @@ mod profile;
 pub use angle::ContactAngle;
 pub use ball_screw::BallScrew;
 pub use ball_screw_parameters::BallScrewParameters;
+pub(crate) use catalogue::position;
 pub use catalogue::{
     CATALOGUE, CatalogueSize, DISSERTATION_DESIGNS, FINE_LEAD_SIZES, NamedDesign, STEERING_SIZES,
     named,

@@ -7,7 +7,7 @@
 //! | | what it is | links |
 //! |---|---|---|
 //! | [`CagedBallScrew`] | balls that do not touch, by a law that was solved on a host | [`ball::folded`](crate::ball::folded) |
-//! | [`ClosedFormScrew`] | the same by a closed form, without a host | [`efficiency`](crate::efficiency) at set-up |
+//! | [`ClosedFormScrew`] | a paper's closed form, without a host; [`built_in`] sizes of `CagedBallScrew` need none either | [`efficiency`](crate::efficiency) at set-up |
 //! | [`LoadProportionalScrew`] | any drive by four numbers of a trace: losses of driving and back-driving in proportion to the load | nothing else |
 //! | [`UncagedBallScrew`] | balls that press on each other, by a law that was solved on a host | [`ball::pressed`](crate::ball::pressed), [`train`](crate::train) |
 //! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train); [`contact`](crate::contact) and [`hertz`](crate::hertz) at set-up |
@@ -34,7 +34,10 @@ mod stored;
 mod uncaged;
 mod words;
 
-pub use caged::{CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState};
+pub use caged::{
+    BUILT_IN_NODES, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState,
+    built_in,
+};
 pub use caged_friction::CagedFriction;
 #[doc(hidden)]
 pub use circuit::deviation::SINES;

@@ -1,7 +1,8 @@
 //! Friction coefficient of lubricated rolling contacts: viscosity, film, and the share that asperities carry.
 //!
 //! Sources: Vogel 1921; Walther 1931 in the form of ASTM D341; Hamrock and Dowson 1977 (film of an elliptical contact);
-//! Johnson, Greenwood and Poon 1972 and Olver and Spikes 1998 (share of the asperities, `1/(1 + lambda)^2`).
+//! Johnson, Greenwood and Poon 1972 and Olver and Spikes 1998 (share of the asperities, `1/(1 + lambda)^2`); SKF, Rolling Bearings, "The SKF
+//! model for calculating the frictional moment" (share of boundary lubrication in the sliding friction of a running bearing).
 
 /// Vogel's law: `eta = eta_40 exp(B (1/(t + c) - 1/(40 + c)))`, temperatures in degrees Celsius.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,4 +100,35 @@ impl FilmContact {
 #[must_use]
 pub fn coefficient(boundary: f64, full_film: f64, asperities: f64) -> f64 {
     full_film + (boundary - full_film) * asperities
+}
+
+/// A bearing's mixture of boundary and film friction by SKF's model: boundary lubrication has the share `exp(-2.6e-8 (n nu)^1.4 d_m)` of the
+/// sliding friction coefficient, with `n` in 1/min, `nu` in mm²/s and `d_m` in mm.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BearingMixture {
+    /// Mean diameter of the bearing, of a ball screw its pitch circle, m.
+    pub mean_diameter: f64,
+    /// Kinematic viscosity of the lubricant, m²/s.
+    pub kinematic_viscosity: f64,
+}
+
+impl BearingMixture {
+    /// Factor and power of SKF's model.
+    const FACTOR: f64 = 2.6e-8;
+    const POWER: f64 = 1.4;
+
+    /// Share of boundary lubrication at a speed, rad/s.
+    #[must_use]
+    pub fn boundary_share(&self, speed: f64) -> f64 {
+        let product = speed.abs() * 30.0 / std::f64::consts::PI * (1e6 * self.kinematic_viscosity);
+        (-Self::FACTOR * product.powf(Self::POWER) * (1e3 * self.mean_diameter)).exp()
+    }
+
+    /// Speed at which boundary and film friction have half each, rad/s: `(ln 2/(2.6e-8 d_m))^(1/1.4)/nu`.
+    #[must_use]
+    pub fn half_share_speed(&self) -> f64 {
+        let exponent = std::f64::consts::LN_2 / (Self::FACTOR * (1e3 * self.mean_diameter));
+        let product = exponent.powf(1.0 / Self::POWER);
+        product / (1e6 * self.kinematic_viscosity) * std::f64::consts::PI / 30.0
+    }
 }

@@ -105,7 +105,7 @@ const fn dissertation(
     }
 }
 
-/// The 31 sizes of Tables A1 and A2 (Bertolino et al. 2023), in their order.
+/// The 31 sizes of Tables A1 and A2 (Bertolino et al. 2023), in their order. [`scene::built_in`](crate::scene::built_in) has the friction of each by its name.
 ///
 /// The row printed as 20 x 65 x 3.5 is here 20 x 60 x 3.5: its printed lead angle (43.68
 /// degrees) and its printed errors are those of a lead of 60 mm.
@@ -197,14 +197,37 @@ pub const STEERING_SIZES: [CatalogueSize; 3] = [
 /// ```
 #[must_use]
 pub const fn named(name: &str) -> Option<BallScrewParameters> {
-    let lists: [&[CatalogueSize]; 3] = [&CATALOGUE, &FINE_LEAD_SIZES, &STEERING_SIZES];
+    match place(name) {
+        Some((list, index)) if list < SIZES.len() => Some(SIZES[list][index].parameters()),
+        Some((_, index)) => Some(DISSERTATION_DESIGNS[index].parameters),
+        None => None,
+    }
+}
+
+/// Place of a built-in design among all of them: those of [`CATALOGUE`], [`FINE_LEAD_SIZES`], [`STEERING_SIZES`] and
+/// [`DISSERTATION_DESIGNS`] one after another.
+pub(crate) const fn position(name: &str) -> Option<usize> {
+    let Some((list, index)) = place(name) else {
+        return None;
+    };
+    let (mut before, mut earlier) = (0, 0);
+    while earlier < list {
+        before += SIZES[earlier].len();
+        earlier += 1;
+    }
+    Some(before + index)
+}
+
+const SIZES: [&[CatalogueSize]; 3] = [&CATALOGUE, &FINE_LEAD_SIZES, &STEERING_SIZES];
+
+/// List and place in it of a name; behind the lists of sizes that of [`DISSERTATION_DESIGNS`].
+const fn place(name: &str) -> Option<(usize, usize)> {
     let mut list = 0;
-    while list < lists.len() {
+    while list < SIZES.len() {
         let mut index = 0;
-        while index < lists[list].len() {
-            let size = lists[list][index];
-            if same(size.name, name) {
-                return Some(size.parameters());
+        while index < SIZES[list].len() {
+            if same(SIZES[list][index].name, name) {
+                return Some((list, index));
             }
             index += 1;
         }
@@ -213,7 +236,7 @@ pub const fn named(name: &str) -> Option<BallScrewParameters> {
     let mut index = 0;
     while index < DISSERTATION_DESIGNS.len() {
         if same(DISSERTATION_DESIGNS[index].name, name) {
-            return Some(DISSERTATION_DESIGNS[index].parameters);
+            return Some((list, index));
         }
         index += 1;
     }

@@ -1,6 +1,7 @@
 //! A ball screw whose balls do not touch, by a law that was solved on a host: `epas-design` folds it, a step evaluates it.
 
 mod block;
+mod built_in;
 mod configuration;
 mod stored;
 
@@ -14,6 +15,7 @@ use crate::ball::folded::{FrictionInterval, LoadLaw, octaves};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
+pub use built_in::{BUILT_IN_NODES, built_in};
 pub use configuration::CagedBallScrewConfiguration;
 
 /// A ball screw whose balls do not touch (caged, or with spacer balls), by the folded law of one ball, for `NODES` friction coefficients.

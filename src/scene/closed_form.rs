@@ -15,10 +15,11 @@ use crate::ranges;
 pub use configuration::{ClosedFormScrewConfiguration, FrictionBranch};
 use torque::ClosedForm;
 
-/// A ball screw whose balls do not touch, by a closed form: for a first look, and for comparison.
+/// A ball screw whose balls do not touch, by a paper's closed form: for comparison.
 ///
-/// Torque is in proportion to the load; spin, a third contact and the size of the contacts are left out (see [`FrictionBranch`]).
-/// The exact torque of a [`CagedBallScrew`](crate::scene::CagedBallScrew) differs from it by up to a factor of 2.
+/// Torque is in proportion to the load; spin, a third contact and the size of the contacts are left out (see [`FrictionBranch`]). Over the built-in
+/// designs, 5 to 300 N a ball, a rolling ball has 0.02 to 1.1 times the exact torque, a sliding one 2.1 to 13 times. Who has no host takes
+/// [`built_in`](crate::scene::built_in) sizes for a [`CagedBallScrew`](crate::scene::CagedBallScrew): as exact as what a host folds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ClosedFormScrew;

@@ -170,7 +170,7 @@ pub struct CagedRangePlace {
 }
 
 /// What the engineer sets for a ball screw whose balls do not touch, by a closed form: from catalogue numbers, without a host, for a first
-/// look. Exact friction differs from it by up to a factor of 2.
+/// look. Over the built-in designs a rolling ball has 0.02 to 1.1 times the exact friction, a sliding one 2.1 to 13 times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(C)]
 pub struct ClosedFormConfiguration {

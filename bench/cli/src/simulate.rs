@@ -9,6 +9,7 @@ mod caged_exact;
 mod choice;
 pub(crate) mod encoder;
 mod exact_screw;
+mod lawful;
 pub(crate) mod linear;
 mod loads;
 mod manoeuvre;
@@ -86,8 +87,11 @@ use trace::Temperature;
 /// table [screw_groove], [nut_groove]), contact_angle; and if wanted name, youngs_modulus, poisson_ratio, density (for both bodies, or each in a
 /// table [ball_material], [groove_material]; steel without).
 ///
-/// Friction: friction (0.1 without), hysteresis_loss (0.01 without), lubricant_drag (N a contact under 100 N; 0 without), branch ("contacts", or a
-/// paper's closed form "rolling" or "sliding"), rolling_tangent (closed forms), reversal_speed (2 rad/s without).
+/// Friction: friction (0.1 without), friction_law ("default" without, or "constant"), hysteresis_loss (0.01 without), lubricant_drag (N a contact
+/// under 100 N; 0 without), reversal_speed (2 rad/s without).
+///
+/// branch ("contacts", or a paper's closed form: "rolling" has 0.02 to 1.1 times the exact torque, "sliding" 2.1 to 13 times), rolling_tangent
+/// (closed forms).
 ///
 /// Fit of the balls, one of: clearance (radial gap of every contact, m; play above 0, oversize below), axial_play (of the nut, m), preload (force
 /// of one contact without a load, N), axial_preload (of the nut, N). Without, 1 um of oversize (clearance = -1e-6). loaded_balls is
@@ -109,8 +113,13 @@ use trace::Temperature;
 ///
 /// Table [calibration], what `calibrate` writes: for --scene caged with --memory full_film_ratio and half_share_speed (rad/s) with
 /// reference_temperature and viscosity_pole (K), direction_asymmetry, breakaway_angle (rad) at reference_load (N), elements ("proportional", or
-/// with largest_load, N, "load_exact" or "preloaded"), backlash (rad), churning; there a column temperature (K; temperature_C in degrees
-/// Celsius) of the trace is followed.
+/// with largest_load, N, "load_exact" or "preloaded"), backlash (rad), churning.
+///
+/// A column temperature (K; temperature_C in degrees Celsius) of the trace is followed by the scene caged and by --mechanism: by the law of
+/// [calibration]; without that table by the default law.
+///
+/// The default law has the coefficient at standstill, 0.42 of it on a film, and the lubricant's drag. Beside --reference a temperature is not
+/// followed, nor with friction_law = "constant".
 ///
 /// Its rolling_drag is the drag of the lubricant over that of the default grease (1 for that; none without).
 ///
@@ -184,8 +193,8 @@ pub struct Arguments {
     /// Where the plot goes: a picture, or a page in which to look closer
     #[arg(long, value_name = "OUT.svg|OUT.html")]
     plot: Option<PathBuf>,
-    /// Compute the float64 reference beside the model. Caged: one ball in elastic balance, exactly, or the closed form that the
-    /// design asks for. Uncaged: all balls, exactly without a name
+    /// Compute the float64 reference beside the model. Caged: one ball in elastic balance, exactly, or a closed
+    /// form: the design's, or of a rolling ball. Uncaged: all balls, exactly without a name
     #[arg(
         long,
         value_enum,
@@ -319,8 +328,12 @@ fn simulate<S: Scene>(
         (Some(path), _) => {
             let channels = arguments.channels.as_deref();
             let mapping = channels.map(Mapping::read).transpose()?;
-            let followed = scene.follows_temperature();
-            trace::read(&Source(path), mapping.as_ref(), followed)?
+            let followed = scene.follows_temperature(arguments.reference.is_some());
+            let (trace, temperature) = trace::read(&Source(path), mapping.as_ref(), followed)?;
+            if let Temperature::Followed(_) = temperature {
+                scene.follow_temperature();
+            }
+            (trace, temperature)
         }
         (None, Some(manoeuvre)) => {
             let (trace, words) = scene.within(scene.manoeuvre(manoeuvre)?);

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use epas_friction::Range;
 use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves};
-use epas_friction::scene::CagedBallScrewConfiguration;
+use epas_friction::scene::{CagedBallScrewConfiguration, CagedConstants};
 use rayon::prelude::*;
 
 use crate::Failure;
@@ -167,6 +167,32 @@ impl CagedFold {
                 Block::Range(self.configured(self.law(exact, &nodes)?))
             }
         })
+    }
+
+    /// The block for friction coefficients between the first and the last of some nodes, at least 1.01 times apart; [`Self::friction`] is not read.
+    ///
+    /// # Errors
+    /// As [`Self::block`].
+    pub fn block_at<const N: usize>(
+        &self,
+        nodes: [f32; N],
+    ) -> Result<CagedBallScrewConfiguration<N>, Failure> {
+        self.check()?;
+        let law = self.law(&Exact::of(&self.gear)?, &Nodes::aligned_later(nodes))?;
+        let block = self.configured(law);
+        CagedConstants::new(&block)?;
+        Ok(block)
+    }
+
+    /// The errors of a block of this design, over the loads of this fold and the friction coefficients of the block's nodes.
+    ///
+    /// # Errors
+    /// Where the exact solver has no answer.
+    pub fn errors<const N: usize>(
+        &self,
+        block: &CagedBallScrewConfiguration<N>,
+    ) -> Result<Certificate, Failure> {
+        Certificate::of(self, &Exact::of(&self.gear)?, block)
     }
 
     /// Whether every number of the design and of the domain is within its range; nothing is solved.

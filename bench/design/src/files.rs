@@ -3,6 +3,7 @@
 mod built_in;
 pub mod calibration;
 pub mod capacity;
+pub mod coefficient;
 mod fits;
 pub mod fold;
 pub mod loads;
@@ -29,6 +30,7 @@ pub use plausible::SOURCES;
 use crate::Failure;
 use built_in::Settings;
 use calibration::Calibrated;
+use coefficient::FrictionLaw;
 use fits::Fits;
 use fold::FoldTable;
 use loads::{LoadCase, LoadsTable};
@@ -57,6 +59,10 @@ pub struct Design {
     pub loads: Option<LoadCase>,
     /// What a measured trace has told of it, where there is one.
     pub calibrated: Option<Calibrated>,
+    /// How its friction coefficient follows a trace's temperature without a calibration.
+    pub friction_law: FrictionLaw,
+    /// Whether a run follows the default law: one with a temperature.
+    pub by_default_law: bool,
     /// Domain over which it is folded, where its file says it.
     pub fold: FoldTable,
     /// Keys that its file leaves to the defaults.
@@ -96,9 +102,16 @@ impl Design {
             uncaged: loaded_balls.and_then(|balls| train::built_in(name, caged, balls)),
             loads: loaded_balls.and_then(|balls| loads::built_in(name, balls)),
             calibrated: None,
+            friction_law: FrictionLaw::Default,
+            by_default_law: false,
             fold: FoldTable::default(),
             defaulted: Vec::new(),
         }
+    }
+
+    /// A screw with the defaults for what stands on no drawing.
+    pub fn usual(screw: BallScrew, loaded_balls: Option<u16>) -> Self {
+        Self::new("", screw, loaded_balls, Settings::USUAL)
     }
 
     /// The word behind a setting that its file leaves to the default.
@@ -306,6 +319,7 @@ struct DesignFile {
     ball_material: Option<MaterialTable>,
     groove_material: Option<MaterialTable>,
     friction: Option<OneFriction>,
+    friction_law: Option<FrictionLaw>,
     hysteresis_loss: Option<f32>,
     lubricant_drag: Option<f32>,
     rolling_tangent: Option<f32>,
@@ -497,6 +511,15 @@ impl DesignFile {
             .map(Calibrated::checked)
             .transpose()
             .map_err(|message| format!("calibration: {message}"))?;
+        replace(&mut design.friction_law, self.friction_law);
+        if let (FrictionLaw::Constant, Some(calibrated)) = (design.friction_law, &design.calibrated)
+            && calibrated.has_law()
+        {
+            return Err(
+                "friction_law = \"constant\" contradicts the law of [calibration]; remove one"
+                    .into(),
+            );
+        }
         if let Some(table) = self.fold {
             table
                 .check(&design)

@@ -33,10 +33,12 @@
 //! | [`gears`] | the gear of the project's own firmware |
 //! | [`manoeuvre`] | rack travel and rack force of parking, weave, kerb |
 //! | [`files`] | design files and built-in designs |
+//! | [`built_in`] | the built-in designs as blocks that come with the crate |
 //! | [`folds`] | blocks that need no fold: those of the built-in designs, and those of this run |
 //! | [`caged_scene`], [`uncaged_scene`] | a design as a scene that runs on this machine |
 
 pub mod breakaway;
+pub mod built_in;
 pub mod caged;
 pub mod caged_scene;
 pub mod certificate;

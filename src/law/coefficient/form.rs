@@ -67,7 +67,7 @@ pub struct CoefficientParameters {
 /// let law = CoefficientLaw::new(&defaults::COEFFICIENT)?;
 /// let (cold, warm) = (law.at_temperature(253.15), law.at_temperature(353.15));
 /// // At 5 rad/s a cold film carries, a warm one does not; cold grease resists rolling.
-/// assert!(cold.at(5.0) < 0.06 && warm.at(5.0) > 0.105);
+/// assert!(cold.at(5.0) < 0.065 && warm.at(5.0) > 0.115);
 /// assert!(cold.drag_torque(5.0, 5e3, 0.0) > 20.0 * warm.drag_torque(5.0, 5e3, 0.0));
 /// # Ok::<(), epas_friction::Error>(())
 /// ```

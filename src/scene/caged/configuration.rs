@@ -21,3 +21,41 @@ pub struct CagedBallScrewConfiguration<const NODES: usize = 1> {
     /// Limits of inputs and outputs.
     pub limits: Limits,
 }
+
+impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
+    /// The same for the node whose friction coefficient is nearest to one: a fifth of the constants and as exact as a fold for that coefficient alone.
+    /// For constants too; without a number, the least node.
+    #[must_use]
+    pub const fn nearest(&self, friction: f32) -> CagedBallScrewConfiguration {
+        const { assert!(NODES > 0) };
+        let mut nearest = self.law.nodes[0];
+        let mut number = 1;
+        while number < NODES {
+            let node = self.law.nodes[number];
+            if (node.friction - friction).abs() < (nearest.friction - friction).abs() {
+                nearest = node;
+            }
+            number += 1;
+        }
+        nearest.shift = [0.0; 2];
+        let LoadLaw {
+            ends,
+            lift_off,
+            shifted_from,
+            ..
+        } = self.law;
+        CagedBallScrewConfiguration {
+            law: LoadLaw {
+                nodes: [nearest],
+                ends,
+                lift_off,
+                shifted_from,
+            },
+            friction: nearest.friction,
+            lead: self.lead,
+            loaded_balls: self.loaded_balls,
+            reversal_speed: self.reversal_speed,
+            limits: self.limits,
+        }
+    }
+}

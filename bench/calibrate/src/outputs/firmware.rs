@@ -60,8 +60,14 @@ impl Numbers {
     }
 }
 
-/// The friction coefficient's law of a design, where its calibration has one.
+/// The friction coefficient's law of a design: that of its calibration where that has one, the default's where it runs by it.
 pub fn law(design: &Design) -> Result<Option<CoefficientParameters>, Failure> {
+    if design.by_default_law {
+        let law = design.default_coefficient();
+        return law
+            .map(Some)
+            .map_err(|error| Failure::Data(error.to_string()));
+    }
     let Some(told) = design.calibrated.as_ref().filter(|told| told.has_law()) else {
         return Ok(None);
     };

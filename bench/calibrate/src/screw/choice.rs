@@ -14,6 +14,7 @@ use super::problem::Choice;
 use super::quantities::{Factor, HARMONICS, Kind, QUANTITIES, Quantity, Values, names};
 use crate::fit::problem::{Parameter, Scale};
 use epas_design::files::Design;
+use epas_design::files::coefficient::half_share_speed;
 use epas_page::failure::Failure;
 
 /// What is wanted of a calibration.
@@ -224,7 +225,7 @@ fn designed(caged: &CagedDesign, preload: f64) -> Values {
     Values {
         friction: caged.friction.into(),
         full_film_ratio: f64::from(coefficient.full_film / coefficient.boundary),
-        half_share_speed: coefficient.half_share_speed.into(),
+        half_share_speed: half_share_speed(&caged.design).into(),
         viscosity_pole: coefficient.viscosity.pole().into(),
         direction_asymmetry: 0.0,
         hysteresis_loss: caged.rolling_resistance.hysteresis_loss.into(),

@@ -7,6 +7,7 @@ use epas_reference::promises::{self, Promise};
 use super::beyond::Beyond;
 use super::caged_exact::ExactCaged;
 use super::encoder::EncoderStep;
+use super::lawful::Lawful;
 use super::manoeuvre::{Manoeuvre, trace};
 use super::memory;
 use super::picture::{self, Form, Labels, Moment};
@@ -17,9 +18,9 @@ use super::scene::Scene;
 use super::screw::{self, ScrewSummary};
 use super::summary::Lines;
 use super::trace::{SceneSample, Temperature, Trace};
+use epas_calibrate::outputs::firmware;
 use epas_design::caged_scene::{self as caged, CagedScene};
 use epas_design::files::Design;
-use epas_design::files::calibration::Calibrated;
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
 
@@ -34,6 +35,8 @@ pub struct Caged {
     pub memory: bool,
     /// Step of the encoder whose noise it does not follow.
     pub encoder: EncoderStep,
+    /// Whether friction follows the trace's temperature.
+    pub temperature: bool,
 }
 
 /// What runs beside the scene.
@@ -43,16 +46,16 @@ enum Reference {
 }
 
 impl Reference {
-    /// The exact ball of the contacts' friction, or a closed form: that of the design, or of rolling balls.
+    /// The exact ball, whatever the design's friction follows, or a closed form: that of the design, or of rolling balls.
     fn new(
         model: ReferenceModel,
         design: &Design,
         trace: &Trace<ScrewSample>,
     ) -> Result<Self, Failure> {
-        Ok(match (design.branch, model) {
-            (None, ReferenceModel::Exact) => Self::Exact(ExactCaged::new(&design.caged, trace)?),
-            (branch, _) => {
-                let branch = branch.unwrap_or(FrictionBranch::Rolling);
+        Ok(match model {
+            ReferenceModel::Exact => Self::Exact(ExactCaged::new(&design.caged, trace)?),
+            ReferenceModel::ClosedForm => {
+                let branch = design.branch.unwrap_or(FrictionBranch::Rolling);
                 Self::ClosedForm(CagedReference::new(&design.in_closed_form(branch))?)
             }
         })
@@ -95,11 +98,19 @@ impl Caged {
             lines.add_some("encoder", self.encoder.told("rad"));
             return Ok((model, lines));
         }
-        let mut model = CagedScene::of(&self.design)?.model().map_err(refused)?;
-        let plain = Box::new(move |inputs, _, _| model.step(inputs));
+        let law = firmware::law(&self.design)?.filter(|_| self.temperature);
+        let plain: Model = if let Some(law) = &law {
+            let mut model = Lawful::new(&self.design, law)?;
+            Box::new(move |inputs, _, temperature| model.step(inputs, temperature))
+        } else {
+            let mut model = CagedScene::of(&self.design)?.model().map_err(refused)?;
+            Box::new(move |inputs, _, _| model.step(inputs))
+        };
         let mut lines = Lines::default();
+        lines.add_some("closed form", self.design.branch.map(range_of));
         let calibrated = self.design.calibrated.as_ref();
-        let left = calibrated.map_or_else(Vec::new, Calibrated::remembered);
+        let left =
+            calibrated.map_or_else(Vec::new, |calibrated| calibrated.remembered(law.is_none()));
         if !left.is_empty() {
             let text = format!("without --memory left out: {}", left.join(", "));
             lines.add("calibration", text);
@@ -155,26 +166,37 @@ impl Caged {
 ///
 /// # Errors
 /// What cannot be folded, with the reason.
-pub fn check_errors(design: &Design, memory: bool) -> Result<(), Failure> {
-    fold(design, memory)?.map_or(Ok(()), |fold| {
+pub fn check_errors(design: &Design, by_law: bool) -> Result<(), Failure> {
+    fold(design, by_law)?.map_or(Ok(()), |fold| {
         let progress = Progress::of_fold();
         let checked = caged::check_errors(&fold, &|share| progress.share(share));
         Ok(checked.map_err(|failure| failure.of(&design.name))?)
     })
 }
 
-/// What is folded of a design for a run, for all coefficients of its calibration where friction remembers; nothing of a closed form.
+/// What is folded of a design for a run, for all coefficients of its law where friction follows one; nothing of a closed form.
 ///
 /// # Errors
 /// What cannot be folded, with the reason.
-pub fn fold(design: &Design, memory: bool) -> Result<Option<CagedFold>, Failure> {
+pub fn fold(design: &Design, by_law: bool) -> Result<Option<CagedFold>, Failure> {
     if design.branch.is_some() {
         return Ok(None);
     }
     let own = (design.caged.friction, design.caged.friction);
-    let asked = if memory { coefficients(design)? } else { own };
+    let asked = if by_law { coefficients(design)? } else { own };
     let fold = caged::fold_for(design, asked).map_err(Failure::Data);
     fold.map(Some).map_err(|failure| failure.of(&design.name))
+}
+
+/// What a closed form is worth.
+fn range_of(branch: FrictionBranch) -> String {
+    let range = match branch {
+        FrictionBranch::Rolling => "0.02 to 1.1",
+        FrictionBranch::Sliding => "2.1 to 13",
+    };
+    format!(
+        "{range} times the exact torque over the built-in designs; --reference compares it, and without branch in the design file the exact ball is folded"
+    )
 }
 
 /// An angle within half a turn either way, rad.
@@ -219,7 +241,16 @@ impl Scene for Caged {
     }
 
     fn check_errors(&self) -> Result<(), Failure> {
-        check_errors(&self.design, self.memory)
+        let checked = check_errors(&self.design, self.memory || self.temperature);
+        if !self.design.by_default_law {
+            return checked;
+        }
+        checked.map_err(|failure| {
+            Failure::Data(format!(
+                "{}; the trace's temperature moves the friction coefficient: friction_law = \"constant\" in the design file switches that off",
+                failure.message()
+            ))
+        })
     }
 
     fn rows(
@@ -234,6 +265,9 @@ impl Scene for Caged {
     fn reference_name(&self, model: ReferenceModel) -> String {
         let form = match (self.design.branch, model) {
             (None, ReferenceModel::Exact) => "one ball in elastic balance",
+            (Some(_), ReferenceModel::Exact) => {
+                "one ball in elastic balance, another model than the design's closed form"
+            }
             (None, ReferenceModel::ClosedForm) => {
                 "a rolling ball in closed form, another model than the design's friction of contacts"
             }
@@ -248,9 +282,16 @@ impl Scene for Caged {
         format!("{form}{without}")
     }
 
-    fn follows_temperature(&self) -> bool {
-        let calibrated = self.design.calibrated.as_ref();
-        self.memory && calibrated.is_some_and(Calibrated::follows_temperature)
+    fn follows_temperature(&self, with_reference: bool) -> Result<(), &'static str> {
+        if with_reference && !self.memory {
+            return Err("the reference has one friction coefficient, and the model beside it too");
+        }
+        self.design.follows_temperature()
+    }
+
+    fn follow_temperature(&mut self) {
+        self.temperature = true;
+        self.design.by_default_law = self.design.calibrated.is_none();
     }
 
     fn rows_at(
@@ -279,7 +320,9 @@ impl Scene for Caged {
 
     fn summary(&self, trace: &Trace<ScrewSample>, rows: &[CagedRow]) -> Lines {
         // What has run was folded: nothing is refused here.
-        let fold = fold(&self.design, self.memory).ok().flatten();
+        let fold = fold(&self.design, self.memory || self.temperature)
+            .ok()
+            .flatten();
         let beyond = fold.map(|fold| Beyond::caged(&self.design, &fold));
         let mut summary = ScrewSummary::new(&self.design, beyond);
         for row in rows {
@@ -322,12 +365,11 @@ impl Scene for Caged {
 impl Caged {
     /// What the error of this scene is, where it is promised.
     fn promise(&self) -> Option<&'static Promise> {
-        match (self.design.branch, self.memory) {
-            (None, true) if self.design.calibrated.is_some() => {
-                Some(promises::of("step_caged_range"))
-            }
-            (None, _) => Some(promises::of("step_caged")),
-            _ => None,
+        let by_law = self.temperature || self.memory && self.design.calibrated.is_some();
+        match self.design.branch {
+            None if by_law => Some(promises::of("step_caged_range")),
+            None => Some(promises::of("step_caged")),
+            Some(_) => None,
         }
     }
 
@@ -368,6 +410,7 @@ impl Caged {
                     design,
                     memory: self.memory,
                     encoder: self.encoder,
+                    temperature: self.temperature,
                 };
                 let at = |sample: usize| rows.get(sample).map(|row| row.temperature);
                 slipping.follow(trace, at, None, &|| ())

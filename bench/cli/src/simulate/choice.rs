@@ -54,6 +54,7 @@ pub fn choose(
             design: screw("lin-4.1")?,
             memory,
             encoder: EncoderStep::default(),
+            temperature: false,
         }))),
         SceneName::Uncaged => {
             let design = screw("lin-3.6")?;

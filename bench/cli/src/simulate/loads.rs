@@ -137,7 +137,7 @@ impl Wanted {
             } => {
                 let mapping = source.channels.map(Mapping::read).transpose()?;
                 let input = Input(path);
-                Some(trace::read::<ScrewSample>(&input, mapping.as_ref(), false)?.0)
+                Some(trace::read::<ScrewSample>(&input, mapping.as_ref(), Err(trace::UNREAD))?.0)
             }
             Source {
                 manoeuvre: Some(manoeuvre),

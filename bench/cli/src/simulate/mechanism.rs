@@ -28,7 +28,6 @@ use acting::{Acting, Torque, Wanted, moments, tick};
 use epas_calibrate::controller::Controller;
 use epas_calibrate::mechanism::Mechanism;
 use epas_design::files::Design;
-use epas_design::files::calibration::Calibrated;
 use epas_page::failure::Failure;
 use epas_page::files::{self, Existing, Pending, refuse_same};
 use epas_traces::mdf4::Mapping;
@@ -104,11 +103,14 @@ pub fn run(
     let input = input.ok_or_else(|| Failure::Data("there is no trace".into()))?;
     let (source, mapping) = (Source(input), channels.map(Mapping::read).transpose()?);
     let calibrated = design.calibrated.as_ref();
-    let follows = calibrated.is_some_and(Calibrated::follows_temperature);
+    let follows = design.follows_temperature();
     let (name, acting, temperature) = match arguments.controller {
         Some(_) => moments::<Wanted>(&source, mapping.as_ref(), follows, |sample| sample.0)?,
         None => moments::<Torque>(&source, mapping.as_ref(), follows, |sample| sample.0)?,
     };
+    let mut design = design.clone();
+    design.by_default_law = calibrated.is_none() && matches!(temperature, Temperature::Followed(_));
+    let design = &design;
     let outputs = targets([output, plot], &name, &design.name);
     for path in outputs.iter().flatten() {
         existing.check(path)?;

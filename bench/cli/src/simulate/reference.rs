@@ -2,8 +2,8 @@
 //!
 //! | scene | `--reference` | which model of the reference |
 //! |---|---|---|
-//! | caged, friction of the contacts | [`super::caged_exact`] | `LoadedScrew`: one ball in elastic balance, exact, solved at 160 loads of each sign |
-//! | caged, a paper's closed form | [`CagedReference`] | `Screw`: the same closed form in float64; it proves the arithmetic, not the form |
+//! | caged, and `--reference=exact` | [`super::caged_exact`] | `LoadedScrew`: one ball in elastic balance, exact, solved at 160 loads of each sign; also of a design that follows a paper's closed form |
+//! | caged, `--reference=closed-form` | [`CagedReference`] | `Screw`: a paper's closed form in float64; of a design that follows it, it proves the arithmetic, not the form |
 //! | uncaged, and `--reference=exact` | [`super::exact_screw`] | `ElasticRing`: every ball in elastic balance by contact integrals, and the forces between them |
 //! | uncaged, `--reference=closed-form` | [`whole_screw`] | `WholeScrew` with the `ThreePointModel` of each ball: not exact, for comparison with the dissertation |
 //! | linear | refused | `eval` compares rows of balls |

@@ -192,10 +192,12 @@ pub fn scene(design: &Design) -> Result<CagedScene, Failure> {
 /// What the crate refuses.
 pub fn coefficients(design: &Design) -> Result<(f32, f32), Failure> {
     let friction = design.caged.friction;
-    match firmware::law(design)? {
-        Some(law) => Ok(CoefficientLaw::new(&law)?.extremes()),
-        None => Ok((friction, friction)),
-    }
+    let Some(law) = firmware::law(design)? else {
+        return Ok((friction, friction));
+    };
+    let (least, largest) = CoefficientLaw::new(&law)?.extremes();
+    // The law's own rounding may leave the design's coefficient out.
+    Ok((least.min(friction), largest.max(friction)))
 }
 
 /// The friction coefficient of a calibrated design.
@@ -230,7 +232,7 @@ impl<A: Sensor> Wanted<'_, A> {
         let calibrated = design.calibrated.as_ref();
         let backlash = calibrated.and_then(|found| found.backlash).unwrap_or(0.0);
         let angle = encoder::behind(angle, step, backlash).map_err(refused)?;
-        if calibrated.is_none() {
+        if calibrated.is_none() && !design.by_default_law {
             let remembered = by_design()?;
             let whole = memory::configuration(scene, &remembered, angle, design.caged.friction);
             let model =

@@ -58,10 +58,16 @@ pub trait Scene {
         String::new()
     }
 
-    /// Whether temperatures of a trace change anything.
-    fn follows_temperature(&self) -> bool {
-        false
+    /// Whether temperatures of a trace change anything beside a reference or without one; the reason where they do not.
+    ///
+    /// # Errors
+    /// The reason.
+    fn follows_temperature(&self, _with_reference: bool) -> Result<(), &'static str> {
+        Err("rows of balls have one friction coefficient; --scene caged follows it")
     }
+
+    /// Takes up that the trace has a temperature, which is followed.
+    fn follow_temperature(&mut self) {}
 
     /// The same as [`rows`](Self::rows) with a trace's temperatures, where it follows them.
     ///

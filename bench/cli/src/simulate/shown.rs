@@ -37,6 +37,7 @@ pub fn courses(design: &str, manoeuvre: Manoeuvre) -> Result<Courses, Failure> {
             design: design.clone(),
             memory,
             encoder: EncoderStep::default(),
+            temperature: false,
         };
         let trace = scene.manoeuvre(manoeuvre)?;
         let (rows, _) = scene.rows(&trace, reference, &|| ())?;

@@ -111,11 +111,17 @@ impl<S: SceneSample> Trace<S> {
 pub enum Temperature {
     /// There is none.
     None,
-    /// There is one, and nothing follows it.
-    Ignored,
+    /// There is one, and nothing follows it, for this reason.
+    Ignored(&'static str),
     /// One for each sample, K.
     Followed(Vec<f32>),
 }
+
+/// Whether temperatures are followed, and if not, why.
+pub type Follows = Result<(), &'static str>;
+
+/// Reason where samples alone are wanted.
+pub const UNREAD: &str = "only its samples are read";
 
 /// Its name.
 const TEMPERATURE: &str = "temperature";
@@ -125,7 +131,7 @@ impl Temperature {
     pub fn at(&self, sample: usize) -> Option<f32> {
         match self {
             Self::Followed(values) => values.get(sample).copied(),
-            Self::None | Self::Ignored => None,
+            Self::None | Self::Ignored(_) => None,
         }
     }
 
@@ -133,29 +139,27 @@ impl Temperature {
     pub fn told(&self) -> Option<String> {
         match self {
             Self::None => None,
-            Self::Ignored => Some(
-                "the trace's is ignored; what follows it: --scene caged with --memory, or --mechanism, of a design with full_film_ratio in \
-                 [calibration]"
-                    .into(),
-            ),
+            Self::Ignored(reason) => Some(format!("the trace's is ignored: {reason}")),
             Self::Followed(values) => {
                 let low = values.iter().copied().fold(f32::INFINITY, f32::min);
                 let high = values.iter().copied().fold(0.0, f32::max);
-                Some(format!("{low:.1} to {high:.1} K, followed by the friction coefficient"))
+                Some(format!(
+                    "{low:.1} to {high:.1} K, followed by the friction coefficient"
+                ))
             }
         }
     }
 
     /// Whether a table has temperatures, and whether they were taken.
-    fn of(table: &Table) -> Self {
+    fn of(table: &Table, followed: Follows) -> Self {
         let named = |name: &String| matches!(heading(name), Ok(Some((Quantity::Temperature, _))));
         if table.column(Quantity::Temperature).is_some() {
             return Self::Followed(Vec::new());
         }
-        if table.ignored.iter().any(named) {
-            return Self::Ignored;
+        match followed {
+            Err(reason) if table.ignored.iter().any(named) => Self::Ignored(reason),
+            _ => Self::None,
         }
-        Self::None
     }
 
     /// Refuses what is no temperature, K.
@@ -184,7 +188,7 @@ impl Temperature {
 pub fn read<S: Sample>(
     source: &Source<'_>,
     channels: Option<&Mapping>,
-    followed: bool,
+    followed: Follows,
 ) -> Result<(Trace<S>, Temperature), Failure> {
     let input = source.open(table::LARGEST_FILE)?;
     let found = if input.measurement {
@@ -201,12 +205,12 @@ pub fn read<S: Sample>(
 
 /// The samples of a table.
 pub fn samples<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, String> {
-    columns_of(input, false).map(|(samples, _)| samples)
+    columns_of(input, Err(UNREAD)).map(|(samples, _)| samples)
 }
 
 /// The samples of a measurement file.
 pub fn measured<S: Sample>(input: impl Read, channels: Option<&Mapping>) -> Result<Vec<S>, String> {
-    channels_of(input, channels, false).map(|(samples, _)| samples)
+    channels_of(input, channels, Err(UNREAD)).map(|(samples, _)| samples)
 }
 
 /// What a column cannot be measured in: a carriage travels, and a wanted angle of the nut is one.
@@ -219,10 +223,10 @@ fn refused(column: &str) -> Option<Dimension> {
 }
 
 /// Columns of a scene but the time, those that a trace must have first.
-fn wanted<S: Sample>(followed: bool) -> Vec<mdf4::Wanted> {
+fn wanted<S: Sample>(followed: Follows) -> Vec<mdf4::Wanted> {
     let names = S::COLUMNS.iter().chain(S::OPTIONAL);
     names
-        .chain(followed.then_some(&TEMPERATURE))
+        .chain(followed.is_ok().then_some(&TEMPERATURE))
         .filter_map(|name| {
             let quantity = quantity(name)?;
             (quantity != Quantity::Time).then(|| mdf4::Wanted {
@@ -236,20 +240,20 @@ fn wanted<S: Sample>(followed: bool) -> Vec<mdf4::Wanted> {
 
 fn columns_of<S: Sample>(
     input: impl Read + Seek,
-    followed: bool,
+    followed: Follows,
 ) -> Result<(Vec<S>, Temperature), String> {
     let wanted = wanted::<S>(followed);
     let request = Request {
         wants: &|quantity| wanted.iter().any(|wanted| wanted.quantity == quantity),
         rated_torque: None,
     };
-    samples_of(table::read(input, request)?, &wanted, "column")
+    samples_of(table::read(input, request)?, &wanted, "column", followed)
 }
 
 fn channels_of<S: Sample>(
     input: impl Read,
     channels: Option<&Mapping>,
-    followed: bool,
+    followed: Follows,
 ) -> Result<(Vec<S>, Temperature), String> {
     let wanted = wanted::<S>(followed);
     let first: Vec<Quantity> = wanted.iter().take(1).map(|first| first.quantity).collect();
@@ -264,7 +268,7 @@ fn channels_of<S: Sample>(
         rated_torque: None,
     };
     let table = table::of_measurement(found, request)?;
-    samples_of(table, &wanted, "channel")
+    samples_of(table, &wanted, "channel", followed)
 }
 
 /// The samples of a table whose times are a raster without long gaps, with what no mechanism makes left out.
@@ -272,6 +276,7 @@ fn samples_of<S: Sample>(
     mut table: Table,
     wanted: &[mdf4::Wanted],
     kind: &str,
+    followed: Follows,
 ) -> Result<(Vec<S>, Temperature), String> {
     let must = S::COLUMNS.len() - 1;
     for (place, wanted) in wanted.iter().enumerate() {
@@ -308,7 +313,7 @@ fn samples_of<S: Sample>(
     check_raster(&table.times, table.repeated)?;
     marks::mark(&mut table)?;
     tell(&table);
-    let mut temperature = Temperature::of(&table);
+    let mut temperature = Temperature::of(&table, followed);
     if let Some(column) = table.column(Quantity::Temperature) {
         for value in &column.values {
             temperature.take(*value)?;

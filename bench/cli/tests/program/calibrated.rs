@@ -108,8 +108,8 @@ fn a_simulation_runs_what_firmware_evaluates() {
     };
     let said = simulated(&[]);
     assert!(
-        said.contains("without --memory left out: full_film_ratio, half_share_speed,")
-            && said.contains("temperature                    the trace's is ignored"),
+        said.contains("without --memory left out: breakaway_angle")
+            && said.contains("293.1 to 333.1 K, followed"),
         "{said}"
     );
     let said = simulated(&["--memory", "--encoder-step", &STEP.to_string()]);

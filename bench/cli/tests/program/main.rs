@@ -12,6 +12,7 @@ mod loads;
 mod pairs;
 mod simulate;
 mod simulate_trains;
+mod temperature;
 mod trains;
 mod untrusted;
 

@@ -164,17 +164,26 @@ impl Calibrated {
         Ok(self)
     }
 
-    /// Keys with which friction that remembers follows it, those that are there.
-    pub fn remembered(&self) -> Vec<&'static str> {
+    /// Keys with which friction that remembers follows it, those that are there: those of the memory, and of the law with it.
+    pub fn remembered(&self, with_law: bool) -> Vec<&'static str> {
         [
-            ("full_film_ratio", self.full_film_ratio.is_some()),
-            ("half_share_speed", self.half_share_speed.is_some()),
-            ("viscosity_pole", self.viscosity_pole.is_some()),
-            ("direction_asymmetry", self.direction_asymmetry.is_some()),
+            (
+                "full_film_ratio",
+                with_law && self.full_film_ratio.is_some(),
+            ),
+            (
+                "half_share_speed",
+                with_law && self.half_share_speed.is_some(),
+            ),
+            ("viscosity_pole", with_law && self.viscosity_pole.is_some()),
+            (
+                "direction_asymmetry",
+                with_law && self.direction_asymmetry.is_some(),
+            ),
             ("breakaway_angle", self.breakaway_angle.is_some()),
             ("backlash", self.backlash.is_some()),
-            ("churning", self.churning.is_some()),
-            ("rolling_drag", self.rolling_drag.is_some()),
+            ("churning", with_law && self.churning.is_some()),
+            ("rolling_drag", with_law && self.rolling_drag.is_some()),
         ]
         .into_iter()
         .filter_map(|(key, there)| there.then_some(key))

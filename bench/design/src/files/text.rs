@@ -6,6 +6,7 @@ use crate::CagedDesign;
 use epas_friction::{FrictionBranch, GrooveSize, Material};
 
 use super::Design;
+use super::coefficient::FrictionLaw;
 
 /// The text of a design file that is read as this design: for one that has no file, a built-in one. Its row of balls and its
 /// supports go by its name.
@@ -44,6 +45,9 @@ pub fn text(design: &Design) -> String {
         text,
         "branch = \"{branch}\"\nloaded_balls = {loaded_balls}\n"
     );
+    if design.friction_law == FrictionLaw::Constant {
+        text.push_str("friction_law = \"constant\"\n");
+    }
     for (name, groove) in [
         ("screw_groove", parameters.screw_groove),
         ("nut_groove", parameters.nut_groove),

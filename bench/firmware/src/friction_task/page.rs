@@ -62,7 +62,7 @@ impl Calibration {
         largest_friction_torque: 5.0,
         friction_boundary: 0.12,
         friction_full_film: 0.05,
-        half_share_speed: 4.9,
+        half_share_speed: 15.35,
         friction_forward: 1.0,
         friction_backward: 1.0,
         churning: 0.0,

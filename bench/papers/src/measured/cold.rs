@@ -30,6 +30,9 @@ pub const SPEEDS: [f64; 3] = [1.0, 5.0, 20.0];
 /// Axial loads, N: none, and that of slow driving.
 pub const LOADS: [f64; 2] = [0.0, 5000.0];
 
+/// Speed of the nut, rad/s, and axial load, N, at which friction falls furthest in the cold: slow parking.
+pub const LEAST: (f64, f64) = (0.7, 14_000.0);
+
 /// A lubricant and its film, as the crate assumes them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lubricant {
@@ -51,7 +54,7 @@ pub const GREASE: Lubricant = Lubricant {
     density: 850.0,
     flooding: 0.7,
     coefficients: [0.12, 0.05],
-    half_share_speed: 4.9,
+    half_share_speed: 15.35,
 };
 
 impl Lubricant {
@@ -148,6 +151,19 @@ pub fn friction(
         grooves,
         drag: lubricant.flooding * drag,
     })
+}
+
+/// Friction at -40 degrees Celsius over that at 20, at a speed of the nut, rad/s, and an axial load, N.
+///
+/// # Errors
+/// [`ReferenceError`] of a balance that is not found.
+pub fn growth(
+    usual: &Usual,
+    lubricant: &Lubricant,
+    (speed, load): (f64, f64),
+) -> Result<f64, ReferenceError> {
+    let at = |celsius| Ok(friction(usual, lubricant, (celsius, speed, load))?.torque());
+    Ok(at(-40.0)? / at(20.0)?)
 }
 
 /// Friction at all of [`LOADS`], [`SPEEDS`] and [`TEMPERATURES`], in this order.

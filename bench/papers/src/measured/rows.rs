@@ -415,18 +415,15 @@ fn slide(_: &Usual) -> Result<Measured, ReferenceError> {
 }
 
 fn cold(usual: &Usual) -> Result<Measured, ReferenceError> {
-    let at = |celsius: f64, speed: f64, load: f64| {
-        let state = (celsius, speed, load);
-        Ok::<f64, ReferenceError>(
-            over_temperature::friction(usual, &over_temperature::GREASE, state)?.torque(),
-        )
-    };
+    let growth =
+        |state: (f64, f64)| over_temperature::growth(usual, &over_temperature::GREASE, state);
     let mut growths = Vec::new();
     for speed in over_temperature::SPEEDS {
         for load in over_temperature::LOADS {
-            growths.push(at(-40.0, speed, load)? / at(20.0, speed, load)?);
+            growths.push(growth((speed, load))?);
         }
     }
+    let least = growth(over_temperature::LEAST)?;
     let [slow_idle, slow, centre_idle, centre, fast_idle, fast] = growths[..] else {
         return Err(ReferenceError::input("speed", "three speeds and two loads"));
     };
@@ -436,7 +433,7 @@ fn cold(usual: &Usual) -> Result<Measured, ReferenceError> {
         figure: "2 to 3, of the whole gear with greases made for it",
         source: Source::Recalled("makers of greases and steering gears"),
         computed: format!(
-            "{:.1} to {:.1} at 5 rad/s of the nut, {:.1} to {:.1} at 20, {:.1} to {:.1} at 1 (without load to 5 kN; assumed: {}, grease with a base oil of 48 mm2/s at 40 degrees)",
+            "{:.1} to {:.1} at 5 rad/s of the nut, {:.1} to {:.1} at 20, {:.1} to {:.1} at 1 (without load to 5 kN), {least:.2} at 0.7 under 14 kN; above 5 rad/s these are upper bounds (assumed: {}, grease with a base oil of 48 mm2/s at 40 degrees)",
             steering[0],
             steering[1],
             range([fast_idle, fast])[0],

@@ -4,7 +4,7 @@ use epas_friction::defaults;
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, OilData, TemperatureFade, Viscosity,
 };
-use epas_reference::coefficient::{FilmContact, Vogel, Walther, coefficient};
+use epas_reference::coefficient::{BearingMixture, FilmContact, Vogel, Walther, coefficient};
 use epas_reference::promises;
 
 use epas_testkit::errors::Errors;
@@ -19,8 +19,9 @@ const OIL: Vogel = Vogel {
 /// Zero of the Celsius scale, K.
 const ZERO: f64 = 273.15;
 
-/// The default with a mineral oil, for which the coefficients are tabulated.
+/// The default's coefficients with a mineral oil and the half-share speed of its film, for which the coefficients are tabulated.
 const MINERAL: CoefficientParameters = CoefficientParameters {
+    half_share_speed: 4.9,
     viscosity: defaults::VISCOSITY,
     ..defaults::COEFFICIENT
 };
@@ -286,8 +287,7 @@ fn equal_coefficients_are_constant() {
     }
 }
 
-/// The default's lubricant: 48 and 8.0 mm²/s at 40 and 100 degrees and 19,000 at -40, density 833 kg/m³ at 15 less 0.65 a degree. Its film
-/// is `sqrt(2) - 1` of a roughness of 0.08 um at the default's speed.
+/// The default's lubricant: 48 and 8.0 mm²/s at 40 and 100 degrees and 19,000 at -40, density 833 kg/m³ at 15 less 0.65 a degree.
 #[test]
 fn default_grease_is_a_poly_alpha_olefin() {
     let grease = defaults::STEERING_GREASE;
@@ -311,13 +311,53 @@ fn default_grease_is_a_poly_alpha_olefin() {
     let exact = walther.at(20.0) * 1e-6 * 830.0;
     let found = f64::from(grease.at(kelvin(20.0)));
     assert!((found / exact - 1.0).abs() < 0.03, "{found} {exact}");
-    let film = FilmContact {
-        roughness: 0.08e-6,
-        ..film()
+}
+
+/// The default half-share speed is that of SKF's mixture of boundary and film friction on a pitch circle of 29 mm with the default grease at 20
+/// degrees: within the rounding of its fourth digit. A film by Hamrock and Dowson has it within a factor of three: at 0.08 to 0.15 um of roughness.
+#[test]
+fn default_half_share_speed_is_of_skf_mixture() {
+    let law = defaults::COEFFICIENT;
+    let celsius = f64::from(law.reference_temperature) - ZERO;
+    let viscosity = f64::from(law.viscosity.at(law.reference_temperature));
+    let density = f64::from(defaults::STEERING_GREASE_DENSITY) * (1.0 - 6.5e-4 * (celsius - 15.0));
+    let mixture = BearingMixture {
+        mean_diameter: 29e-3,
+        kinematic_viscosity: viscosity / density,
     };
-    let speed = film.half_share_speed(found) / ENTRAINMENT;
-    println!("half-share speed {speed:.2} rad/s");
-    assert!((speed / 4.9 - 1.0).abs() < 0.05);
+    let speed = mixture.half_share_speed();
+    let film = |roughness: f64| {
+        let film = FilmContact {
+            roughness,
+            ..film()
+        };
+        film.half_share_speed(viscosity) / ENTRAINMENT
+    };
+    let films = [0.08e-6, 0.15e-6].map(film);
+    println!("half-share speed {speed:.3} rad/s; of a film {films:.2?}");
+    assert!(
+        (speed - f64::from(law.half_share_speed)).abs() < 5e-3,
+        "{speed}"
+    );
+    assert!((mixture.boundary_share(speed) - 0.5).abs() < 1e-12);
+    assert!(
+        films
+            .iter()
+            .all(|film| *film > speed / 3.3 && *film < speed),
+        "{films:?}"
+    );
+    // SKF's share and the law's, over the speed: as the default says of them.
+    let differences = (1..=2000).map(|step| {
+        let ratio = 0.01 * f64::from(step);
+        mixture.boundary_share(ratio * speed) - 1.0 / (1.0 + ratio)
+    });
+    let (least, most) = differences.fold((0.0_f64, 0.0_f64), |(least, most), difference| {
+        (least.min(difference), most.max(difference))
+    });
+    assert!(
+        (least + 0.21).abs() < 5e-3 && (most - 0.11).abs() < 5e-3,
+        "{least} {most}"
+    );
 }
 
 /// NaN is standstill, or the warmest temperature; what lies beyond counts as the end. The half-share speed keeps its range.

@@ -56,6 +56,7 @@ fn friction(trace: &Trace<ScrewSample>, asked: Option<f64>) -> Vec<f32> {
         design: source.load().unwrap(),
         memory: true,
         encoder: EncoderStep::default(),
+        temperature: false,
     };
     scene.set_encoder(EncoderStep::of(asked, trace));
     let (rows, _) = scene.rows(trace, None, &|| ()).unwrap();

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::simulate::trace::{Sample, Temperature, read};
+use crate::simulate::trace::{Follows, Sample, Temperature, read};
 use epas_page::failure::Failure;
 use epas_traces::mdf4::Mapping;
 use epas_traces::source::Source;
@@ -93,7 +93,7 @@ sample!(Wanted, "reference_position");
 pub fn moments<S: Sample>(
     source: &Source<'_>,
     channels: Option<&Mapping>,
-    follows: bool,
+    follows: Follows,
     acting: fn(&S) -> Acting,
 ) -> Result<(String, Vec<Acting>, Temperature), Failure> {
     let (trace, temperature) = read::<S>(source, channels, follows)?;

@@ -1,0 +1,67 @@
+//! A caged screw without memory whose friction coefficient follows speed and temperature: in every tick the law is asked, and the block told, as
+//! firmware does it.
+
+use epas_design::caged_scene::{CagedModel, CagedScene};
+use epas_design::files::Design;
+use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters};
+use epas_friction::{Faults, Inputs, Outputs};
+use epas_page::failure::Failure;
+
+use super::reference::Moving;
+use super::remembering::scene;
+
+/// The screw.
+pub struct Lawful {
+    model: CagedModel,
+    law: CoefficientLaw,
+    /// Load at which the unloaded flank of a preload lifts off, N.
+    lift_off: f32,
+    largest_friction: f32,
+    reversal_speed: f32,
+}
+
+impl Lawful {
+    /// That of a design.
+    ///
+    /// # Errors
+    /// What the crate refuses, or cannot be folded.
+    pub fn new(design: &Design, law: &CoefficientParameters) -> Result<Self, Failure> {
+        let scene = scene(design)?;
+        let balls = f32::from(design.caged.loaded_balls);
+        let lift_off = match &scene {
+            CagedScene::One(block) => balls * block.law.lift_off,
+            CagedScene::Range(block) => balls * block.law.lift_off,
+            CagedScene::ClosedForm(_) => 0.0,
+        };
+        Ok(Self {
+            model: scene.model()?,
+            law: CoefficientLaw::new(law)?,
+            lift_off,
+            largest_friction: design.caged.limits.friction_torque,
+            reversal_speed: design.caged.reversal_speed,
+        })
+    }
+
+    /// One tick at a temperature, K: friction by the coefficient of speed and temperature, and the lubricant's drag.
+    pub fn step(&mut self, inputs: Inputs, temperature: f32) -> Outputs {
+        let now = self.law.at_temperature(temperature);
+        let known = self.model.set_friction(now.at(inputs.nut_speed));
+        let mut outputs = self.model.step(inputs);
+        let drag = now.drag_torque(inputs.nut_speed, inputs.axial_load.abs(), self.lift_off);
+        let friction = outputs.friction_torque + drag;
+        let limited = friction.clamp(-self.largest_friction, self.largest_friction);
+        let moving = Moving {
+            load_torque: outputs.load_torque.into(),
+            stands: inputs.nut_speed.abs() < self.reversal_speed,
+        };
+        outputs.friction_torque = limited;
+        outputs.efficiency = moving.friction(limited.into()).efficiency as f32;
+        if known.is_err() {
+            outputs.faults = outputs.faults | Faults::BEYOND_MODEL;
+        }
+        if limited != friction {
+            outputs.faults = outputs.faults | Faults::FRICTION_LIMIT;
+        }
+        outputs
+    }
+}
