@@ -96,7 +96,7 @@ fn a_wrong_value_is_explained() {
         ("[friction]\nlow = 1", "expected a number"),
         (
             "[uncaged]\nballs = 16\nturns = 1\nscrew_deviation = [2]",
-            "expected a wave, such as { order = 2, sine = 0.01 }",
+            "is a list of 1 numbers",
         ),
         (
             "[uncaged]\nballs = 16\nturns = 1\nscrew_deviation = 2",
