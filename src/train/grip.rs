@@ -15,8 +15,8 @@ pub(crate) struct Grip {
     per_growth: f32,
 }
 
-/// Largest size of `r`: with it a force falls or grows by 1.9 from ball to ball.
-pub(crate) const LARGEST_GRIP: f32 = 0.3;
+/// Largest size of a ball's grip, friction between balls counted: with it a force falls or grows by 1.9 from ball to ball.
+pub const LARGEST_GRIP: f32 = 0.3;
 
 impl Grip {
     /// Of this `r`, at most [`LARGEST_GRIP`] in size.

@@ -119,6 +119,7 @@ pub use train::ScrewNumbers;
 ///
 /// Answers with free_speed (list, orbital over nut speed, no neighbour pressing), contact_force (list), groove_torque and
 /// groove_torque_free (on the nut, all balls, pressing and none pressing) and loads (list of [SL, SR, NL, NR], none pressing).
+/// groove_torque has all that friction between balls adds, in the grooves and between them; ball_torque is the part between them.
 ///
 /// The reference has balls in elastic grooves with exact friction, by contact integrals of 32 nodes; its quantities are null at
 /// standstill, for a ball without load and where no answer was found that meets every balance.
@@ -127,7 +128,8 @@ pub use train::ScrewNumbers;
 /// up to the largest one in each groove, of either sign, and for 5 to 300 N a ball, or down and up to the next power of two where
 /// the request needs more.
 ///
-/// It has no loads, and flagged beside the rest: whether a step says that the law does not hold the forces under these loads.
+/// It has no loads and no ball_torque, and flagged beside the rest: whether a step flags this row, by the forces, the load, the friction forces
+/// between balls and the grip.
 ///
 /// It is null where the reference is for lack of speed or load, for loads of both signs, for a clearance outside -0.02 to 0.05
 /// ball radii, for deviations above 0.1, and where no law holds these deviations and loads. A law takes some seconds; requests

@@ -7,7 +7,7 @@
 use epas_design::uncaged::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
-use epas_friction::train::Press;
+use epas_friction::train::{LARGEST_GRIP, Press};
 use epas_friction::{BallScrew, Clearance, Limits, RollingResistance};
 use serde::Serialize;
 
@@ -25,10 +25,10 @@ const LIMITS: Limits = Limits {
 /// What the law finds.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct FoldedRow {
-    /// The row; it has no loads.
+    /// The row; it has no loads, and no torque of the balls' own.
     #[serde(flatten)]
     pub found: Row,
-    /// Whether a step under these loads is flagged, because the law does not hold the forces.
+    /// Whether a step under these loads is flagged: forces, load, rubbing or grip are not held.
     pub flagged: Option<bool>,
 }
 
@@ -134,25 +134,35 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
         .zip(press.speeds())
         .map(|(motion, speed)| {
             let change = speed - motion.speed;
-            (numbers.slope + 0.5 * ball.speed * motion.impedance * change) * change
+            let push = motion.impedance * change;
+            (numbers.slope + 0.5 * ball.speed * numbers.work * push) * change
         })
         .sum();
     let nominal = ball.path_radius - ball.speed;
     let orbital = |speed: f32| f64::from((nominal + ball.speed * speed) / ball.path_radius);
     let forces = contact_forces(&press);
+    let ball_friction = request.ball_friction as f32;
+    let rubbing_force = ball_friction * forces.iter().take(count - 1).sum::<f32>();
+    let rubbing = numbers.rubbing * rubbing_force;
     let heaviest = request
         .balls
         .iter()
         .map(|ball| ball.axial_load.abs() as f32);
     let most = law.load_of(heaviest.fold(0.0, f32::max));
+    let grips = ball_friction * numbers.grip.iter().map(|grip| grip.abs()).sum::<f32>();
+    let held = law.holds_forces(load, branch, interval)
+        && law.holds_load(most)
+        && law.holds_rubbing(load * count as f32, interval, rubbing_force)
+        && grips <= LARGEST_GRIP;
     Some(FoldedRow {
         found: Row {
             free_speed: Some(motions.iter().map(|motion| orbital(motion.speed)).collect()),
             contact_force: Some(forces.iter().take(count - 1).map(|&f| f.into()).collect()),
-            groove_torque: Some(free_torque + f64::from(change)),
+            groove_torque: Some(free_torque + f64::from(change + rubbing)),
             groove_torque_free: Some(free_torque),
+            ball_torque: None,
             loads: None,
         },
-        flagged: Some(!(law.holds_forces(load, branch, interval) && law.holds_load(most))),
+        flagged: Some(!held),
     })
 }
