@@ -231,3 +231,52 @@ fn backward_is_forward_under_the_opposite_load() {
         check::<ClosedFormScrew>(&closed_form(branch));
     }
 }
+
+/// What a level does not scale is the drag that a model says: `T = level T_contacts + drag`.
+#[test]
+fn a_level_leaves_the_drag_that_is_said() {
+    use epas_friction::law::FrictionLevel;
+    let model = || {
+        let configuration = with_memory(caged(), slip(0.5, BREAKAWAY), speed_sensor(), 0.12);
+        let coefficient = CoefficientLaw::new(&CoefficientParameters {
+            churning: 0.05,
+            ..COEFFICIENT
+        });
+        let coefficient = coefficient.unwrap();
+        Model::new(&WithMemoryConfiguration {
+            coefficient,
+            ..configuration
+        })
+        .unwrap()
+    };
+    let (mut plain, mut scaled) = (model(), model());
+    assert_eq!(plain.drag_torque(), 0.0);
+    scaled
+        .set_level(FrictionLevel {
+            forward: 1.5,
+            backward: 0.7,
+        })
+        .unwrap();
+    for speed in [5.0_f32, 20.0, -5.0, -20.0] {
+        let level = if speed < 0.0 { 0.7 } else { 1.5 };
+        let inputs = WithMemoryInputs {
+            temperature: 263.15,
+            ..fresh(screw(speed, 1000.0), speed)
+        };
+        let mut torques = [0.0; 2];
+        for _ in 0..200 {
+            torques = [&mut plain, &mut scaled].map(|model| model.step(inputs).friction_torque);
+        }
+        let drag = plain.drag_torque();
+        assert_eq!(drag, scaled.drag_torque());
+        assert!(
+            drag * speed > 0.0 && drag.abs() > 0.05 * torques[0].abs(),
+            "{drag}"
+        );
+        let contacts = torques.map(|torque| torque - drag);
+        assert!(
+            (contacts[1] / contacts[0] / level - 1.0).abs() < 1e-5,
+            "{speed} {torques:?}"
+        );
+    }
+}
