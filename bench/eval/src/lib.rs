@@ -301,3 +301,28 @@ fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
     let model = fields.choice("model", &MODELS)?;
     model(fields)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The least friction coefficient of the crate is one that `eval` takes: single precision has it just below the decimal number.
+    #[test]
+    fn the_least_friction_of_the_crate_is_answered() {
+        let least = f64::from(epas_friction::ranges::FRICTION.minimum);
+        assert!(least < 1e-6);
+        let ball = r#"{"contact_angles":[0.7,0.7,0.7,0.7],"contact_forces":[1,1,1,1]}"#;
+        let linear = format!(
+            r#"{{"id":1,"model":"linear_train","ball_radius":0.005,"conformity":0.56,"nominal_contact_angle":0.7854,"youngs_modulus":2.1e11,"poisson_ratio":0.3,"friction":{least:e},"speed":0.5,"balls":[{ball}]}}"#
+        );
+        let contact = r#"{"load":50,"contact_angle":0.7854}"#;
+        let screw = format!(
+            r#"{{"id":2,"model":"ball_screw_train","pitch_radius":0.0165,"lead":0.02,"ball_radius":0.002778,"groove_radius":0.003254,"youngs_modulus":2.1e11,"poisson_ratio":0.28,"friction":{least:e},"nut_speed":1,"balls":[{{"contacts":{{"SL":{contact},"NR":{contact}}}}},{{"contacts":{{"SL":{contact},"NR":{contact}}}}}]}}"#
+        );
+        for line in [linear, screw] {
+            assert!(accepts(&line), "{}", answer_line(&line));
+            let below = line.replace(&format!("{least:e}"), "9.9e-7");
+            assert!(!accepts(&below), "{below}");
+        }
+    }
+}

@@ -280,3 +280,39 @@ fn a_level_leaves_the_drag_that_is_said() {
         );
     }
 }
+
+/// Above 60 rad/s of the nut nothing was fitted of the drag: the torque of a step, and of what follows it, is flagged for it, in both directions; not
+/// that of a law without drag.
+#[test]
+fn drag_beyond_its_fit_is_flagged() {
+    let law = |drag| {
+        CoefficientLaw::new(&CoefficientParameters {
+            drag,
+            ..COEFFICIENT
+        })
+        .unwrap()
+    };
+    let model = |coefficient| {
+        let configuration = with_memory(caged(), slip(0.5, BREAKAWAY), speed_sensor(), 0.12);
+        Model::new(&WithMemoryConfiguration {
+            coefficient,
+            ..configuration
+        })
+        .unwrap()
+    };
+    let mut with = model(law(COEFFICIENT.drag));
+    let mut without = model(law(epas_friction::law::coefficient::RollingDrag::NONE));
+    for speed in [5.0, 59.9, 60.1, 150.0, -59.9, -60.1, 3.0] {
+        let inputs = fresh(screw(speed, 1000.0), speed);
+        let expected = if speed.abs() > 60.0 {
+            Faults::BEYOND_MODEL
+        } else {
+            Faults::NONE
+        };
+        let found = with.step(inputs);
+        assert!(found.friction_torque.is_finite());
+        assert_eq!(found.faults, expected, "{speed}");
+        assert_eq!(with.between(inputs.reading).faults, expected, "{speed}");
+        assert_eq!(without.step(inputs).faults, Faults::NONE, "{speed}");
+    }
+}
