@@ -410,7 +410,7 @@ mod tests {
     /// A law that comes to the design's own coefficient by a sum is held, whatever its ratio: 0.05 + (0.12 - 0.05) is below 0.12.
     #[test]
     fn a_law_of_the_own_coefficient_is_held() {
-        use epas_friction::{CoefficientLaw, CoefficientParameters};
+        use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters};
         let mut rounded = 0;
         for friction in [0.05_f32, 0.075, 0.1, 0.12, 0.13, 0.15] {
             let design = design(&format!("friction = {friction}\n"));
