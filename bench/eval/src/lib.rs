@@ -119,6 +119,7 @@ pub use train::ScrewNumbers;
 ///
 /// Answers with free_speed (list, orbital over nut speed, no neighbour pressing), contact_force (list), groove_torque and
 /// groove_torque_free (on the nut, all balls, pressing and none pressing) and loads (list of [SL, SR, NL, NR], none pressing).
+///
 /// groove_torque has all that friction between balls adds, in the grooves and between them; ball_torque is the part between them.
 ///
 /// The reference has balls in elastic grooves with exact friction, by contact integrals of 32 nodes; its quantities are null at
