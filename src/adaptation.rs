@@ -6,15 +6,18 @@
 //! [`Adaptation`] compares the friction torque that the motor has to add with the model's and finds five numbers
 //!
 //! ```text
-//! observed = level(direction) T + drag omega_N + offset + load_error T_load
+//! observed = level(direction) T + T_drag + drag omega_N + offset + load_error T_load
 //! ```
 //!
 //! | number | what it takes in | regressor |
 //! |---|---|---|
 //! | `forward`, `backward` | friction coefficient and preload, in each direction | full friction `T` of the model in that direction |
-//! | `drag` | viscous drag beyond the model's | nut speed `omega_N` |
+//! | `drag` | viscous drag beyond the model's `T_drag` | nut speed `omega_N` |
 //! | `offset` | zero of the torque sensor or of the motor's current | 1 |
 //! | `load_error` | gain of the load channel: 1 % of 2 kN on a lead of 7 mm is 22 mN m, more than a third of the friction | load torque that was taken off |
+//!
+//! The lubricant's drag `T_drag` of a scene with memory is beside the friction of the contacts: no level scales it, so it is handed over beside
+//! and taken off both sides.
 //!
 //! Five and no more, because one trace in the vehicle tells no others apart: breakaway angle, speed dependence and rolling resistance
 //! stay as they were identified on the rig. A number whose deviation at set-up is 0 stays where it starts.
@@ -52,7 +55,7 @@
 //!     let model_torque = 0.040; // friction_torque of the step's outputs
 //!     adaptation.update(&AdaptationInputs {
 //!         observed: 0.052, // motor torque, less that of inertia, less load_torque
-//!         modelled: model_torque, level: FrictionLevel::ONE, // as no level was set
+//!         modelled: model_torque, lubricant_drag: 0.0, level: FrictionLevel::ONE, // as no level was set
 //!         nut_speed: 8.0, load_torque: 0.1, regime: Regime::Driving, faults: Faults::NONE, saturated: false,
 //!     });
 //! }

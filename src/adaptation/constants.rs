@@ -129,6 +129,7 @@ impl AdaptationConstants {
         let AdaptationInputs {
             observed,
             modelled,
+            lubricant_drag,
             level,
             nut_speed,
             load_torque,
@@ -139,21 +140,23 @@ impl AdaptationConstants {
         // False for NaN.
         let sound = observed.abs() <= self.largest_torque
             && modelled.abs() <= self.largest_torque
+            && lubricant_drag.abs() <= self.largest_torque
             && load_torque.abs() <= self.largest_torque
             && nut_speed.abs() <= self.largest_speed
             && LEVEL.contains(level.of(nut_speed));
+        let scaled = modelled - lubricant_drag;
         let slides = matches!(
             regime,
             Regime::Driving | Regime::BackDriving | Regime::Locked
         ) && nut_speed.abs() >= self.least_speed
-            && (modelled < 0.0) == (nut_speed < 0.0);
+            && (scaled < 0.0) == (nut_speed < 0.0);
         AdaptationFlags::NONE
             .with(!sound, AdaptationFlags::INPUT_RANGE)
             .with(faults.any(), AdaptationFlags::FAULTED)
             .with(saturated, AdaptationFlags::SATURATED)
             .with(!slides, AdaptationFlags::STANDING)
             .with(
-                !(modelled.abs() >= self.least_friction),
+                !(scaled.abs() >= self.least_friction),
                 AdaptationFlags::TOO_WEAK,
             )
     }

@@ -12,6 +12,9 @@ pub struct AdaptationInputs {
     pub observed: f32,
     /// Friction torque that the model gave, N m: `friction_torque` of its outputs. This and the other torques up to `largest_torque`.
     pub modelled: f32,
+    /// Lubricant drag in both, N m, which no level scales: [`FrictionModel::drag_torque`](crate::FrictionModel::drag_torque) of a scene with
+    /// memory, 0 without one.
+    pub lubricant_drag: f32,
     /// Levels that the model had when it gave it ([`FrictionModel::set_level`](crate::FrictionModel::set_level));
     /// [`FrictionLevel::ONE`] where none were set.
     pub level: FrictionLevel,

@@ -89,19 +89,21 @@ impl AdaptationState {
         let AdaptationInputs {
             observed,
             modelled,
+            lubricant_drag,
             level,
             nut_speed,
             load_torque,
             ..
         } = *inputs;
-        let full = modelled / level.of(nut_speed);
+        let full = (modelled - lubricant_drag) / level.of(nut_speed);
         let (forward, backward) = if nut_speed < 0.0 {
             (0.0, full)
         } else {
             (full, 0.0)
         };
         let now = [forward, backward, nut_speed, 1.0, load_torque];
-        self.observed += constants.filter * (observed - self.observed);
+        let scaled = observed - lubricant_drag;
+        self.observed += constants.filter * (scaled - self.observed);
         for (filtered, now) in self.regressors.iter_mut().zip(now) {
             *filtered += constants.filter * (now - *filtered);
         }

@@ -55,6 +55,14 @@ where
     pub fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
         self.state.remembered.set_level(level)
     }
+
+    /// Lubricant drag that is in the friction torque of the last step, N m, and that no level scales: for
+    /// [`AdaptationInputs`](crate::adaptation::AdaptationInputs). 0 before the first step, and of a law without drag.
+    #[inline]
+    #[must_use]
+    pub fn drag_torque(&self) -> f32 {
+        self.state.remembered.drag()
+    }
 }
 
 impl<const N: usize, const NODES: usize, E, A, L, C>

@@ -60,6 +60,9 @@ const CREEP: f32 = 1e-9;
 /// stays as it is, flagged, and the next reading spans the gap. A load that is too old fades to zero; a temperature that is too
 /// old is replaced by the configuration's.
 ///
+/// [`Faults::BEYOND_MODEL`] is set beside the scene's own reasons where the law has a drag of rolling contacts and the speed is above
+/// [`RollingDrag::FITTED_SPEED`](crate::law::coefficient::RollingDrag::FITTED_SPEED).
+///
 /// Balls of a train move only by the turn beyond a play ([`WithMemoryConfiguration::play`]): noise of the encoder does not
 /// reverse them, and after a reversal what presses leaves with the friction of the grooves before they part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

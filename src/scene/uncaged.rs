@@ -185,7 +185,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             friction: law.interval(friction),
             node_octaves: node_octaves(&law.frictions()),
             circuit,
-            row: configuration.row(),
+            row: folded.row(ball_friction),
             units: [units.0 / screw, units.1 / nut],
             heaviest: load_shares.heaviest().share(),
             even: load_shares.are_even(),

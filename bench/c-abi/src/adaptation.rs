@@ -91,6 +91,8 @@ pub struct AdaptationInputs {
     pub observed: f32,
     /// `friction_torque` of the model's outputs, N m.
     pub modelled: f32,
+    /// Lubricant drag in `observed` and `modelled`, N m, which no level scales: that of `epas_memory_drag_torque`, 0 for a model without memory.
+    pub lubricant_drag: f32,
     /// Level that the model had in the positive direction when it gave `modelled`: that of the last `epas_memory_set_level`, or 1
     /// where none was set. Outside 0.1 to 10 ticks of this direction do not count.
     pub forward: f32,
@@ -232,6 +234,7 @@ pub(crate) const fn inputs(inputs: &AdaptationInputs) -> CrateInputs {
     CrateInputs {
         observed: inputs.observed,
         modelled: inputs.modelled,
+        lubricant_drag: inputs.lubricant_drag,
         level: level(inputs.forward, inputs.backward),
         nut_speed: inputs.nut_speed,
         load_torque: inputs.load_torque,

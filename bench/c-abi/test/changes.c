@@ -343,6 +343,7 @@ static void adapted(void)
         refused += epas_memory_set_level(&next_remembering, found.forward, found.backward, NULL);
         refused += epas_memory_step(&next_remembering, &inputs, &outputs);
         now.modelled = outputs.friction_torque;
+        refused += epas_memory_drag_torque(&next_remembering, &now.lubricant_drag);
         now.load_torque = outputs.load_torque;
         now.nut_speed = inputs.nut_speed;
         now.regime = outputs.regime;

@@ -233,22 +233,24 @@ pub fn keep_words(words: &[u32]) -> Result<(), Error> {
 ///
 /// # Errors
 /// Coefficients that the table `[fold]` does not hold; what else of the table cannot be folded.
-pub fn fold_for(design: &Design, (least, largest): (f32, f32)) -> Result<CagedFold, String> {
+pub fn fold_for(design: &Design, coefficients: (f32, f32)) -> Result<CagedFold, String> {
     let mut fold = design
         .fold
         .fold(design)
         .map_err(|message| format!("fold: {message}"))?;
     fold.gear.friction = design.caged.friction;
-    fold.friction = range_for(fold.friction, (least, largest))?;
+    fold.friction = range_for(fold.friction, fold.gear.friction, coefficients)?;
     Ok(fold)
 }
 
-/// The range of friction coefficients that is folded for those between two: a table's, where it says one.
+/// The range of friction coefficients that is folded for those between two: a table's, where it says one. It holds the design's own one too, which
+/// a law that comes to it at rest misses by the rounding of its sum.
 ///
 /// # Errors
 /// Coefficients that the table's range does not hold.
 pub(crate) fn range_for(
     range: Option<[f32; 2]>,
+    own: f32,
     (least, largest): (f32, f32),
 ) -> Result<Option<[f32; 2]>, String> {
     match range {
@@ -256,6 +258,7 @@ pub(crate) fn range_for(
             "fold: the friction coefficient runs from {least} to {largest}, and friction = [{low}, {high}] does not hold that; widen it"
         )),
         None if largest > least * ONE => {
+            let (least, largest) = (least.min(own), largest.max(own));
             // What is folded for a law is at least a tenth wide.
             let wider = (APART * least / largest).max(1.0).sqrt();
             Ok(Some([least / wider, (largest * wider).min(0.5)]))
@@ -402,6 +405,28 @@ mod tests {
             refused.contains("0.04") && refused.contains("widen"),
             "{refused}"
         );
+    }
+
+    /// A law that comes to the design's own coefficient by a sum is held, whatever its ratio: 0.05 + (0.12 - 0.05) is below 0.12.
+    #[test]
+    fn a_law_of_the_own_coefficient_is_held() {
+        use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters};
+        let mut rounded = 0;
+        for friction in [0.05_f32, 0.075, 0.1, 0.12, 0.13, 0.15] {
+            let design = design(&format!("friction = {friction}\n"));
+            for parts in 20..200 {
+                let law = CoefficientParameters {
+                    boundary: friction,
+                    full_film: (f64::from(friction) * f64::from(parts) / 120.0) as f32,
+                    ..epas_friction::defaults::COEFFICIENT
+                };
+                let ends = CoefficientLaw::new(&law).unwrap().extremes();
+                rounded += usize::from(!(ends.0..=ends.1).contains(&friction));
+                let fold = fold_for(&design, ends).unwrap();
+                assert!(fold.check().is_ok(), "{friction} {parts}: {ends:?}");
+            }
+        }
+        assert!(rounded > 10, "{rounded} laws end beside the coefficient");
     }
 
     /// Words are the block, and a block that is kept is not folded again.

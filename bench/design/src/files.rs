@@ -4,6 +4,7 @@ mod built_in;
 pub mod calibration;
 pub mod capacity;
 pub mod coefficient;
+mod deviation;
 mod fits;
 pub mod fold;
 pub mod loads;
@@ -235,12 +236,14 @@ impl DesignSource {
         }
     }
 
-    /// The text of its file, where it is one. Standard input can be read once.
+    /// The text of its file, where it is one, with the samples of its charts in the place of their names: it stands for itself. Standard input can
+    /// be read once.
     ///
     /// # Errors
-    /// A file that cannot be read.
+    /// A file or a chart that cannot be read, or what is wrong with the chart.
     pub fn text(&self) -> Result<Option<String>, Failure> {
-        self.file().map(text_of).transpose()
+        let read = |path: &Path| deviation::with_charts(path, text_of(path)?);
+        self.file().map(read).transpose()
     }
 
     /// The ball screw, checked.

@@ -21,6 +21,7 @@ use crate::digest;
 use ball::{Balls, Speeds, exact_ball};
 pub use certificate::{RowFigures, UncagedCertificate, UncagedFigure};
 use fit::{Branch, Fit, Numbers};
+pub use ring::PressedRow;
 
 /// Version of the way from a design to a block, which the digest of a block covers: raised by every change that gives the same design other bits.
 pub const ALGORITHM: u32 = 5;

@@ -176,7 +176,7 @@ pub fn fold_for(
         .fold_uncaged(design, Some(row))
         .map_err(|message| format!("fold: {message}"))?;
     fold.gear.gear.friction = row.gear.friction;
-    fold.friction = range_for(fold.friction, coefficients)?;
+    fold.friction = range_for(fold.friction, row.gear.friction, coefficients)?;
     let load = MARGIN * row.ball_load(axial_load.abs().min(row.gear.limits.axial_load));
     if !table.says_axial_load() {
         let [least, _] = fold.axial_load;

@@ -53,3 +53,63 @@ impl Model for Request {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::train::ScrewNumbers;
+    use std::f64::consts::{FRAC_PI_4, PI};
+
+    /// A row of twelve balls of lin-3.6 under 100 N each, in grooves whose deviations fall along it by a degree and a half: all press.
+    fn row(ball_friction: f64, axial_load: f64) -> Request {
+        let balls = (0..12)
+            .map(|ball| {
+                let phase = PI * (f64::from(ball) + 0.5) / 12.0;
+                Ball {
+                    screw_deviation: 0.0175 * phase.cos(),
+                    nut_deviation: 0.0087 * phase.cos(),
+                    axial_load,
+                }
+            })
+            .collect();
+        Request {
+            screw: ScrewNumbers {
+                pitch_radius: 16.5e-3,
+                lead: 20e-3,
+                ball_radius: 2.778e-3,
+                groove_radius: 3.254e-3,
+                youngs_modulus: 2.1e11,
+                poisson_ratio: 0.28,
+            },
+            contact_angle: FRAC_PI_4,
+            friction: 0.1,
+            ball_friction,
+            clearance: 0.0,
+            nut_speed: 1.0,
+            balls,
+        }
+    }
+
+    /// What rubbing adds in the grooves is in the torques of both sides, and a step's flag is set where balls rub more than the law holds.
+    #[test]
+    fn groove_torques_of_rubbing_balls_are_alike() {
+        for (ball_friction, allowed, flagged) in
+            [(0.0, 0.005, false), (0.05, 0.015, false), (0.5, 1.0, true)]
+        {
+            for load in [100.0, -100.0] {
+                let Both { in_loop, reference } = row(ball_friction, load).evaluate().unwrap();
+                let law = &in_loop.law;
+                let found = law.found.groove_torque.unwrap();
+                assert_eq!(law.flagged, Some(flagged), "{ball_friction} {load}");
+                if let Some(exact) = reference.groove_torque {
+                    let error = found / exact - 1.0;
+                    assert!(error.abs() < allowed, "{ball_friction} {load}: {error}");
+                    println!(
+                        "{ball_friction} {load}: {error} {:?}",
+                        reference.ball_torque
+                    );
+                }
+            }
+        }
+    }
+}

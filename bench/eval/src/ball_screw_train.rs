@@ -7,6 +7,7 @@ mod contacts;
 
 use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::geometry::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
+use epas_friction::ranges::FRICTION_OF_A_ROW;
 use epas_reference::friction::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
 use epas_reference::friction::ball_screw_train::solve_screw_train;
 use epas_reference::friction::linear_ball::EllipseLaw;
@@ -110,7 +111,12 @@ impl Request {
         )?;
         in_range("youngs_modulus", self.screw.youngs_modulus, 1e6, 1e13)?;
         in_range("poisson_ratio", self.screw.poisson_ratio, 0.0, 0.5)?;
-        in_range("friction", self.friction, 1e-6, 0.5)?;
+        in_range(
+            "friction",
+            self.friction,
+            FRICTION_OF_A_ROW.minimum.into(),
+            FRICTION_OF_A_ROW.maximum.into(),
+        )?;
         in_range("nut_speed", self.nut_speed, -1e6, 1e6)?;
         for (index, ball) in self.balls.iter().enumerate() {
             for contact in &ball.0 {

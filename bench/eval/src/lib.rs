@@ -120,6 +120,8 @@ pub use train::ScrewNumbers;
 /// Answers with free_speed (list, orbital over nut speed, no neighbour pressing), contact_force (list), groove_torque and
 /// groove_torque_free (on the nut, all balls, pressing and none pressing) and loads (list of [SL, SR, NL, NR], none pressing).
 ///
+/// groove_torque has all that friction between balls adds, in the grooves and between them; ball_torque is the part between them.
+///
 /// The reference has balls in elastic grooves with exact friction, by contact integrals of 32 nodes; its quantities are null at
 /// standstill, for a ball without load and where no answer was found that meets every balance.
 ///
@@ -127,7 +129,8 @@ pub use train::ScrewNumbers;
 /// up to the largest one in each groove, of either sign, and for 5 to 300 N a ball, or down and up to the next power of two where
 /// the request needs more.
 ///
-/// It has no loads, and flagged beside the rest: whether a step says that the law does not hold the forces under these loads.
+/// It has no loads and no ball_torque, and flagged beside the rest: whether a step flags this row, by the forces, the load, the friction forces
+/// between balls and the grip.
 ///
 /// It is null where the reference is for lack of speed or load, for loads of both signs, for a clearance outside -0.02 to 0.05
 /// ball radii, for deviations above 0.1, and where no law holds these deviations and loads. A law takes some seconds; requests
@@ -298,4 +301,29 @@ fn evaluate(mut fields: Fields) -> Result<Answer, BadField> {
     fields.refuse_duplicate()?;
     let model = fields.choice("model", &MODELS)?;
     model(fields)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The least friction coefficient of the crate is one that `eval` takes: single precision has it just below the decimal number.
+    #[test]
+    fn the_least_friction_of_the_crate_is_answered() {
+        let least = f64::from(epas_friction::ranges::FRICTION.minimum);
+        assert!(least < 1e-6);
+        let ball = r#"{"contact_angles":[0.7,0.7,0.7,0.7],"contact_forces":[1,1,1,1]}"#;
+        let linear = format!(
+            r#"{{"id":1,"model":"linear_train","ball_radius":0.005,"conformity":0.56,"nominal_contact_angle":0.7854,"youngs_modulus":2.1e11,"poisson_ratio":0.3,"friction":{least:e},"speed":0.5,"balls":[{ball}]}}"#
+        );
+        let contact = r#"{"load":50,"contact_angle":0.7854}"#;
+        let screw = format!(
+            r#"{{"id":2,"model":"ball_screw_train","pitch_radius":0.0165,"lead":0.02,"ball_radius":0.002778,"groove_radius":0.003254,"youngs_modulus":2.1e11,"poisson_ratio":0.28,"friction":{least:e},"nut_speed":1,"balls":[{{"contacts":{{"SL":{contact},"NR":{contact}}}}},{{"contacts":{{"SL":{contact},"NR":{contact}}}}}]}}"#
+        );
+        for line in [linear, screw] {
+            assert!(accepts(&line), "{}", answer_line(&line));
+            let below = line.replace(&format!("{least:e}"), "9.9e-7");
+            assert!(!accepts(&below), "{below}");
+        }
+    }
 }

@@ -3,6 +3,7 @@
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::contact::FrictionMap;
 use epas_friction::hertz::HertzContact;
+use epas_friction::ranges::FRICTION;
 use epas_friction::train::Press;
 use epas_friction::{GrooveSize, LinearBearing, LinearBearingParameters, Material};
 use epas_reference::friction::chain::{LinearChain, solve_chain};
@@ -104,7 +105,12 @@ impl Request {
             0.05,
             1.5,
         )?;
-        in_range("friction", self.friction, 1e-6, 1.0)?;
+        in_range(
+            "friction",
+            self.friction,
+            FRICTION.minimum.into(),
+            FRICTION.maximum.into(),
+        )?;
         in_range("ball_friction", self.ball_friction, 0.0, 1.0)?;
         in_range("speed", self.speed, -1e6, 1e6)?;
         let (lowest, highest) = (

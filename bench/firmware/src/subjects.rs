@@ -196,7 +196,7 @@ subjects! {
     adaptation_update: |spread| -> [4] adaptation(spread),
         |c, [level, modelled, speed, load_torque]| -> [8] {
             let inputs = black_box(AdaptationInputs {
-                observed: level * modelled, modelled, level: FrictionLevel::ONE, nut_speed: speed, load_torque,
+                observed: level * modelled, modelled, lubricant_drag: 0.0, level: FrictionLevel::ONE, nut_speed: speed, load_torque,
                 regime: Regime::Driving, faults: Faults::NONE, saturated: false,
             });
             adapted(&timed!(c, count_adaptation_update(black_box(&mut c.adaptation), &inputs)))

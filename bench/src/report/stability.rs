@@ -59,7 +59,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     let mut all = Errors::default();
     let mut requests = 0;
     for map in &maps::MAPS {
-        let drawn = map.draw(cells);
+        let drawn = map.draw(cells)?;
         panels.push(drawn.panel);
         rows.push(drawn.row);
         requests += drawn.requests;

@@ -111,6 +111,14 @@ impl CoefficientAtTemperature {
         self.churning * speed + rolling.copysign(speed)
     }
 
+    /// Whether the drag of rolling contacts is within the speeds for which its formula was fitted ([`RollingDrag::FITTED_SPEED`]), rad/s; a law
+    /// without that drag holds at every speed, and NaN counts as standstill.
+    #[inline]
+    #[must_use]
+    pub const fn holds_drag(&self, speed: f32) -> bool {
+        !(speed.abs() > RollingDrag::FITTED_SPEED && self.drag.torque > 0.0)
+    }
+
     /// Drag of the rolling contacts, without a temperature.
     #[must_use]
     pub const fn drag(&self) -> RollingDrag {

@@ -76,6 +76,10 @@ pub struct RollingDrag {
 }
 
 impl RollingDrag {
+    /// Speed of the nut up to which the powers were fitted, rad/s. Above it nothing says how far they are off; a scene with memory sets
+    /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) there.
+    pub const FITTED_SPEED: f32 = 60.0;
+
     /// No drag.
     pub const NONE: Self = Self {
         torque: 0.0,

@@ -26,6 +26,9 @@ pub trait CoefficientModel: Copy + Debug + PartialEq {
     /// Torque of viscous drag, N m, with the sign of the speed, rad/s, under an axial load and a preload whose flank lifts off at a
     /// load, N.
     fn drag_torque(at: &Self::At, speed: f32, load: f32, lift_off: f32) -> f32;
+
+    /// Whether that drag is one whose formula was fitted at a speed, rad/s.
+    fn holds_drag(at: &Self::At, speed: f32) -> bool;
 }
 
 /// One friction coefficient at every speed and temperature, in both directions; no drag.
@@ -70,6 +73,11 @@ impl CoefficientModel for OneCoefficient {
     fn drag_torque(_: &Self, _: f32, _: f32, _: f32) -> f32 {
         0.0
     }
+
+    #[inline(always)]
+    fn holds_drag(_: &Self, _: f32) -> bool {
+        true
+    }
 }
 
 impl CoefficientModel for CoefficientLaw {
@@ -92,5 +100,10 @@ impl CoefficientModel for CoefficientLaw {
     #[inline(always)]
     fn drag_torque(at: &CoefficientAtTemperature, speed: f32, load: f32, lift_off: f32) -> f32 {
         at.drag_torque(speed, load, lift_off)
+    }
+
+    #[inline(always)]
+    fn holds_drag(at: &CoefficientAtTemperature, speed: f32) -> bool {
+        at.holds_drag(speed)
     }
 }

@@ -174,16 +174,18 @@ impl DeviationMap {
         self.turns
     }
 
-    /// Size of its largest sample, rad, or the error that names `field` where that is beyond `largest`.
+    /// Bound of the size of [`DeviationMap::at`] at any phase, rad: the largest sample, to a rounding of `f32`. That between two samples is
+    /// within them, as an integer, and rounding keeps the order of what it rounds. A law folded for it holds the whole map.
+    #[must_use]
+    pub const fn largest(&self) -> f32 {
+        self.unit * (LARGEST * (1_u32 << FRACTION_BITS) as f32)
+    }
+
+    /// [`DeviationMap::largest`], or the error that names `field` where that is beyond `largest`.
     pub(crate) const fn checked(&self, field: &'static str, largest: f32) -> Result<f32, Error> {
         // A map keeps its largest sample within a rounding.
         let margin = 1.0 + 4.0 * f32::EPSILON;
-        in_range(
-            field,
-            self.unit * (LARGEST * (1_u32 << FRACTION_BITS) as f32),
-            0.0,
-            largest * margin,
-        )
+        in_range(field, self.largest(), 0.0, largest * margin)
     }
 
     /// Its least and its largest deviation, rad.
@@ -191,7 +193,8 @@ impl DeviationMap {
         let (mut least, mut largest) = (i32::MAX, i32::MIN);
         let mut index = 0;
         while index < SAMPLES {
-            let sample = self.samples[index] >> 16;
+            // The lower half is the signed step to the next sample, which borrows from the upper one where it is below zero.
+            let sample = (self.samples[index] + 0x8000) >> 16;
             if sample < least {
                 least = sample;
             }
@@ -251,6 +254,47 @@ pub const SINES: [f32; SAMPLES] = {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Nothing between the samples is beyond the largest one or beyond the extremes, and a crest that falls off is counted whole.
+    #[test]
+    fn bounds_hold_at_every_phase() {
+        for order in 0..=HIGHEST_ORDER {
+            for (cosine, sine) in [(0.0123, 0.0), (0.0, -0.0123), (-0.031, 0.0077)] {
+                let wave = Harmonic {
+                    order,
+                    cosine,
+                    sine,
+                };
+                let other = Harmonic {
+                    order: 5,
+                    cosine: 0.3 * sine,
+                    sine: 0.7 * cosine,
+                };
+                for waves in [&[wave][..], &[wave, other]] {
+                    let Ok(map) = DeviationMap::from_harmonics(1, waves) else {
+                        panic!("{waves:?}")
+                    };
+                    let (least, largest) = map.extremes();
+                    // One rounding of a product, in the extremes alone.
+                    let rounding = f32::EPSILON * map.largest();
+                    for phase in 0..1_u32 << PHASE_BITS {
+                        let at = map.at(phase << (32 - PHASE_BITS));
+                        assert!(at.abs() <= map.largest(), "{order} {at}");
+                        assert!(
+                            at >= least - rounding && at <= largest + rounding,
+                            "{order} {at} {least} {largest}"
+                        );
+                    }
+                    let size = if -least > largest { -least } else { largest };
+                    assert!(
+                        (size - map.largest()).abs() <= rounding,
+                        "{order} {size} {}",
+                        map.largest()
+                    );
+                }
+            }
+        }
+    }
 
     /// Samples are rounded to a part in 16383 of the largest one.
     #[test]

@@ -83,6 +83,11 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> SceneMemory<S, E
         self.moved
     }
 
+    /// Lubricant drag beside the last sliding friction.
+    pub(crate) const fn drag(&self) -> f32 {
+        self.drag
+    }
+
     /// -1 where the balls went backward last, else 1.
     #[inline(always)]
     pub(super) const fn direction(&self) -> f32 {

@@ -6,7 +6,7 @@ use crate::law::coefficient::CoefficientModel;
 use crate::law::motion::NutAngle;
 use crate::scene::contract::SceneOutputs as _;
 use crate::scene::faults::Faults;
-use crate::scene::reversal::{ReversalState, direction};
+use crate::scene::reversal::{Motion as _, ReversalState, direction};
 use crate::scene::sliding::Sliding;
 
 /// Part of sliding friction below which the mechanism counts as standing. Only [`Regime`](crate::scene::Regime) and what is read from it
@@ -98,7 +98,8 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         let mut outputs = S::outputs_at(&self.scene, inputs, sliding, reversal);
         let (torque, flags) = outputs.friction_and_faults();
         *torque += remembered.drag;
-        *flags |= faults;
+        let held = L::holds_drag(&remembered.at_temperature, inputs.speed());
+        *flags |= faults.with(!held, Faults::BEYOND_MODEL);
         outputs
     }
 }

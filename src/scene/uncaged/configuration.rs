@@ -62,6 +62,20 @@ pub struct UncagedBallScrewConfiguration<const NODES: usize = 1> {
     pub tick: f32,
 }
 
+impl<const NODES: usize> FoldedBall<NODES> {
+    /// What its balls have in common in a row, with a friction coefficient between them; the chord's angle is `sin(b) = R_B/R_path` (Lin 2019, eq. (3.72)).
+    #[must_use]
+    pub const fn row(&self, ball_friction: f32) -> RowConstants {
+        let sin = self.ball_radius / self.path_radius;
+        let per_cos = 1.0 / constant::sqrt(1.0 - sin * sin);
+        RowConstants {
+            ball_friction: ball_friction * per_cos,
+            outward: sin * per_cos,
+            half_speed: 0.5 * self.speed,
+        }
+    }
+}
+
 impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
     /// The circuit's part, checked and folded for a model of so many balls at most.
     pub(super) const fn circuit(&self, limits: &Limits, most: usize) -> Result<Circuit, Error> {
@@ -108,17 +122,6 @@ impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
             largest_speed: limits.nut_speed,
         }
         .folded(most)
-    }
-
-    /// What its balls have in common, with the chord's angle `sin(b) = R_B/R_path` (Lin 2019, eq. (3.72)).
-    pub(super) const fn row(&self) -> RowConstants {
-        let sin = self.folded.ball_radius / self.folded.path_radius;
-        let per_cos = 1.0 / constant::sqrt(1.0 - sin * sin);
-        RowConstants {
-            ball_friction: self.ball_friction * per_cos,
-            outward: sin * per_cos,
-            half_speed: 0.5 * self.folded.speed,
-        }
     }
 
     /// Length of the loaded track, m.

@@ -103,6 +103,7 @@ const PARTS: [(&str, &[&str]); 11] = [
             "epas_memory_between",
             "epas_memory_set_coefficient",
             "epas_memory_set_level",
+            "epas_memory_drag_torque",
             "epas_memory_swap",
             "epas_memory_reset",
             "epas_memory_faulted_ticks",

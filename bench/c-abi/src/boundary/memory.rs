@@ -86,6 +86,26 @@ pub unsafe extern "C" fn epas_memory_set_level(
     }
 }
 
+/// Lubricant drag in the friction torque of the last step, N m, which no level scales: for the inputs of an `epas_adaptation_t`. 0 before the
+/// first step. In the task of the step.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn epas_memory_drag_torque(
+    place: *const MemoryPlace,
+    torque: *mut f32,
+) -> u32 {
+    if let Err(status) = usable(torque) {
+        return status;
+    }
+    // Only read.
+    match unsafe { placed::<Memory>(place.cast_mut()) } {
+        Ok(placed) => {
+            unsafe { torque.write(placed.model.drag_torque()) };
+            EPAS_OK
+        }
+        Err(status) => status,
+    }
+}
+
 /// Goes on with another block and what is set beside it; as `epas_caged_swap`. The memory stays.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_memory_swap(

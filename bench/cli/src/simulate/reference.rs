@@ -21,7 +21,7 @@ use epas_reference::friction::whole_screw::WholeScrew;
 
 use super::samples::ScrewSample;
 use super::trace::Trace;
-use epas_design::files::train::{UncagedDesign, Wave};
+use epas_design::files::train::UncagedDesign;
 use epas_page::failure::Failure;
 
 /// What runs beside an uncaged ball screw.
@@ -45,14 +45,9 @@ pub fn whole_screw(
              play, preload or return: {what}"
         ))
     };
-    let wave = match design.wave {
-        Some(wave) => wave,
-        None if std::ptr::eq(design.screw_deviation, design.nut_deviation) => Wave {
-            amplitude: 0.0,
-            order: 1,
-        },
-        None => return Err(limited("this deviation or these load shares are others")),
-    };
+    let wave = design
+        .wave
+        .ok_or_else(|| limited("this deviation or these load shares are others"))?;
     if design.gear.clearance != Clearance::ZERO || design.return_length > 0.0 {
         return Err(limited("this circuit is another"));
     }

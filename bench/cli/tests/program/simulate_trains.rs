@@ -411,3 +411,58 @@ fn what_a_train_cannot_run_is_named() {
         assert!(!folder.path().join("out.csv").exists());
     }
 }
+
+/// Deviations as they are measured: the screw's from a chart of 360 samples beside the design file, the nut's with waves of order 3 and 7.
+#[test]
+fn maps_as_measured_run() {
+    let folder = tempdir().unwrap();
+    let folder = folder.path();
+    let inner = folder.join("gears");
+    fs::create_dir(&inner).unwrap();
+    let mut chart = String::from("angle_deg,deviation_deg\n");
+    for degree in 0..360 {
+        let angle = f64::from(degree).to_radians();
+        let deviation = 0.4 * (2.0 * angle).sin() - 0.2 * (5.0 * angle).cos();
+        writeln!(chart, "{degree},{deviation:.4}").unwrap();
+    }
+    fs::write(inner.join("screw.csv"), chart).unwrap();
+    let waves = "[{ order = 3, cosine = 0.0071 }, { order = 7, cosine = 0.0011, sine = -0.0007 }]";
+    let deviation = "screw_deviation = [{ order = 2, sine = 0.040143 }]";
+    assert!(SCREW.contains(deviation));
+    let design = SCREW.replace(
+        deviation,
+        &format!("screw_deviation = \"screw.csv\"\nnut_deviation = {waves}"),
+    );
+    fs::write(inner.join("gear.toml"), design).unwrap();
+    fs::write(
+        folder.join("trace.csv"),
+        "time,nut_speed,axial_load\n0,6,1000\n0.001,6,1000\n0.002,6,1000\n",
+    )
+    .unwrap();
+    let run = simulate(
+        folder,
+        &[
+            "--scene",
+            "uncaged",
+            "--design",
+            "gears/gear.toml",
+            "--input",
+            "trace.csv",
+            "--output",
+            "out.csv",
+        ],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert!(
+        column(folder, "friction_torque")
+            .iter()
+            .all(|torque| *torque > 0.0)
+    );
+    fs::remove_file(inner.join("screw.csv")).unwrap();
+    let missing = simulate(
+        folder,
+        &["--design", "gears/gear.toml", "--input", "trace.csv"],
+    );
+    assert_eq!(missing.code, 1);
+    assert!(missing.stderr.contains("screw.csv"), "{}", missing.stderr);
+}

@@ -96,7 +96,7 @@ fn a_wrong_value_is_explained() {
         ("[friction]\nlow = 1", "expected a number"),
         (
             "[uncaged]\nballs = 16\nturns = 1\nscrew_deviation = [2]",
-            "expected a wave, such as { order = 2, sine = 0.01 }",
+            "is a list of 1 numbers",
         ),
         (
             "[uncaged]\nballs = 16\nturns = 1\nscrew_deviation = 2",
@@ -209,4 +209,17 @@ fn every_wrong_field_is_named() {
         let error = parse(&rest).unwrap_err();
         assert!(error.contains(field), "{field}: {error}");
     }
+}
+
+/// The file that explains every key shows the default steel: without its keys it is the same design.
+#[test]
+fn the_first_design_file_shows_the_default_material() {
+    const TEXT: &str = include_str!("../../../designs/rack-29x7.toml");
+    let material = ["youngs_modulus", "poisson_ratio", "density"];
+    let (lines, rest): (Vec<&str>, Vec<&str>) = TEXT
+        .lines()
+        .partition(|line| material.iter().any(|key| line.starts_with(key)));
+    assert_eq!(lines.len(), material.len());
+    let [given, without] = [TEXT, &rest.join("\n")].map(|text| read(text, "rack").unwrap());
+    assert_eq!(given.caged, without.caged);
 }

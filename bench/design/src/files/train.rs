@@ -5,11 +5,12 @@ use std::path::Path;
 
 use crate::CagedDesign;
 use epas_friction::{
-    DeviationMap, GrooveSize, Harmonic, LinearBearing, LinearBearingConfiguration,
-    LinearBearingParameters, LinearLimits, LoadShare, LoadShares, defaults,
+    DeviationMap, GrooveSize, LinearBearing, LinearBearingConfiguration, LinearBearingParameters,
+    LinearLimits, LoadShare, LoadShares, defaults,
 };
 use serde::Deserialize;
 
+use super::deviation::{self, Given, Wavelet};
 use super::plausible;
 use super::tables::{
     MaterialTable, from_text, groove_size, mark, material, parsed, radius, replace,
@@ -40,13 +41,9 @@ pub struct UncagedDesign {
 }
 
 impl UncagedDesign {
-    /// Largest deviations of the contact angle on screw and nut, rad.
+    /// Largest deviations of the contact angle on screw and nut, rad: bounds of what the maps give anywhere.
     pub fn deviations(&self) -> [f32; 2] {
-        let largest = |map: &DeviationMap| {
-            let samples = (0..64).map(|sample: u32| map.at(sample << 26).abs());
-            samples.fold(0.0, f32::max)
-        };
-        [self.screw_deviation, self.nut_deviation].map(largest)
+        [self.screw_deviation, self.nut_deviation].map(DeviationMap::largest)
     }
 
     /// Balls that share the load: those on the loaded track.
@@ -123,6 +120,29 @@ pub struct Wave {
     pub order: u8,
 }
 
+impl Wave {
+    /// The only wave, or none of an amplitude.
+    fn of(waves: &[Wavelet]) -> Option<Self> {
+        match waves {
+            [] => Some(Self {
+                amplitude: 0.0,
+                order: 1,
+            }),
+            [
+                Wavelet {
+                    order,
+                    cosine: 0.0,
+                    sine,
+                },
+            ] => Some(Self {
+                amplitude: *sine,
+                order: *order,
+            }),
+            _ => None,
+        }
+    }
+}
+
 /// A linear bearing: how many balls, and everything but the tick.
 #[derive(Clone, Debug)]
 pub struct LinearDesign {
@@ -157,8 +177,8 @@ pub struct UncagedTable {
     fit: Option<toml::Value>,
     return_length: Option<f32>,
     deviation_turns: Option<u16>,
-    screw_deviation: Option<Vec<Wavelet>>,
-    nut_deviation: Option<Vec<Wavelet>>,
+    screw_deviation: Option<Given>,
+    nut_deviation: Option<Given>,
     load_shares: Option<Vec<f32>>,
     negative_load_shares: Option<Vec<f32>>,
 }
@@ -174,17 +194,6 @@ pub fn refuse_fit(fit: Option<&toml::Value>) -> Result<(), String> {
                         one contact, N) or axial_preload (of the nut, N)"
             .into()),
     }
-}
-
-/// A wave of a deviation map.
-#[derive(Clone, Copy, Debug, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Wavelet {
-    order: u8,
-    #[serde(default)]
-    cosine: f32,
-    #[serde(default)]
-    sine: f32,
 }
 
 /// Design file of a linear bearing.
@@ -239,11 +248,11 @@ pub fn built_in(name: &str, gear: CagedDesign, balls: u16) -> Option<UncagedDesi
         fit: None,
         return_length: None,
         deviation_turns: None,
-        screw_deviation: Some(vec![Wavelet {
+        screw_deviation: Some(Given::Waves(vec![Wavelet {
             order: 2,
             cosine: 0.0,
             sine: 0.040_143,
-        }]),
+        }])),
         nut_deviation: None,
         load_shares: None,
         negative_load_shares: None,
@@ -265,23 +274,15 @@ impl UncagedTable {
         refuse_fit(self.fit.as_ref())?;
         plausible::turns(self.turns)?;
         let turns = self.deviation_turns.unwrap_or(1);
-        let waves = self.screw_deviation.as_deref().unwrap_or_default();
-        let on_nut = self.nut_deviation.as_deref().unwrap_or_default();
-        let wave = match (waves, turns) {
-            (
-                [
-                    Wavelet {
-                        order,
-                        cosine,
-                        sine,
-                    },
-                ],
-                1,
-            ) if *cosine == 0.0 && on_nut.is_empty() => Some(Wave {
-                amplitude: *sine,
-                order: *order,
-            }),
-            _ => None,
+        let map = |field, given: &Option<Given>| match given {
+            None => deviation::of_waves(field, turns, &[]),
+            Some(given) => given.map(field, turns),
+        };
+        let wave = match &self.screw_deviation {
+            _ if turns != 1 || self.nut_deviation.as_ref().is_some_and(Given::any) => None,
+            Some(Given::Waves(waves)) => Wave::of(waves),
+            None => Wave::of(&[]),
+            Some(_) => None,
         };
         Ok(UncagedDesign {
             balls: self.balls,
@@ -289,8 +290,8 @@ impl UncagedTable {
             ball_friction: self.ball_friction.unwrap_or(BALL_FRICTION),
             turns: self.turns,
             return_length: self.return_length.unwrap_or(0.0),
-            screw_deviation: map("screw_deviation", turns, waves)?,
-            nut_deviation: map("nut_deviation", turns, on_nut)?,
+            screw_deviation: map("screw_deviation", &self.screw_deviation)?,
+            nut_deviation: map("nut_deviation", &self.nut_deviation)?,
             load_shares: self.load_shares()?,
             wave: wave
                 .filter(|_| self.load_shares.is_none() && self.negative_load_shares.is_none()),
@@ -414,7 +415,7 @@ impl LinearFile {
             replace(&mut limits.friction_force, table.friction_force);
         }
         let on = |field, waves: &Option<Vec<Wavelet>>| {
-            map(field, 1, waves.as_deref().unwrap_or_default())
+            deviation::of_waves(field, 1, waves.as_deref().unwrap_or_default())
         };
         Ok(LinearDesign {
             name: self.name.clone().unwrap_or_else(|| stem.into()),
@@ -443,21 +444,6 @@ impl LinearFile {
             },
         })
     }
-}
-
-/// A map that lives as long as the program, which reads one design and ends: in firmware it lies in flash.
-fn map(field: &str, turns: u16, waves: &[Wavelet]) -> Result<&'static DeviationMap, String> {
-    let harmonics: Vec<_> = waves
-        .iter()
-        .map(|wave| Harmonic {
-            order: wave.order,
-            cosine: wave.cosine,
-            sine: wave.sine,
-        })
-        .collect();
-    let map = DeviationMap::from_harmonics(turns, &harmonics)
-        .map_err(|error| format!("{field}: {error}"))?;
-    Ok(Box::leak(Box::new(map)))
 }
 
 /// Shares that live as long as the program.

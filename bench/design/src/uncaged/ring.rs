@@ -1,7 +1,7 @@
 //! A row of touching balls: by the exact solver, and by a folded law as a control interrupt evaluates it.
 
-use epas_friction::ball::pressed::{BallLaw, LoadedBall, Pressed, RowConstants};
-use epas_friction::train::{Press, RubbedBall};
+use epas_friction::ball::pressed::{BallLaw, LoadedBall, NeighbourLaw, Pressed, RowConstants};
+use epas_friction::train::{Losses, Press, RubbedBall, RubbedRow};
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall};
 use epas_reference::friction::caged_ball::CagedBall;
@@ -96,40 +96,11 @@ impl Row {
             sliding,
             deviations,
         });
-        let mut room = [0.0; BALLS];
-        room[BALLS - 1] = f32::INFINITY;
-        let mut press = Press::<BALLS>::new();
-        let mut torque: f64 = balls.iter().map(|ball| f64::from(ball.alone.torque)).sum();
-        let mut second = [RubbedBall::default(); BALLS];
-        if self.ball_friction > 0.0 {
-            let first = balls.map(|ball| neighbours.first(&ball));
-            press.solve_rubbing(&first, &room, &losses);
-            let mut behind = 0.0;
-            let found = press.forces().zip(press.speeds());
-            for (ball, (second, (force, speed))) in balls.iter().zip(second.iter_mut().zip(found)) {
-                let forces = behind + force;
-                let (rubbed, held) = neighbours.second(ball, Pressed { forces, speed });
-                behind = force;
-                torque += f64::from(held);
-                *second = rubbed;
-            }
-        } else {
-            for (ball, second) in balls.iter().zip(&mut second) {
-                let (smooth, held) = neighbours.smooth(ball);
-                torque += f64::from(held);
-                *second = smooth;
-            }
-        }
-        let row = press
-            .solve_rubbing(&second, &room, &losses)
-            .unwrap_or_default();
-        let outward = neighbours.numbers.outward_torque * row.forces;
-        torque += f64::from(row.by_speed + row.by_rubbing + outward);
-        let forces = press.forces().take(BALLS - 1).map(f64::from).collect();
-        let rubbing = neighbours.ball_friction * row.largest_of_both;
+        let row = PressedRow::of(&neighbours, &losses, &balls).unwrap_or_default();
+        let rubbing = neighbours.ball_friction * row.sums.largest_of_both;
         RowAnswer {
-            torque,
-            forces,
+            torque: row.free_torque + row.added_torque,
+            forces: row.forces,
             flagged: !(law.holds_forces(load, branch, interval)
                 && law.holds_rubbing(rubbing, sliding)),
         }
@@ -138,5 +109,59 @@ impl Row {
     fn load<const N: usize>(&self, law: &BallLaw<N>) -> (f32, usize) {
         let branch = usize::from(self.axial_load < 0.0);
         (law.load_of(self.axial_load), branch)
+    }
+}
+
+/// Balls of an open row, as a step presses them: in two passes where they rub.
+#[derive(Clone, Debug, Default)]
+pub struct PressedRow {
+    /// Friction torque of the balls alone, at their free speeds, and what they add by pressing, N m.
+    pub free_torque: f64,
+    /// The latter.
+    pub added_torque: f64,
+    /// Forces between neighbours along the track, N.
+    pub forces: Vec<f64>,
+    /// Speeds, as free speeds are counted.
+    pub speeds: Vec<f32>,
+    /// What contacts add up to.
+    pub sums: RubbedRow,
+}
+
+impl PressedRow {
+    /// Most balls of a row.
+    const MOST: usize = 255;
+
+    /// None where a ball runs further from nominal rolling than a step takes, or there are none or too many.
+    #[must_use]
+    pub fn of(neighbours: &NeighbourLaw, losses: &Losses, balls: &[LoadedBall]) -> Option<Self> {
+        let mut press = Press::<{ Self::MOST }>::with_balls(balls.len()).ok()?;
+        let mut room = vec![0.0; balls.len()];
+        *room.last_mut()? = f32::INFINITY;
+        let last: Vec<(RubbedBall, f32)> = if neighbours.ball_friction > 0.0 {
+            let first: Vec<RubbedBall> = balls.iter().map(|ball| neighbours.first(ball)).collect();
+            press.solve_rubbing(&first, &room, losses)?;
+            let forces: Vec<f32> = press.forces().collect();
+            let behind = std::iter::once(0.0).chain(forces.iter().copied());
+            let found = behind.zip(&forces).zip(press.speeds());
+            let second = |(ball, ((behind, ahead), speed))| {
+                let forces: f32 = behind + ahead;
+                neighbours.second(ball, Pressed { forces, speed })
+            };
+            balls.iter().zip(found).map(second).collect()
+        } else {
+            balls.iter().map(|ball| neighbours.smooth(ball)).collect()
+        };
+        let rubbed: Vec<RubbedBall> = last.iter().map(|(rubbed, _)| *rubbed).collect();
+        let sums = press.solve_rubbing(&rubbed, &room, losses)?;
+        let held: f64 = last.iter().map(|(_, held)| f64::from(*held)).sum();
+        let outward = neighbours.numbers.outward_torque * sums.forces;
+        let forces = press.forces().take(balls.len() - 1);
+        Some(Self {
+            free_torque: balls.iter().map(|ball| f64::from(ball.alone.torque)).sum(),
+            added_torque: held + f64::from(sums.by_speed + sums.by_rubbing + outward),
+            forces: forces.map(f64::from).collect(),
+            speeds: press.speeds().collect(),
+            sums,
+        })
     }
 }

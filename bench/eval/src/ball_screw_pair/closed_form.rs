@@ -58,6 +58,7 @@ pub fn row(request: &Request, design: &BallScrew) -> Result<Row, BadField> {
         }),
         groove_torque: Some(torque),
         groove_torque_free: Some(torque),
+        ball_torque: None,
         loads: Some(loads),
     })
 }

@@ -4,14 +4,13 @@
 //! where the request needs more. Requests with the same screw, friction coefficient, clearance and largest deviations share a law, which takes some
 //! seconds to fold.
 
-use epas_design::uncaged::Folded;
+use epas_design::uncaged::{Folded, PressedRow};
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
+use epas_friction::ball::pressed::LoadedBall;
 use epas_friction::scene::FoldedBall;
-use epas_friction::train::Press;
 use epas_friction::{BallScrew, Clearance, Limits, RollingResistance};
 use serde::Serialize;
 
-use super::super::train::{LARGEST_TRAIN, contact_forces, room_of_a_row};
 use super::request::{Ball, Request, Row};
 use epas_design::uncaged_scene::{LEAST_DEVIATION, folded, loads_holding};
 
@@ -25,10 +24,10 @@ const LIMITS: Limits = Limits {
 /// What the law finds.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct FoldedRow {
-    /// The row; it has no loads.
+    /// The row; it has no loads, and no torque of the balls' own.
     #[serde(flatten)]
     pub found: Row,
-    /// Whether a step under these loads is flagged, because the law does not hold the forces.
+    /// Whether a step under these loads is flagged: forces, load, rubbing or grip are not held.
     pub flagged: Option<bool>,
 }
 
@@ -79,6 +78,7 @@ fn law(request: &Request, design: &BallScrew) -> Option<&'static FoldedBall> {
         loads().fold(f32::MAX, f32::min),
         loads().fold(0.0, f32::max),
     ];
+    fold.ball_friction = request.ball_friction as f32;
     fold.axial_load = loads_holding(fold.axial_load, ends);
     match folded(&fold).ok()? {
         Folded::One(law) => Some(law),
@@ -104,55 +104,50 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
     let numbers = law.numbers(load, branch, interval);
 
     let [screw, nut] = law.deviations.map(|largest| way / f64::from(largest));
-    let motions: Vec<_> = request
+    let balls: Vec<LoadedBall> = request
         .balls
         .iter()
         .map(|ball| {
             let deviations = [screw * ball.screw_deviation, nut * ball.nut_deviation];
+            let deviations = deviations.map(|part| part as f32);
             let load = law.load_of(ball.axial_load as f32);
-            law.at(load, branch, interval, deviations.map(|part| part as f32))
+            LoadedBall {
+                alone: law.at(load, branch, interval, deviations),
+                sliding: law.sliding(load, interval),
+                deviations,
+            }
         })
         .collect();
-    let (mut free, mut impedance) = ([0.0; LARGEST_TRAIN], [1.0; LARGEST_TRAIN]);
-    let mut grip = [0.0; LARGEST_TRAIN];
-    for (ball, motion) in motions.iter().enumerate() {
-        (free[ball], impedance[ball]) = (motion.speed, motion.impedance);
-        grip[ball] = motion.grip * request.ball_friction as f32;
-    }
-    let mut press = Press::<LARGEST_TRAIN>::new();
-    if !press.solve_rubbing(
-        &free,
-        &impedance,
-        &room_of_a_row::<LARGEST_TRAIN>(count),
-        &grip,
-    ) {
-        return None;
-    }
-    let free_torque: f64 = motions.iter().map(|motion| f64::from(motion.torque)).sum();
-    let change: f32 = motions
-        .iter()
-        .zip(press.speeds())
-        .map(|(motion, speed)| {
-            let change = speed - motion.speed;
-            (numbers.slope + 0.5 * ball.speed * motion.impedance * change) * change
-        })
-        .sum();
+    let constants = ball.row(request.ball_friction as f32);
+    let neighbours = law.neighbours(load, branch, interval, &numbers, constants);
+    let sliding = law.sliding(load, interval);
+    let losses = neighbours.losses(sliding, numbers.impedance[0]);
+    let row = PressedRow::of(&neighbours, &losses, &balls)?;
     let nominal = ball.path_radius - ball.speed;
     let orbital = |speed: f32| f64::from((nominal + ball.speed * speed) / ball.path_radius);
-    let forces = contact_forces(&press);
     let heaviest = request
         .balls
         .iter()
         .map(|ball| ball.axial_load.abs() as f32);
     let most = law.load_of(heaviest.fold(0.0, f32::max));
+    let held = law.holds_forces(load, branch, interval)
+        && law.holds_load(most)
+        && law.holds_rubbing(constants.ball_friction * row.sums.largest_of_both, sliding);
     Some(FoldedRow {
         found: Row {
-            free_speed: Some(motions.iter().map(|motion| orbital(motion.speed)).collect()),
-            contact_force: Some(forces.iter().take(count - 1).map(|&f| f.into()).collect()),
-            groove_torque: Some(free_torque + f64::from(change)),
-            groove_torque_free: Some(free_torque),
+            free_speed: Some(balls.iter().map(|ball| orbital(ball.alone.speed)).collect()),
+            // The reference has them along the line between the centres.
+            contact_force: Some(
+                row.forces
+                    .iter()
+                    .map(|force| force * f64::from(constants.outward).hypot(1.0))
+                    .collect(),
+            ),
+            groove_torque: Some(row.free_torque + row.added_torque),
+            groove_torque_free: Some(row.free_torque),
+            ball_torque: None,
             loads: None,
         },
-        flagged: Some(!(law.holds_forces(load, branch, interval) && law.holds_load(most))),
+        flagged: Some(!held),
     })
 }

@@ -18,10 +18,13 @@ pub struct Row {
     pub free_speed: Option<Vec<f64>>,
     /// Force between each ball and the next, N.
     pub contact_force: Option<Vec<f64>>,
-    /// Friction torque of the grooves on the nut, N m.
+    /// Friction torque of the grooves on the nut, N m, with all that friction between balls adds: in the grooves, where it turns the balls, and
+    /// between them.
     pub groove_torque: Option<f64>,
     /// The same, no neighbour pressing.
     pub groove_torque_free: Option<f64>,
+    /// Part of `groove_torque` that is lost between balls, N m; the law does not part it from what rubbing adds in the grooves.
+    pub ball_torque: Option<f64>,
     /// Loads of SL, SR, NL and NR, N, no neighbour pressing.
     pub loads: Option<Vec<[f64; 4]>>,
 }
@@ -114,8 +117,9 @@ impl Request {
                     .collect(),
             ),
             contact_force: Some(row.contact_forces.clone()),
-            groove_torque: Some(row.groove_loss() / speed),
+            groove_torque: Some((row.groove_loss() + row.ball_loss) / speed),
             groove_torque_free: Some(row.free_groove_loss() / speed),
+            ball_torque: Some(row.ball_loss / speed),
             loads: Some(balls.iter().map(|ball| ball.loads).collect()),
         }
     }

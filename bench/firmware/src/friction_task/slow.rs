@@ -96,6 +96,8 @@ pub struct SlowTask {
     speed: NutSpeed,
     adaptation: Adaptation,
     level: FrictionLevel,
+    /// In the last step's friction torque, N m.
+    lubricant_drag: f32,
     measured: Measured,
 }
 
@@ -127,6 +129,7 @@ impl SlowTask {
                 ADAPTATION_TICKS as f32 * SLOW_TICK,
             ))?,
             level: FrictionLevel::ONE,
+            lubricant_drag: 0.0,
             measured: Measured::NONE,
         };
         Ok((task, gear))
@@ -167,6 +170,7 @@ impl SlowTask {
             temperature: temperature.value,
             temperature_age: temperature.age,
         });
+        self.lubricant_drag = gear.drag_torque();
         self.measured = Measured {
             friction_torque: outputs.friction_torque,
             load_torque: outputs.load_torque,
@@ -198,6 +202,7 @@ impl SlowTask {
         let adapted = self.adaptation.update(&AdaptationInputs {
             observed,
             modelled: outputs.friction_torque,
+            lubricant_drag: self.lubricant_drag,
             level: gear::bounded(self.level, &self.calibration),
             nut_speed: self.measured.nut_speed,
             load_torque: outputs.load_torque,

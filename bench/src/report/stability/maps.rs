@@ -6,6 +6,7 @@ mod sample;
 
 use epas_eval::BadField;
 use epas_page::document::Cell;
+use epas_page::failure::Failure;
 use epas_page::plot::{self, ColourMap, Colours, Panel};
 use epas_reference::promises;
 use rayon::prelude::*;
@@ -125,21 +126,22 @@ impl Map {
     }
 
     /// What became of the points, and the sizes of their errors, line by line.
-    fn errors(&self, cells: usize) -> (Tally, Vec<Vec<f64>>) {
+    fn errors(&self, cells: usize) -> Result<(Tally, Vec<Vec<f64>>), Failure> {
         let place = |(_, low, high): Axis, index: usize| {
             low + (high - low) * (index as f64 + 0.5) / cells as f64
         };
+        let point = |row: usize, column: usize| match (self.at)(
+            place(self.x, column),
+            place(self.y, row),
+        ) {
+            Ok(answers) => answers.sample(self.places, self.unless).map(Ok),
+            Err(refused) => Ok(Err(refused)),
+        };
         let lines: Vec<Vec<_>> = (0..cells)
             .into_par_iter()
-            .map(|row| {
-                (0..cells)
-                    .map(|column| {
-                        let answers = (self.at)(place(self.x, column), place(self.y, row))?;
-                        Ok(answers.sample(self.places, self.unless))
-                    })
-                    .collect()
-            })
-            .collect();
+            .map(|row| (0..cells).map(|column| point(row, column)).collect())
+            .collect::<Result<_, Failure>>()
+            .map_err(|failure| failure.of(self.title))?;
         let mut tally = Tally::default();
         let mut sizes = |line: Vec<Result<Sample, BadField>>| {
             line.into_iter()
@@ -147,13 +149,21 @@ impl Map {
                 .collect()
         };
         let sizes = lines.into_iter().map(&mut sizes).collect();
-        (tally, sizes)
+        if tally.compared == 0 {
+            let nothing =
+                Failure::Data("there is no point at which both sides have a number".into());
+            return Err(nothing.of(self.title));
+        }
+        Ok((tally, sizes))
     }
 
     /// The map over its domain.
-    pub fn draw(&self, cells: usize) -> Drawn {
+    ///
+    /// # Errors
+    /// A field that is compared and that an answer does not have; a map without a point to compare.
+    pub fn draw(&self, cells: usize) -> Result<Drawn, Failure> {
         let cells = (cells as f64 * self.fineness).ceil() as usize;
-        let (tally, values) = self.errors(cells);
+        let (tally, values) = self.errors(cells)?;
         let (x, x_low, x_high) = self.x;
         let (y, y_low, y_high) = self.y;
         let panel = Panel::Map(ColourMap {
@@ -169,12 +179,12 @@ impl Map {
             values,
         });
         let largest = tally.errors.largest;
-        Drawn {
+        Ok(Drawn {
             panel,
             row: self.row(tally),
             requests: (cells * cells) as u64,
             largest,
-        }
+        })
     }
 
     fn row(&self, tally: Tally) -> Vec<Cell> {
@@ -213,7 +223,7 @@ mod tests {
     fn worst_cases_are_reproduced() {
         for map in &MAPS {
             let cells = (8.0 * map.fineness) as usize;
-            let (tally, _) = map.errors(cells);
+            let (tally, _) = map.errors(cells).unwrap();
             let points = [
                 tally.compared,
                 tally.refused,

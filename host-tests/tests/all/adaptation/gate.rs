@@ -135,6 +135,13 @@ fn what_does_not_count_changes_nothing_and_says_why() {
         (
             AdaptationFlags::INPUT_RANGE,
             AdaptationInputs {
+                lubricant_drag: nan,
+                ..good
+            },
+        ),
+        (
+            AdaptationFlags::INPUT_RANGE,
+            AdaptationInputs {
                 nut_speed: nan,
                 ..good
             },

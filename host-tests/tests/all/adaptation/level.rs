@@ -156,3 +156,44 @@ fn levels_out_of_range_are_refused() {
     }
     assert_eq!(model, before);
 }
+
+/// Cold grease at speed: drag is a third of friction and more. A level of 1.3 is found to the same 1 % with and without, where it was set before and
+/// where it never is.
+#[test]
+fn lubricant_drag_is_not_scaled() {
+    use epas_friction::adaptation::{Adaptation, AdaptationConfiguration, AdaptationInputs};
+    use epas_friction::{Faults, Regime};
+
+    for lubricant_drag in [0.0, 0.02, 0.08] {
+        for level in [1.0, 1.3] {
+            let level = FrictionLevel {
+                forward: level,
+                backward: level,
+            };
+            let mut adaptation = Adaptation::new(&AdaptationConfiguration::every(0.01)).unwrap();
+            for tick in 0..4000 {
+                let way = if tick / 100 % 2 == 0 { 1.0 } else { -1.0 };
+                adaptation.update(&AdaptationInputs {
+                    observed: way * (1.3 * 0.04 + lubricant_drag),
+                    modelled: way * (level.forward * 0.04 + lubricant_drag),
+                    lubricant_drag: way * lubricant_drag,
+                    level,
+                    nut_speed: 8.0 * way,
+                    load_torque: 0.0,
+                    regime: Regime::Driving,
+                    faults: Faults::NONE,
+                    saturated: false,
+                });
+            }
+            let Estimates {
+                forward, backward, ..
+            } = adaptation.estimates();
+            for found in [forward, backward] {
+                assert!(
+                    (found - 1.3).abs() < 0.013,
+                    "{lubricant_drag} {level:?}: {found}"
+                );
+            }
+        }
+    }
+}

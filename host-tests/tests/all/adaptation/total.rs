@@ -32,7 +32,7 @@ fn any_inputs() -> impl Strategy<Value = AdaptationInputs> {
     let level = prop_oneof![3 => Just(1.0_f32), 1 => any_number(12.0)];
     (
         any_number(11.0),
-        any_number(11.0),
+        (any_number(11.0), any_number(11.0)),
         level.clone(),
         level,
         any_number(510.0),
@@ -44,7 +44,7 @@ fn any_inputs() -> impl Strategy<Value = AdaptationInputs> {
         .prop_map(
             |(
                 observed,
-                modelled,
+                (modelled, lubricant_drag),
                 forward,
                 backward,
                 nut_speed,
@@ -56,6 +56,7 @@ fn any_inputs() -> impl Strategy<Value = AdaptationInputs> {
                 AdaptationInputs {
                     observed,
                     modelled,
+                    lubricant_drag,
                     level: FrictionLevel { forward, backward },
                     nut_speed,
                     load_torque,

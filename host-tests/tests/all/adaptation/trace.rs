@@ -165,6 +165,7 @@ pub fn drive(
             let adapted = adaptation.update(&AdaptationInputs {
                 observed,
                 modelled: mean_model,
+                lubricant_drag: 0.0,
                 level: found,
                 nut_speed,
                 load_torque,
@@ -223,6 +224,7 @@ pub const fn sound(observed: f32, modelled: f32, nut_speed: f32) -> AdaptationIn
     AdaptationInputs {
         observed,
         modelled,
+        lubricant_drag: 0.0,
         level: FrictionLevel::ONE,
         nut_speed,
         load_torque: 0.0,

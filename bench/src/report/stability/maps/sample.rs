@@ -1,6 +1,7 @@
 //! What crate and reference say at a point of a map.
 
 use epas_eval::{BadField, Both, Model};
+use epas_page::failure::Failure;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -32,9 +33,37 @@ pub struct Answers {
     reference: Value,
 }
 
-/// Every answer has a JSON text: a number that is not finite is null.
+/// An answer as JSON: a number that is not finite is null. One that has no such text has no field either, which [`Answers::sample`] says.
 fn json(answer: &impl Serialize) -> Value {
-    serde_json::to_value(answer).unwrap_or_default()
+    serde_json::to_value(answer).unwrap_or_else(|error| Value::String(error.to_string()))
+}
+
+/// What stands at a place of an answer, `Null` where it or what it is a part of is null.
+fn at<'a>(answer: &'a Value, place: &str) -> Result<&'a Value, Failure> {
+    let mut value = answer;
+    for field in place.split('/').skip(1) {
+        let inner = match value {
+            Value::Object(fields) => fields.get(field),
+            Value::Array(list) => field.parse().ok().and_then(|index: usize| list.get(index)),
+            Value::Null if !std::ptr::eq(value, answer) => return Ok(value),
+            _ => None,
+        };
+        value = inner.ok_or_else(|| Failure::Data(format!("{place} is not in {answer}")))?;
+    }
+    Ok(value)
+}
+
+/// The number at a place of an answer, none where it is null.
+fn number(answer: &Value, place: &str) -> Result<Option<f64>, Failure> {
+    match at(answer, place)? {
+        Value::Null => Ok(None),
+        value => match value.as_f64() {
+            None => Err(Failure::Data(format!(
+                "{place} is not a number in {answer}"
+            ))),
+            number => Ok(number),
+        },
+    }
 }
 
 /// Asks crate and reference; what they refuse is an error.
@@ -50,22 +79,24 @@ pub fn ask<M: Model>(request: &M) -> Result<Answers, BadField> {
 impl Answers {
     /// The numbers at these places of the crate and of the reference, and that of the reference which the error is over, 1 for an empty place;
     /// the reference's counts not where the place `unless` says so.
-    pub fn sample(self, [found, exact, over]: [&str; 3], unless: &str) -> Sample {
-        let number = |answer: &Value, place: &str| answer.pointer(place)?.as_f64();
-        let excluded = self.reference.pointer(unless) == Some(&Value::Bool(true));
+    ///
+    /// # Errors
+    /// A place that an answer does not have.
+    pub fn sample(self, [found, exact, over]: [&str; 3], unless: &str) -> Result<Sample, Failure> {
+        let excluded = !unless.is_empty() && at(&self.reference, unless)? == &Value::Bool(true);
         let scale = if over.is_empty() {
             Some(1.0)
         } else {
-            number(&self.reference, over)
+            number(&self.reference, over)?
         };
-        Sample {
+        Ok(Sample {
             numbers: Numbers {
-                found: number(&self.in_loop, found),
-                exact: number(&self.reference, exact).filter(|_| !excluded),
+                found: number(&self.in_loop, found)?,
+                exact: number(&self.reference, exact)?.filter(|_| !excluded),
                 scale: scale.filter(|scale| *scale != 0.0),
             },
             line: self.line,
-        }
+        })
     }
 }
 
@@ -136,7 +167,7 @@ mod tests {
                 reference: json!({ "value": exact, "over": over, "locked": locked }),
             };
             let places = ["/value", "/value", "/over"];
-            tally.add(Ok(answers.sample(places, "/locked")))
+            tally.add(Ok(answers.sample(places, "/locked").unwrap()))
         };
         assert_eq!(add(3.0, 2.0, -4.0, false), Some(0.25));
         assert_eq!(add(2.0, 2.0, 1.0, false), Some(0.0));
@@ -149,8 +180,8 @@ mod tests {
             axis_ratio: 2.0,
             offset: 0.0,
         };
-        let refused = ask(&friction).map(|answers| answers.sample(["/force", "/force", ""], ""));
-        assert_eq!(tally.add(refused), None);
+        let refused = ask(&friction).err().unwrap();
+        assert_eq!(tally.add(Err(refused)), None);
         let counts = [
             tally.compared,
             tally.refused,
@@ -159,5 +190,38 @@ mod tests {
         ];
         assert_eq!(counts, [2, 1, 4, 1]);
         assert_eq!(tally.worst.map(|(error, _)| error), Some(0.25));
+    }
+
+    /// What a map compares is a field of both answers: null where a quantity does not exist, and an error where the field does not.
+    #[test]
+    fn a_missing_field_is_an_error() {
+        let sample = |places: [&str; 3], unless: &str| {
+            let answers = Answers {
+                line: String::new(),
+                in_loop: json!({ "value": null, "name": "screw", "list": [1.0] }),
+                reference: json!({ "value": 2.0, "list": null }),
+            };
+            answers.sample(places, unless).map(|sample| sample.numbers)
+        };
+        let numbers = sample(["/value", "/value", ""], "").unwrap();
+        assert_eq!((numbers.found, numbers.exact), (None, Some(2.0)));
+        let listed = sample(["/list/0", "/list/0", ""], "").unwrap();
+        assert_eq!((listed.found, listed.exact), (Some(1.0), None));
+        for (places, unless) in [
+            (["/force", "/value", ""], ""),
+            (["/value", "/force", ""], ""),
+            (["/value", "/value", "/over"], ""),
+            (["/value", "/value", ""], "/locked"),
+            (["/name", "/value", ""], ""),
+            (["/list/1", "/value", ""], ""),
+        ] {
+            assert!(sample(places, unless).is_err(), "{places:?} {unless}");
+        }
+        let broken = Answers {
+            line: String::new(),
+            in_loop: Value::Null,
+            reference: json!({ "value": 2.0 }),
+        };
+        assert!(broken.sample(["/value", "/value", ""], "").is_err());
     }
 }

@@ -241,3 +241,88 @@ fn backward_is_forward_under_the_opposite_load() {
         check::<ClosedFormScrew>(&closed_form(branch));
     }
 }
+
+/// What a level does not scale is the drag that a model says: `T = level T_contacts + drag`.
+#[test]
+fn a_level_leaves_the_drag_that_is_said() {
+    use epas_friction::law::FrictionLevel;
+    let model = || {
+        let configuration = with_memory(caged(), slip(0.5, BREAKAWAY), speed_sensor(), 0.12);
+        let coefficient = CoefficientLaw::new(&CoefficientParameters {
+            churning: 0.05,
+            ..COEFFICIENT
+        });
+        let coefficient = coefficient.unwrap();
+        Model::new(&WithMemoryConfiguration {
+            coefficient,
+            ..configuration
+        })
+        .unwrap()
+    };
+    let (mut plain, mut scaled) = (model(), model());
+    assert_eq!(plain.drag_torque(), 0.0);
+    scaled
+        .set_level(FrictionLevel {
+            forward: 1.5,
+            backward: 0.7,
+        })
+        .unwrap();
+    for speed in [5.0_f32, 20.0, -5.0, -20.0] {
+        let level = if speed < 0.0 { 0.7 } else { 1.5 };
+        let inputs = WithMemoryInputs {
+            temperature: 263.15,
+            ..fresh(screw(speed, 1000.0), speed)
+        };
+        let mut torques = [0.0; 2];
+        for _ in 0..200 {
+            torques = [&mut plain, &mut scaled].map(|model| model.step(inputs).friction_torque);
+        }
+        let drag = plain.drag_torque();
+        assert_eq!(drag, scaled.drag_torque());
+        assert!(
+            drag * speed > 0.0 && drag.abs() > 0.05 * torques[0].abs(),
+            "{drag}"
+        );
+        let contacts = torques.map(|torque| torque - drag);
+        assert!(
+            (contacts[1] / contacts[0] / level - 1.0).abs() < 1e-5,
+            "{speed} {torques:?}"
+        );
+    }
+}
+
+/// Above 60 rad/s of the nut nothing was fitted of the drag: the torque of a step, and of what follows it, is flagged for it, in both directions; not
+/// that of a law without drag.
+#[test]
+fn drag_beyond_its_fit_is_flagged() {
+    let law = |drag| {
+        CoefficientLaw::new(&CoefficientParameters {
+            drag,
+            ..COEFFICIENT
+        })
+        .unwrap()
+    };
+    let model = |coefficient| {
+        let configuration = with_memory(caged(), slip(0.5, BREAKAWAY), speed_sensor(), 0.12);
+        Model::new(&WithMemoryConfiguration {
+            coefficient,
+            ..configuration
+        })
+        .unwrap()
+    };
+    let mut with = model(law(COEFFICIENT.drag));
+    let mut without = model(law(epas_friction::law::coefficient::RollingDrag::NONE));
+    for speed in [5.0, 59.9, 60.1, 150.0, -59.9, -60.1, 3.0] {
+        let inputs = fresh(screw(speed, 1000.0), speed);
+        let expected = if speed.abs() > 60.0 {
+            Faults::BEYOND_MODEL
+        } else {
+            Faults::NONE
+        };
+        let found = with.step(inputs);
+        assert!(found.friction_torque.is_finite());
+        assert_eq!(found.faults, expected, "{speed}");
+        assert_eq!(with.between(inputs.reading).faults, expected, "{speed}");
+        assert_eq!(without.step(inputs).faults, Faults::NONE, "{speed}");
+    }
+}
