@@ -89,7 +89,7 @@ mod settle;
 mod stored;
 mod track;
 
-pub(crate) use grip::{Grip, LARGEST_GRIP, limited_grip};
+pub(crate) use grip::{Grip, limited_grip};
 pub(crate) use intake::Intake;
 pub use positions::{BallContact, Train};
 pub use press::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};

@@ -133,17 +133,6 @@ impl LoadShares {
         }
     }
 
-    /// The heaviest share of both tables.
-    pub(crate) const fn heaviest(&self) -> LoadShare {
-        let (_, positive) = LoadShare::extremes(self.positive);
-        let (_, negative) = LoadShare::extremes(self.negative);
-        if negative.share > positive.share {
-            negative
-        } else {
-            positive
-        }
-    }
-
     /// Whether every ball carries the mean load.
     pub(crate) const fn are_even(&self) -> bool {
         let [(a, b), (c, d)] = [

@@ -10,7 +10,7 @@ mod stored;
 
 use core::f32::consts::TAU;
 
-use super::circuit::{Circuit, CircuitState, per_loaded_ball};
+use super::circuit::{Circuit, CircuitState};
 use super::contract::{ChangingFriction, CheckedInputs, Inputs, Limits, Scene};
 use super::outputs::UncagedOutputs;
 use super::reversal::Reversal;
@@ -71,16 +71,11 @@ pub struct UncagedConstants<const N: usize, const NODES: usize = 1> {
     units: [f32; 2],
     /// Nominal speed of a ball against the nut, m per unit of nut speed, halved.
     half_speed: f32,
-    /// Load of the ball that carries most over the mean one.
-    heaviest: f32,
     /// Whether all balls carry the same load.
     even: bool,
     /// Time between two ticks, s, and 1 / it.
     tick: f32,
     per_tick: f32,
-    /// 1 / number of loaded balls, and their number.
-    per_ball: f32,
-    balls: f32,
     /// Torque per axial load without friction, `lead / 2 pi`, m.
     reduced_lead: f32,
     reversal: Reversal,
@@ -156,8 +151,6 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let UncagedBallScrewConfiguration {
             folded,
             ball_friction,
-            balls,
-            return_length,
             screw_deviation,
             nut_deviation,
             load_shares,
@@ -182,7 +175,6 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         attempt!(screw_deviation.checked("screw_deviation", screw));
         attempt!(nut_deviation.checked("nut_deviation", nut));
         let units = circuit.deviation_units();
-        let per_ball = per_loaded_ball(configuration.loaded_length(), return_length, balls);
         Ok(Self {
             law,
             friction: law.interval(friction),
@@ -191,12 +183,9 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             ball_friction,
             units: [units.0 / screw, units.1 / nut],
             half_speed: 0.5 * speed,
-            heaviest: load_shares.heaviest().share(),
             even: load_shares.are_even(),
             tick,
             per_tick: 1.0 / tick,
-            per_ball,
-            balls: 1.0 / per_ball,
             reduced_lead: lead / TAU,
             reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
             limits,

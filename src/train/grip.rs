@@ -16,7 +16,7 @@ pub(crate) struct Grip {
 }
 
 /// Largest size of `r`: with it a force falls or grows by 1.9 from ball to ball.
-pub(crate) const LARGEST_GRIP: f32 = 0.3;
+const LARGEST_GRIP: f32 = 0.3;
 
 impl Grip {
     /// Of this `r`, at most [`LARGEST_GRIP`] in size.

@@ -1,14 +1,16 @@
 //! What a tick computes: every ball at its position, then how they press.
 
 use super::{UncagedConstants, UncagedState};
+use crate::ball::LoadShare;
+use crate::ball::folded::FrictionInterval;
 use crate::ball::pressed::{BallNumbers, FreeMotion};
-use crate::scene::circuit::UNLOADED;
+use crate::scene::circuit::{LoadedBall, Sharing, UNLOADED};
 use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::reversal::{ReversalState, direction};
 use crate::scene::row::TrainFriction;
-use crate::train::{Grip, Intake, LARGEST_GRIP, limited_grip};
+use crate::train::{Grip, Intake, limited_grip};
 
 /// Sliding friction of a ball screw without cage, in the direction in which its balls go.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,10 +48,8 @@ impl UncagedFriction {
 
 /// What all balls have in common in a tick.
 struct Common {
-    /// Mean axial load of a ball, N.
+    /// Axial load of a ball whose weight is 1, N.
     mean: f32,
-    /// Load of a ball under the mean axial load, N.
-    load: f32,
     /// 0 where the load opposes the motion, else 1.
     branch: usize,
     /// -1 where the nut turns backward, else 1.
@@ -57,8 +57,14 @@ struct Common {
     /// What a ball does under the mean load, its grip with the friction between balls; both its free speed and its grip with the sign of
     /// the direction.
     numbers: BallNumbers,
-    /// Whether a train takes all of this grip, within the largest deviations.
-    holds_grip: bool,
+}
+
+/// What the balls are that were taken in.
+struct Intaken {
+    /// Sum of their torques, N m.
+    torque: f32,
+    /// Whether a train took less grip of some ball than friction between balls makes of it.
+    cut: bool,
 }
 
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
@@ -69,116 +75,140 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         state: &mut UncagedState<N>,
         inputs: Inputs,
     ) -> UncagedFriction {
-        let Inputs {
-            nut_speed,
-            axial_load,
-        } = inputs;
-        let common = self.common(state, inputs);
+        let nut_speed = inputs.nut_speed;
+        let shares = self.shares(inputs.axial_load);
+        let sharing = self.circuit.sharing(&state.circuit, shares);
+        let common = self.common(state, inputs, &sharing);
         let phase = state.circuit.phase();
         let travel = self.circuit.travel(nut_speed);
         let mut balls = state.circuit.train.intake(travel);
-        let torque = if self.even {
+        let friction = state.friction;
+        let of_own =
+            |ball: &LoadedBall, deviations| self.motion(&common, friction, ball, deviations);
+        let Intaken { torque, cut } = if self.even {
             let numbers = common.numbers;
-            let motion = move |_, deviations| numbers.at(deviations);
-            self.take_in(&mut balls, phase, axial_load, &common, motion)
-        } else {
-            let friction = state.friction;
-            let motion = |share, deviations| {
-                let load = self.law.load_of(common.mean * share);
-                let motion = self.law.at(load, common.branch, friction, deviations);
-                let grip = common.direction * self.ball_friction * motion.grip;
-                FreeMotion {
-                    speed: common.direction * motion.speed,
-                    grip: limited_grip(grip),
-                    ..motion
-                }
+            // Between the run-ins all balls are alike; the few on them have loads of their own.
+            let motion = |ball: &LoadedBall, deviations| match ball.run_in {
+                1.0 => numbers.at(deviations),
+                _ => of_own(ball, deviations),
             };
-            self.take_in(&mut balls, phase, axial_load, &common, motion)
+            self.take_in(&mut balls, phase, shares, &common, motion)
+        } else {
+            self.take_in(&mut balls, phase, shares, &common, of_own)
         };
         let pressing = balls.press_rubbing();
         state.circuit.advance(&self.circuit, nut_speed);
 
         let numbers = &common.numbers;
+        let change = numbers.slope * common.direction * pressing.change;
         let work = self.half_speed * numbers.work * pressing.work;
         let rubbing_force = self.ball_friction * pressing.force;
         let ball_torque = numbers.rubbing * rubbing_force;
-        let most = self.law.load_of(self.heaviest * common.mean);
-        let friction = state.friction;
-        let load = common.load * self.balls;
-        let held = self.law.holds_forces(common.load, common.branch, friction)
-            && self.law.holds_load(most)
+        let load = inputs.axial_load.abs() + sharing.balls * self.law.lift_off;
+        let extremes = sharing
+            .extremes
+            .map(|weight| self.law.load_of(common.mean * weight));
+        let held = sharing.balls > 0.0
+            && self.law.holds_load(extremes[0])
             && self.law.holds(friction.friction())
-            && self.law.holds_rubbing(load, friction, rubbing_force)
-            && common.holds_grip;
+            && self.law.holds_rubbing(load, friction, rubbing_force);
+        let forces_held = pressing.contacts == 0
+            || (!cut
+                && self
+                    .law
+                    .holds_forces_within(extremes, common.branch, friction));
         UncagedFriction {
             row: TrainFriction {
-                groove: not_negative(
-                    torque + numbers.slope * common.direction * pressing.change + work,
-                ),
+                groove: not_negative(torque + change + work),
                 ball: ball_torque,
                 ratios: [1.0; 2],
                 load,
                 contacts: pressing.contacts,
                 largest_contact_force: pressing.largest,
             },
-            faults: Faults::NONE.with(!held, Faults::BEYOND_MODEL),
+            faults: Faults::NONE
+                .with(!held, Faults::BEYOND_MODEL)
+                .with(!forces_held, Faults::FORCES_NOT_HELD),
         }
     }
 
     #[inline(always)]
-    fn common(&self, state: &UncagedState<N>, inputs: Inputs) -> Common {
+    fn common(&self, state: &UncagedState<N>, inputs: Inputs, sharing: &Sharing) -> Common {
         let direction = direction(inputs.nut_speed);
-        let mean = inputs.axial_load * self.per_ball;
+        let mean = inputs.axial_load * sharing.per_weight;
         let branch = usize::from(direction * mean < 0.0);
-        let load = self.law.load_of(mean);
+        // Where all loaded balls are on a run-in, none carries as much.
+        let [heaviest, _] = sharing.extremes;
+        let weight = if heaviest < 1.0 { heaviest } else { 1.0 };
+        let load = self.law.load_of(weight * mean);
         let mut numbers = self.law.numbers(load, branch, state.friction);
-        let [grip, screw, nut] = numbers.grip.map(f32::abs);
-        let size = self.ball_friction * (grip + screw + nut);
-        let holds_grip = size <= LARGEST_GRIP;
-        let limited = if holds_grip { 1.0 } else { LARGEST_GRIP / size };
-        let ball_friction = direction * self.ball_friction * limited;
+        let ball_friction = direction * self.ball_friction;
         numbers.grip = numbers.grip.map(|grip| ball_friction * grip);
         numbers.free = numbers.free.map(|free| direction * free);
         Common {
             mean,
-            load,
             branch,
             direction,
             numbers,
-            holds_grip,
         }
     }
 
-    /// Gives each ball its free speed and impedance, a loaded one by `motion` from its share of the load and its deviations; returns the sum of their
-    /// torques, N m. Not inlined: what the rest of a step holds would take its registers.
+    /// What a ball does under its own load, its free speed and its grip with the sign of the direction.
+    #[inline(always)]
+    fn motion(
+        &self,
+        common: &Common,
+        friction: FrictionInterval,
+        ball: &LoadedBall,
+        deviations: [f32; 2],
+    ) -> FreeMotion {
+        let load = self.law.load_of(common.mean * ball.load.share());
+        let (part, branch) = (ball.run_in, common.branch);
+        let law = self.law;
+        let motion = match part {
+            1.0 => law.at(load, branch, friction, deviations),
+            _ => law.on_run_in(part, load, branch, friction, deviations),
+        };
+        FreeMotion {
+            speed: common.direction * motion.speed,
+            grip: common.direction * self.ball_friction * motion.grip,
+            ..motion
+        }
+    }
+
+    /// Gives each ball its free speed and impedance, a loaded one by `motion` from its part of the load and its deviations. Not inlined: what
+    /// the rest of a step holds would take its registers.
     #[inline(never)]
     fn take_in(
         &self,
         balls: &mut Intake<'_, N>,
         phase: u32,
-        axial_load: f32,
+        shares: &'static [LoadShare],
         common: &Common,
-        motion: impl Fn(f32, [f32; 2]) -> FreeMotion,
-    ) -> f32 {
+        motion: impl Fn(&LoadedBall, [f32; 2]) -> FreeMotion,
+    ) -> Intaken {
         let Common {
             direction, numbers, ..
         } = common;
-        let shares = self.shares(axial_load);
         let units = self.units.map(|unit| direction * unit);
         let idle = numbers.free[0];
-        let mut torque = 0.0;
+        let mut intaken = Intaken {
+            torque: 0.0,
+            cut: false,
+        };
         while let Some(ball) = balls.next_ball() {
             let Some(loaded) = self.circuit.loaded_ball(ball.position(), phase, shares) else {
                 ball.put_smooth(idle, UNLOADED);
                 continue;
             };
             let deviations = [units[0] * loaded.passing, units[1] * loaded.recirculating];
-            let motion = motion(loaded.load.share(), deviations);
-            torque += motion.torque;
-            let grip = Grip::within(motion.grip);
-            ball.put_rubbed(motion.speed, motion.impedance, grip);
+            let motion = motion(&loaded, deviations);
+            intaken.torque += motion.torque;
+            let grip = limited_grip(motion.grip);
+            intaken.cut |= grip != motion.grip;
+            ball.put_rubbed(motion.speed, motion.impedance, Grip::within(grip));
         }
-        torque
+        intaken
     }
 }
 

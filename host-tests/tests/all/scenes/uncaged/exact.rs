@@ -40,7 +40,7 @@ pub fn design() -> BallScrew {
     BallScrew::new(DISSERTATION_DESIGNS[1].parameters).unwrap()
 }
 
-fn exact_design() -> BallScrewDesign {
+pub fn exact_design() -> BallScrewDesign {
     given::ball_screw(design().parameters())
 }
 
