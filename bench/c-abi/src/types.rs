@@ -33,9 +33,12 @@ pub const EPAS_FAULT_SPEED_RANGE: u32 = 4u32;
 pub const EPAS_FAULT_LOAD_RANGE: u32 = 8u32;
 /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit.
 pub const EPAS_FAULT_FRICTION_LIMIT: u32 = 16u32;
-/// The mechanism is where its formulas leave the accuracy that they promise: the friction is the best estimate. No fault of
+/// The friction is not held: the mechanism is where its formulas leave the accuracy that they promise. It is the best estimate. No fault of
 /// the inputs: the faulted ticks do not count it.
 pub const EPAS_FAULT_BEYOND_MODEL: u32 = 32u32;
+/// Forces from ball to ball are not held, while the friction is. No fault of the inputs: the faulted ticks do not count it, and an
+/// adaptation goes on.
+pub const EPAS_FAULT_FORCES_NOT_HELD: u32 = 64u32;
 /// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
 pub const EPAS_FAULT_ANGLE_NOT_VALID: u32 = 128u32;
 /// The temperature is NaN or beyond its range: the last one, or the bound, stands in for it.

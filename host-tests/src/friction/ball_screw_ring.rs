@@ -17,7 +17,9 @@
 //! those that press move as one. Friction of Coulomb does not depend on the size of the speed: what counts is the nut's angle, its
 //! direction and the load.
 //!
-//! Left out: a ball's inertia; friction between balls one of which carries no load; and, unless [`ElasticRing::chord`] asks for it, the part of the force between two balls that points outward (`sin b` of it, 7 to 17 %).
+//! Two balls rub on each other by the lesser of their parts of load: not at all where one of them carries none.
+//!
+//! Left out: a ball's inertia; and, unless [`ElasticRing::chord`] asks for it, the part of the force between two balls that points outward (`sin b` of it, 7 to 17 %).
 //! Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
 //!
 //! [`super::whole_screw`] is the same screw by a closed form of each ball, for one speed, one load and one wave of deviation.
@@ -61,7 +63,8 @@ pub struct ElasticRing {
     pub screw_deviation: GrooveDeviation,
     /// Deviation of the nut's groove by the azimuth from the start of the loaded track.
     pub nut_deviation: GrooveDeviation,
-    /// Loads of the balls over their mean, 0 to 100, in equal parts of the loaded track from its start; empty for equal loads.
+    /// Loads of the balls over their mean, 0 to 100, at the middles of equal parts of the loaded track from its start, linear between them; empty
+    /// for equal loads.
     pub load_shares: Vec<f64>,
     /// Whether forces between balls have the part that points outward because the track is curved.
     pub chord: bool,

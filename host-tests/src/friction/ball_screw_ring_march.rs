@@ -273,14 +273,24 @@ impl<'a> March<'a> {
         places
     }
 
-    /// Load of a ball at an azimuth over its mean, on the run-ins that of the next one on the loaded part.
+    /// Load of a ball at an azimuth over the mean, linear between the middles of the parts.
     fn share(&self, azimuth: f64) -> f64 {
         let shares = &self.ring.load_shares;
         let Some(last) = shares.len().checked_sub(1) else {
             return 1.0;
         };
-        let entry = azimuth.max(0.0) / self.track.loaded * shares.len() as f64;
-        shares[(entry as usize).min(last)]
+        let from_middle = azimuth / self.track.loaded * shares.len() as f64 - 0.5;
+        let entry = |at: f64| {
+            if self.track.run_in == 0.0 {
+                // Without a return the first part follows on the last.
+                shares[at.rem_euclid(shares.len() as f64) as usize % shares.len()]
+            } else {
+                shares[at.clamp(0.0, last as f64) as usize]
+            }
+        };
+        let below = from_middle.floor();
+        let (first, second) = (entry(below), entry(below + 1.0));
+        first + (from_middle - below) * (second - first)
     }
 
     /// What every ball finds where it is.
@@ -326,6 +336,7 @@ impl<'a> March<'a> {
                         ..grooves
                     },
                     axial_load,
+                    part: parts[ball],
                 })
             })
             .collect()

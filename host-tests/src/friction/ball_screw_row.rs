@@ -183,6 +183,7 @@ impl ElasticRow {
                 Some(Seat {
                     grooves: *ball.grooves,
                     axial_load: ball.axial_load,
+                    part: 1.0,
                 })
             })
             .collect();

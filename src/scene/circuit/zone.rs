@@ -46,7 +46,7 @@ pub(crate) struct LoadedBall {
     /// Deviation of the groove of the body in which balls recirculate, as a multiple of the second.
     pub(crate) recirculating: f32,
     /// Its load over the mean load.
-    pub(crate) load: &'static LoadShare,
+    pub(crate) share: f32,
     /// Part of that which it carries on the run-in, above 0; 1 between the run-ins.
     pub(crate) run_in: f32,
 }
@@ -58,8 +58,6 @@ pub(crate) struct Sharing {
     /// Sum of all weights, and 1 / it; both 0 where no ball is loaded.
     pub(crate) weights: f32,
     pub(crate) per_weight: f32,
-    /// Loaded balls, each with its part on the run-in.
-    pub(crate) balls: f32,
     /// Largest weight, and the least of the balls between the run-ins; where none is there, both are the largest.
     pub(crate) extremes: [f32; 2],
 }
@@ -149,7 +147,7 @@ impl LoadedZone {
         Some(LoadedBall {
             passing: self.passing.units(passing) as f32,
             recirculating: self.recirculating.units(recirculating) as f32,
-            load: self.share(place, shares)?,
+            share: self.share(place, shares),
             run_in,
         })
     }
@@ -161,16 +159,15 @@ impl LoadedZone {
         positions: impl Iterator<Item = u32>,
         shares: &'static [LoadShare],
     ) -> Sharing {
-        let (mut weights, mut balls, mut largest) = (0.0, 0.0, 0.0);
+        let (mut weights, mut largest) = (0.0, 0.0);
         let mut least = f32::INFINITY;
         for position in positions {
             let place = position.wrapping_add(self.half_run_in);
-            let (Some(run_in), Some(load)) = (self.run_in(place), self.share(place, shares)) else {
+            let Some(run_in) = self.run_in(place) else {
                 continue;
             };
-            let weight = run_in * load.share();
+            let weight = run_in * self.share(place, shares);
             weights += weight;
-            balls += run_in;
             if weight > largest {
                 largest = weight;
             }
@@ -181,7 +178,6 @@ impl LoadedZone {
         Sharing {
             weights,
             per_weight: if weights > 0.0 { 1.0 / weights } else { 0.0 },
-            balls,
             extremes: [largest, if least < largest { least } else { largest }],
         }
     }
@@ -200,12 +196,26 @@ impl LoadedZone {
         }
     }
 
-    /// The share at a place; on the run-ins that of the first and of the last entry.
+    /// The share at a place: linear between the middles of the table's parts. Beyond the first and the last of them it is theirs; on a track
+    /// without return, the one follows on the other.
     #[inline(always)]
-    fn share(&self, place: u32, shares: &'static [LoadShare]) -> Option<&'static LoadShare> {
+    fn share(&self, place: u32, shares: &'static [LoadShare]) -> f32 {
+        const ONE: u32 = 1 << FRACTION_BITS;
+        if let [all] = shares {
+            return all.share();
+        }
         let position = place.saturating_sub(self.half_run_in);
-        let entry = scaled(position, self.entries) >> FRACTION_BITS;
-        shares.get(entry as usize).or(shares.last())
+        let from_middle = scaled(position, self.entries) + ONE / 2;
+        let entry = (from_middle / ONE) as usize;
+        let (above, below) = (shares.get(entry), shares.get(entry.wrapping_sub(1)));
+        let (above, below) = if self.run_in == 0 {
+            (above.or(shares.first()), below.or(shares.last()))
+        } else {
+            (above.or(below), below.or(above))
+        };
+        let of = |share: Option<&LoadShare>| share.map_or(1.0, LoadShare::share);
+        let fraction = (from_middle % ONE) as f32 * (1.0 / ONE as f32);
+        of(below) + fraction * (of(above) - of(below))
     }
 
     /// Units of the deviations of the passing groove and of the recirculating one, rad.
@@ -279,7 +289,7 @@ mod tests {
     fn loads(zone: &LoadedZone, positions: impl Iterator<Item = u32> + Clone) -> [f32; MOST] {
         let shares = zone.shares(false);
         let sharing = zone.sharing(positions.clone(), shares);
-        let weight = |ball: LoadedBall| ball.load.share() * ball.run_in;
+        let weight = |ball: LoadedBall| ball.share * ball.run_in;
         let mut loads = [0.0; MOST];
         for (load, position) in loads.iter_mut().zip(positions) {
             *load = zone.at(position, 0, shares).map_or(0.0, weight) * sharing.per_weight;
@@ -305,17 +315,41 @@ mod tests {
                     let sharing = zone.sharing(positions.clone(), zone.shares(false));
                     let loads = loads(&zone, positions);
                     let sum: f64 = loads.iter().copied().map(f64::from).sum();
-                    let expected = if sharing.balls > 0.0 { 1.0 } else { 0.0 };
+                    let expected = if sharing.weights > 0.0 { 1.0 } else { 0.0 };
                     // A rounding of each addition of the sum, two of each load.
                     let rounding = f64::from(balls + 2) * f64::from(f32::EPSILON) / 2.0;
                     assert!((sum - expected).abs() <= rounding, "{step}: {sum}");
                     assert!(loads.iter().all(|load| (0.0..=1.0).contains(load)));
-                    carrying += f64::from(sharing.balls) / f64::from(2 * STEPS);
+                    if shares == LoadShares::EVEN {
+                        carrying += f64::from(sharing.weights) / f64::from(STEPS);
+                    }
                 }
             }
             let [loaded, returning, _] = lengths.map(f64::from);
             let expected = f64::from(balls) * loaded / (loaded + returning);
             assert!((carrying / expected - 1.0).abs() < 1e-3, "{carrying}");
+        }
+    }
+
+    /// Shares are linear between the middles of their parts, with and without a return.
+    #[test]
+    fn shares_are_linear() {
+        for (returning, at_start) in [(0.0, 0.65), (1.0, 0.4)] {
+            let zone = zone([9.0, returning, 0.5], LoadShares::same(&SHARES));
+            for (at, expected) in [
+                (0.0, at_start),
+                (1.5, 0.4),
+                (3.0, 0.85),
+                (4.5, 1.3),
+                (7.0, 29.0 / 30.0),
+            ] {
+                let position = (at / (9.0 + returning) * UNITS) as u32;
+                let share = zone
+                    .at(position, 0, zone.shares(false))
+                    .map_or(0.0, |ball| ball.share);
+                // The middle of a part is known to 2^-16 of it.
+                assert!((share - expected).abs() < 3e-5, "{at}: {share}");
+            }
         }
     }
 
@@ -337,9 +371,9 @@ mod tests {
         }
         let closed = self::zone([37.0, 0.0, 1.0], LoadShares::EVEN);
         let sharing = closed.sharing(spread(37, 1), closed.shares(false));
-        assert_eq!((sharing.balls, sharing.extremes), (37.0, [1.0; 2]));
+        assert_eq!((sharing.weights, sharing.extremes), (37.0, [1.0; 2]));
         let positions = [0, 1, u32::MAX].into_iter();
-        assert_eq!(closed.sharing(positions, closed.shares(true)).balls, 3.0);
+        assert_eq!(closed.sharing(positions, closed.shares(true)).weights, 3.0);
     }
 
     /// With no ball on it, nothing is divided by zero.
@@ -348,7 +382,7 @@ mod tests {
         let zone = zone([0.5, 4.5, 0.4], LoadShares::EVEN);
         let far = [1 << 31].into_iter();
         let sharing = zone.sharing(far.clone(), zone.shares(false));
-        assert_eq!((sharing.per_weight, sharing.balls), (0.0, 0.0));
+        assert_eq!((sharing.per_weight, sharing.weights), (0.0, 0.0));
         assert_eq!(loads(&zone, far), [0.0; MOST]);
     }
 }

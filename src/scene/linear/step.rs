@@ -138,13 +138,12 @@ impl<const N: usize> LinearConstants<N> {
 /// Powers of 4/3 and of 2/3 of a ball's weight.
 #[inline(always)]
 fn powers(ball: &LoadedBall) -> (f32, f32) {
-    let (four_thirds, two_thirds) = (ball.load.four_thirds(), ball.load.two_thirds());
-    if ball.run_in < 1.0 {
-        let (root, squared) = math::cbrt_and_squared(ball.run_in);
-        (four_thirds * (ball.run_in * root), two_thirds * squared)
-    } else {
-        (four_thirds, two_thirds)
+    let weight = ball.share * ball.run_in;
+    if weight == 1.0 {
+        return (1.0, 1.0);
     }
+    let (root, squared) = math::cbrt_and_squared(weight);
+    (weight * root, squared)
 }
 
 #[inline]

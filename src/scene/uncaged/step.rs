@@ -104,11 +104,11 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let work = self.half_speed * numbers.work * pressing.work;
         let rubbing_force = self.ball_friction * pressing.force;
         let ball_torque = numbers.rubbing * rubbing_force;
-        let load = inputs.axial_load.abs() + sharing.balls * self.law.lift_off;
+        let load = inputs.axial_load.abs() + self.preload;
         let extremes = sharing
             .extremes
             .map(|weight| self.law.load_of(common.mean * weight));
-        let held = sharing.balls > 0.0
+        let held = sharing.weights > 0.0
             && self.law.holds_load(extremes[0])
             && self.law.holds(friction.friction())
             && self.law.holds_rubbing(load, friction, rubbing_force);
@@ -162,7 +162,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         ball: &LoadedBall,
         deviations: [f32; 2],
     ) -> FreeMotion {
-        let load = self.law.load_of(common.mean * ball.load.share());
+        let load = self.law.load_of(common.mean * ball.share);
         let (part, branch) = (ball.run_in, common.branch);
         let law = self.law;
         let motion = match part {
@@ -171,7 +171,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         };
         FreeMotion {
             speed: common.direction * motion.speed,
-            grip: common.direction * self.ball_friction * motion.grip,
+            // As friction between balls does that of the grooves, it sets in with the load.
+            grip: common.direction * self.ball_friction * (part * motion.grip),
             ..motion
         }
     }
