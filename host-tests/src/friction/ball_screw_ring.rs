@@ -19,7 +19,8 @@
 //!
 //! Two balls rub on each other by the lesser of their parts of load: not at all where one of them carries none.
 //!
-//! Left out: a ball's inertia; and, unless [`ElasticRing::chord`] asks for it, the part of the force between two balls that points outward (`sin b` of it, 7 to 17 %).
+//! The force between two balls acts along the chord between their centres: a part of it (`sin b`, 7 to 17 %) points outward, unless
+//! [`ElasticRing::chord`] leaves it out. Left out: a ball's inertia.
 //! Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
 //!
 //! [`super::whole_screw`] is the same screw by a closed form of each ball, for one speed, one load and one wave of deviation.
@@ -66,7 +67,7 @@ pub struct ElasticRing {
     /// Loads of the balls over their mean, 0 to 100, at the middles of equal parts of the loaded track from its start, linear between them; empty
     /// for equal loads.
     pub load_shares: Vec<f64>,
-    /// Whether forces between balls have the part that points outward because the track is curved.
+    /// Whether forces between balls have the part that points outward because the track is curved: yes, but for figures of papers without it.
     pub chord: bool,
     /// Azimuths of the balls from the start of the track, rad, rising; empty for balls at equal distances from there.
     pub places: Vec<f64>,

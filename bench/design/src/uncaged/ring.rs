@@ -61,6 +61,8 @@ impl Row {
                     axial_load: self.axial_load.into(),
                 })
                 .collect(),
+            // The law of a ball knows no force that points outward.
+            chord: false,
             integration: ball.integration,
         };
         let found = row.solve()?;

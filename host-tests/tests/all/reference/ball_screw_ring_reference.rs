@@ -40,7 +40,7 @@ fn short_ring(balls: usize, room: f64) -> ElasticRing {
             }],
         },
         load_shares: Vec::new(),
-        chord: false,
+        chord: true,
         places: Vec::new(),
         integration: Integration::Full,
     }
@@ -115,6 +115,7 @@ fn touching_balls_alike_move_as_one_alone() {
             nut_deviation: 0.0,
             axial_load: -40.0,
         }],
+        chord: true,
         integration: Integration::Full,
     };
     let alone = row.solve().unwrap();
@@ -158,6 +159,7 @@ fn touching_balls_are_a_row() {
                     axial_load: load,
                 })
                 .collect(),
+            chord: true,
             integration: Integration::Full,
         };
         if nut_speed < 0.0 {
@@ -427,9 +429,9 @@ fn follow_gaps(numbers_of_steps: &[usize]) {
 fn outward_force_moves_balls() {
     let mut ring = short_ring(3, 1.0);
     ring.places = (0..3).map(|j| 0.1 + pitch() * f64::from(j)).collect();
-    let plain = one(&ring, TAU, -150.0);
-    ring.chord = true;
     let chord = one(&ring, TAU, -150.0);
+    ring.chord = false;
+    let plain = one(&ring, TAU, -150.0);
     assert!(plain.largest_force() > 0.5);
     let (sin, _) = ScrewTrack::from(&SCREW).ball_contact_angle();
     let change = chord.largest_force() / plain.largest_force() - 1.0;

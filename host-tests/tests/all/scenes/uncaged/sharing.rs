@@ -83,6 +83,7 @@ fn exact(clearance: Clearance, states: usize) -> Vec<RingState> {
         screw_deviation: GrooveDeviation::NONE,
         nut_deviation: GrooveDeviation::NONE,
         load_shares: Vec::new(),
+        // As in [`super::exact`].
         chord: false,
         places: Vec::new(),
         integration: Integration::Full,
