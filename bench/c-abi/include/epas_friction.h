@@ -1595,7 +1595,7 @@ typedef struct epas_screw_circuit_t {
      */
     const struct epas_deviation_t *nut_deviation;
     /**
-     * Load of a ball over the mean load, in equal parts of the loaded track from its start, for loads of
+     * Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start, for loads of
      * both signs, or NULL for the mean load everywhere; it has to stay too.
      */
     const struct epas_load_share_t *load_shares;
@@ -1795,7 +1795,7 @@ typedef struct epas_linear_configuration_t {
      */
     const struct epas_deviation_t *carriage_deviation;
     /**
-     * Load of a ball over the mean load, in equal parts of the loaded track from its start, or NULL for the
+     * Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start, or NULL for the
      * mean load everywhere; it has to stay too.
      */
     const struct epas_load_share_t *load_shares;

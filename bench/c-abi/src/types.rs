@@ -236,7 +236,7 @@ pub struct ScrewCircuit {
     /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, or NULL
     /// for none; it has to stay too.
     pub nut_deviation: *const Deviation,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start, for loads of
+    /// Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start, for loads of
     /// both signs, or NULL for the mean load everywhere; it has to stay too.
     pub load_shares: *const LoadShare,
     /// Elements of `load_shares`, 1 to 256; not read where that is NULL.
@@ -374,7 +374,7 @@ pub struct LinearConfiguration {
     pub rail_deviation: *const Deviation,
     /// Deviation of the contact angles along the carriage, or NULL for none; it has to stay too.
     pub carriage_deviation: *const Deviation,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start, or NULL for the
+    /// Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start, or NULL for the
     /// mean load everywhere; it has to stay too.
     pub load_shares: *const LoadShare,
     /// Elements of `load_shares`, 1 to 256; not read where that is NULL.
