@@ -185,7 +185,8 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     }
 
     /// Consecutive calls of [`Self::step`] with a fault ([`Faults::faulty`](crate::Faults::faulty)), up to `u32::MAX`; 0 after
-    /// a sound one. A step whose only flag is [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) is sound. What is put out
+    /// a sound one. A step whose only flags are [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) and
+    /// [`Faults::FORCES_NOT_HELD`](crate::Faults::FORCES_NOT_HELD) is sound. What is put out
     /// between two steps ([`FrictionModel::between`]) does not change this counter: its faults are reported in its outputs.
     pub const fn faulted_ticks(&self) -> u32 {
         self.faulted_ticks

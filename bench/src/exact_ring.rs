@@ -223,7 +223,7 @@ fn ring(case: &Case, balls: usize) -> ElasticRing {
         screw_deviation: samples(case.screw),
         nut_deviation: samples(case.nut),
         load_shares: vec![],
-        chord: false,
+        chord: true,
         places: vec![],
         // With fewer nodes power and forces disagree on narrow ellipses, and a search for the least power ends off balance.
         integration: Integration::Full,

@@ -152,7 +152,7 @@ impl AdaptationConstants {
             && (scaled < 0.0) == (nut_speed < 0.0);
         AdaptationFlags::NONE
             .with(!sound, AdaptationFlags::INPUT_RANGE)
-            .with(faults.any(), AdaptationFlags::FAULTED)
+            .with(faults.doubtful(), AdaptationFlags::FAULTED)
             .with(saturated, AdaptationFlags::SATURATED)
             .with(!slides, AdaptationFlags::STANDING)
             .with(

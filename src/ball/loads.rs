@@ -79,12 +79,6 @@ impl LoadShare {
         self.root * self.root
     }
 
-    /// The share's power of 4/3.
-    #[inline]
-    pub(crate) const fn four_thirds(&self) -> f32 {
-        self.share * self.root
-    }
-
     /// Load over the mean load.
     #[must_use]
     pub const fn share(&self) -> f32 {
@@ -95,8 +89,10 @@ impl LoadShare {
 /// Loads of the balls over their mean along the loaded track, a table for each sign of the load.
 ///
 /// A screw that bends shares a push and a pull differently, and so does one with errors of its groove: the other flank
-/// carries. Both tables are constants in equal parts of the loaded track, from its start; where only one is known,
-/// [`LoadShares::same`] takes it for both signs. `simulate --loads` of the bench program writes them.
+/// carries. Both tables are constants for the middles of equal parts of the loaded track, from its start, and linear between them; where only one
+/// is known, [`LoadShares::same`] takes it for both signs. `simulate --loads` of the bench program writes them.
+///
+/// They are weights: what a ball carries is its share over the sum of those of all loaded balls, so that all loads add up to the axial load.
 ///
 /// Where the load changes its sign, the shares jump from one table to the other. Friction does not jump where it vanishes
 /// with the load. Between grooves that are preloaded it does not vanish, and jumps by as much as the sums of
@@ -130,17 +126,6 @@ impl LoadShares {
             self.negative
         } else {
             self.positive
-        }
-    }
-
-    /// The heaviest share of both tables.
-    pub(crate) const fn heaviest(&self) -> LoadShare {
-        let (_, positive) = LoadShare::extremes(self.positive);
-        let (_, negative) = LoadShare::extremes(self.negative);
-        if negative.share > positive.share {
-            negative
-        } else {
-            positive
         }
     }
 
@@ -211,11 +196,7 @@ mod tests {
                 panic!("{share}")
             };
             let root = libm::cbrt(f64::from(powers.share));
-            for (found, truth) in [
-                (powers.root, root),
-                (powers.four_thirds(), root * root * root * root),
-                (powers.two_thirds(), root * root),
-            ] {
+            for (found, truth) in [(powers.root, root), (powers.two_thirds(), root * root)] {
                 worst = worst.max((f64::from(found) / truth - 1.0).abs());
             }
         }

@@ -9,11 +9,11 @@ mod numbers;
 
 use super::folded::{FrictionInterval, holds, node_octaves};
 use crate::error::{Error, attempt, in_range};
+use crate::math;
 use crate::train::IMPEDANCE_RANGE;
-use node::KnotInterval;
 use numbers::IMPEDANCES;
 
-pub use neighbours::{LoadedBall, NEIGHBOUR_KNOTS, NeighbourLaw, NeighbourNumbers, Pressed};
+pub use neighbours::{BallOfRow, NEIGHBOUR_KNOTS, NeighbourLaw, NeighbourNumbers, Pressed};
 pub use node::{BallKnot, BallNode, KNOTS, Knot, NeighbourKnot};
 pub use numbers::{BallNumbers, FreeMotion, LARGEST_WORK, POWERS};
 
@@ -49,6 +49,8 @@ pub struct RowConstants {
     pub ball_friction: f32,
     /// Tangent of the chord's angle: outward force of two balls that press, over the force along the track.
     pub outward: f32,
+    /// Force of two balls that press, over that along the track.
+    pub normal: f32,
     /// Half the nominal speed against the nut, m per unit of nut speed.
     pub half_speed: f32,
 }
@@ -174,6 +176,32 @@ impl<const NODES: usize> BallLaw<NODES> {
         }
     }
 
+    /// [`Self::at`] of a ball that carries this part of its load and of its preload, 0 to 1, on the run-in between return and load.
+    ///
+    /// With a preload the law has no such ball, because load and preload keep their ratio: it is the ball under the whole load `W`, of which every
+    /// contact carries `part`. Friction of sliding falls with it, that of spin with its power of 4/3; the torque is taken with 7/6 between them.
+    #[inline(always)]
+    pub(crate) fn on_run_in(
+        &self,
+        part: f32,
+        load: f32,
+        branch: usize,
+        friction: FrictionInterval,
+        deviations: [f32; 2],
+    ) -> FreeMotion {
+        if self.lift_off > 0.0 {
+            let motion = self.at(load, branch, friction, deviations);
+            let sixth_root = math::sqrt(math::cbrt(part));
+            FreeMotion {
+                impedance: part * motion.impedance,
+                torque: part * sixth_root * motion.torque,
+                ..motion
+            }
+        } else {
+            self.at(part * load, branch, friction, deviations)
+        }
+    }
+
     /// Whether a load `W`, N, is not above the largest for which the law was folded.
     #[inline(always)]
     #[must_use]
@@ -182,12 +210,30 @@ impl<const NODES: usize> BallLaw<NODES> {
     }
 
     /// Whether the forces between balls are held under a load `W`, N.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub fn holds_forces(&self, load: f32, branch: usize, friction: FrictionInterval) -> bool {
+        self.holds_forces_within([load; 2], branch, friction)
+    }
+
+    /// The same under every load from the larger to the lesser of two.
+    #[inline(always)]
+    pub(crate) fn holds_forces_within(
+        &self,
+        [larger, lesser]: [f32; 2],
+        branch: usize,
+        friction: FrictionInterval,
+    ) -> bool {
         let node = &self.nodes[friction.node() % NODES];
-        let KnotInterval { knot, .. } = node.interval(branch, load);
-        node.unheld[branch & 1] >> (knot % KNOTS) & 1 == 0
+        let [last, first] =
+            [larger, lesser].map(|load| node.interval(branch, load).knot as u32 % KNOTS as u32);
+        // Bits of the knots from the first to the last.
+        let beyond = if last < first {
+            0
+        } else {
+            u32::MAX << 1 << last
+        };
+        node.unheld[branch & 1] & (u32::MAX << first) & !beyond == 0
     }
 
     /// What neighbours change in balls under a load `W`, N, with a friction coefficient and these numbers of [`Self::numbers`]; `ball_friction` between

@@ -10,8 +10,8 @@ use crate::scene::{Faults, Outputs, UncagedOutputs};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FaultReaction {
-    /// Any fault ([`Faults::faulty`]): neutral. [`Faults::BEYOND_MODEL`] is no fault: its torque is the best
-    /// estimate, and stays.
+    /// Any fault ([`Faults::faulty`]): neutral. [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`] are none: their torque is
+    /// the best estimate, and stays.
     #[default]
     NeutralOnAnyFault,
     /// A value at its limit ([`Faults::SPEED_RANGE`], [`Faults::LOAD_RANGE`],
@@ -166,7 +166,8 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
         const PASSES: u16 = Faults::SPEED_RANGE.bits()
             | Faults::LOAD_RANGE.bits()
             | Faults::FRICTION_LIMIT.bits()
-            | Faults::BEYOND_MODEL.bits();
+            | Faults::BEYOND_MODEL.bits()
+            | Faults::FORCES_NOT_HELD.bits();
         match self.reaction {
             FaultReaction::NeutralOnAnyFault => faults.faulty(),
             FaultReaction::LimitedValuesPass => faults.bits() & !PASSES != 0,

@@ -8,7 +8,6 @@ mod stored;
 mod zone;
 
 pub use configuration::CircuitState;
-pub(super) use configuration::{
-    Circuit, CircuitConfiguration, LONGEST_TRACK, UNLOADED, per_loaded_ball,
-};
+pub(super) use configuration::{Circuit, CircuitConfiguration, LONGEST_TRACK, UNLOADED};
 pub use deviation::{DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
+pub(super) use zone::{LoadedBall, Sharing};

@@ -2,8 +2,8 @@
 
 /// What was wrong with a tick's inputs, limited in its outputs, or beyond the model; a set of flags.
 ///
-/// [`Faults::BEYOND_MODEL`] speaks of accuracy alone: inputs and outputs are sound, and the friction is the best estimate. It is in
-/// [`Faults::any`], and is not [`Faults::faulty`].
+/// [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`] speak of accuracy alone: inputs and outputs are sound, and what is put out is the
+/// best estimate. They are in [`Faults::any`], and are not [`Faults::faulty`].
 ///
 /// ```
 /// use epas_friction::Faults;
@@ -30,9 +30,11 @@ impl Faults {
     /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit; or it was no number, which no scene
     /// is known to make, and zero is put out.
     pub const FRICTION_LIMIT: Self = Self(1 << 4);
-    /// The mechanism is where its formulas leave the accuracy that they promise. What is put out is the best estimate, finite
-    /// and continuous: not the safe output, and no reason to take the friction away. Each scene says where this begins.
+    /// The friction that is put out is not held: the mechanism is where its formulas leave the accuracy that they promise. It is the best
+    /// estimate, finite and continuous: not the safe output, and no reason to take the friction away. Each scene says where this begins.
     pub const BEYOND_MODEL: Self = Self(1 << 5);
+    /// Forces from ball to ball are not held, while the friction is: compensation and adaptation go on.
+    pub const FORCES_NOT_HELD: Self = Self(1 << 6);
     /// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
     pub const ANGLE_NOT_VALID: Self = Self(1 << 7);
     /// The temperature is no number, or beyond its range: that of the configuration is used instead.
@@ -50,11 +52,19 @@ impl Faults {
     }
 
     /// True where an input was wrong or an output was limited: any flag but
-    /// [`Faults::BEYOND_MODEL`].
+    /// [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`].
     #[inline]
     #[must_use]
     pub const fn faulty(self) -> bool {
-        self.0 & !Self::BEYOND_MODEL.0 != 0
+        self.0 & !(Self::BEYOND_MODEL.0 | Self::FORCES_NOT_HELD.0) != 0
+    }
+
+    /// True where the friction that is put out is not that of the inputs, or is not held: any flag but [`Faults::FORCES_NOT_HELD`]. An
+    /// adaptation waits for as long.
+    #[inline]
+    #[must_use]
+    pub const fn doubtful(self) -> bool {
+        self.0 & !Self::FORCES_NOT_HELD.0 != 0
     }
 
     /// True where every flag of `other` is set.
@@ -151,6 +161,8 @@ mod tests {
     #[test]
     fn accuracy_is_no_fault() {
         assert!(Faults::BEYOND_MODEL.any() && !Faults::BEYOND_MODEL.faulty());
+        assert!(Faults::FORCES_NOT_HELD.any() && !Faults::FORCES_NOT_HELD.faulty());
+        assert!(!Faults::FORCES_NOT_HELD.doubtful() && Faults::BEYOND_MODEL.doubtful());
         assert!((Faults::BEYOND_MODEL | Faults::LOAD_RANGE).faulty());
         assert!(Faults::LOAD_RANGE.faulty() && !Faults::NONE.faulty());
     }

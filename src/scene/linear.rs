@@ -5,7 +5,7 @@ mod inputs;
 mod step;
 mod stored;
 
-use super::circuit::{Circuit, CircuitState, per_loaded_ball};
+use super::circuit::{Circuit, CircuitState};
 use super::contract::{ChangingFriction, CheckedInputs, Scene};
 use super::faults::bounded;
 use super::outputs::LinearOutputs;
@@ -65,9 +65,9 @@ pub struct LinearConstants<const N: usize> {
     tick: f32,
     per_tick: f32,
     ball: AnalyticLinearBall,
-    /// Half the sum of both diagonals' forces over the normal load, `1/(n cos beta)` for `n` loaded balls.
+    /// Half the sum of both diagonals' forces of a ball over its normal load, `1/cos(beta)`.
     normal: f32,
-    /// Half the difference of both diagonals' forces over the side load, `1/(n sin beta)`.
+    /// Half the difference of both diagonals' forces of a ball over its side load, `1/sin(beta)`.
     side: f32,
     grooves: GrooveFriction,
     /// Friction force of two balls over the force between them.
@@ -197,19 +197,14 @@ impl<const N: usize> LinearConstants<N> {
         let circuit = attempt!(configuration.circuit(&limits, N));
         let (ball, grooves) = attempt!(configuration.friction());
         let angle = bearing.contact_angle();
-        let per_ball = per_loaded_ball(
-            configuration.loaded_length,
-            configuration.return_length,
-            configuration.balls,
-        );
         Ok(Self {
             circuit,
             friction,
             tick: configuration.tick,
             per_tick: 1.0 / configuration.tick,
             ball,
-            normal: per_ball / angle.cos,
-            side: per_ball / angle.sin,
+            normal: 1.0 / angle.cos,
+            side: 1.0 / angle.sin,
             grooves,
             // Lin 2019, (3.52): balls that roll alike rub with v/cos(beta).
             rubbing: ball_friction / angle.cos,

@@ -10,7 +10,7 @@ mod stored;
 
 use core::f32::consts::TAU;
 
-use super::circuit::{Circuit, CircuitState, per_loaded_ball};
+use super::circuit::{Circuit, CircuitState};
 use super::contract::{ChangingFriction, CheckedInputs, Inputs, Limits, Scene};
 use super::outputs::UncagedOutputs;
 use super::reversal::Reversal;
@@ -35,10 +35,15 @@ pub use step::UncagedFriction;
 /// the travel of the missed ticks, and friction is that of this position: sound, but that of an earlier angle.
 /// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose positions no sensor knows, stay behind.
 ///
-/// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) is set in each tick whose load or friction coefficient is beyond those for which the law
-/// was folded, under whose load the block does not hold the forces between balls, in which friction between balls is more than the law holds
-/// ([`BallLaw::holds_rubbing`]), or takes more than 0.3 of the force on a ball under the mean load, of which a train cuts off what is more; the
-/// torque is held there all the same where the block's certificate says so.
+/// The loads of the balls add up to the axial load at every angle: a ball takes up its load, and gives it up, over a run-in of one pitch between
+/// load and return. The ball that carries most has the axial load over the balls that carry, each with its part.
+///
+/// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) is set in each tick in which the torque is not held: where the ball that carries most, or the
+/// friction coefficient, is beyond those for which the law was folded, where a ball is rubbed more than the law holds
+/// ([`BallLaw::holds_rubbing`]), or where no ball is loaded.
+/// [`Faults::FORCES_NOT_HELD`](crate::Faults::FORCES_NOT_HELD) is set where balls press and the forces between them are not held: under some load from that
+/// of the ball that carries least, the run-ins left out, to that of the one that carries most. The torque is held there all the same, as the block's
+/// certificate says.
 ///
 /// The arithmetic of a step: what a ball does on its own in `ball/pressed/numbers.rs` ([`BallNumbers`](crate::ball::pressed::BallNumbers)), which balls press in
 /// `train/pool.rs`, and how hard in `train/rubbing.rs`; `train.rs` has the words.
@@ -69,16 +74,13 @@ pub struct UncagedConstants<const N: usize, const NODES: usize = 1> {
     row: RowConstants,
     /// Deviations of one unit of the maps of screw and nut, over the law's largest.
     units: [f32; 2],
-    /// Load of the ball that carries most over the mean one.
-    heaviest: f32,
     /// Whether all balls carry the same load.
     even: bool,
+    /// Sum of the balls' lift-off loads, in the mean, N.
+    preload: f32,
     /// Time between two ticks, s, and 1 / it.
     tick: f32,
     per_tick: f32,
-    /// 1 / number of loaded balls, and their number.
-    per_ball: f32,
-    balls: f32,
     /// Torque per axial load without friction, `lead / 2 pi`, m.
     reduced_lead: f32,
     reversal: Reversal,
@@ -154,8 +156,6 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let UncagedBallScrewConfiguration {
             folded,
             ball_friction,
-            balls,
-            return_length,
             screw_deviation,
             nut_deviation,
             load_shares,
@@ -179,7 +179,6 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         attempt!(screw_deviation.checked("screw_deviation", screw));
         attempt!(nut_deviation.checked("nut_deviation", nut));
         let units = circuit.deviation_units();
-        let per_ball = per_loaded_ball(configuration.loaded_length(), return_length, balls);
         Ok(Self {
             law,
             friction: law.interval(friction),
@@ -187,12 +186,10 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             circuit,
             row: folded.row(ball_friction),
             units: [units.0 / screw, units.1 / nut],
-            heaviest: load_shares.heaviest().share(),
             even: load_shares.are_even(),
+            preload: law.lift_off / circuit.per_loaded_ball(),
             tick,
             per_tick: 1.0 / tick,
-            per_ball,
-            balls: 1.0 / per_ball,
             reduced_lead: lead / TAU,
             reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
             limits,

@@ -28,7 +28,7 @@ pub(super) struct Ball {
     slack: f32,
     force: f32,
     of_cluster: f32,
-    /// Part of the force behind it that the ball in front feels; 1 where no neighbour rubs on it.
+    /// Part of the force behind it that the ball in front feels; 1 where no neighbour counts on it.
     transmitted: f32,
     /// Change of the friction torque with the speed, N m.
     torque_slope: f32,
@@ -37,8 +37,8 @@ pub(super) struct Ball {
     /// Sixteenths of a unit beyond the position, 0 to 15.
     sixteenths: u8,
     others: u8,
-    /// Whether its neighbours rub on it: a ball without load turns as they make it.
-    rubs: bool,
+    /// Whether it counts in what the row loses.
+    counts: bool,
 }
 
 const _: () = assert!(size_of::<Ball>() == 36);
@@ -57,7 +57,7 @@ impl Ball {
         position: 0,
         sixteenths: 0,
         others: 0,
-        rubs: false,
+        counts: false,
     };
 
     /// Free speed, impedance and [`slack`](Self::slack).
@@ -72,7 +72,7 @@ impl Ball {
     #[inline(always)]
     pub(super) fn take_in_rubbed(&mut self, rubbed: &RubbedBall, slack: f32) {
         let grip = Grip::within(rubbed.grip);
-        self.rubs = true;
+        self.counts = rubbed.counts;
         self.transmitted = grip.transmitted();
         self.torque_slope = rubbed.torque_slope;
         self.take_in(rubbed.speed, rubbed.impedance * grip.of_impedance(), slack);
@@ -84,10 +84,10 @@ impl Ball {
         self.torque_slope
     }
 
-    /// No neighbour rubs on it.
+    /// No neighbour counts on it.
     #[inline(always)]
     pub(super) fn set_smooth(&mut self) {
-        self.rubs = false;
+        self.counts = false;
         self.transmitted = 1.0;
     }
 
@@ -97,10 +97,10 @@ impl Ball {
         self.transmitted
     }
 
-    /// Whether neighbours rub on it.
+    /// Whether it counts in what the row loses.
     #[inline(always)]
-    pub(super) fn rubs(&self) -> bool {
-        self.rubs
+    pub(super) fn counts(&self) -> bool {
+        self.counts
     }
 
     /// Puts in the slack alone, where the ball in front was not known when the ball was taken in.

@@ -91,7 +91,7 @@ mod tests {
                 speed: free[j],
                 impedance: impedance[j],
                 grip: grip[j],
-                torque_slope: 0.0,
+                ..RubbedBall::default()
             });
             assert!(
                 press

@@ -69,6 +69,8 @@ pub struct RubbedBall {
     pub grip: f32,
     /// Change of the friction torque with the speed at [`Losses::held_speed`], N m.
     pub torque_slope: f32,
+    /// Whether [`Losses`] hold for it.
+    pub counts: bool,
 }
 
 /// How the friction torque of a row follows from its balls' speeds `v` and their neighbours' forces:

@@ -152,7 +152,7 @@ impl<const LAST: bool> Settling<LAST> {
     /// Adds what a ball loses with the forces of both neighbours.
     #[inline(always)]
     fn lose(&mut self, ball: &Ball, forces: f32) {
-        if LAST && ball.rubs() {
+        if LAST && ball.counts() {
             let (speed, slope) = (ball.speed(), ball.torque_slope());
             self.losses.add(&mut self.sums, speed, slope, forces);
         }

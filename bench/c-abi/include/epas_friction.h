@@ -782,10 +782,16 @@ extern "C" {
 #define EPAS_FAULT_FRICTION_LIMIT 16u
 
 /**
- * The mechanism is where its formulas leave the accuracy that they promise: the friction is the best estimate. No fault of
+ * The friction is not held: the mechanism is where its formulas leave the accuracy that they promise. It is the best estimate. No fault of
  * the inputs: the faulted ticks do not count it.
  */
 #define EPAS_FAULT_BEYOND_MODEL 32u
+
+/**
+ * Forces from ball to ball are not held, while the friction is. No fault of the inputs: the faulted ticks do not count it, and an
+ * adaptation goes on.
+ */
+#define EPAS_FAULT_FORCES_NOT_HELD 64u
 
 /**
  * A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
@@ -1591,7 +1597,7 @@ typedef struct epas_screw_circuit_t {
      */
     const struct epas_deviation_t *nut_deviation;
     /**
-     * Load of a ball over the mean load, in equal parts of the loaded track from its start, for loads of
+     * Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start, for loads of
      * both signs, or NULL for the mean load everywhere; it has to stay too.
      */
     const struct epas_load_share_t *load_shares;
@@ -1791,7 +1797,7 @@ typedef struct epas_linear_configuration_t {
      */
     const struct epas_deviation_t *carriage_deviation;
     /**
-     * Load of a ball over the mean load, in equal parts of the loaded track from its start, or NULL for the
+     * Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start, or NULL for the
      * mean load everywhere; it has to stay too.
      */
     const struct epas_load_share_t *load_shares;
@@ -2164,7 +2170,8 @@ uint32_t epas_caged_step(struct epas_caged_t *place,
 uint32_t epas_caged_reset(struct epas_caged_t *place);
 
 /**
- * Consecutive ticks with a fault; 0 after a sound tick, and after one whose only flag is `EPAS_FAULT_BEYOND_MODEL`.
+ * Consecutive ticks with a fault; 0 after a sound tick, and after one whose only flags are `EPAS_FAULT_BEYOND_MODEL` and
+ * `EPAS_FAULT_FORCES_NOT_HELD`.
  */
 uint32_t epas_caged_faulted_ticks(const struct epas_caged_t *place,
                                   uint32_t *ticks);

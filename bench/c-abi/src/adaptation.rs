@@ -9,8 +9,8 @@ use epas_friction::{Faults, Regime};
 use crate::memory::level;
 use crate::status::Failure;
 use crate::types::{
-    EPAS_ADAPTATION_STATE_BYTES, EPAS_ADAPTATION_WORDS, EPAS_FAULT_CALL, EPAS_REGIME_BACK_DRIVING,
-    EPAS_REGIME_DRIVING, EPAS_REGIME_LOCKED,
+    EPAS_ADAPTATION_STATE_BYTES, EPAS_ADAPTATION_WORDS, EPAS_FAULT_CALL,
+    EPAS_FAULT_FORCES_NOT_HELD, EPAS_REGIME_BACK_DRIVING, EPAS_REGIME_DRIVING, EPAS_REGIME_LOCKED,
 };
 use crate::version::mark;
 
@@ -244,8 +244,8 @@ pub(crate) const fn inputs(inputs: &AdaptationInputs) -> CrateInputs {
             EPAS_REGIME_LOCKED => Regime::Locked,
             _ => Regime::Standing,
         },
-        // Any fault does.
-        faults: if inputs.faults == 0 {
+        // Any fault does that leaves the friction in doubt.
+        faults: if inputs.faults & !EPAS_FAULT_FORCES_NOT_HELD == 0 {
             Faults::NONE
         } else {
             Faults::BEYOND_MODEL

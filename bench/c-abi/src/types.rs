@@ -34,9 +34,12 @@ pub const EPAS_FAULT_SPEED_RANGE: u32 = 4u32;
 pub const EPAS_FAULT_LOAD_RANGE: u32 = 8u32;
 /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit.
 pub const EPAS_FAULT_FRICTION_LIMIT: u32 = 16u32;
-/// The mechanism is where its formulas leave the accuracy that they promise: the friction is the best estimate. No fault of
+/// The friction is not held: the mechanism is where its formulas leave the accuracy that they promise. It is the best estimate. No fault of
 /// the inputs: the faulted ticks do not count it.
 pub const EPAS_FAULT_BEYOND_MODEL: u32 = 32u32;
+/// Forces from ball to ball are not held, while the friction is. No fault of the inputs: the faulted ticks do not count it, and an
+/// adaptation goes on.
+pub const EPAS_FAULT_FORCES_NOT_HELD: u32 = 64u32;
 /// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
 pub const EPAS_FAULT_ANGLE_NOT_VALID: u32 = 128u32;
 /// The temperature is NaN or beyond its range: the last one, or the bound, stands in for it.
@@ -235,7 +238,7 @@ pub struct ScrewCircuit {
     /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, or NULL
     /// for none; it has to stay too.
     pub nut_deviation: *const Deviation,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start, for loads of
+    /// Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start, for loads of
     /// both signs, or NULL for the mean load everywhere; it has to stay too.
     pub load_shares: *const LoadShare,
     /// Elements of `load_shares`, 1 to 256; not read where that is NULL.
@@ -373,7 +376,7 @@ pub struct LinearConfiguration {
     pub rail_deviation: *const Deviation,
     /// Deviation of the contact angles along the carriage, or NULL for none; it has to stay too.
     pub carriage_deviation: *const Deviation,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start, or NULL for the
+    /// Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start, or NULL for the
     /// mean load everywhere; it has to stay too.
     pub load_shares: *const LoadShare,
     /// Elements of `load_shares`, 1 to 256; not read where that is NULL.

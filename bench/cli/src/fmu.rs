@@ -35,8 +35,8 @@ pub use scene::SceneName;
 pub use unit::{Stored, Unit};
 pub use variables::{Causality, Choice, Kind, Variable};
 
-/// The flag of accuracy alone: nothing is wrong with the inputs.
-pub const ACCURACY: u32 = Faults::BEYOND_MODEL.bits() as u32;
+/// The flags of accuracy alone: nothing is wrong with the inputs.
+pub const ACCURACY: u32 = (Faults::BEYOND_MODEL.bits() | Faults::FORCES_NOT_HELD.bits()) as u32;
 
 /// What flags mean, in words.
 pub fn fault_words(faults: u32) -> String {

@@ -255,7 +255,8 @@ fn flags(
         }
     }
     // What the sensors deliver says nothing of friction's limit, nor of the model's accuracy.
-    let beside_torque = faults.bits() & !(Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL).bits();
+    let said = Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL | Faults::FORCES_NOT_HELD;
+    let beside_torque = faults.bits() & !said.bits();
     if beside_torque == expected.bits() {
         Ok(lost)
     } else {

@@ -80,6 +80,7 @@ pub fn row(random: &mut Random, balls: usize) -> Promised {
                     axial_load: side * random.between(5_f64.ln(), 300_f64.ln()).exp(),
                 })
                 .collect(),
+            chord: true,
             integration: Integration::Full,
         },
     }

@@ -31,7 +31,7 @@ const fn flag(fault: Faults, [name, short, meaning, reaction]: [&'static str; 4]
 }
 
 /// Every flag, in the order of their bits.
-pub const FLAGS: [Flag; 10] = [
+pub const FLAGS: [Flag; 11] = [
     flag(
         Faults::SPEED_NOT_FINITE,
         [
@@ -84,6 +84,15 @@ pub const FLAGS: [Flag; 10] = [
             "beyond the model",
             "outside the block's domain: best estimate",
             "keep compensating; do not adapt",
+        ],
+    ),
+    flag(
+        Faults::FORCES_NOT_HELD,
+        [
+            "FORCES_NOT_HELD",
+            "forces not held",
+            "forces between balls are not held, the torque is",
+            "go on",
         ],
     ),
     flag(
@@ -186,7 +195,7 @@ mod tests {
         let both = Faults::BEYOND_MODEL | Faults::LOAD_RANGE;
         assert_eq!(words(both), "LOAD_RANGE|BEYOND_MODEL");
         assert!(every_set().contains(&(both.bits(), words(both))));
-        assert_eq!(every_set().len(), 1024);
+        assert_eq!(every_set().len(), 2048);
     }
 
     /// README's table has every flag with its bit and its reaction.

@@ -103,6 +103,7 @@ impl LoadedScrew {
                 nut_deviation: 0.0,
                 axial_load: self.axial_load / self.balls,
             }],
+            chord: true,
             integration: Integration::Full,
         };
         let mut motion = row.solve()?;

@@ -6,14 +6,21 @@
 //! is fixed to the track, the screw's passes by with the nut's angle. Each ball has its own axial load, and finds place and motion as in
 //! [`super::ball_screw_row`].
 //!
+//! A ball takes up its load, and gives it up, over a run-in between load and return: in proportion to the way over the distance of two touching
+//! balls, half of it on either side of the border (over the whole return where that is shorter). Its weight is this part of its load share, and the
+//! loads of all balls are the axial load times their weights over the sum of these, so that they add up to the axial load at every instant.
+//! A preload runs in with it: on the run-in the oversize is less, by the power of 2/3, so that what it presses with is in proportion to the way.
+//!
 //! At every instant the forces between touching balls are those of a complementarity problem on the actual speeds: forces push, no ball
 //! overtakes the one in front, and balls that press are equally fast. From instant to instant the balls move with their speeds; where two of
 //! them meet or part inside a step, or one enters or leaves the loaded part, the instant is located and solved. So balls never overlap, and
 //! those that press move as one. Friction of Coulomb does not depend on the size of the speed: what counts is the nut's angle, its
 //! direction and the load.
 //!
-//! Left out: a ball's inertia; the run into and out of the load, which sets in at once; friction between balls one of which carries no load;
-//! and, unless [`ElasticRing::chord`] asks for it, the part of the force between two balls that points outward (`sin b` of it, 7 to 17 %).
+//! Two balls rub on each other by the lesser of their parts of load: not at all where one of them carries none.
+//!
+//! The force between two balls acts along the chord between their centres: a part of it (`sin b`, 7 to 17 %) points outward, unless
+//! [`ElasticRing::chord`] leaves it out. Left out: a ball's inertia.
 //! Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
 //!
 //! [`super::whole_screw`] is the same screw by a closed form of each ball, for one speed, one load and one wave of deviation.
@@ -57,9 +64,10 @@ pub struct ElasticRing {
     pub screw_deviation: GrooveDeviation,
     /// Deviation of the nut's groove by the azimuth from the start of the loaded track.
     pub nut_deviation: GrooveDeviation,
-    /// Loads of the balls over their mean, 0 to 100, in equal parts of the loaded track from its start; empty for equal loads.
+    /// Loads of the balls over their mean, 0 to 100, at the middles of equal parts of the loaded track from its start, linear between them; empty
+    /// for equal loads.
     pub load_shares: Vec<f64>,
-    /// Whether forces between balls have the part that points outward because the track is curved.
+    /// Whether forces between balls have the part that points outward because the track is curved: yes, but for figures of papers without it.
     pub chord: bool,
     /// Azimuths of the balls from the start of the track, rad, rising; empty for balls at equal distances from there.
     pub places: Vec<f64>,
@@ -106,6 +114,8 @@ pub struct RingBall {
     pub force: f64,
     /// Distance to the next ball of the list between their surfaces, as an azimuth, rad.
     pub gap: f64,
+    /// Axial force of the screw on the ball, N; zero in the return.
+    pub axial_load: f64,
     /// Loads of SL, SR, NL, NR, N; zero in the return.
     pub loads: [f64; 4],
 }
@@ -226,6 +236,9 @@ impl ElasticRing {
         let track = RingTrack {
             length: self.length(),
             loaded: TAU * self.turns,
+            run_in: pitch
+                .min(TAU * self.turns)
+                .min(self.return_length / self.track().path_radius()),
             pitch,
             per_ball: self.length() / (TAU * self.turns * self.balls as f64),
             laws,
@@ -275,10 +288,32 @@ pub(crate) struct RingTrack {
     /// Whole length, and that of the loaded part.
     pub length: f64,
     pub loaded: f64,
+    /// Over which a ball takes up its load, half of it before the loaded part.
+    pub run_in: f64,
     /// Between the centres of two touching balls.
     pub pitch: f64,
     /// 1 / number of loaded balls, where all balls are spread evenly over the track.
     pub per_ball: f64,
     /// Contact laws on screw and nut.
     pub laws: [HertzLaw; 2],
+}
+
+impl RingTrack {
+    /// The azimuth at which the grooves are met, from the start of the loaded part: below zero on the run-in before it.
+    pub fn azimuth(&self, place: f64) -> f64 {
+        if place < self.loaded + 0.5 * self.run_in {
+            place
+        } else {
+            place - self.length
+        }
+    }
+
+    /// Part of its load that a ball carries at an azimuth: 1 between the run-ins, 0 in the return.
+    pub fn part(&self, azimuth: f64) -> f64 {
+        if self.run_in == 0.0 {
+            return 1.0;
+        }
+        let beyond_border = azimuth.min(self.loaded - azimuth);
+        (beyond_border / self.run_in + 0.5).clamp(0.0, 1.0)
+    }
 }

@@ -3,6 +3,7 @@
 //! Between two instants every ball moves with the speed of the last one, and with the change that this speed had before it: second order in
 //! the step. Where two balls meet, where a force that falls ends, or where a ball crosses the border of the loaded part, the step is split.
 
+use super::ball_screw_grooves::ElasticGrooves;
 use super::ball_screw_placed::{Drive, PlacedBall, Rubbing, STICK_SPIN};
 use super::ball_screw_ring::{ElasticRing, RingBall, RingSample, RingState, RingTrack};
 use super::ball_screw_ring_order::Neighbours;
@@ -16,6 +17,8 @@ use crate::error::{ReferenceError, within};
 const TOUCHING: f64 = 1e-12;
 /// Load below which a ball without preload carries none, N. A preloaded ball is given as much.
 const NO_LOAD: f64 = 1e-6;
+/// Part of its load below which a ball on the run-in counts as one of the return.
+const LEAST_PART: f64 = 1e-3;
 /// Part of a step below which it is not split for a force that ends.
 const SHORT: f64 = 1e-3;
 /// Forces that end by which a step is split at most.
@@ -218,7 +221,8 @@ impl<'a> March<'a> {
             for (ball, place) in self.places().iter().enumerate() {
                 let speed = direction * (self.speeds[ball] - 1.0);
                 let faster = direction * self.rates.speeds[ball];
-                for border in [0.0, self.track.loaded] {
+                let half = (0.5 - LEAST_PART) * self.track.run_in;
+                for border in [-half, self.track.loaded + half] {
                     let ahead = (border - place) * speed.signum();
                     let ahead = ahead.rem_euclid(self.track.length);
                     let rate = faster * speed.signum();
@@ -269,18 +273,49 @@ impl<'a> March<'a> {
         places
     }
 
+    /// Load of a ball at an azimuth over the mean, linear between the middles of the parts.
+    fn share(&self, azimuth: f64) -> f64 {
+        let shares = &self.ring.load_shares;
+        let Some(last) = shares.len().checked_sub(1) else {
+            return 1.0;
+        };
+        let from_middle = azimuth / self.track.loaded * shares.len() as f64 - 0.5;
+        let entry = |at: f64| {
+            if self.track.run_in == 0.0 {
+                // Without a return the first part follows on the last.
+                shares[at.rem_euclid(shares.len() as f64) as usize % shares.len()]
+            } else {
+                shares[at.clamp(0.0, last as f64) as usize]
+            }
+        };
+        let below = from_middle.floor();
+        let (first, second) = (entry(below), entry(below + 1.0));
+        first + (from_middle - below) * (second - first)
+    }
+
     /// What every ball finds where it is.
     fn seats(&self, axial_load: f64) -> Vec<Option<Seat>> {
-        let shares = &self.ring.load_shares;
-        self.places()
+        let azimuths: Vec<f64> = self
+            .places()
             .iter()
-            .map(|place| {
-                if *place >= self.track.loaded {
+            .map(|place| self.track.azimuth(*place))
+            .collect();
+        let parts = azimuths.iter().map(|azimuth| self.track.part(*azimuth));
+        let parts: Vec<f64> = parts
+            .map(|part| if part < LEAST_PART { 0.0 } else { part })
+            .collect();
+        let weights: Vec<f64> = azimuths
+            .iter()
+            .zip(&parts)
+            .map(|(azimuth, part)| part * self.share(*azimuth))
+            .collect();
+        let whole: f64 = weights.iter().sum();
+        (0..azimuths.len())
+            .map(|ball| {
+                if parts[ball] == 0.0 {
                     return None;
                 }
-                let part = place / self.track.loaded * shares.len() as f64;
-                let share = shares.get(part as usize).copied().unwrap_or(1.0);
-                let load = axial_load * share * self.track.per_ball;
+                let load = axial_load * weights[ball] / whole.max(f64::MIN_POSITIVE);
                 let axial_load = if load.abs() > NO_LOAD {
                     load
                 } else if self.ring.clearance < 0.0 {
@@ -288,12 +323,20 @@ impl<'a> March<'a> {
                 } else {
                     return None;
                 };
-                let screw = self.ring.screw_deviation.at(place + self.nut_angle);
-                let nut = self.ring.nut_deviation.at(*place);
+                let azimuth = azimuths[ball];
+                let screw = self.ring.screw_deviation.at(azimuth + self.nut_angle);
+                let nut = self.ring.nut_deviation.at(azimuth);
                 let grooves = self.ring.grooves(&self.track.laws, screw, nut);
                 Some(Seat {
-                    grooves,
+                    grooves: ElasticGrooves {
+                        oversize: grooves
+                            .oversize
+                            .max(0.0)
+                            .mul_add(parts[ball].powf(2.0 / 3.0), grooves.oversize.min(0.0)),
+                        ..grooves
+                    },
                     axial_load,
+                    part: parts[ball],
                 })
             })
             .collect()
@@ -411,6 +454,7 @@ impl<'a> March<'a> {
             .map(|(ball, place)| RingBall {
                 place: *place,
                 gap: self.gaps[ball],
+                axial_load: seats[ball].map_or(0.0, |seat| seat.axial_load),
                 speed: settled.map_or(f64::NAN, |s| s.speeds[ball] * sample.nut_speed),
                 force: settled.map_or(f64::NAN, |s| between.normal_force(s.forces[ball])),
                 loads: match (settled.map(|s| s.states[ball]), &seats[ball]) {

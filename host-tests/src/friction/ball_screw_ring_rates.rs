@@ -68,7 +68,15 @@ impl Last {
         {
             return rates;
         }
-        let jumps = |ball: &usize| sudden(now.loads[*ball], self.loads[*ball]);
+        // On the run-in a load changes with the place, as much as it is of that of the others.
+        let largest = now
+            .loads
+            .iter()
+            .fold(0.0, |most: f64, load| most.max(load.abs()));
+        let jumps = |ball: &usize| {
+            let (now, before) = (now.loads[*ball], self.loads[*ball]);
+            (now == 0.0) != (before == 0.0) || (now - before).abs() > SUDDEN * largest
+        };
         let kept = |ball: &usize| {
             if jumps(ball) {
                 0.0

@@ -33,6 +33,8 @@ pub(crate) struct Seat {
     pub grooves: ElasticGrooves,
     /// Axial force of the screw on the ball, N.
     pub axial_load: f64,
+    /// Part of its load that it carries on the run-in, 1 between the run-ins.
+    pub part: f64,
 }
 
 /// What is given at an instant. Balls stand in the order of the track; ball `j` touches the next one where `touching[j]`, the last the first.
@@ -268,7 +270,9 @@ impl<'a> Instant<'a> {
                         );
                         let state = |ball: usize| moving[ball].as_ref().map(|m| m.state);
                         match (state(pair[0]), state(pair[1])) {
-                            (Some(rear), Some(front)) => self.between.slope(force, &rear, &front),
+                            (Some(a), Some(b)) => {
+                                self.contact(pair[0], pair[1]).slope(force, &a, &b)
+                            }
                             _ => self.between.smooth().slope(force, &idle, &idle),
                         }
                     })
@@ -311,6 +315,12 @@ impl<'a> Instant<'a> {
             })
             .collect();
         Some((targets, wanted))
+    }
+
+    /// Contact of two balls: on the run-in they rub by the lesser of their parts, so that friction sets in with the load.
+    fn contact(&self, rear: usize, front: usize) -> BallContact {
+        let part = |ball: usize| self.seats[ball].map_or(0.0, |seat| seat.part);
+        self.between.in_part(part(rear).min(part(front)))
     }
 
     /// Laws of speed and force of all balls.
@@ -357,7 +367,7 @@ impl<'a> Instant<'a> {
                 continue;
             }
             if let (Some(a), Some(b)) = (&states[rear], &states[front]) {
-                let between = self.between.between(force, a, b);
+                let between = self.contact(rear, front).between(force, a, b);
                 all[rear] += between.on_rear;
                 all[front] += between.on_front;
                 loss += between.loss;
@@ -387,8 +397,8 @@ impl<'a> Instant<'a> {
     /// load, with a gap somewhere.
     fn by_rows(&self) -> Result<Settled, ReferenceError> {
         let n = self.seats.len();
-        if self.touching.iter().all(|touching| *touching) || self.seats.iter().any(Option::is_none)
-        {
+        let whole = |seat: &Option<Seat>| seat.is_some_and(|seat| seat.part == 1.0);
+        if self.touching.iter().all(|touching| *touching) || !self.seats.iter().all(whole) {
             return Err(ReferenceError::unbalanced(f64::INFINITY));
         }
         let mut states = vec![None; n];

@@ -9,8 +9,8 @@
 //! and where a force is not zero the two speeds are equal. A ball's speed rises strictly with the force that pushes it, so that the solution
 //! is unique: it is the isotonic regression of the free speeds, each ball with its own nonlinear law.
 //!
-//! Left out: the part of the force between two balls that points away from the track (`sin b` of it, 7 to 17 %), which moves them outward in
-//! their grooves, and what a ball's rotation adds to it. Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
+//! The force between two balls acts along the chord between their centres: a part of it (`sin b`, 7 to 17 %) points outward and moves them in their
+//! grooves, unless [`ElasticRow::chord`] leaves it out. Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77), the last as complementarity on the actual speeds.
 
@@ -53,6 +53,8 @@ pub struct ElasticRow {
     pub nut_speed: f64,
     /// Balls.
     pub balls: Vec<RowBall>,
+    /// Whether forces between balls have the part that points outward because the track is curved: yes, but for figures of papers without it.
+    pub chord: bool,
     /// Nodes of the contact integrals: [`Integration::Full`], but to compare with stored cases of fewer.
     pub integration: Integration,
 }
@@ -133,7 +135,7 @@ impl ElasticRow {
             .map(|ball| settle(ball, Drive::Force(0.0), None))
             .collect::<Result<Vec<_>, _>>()?;
         let track = (&self.design).into();
-        let contact = BallContact::new(&track, self.ball_friction, direction, false);
+        let contact = BallContact::new(&track, self.ball_friction, direction, self.chord);
         // Balls that hardly hold their spin answer friction between them too much for passes.
         let pressing = press_and_rub(&mut balls, &free, &contact)
             .or_else(|_| self.at_once(&balls, &free, contact))?;
@@ -148,7 +150,11 @@ impl ElasticRow {
             power_error: pressing.power_error(&balls),
             ball_loss: pressing.ball_loss * unit,
             pressing: self.results(&balls, &pressing.balls),
-            contact_forces: pressing.forces,
+            contact_forces: pressing
+                .forces
+                .iter()
+                .map(|along| contact.normal_force(*along))
+                .collect(),
             residual,
         };
         if result.power_error.abs() <= POWER_ERROR {
@@ -184,6 +190,7 @@ impl ElasticRow {
                 Some(Seat {
                     grooves: *ball.grooves,
                     axial_load: ball.axial_load,
+                    part: 1.0,
                 })
             })
             .collect();

@@ -224,8 +224,13 @@ impl BallContact {
 
     /// The same contact where balls do not rub.
     pub fn smooth(self) -> Self {
+        self.in_part(0.0)
+    }
+
+    /// The same contact with a part of its friction.
+    pub fn in_part(self, part: f64) -> Self {
         Self {
-            friction: 0.0,
+            friction: part * self.friction,
             ..self
         }
     }

@@ -312,6 +312,8 @@ mod tests {
             ball_friction,
             nut_speed: 1.0,
             balls,
+            // The ball of a law feels no force that points outward.
+            chord: false,
             integration: Integration::Full,
         }
     }

@@ -130,13 +130,15 @@ impl NeighbourNumbers {
     }
 }
 
-/// A ball under its own load: what it does alone, its `mu W`, N, and its deviations.
+/// A ball of a row under its own load.
 #[derive(Clone, Copy, Debug)]
-pub struct LoadedBall {
-    /// Alone.
+pub struct BallOfRow {
+    /// What it does alone, with what it carries on a run-in.
     pub alone: FreeMotion,
-    /// `mu W`, N.
+    /// `mu W`, N, beyond the run-in.
     pub sliding: f32,
+    /// Part of its load that it carries on a run-in, above 0; else 1. What neighbours change in it sets in with it.
+    pub part: f32,
     /// Deviations of both grooves, each over its largest.
     pub deviations: [f32; 2],
 }
@@ -145,12 +147,12 @@ impl NeighbourLaw {
     /// A ball in the first pass: each has the friction of neighbours that press with `mu W`, `m = 2 mu_b`.
     #[inline(always)]
     #[must_use]
-    pub fn first(&self, ball: &LoadedBall) -> RubbedBall {
+    pub fn first(&self, ball: &BallOfRow) -> RubbedBall {
         let at = |nodes: &[f32; 3]| line(nodes, ball.deviations);
         let place = Place::of(2.0 * self.ball_friction);
         let [push, _] = place.value(&self.numbers.push, at);
         let [stiffness, _] = place.value(&self.numbers.impedance, at);
-        let grip = limited_grip(0.5 * push + at(&self.numbers.outward));
+        let grip = limited_grip(ball.part * (0.5 * push + at(&self.numbers.outward)));
         self.rubbed(ball, stiffness, 0.0, grip)
     }
 
@@ -158,7 +160,7 @@ impl NeighbourLaw {
     /// what its deviations change of the torque that rubbing adds, N m.
     #[inline(always)]
     #[must_use]
-    pub fn second(&self, ball: &LoadedBall, found: Pressed) -> (RubbedBall, f32) {
+    pub fn second(&self, ball: &BallOfRow, found: Pressed) -> (RubbedBall, f32) {
         let at = |nodes: &[f32; 3]| line(nodes, ball.deviations);
         let numbers = &self.numbers;
         let rubbing = self.ball_friction * found.forces / ball.sliding;
@@ -167,23 +169,36 @@ impl NeighbourLaw {
         let [stiffness, stiffening] = place.value(&numbers.impedance, at);
         let [by_deviations, _] = place.value(&numbers.torque, |nodes| at(nodes) - nodes[0]);
         let change = by_rubbing + stiffening * (found.speed - self.held_speed);
-        let outward = at(&numbers.outward);
-        let grip = limited_grip(self.ball_friction * change + outward);
-        // What the train cuts off stays as it is at these forces.
-        let constant = push - (grip - outward) * found.forces / ball.sliding;
-        let rubbed = self.rubbed(ball, stiffness, constant, grip);
+        let outward = ball.part * at(&numbers.outward);
+        let grip = limited_grip(ball.part * (self.ball_friction * change) + outward);
+        let rubbed = if ball.part == 1.0 {
+            // What the train cuts off stays as it is at these forces.
+            let constant = push - (grip - outward) * found.forces / ball.sliding;
+            self.rubbed(ball, stiffness, constant, grip)
+        } else {
+            let constant = push - (grip - outward) * found.forces / (ball.part * ball.sliding);
+            let rubbed = self.rubbed(ball, stiffness, constant, grip);
+            // The walk that adds up losses has those of balls beyond the run-in.
+            let change = found.speed - self.held_speed;
+            let by_speed =
+                (rubbed.torque_slope + self.curvature * ball.alone.impedance * change) * change;
+            let [middle, _] = place.value(&numbers.torque, |nodes| nodes[0]);
+            let by_rubbing = ball.part * ball.sliding * (middle + by_deviations);
+            return (rubbed, self.held(ball) + by_speed + by_rubbing);
+        };
         (rubbed, self.held(ball) + by_deviations * ball.sliding)
     }
 
     /// A ball whose neighbours do not rub, but press it outward; and what its friction torque is more at `v_h` than free, N m.
     #[inline(always)]
     #[must_use]
-    pub fn smooth(&self, ball: &LoadedBall) -> (RubbedBall, f32) {
+    pub fn smooth(&self, ball: &BallOfRow) -> (RubbedBall, f32) {
         let rubbed = RubbedBall {
             speed: ball.alone.speed,
             impedance: ball.alone.impedance,
-            grip: limited_grip(line(&self.numbers.outward, ball.deviations)),
+            grip: limited_grip(ball.part * line(&self.numbers.outward, ball.deviations)),
             torque_slope: self.torque_slope(ball),
+            counts: ball.part == 1.0,
         };
         (rubbed, self.held(ball))
     }
@@ -202,33 +217,37 @@ impl NeighbourLaw {
 
     /// What a ball alone loses more at `v_h` than at its free speed, N m.
     #[inline(always)]
-    fn held(&self, ball: &LoadedBall) -> f32 {
+    fn held(&self, ball: &BallOfRow) -> f32 {
         let change = self.held_speed - ball.alone.speed;
-        (self.slope * ball.sliding + self.curvature * ball.alone.impedance * change) * change
+        let slope = self.slope * (ball.part * ball.sliding);
+        (slope + self.curvature * ball.alone.impedance * change) * change
     }
 
     /// Change of that with the speed there, N m.
     #[inline(always)]
-    fn torque_slope(&self, ball: &LoadedBall) -> f32 {
+    fn torque_slope(&self, ball: &BallOfRow) -> f32 {
         let change = self.held_speed - ball.alone.speed;
-        self.slope * ball.sliding + 2.0 * self.curvature * ball.alone.impedance * change
+        self.slope * (ball.part * ball.sliding)
+            + 2.0 * self.curvature * ball.alone.impedance * change
     }
 
     /// With an impedance and a push more than the ball alone has, over `mu W`.
     #[inline(always)]
-    fn rubbed(&self, ball: &LoadedBall, stiffness: f32, push: f32, grip: f32) -> RubbedBall {
+    fn rubbed(&self, ball: &BallOfRow, stiffness: f32, push: f32, grip: f32) -> RubbedBall {
         let FreeMotion {
             speed, impedance, ..
         } = ball.alone;
         let [least, most] = STIFFENING.map(|factor| factor * impedance);
-        let stiff = bounded(impedance + ball.sliding * stiffness, least, most);
+        let sliding = ball.part * ball.sliding;
+        let stiff = bounded(impedance + sliding * stiffness, least, most);
         let held = self.held_speed - speed;
-        let free = speed + ((stiff - impedance) * held - ball.sliding * push) / stiff;
+        let free = speed + ((stiff - impedance) * held - sliding * push) / stiff;
         RubbedBall {
             speed: bounded(free, -LARGEST_SPEED, LARGEST_SPEED),
             impedance: stiff,
             grip,
             torque_slope: self.torque_slope(ball),
+            counts: ball.part == 1.0,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::deviation::DeviationMap;
 use super::phase::Phase;
-use super::zone::{LoadedBall, LoadedZone};
+use super::zone::{Lengths, LoadedBall, LoadedZone, Sharing};
 use crate::ball::{LoadShare, LoadShares};
 use crate::error::{Error, attempt, in_range};
 use crate::train::{IMPEDANCE_RANGE, LARGEST_TRAVEL, Track, Train};
@@ -59,6 +59,8 @@ pub(crate) struct Circuit {
     pub(super) zone: LoadedZone,
     pub(super) track: Track,
     balls: u16,
+    /// 1 / mean number of loaded balls.
+    per_loaded_ball: f32,
     /// Travel of the balls along the track in a tick, over the speed of the motion: negative, because the track runs
     /// along with the body that moves.
     travel: f32,
@@ -87,8 +89,12 @@ impl CircuitConfiguration {
         attempt!(in_range("balls", self.balls as f32, 1.0, most as f32));
         let track = attempt!(Track::new(length, self.pitch, self.balls as usize));
         let zone = attempt!(LoadedZone::new(
-            self.loaded_turns,
-            length / self.turn_length,
+            &Lengths {
+                loaded: self.loaded_turns,
+                returning: self.return_length / self.turn_length,
+                length: length / self.turn_length,
+                pitch: self.pitch / self.turn_length,
+            },
             self.passing_deviation,
             self.recirculating_deviation,
             self.load_shares,
@@ -102,15 +108,11 @@ impl CircuitConfiguration {
             zone,
             track,
             balls: self.balls,
+            per_loaded_ball: length / (self.loaded_length * self.balls as f32),
             travel: -self.travel_per_motion * tick,
             advance: zone.phase_per_turn() * tick / self.motion_per_turn,
         })
     }
-}
-
-/// 1 / number of loaded balls, where so many balls are spread evenly over loaded track and return.
-pub(crate) const fn per_loaded_ball(loaded_length: f32, return_length: f32, balls: u16) -> f32 {
-    (loaded_length + return_length) / (loaded_length * balls as f32)
 }
 
 impl Circuit {
@@ -118,6 +120,11 @@ impl Circuit {
     #[inline(always)]
     pub(crate) const fn deviation_units(&self) -> (f32, f32) {
         self.zone.units()
+    }
+
+    /// 1 / mean number of loaded balls.
+    pub(crate) const fn per_loaded_ball(&self) -> f32 {
+        self.per_loaded_ball
     }
 
     /// Travel of a nominal ball along the track in a tick at a speed of the motion, m.
@@ -130,6 +137,16 @@ impl Circuit {
     #[inline(always)]
     pub(crate) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
         self.zone.shares(negative)
+    }
+
+    /// How the balls share a load where they are, by the [`Circuit::shares`] of this tick.
+    #[inline(always)]
+    pub(crate) fn sharing<const N: usize>(
+        &self,
+        state: &CircuitState<N>,
+        shares: &'static [LoadShare],
+    ) -> Sharing {
+        self.zone.sharing(state.train.positions(), shares)
     }
 
     /// The ball at a position of the track, if it is loaded there, by the [`Circuit::shares`] of this tick.

@@ -3,7 +3,7 @@
 use crate::error::Range;
 use crate::stored::{Port, Refusal, Stored};
 
-/// Units of a period.
+/// Units of a period of the passing groove, and of a track.
 pub(super) const UNITS: f32 = 4_294_967_296.0;
 
 /// A phase that advances by parts of a unit and wraps around.

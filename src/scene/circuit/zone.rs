@@ -12,14 +12,28 @@ const FRACTION_BITS: u32 = 16;
 ///
 /// The track runs through the body in which balls recirculate (nut, carriage): first the loaded part,
 /// then the return. The other groove (screw, rail) passes by.
+///
+/// Between load and return is a run-in of one pitch, half of it on either side of the border (of the whole return where that is shorter):
+/// on it a ball takes up its load in proportion to the way, so that as many balls carry in the mean as stand on the loaded part, and where
+/// balls touch the sum of their parts is the same at every angle. A track without return has no run-in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct LoadedZone {
-    /// Entries of the load table along the whole track: balls are loaded as long as the table lasts.
+    /// Half the length of a run-in, that of a whole one, and that from the begin of the first to the end of the last, in units of 2^-32 of
+    /// the track.
+    half_run_in: u32,
+    run_in: u32,
+    length: u32,
+    /// 1 / length of a run-in.
+    per_run_in: f32,
+    /// Entries of the load table along the whole track.
     entries: u32,
     /// Phase of each map at the end of the track, in units of 2^-20 of its period.
     passing_ratio: u32,
     recirculating_ratio: u32,
+    /// The same at half a run-in.
+    passing_offset: u32,
+    recirculating_offset: u32,
     passing: &'static DeviationMap,
     recirculating: &'static DeviationMap,
     shares: LoadShares,
@@ -32,28 +46,76 @@ pub(crate) struct LoadedBall {
     /// Deviation of the groove of the body in which balls recirculate, as a multiple of the second.
     pub(crate) recirculating: f32,
     /// Its load over the mean load.
-    pub(crate) load: &'static LoadShare,
+    pub(crate) share: f32,
+    /// Part of that which it carries on the run-in, above 0; 1 between the run-ins.
+    pub(crate) run_in: f32,
+}
+
+/// How the balls share a load at their present positions. The load of a ball is `F w/sum(w)`, with its weight `w`: its share of the mean load
+/// times its part on the run-in. All loads add up to `F` at every position.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Sharing {
+    /// Sum of all weights, and 1 / it; both 0 where no ball is loaded.
+    pub(crate) weights: f32,
+    pub(crate) per_weight: f32,
+    /// Largest weight, and the least of the balls between the run-ins; where none is there, both are the largest.
+    pub(crate) extremes: [f32; 2],
+}
+
+/// Lengths of a track, in turns or wavelengths of the maps.
+pub(super) struct Lengths {
+    /// Loaded part.
+    pub(super) loaded: f32,
+    /// Return.
+    pub(super) returning: f32,
+    /// Whole track.
+    pub(super) length: f32,
+    /// Distance of the centres of two balls in contact.
+    pub(super) pitch: f32,
 }
 
 impl LoadedZone {
-    /// A track of `length` with `loaded` of it under load, in turns or wavelengths of the maps.
+    /// A track of these lengths.
     pub(super) const fn new(
-        loaded: f32,
-        length: f32,
+        lengths: &Lengths,
         passing: &'static DeviationMap,
         recirculating: &'static DeviationMap,
         shares: LoadShares,
     ) -> Result<Self, Error> {
         let shares = attempt!(shares.checked());
-        // Rounded up to a whole number, which ends the table at most 2e-5 of the track too early. What rounding may have added is
-        // taken off first, so that a track without return has exactly its entries.
+        let Lengths {
+            loaded,
+            returning,
+            length,
+            pitch,
+        } = *lengths;
         let entries =
             shares.positive.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32;
-        let entries = (entries * (1.0 - 4.0 * f32::EPSILON)) as u32 + 1;
+        // Half of it on either side of a border: one is no longer than the return, in which both meet, nor than the loaded part.
+        let shorter = if returning < loaded {
+            returning
+        } else {
+            loaded
+        };
+        let run_in = if pitch < shorter { pitch } else { shorter };
+        let half_run_in = (0.5 * run_in / length * UNITS) as u32;
+        let run_in = 2 * half_run_in;
+        // Without a return the whole track, but for the unit that does not fit into 32 bits.
+        let loaded = ((1.0 - returning / length) * UNITS) as u32;
+        let (passing_ratio, recirculating_ratio) = (
+            phase_ratio(passing, length),
+            phase_ratio(recirculating, length),
+        );
         Ok(Self {
-            entries,
-            passing_ratio: phase_ratio(passing, length),
-            recirculating_ratio: phase_ratio(recirculating, length),
+            half_run_in,
+            run_in,
+            length: loaded.saturating_add(run_in),
+            per_run_in: if run_in > 0 { 1.0 / run_in as f32 } else { 0.0 },
+            entries: entries as u32,
+            passing_ratio,
+            recirculating_ratio,
+            passing_offset: scaled(half_run_in, passing_ratio),
+            recirculating_offset: scaled(half_run_in, recirculating_ratio),
             passing,
             recirculating,
             shares,
@@ -75,14 +137,85 @@ impl LoadedZone {
         phase: u32,
         shares: &'static [LoadShare],
     ) -> Option<LoadedBall> {
-        let scaled = |ratio: u32| ((u64::from(position) * u64::from(ratio)) >> 32) as u32;
-        let load = shares.get((scaled(self.entries) >> FRACTION_BITS) as usize)?;
-        let passing = scaled(self.passing_ratio).wrapping_add(phase >> (32 - PHASE_BITS));
+        let place = position.wrapping_add(self.half_run_in);
+        let run_in = self.run_in(place)?;
+        // Counted from the begin of the first run-in, so that nothing jumps where the track closes within it.
+        let along = |ratio, offset| scaled(place, ratio).wrapping_sub(offset);
+        let passing = along(self.passing_ratio, self.passing_offset);
+        let passing = passing.wrapping_add(phase >> (32 - PHASE_BITS));
+        let recirculating = along(self.recirculating_ratio, self.recirculating_offset);
         Some(LoadedBall {
             passing: self.passing.units(passing) as f32,
-            recirculating: self.recirculating.units(scaled(self.recirculating_ratio)) as f32,
-            load,
+            recirculating: self.recirculating.units(recirculating) as f32,
+            share: self.share(place, shares),
+            run_in,
         })
+    }
+
+    /// How balls at these positions share a load, by the [`LoadedZone::shares`] of this tick.
+    #[inline(always)]
+    pub(super) fn sharing(
+        &self,
+        positions: impl Iterator<Item = u32>,
+        shares: &'static [LoadShare],
+    ) -> Sharing {
+        let (mut weights, mut largest) = (0.0, 0.0);
+        let mut least = f32::INFINITY;
+        for position in positions {
+            let place = position.wrapping_add(self.half_run_in);
+            let Some(run_in) = self.run_in(place) else {
+                continue;
+            };
+            let weight = run_in * self.share(place, shares);
+            weights += weight;
+            if weight > largest {
+                largest = weight;
+            }
+            if run_in == 1.0 && weight < least {
+                least = weight;
+            }
+        }
+        Sharing {
+            weights,
+            per_weight: if weights > 0.0 { 1.0 / weights } else { 0.0 },
+            extremes: [largest, if least < largest { least } else { largest }],
+        }
+    }
+
+    /// Part of its load that a ball carries at a place from the begin of the first run-in on; none in the return.
+    #[inline(always)]
+    fn run_in(&self, place: u32) -> Option<f32> {
+        let left = self.length.checked_sub(place)?;
+        let nearest = if place < left { place } else { left };
+        if nearest >= self.run_in {
+            Some(1.0)
+        } else if nearest > 0 {
+            Some(nearest as f32 * self.per_run_in)
+        } else {
+            None
+        }
+    }
+
+    /// The share at a place: linear between the middles of the table's parts. Beyond the first and the last of them it is theirs; on a track
+    /// without return, the one follows on the other.
+    #[inline(always)]
+    fn share(&self, place: u32, shares: &'static [LoadShare]) -> f32 {
+        const ONE: u32 = 1 << FRACTION_BITS;
+        if let [all] = shares {
+            return all.share();
+        }
+        let position = place.saturating_sub(self.half_run_in);
+        let from_middle = scaled(position, self.entries) + ONE / 2;
+        let entry = (from_middle / ONE) as usize;
+        let (above, below) = (shares.get(entry), shares.get(entry.wrapping_sub(1)));
+        let (above, below) = if self.run_in == 0 {
+            (above.or(shares.first()), below.or(shares.last()))
+        } else {
+            (above.or(below), below.or(above))
+        };
+        let of = |share: Option<&LoadShare>| share.map_or(1.0, LoadShare::share);
+        let fraction = (from_middle % ONE) as f32 * (1.0 / ONE as f32);
+        of(below) + fraction * (of(above) - of(below))
     }
 
     /// Units of the deviations of the passing groove and of the recirculating one, rad.
@@ -103,8 +236,153 @@ impl LoadedZone {
     }
 }
 
+/// A position times a ratio of full tracks.
+#[inline(always)]
+const fn scaled(position: u32, ratio: u32) -> u32 {
+    ((position as u64 * ratio as u64) >> 32) as u32
+}
+
 /// Phase of a map at the end of a track of `length` turns, in units of 2^-20 of its period.
 const fn phase_ratio(map: &DeviationMap, length: f32) -> u32 {
     let ratio = length / map.turns() as f32;
     (ratio * (1_u32 << PHASE_BITS) as f32) as u32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const MOST: usize = 39;
+    const STEPS: u32 = 2_000;
+
+    static SHARES: [LoadShare; 3] = match [
+        LoadShare::new(0.4),
+        LoadShare::new(1.3),
+        LoadShare::new(0.9),
+    ] {
+        [Ok(first), Ok(second), Ok(third)] => [first, second, third],
+        _ => panic!("a share is out of range"),
+    };
+
+    fn zone([loaded, returning, pitch]: [f32; 3], shares: LoadShares) -> LoadedZone {
+        let length = loaded + returning;
+        let lengths = Lengths {
+            loaded,
+            returning,
+            length,
+            pitch,
+        };
+        let zone = LoadedZone::new(&lengths, &DeviationMap::NONE, &DeviationMap::NONE, shares);
+        zone.unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Balls at equal distances, by this part of 2000 of their distance from the start.
+    fn spread(balls: u32, step: u32) -> impl Iterator<Item = u32> + Clone {
+        let distance = move |ball, step| {
+            let steps = u64::from(balls) * u64::from(STEPS);
+            ((1_u64 << 32) * u64::from(ball * STEPS + step) / steps) as u32
+        };
+        (0..balls).map(move |ball| distance(ball, step))
+    }
+
+    /// Loads of the balls over the axial load.
+    fn loads(zone: &LoadedZone, positions: impl Iterator<Item = u32> + Clone) -> [f32; MOST] {
+        let shares = zone.shares(false);
+        let sharing = zone.sharing(positions.clone(), shares);
+        let weight = |ball: LoadedBall| ball.share * ball.run_in;
+        let mut loads = [0.0; MOST];
+        for (load, position) in loads.iter_mut().zip(positions) {
+            *load = zone.at(position, 0, shares).map_or(0.0, weight) * sharing.per_weight;
+        }
+        loads
+    }
+
+    /// At every angle, under shares of their own too; and in the mean as many balls carry as stand on the loaded part.
+    #[test]
+    fn loads_add_up() {
+        for (balls, lengths) in [
+            (39, [36.5, 2.5, 0.98]),
+            (39, [38.6, 0.4, 1.0]),
+            (37, [37.0, 0.0, 1.0]),
+            (5, [0.4, 4.6, 0.9]),
+            (3, [2.0, 9.0, 0.5]),
+        ] {
+            let mut carrying = 0.0;
+            for shares in [LoadShares::EVEN, LoadShares::same(&SHARES)] {
+                let zone = zone(lengths, shares);
+                for step in 0..STEPS {
+                    let positions = spread(balls, step);
+                    let sharing = zone.sharing(positions.clone(), zone.shares(false));
+                    let loads = loads(&zone, positions);
+                    let sum: f64 = loads.iter().copied().map(f64::from).sum();
+                    let expected = if sharing.weights > 0.0 { 1.0 } else { 0.0 };
+                    // A rounding of each addition of the sum, two of each load.
+                    let rounding = f64::from(balls + 2) * f64::from(f32::EPSILON) / 2.0;
+                    assert!((sum - expected).abs() <= rounding, "{step}: {sum}");
+                    assert!(loads.iter().all(|load| (0.0..=1.0).contains(load)));
+                    if shares == LoadShares::EVEN {
+                        carrying += f64::from(sharing.weights) / f64::from(STEPS);
+                    }
+                }
+            }
+            let [loaded, returning, _] = lengths.map(f64::from);
+            let expected = f64::from(balls) * loaded / (loaded + returning);
+            assert!((carrying / expected - 1.0).abs() < 1e-3, "{carrying}");
+        }
+    }
+
+    /// Shares are linear between the middles of their parts, with and without a return.
+    #[test]
+    fn shares_are_linear() {
+        for (returning, at_start) in [(0.0, 0.65), (1.0, 0.4)] {
+            let zone = zone([9.0, returning, 0.5], LoadShares::same(&SHARES));
+            for (at, expected) in [
+                (0.0, at_start),
+                (1.5, 0.4),
+                (3.0, 0.85),
+                (4.5, 1.3),
+                (7.0, 29.0 / 30.0),
+            ] {
+                let position = (at / (9.0 + returning) * UNITS) as u32;
+                let share = zone
+                    .at(position, 0, zone.shares(false))
+                    .map_or(0.0, |ball| ball.share);
+                // The middle of a part is known to 2^-16 of it.
+                assert!((share - expected).abs() < 3e-5, "{at}: {share}");
+            }
+        }
+    }
+
+    /// A step of a 2000th of the balls' distance changes each load by no more than that part of the largest one; where balls touch, the
+    /// sum of their weights stays, and a track without return loads all alike.
+    #[test]
+    fn loads_change_with_the_way() {
+        let zone = zone([36.5, 2.5, 1.0], LoadShares::EVEN);
+        let mut last = loads(&zone, spread(39, 0));
+        for step in 1..=STEPS {
+            let sharing = zone.sharing(spread(39, step), zone.shares(false));
+            // Lengths of the track are folded to 2^-24 of it.
+            assert!((sharing.weights / 36.5 - 1.0).abs() < 1e-5, "{sharing:?}");
+            let now = loads(&zone, spread(39, step));
+            for (now, before) in now.iter().zip(&last) {
+                assert!((now - before).abs() < 1.01 / (36.5 * STEPS as f32));
+            }
+            last = now;
+        }
+        let closed = self::zone([37.0, 0.0, 1.0], LoadShares::EVEN);
+        let sharing = closed.sharing(spread(37, 1), closed.shares(false));
+        assert_eq!((sharing.weights, sharing.extremes), (37.0, [1.0; 2]));
+        let positions = [0, 1, u32::MAX].into_iter();
+        assert_eq!(closed.sharing(positions, closed.shares(true)).weights, 3.0);
+    }
+
+    /// With no ball on it, nothing is divided by zero.
+    #[test]
+    fn a_zone_without_a_ball_loads_none() {
+        let zone = zone([0.5, 4.5, 0.4], LoadShares::EVEN);
+        let far = [1 << 31].into_iter();
+        let sharing = zone.sharing(far.clone(), zone.shares(false));
+        assert_eq!((sharing.per_weight, sharing.weights), (0.0, 0.0));
+        assert_eq!(loads(&zone, far), [0.0; MOST]);
+    }
 }

@@ -35,7 +35,7 @@ pub struct LinearBearingConfiguration {
     pub rail_deviation: &'static DeviationMap,
     /// Deviation of the contact angles along the carriage, added on TR, taken off on TL; as large.
     pub carriage_deviation: &'static DeviationMap,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256.
+    /// Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start; 1 to 256.
     pub load_shares: &'static [LoadShare],
     /// Speed over which friction changes its direction, m/s, 1e-9 to 10: at this speed it has 71 % of
     /// its full value.

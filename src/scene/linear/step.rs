@@ -3,7 +3,7 @@
 use super::{LinearConstants, LinearInputs};
 use crate::ball::GrooveLoss;
 use crate::math;
-use crate::scene::circuit::{CircuitState, UNLOADED};
+use crate::scene::circuit::{CircuitState, LoadedBall, UNLOADED};
 use crate::scene::contract::Regime;
 use crate::scene::faults::Faults;
 use crate::scene::outputs::LinearOutputs;
@@ -24,7 +24,7 @@ pub struct LinearFriction {
     pub(super) beyond_model: bool,
 }
 
-/// What all balls have in common in a tick: a ball under the mean load.
+/// What all balls have in common in a tick: a ball whose weight is 1.
 struct Diagonals {
     /// Speed deviation for one radian of the deviation maps, with the sign of the motion.
     turn: f32,
@@ -48,9 +48,10 @@ impl<const N: usize> LinearConstants<N> {
         friction: f32,
     ) -> LinearFriction {
         let LinearInputs { speed, .. } = inputs;
-        let tick = self.diagonals(inputs);
-        let phase = state.phase();
         let table = self.circuit.shares(false);
+        let sharing = self.circuit.sharing(state, table);
+        let tick = self.diagonals(inputs, sharing.per_weight);
+        let phase = state.phase();
         let (passing, recirculating) = self.circuit.deviation_units();
         let (passing, recirculating) = (tick.turn * passing, tick.turn * recirculating);
         let mut shares = 0.0;
@@ -58,9 +59,10 @@ impl<const N: usize> LinearConstants<N> {
         while let Some(next) = balls.next_ball() {
             let (free, impedance) = match self.circuit.loaded_ball(next.position(), phase, table) {
                 Some(ball) => {
-                    shares += ball.load.four_thirds();
                     let free = recirculating * ball.recirculating + passing * ball.passing;
-                    (free, tick.impedance * ball.load.two_thirds())
+                    let (four_thirds, two_thirds) = powers(&ball);
+                    shares += four_thirds;
+                    (free, at_least(tick.impedance * two_thirds, UNLOADED))
                 }
                 None => (0.0, UNLOADED),
             };
@@ -70,7 +72,7 @@ impl<const N: usize> LinearConstants<N> {
         state.advance(&self.circuit, speed);
 
         // Where the carriage is lifted off no ball rolls, and there is nothing to flag.
-        let ([up, down], [normal, side]) = (tick.forces, tick.loads);
+        let [normal, side] = tick.loads;
         let beyond_model = normal + side.abs() > SMALLEST_FORCE
             && self
                 .grooves
@@ -85,7 +87,7 @@ impl<const N: usize> LinearConstants<N> {
                 ratios: [1.0; 2],
                 fading: [0.0; 2],
                 direction: direction(speed),
-                load: (up + down) / (2.0 * self.normal),
+                load: sharing.weights * (tick.forces[0] + tick.forces[1]) / (2.0 * self.normal),
                 contacts: pressing.contacts,
                 largest_contact_force: friction * pressing.largest,
             },
@@ -95,13 +97,14 @@ impl<const N: usize> LinearConstants<N> {
 
     /// What both diagonals carry, and how the ball rolls under it.
     #[inline(always)]
-    fn diagonals(&self, inputs: LinearInputs) -> Diagonals {
+    fn diagonals(&self, inputs: LinearInputs, per_weight: f32) -> Diagonals {
         let LinearInputs {
             speed,
             normal_load,
             side_load,
         } = inputs;
-        let (normal, side) = (normal_load * self.normal, side_load * self.side);
+        let normal = normal_load * per_weight * self.normal;
+        let side = side_load * per_weight * self.side;
         let up = at_least(normal + side, SMALLEST_FORCE);
         let down = at_least(normal - side, SMALLEST_FORCE);
         let (up_root, up_squared) = math::cbrt_and_squared(up);
@@ -134,6 +137,17 @@ impl<const N: usize> LinearConstants<N> {
             faults: Faults::NONE.with(sliding.beyond_model, Faults::BEYOND_MODEL),
         }
     }
+}
+
+/// Powers of 4/3 and of 2/3 of a ball's weight.
+#[inline(always)]
+fn powers(ball: &LoadedBall) -> (f32, f32) {
+    let weight = ball.share * ball.run_in;
+    if weight == 1.0 {
+        return (1.0, 1.0);
+    }
+    let (root, squared) = math::cbrt_and_squared(weight);
+    (weight * root, squared)
 }
 
 #[inline]

@@ -18,10 +18,11 @@ impl<const N: usize> StoredScene for LinearBearingTrain<N> {
 
     fn fingerprint(constants: &LinearConstants<N>, fingerprint: &mut Fingerprint) {
         constants.circuit.fingerprint(fingerprint);
+        let per_ball = constants.circuit.per_loaded_ball();
         fingerprint.numbers(&[
             constants.friction,
-            constants.normal,
-            constants.side,
+            per_ball * constants.normal,
+            per_ball * constants.side,
             constants.wavelength,
         ]);
     }

@@ -54,7 +54,7 @@ pub struct UncagedBallScrewConfiguration<const NODES: usize = 1> {
     pub screw_deviation: &'static DeviationMap,
     /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, at most the law's.
     pub nut_deviation: &'static DeviationMap,
-    /// Load of a ball over the mean load, in equal parts of the loaded track from its start; 1 to 256 for each sign of
+    /// Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start; 1 to 256 for each sign of
     /// the load, as many for both.
     pub load_shares: LoadShares,
     /// Time between two ticks, s, 1e-6 to 1; at the largest nut speed the balls may move by 3 % of the
@@ -71,6 +71,7 @@ impl<const NODES: usize> FoldedBall<NODES> {
         RowConstants {
             ball_friction: ball_friction * per_cos,
             outward: sin * per_cos,
+            normal: per_cos,
             half_speed: 0.5 * self.speed,
         }
     }

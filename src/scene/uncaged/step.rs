@@ -1,8 +1,9 @@
 //! What a tick computes: every ball at its position, then how they press.
 
 use super::{UncagedConstants, UncagedState};
-use crate::ball::pressed::{BallNumbers, LoadedBall, NeighbourLaw, Pressed};
-use crate::scene::circuit::UNLOADED;
+use crate::ball::LoadShare;
+use crate::ball::pressed::{BallNumbers, BallOfRow, NeighbourLaw, Pressed};
+use crate::scene::circuit::{LoadedBall, Sharing, UNLOADED};
 use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
 use crate::scene::outputs::UncagedOutputs;
@@ -46,16 +47,15 @@ impl UncagedFriction {
 
 /// What all balls have in common in a tick.
 struct Common {
-    /// Mean axial load of a ball, N.
+    /// Axial load of a ball whose weight is 1, N.
     mean: f32,
-    /// Load of a ball under the mean axial load, N, and friction coefficient times it.
-    load: f32,
+    /// Friction coefficient times the load of such a ball, N.
     sliding: f32,
     /// 0 where the load opposes the motion, else 1.
     branch: usize,
     /// -1 where the nut turns backward, else 1.
     direction: f32,
-    /// What a ball does alone under the mean load.
+    /// What such a ball does alone.
     numbers: BallNumbers,
     /// What neighbours change in it.
     neighbours: NeighbourLaw,
@@ -81,6 +81,14 @@ enum Pass {
     Smooth,
 }
 
+/// All balls before a step.
+struct Row<'state, const N: usize> {
+    balls: Intake<'state, N>,
+    /// Phase of the screw's deviations.
+    phase: u32,
+    shares: &'static [LoadShare],
+}
+
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     /// Sliding friction in the direction of motion; moves the balls on by a tick.
     #[inline(always)]
@@ -89,70 +97,92 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         state: &mut UncagedState<N>,
         inputs: Inputs,
     ) -> UncagedFriction {
-        let Inputs {
-            nut_speed,
-            axial_load,
-        } = inputs;
-        let common = self.common(state, inputs);
-        let phase = state.circuit.phase();
+        let nut_speed = inputs.nut_speed;
+        let shares = self.shares(inputs.axial_load);
+        let sharing = self.circuit.sharing(&state.circuit, shares);
+        let common = self.common(state, inputs, &sharing);
         let friction = state.friction;
-        let balls = state.circuit.train.intake(self.circuit.travel(nut_speed));
-        let (torque, row) = if self.even {
-            let alone = |_, deviations| LoadedBall {
-                alone: common.numbers.at(deviations),
-                sliding: common.sliding,
+        let row = Row {
+            phase: state.circuit.phase(),
+            balls: state.circuit.train.intake(self.circuit.travel(nut_speed)),
+            shares,
+        };
+        let own = |ball: &LoadedBall, deviations| {
+            let load = self.law.load_of(common.mean * ball.share);
+            let (part, branch) = (ball.run_in, common.branch);
+            BallOfRow {
+                alone: match part {
+                    1.0 => self.law.at(load, branch, friction, deviations),
+                    _ => self.law.on_run_in(part, load, branch, friction, deviations),
+                },
+                sliding: self.law.sliding(load, friction),
+                part,
                 deviations,
-            };
-            self.press(balls, phase, axial_load, &common, alone)
-        } else {
-            let alone = |share, deviations| {
-                let load = self.law.load_of(common.mean * share);
-                LoadedBall {
-                    alone: self.law.at(load, common.branch, friction, deviations),
-                    sliding: self.law.sliding(load, friction),
+            }
+        };
+        let (torques, row) = if self.even {
+            // Between the run-ins all balls are alike; the few on them have loads of their own.
+            let alike = |ball: &LoadedBall, deviations| match ball.run_in {
+                1.0 => BallOfRow {
+                    alone: common.numbers.at(deviations),
+                    sliding: common.sliding,
+                    part: 1.0,
                     deviations,
-                }
+                },
+                _ => own(ball, deviations),
             };
-            self.press(balls, phase, axial_load, &common, alone)
+            self.press(row, &common, alike)
+        } else {
+            self.press(row, &common, own)
         };
         state.circuit.advance(&self.circuit, nut_speed);
 
-        let most = self.law.load_of(self.heaviest * common.mean);
+        let extremes = sharing
+            .extremes
+            .map(|weight| self.law.load_of(common.mean * weight));
         let rubbing = self.row.ball_friction * row.largest_of_both;
-        let held = self.law.holds_forces(common.load, common.branch, friction)
-            && self.law.holds_load(most)
+        let held = sharing.weights > 0.0
+            && self.law.holds_load(extremes[0])
             && self.law.holds(friction.friction())
             && self.law.holds_rubbing(rubbing, common.sliding);
+        let forces_held = row.contacts == 0
+            || self
+                .law
+                .holds_forces_within(extremes, common.branch, friction);
         let outward = common.neighbours.numbers.outward_torque * row.forces;
         UncagedFriction {
             row: TrainFriction {
-                groove: not_negative(torque.free + torque.held + row.by_speed + outward),
+                groove: not_negative(torques.free + torques.held + row.by_speed + outward),
                 ball: not_negative(row.by_rubbing),
-                free: not_negative(torque.free),
+                free: not_negative(torques.free),
                 ratios: [1.0; 2],
                 fading: [0.0; 2],
                 direction: common.direction,
-                load: common.load * self.balls,
+                load: inputs.axial_load.abs() + self.preload,
                 contacts: row.contacts,
-                largest_contact_force: row.largest,
+                largest_contact_force: self.row.normal * row.largest,
             },
-            faults: Faults::NONE.with(!held, Faults::BEYOND_MODEL),
+            faults: Faults::NONE
+                .with(!held, Faults::BEYOND_MODEL)
+                .with(!forces_held, Faults::FORCES_NOT_HELD),
         }
     }
 
     #[inline(always)]
-    fn common(&self, state: &UncagedState<N>, inputs: Inputs) -> Common {
+    fn common(&self, state: &UncagedState<N>, inputs: Inputs, sharing: &Sharing) -> Common {
         let direction = direction(inputs.nut_speed);
-        let mean = inputs.axial_load * self.per_ball;
+        let mean = inputs.axial_load * sharing.per_weight;
         let branch = usize::from(direction * mean < 0.0);
-        let load = self.law.load_of(mean);
+        // Where all loaded balls are on a run-in, none carries as much.
+        let [heaviest, _] = sharing.extremes;
+        let weight = if heaviest < 1.0 { heaviest } else { 1.0 };
+        let load = self.law.load_of(weight * mean);
         let numbers = self.law.numbers(load, branch, state.friction);
         let neighbours = self
             .law
             .neighbours(load, branch, state.friction, &numbers, self.row);
         Common {
             mean,
-            load,
             sliding: self.law.sliding(load, state.friction),
             branch,
             direction,
@@ -165,39 +195,35 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     #[inline(always)]
     fn press(
         &self,
-        mut balls: Intake<'_, N>,
-        phase: u32,
-        axial_load: f32,
+        mut row: Row<'_, N>,
         common: &Common,
-        alone: impl Fn(f32, [f32; 2]) -> LoadedBall,
+        of: impl Fn(&LoadedBall, [f32; 2]) -> BallOfRow,
     ) -> (Torques, RubbedRow) {
         let rub = self.row.ball_friction > 0.0;
         if rub {
-            self.take_in(&mut balls, phase, axial_load, common, &alone, Pass::First);
-            balls = balls.press_once();
+            self.take_in(&mut row, common, &of, Pass::First);
+            row.balls = row.balls.press_once();
         }
         let last = if rub { Pass::Second } else { Pass::Smooth };
-        let torque = self.take_in(&mut balls, phase, axial_load, common, &alone, last);
+        let torques = self.take_in(&mut row, common, &of, last);
         let losses = common
             .neighbours
             .losses(common.sliding, common.numbers.impedance[0]);
-        let row = balls.press_rubbing(&Losses {
+        let sums = row.balls.press_rubbing(&Losses {
             held_speed: common.direction * losses.held_speed,
             ..losses
         });
-        (torque, row)
+        (torques, sums)
     }
 
-    /// Gives each ball its free speed and impedance in a pass, a loaded one by what it does `alone` with its share of the load and its deviations;
-    /// returns the sums of their torques. Not inlined: what the rest of a step holds would take its registers.
+    /// Gives each ball its free speed and impedance in a pass, a loaded one by what it is under its part of the load with its deviations; returns the
+    /// sums of their torques. Not inlined: what the rest of a step holds would take its registers.
     #[inline(never)]
     fn take_in(
         &self,
-        balls: &mut Intake<'_, N>,
-        phase: u32,
-        axial_load: f32,
+        row: &mut Row<'_, N>,
         common: &Common,
-        alone: &impl Fn(f32, [f32; 2]) -> LoadedBall,
+        of: &impl Fn(&LoadedBall, [f32; 2]) -> BallOfRow,
         pass: Pass,
     ) -> Torques {
         let &Common {
@@ -206,29 +232,31 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             ref neighbours,
             ..
         } = common;
-        let shares = self.shares(axial_load);
         let units = self.units.map(|unit| direction * unit);
         let idle = direction * numbers.free[0];
         let mut torques = Torques::default();
-        while let Some(ball) = balls.next_ball() {
-            let Some(loaded) = self.circuit.loaded_ball(ball.position(), phase, shares) else {
+        while let Some(ball) = row.balls.next_ball() {
+            let loaded = self
+                .circuit
+                .loaded_ball(ball.position(), row.phase, row.shares);
+            let Some(loaded) = loaded else {
                 ball.put_smooth(idle, UNLOADED);
                 continue;
             };
             let deviations = [units[0] * loaded.passing, units[1] * loaded.recirculating];
-            let alone = alone(loaded.load.share(), deviations);
+            let own = of(&loaded, deviations);
             let (rubbed, held) = match pass {
-                Pass::First => (neighbours.first(&alone), 0.0),
+                Pass::First => (neighbours.first(&own), 0.0),
                 Pass::Second => neighbours.second(
-                    &alone,
+                    &own,
                     Pressed {
                         forces: ball.forces(),
                         speed: direction * ball.speed(),
                     },
                 ),
-                Pass::Smooth => neighbours.smooth(&alone),
+                Pass::Smooth => neighbours.smooth(&own),
             };
-            torques.free += alone.alone.torque;
+            torques.free += own.alone.torque;
             torques.held += held;
             ball.put_rubbed(&RubbedBall {
                 speed: direction * rubbed.speed,

@@ -19,7 +19,8 @@ impl<const N: usize, const NODES: usize> StoredScene for UncagedBallScrew<N, NOD
     /// The friction coefficient has a meaning of its own; only its range has to fit, which [`Self::complete`] sees to.
     fn fingerprint(constants: &UncagedConstants<N, NODES>, fingerprint: &mut Fingerprint) {
         constants.circuit.fingerprint(fingerprint);
-        fingerprint.numbers(&[constants.reduced_lead, constants.per_ball]);
+        let per_ball = constants.circuit.per_loaded_ball();
+        fingerprint.numbers(&[constants.reduced_lead, per_ball]);
     }
 
     fn complete(

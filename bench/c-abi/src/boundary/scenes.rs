@@ -40,7 +40,8 @@ pub unsafe extern "C" fn epas_caged_reset(place: *mut CagedPlace) -> u32 {
     unsafe { reset::<Caged<1>>(place) }
 }
 
-/// Consecutive ticks with a fault; 0 after a sound tick, and after one whose only flag is `EPAS_FAULT_BEYOND_MODEL`.
+/// Consecutive ticks with a fault; 0 after a sound tick, and after one whose only flags are `EPAS_FAULT_BEYOND_MODEL` and
+/// `EPAS_FAULT_FORCES_NOT_HELD`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn epas_caged_faulted_ticks(
     place: *const CagedPlace,

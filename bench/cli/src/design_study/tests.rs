@@ -92,6 +92,7 @@ fn force_in_a_row(design: &Design, duty: &Duty) -> f64 {
             ball_friction: duty.ball_friction.into(),
             nut_speed: 1.0,
             balls: balls.into(),
+            chord: true,
             integration: Integration::Full,
         };
         row.solve().unwrap().contact_forces[0]

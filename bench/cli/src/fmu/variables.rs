@@ -217,7 +217,7 @@ pub fn outputs(scene: SceneName) -> Vec<Variable> {
 
 /// What `faults` means.
 const FAULTS: &str = "what was wrong with the last tick, a sum: 1 speed not finite, 2 load not finite, 4 speed limit, 8 load limit, \
-                      16 friction limit, 32 beyond the model, 128 angle not valid, 256 temperature out of range";
+                      16 friction limit, 32 beyond the model, 64 forces between balls not held, 128 angle not valid, 256 temperature out of range";
 
 /// What a row of balls puts out beside the friction.
 fn of_row(linear: bool) -> [Variable; 5] {

@@ -1,19 +1,19 @@
-//! Why samples are flagged as beyond the model, and under which loads.
+//! Why samples are flagged as beyond the model, or their forces as not held, and under which loads.
 
 use std::fmt::Write as _;
 
-use epas_design::uncaged::Folded;
 use epas_design::{CagedFold, UncagedFold};
 use epas_friction::{Faults, Inputs};
 
 use super::summary::Lines;
 use epas_design::files::Design;
 use epas_design::files::train::UncagedDesign;
-use epas_design::uncaged_scene as uncaged;
-use epas_page::failure::Failure;
 
 /// Loads within this of the largest that a block holds may be flagged: roundings of its logarithm.
 const ROUNDED: f32 = 0.999;
+
+/// The same where fewer balls may carry at an angle than in the mean.
+const SHARED: f32 = 0.9;
 
 /// Bands of one cause that are listed; more are told from the least to the largest load.
 const MOST_BANDS: usize = 3;
@@ -25,8 +25,8 @@ pub enum Cause {
     Load,
     /// The friction coefficient is none of the block's.
     Coefficient,
-    /// A ball loses a contact.
-    Contact,
+    /// Forces between balls are not held.
+    Forces,
     /// Friction between balls is more than the law holds.
     Grip,
     /// Neighbours press a bearing's ball off its grooves.
@@ -36,14 +36,14 @@ pub enum Cause {
 const CAUSES: [Cause; 5] = [
     Cause::Load,
     Cause::Coefficient,
-    Cause::Contact,
+    Cause::Forces,
     Cause::Grip,
     Cause::FourPoints,
 ];
 
 /// Where what a block does not hold depends on whether the load opposes the motion.
 const fn by_direction(cause: Cause) -> bool {
-    matches!(cause, Cause::Contact | Cause::Grip)
+    matches!(cause, Cause::Forces | Cause::Grip)
 }
 
 /// One sample.
@@ -58,15 +58,8 @@ struct Moment {
 /// What a block holds.
 #[derive(Clone, Copy, Debug)]
 enum Held {
-    Caged {
-        most: f32,
-    },
-    Uncaged {
-        loaded_balls: f32,
-        friction: f32,
-        most: f32,
-        folded: Folded,
-    },
+    Caged { most: f32 },
+    Uncaged { most: f32 },
     Bearing,
 }
 
@@ -104,23 +97,15 @@ impl Beyond {
     }
 
     /// Of a screw whose balls press on each other, and what is folded of it.
-    ///
-    /// # Errors
-    /// What cannot be folded, with the reason.
-    pub fn uncaged(balls: &UncagedDesign, fold: &UncagedFold) -> Result<Self, Failure> {
+    pub fn uncaged(balls: &UncagedDesign, fold: &UncagedFold) -> Self {
         let [from, to] = fold.axial_load;
-        Ok(Self {
-            held: Held::Uncaged {
-                loaded_balls: balls.loaded_balls(),
-                friction: balls.gear.friction,
-                most: to,
-                folded: uncaged::folded(fold)?,
-            },
+        Self {
+            held: Held::Uncaged { most: to },
             of_ball: Some(balls.ball_load(1.0)),
             limit: balls.gear.limits.axial_load,
             domain: format!("the block holds {from} to {to} N a ball"),
             moments: Vec::new(),
-        })
+        }
     }
 
     /// Of a linear bearing.
@@ -140,41 +125,29 @@ impl Beyond {
             nut_speed: speed as f32,
             axial_load: (load as f32).clamp(-self.limit, self.limit),
         };
-        let flagged = faults.contains(Faults::BEYOND_MODEL);
+        let cause = if faults.contains(Faults::BEYOND_MODEL) {
+            Some(self.cause(inputs))
+        } else {
+            faults
+                .contains(Faults::FORCES_NOT_HELD)
+                .then_some(Cause::Forces)
+        };
         self.moments.push(Moment {
             load: inputs.axial_load.abs(),
             opposing: opposing(inputs),
-            cause: flagged.then(|| self.cause(inputs)),
+            cause,
         });
     }
 
     fn cause(&self, inputs: Inputs) -> Cause {
         let load = inputs.axial_load.abs();
-        let above = |most: f32| load * self.of_ball.unwrap_or(0.0) > ROUNDED * most;
+        let above = |most: f32| load * self.of_ball.unwrap_or(0.0) > most;
         match self.held {
             Held::Bearing => Cause::FourPoints,
-            Held::Caged { most } | Held::Uncaged { most, .. } if above(most) => Cause::Load,
+            Held::Caged { most } if above(ROUNDED * most) => Cause::Load,
+            Held::Uncaged { most } if above(SHARED * most) => Cause::Load,
             Held::Caged { .. } => Cause::Coefficient,
-            Held::Uncaged {
-                loaded_balls,
-                friction,
-                folded,
-                ..
-            } => {
-                let branch = usize::from(!opposing(inputs));
-                let mean = load / loaded_balls;
-                let held = match folded {
-                    Folded::One(ball) => {
-                        let law = &ball.law;
-                        law.holds_forces(law.load_of(mean), branch, law.interval(friction))
-                    }
-                    Folded::Range(ball) => {
-                        let law = &ball.law;
-                        law.holds_forces(law.load_of(mean), branch, law.interval(friction))
-                    }
-                };
-                if held { Cause::Grip } else { Cause::Contact }
-            }
+            Held::Uncaged { .. } => Cause::Grip,
         }
     }
 
@@ -188,8 +161,9 @@ impl Beyond {
                     self.domain
                 )
             }
-            Cause::Contact => {
-                "a ball loses a contact, and forces between balls are not held".into()
+            Cause::Forces => {
+                "a ball loses a contact, or friction between balls is more than a train takes; the torque is held"
+                    .into()
             }
             Cause::Grip => {
                 "friction between balls is more than the law holds (ball_friction in [uncaged])"
@@ -221,7 +195,11 @@ impl Beyond {
                 };
                 let bands: Vec<String> = bands.into_iter().map(|band| self.band(band)).collect();
                 let text = format!("{}{motion}: {}", bands.join(" and "), self.reason(cause));
-                lines.add("beyond the model", text);
+                let what = match cause {
+                    Cause::Forces => "forces not held",
+                    _ => "beyond the model",
+                };
+                lines.add(what, text);
             }
         }
     }

@@ -122,7 +122,7 @@ fn ring(design: &UncagedDesign, samples: &[ScrewSample]) -> Result<ElasticRing, 
             .iter()
             .map(|share: &LoadShare| share.share().into())
             .collect(),
-        chord: false,
+        chord: true,
         places: Vec::new(),
         integration: Integration::Full,
     })

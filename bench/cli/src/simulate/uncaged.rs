@@ -296,9 +296,7 @@ impl Scene for Uncaged {
     fn summary(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Lines {
         // What has run was folded: nothing is refused here.
         let fold = self.fold(peak_load(trace));
-        let beyond = fold
-            .and_then(|fold| Beyond::uncaged(&self.balls, &fold))
-            .ok();
+        let beyond = fold.map(|fold| Beyond::uncaged(&self.balls, &fold)).ok();
         let mut summary = ScrewSummary::new(&self.design, beyond);
         let mut pressing = Pressing::default();
         for row in rows {

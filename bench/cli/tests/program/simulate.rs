@@ -312,6 +312,34 @@ fn default_names_say_what_was_run() {
     );
 }
 
+/// In a parking manoeuvre balls of `lin-3.6` lose contacts while they press, for a moment; its torque is held all the time.
+#[test]
+fn a_flag_says_which_output_is_not_held() {
+    let folder = folder();
+    let run = simulate(
+        folder.path(),
+        &[
+            "--design",
+            "lin-3.6",
+            "--scene",
+            "uncaged",
+            "--manoeuvre",
+            "parking",
+        ],
+    );
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let said = format!("{}{}", run.stdout, run.stderr);
+    let line = said
+        .lines()
+        .find(|line| line.starts_with("flagged samples"));
+    let flagged = line.unwrap_or_else(|| panic!("{said}"));
+    // Of 12001 samples.
+    let count: usize = flagged.split_whitespace().nth(2).unwrap().parse().unwrap();
+    assert!((1..=600).contains(&count), "{flagged}");
+    assert!(!flagged.contains("beyond the model"), "{flagged}");
+    assert!(said.lines().any(|line| line.starts_with("forces not held")));
+}
+
 #[test]
 fn an_existing_file_is_replaced_only_by_force() {
     let folder = folder();

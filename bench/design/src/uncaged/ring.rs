@@ -1,6 +1,6 @@
 //! A row of touching balls: by the exact solver, and by a folded law as a control interrupt evaluates it.
 
-use epas_friction::ball::pressed::{BallLaw, LoadedBall, NeighbourLaw, Pressed, RowConstants};
+use epas_friction::ball::pressed::{BallLaw, BallOfRow, NeighbourLaw, Pressed, RowConstants};
 use epas_friction::train::{Losses, Press, RubbedBall, RubbedRow};
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall};
@@ -62,6 +62,8 @@ impl Row {
                     axial_load: self.axial_load.into(),
                 })
                 .collect(),
+            // The law of a ball knows no force that points outward.
+            chord: true,
             integration: ball.integration,
         };
         let found = row.solve()?;
@@ -87,20 +89,26 @@ impl Row {
         let row = RowConstants {
             ball_friction: self.ball_friction * (speeds.outward as f32).hypot(1.0),
             outward: speeds.outward as f32,
+            normal: speeds.outward.hypot(1.0) as f32,
             half_speed: 0.5 * speeds.against_nut as f32,
         };
         let neighbours = law.neighbours(load, branch, interval, &numbers, row);
         let losses = neighbours.losses(sliding, numbers.impedance[0]);
-        let balls = self.deviations.map(|deviations| LoadedBall {
+        let balls = self.deviations.map(|deviations| BallOfRow {
             alone: numbers.at(deviations),
             sliding,
+            part: 1.0,
             deviations,
         });
         let row = PressedRow::of(&neighbours, &losses, &balls).unwrap_or_default();
         let rubbing = neighbours.ball_friction * row.sums.largest_of_both;
         RowAnswer {
             torque: row.free_torque + row.added_torque,
-            forces: row.forces,
+            forces: row
+                .forces
+                .iter()
+                .map(|along| along * speeds.outward.hypot(1.0))
+                .collect(),
             flagged: !(law.holds_forces(load, branch, interval)
                 && law.holds_rubbing(rubbing, sliding)),
         }
@@ -133,7 +141,7 @@ impl PressedRow {
 
     /// None where a ball runs further from nominal rolling than a step takes, or there are none or too many.
     #[must_use]
-    pub fn of(neighbours: &NeighbourLaw, losses: &Losses, balls: &[LoadedBall]) -> Option<Self> {
+    pub fn of(neighbours: &NeighbourLaw, losses: &Losses, balls: &[BallOfRow]) -> Option<Self> {
         let mut press = Press::<{ Self::MOST }>::with_balls(balls.len()).ok()?;
         let mut room = vec![0.0; balls.len()];
         *room.last_mut()? = f32::INFINITY;

@@ -6,7 +6,7 @@
 
 use epas_design::uncaged::{Folded, PressedRow};
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
-use epas_friction::ball::pressed::LoadedBall;
+use epas_friction::ball::pressed::BallOfRow;
 use epas_friction::scene::FoldedBall;
 use epas_friction::{BallScrew, Clearance, Limits, RollingResistance};
 use serde::Serialize;
@@ -104,16 +104,17 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
     let numbers = law.numbers(load, branch, interval);
 
     let [screw, nut] = law.deviations.map(|largest| way / f64::from(largest));
-    let balls: Vec<LoadedBall> = request
+    let balls: Vec<BallOfRow> = request
         .balls
         .iter()
         .map(|ball| {
             let deviations = [screw * ball.screw_deviation, nut * ball.nut_deviation];
             let deviations = deviations.map(|part| part as f32);
             let load = law.load_of(ball.axial_load as f32);
-            LoadedBall {
+            BallOfRow {
                 alone: law.at(load, branch, interval, deviations),
                 sliding: law.sliding(load, interval),
+                part: 1.0,
                 deviations,
             }
         })
@@ -140,7 +141,7 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
             contact_force: Some(
                 row.forces
                     .iter()
-                    .map(|force| force * f64::from(constants.outward).hypot(1.0))
+                    .map(|force| force * f64::from(constants.normal))
                     .collect(),
             ),
             groove_torque: Some(row.free_torque + row.added_torque),

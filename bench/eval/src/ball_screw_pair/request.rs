@@ -100,6 +100,7 @@ impl Request {
                 .iter()
                 .map(|ball| same!(RowBall { screw_deviation, nut_deviation, axial_load } of ball))
                 .collect(),
+            chord: true,
             integration: Integration::Coarse,
         };
         let found = solved(row.solve()).map_err(of_contact)?;

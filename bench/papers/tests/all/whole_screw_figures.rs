@@ -36,6 +36,7 @@ fn published(degrees: f64) -> ElasticRing {
         screw_deviation: GrooveDeviation::sine(2.0, degrees * DEGREE),
         nut_deviation: GrooveDeviation::NONE,
         load_shares: Vec::new(),
+        // The closed form beside it has forces along the track alone.
         chord: false,
         places: Vec::new(),
         integration: Integration::Full,

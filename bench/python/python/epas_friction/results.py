@@ -25,7 +25,7 @@ class Regime(IntEnum):
 class Faults(IntFlag):
     """What was wrong with a tick's inputs, limited in its outputs, or beyond the model.
 
-    ``BEYOND_MODEL`` speaks of accuracy alone.
+    ``BEYOND_MODEL`` and ``FORCES_NOT_HELD`` speak of accuracy alone: of the friction, and of forces between balls.
     """
 
     NONE = 0
@@ -35,6 +35,7 @@ class Faults(IntFlag):
     LOAD_RANGE = 1 << 3
     FRICTION_LIMIT = 1 << 4
     BEYOND_MODEL = 1 << 5
+    FORCES_NOT_HELD = 1 << 6
     ANGLE_NOT_VALID = 1 << 7
     TEMPERATURE_RANGE = 1 << 8
     LOAD_STALE = 1 << 9

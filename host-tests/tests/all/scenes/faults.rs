@@ -28,13 +28,16 @@ fn flags_are_bits() {
         (Faults::LOAD_RANGE, 3),
         (Faults::FRICTION_LIMIT, 4),
         (Faults::BEYOND_MODEL, 5),
+        (Faults::FORCES_NOT_HELD, 6),
         (Faults::ANGLE_NOT_VALID, 7),
         (Faults::TEMPERATURE_RANGE, 8),
         (Faults::LOAD_STALE, 9),
         (Faults::TEMPERATURE_STALE, 10),
     ] {
         assert_eq!(flag.bits(), 1 << bit);
-        assert_eq!(flag.faulty(), flag != Faults::BEYOND_MODEL);
+        let accuracy = Faults::BEYOND_MODEL | Faults::FORCES_NOT_HELD;
+        assert_eq!(flag.faulty(), !accuracy.contains(flag));
+        assert_eq!(flag.doubtful(), flag != Faults::FORCES_NOT_HELD);
     }
 }
 
@@ -115,7 +118,9 @@ fn suffer<S: Trial>(
         S::check(configuration, given, &outputs).unwrap_or_else(|error| panic!("{line}: {error}"));
         S::check_state(&model).unwrap_or_else(|error| panic!("{line}: {error}"));
         assert_eq!(
-            (faults(&outputs).bits() & !(Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL).bits())
+            (faults(&outputs).bits()
+                & !(Faults::FRICTION_LIMIT | Faults::BEYOND_MODEL | Faults::FORCES_NOT_HELD)
+                    .bits())
                 != 0,
             flagged,
             "{line}"

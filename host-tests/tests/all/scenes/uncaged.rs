@@ -6,4 +6,5 @@ pub mod exact;
 mod laws;
 mod running;
 mod setting;
+mod sharing;
 mod ticks;

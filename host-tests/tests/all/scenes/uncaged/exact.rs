@@ -40,7 +40,7 @@ pub fn design() -> BallScrew {
     BallScrew::new(DISSERTATION_DESIGNS[1].parameters).unwrap()
 }
 
-fn exact_design() -> BallScrewDesign {
+pub fn exact_design() -> BallScrewDesign {
     given::ball_screw(design().parameters())
 }
 
@@ -261,6 +261,7 @@ impl<const NODES: usize> Beside<NODES> {
             screw_deviation: along(screw_deviation, 0.0),
             nut_deviation: along(nut_deviation, 0.0),
             load_shares: Vec::new(),
+            // The law of a ball knows no force that points outward: with it torques of smooth balls differ by 0.32 % rms, 0.62 % at most.
             chord: false,
             places: Vec::new(),
             integration: Integration::Full,

@@ -90,12 +90,13 @@ fn a_return_without_load_takes_its_share_of_the_balls() {
         sum += f64::from(output.groove_torque) / 20_000.0;
         largest_force = largest_force.max(output.largest_contact_force);
     }
-    // Two thirds of the balls carry what all carry under 1.5 times the load; in the mean, to a ball that comes or goes of 20 000 ticks.
+    // Two thirds of the balls carry what all carry under 1.5 times the load; but a ball on the run-in loses less than in proportion to its load: with
+    // the power of 7/6, 1/2 - 1/(2 + 1/6) = 0.038 of a ball on each, of 24.7.
     let ratio = sum / (f64::from(whole.groove_torque) / 1.5);
     println!(
         "groove torque with return over two thirds: {ratio:.5}, largest force {largest_force} N"
     );
-    assert!((ratio - 1.0).abs() < 2e-3, "{ratio}");
+    assert!((ratio - 1.0 + 2.0 * 0.0385 / 24.67).abs() < 1e-3, "{ratio}");
     // Balls in the return have no speed of their own: none presses with more than its impedance. Derived: that is 1e-6 N for a
     // speed as large as that of all.
     assert!(largest_force < 1e-6);
@@ -128,7 +129,9 @@ pub fn table<const M: usize>(shares: [f32; M]) -> &'static [LoadShare] {
 #[test]
 fn shares_of_the_load_go_to_their_balls() {
     let uneven = UncagedBallScrewConfiguration {
-        load_shares: LoadShares::same(table([1.99, 0.01])),
+        load_shares: LoadShares::same(table(std::array::from_fn::<_, 32, _>(|part| {
+            if part < 16 { 1.99 } else { 0.01 }
+        }))),
         ..configuration(0.0)
     };
     let step = |configuration: &UncagedBallScrewConfiguration, axial_load: f32| {
