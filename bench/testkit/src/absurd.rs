@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use super::random::Random;
 use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw};
-use epas_friction::ball::pressed::{BallKnot, BallLaw, BallNode, BallNumbers, KNOTS};
+use epas_friction::ball::pressed::{BallLaw, BallNode, BallNumbers, Knot, NeighbourNumbers};
 use epas_friction::ball::{ScrewTick, ScrewTickBall};
 use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration, FoldedBall};
 use epas_friction::train::Train;
@@ -580,30 +580,40 @@ fn ball_numbers(random: &mut Random) -> BallNumbers {
         torque,
         slope: random.of(&[0.0, 1e-4, 1.0]) * random.sign(),
         work: random.of(&[0.0, 1.0, 4.0]),
-        grip: [
-            random.of(&[0.0, -1e-3, -0.5, 0.7, 8.0]),
-            random.within(-1.0, 1.0),
-            random.of(&[0.0, 1.0]),
-        ],
-        rubbing: random.of(&[0.0, 0.01, 1.0]),
+    }
+}
+
+/// What neighbours change in a ball, from the likely to the absurd.
+fn neighbour_numbers(random: &mut Random) -> NeighbourNumbers {
+    let mut line = |sizes: &[f32]| -> [f32; 3] {
+        let size = random.of(sizes);
+        std::array::from_fn(|_| size * (2.0 * random.unit() - 1.0))
+    };
+    NeighbourNumbers {
+        push: std::array::from_fn(|_| line(&[0.0, 1e-3, 0.5, 8.0, 1e3])),
+        impedance: std::array::from_fn(|_| line(&[0.0, 1.0, 30.0, 1e3])),
+        torque: std::array::from_fn(|_| line(&[0.0, 1e-4, 0.01, 1e3])),
+        outward: line(&[0.0, 0.1, 5.0, 1e3]),
+        outward_torque: line(&[0.0, 1e-3, 1e3])[0],
     }
 }
 
 /// Knots whose loads rise, at times to no more than the last one's.
-fn ball_knots(random: &mut Random) -> [BallKnot; KNOTS] {
+fn knots<T: Copy, const K: usize>(
+    random: &mut Random,
+    numbers: fn(&mut Random) -> T,
+) -> [Knot<T>; K] {
     let mut load = random.size(1e-6, 100.0);
     let widest = random.of(&[0.0, 1e-3, 1.0, 100.0, 1e5]);
-    let needed = random.of(&[1, 2, KNOTS]);
-    let loads: [f32; KNOTS] = std::array::from_fn(|knot| {
+    let needed = random.of(&[1, 2, K]);
+    let loads: [f32; K] = std::array::from_fn(|knot| {
         if knot < needed {
             load += widest * random.unit();
         }
         load
     });
-    std::array::from_fn(|knot| BallKnot {
-        load: loads[knot],
-        per_width: BallKnot::per_width(loads[knot], loads[(knot + 1).min(KNOTS - 1)]),
-        numbers: ball_numbers(random),
+    std::array::from_fn(|knot| {
+        Knot::between(loads[knot], loads[(knot + 1).min(K - 1)], numbers(random))
     })
 }
 
@@ -614,7 +624,11 @@ fn folded_ball<const NODES: usize>(random: &mut Random) -> FoldedBall<NODES> {
         friction *= random.of(&[1.02, 1.5, 2.0]);
         BallNode {
             friction,
-            branches: [ball_knots(random), ball_knots(random)],
+            branches: [knots(random, ball_numbers), knots(random, ball_numbers)],
+            neighbours: [
+                knots(random, neighbour_numbers),
+                knots(random, neighbour_numbers),
+            ],
             unheld: [0, random.bits() as u32],
         }
     });

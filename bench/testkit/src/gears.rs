@@ -2,7 +2,8 @@
 
 use core::f32::consts::TAU;
 
-use epas_friction::ball::pressed::{BallLaw, KNOTS};
+use epas_friction::ball::pressed::{BallLaw, NEIGHBOUR_KNOTS};
+use epas_friction::train::RUBBINGS;
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, CatalogueBall, FoldedBall,
 };
@@ -173,10 +174,19 @@ const fn ball_of(friction: f32) -> FoldedBall {
         panic!("a number of a ball is out of range")
     };
     let mut knot = 0;
-    while knot < 2 * KNOTS {
-        ball.law.nodes[0].branches[knot / KNOTS][knot % KNOTS]
-            .numbers
-            .grip = [-0.5, 0.12, -0.07];
+    while knot < 2 * NEIGHBOUR_KNOTS {
+        let numbers = &mut ball.law.nodes[0].neighbours[knot / NEIGHBOUR_KNOTS]
+            [knot % NEIGHBOUR_KNOTS]
+            .numbers;
+        let mut node = 0;
+        while node < RUBBINGS.len() {
+            let rubbing = RUBBINGS[node];
+            numbers.push[node] = [-0.9 * rubbing, 0.2 * rubbing, -0.1 * rubbing];
+            numbers.impedance[node] = [8.0 * rubbing, -rubbing, 0.5 * rubbing];
+            node += 1;
+        }
+        numbers.outward = [-0.3, 0.1, 0.05];
+        numbers.outward_torque = 2e-4;
         knot += 1;
     }
     ball
