@@ -905,10 +905,10 @@ extern "C" {
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
- * whenever a structure, a function or what a place holds changes. From version 10 on `epas_memory_t` is
- * set up of shares and breakaway angles, and the coefficient has a drag.
+ * whenever a structure, a function or what a place holds changes. From version 11 on `epas_adaptation_inputs_t` has the lubricant's drag
+ * beside the friction torque.
  */
-#define EPAS_ABI_VERSION 10u
+#define EPAS_ABI_VERSION 11u
 
 /**
  * Place for the constants and the state of an adaptation; as `epas_caged_t`.
@@ -1053,6 +1053,10 @@ typedef struct epas_adaptation_inputs_t {
      * `friction_torque` of the model's outputs, N m.
      */
     float modelled;
+    /**
+     * Lubricant drag in `observed` and `modelled`, N m, which no level scales: that of `epas_memory_drag_torque`, 0 for a model without memory.
+     */
+    float lubricant_drag;
     /**
      * Level that the model had in the positive direction when it gave `modelled`: that of the last `epas_memory_set_level`, or 1
      * where none was set. Outside 0.1 to 10 ticks of this direction do not count.
@@ -2109,6 +2113,13 @@ uint32_t epas_memory_set_level(struct epas_memory_t *place,
                                float forward,
                                float backward,
                                struct epas_failure_t *failure);
+
+/**
+ * Lubricant drag in the friction torque of the last step, N m, which no level scales: for the inputs of an `epas_adaptation_t`. 0 before the
+ * first step. In the task of the step.
+ */
+uint32_t epas_memory_drag_torque(const struct epas_memory_t *place,
+                                 float *torque);
 
 /**
  * Goes on with another block and what is set beside it; as `epas_caged_swap`. The memory stays.
