@@ -57,10 +57,10 @@ impl Lawful {
         outputs.friction_torque = limited;
         outputs.efficiency = moving.friction(limited.into()).efficiency as f32;
         if known.is_err() {
-            outputs.faults = outputs.faults | Faults::BEYOND_MODEL;
+            outputs.faults |= Faults::BEYOND_MODEL;
         }
         if limited != friction {
-            outputs.faults = outputs.faults | Faults::FRICTION_LIMIT;
+            outputs.faults |= Faults::FRICTION_LIMIT;
         }
         outputs
     }
