@@ -18,7 +18,7 @@ use torque::ClosedForm;
 /// A ball screw whose balls do not touch, by a paper's closed form: for comparison.
 ///
 /// Torque is in proportion to the load; spin, a third contact and the size of the contacts are left out (see [`FrictionBranch`]). Over the built-in
-/// designs, 5 to 300 N a ball, a rolling ball has 0.02 to 1.1 times the exact torque, a sliding one 2.1 to 13 times. Who has no host takes
+/// designs, 5 to 300 N a ball, a rolling ball has 0.02 to 1.1 times the exact torque, a sliding one 0.6 to 14 times. Who has no host takes
 /// [`built_in`](crate::scene::built_in) sizes for a [`CagedBallScrew`](crate::scene::CagedBallScrew): as exact as what a host folds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -90,7 +90,7 @@ use trace::Temperature;
 /// Friction: friction (0.1 without), friction_law ("default" without, or "constant"), hysteresis_loss (0.01 without), lubricant_drag (N a contact
 /// under 100 N; 0 without), reversal_speed (2 rad/s without).
 ///
-/// branch ("contacts", or a paper's closed form: "rolling" has 0.02 to 1.1 times the exact torque, "sliding" 2.1 to 13 times), rolling_tangent
+/// branch ("contacts", or a paper's closed form: "rolling" has 0.02 to 1.1 times the exact torque, "sliding" 0.6 to 14 times), rolling_tangent
 /// (closed forms).
 ///
 /// Fit of the balls, one of: clearance (radial gap of every contact, m; play above 0, oversize below), axial_play (of the nut, m), preload (force

@@ -192,7 +192,7 @@ pub fn fold(design: &Design, by_law: bool) -> Result<Option<CagedFold>, Failure>
 fn range_of(branch: FrictionBranch) -> String {
     let range = match branch {
         FrictionBranch::Rolling => "0.02 to 1.1",
-        FrictionBranch::Sliding => "2.1 to 13",
+        FrictionBranch::Sliding => "0.6 to 14",
     };
     format!(
         "{range} times the exact torque over the built-in designs; --reference compares it, and without branch in the design file the exact ball is folded"

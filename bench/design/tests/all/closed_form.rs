@@ -44,7 +44,7 @@ fn closed_forms_are_a_first_look() {
         .collect();
     for (branch, said) in [
         (FrictionBranch::Rolling, (0.024, 1.11)),
-        (FrictionBranch::Sliding, (2.1, 13.0)),
+        (FrictionBranch::Sliding, (0.586, 13.77)),
     ] {
         let (least, largest) = designs
             .par_iter()
