@@ -381,6 +381,7 @@ fn folded_fields<const NODES: usize>(folded: &mut FoldedBall<NODES>) -> Vec<&mut
     let BallNode {
         friction,
         branches: [[first, .., last], [.., other]],
+        neighbours: [[_, neighbours, ..], _],
         ..
     } = &mut folded.law.nodes[0];
     let [screw, nut] = &mut folded.law.deviations;
@@ -407,8 +408,11 @@ fn folded_fields<const NODES: usize>(folded: &mut FoldedBall<NODES>) -> Vec<&mut
         &mut last.numbers.slope,
         &mut other.numbers.free[5],
         &mut other.numbers.impedance[2],
-        &mut other.numbers.grip[1],
-        &mut other.numbers.rubbing,
+        &mut neighbours.numbers.push[1][0],
+        &mut neighbours.numbers.impedance[2][1],
+        &mut neighbours.numbers.torque[0][0],
+        &mut neighbours.numbers.outward[2],
+        &mut neighbours.numbers.outward_torque,
     ]
 }
 

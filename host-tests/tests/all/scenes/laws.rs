@@ -262,7 +262,11 @@ proptest! {
                     let numbers = &mut knot.numbers;
                     numbers.torque = numbers.torque.map(|arm| arm * scale);
                     numbers.slope *= scale;
-                    numbers.rubbing *= scale;
+                }
+                for knot in folded.law.nodes.iter_mut().flat_map(|node| node.neighbours.as_flattened_mut()) {
+                    let numbers = &mut knot.numbers;
+                    numbers.torque = numbers.torque.map(|line| line.map(|arm| arm * scale));
+                    numbers.outward_torque *= scale;
                 }
             });
             FrictionModel::<UncagedBallScrew<7>>::new(&UncagedBallScrewConfiguration {

@@ -1,7 +1,7 @@
 //! What a host has folded of a ball screw without cage: the law between its knots, numbers that are no law, and blocks that are none.
 
 use epas_friction::Error;
-use epas_friction::ball::pressed::{BallKnot, BallLaw, BallNumbers, KNOTS};
+use epas_friction::ball::pressed::{BallKnot, BallLaw, BallNumbers, KNOTS, NeighbourNumbers};
 use epas_friction::scene::FoldedBall;
 
 use epas_testkit::gears::{BALL, BALL_NODES, BALL_RANGE};
@@ -15,21 +15,11 @@ fn all(numbers: &BallNumbers) -> Vec<f32> {
         torque,
         slope,
         work,
-        grip,
-        rubbing,
     } = *numbers;
-    [
-        &free[..],
-        &impedance,
-        &torque,
-        &[slope, work],
-        &grip,
-        &[rubbing],
-    ]
-    .concat()
+    [&free[..], &impedance, &torque, &[slope, work]].concat()
 }
 
-/// Impedance, torque and slope in proportion to `mu W`; free speed, grip and rubbing without it.
+/// Impedance, torque and slope in proportion to `mu W`; free speed and work without it.
 fn over_load(numbers: &BallNumbers, sliding: f32) -> Vec<f32> {
     all(&BallNumbers {
         impedance: numbers.impedance.map(|z| z / sliding),
@@ -57,7 +47,7 @@ fn numbers_are_those_of_the_knots() {
         let interval = law.interval(friction);
         for branch in 0..2 {
             let knots = &law.nodes[node].branches[branch];
-            let sizes: Vec<f32> = (0..18)
+            let sizes: Vec<f32> = (0..17)
                 .map(|at| {
                     let numbers = knots.iter().map(|knot| all(&knot.numbers)[at].abs());
                     numbers.fold(0.0, f32::max)
@@ -70,7 +60,7 @@ fn numbers_are_those_of_the_knots() {
                 assert!(alike(&found(below.load), &all(&below.numbers), &sizes));
                 if above.load > below.load {
                     let ends = [all(&below.numbers), all(&above.numbers)];
-                    let mean: Vec<f32> = (0..18)
+                    let mean: Vec<f32> = (0..17)
                         .map(|at| 0.5 * (ends[0][at] + ends[1][at]))
                         .collect();
                     let middle = 0.5 * (below.load + above.load);
@@ -130,7 +120,10 @@ fn numbers_that_are_no_law_are_refused_by_name() {
     fn numbers(law: &mut BallLaw<BALL_NODES>) -> &mut BallNumbers {
         &mut knot(law).numbers
     }
-    let refused: [(&str, Change, &[f32]); 17] = [
+    fn neighbours(law: &mut BallLaw<BALL_NODES>) -> &mut NeighbourNumbers {
+        &mut law.nodes[0].neighbours[1][3].numbers
+    }
+    let refused: [(&str, Change, &[f32]); 20] = [
         ("deviations", |law, x| law.deviations[0] = x, &[9e-7, 1.01]),
         ("deviations", |law, x| law.deviations[1] = x, &[0.0, -0.1]),
         ("lift_off", |law, x| law.lift_off = x, &[-1e-6, 1.1e7]),
@@ -160,12 +153,31 @@ fn numbers_that_are_no_law_are_refused_by_name() {
         ("slope", |law, x| numbers(law).slope = x, &[1.01, -1.01]),
         ("work", |law, x| numbers(law).work = x, &[-0.01, 4.01]),
         (
-            "grip",
-            |law, x| numbers(law).grip = [0.0, 0.0, x],
-            &[10.1, -10.1],
+            "push",
+            |law, x| neighbours(law).push[1][2] = x,
+            &[1.1e3, -1.1e3],
         ),
-        ("grip", |law, x| numbers(law).grip = [x; 3], &[3.34, -3.34]),
-        ("rubbing", |law, x| numbers(law).rubbing = x, &[-1e-9, 1.01]),
+        (
+            "rubbed_impedance",
+            |law, x| neighbours(law).impedance[2][0] = x,
+            &[1.1e3],
+        ),
+        (
+            "rubbed_torque",
+            |law, x| neighbours(law).torque[0][1] = x,
+            &[-1.1e3],
+        ),
+        ("outward", |law, x| neighbours(law).outward[2] = x, &[1.1e3]),
+        (
+            "outward_torque",
+            |law, x| neighbours(law).outward_torque = x,
+            &[-1.1e3],
+        ),
+        (
+            "load",
+            |law, x| law.nodes[1].neighbours[0][2].load = x,
+            &[9e-7, 1.1e7],
+        ),
         ("load", |law, x| knot(law).load = x, &[9e-7, 1.1e7]),
         (
             "per_width",
@@ -198,8 +210,8 @@ fn numbers_that_are_no_law_are_refused_by_name() {
         |law, _| law.deviations = [1e-6, 1.0],
         |law, _| law.lift_off = 1e7,
         |law, _| numbers(law).free = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        |law, _| numbers(law).grip = [-4.0, 3.0, -3.0],
-        |law, _| (numbers(law).slope, numbers(law).rubbing) = (-1.0, 1.0),
+        |law, _| neighbours(law).push = [[-1e3, 1e3, 0.0]; 3],
+        |law, _| numbers(law).slope = -1.0,
     ];
     for change in taken {
         let mut law = BALL_RANGE.law;

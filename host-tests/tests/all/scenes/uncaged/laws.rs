@@ -2,7 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use epas_friction::ball::pressed::{BallNumbers, FreeMotion};
+use epas_friction::ball::pressed::{BallNumbers, FreeMotion, NeighbourNumbers, RowConstants};
+use epas_friction::train::RUBBINGS;
 use epas_friction::{
     DeviationMap, Faults, FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration,
     UncagedOutputs,
@@ -40,6 +41,11 @@ struct Tick {
     /// Numbers of all balls, and what each does on its own.
     numbers: BallNumbers,
     free: Vec<FreeMotion>,
+    /// What neighbours change, the chord, friction coefficient times load, N, and deviations over the largest.
+    neighbours: NeighbourNumbers,
+    row: RowConstants,
+    sliding: f64,
+    deviations: Vec<[f32; 2]>,
     speeds: Vec<f64>,
     forces: Vec<f64>,
     /// Whether two balls have met in it.
@@ -61,7 +67,7 @@ fn tick(
     let branch = usize::from(way * inputs.axial_load < 0.0);
     let numbers = law.numbers(load, branch, law.interval(configuration.folded.friction));
     let turns = f64::from(configuration.turns);
-    let free = train
+    let deviations: Vec<[f32; 2]> = train
         .positions()
         .map(|position| {
             let place = f64::from(position) / 2_f64.powi(32) * turns;
@@ -70,12 +76,17 @@ fn tick(
                 .screw_deviation
                 .at(phase(place + angle / std::f64::consts::TAU));
             let nut = configuration.nut_deviation.at(phase(place));
-            numbers.at([
+            [
                 way * screw / law.deviations[0],
                 way * nut / law.deviations[1],
-            ])
+            ]
         })
         .collect();
+    let interval = law.interval(configuration.folded.friction);
+    let row = configuration.folded.row(configuration.ball_friction);
+    let neighbours = law
+        .neighbours(load, branch, interval, &numbers, row)
+        .numbers;
     let outputs = model.step(inputs);
     let train = &model.state().circuit.train;
     let forces: Vec<f64> = train.forces().map(f64::from).collect();
@@ -92,7 +103,11 @@ fn tick(
         load: inputs.axial_load / SCREW_BALLS as f32,
         branch,
         numbers,
-        free,
+        free: deviations.iter().map(|at| numbers.at(*at)).collect(),
+        neighbours,
+        row,
+        sliding: f64::from(law.sliding(load, interval)),
+        deviations,
         speeds: train.speeds().map(f64::from).collect(),
         meets: forces
             .iter()
@@ -121,24 +136,63 @@ fn ticks(ball_friction: f32, mut check: impl FnMut(&Tick, f32)) {
     }
 }
 
-/// Every ball is in balance: the push of its neighbours is what changes its speed, and what their friction on it takes.
+impl Tick {
+    /// Forces of both neighbours of a ball, N, and the friction that they have on it over `mu W`.
+    fn neighbours_of(&self, ball: usize) -> ([f64; 2], f64) {
+        let behind = self.forces[(ball + SCREW_BALLS - 1) % SCREW_BALLS];
+        let ahead = self.forces[ball];
+        let rubbing = f64::from(self.row.ball_friction) * (behind + ahead) / self.sliding;
+        ([behind, ahead], rubbing)
+    }
+
+    /// A number of the law that goes with the friction, of a ball: linear between its nodes, and in proportion beyond them.
+    fn by_rubbing(&self, nodes: &[[f32; 3]; 3], ball: usize) -> f64 {
+        let (_, rubbing) = self.neighbours_of(ball);
+        let nodes = nodes.map(|line| self.line(&line, ball));
+        let [first, second, third] = RUBBINGS.map(f64::from);
+        let between = |share: f64, low: f64, high: f64| low + share * (high - low);
+        if rubbing < first {
+            between(rubbing / first, 0.0, nodes[0])
+        } else if rubbing < second {
+            between((rubbing - first) / (second - first), nodes[0], nodes[1])
+        } else if rubbing < third {
+            between((rubbing - second) / (third - second), nodes[1], nodes[2])
+        } else {
+            rubbing / third * nodes[2]
+        }
+    }
+
+    fn line(&self, [a, screw, nut]: &[f32; 3], ball: usize) -> f64 {
+        let [s, n] = self.deviations[ball].map(f64::from);
+        f64::from(*a) + s * f64::from(*screw) + n * f64::from(*nut)
+    }
+}
+
+/// Every ball is in balance: the push of its neighbours is what changes its speed, and what their friction and their outward force take. Without
+/// friction that is solved; with friction two passes leave an error of the second order.
 #[test]
 fn every_ball_is_in_balance() {
-    for ball_friction in [0.0, 0.1] {
+    for (ball_friction, name) in [
+        (0.0, "screw without cage, balance of a ball"),
+        (0.1, "screw without cage, balance of a rubbed ball"),
+    ] {
         let mut pressing = 0;
         ticks(ball_friction, |tick, way| {
             let largest = tick.forces.iter().copied().fold(0.0, f64::max);
+            let held = f64::from(tick.numbers.held_speed());
             for ball in 0..SCREW_BALLS {
-                let behind = tick.forces[(ball + SCREW_BALLS - 1) % SCREW_BALLS];
-                let ahead = tick.forces[ball];
+                let ([behind, ahead], _) = tick.neighbours_of(ball);
                 let free = &tick.free[ball];
-                let change = tick.speeds[ball] - f64::from(way * free.speed);
-                let grip = f64::from(way * ball_friction * free.grip);
-                let needed = f64::from(free.impedance) * change + grip * (behind + ahead);
+                let speed = f64::from(way) * tick.speeds[ball];
+                let alone = f64::from(free.impedance) * (speed - f64::from(free.speed));
+                let rubbed = tick.sliding
+                    * (tick.by_rubbing(&tick.neighbours.push, ball)
+                        + tick.by_rubbing(&tick.neighbours.impedance, ball) * (speed - held));
+                let outward = tick.line(&tick.neighbours.outward, ball) * (behind + ahead);
+                let needed = f64::from(way) * (alone + rubbed + outward);
                 // Places on a map to 2^-20 of a period change a free speed; forces add up to a cluster's roundings.
                 let size = largest + f64::from(free.impedance) * 0.01;
-                let error = (behind - ahead - needed) / size;
-                measured::assert("screw without cage, balance of a ball", error);
+                measured::assert(name, (behind - ahead - needed) / size);
             }
             pressing += u32::from(tick.outputs.contacts);
         });
@@ -146,7 +200,7 @@ fn every_ball_is_in_balance() {
     }
 }
 
-/// A mean friction force between balls above 0.05 `mu W` is flagged, and only this where the law holds all else.
+/// A ball whose neighbours rub on it with more than 0.3 `mu W` is flagged, and only this where the law holds all else.
 #[test]
 fn balls_that_rub_hard_are_flagged() {
     let law = &BALL.law;
@@ -155,53 +209,53 @@ fn balls_that_rub_hard_are_flagged() {
     for ball_friction in [0.0, 0.1, 0.3, 0.6] {
         ticks(ball_friction, |tick, _| {
             let load = law.load_of(tick.load);
-            let mean = tick.forces.iter().sum::<f64>() / SCREW_BALLS as f64;
-            let rubbing = f64::from(ball_friction) * mean;
-            let over = rubbing / f64::from(friction.friction() * load);
+            let over = (0..SCREW_BALLS)
+                .map(|ball| tick.neighbours_of(ball).1)
+                .fold(0.0, f64::max);
             let flagged = tick.outputs.faults.contains(Faults::BEYOND_MODEL);
-            let cut = |ball: &FreeMotion| (ball_friction * ball.grip).abs() > 0.3;
-            let forces_held = tick.outputs.contacts == 0
-                || law.holds_forces(load, tick.branch, friction) && !tick.free.iter().any(cut);
+            let forces_held =
+                tick.outputs.contacts == 0 || law.holds_forces(load, tick.branch, friction);
             let forces_flagged = tick.outputs.faults.contains(Faults::FORCES_NOT_HELD);
             assert_eq!(forces_flagged, !forces_held, "{over}");
-            if over > 0.0501 {
+            if over > 0.3001 {
                 assert!(flagged, "{over}");
                 hard += 1;
-            } else if over < 0.0499 {
+            } else if over < 0.2999 {
                 assert!(!flagged, "{over}");
-                lightly += u32::from(rubbing > 0.0);
+                lightly += u32::from(over > 0.0);
             }
         });
     }
     assert!(hard > 300 && lightly > 300, "{hard} {lightly}");
 }
 
-/// The torque is what the balls lose: each in its grooves at its speed, and all of them between them; forces between them do no work, but in
+/// The torque is what the balls lose: each in its grooves at its speed, and what their neighbours add; forces between them do no work, but in
 /// a tick in which two of them meet.
 #[test]
 fn the_torque_is_what_the_balls_lose() {
     let half_speed = 0.5 * f64::from(BALL.speed);
     for ball_friction in [0.0, 0.1] {
         ticks(ball_friction, |tick, way| {
-            let mut grooves = 0.0;
+            let mut torque = 0.0;
             for (ball, free) in tick.free.iter().enumerate() {
                 let x = f64::from(way) * tick.speeds[ball] - f64::from(free.speed);
                 let push = f64::from(free.impedance) * x;
-                grooves += f64::from(free.torque)
+                let ([behind, ahead], _) = tick.neighbours_of(ball);
+                torque += f64::from(free.torque)
                     + (f64::from(tick.numbers.slope)
                         + half_speed * f64::from(tick.numbers.work) * push)
-                        * x;
+                        * x
+                    + tick.sliding * tick.by_rubbing(&tick.neighbours.torque, ball)
+                    + f64::from(tick.neighbours.outward_torque) * (behind + ahead);
             }
-            let found = f64::from(way * tick.outputs.groove_torque);
+            let found = f64::from(way * tick.outputs.friction_torque);
             measured::assert(
-                "screw without cage, losses of all grooves",
-                found / grooves - 1.0,
+                "screw without cage, losses of all balls",
+                found / torque - 1.0,
             );
-            let rubbing = f64::from(ball_friction * tick.numbers.rubbing);
-            let balls = rubbing * tick.forces.iter().sum::<f64>();
-            let found = f64::from(way * tick.outputs.ball_torque);
-            // The sum of 37 forces, and three products: 40 roundings of 2^-24.
-            assert!((found - balls).abs() <= 2.4e-6 * balls, "{found} {balls}");
+            if ball_friction == 0.0 {
+                assert_eq!(tick.outputs.ball_torque, 0.0);
+            }
             let work: f64 = (0..SCREW_BALLS)
                 .map(|ball| {
                     tick.forces[ball] * (tick.speeds[(ball + 1) % SCREW_BALLS] - tick.speeds[ball])
@@ -252,7 +306,9 @@ fn a_mirrored_screw_has_the_mirrored_torque() {
             let sum = f64::from(one.friction_torque) + f64::from(other.friction_torque);
             let ulp = 2_f64.powi(-23) * f64::from(one.friction_torque.abs());
             let rounding = BALLS as f64 * ulp;
-            let rubs = allowed * f64::from(configuration.ball_friction * numbers.rubbing);
+            // As much as the steepest piece of the loss by friction between balls, twice for both neighbours.
+            let steepest = steepest_loss(&configuration, load);
+            let rubs = 2.0 * BALLS as f64 * allowed * steepest;
             assert!(sum.abs() <= rounding + rubs, "{load} N: {sum} N m");
             let forces = |model: &FrictionModel<UncagedBallScrew<BALLS>>| -> Vec<f32> {
                 model.state().circuit.train.forces().collect()
@@ -271,6 +327,26 @@ fn a_mirrored_screw_has_the_mirrored_torque() {
         }
     }
     assert!(pressing > 1000, "{pressing}");
+}
+
+/// Largest change of the torque of a ball with a force of a neighbour, m: of the pieces between the nodes, and by the outward force.
+fn steepest_loss(configuration: &UncagedBallScrewConfiguration, load: f32) -> f64 {
+    let law = &configuration.folded.law;
+    let load_of_ball = law.load_of(load / SCREW_BALLS as f32);
+    let branch = usize::from(load < 0.0);
+    let interval = law.interval(configuration.folded.friction);
+    let numbers = law.numbers(load_of_ball, branch, interval);
+    let row = configuration.folded.row(configuration.ball_friction);
+    let neighbours = law
+        .neighbours(load_of_ball, branch, interval, &numbers, row)
+        .numbers;
+    let sizes = neighbours
+        .torque
+        .map(|line| line.map(f32::abs).iter().sum::<f32>());
+    let steepest = (sizes[0] / RUBBINGS[0])
+        .max((sizes[0] + sizes[1]) / (RUBBINGS[1] - RUBBINGS[0]))
+        .max((sizes[1] + sizes[2]) / (RUBBINGS[2] - RUBBINGS[1]));
+    f64::from(row.ball_friction * steepest + neighbours.outward_torque.abs())
 }
 
 /// Balls have no numbers: a state whose balls are counted from another one on goes on as it would have.

@@ -51,49 +51,6 @@ fn each_sign_of_the_load_has_its_shares() {
     assert_ne!(after, other.step(inputs(5.0, -1000.0)));
 }
 
-/// Friction between balls of which a train cuts off a part is flagged where balls press, and leaves a torque all the same; loads of their own
-/// change nothing of the limit.
-#[test]
-fn friction_between_balls_that_a_train_cuts_off_is_flagged() {
-    let nearly_even = LoadShares::same(table([1.0, 1.000_001]));
-    // A train takes 0.3 of the force; of the doubled grips of the folded ball some take more.
-    let folded = changed(configuration(0.5).folded, |folded| {
-        for knot in folded.law.nodes[0].branches.as_flattened_mut() {
-            knot.numbers.grip = knot.numbers.grip.map(|grip| 2.0 * grip);
-        }
-    });
-    for (ball_friction, may, load_shares) in [
-        (0.0, false, LoadShares::EVEN),
-        (1.0, true, LoadShares::EVEN),
-        (1.0, true, nearly_even),
-    ] {
-        let mut model = Model::new(&UncagedBallScrewConfiguration {
-            ball_friction,
-            load_shares,
-            folded,
-            ..configuration(0.5)
-        })
-        .unwrap();
-        let (mut flagged, mut apart) = (0, 0);
-        let courses = [
-            (10.0, 4000.0),
-            (10.0, -3000.0),
-            (-30.0, -3000.0),
-            (-30.0, 5000.0),
-        ];
-        for (speed, load) in courses.into_iter().flat_map(|course| [course; 300]) {
-            let outputs = model.step(inputs(speed, load));
-            let forces = outputs.faults.contains(Faults::FORCES_NOT_HELD);
-            flagged += u32::from(forces);
-            apart += u32::from(outputs.contacts == 0);
-            assert!(!forces || outputs.contacts > 0);
-            assert!(outputs.friction_torque * speed > 0.0 && outputs.friction_torque.is_finite());
-        }
-        println!("friction of {ball_friction}: {flagged} ticks flagged, {apart} without a contact");
-        assert_eq!(flagged > 0, may, "{ball_friction}");
-    }
-}
-
 fn exported<const N: usize, const NODES: usize>(
     model: &FrictionModel<UncagedBallScrew<N, NODES>>,
 ) -> Vec<u8> {
