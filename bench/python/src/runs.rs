@@ -153,6 +153,7 @@ pub fn simulate_caged<'py>(
         design: (*design.inner).clone(),
         memory,
         encoder: EncoderStep::default(),
+        temperature: false,
     };
     let rows = rows(py, scene, trace, None)?;
     columns::<ScrewColumns>(py, rows.iter().map(|row| row.outputs))
@@ -287,6 +288,7 @@ pub fn reference_simulate_caged<'py>(
         design: (*design.inner).clone(),
         memory: false,
         encoder: EncoderStep::default(),
+        temperature: false,
     };
     let rows = rows(py, scene, trace, Some(ReferenceModel::Exact))?;
     reference_run(py, rows.iter().map(|row| row.reference))
