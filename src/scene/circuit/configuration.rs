@@ -149,6 +149,25 @@ impl Circuit {
         self.zone.sharing(state.train.positions(), shares)
     }
 
+    /// Sum of the forces from ball to ball, N, by that of all, `force`: each in the lesser of both balls' parts of their load, because friction
+    /// between balls sets in with it.
+    #[inline(always)]
+    pub(crate) fn rubbing<const N: usize>(&self, state: &CircuitState<N>, force: f32) -> f32 {
+        if self.zone.is_closed() || force == 0.0 {
+            return force;
+        }
+        let train = &state.train;
+        let ahead = train.positions().skip(1).chain(train.positions().take(1));
+        let mut sum = 0.0;
+        for ((position, ahead), force) in train.positions().zip(ahead).zip(train.forces()) {
+            if force > 0.0 {
+                let (part, other) = (self.zone.part(position), self.zone.part(ahead));
+                sum += force * if part < other { part } else { other };
+            }
+        }
+        sum
+    }
+
     /// The ball at a position of the track, if it is loaded there, by the [`Circuit::shares`] of this tick.
     #[inline(always)]
     pub(crate) fn loaded_ball(

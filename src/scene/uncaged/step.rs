@@ -102,7 +102,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let numbers = &common.numbers;
         let change = numbers.slope * common.direction * pressing.change;
         let work = self.half_speed * numbers.work * pressing.work;
-        let rubbing_force = self.ball_friction * pressing.force;
+        let force = self.circuit.rubbing(&state.circuit, pressing.force);
+        let rubbing_force = self.ball_friction * force;
         let ball_torque = numbers.rubbing * rubbing_force;
         let load = inputs.axial_load.abs() + self.preload;
         let extremes = sharing
