@@ -36,8 +36,9 @@ struct Ahead {
 pub(crate) struct FreeBall<'intake> {
     ball: &'intake mut Ball,
     ahead: &'intake mut Ahead,
-    /// Force of the ball behind by the pass before.
+    /// Force and position of the ball behind, before it is taken in.
     force_behind: f32,
+    position_behind: u32,
 }
 
 impl<const N: usize> Train<N> {
@@ -89,7 +90,7 @@ impl<const N: usize> Train<N> {
     #[inline(always)]
     fn begin(&self, travel: f32) -> (f32, Ahead) {
         let travel = self.track.in_units(travel);
-        let first = self.press.balls().first().map_or(0, Ball::position);
+        let first = self.first_position();
         let ahead = Ahead {
             rooms: Rooms::behind(first, self.track, travel),
             // Not known before the first ball comes, at the end: `complete` puts it in.
@@ -142,12 +143,16 @@ impl<'train, const N: usize> Intake<'train, N> {
             .left
             .checked_sub(1)
             .unwrap_or(usize::from(press.last()));
-        let force_behind = press.places.get(behind).map_or(0.0, Ball::force);
+        let (force_behind, position_behind) = press
+            .places
+            .get(behind)
+            .map_or((0.0, 0), |ball| (ball.force(), ball.position()));
         let ball = press.places.get_mut(self.left)?;
         Some(FreeBall {
             ball,
             ahead: &mut self.ahead,
             force_behind,
+            position_behind,
         })
     }
 
@@ -183,7 +188,7 @@ impl<'train, const N: usize> Intake<'train, N> {
         train.press.join::<true>(true);
         let losses = Losses::default();
         train.press.settle_rubbing::<false>(Motion::NONE, &losses);
-        let first = train.press.balls().first().map_or(0, Ball::position);
+        let first = train.first_position();
         Self {
             left: train.balls().min(N),
             travel,
@@ -214,10 +219,16 @@ impl FreeBall<'_> {
         self.ball.position()
     }
 
-    /// Sum of the forces of both neighbours by the pass before.
+    /// Position of the ball behind, as [`Self::position`].
     #[inline(always)]
-    pub(crate) fn forces(&self) -> f32 {
-        self.force_behind + self.ball.force()
+    pub(crate) fn position_behind(&self) -> u32 {
+        self.position_behind
+    }
+
+    /// Forces of the ball behind and of the one ahead by the pass before.
+    #[inline(always)]
+    pub(crate) fn forces(&self) -> [f32; 2] {
+        [self.force_behind, self.ball.force()]
     }
 
     /// Speed by the pass before.

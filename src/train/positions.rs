@@ -129,6 +129,12 @@ impl<const N: usize> Train<N> {
         self.press.balls().iter().map(Ball::position)
     }
 
+    /// Position of the first ball.
+    #[inline(always)]
+    pub(crate) fn first_position(&self) -> u32 {
+        self.press.balls().first().map_or(0, Ball::position)
+    }
+
     /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
     pub fn gaps(&self) -> impl Iterator<Item = f32> + '_ {
         let metres_per_unit = 1.0 / self.track.units_per_metre();

@@ -47,8 +47,10 @@ pub struct NeighbourNumbers {
 /// What one pass knows of a ball for the next one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pressed {
-    /// Forces of both neighbours, N.
-    pub forces: f32,
+    /// Forces of the ball behind and of the one ahead, N.
+    pub forces: [f32; 2],
+    /// Part of their friction that these have: the lesser part of their load that both balls of a contact carry.
+    pub parts: [f32; 2],
     /// Speed of the ball, as free speeds are counted.
     pub speed: f32,
 }
@@ -160,33 +162,50 @@ impl NeighbourLaw {
     /// what its deviations change of the torque that rubbing adds, N m.
     #[inline(always)]
     #[must_use]
-    pub fn second(&self, ball: &BallOfRow, found: Pressed) -> (RubbedBall, f32) {
+    pub fn second(&self, ball: &BallOfRow, found: &Pressed) -> (RubbedBall, f32) {
         let at = |nodes: &[f32; 3]| line(nodes, ball.deviations);
         let numbers = &self.numbers;
-        let rubbing = self.ball_friction * found.forces / ball.sliding;
-        let place = Place::of(rubbing);
+        let [behind, ahead] = found.forces;
+        let whole = found.parts == [1.0; 2];
+        let carried = ball.part * ball.sliding;
+        let forces = behind + ahead;
+        // Those that rub.
+        let rubbing = if whole {
+            forces
+        } else {
+            found.parts[0] * behind + found.parts[1] * ahead
+        };
+        let place = Place::of(self.ball_friction * rubbing / carried);
         let [push, by_rubbing] = place.value(&numbers.push, at);
         let [stiffness, stiffening] = place.value(&numbers.impedance, at);
         let [by_deviations, _] = place.value(&numbers.torque, |nodes| at(nodes) - nodes[0]);
         let change = by_rubbing + stiffening * (found.speed - self.held_speed);
         let outward = ball.part * at(&numbers.outward);
-        let grip = limited_grip(ball.part * (self.ball_friction * change) + outward);
-        let rubbed = if ball.part == 1.0 {
-            // What the train cuts off stays as it is at these forces.
-            let constant = push - (grip - outward) * found.forces / ball.sliding;
-            self.rubbed(ball, stiffness, constant, grip)
-        } else {
-            let constant = push - (grip - outward) * found.forces / (ball.part * ball.sliding);
-            let rubbed = self.rubbed(ball, stiffness, constant, grip);
-            // The walk that adds up losses has those of balls beyond the run-in.
-            let change = found.speed - self.held_speed;
-            let by_speed =
-                (rubbed.torque_slope + self.curvature * ball.alone.impedance * change) * change;
-            let [middle, _] = place.value(&numbers.torque, |nodes| nodes[0]);
-            let by_rubbing = ball.part * ball.sliding * (middle + by_deviations);
-            return (rubbed, self.held(ball) + by_speed + by_rubbing);
-        };
-        (rubbed, self.held(ball) + by_deviations * ball.sliding)
+        let mut grip = self.ball_friction * change;
+        if !whole {
+            grip *= if forces > 0.0 {
+                rubbing / forces
+            } else {
+                ball.part
+            };
+        }
+        let grip = limited_grip(grip + outward);
+        // What the train cuts off stays as it is at these forces.
+        let constant = push - (grip - outward) * forces / carried;
+        let mut rubbed = self.rubbed(ball, stiffness, constant, grip);
+        rubbed.counts = whole;
+        let held = self.held(ball);
+        if whole {
+            return (rubbed, held + by_deviations * carried);
+        }
+        // The walk that adds up losses has those of balls all of whose contacts rub in full.
+        let change = found.speed - self.held_speed;
+        let curvature = self.curvature * ball.alone.impedance;
+        let by_speed = (rubbed.torque_slope + curvature * change) * change;
+        let [middle, _] = place.value(&numbers.torque, |nodes| nodes[0]);
+        let outward = numbers.outward_torque * forces;
+        let added = by_speed + carried * (middle + by_deviations) + outward;
+        (rubbed, held + added)
     }
 
     /// A ball whose neighbours do not rub, but press it outward; and what its friction torque is more at `v_h` than free, N m.

@@ -149,6 +149,12 @@ impl Circuit {
         self.zone.sharing(state.train.positions(), shares)
     }
 
+    /// Part of its load that a ball carries at a position: below 1 on a run-in, 0 in the return.
+    #[inline(always)]
+    pub(crate) fn part(&self, position: u32) -> f32 {
+        self.zone.part(position)
+    }
+
     /// The ball at a position of the track, if it is loaded there, by the [`Circuit::shares`] of this tick.
     #[inline(always)]
     pub(crate) fn loaded_ball(

@@ -182,6 +182,19 @@ impl LoadedZone {
         }
     }
 
+    /// Whether the track has no return, and no run-in.
+    #[inline(always)]
+    pub(super) const fn is_closed(&self) -> bool {
+        self.run_in == 0
+    }
+
+    /// Part of its load that a ball carries at a position; 0 in the return.
+    #[inline(always)]
+    pub(super) fn part(&self, position: u32) -> f32 {
+        let place = position.wrapping_add(self.half_run_in);
+        self.run_in(place).unwrap_or(0.0)
+    }
+
     /// Part of its load that a ball carries at a place from the begin of the first run-in on; none in the return.
     #[inline(always)]
     fn run_in(&self, place: u32) -> Option<f32> {
@@ -208,7 +221,7 @@ impl LoadedZone {
         let from_middle = scaled(position, self.entries) + ONE / 2;
         let entry = (from_middle / ONE) as usize;
         let (above, below) = (shares.get(entry), shares.get(entry.wrapping_sub(1)));
-        let (above, below) = if self.run_in == 0 {
+        let (above, below) = if self.is_closed() {
             (above.or(shares.first()), below.or(shares.last()))
         } else {
             (above.or(below), below.or(above))

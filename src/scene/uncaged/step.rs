@@ -87,6 +87,8 @@ struct Row<'state, const N: usize> {
     /// Phase of the screw's deviations.
     phase: u32,
     shares: &'static [LoadShare],
+    /// Part of its load that the first ball carries, which is ahead of the last one.
+    part_ahead: f32,
 }
 
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
@@ -102,7 +104,9 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let sharing = self.circuit.sharing(&state.circuit, shares);
         let common = self.common(state, inputs, &sharing);
         let friction = state.friction;
+        let first = state.circuit.train.first_position();
         let row = Row {
+            part_ahead: self.circuit.part(first),
             phase: state.circuit.phase(),
             balls: state.circuit.train.intake(self.circuit.travel(nut_speed)),
             shares,
@@ -235,27 +239,35 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let units = self.units.map(|unit| direction * unit);
         let idle = direction * numbers.free[0];
         let mut torques = Torques::default();
+        let mut ahead = row.part_ahead;
         while let Some(ball) = row.balls.next_ball() {
             let loaded = self
                 .circuit
                 .loaded_ball(ball.position(), row.phase, row.shares);
             let Some(loaded) = loaded else {
                 ball.put_smooth(idle, UNLOADED);
+                ahead = 0.0;
                 continue;
             };
             let deviations = [units[0] * loaded.passing, units[1] * loaded.recirculating];
             let own = of(&loaded, deviations);
             let (rubbed, held) = match pass {
                 Pass::First => (neighbours.first(&own), 0.0),
-                Pass::Second => neighbours.second(
-                    &own,
-                    Pressed {
-                        forces: ball.forces(),
-                        speed: direction * ball.speed(),
-                    },
-                ),
+                Pass::Second => {
+                    let behind = self.circuit.part(ball.position_behind());
+                    let parts = [behind, ahead].map(|part| lesser(part, own.part));
+                    neighbours.second(
+                        &own,
+                        &Pressed {
+                            forces: ball.forces(),
+                            parts,
+                            speed: direction * ball.speed(),
+                        },
+                    )
+                }
                 Pass::Smooth => neighbours.smooth(&own),
             };
+            ahead = own.part;
             torques.free += own.alone.torque;
             torques.held += held;
             ball.put_rubbed(&RubbedBall {
@@ -267,4 +279,10 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
         torques
     }
+}
+
+/// The lesser of two numbers.
+#[inline(always)]
+fn lesser(one: f32, other: f32) -> f32 {
+    if one < other { one } else { other }
 }

@@ -150,10 +150,14 @@ impl PressedRow {
             press.solve_rubbing(&first, &room, losses)?;
             let forces: Vec<f32> = press.forces().collect();
             let behind = std::iter::once(0.0).chain(forces.iter().copied());
-            let found = behind.zip(&forces).zip(press.speeds());
-            let second = |(ball, ((behind, ahead), speed))| {
-                let forces: f32 = behind + ahead;
-                neighbours.second(ball, Pressed { forces, speed })
+            let found = behind.zip(forces.iter().copied()).zip(press.speeds());
+            let second = |(ball, ((behind, ahead), speed)): (&BallOfRow, ((f32, f32), f32))| {
+                let pressed = Pressed {
+                    forces: [behind, ahead],
+                    parts: [1.0; 2],
+                    speed,
+                };
+                neighbours.second(ball, &pressed)
             };
             balls.iter().zip(found).map(second).collect()
         } else {

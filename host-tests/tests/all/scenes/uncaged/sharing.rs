@@ -3,17 +3,17 @@
 use std::f64::consts::TAU;
 
 use epas_friction::{
-    DeviationMap, FrictionModel, Inputs, LoadShares, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    FrictionModel, Inputs, LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use epas_reference::friction::ball_screw_ring::{
     ElasticRing, GrooveDeviation, RingState, steady_samples,
 };
 use epas_reference::friction::patch::Integration;
 
-use super::exact::{PLAIN, PRELOADED, exact_design, oversize};
+use super::exact::{DEVIATIONS, PLAIN, PRELOADED, exact_design, oversize};
 use epas_friction::Clearance;
 use epas_friction::scene::FoldedBall;
+use epas_testkit::gears::wave;
 
 /// Balls of the screw, of which 36.5 are loaded in the mean: with the number of those in the zone, 36 or 37, the torque went up and down by
 /// 2.7 %.
@@ -43,7 +43,12 @@ fn lengths() -> (f64, f64) {
     )
 }
 
-fn torques(folded: &'static FoldedBall, nut_speed: f64, ticks: usize) -> Vec<f64> {
+fn torques(
+    folded: &'static FoldedBall,
+    nut_speed: f64,
+    ticks: usize,
+    [screw, nut]: [f32; 2],
+) -> Vec<f64> {
     let (turns, return_length) = lengths();
     let configuration = UncagedBallScrewConfiguration {
         folded,
@@ -51,8 +56,8 @@ fn torques(folded: &'static FoldedBall, nut_speed: f64, ticks: usize) -> Vec<f64
         balls: BALLS as u16,
         turns: turns as f32,
         return_length: return_length as f32,
-        screw_deviation: &DeviationMap::NONE,
-        nut_deviation: &DeviationMap::NONE,
+        screw_deviation: wave(1, 2, 0.0, screw),
+        nut_deviation: wave(1, 3, 0.0, nut),
         load_shares: LoadShares::EVEN,
         tick: 1e-3,
     };
@@ -70,7 +75,7 @@ fn torques(folded: &'static FoldedBall, nut_speed: f64, ticks: usize) -> Vec<f64
         .collect()
 }
 
-fn exact(clearance: Clearance, states: usize) -> Vec<RingState> {
+fn exact(clearance: Clearance, states: usize, [screw, nut]: [f32; 2]) -> Vec<RingState> {
     let (turns, return_length) = lengths();
     let ring = ElasticRing {
         design: exact_design(),
@@ -80,8 +85,8 @@ fn exact(clearance: Clearance, states: usize) -> Vec<RingState> {
         balls: BALLS,
         turns,
         return_length,
-        screw_deviation: GrooveDeviation::NONE,
-        nut_deviation: GrooveDeviation::NONE,
+        screw_deviation: GrooveDeviation::sine(2.0, screw.into()),
+        nut_deviation: GrooveDeviation::sine(3.0, nut.into()),
         load_shares: Vec::new(),
         // As in [`super::exact`].
         chord: false,
@@ -89,7 +94,8 @@ fn exact(clearance: Clearance, states: usize) -> Vec<RingState> {
         integration: Integration::Full,
     };
     // Over a distance of two balls, which goes by in half that angle of the nut or a little more.
-    let angle = 2.0 * (1.0 + ROOM) * path().1;
+    let distance = 2.0 * (1.0 + ROOM) * path().1;
+    let angle = if screw > 0.0 { TAU } else { distance };
     ring.simulate(&steady_samples(1.0, LOAD, angle, states), |_, _| ())
         .unwrap()
 }
@@ -109,7 +115,7 @@ fn ripple(torques: &[f64]) -> f64 {
 fn borders_of_the_load_make_no_ripple() {
     for (name, folded) in [("plain", &*PLAIN), ("preloaded", &*PRELOADED)] {
         for nut_speed in [6.0, -6.0] {
-            let torques = torques(folded, nut_speed, 2_000);
+            let torques = torques(folded, nut_speed, 2_000, [0.0; 2]);
             let found = ripple(&torques);
             let step = torques
                 .windows(2)
@@ -124,18 +130,29 @@ fn borders_of_the_load_make_no_ripple() {
 /// The exact ring has it too; its loads add up to the axial load to the last digit, and the scene's torque is its torque.
 #[test]
 fn loads_of_the_exact_ring_add_up() {
-    for (name, clearance, folded) in [
-        ("plain", Clearance::ZERO, &*PLAIN),
-        ("preloaded", oversize(), &*PRELOADED),
+    for (name, clearance, folded, deviations) in [
+        ("plain", Clearance::ZERO, &*PLAIN, [0.0; 2]),
+        ("preloaded", oversize(), &*PRELOADED, [0.0; 2]),
+        (
+            "plain with deviations",
+            Clearance::ZERO,
+            &*PLAIN,
+            DEVIATIONS,
+        ),
     ] {
-        let states = exact(clearance, 24);
+        let states = exact(clearance, 48, deviations);
         let failed = states.iter().filter(|state| !state.solved()).count();
         for state in &states {
             let sum: f64 = state.balls.iter().map(|ball| ball.axial_load).sum();
             assert!((sum / LOAD - 1.0).abs() < 1e-14, "{sum}");
         }
         let exact: Vec<f64> = states.iter().map(RingState::torque).collect();
-        let ticks = torques(folded, 1.0, 1 + (1e3 * states[24].nut_angle) as usize);
+        let ticks = torques(
+            folded,
+            1.0,
+            1 + (1e3 * states[48].nut_angle) as usize,
+            deviations,
+        );
         let errors: Vec<f64> = states
             .iter()
             .map(|state| ticks[(1e3 * state.nut_angle) as usize] / state.torque() - 1.0)
@@ -147,6 +164,13 @@ fn loads_of_the_exact_ring_add_up() {
             "{name}: {failed} unsolved, ripple {:.5}, scene off by {worst:.5} at most",
             ripple(&exact)
         );
-        assert!(failed == 0 && ripple(&exact) < 5e-3 && worst < 5e-3);
+        let squares: f64 = errors.iter().map(|error| error * error).sum();
+        let rms = (squares / errors.len() as f64).sqrt();
+        if deviations == [0.0; 2] {
+            assert!(failed == 0 && worst < 5e-4 && ripple(&exact) < 5e-3);
+        } else {
+            // In time: where two balls join a moment early or late, a state is off by what they rub. Measured: 2.8e-3.
+            assert!(failed == 0 && rms < 4.2e-3, "{rms}");
+        }
     }
 }
