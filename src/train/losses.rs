@@ -84,6 +84,8 @@ pub struct Losses {
     pub held_speed: f32,
     /// `c`, N m.
     pub curvature: f32,
+    /// Change of a ball's torque with its speed at its free speed, N m: `T'_j` there.
+    pub slope: f32,
     /// Friction over `mu W` by the forces of both neighbours, 1/N.
     pub per_force: f32,
     /// `L` at [`RUBBINGS`], N m.
@@ -108,6 +110,13 @@ pub struct RubbedRow {
 }
 
 impl Losses {
+    /// Takes a ball that presses on none, and on which none presses, back to what it loses at its free speed `u`: `T'_j` there and at `v_h` tell its own
+    /// curvature, so that nothing is left of it but roundings.
+    #[inline(always)]
+    pub(super) fn add_alone(&self, row: &mut RubbedRow, speed: f32, slope: f32) {
+        row.by_speed += 0.5 * (slope + self.slope) * (speed - self.held_speed);
+    }
+
     /// Adds what a ball that rubs loses, of a speed, a slope of the torque and forces of both neighbours.
     #[inline(always)]
     pub(super) fn add(&self, row: &mut RubbedRow, speed: f32, slope: f32, forces: f32) {

@@ -96,7 +96,10 @@ impl<const LAST: bool> Settling<LAST> {
     #[inline(always)]
     fn alone(&mut self, ball: &mut Ball) {
         ball.settle_alone();
-        self.lose(ball, 0.0);
+        if LAST && ball.counts() {
+            let (speed, slope) = (ball.speed(), ball.torque_slope());
+            self.losses.add_alone(&mut self.sums, speed, slope);
+        }
         self.advance(ball);
     }
 

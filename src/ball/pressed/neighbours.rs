@@ -229,6 +229,7 @@ impl NeighbourLaw {
         Losses {
             held_speed: self.held_speed,
             curvature: self.curvature * impedance,
+            slope: self.slope * sliding,
             per_force: self.ball_friction / sliding,
             rubbing: self.numbers.torque.map(|[middle, ..]| sliding * middle),
         }

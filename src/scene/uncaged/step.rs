@@ -153,12 +153,17 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             || self
                 .law
                 .holds_forces_within(extremes, common.branch, friction);
-        let outward = common.neighbours.numbers.outward_torque * row.forces;
+        let pressed = common.neighbours.numbers.outward_torque * row.forces + row.by_speed;
+        let free = not_negative(torques.free);
         UncagedFriction {
             row: TrainFriction {
-                groove: not_negative(torques.free + torques.held + row.by_speed + outward),
+                groove: if row.contacts == 0 {
+                    free
+                } else {
+                    not_negative(torques.free + torques.held + pressed)
+                },
                 ball: not_negative(row.by_rubbing),
-                free: not_negative(torques.free),
+                free,
                 ratios: [1.0; 2],
                 fading: [0.0; 2],
                 direction: common.direction,
@@ -215,6 +220,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             .losses(common.sliding, common.numbers.impedance[0]);
         let sums = row.balls.press_rubbing(&Losses {
             held_speed: common.direction * losses.held_speed,
+            slope: common.direction * losses.slope,
             ..losses
         });
         (torques, sums)

@@ -123,7 +123,7 @@ fn full_friction_is_what_passes_in_its_direction() {
         configuration: &S::Configuration,
         load: S::Inputs,
         speed: f32,
-        parts: impl Fn(&S::Outputs) -> [f32; 2],
+        parts: impl Fn(&S::Outputs) -> ([f32; 2], u8),
     ) where
         S: Sliding,
     {
@@ -149,7 +149,7 @@ fn full_friction_is_what_passes_in_its_direction() {
                 };
                 parts(&S::outputs_at(&constants, inputs, &full, reversal))
             });
-            let [[groove, ball], [groove_back, ball_back]] = all;
+            let [([groove, ball], contacts), ([groove_back, ball_back], contacts_back)] = all;
             let [with, against] = if direction > 0.0 {
                 [ball, ball_back]
             } else {
@@ -167,7 +167,8 @@ fn full_friction_is_what_passes_in_its_direction() {
             is_close(-groove_back - ball_back, friction.backward);
             if with > 0.0 {
                 pressing += 1;
-            } else {
+            }
+            if contacts.max(contacts_back) == 0 {
                 free += 1;
                 is_close(
                     groove * coefficients.backward,
@@ -182,7 +183,10 @@ fn full_friction_is_what_passes_in_its_direction() {
         );
     }
     check::<UncagedScrew<CROWD>>(&crowded(), screw(0.0, 3000.0), 50.0, |outputs| {
-        [outputs.groove_torque, outputs.ball_torque]
+        (
+            [outputs.groove_torque, outputs.ball_torque],
+            outputs.contacts,
+        )
     });
     let load = LinearInputs {
         speed: 0.0,
@@ -194,7 +198,10 @@ fn full_friction_is_what_passes_in_its_direction() {
         ..linear()
     };
     check::<LinearBearingTrain<LINEAR_BALLS>>(&full, load, 2.0, |outputs| {
-        [outputs.groove_force, outputs.ball_force]
+        (
+            [outputs.groove_force, outputs.ball_force],
+            outputs.contacts,
+        )
     });
 }
 

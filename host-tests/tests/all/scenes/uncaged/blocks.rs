@@ -305,7 +305,7 @@ fn other_blocks_are_refused_by_name() {
     };
     // What fits a checksum of another crate is taken.
     assert_eq!(FoldedBall::read(&sealed(4, 1)), Ok(BALL));
-    assert_eq!(refusal::<1>(&sealed(1, 4)), "version");
+    assert_eq!(refusal::<1>(&sealed(1, 5)), "version");
     assert_eq!(
         refusal::<1>(&sealed(0, u32::from_le_bytes(*b"EPAS"))),
         "magic"

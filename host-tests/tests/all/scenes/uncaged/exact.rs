@@ -189,13 +189,12 @@ impl<const NODES: usize> Beside<NODES> {
         let angle = self.nut_angle;
         let outputs = self.model.step(inputs);
         self.nut_angle += f64::from(inputs.nut_speed) * f64::from(TICK);
-        let forces: Vec<f64> = self
-            .model
-            .state()
-            .circuit
-            .train
+        // The ring has them along the line between the centres.
+        let normal = f64::from(self.configuration.folded.row(0.0).normal);
+        let train = &self.model.state().circuit.train;
+        let forces: Vec<f64> = train
             .forces()
-            .map(f64::from)
+            .map(|along| normal * f64::from(along))
             .collect();
         let meeting = forces
             .iter()
@@ -261,8 +260,7 @@ impl<const NODES: usize> Beside<NODES> {
             screw_deviation: along(screw_deviation, 0.0),
             nut_deviation: along(nut_deviation, 0.0),
             load_shares: Vec::new(),
-            // The law of a ball knows no force that points outward: with it torques of smooth balls differ by 0.32 % rms, 0.62 % at most.
-            chord: false,
+            chord: true,
             places: Vec::new(),
             integration: Integration::Full,
         }

@@ -89,7 +89,7 @@ fn exact(clearance: Clearance, states: usize, [screw, nut]: [f32; 2]) -> Vec<Rin
         nut_deviation: GrooveDeviation::sine(3.0, nut.into()),
         load_shares: Vec::new(),
         // As in [`super::exact`].
-        chord: false,
+        chord: true,
         places: Vec::new(),
         integration: Integration::Full,
     };
