@@ -13,7 +13,9 @@ use crate::math;
 use crate::train::IMPEDANCE_RANGE;
 use numbers::IMPEDANCES;
 
-pub use neighbours::{BallOfRow, NEIGHBOUR_KNOTS, NeighbourLaw, NeighbourNumbers, Pressed};
+pub use neighbours::{
+    BallOfRow, NEIGHBOUR_KNOTS, NeighbourLaw, NeighbourNumbers, Pressed, RubbedNode,
+};
 pub use node::{BallKnot, BallNode, KNOTS, Knot, NeighbourKnot};
 pub use numbers::{BallNumbers, FreeMotion, LARGEST_WORK, POWERS};
 
@@ -225,8 +227,8 @@ impl<const NODES: usize> BallLaw<NODES> {
         friction: FrictionInterval,
     ) -> bool {
         let node = &self.nodes[friction.node() % NODES];
-        let [last, first] =
-            [larger, lesser].map(|load| node.interval(branch, load).knot as u32 % KNOTS as u32);
+        let knot = |load| node.interval(branch, load).knot as u32 % KNOTS as u32;
+        let (last, first) = (knot(larger), knot(lesser));
         // Bits of the knots from the first to the last.
         let beyond = if last < first {
             0
@@ -255,8 +257,15 @@ impl<const NODES: usize> BallLaw<NODES> {
             let above = &self.nodes[(friction.node() + 1) % NODES];
             found.towards(&above.neighbours(branch, load), friction.fraction())
         };
+        let outward = friction.friction() * row.outward;
+        let [middle, screw, nut] = found.outward;
         NeighbourLaw {
-            numbers: found.on_chord(friction.friction() * row.outward),
+            first: found.first(row.ball_friction, outward),
+            numbers: NeighbourNumbers {
+                outward: [outward * middle, outward * screw, outward * nut],
+                outward_torque: outward * found.outward_torque,
+                ..found
+            },
             ball_friction: row.ball_friction,
             held_speed: numbers.held_speed(),
             slope: numbers.slope / sliding_load(friction, load),

@@ -171,7 +171,7 @@ impl<'train, const N: usize> Intake<'train, N> {
         self.train.complete(&self.ahead.rooms, self.overlap);
         let motion = self.train.motion(self.travel);
         self.train.press.join::<true>(true);
-        self.train.press.settle_rubbing::<true>(motion, losses)
+        self.train.press.settle_rubbing(motion, losses, true)
     }
 
     /// A first pass of balls that rub, which moves none; all balls come once more.
@@ -187,7 +187,7 @@ impl<'train, const N: usize> Intake<'train, N> {
         train.complete(&ahead.rooms, overlap);
         train.press.join::<true>(true);
         let losses = Losses::default();
-        train.press.settle_rubbing::<false>(Motion::NONE, &losses);
+        train.press.settle_rubbing(Motion::NONE, &losses, false);
         let first = train.first_position();
         Self {
             left: train.balls().min(N),

@@ -12,9 +12,9 @@ pub(crate) struct Place {
     /// Whether a number rises from the node before, or from zero.
     from_node: bool,
     /// Fraction of the distance from there; above 1 beyond the last node.
-    fraction: f32,
+    pub(crate) fraction: f32,
     /// 1 / that distance.
-    per_width: f32,
+    pub(crate) per_width: f32,
 }
 
 impl Place {
@@ -40,17 +40,20 @@ impl Place {
         }
     }
 
-    /// A number from those at the nodes, and its change with the friction.
+    /// Numbers at the node below, `none` where they rise from zero, and at the one above.
     #[inline(always)]
-    pub(crate) fn value<T>(self, nodes: &[T; 3], at: impl Fn(&T) -> f32) -> [f32; 2] {
-        let high = at(&nodes[self.above % 3]);
-        let low = if self.from_node {
-            at(&nodes[(self.above + 2) % 3])
-        } else {
-            0.0
-        };
-        let rise = high - low;
-        [low + self.fraction * rise, self.per_width * rise]
+    pub(crate) fn ends<'nodes, T>(
+        &self,
+        nodes: &'nodes [T; 3],
+        none: &'nodes T,
+    ) -> (&'nodes T, &'nodes T) {
+        let [first, second, third] = nodes;
+        match (self.above, self.from_node) {
+            (0, _) => (none, first),
+            (1, _) => (first, second),
+            (_, true) => (second, third),
+            (_, false) => (none, third),
+        }
     }
 }
 
@@ -122,8 +125,9 @@ impl Losses {
     pub(super) fn add(&self, row: &mut RubbedRow, speed: f32, slope: f32, forces: f32) {
         let change = speed - self.held_speed;
         row.by_speed += (slope + self.curvature * change) * change;
-        let [rubbing, _] = Place::of(self.per_force * forces).value(&self.rubbing, |node| *node);
-        row.by_rubbing += rubbing;
+        let place = Place::of(self.per_force * forces);
+        let (low, high) = place.ends(&self.rubbing, &0.0);
+        row.by_rubbing += low + place.fraction * (high - low);
         row.forces += forces;
         if forces > row.largest_of_both {
             row.largest_of_both = forces;

@@ -228,7 +228,7 @@ impl<const N: usize> Press<N> {
             ahead = rubbed.speed;
         }
         self.join::<true>(check.passed());
-        let row = self.settle_rubbing::<true>(Motion::NONE, losses);
+        let row = self.settle_rubbing(Motion::NONE, losses, true);
         check.passed().then_some(row)
     }
 
@@ -262,13 +262,14 @@ impl<const N: usize> Press<N> {
 
     /// The same of balls that rub.
     #[inline(always)]
-    pub(super) fn settle_rubbing<const LAST: bool>(
+    pub(super) fn settle_rubbing(
         &mut self,
         motion: Motion,
         losses: &Losses,
+        last: bool,
     ) -> RubbedRow {
         let foremost = self.foremost();
-        settle_rubbing::<LAST>(self.balls_mut(), foremost, motion, losses)
+        settle_rubbing(self.balls_mut(), foremost, motion, losses, last)
     }
 }
 

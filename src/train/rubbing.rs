@@ -8,13 +8,15 @@ use super::track::Motion;
 
 /// Gives each ball its speed and its force, from the foremost ball backwards; the last pass moves it and adds up what it loses.
 #[inline(never)]
-pub(super) fn settle_rubbing<const LAST: bool>(
+pub(super) fn settle_rubbing(
     balls: &mut [Ball],
     foremost: usize,
     motion: Motion,
     losses: &Losses,
+    last: bool,
 ) -> RubbedRow {
-    let mut settling = Settling::<LAST> {
+    let mut settling = Settling {
+        last,
         motion,
         losses: *losses,
         // Nothing is near in front of the foremost one.
@@ -48,7 +50,9 @@ pub(super) fn settle_rubbing<const LAST: bool>(
 }
 
 /// A walk backwards over the balls.
-struct Settling<const LAST: bool> {
+struct Settling {
+    /// Whether balls move, and lose.
+    last: bool,
     motion: Motion,
     losses: Losses,
     /// Where the next ball touches the one in front.
@@ -69,7 +73,7 @@ struct Settling<const LAST: bool> {
     sums: RubbedRow,
 }
 
-impl<const LAST: bool> Settling<LAST> {
+impl Settling {
     /// Settles a row. The walk through it may begin within a cluster whose front ball stood in the row before.
     #[inline(always)]
     fn row(&mut self, row: &mut [Ball]) {
@@ -96,7 +100,7 @@ impl<const LAST: bool> Settling<LAST> {
     #[inline(always)]
     fn alone(&mut self, ball: &mut Ball) {
         ball.settle_alone();
-        if LAST && ball.counts() {
+        if self.last && ball.counts() {
             let (speed, slope) = (ball.speed(), ball.torque_slope());
             self.losses.add_alone(&mut self.sums, speed, slope);
         }
@@ -121,7 +125,7 @@ impl<const LAST: bool> Settling<LAST> {
     fn pushing(&mut self, ball: &mut Ball) {
         self.change += ball.slack();
         let speed = ball.free_speed() + self.change;
-        if LAST {
+        if self.last {
             ball.set_position(self.limit);
             self.limit = self.motion.touching(self.limit);
         }
@@ -155,7 +159,7 @@ impl<const LAST: bool> Settling<LAST> {
     /// Adds what a ball loses with the forces of both neighbours.
     #[inline(always)]
     fn lose(&mut self, ball: &Ball, forces: f32) {
-        if LAST && ball.counts() {
+        if self.last && ball.counts() {
             let (speed, slope) = (ball.speed(), ball.torque_slope());
             self.losses.add(&mut self.sums, speed, slope, forces);
         }
@@ -163,7 +167,7 @@ impl<const LAST: bool> Settling<LAST> {
 
     #[inline(always)]
     fn advance(&mut self, ball: &mut Ball) {
-        if LAST {
+        if self.last {
             self.limit = self.motion.advance(ball, self.limit);
         }
     }

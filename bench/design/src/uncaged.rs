@@ -10,9 +10,10 @@ mod ring;
 use std::time::Instant;
 
 use epas_friction::Range;
-use epas_friction::ball::pressed::{BallLaw, BallNode, BallNumbers, Knot, NeighbourNumbers};
+use epas_friction::ball::pressed::{
+    BallLaw, BallNode, BallNumbers, Knot, NeighbourNumbers, RubbedNode,
+};
 use epas_friction::scene::FoldedBall;
-use epas_friction::train::RUBBINGS;
 use rayon::prelude::*;
 
 use crate::Failure;
@@ -368,11 +369,13 @@ fn rounded(numbers: &Numbers) -> BallNumbers {
 }
 
 fn neighbours(numbers: &neighbours::Numbers) -> NeighbourNumbers {
-    let lines = |nodes: [[f64; 3]; RUBBINGS.len()]| nodes.map(|line| line.map(|x| x as f32));
+    let line = |line: [f64; 3]| line.map(|number| number as f32);
     NeighbourNumbers {
-        push: lines(numbers.push),
-        impedance: lines(numbers.impedance),
-        torque: lines(numbers.torque),
+        nodes: std::array::from_fn(|node| RubbedNode {
+            push: line(numbers.push[node]),
+            impedance: line(numbers.impedance[node]),
+            torque: line(numbers.torque[node]),
+        }),
         outward: numbers.outward.map(|number| number as f32),
         outward_torque: numbers.outward_torque as f32,
     }

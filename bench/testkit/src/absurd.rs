@@ -5,7 +5,9 @@ use std::sync::LazyLock;
 
 use super::random::Random;
 use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw};
-use epas_friction::ball::pressed::{BallLaw, BallNode, BallNumbers, Knot, NeighbourNumbers};
+use epas_friction::ball::pressed::{
+    BallLaw, BallNode, BallNumbers, Knot, NeighbourNumbers, RubbedNode,
+};
 use epas_friction::ball::{ScrewTick, ScrewTickBall};
 use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration, FoldedBall};
 use epas_friction::train::Train;
@@ -590,9 +592,11 @@ fn neighbour_numbers(random: &mut Random) -> NeighbourNumbers {
         std::array::from_fn(|_| size * (2.0 * random.unit() - 1.0))
     };
     NeighbourNumbers {
-        push: std::array::from_fn(|_| line(&[0.0, 1e-3, 0.5, 8.0, 1e3])),
-        impedance: std::array::from_fn(|_| line(&[0.0, 1.0, 30.0, 1e3])),
-        torque: std::array::from_fn(|_| line(&[0.0, 1e-4, 0.01, 1e3])),
+        nodes: std::array::from_fn(|_| RubbedNode {
+            push: line(&[0.0, 1e-3, 0.5, 8.0, 1e3]),
+            impedance: line(&[0.0, 1.0, 30.0, 1e3]),
+            torque: line(&[0.0, 1e-4, 0.01, 1e3]),
+        }),
         outward: line(&[0.0, 0.1, 5.0, 1e3]),
         outward_torque: line(&[0.0, 1e-3, 1e3])[0],
     }

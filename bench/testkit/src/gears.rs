@@ -181,8 +181,8 @@ const fn ball_of(friction: f32) -> FoldedBall {
         let mut node = 0;
         while node < RUBBINGS.len() {
             let rubbing = RUBBINGS[node];
-            numbers.push[node] = [-0.9 * rubbing, 0.2 * rubbing, -0.1 * rubbing];
-            numbers.impedance[node] = [8.0 * rubbing, -rubbing, 0.5 * rubbing];
+            numbers.nodes[node].push = [-0.9 * rubbing, 0.2 * rubbing, -0.1 * rubbing];
+            numbers.nodes[node].impedance = [8.0 * rubbing, -rubbing, 0.5 * rubbing];
             node += 1;
         }
         numbers.outward = [-0.3, 0.1, 0.05];

@@ -32,16 +32,41 @@ const LARGEST_SPEED: f32 = 0.5;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct NeighbourNumbers {
-    /// `A` at the nodes, over `mu W`.
-    pub push: [[f32; 3]; 3],
-    /// `H` at the nodes, over `mu W`.
-    pub impedance: [[f32; 3]; 3],
-    /// `L` at the nodes, over `mu W`, m.
-    pub torque: [[f32; 3]; 3],
+    /// At the nodes.
+    pub nodes: [RubbedNode; 3],
     /// `g` over `mu`.
     pub outward: [f32; 3],
     /// `t` over `mu`, m.
     pub outward_torque: f32,
+}
+
+/// What friction of the neighbours changes in a ball at a node, over `mu W`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RubbedNode {
+    /// `A`.
+    pub push: [f32; 3],
+    /// `H`.
+    pub impedance: [f32; 3],
+    /// `L`, m.
+    pub torque: [f32; 3],
+}
+
+impl RubbedNode {
+    const NONE: Self = Self {
+        push: [0.0; 3],
+        impedance: [0.0; 3],
+        torque: [0.0; 3],
+    };
+
+    #[inline(always)]
+    fn towards(&self, other: &Self, fraction: f32) -> Self {
+        Self {
+            push: blended(&self.push, &other.push, fraction),
+            impedance: blended(&self.impedance, &other.impedance, fraction),
+            torque: blended(&self.torque, &other.torque, fraction),
+        }
+    }
 }
 
 /// What one pass knows of a ball for the next one.
@@ -68,64 +93,62 @@ pub struct NeighbourLaw {
     pub slope: f32,
     /// Torque by the square of a change of speed over the impedance, m: half the speed against the nut, times the work.
     pub curvature: f32,
+    /// What friction of neighbours that press with `mu W`, `m = 2 mu_b`, changes in proportion to their forces, and in the impedance.
+    pub(super) first: [[f32; 3]; 2],
 }
 
 impl NeighbourNumbers {
     /// A ball in which neighbours change nothing.
     pub const NONE: Self = Self {
-        push: [[0.0; 3]; 3],
-        impedance: [[0.0; 3]; 3],
-        torque: [[0.0; 3]; 3],
+        nodes: [RubbedNode::NONE; 3],
         outward: [0.0; 3],
         outward_torque: 0.0,
     };
 
-    /// Each number by a function of it and of the same of others.
-    #[inline(always)]
-    fn each(&self, others: &Self, of: impl Fn(f32, f32) -> f32) -> Self {
-        let mut all = *self;
-        let nodes = [
-            (&mut all.push, &others.push),
-            (&mut all.impedance, &others.impedance),
-            (&mut all.torque, &others.torque),
-        ];
-        for (numbers, others) in nodes {
-            for (number, other) in numbers
-                .as_flattened_mut()
-                .iter_mut()
-                .zip(others.as_flattened())
-            {
-                *number = of(*number, *other);
-            }
-        }
-        for (number, other) in all.outward.iter_mut().zip(&others.outward) {
-            *number = of(*number, *other);
-        }
-        all.outward_torque = of(all.outward_torque, others.outward_torque);
-        all
-    }
-
     /// These numbers, interpolated towards others by a fraction, 0 to 1.
     #[inline(always)]
     pub(super) fn towards(&self, others: &Self, fraction: f32) -> Self {
-        self.each(others, |from, to| from + fraction * (to - from))
+        let [first, second, third] = &self.nodes;
+        let [other_first, other_second, other_third] = &others.nodes;
+        Self {
+            nodes: [
+                first.towards(other_first, fraction),
+                second.towards(other_second, fraction),
+                third.towards(other_third, fraction),
+            ],
+            outward: blended(&self.outward, &others.outward, fraction),
+            outward_torque: self.outward_torque
+                + fraction * (others.outward_torque - self.outward_torque),
+        }
     }
 
-    /// With the friction coefficient and the tangent of the chord's angle: `outward` and its torque per newton along the track.
+    /// What friction of neighbours that press with `mu W` changes, with their outward force, in proportion to their forces, and in the impedance over
+    /// `mu W`.
     #[inline(always)]
-    pub(super) fn on_chord(&self, outward: f32) -> Self {
-        Self {
-            outward: self.outward.map(|number| outward * number),
-            outward_torque: outward * self.outward_torque,
-            ..*self
-        }
+    pub(super) fn first(&self, ball_friction: f32, outward: f32) -> [[f32; 3]; 2] {
+        let place = Place::of(2.0 * ball_friction);
+        let (low, high) = place.ends(&self.nodes, &RubbedNode::NONE);
+        let [push, screw, nut] = blended(&low.push, &high.push, place.fraction);
+        let [middle, by_screw, by_nut] = self.outward;
+        [
+            [
+                0.5 * push + outward * middle,
+                0.5 * screw + outward * by_screw,
+                0.5 * nut + outward * by_nut,
+            ],
+            blended(&low.impedance, &high.impedance, place.fraction),
+        ]
     }
 
     /// Refuses numbers that are not finite and of the size of a ball's.
     pub(super) const fn checked(&self) -> Result<(), Error> {
-        attempt!(check("push", self.push.as_flattened()));
-        attempt!(check("rubbed_impedance", self.impedance.as_flattened()));
-        attempt!(check("rubbed_torque", self.torque.as_flattened()));
+        let mut node = 0;
+        while node < 3 {
+            attempt!(check("push", &self.nodes[node].push));
+            attempt!(check("rubbed_impedance", &self.nodes[node].impedance));
+            attempt!(check("rubbed_torque", &self.nodes[node].torque));
+            node += 1;
+        }
         attempt!(check("outward", &self.outward));
         attempt!(check("outward_torque", &[self.outward_torque]));
         Ok(())
@@ -139,6 +162,8 @@ pub struct BallOfRow {
     pub alone: FreeMotion,
     /// `mu W`, N, beyond the run-in.
     pub sliding: f32,
+    /// 1 / it, 1/N.
+    pub per_sliding: f32,
     /// Part of its load that it carries on a run-in, above 0; else 1. What neighbours change in it sets in with it.
     pub part: f32,
     /// Deviations of both grooves, each over its largest.
@@ -150,12 +175,22 @@ impl NeighbourLaw {
     #[inline(always)]
     #[must_use]
     pub fn first(&self, ball: &BallOfRow) -> RubbedBall {
-        let at = |nodes: &[f32; 3]| line(nodes, ball.deviations);
-        let place = Place::of(2.0 * self.ball_friction);
-        let [push, _] = place.value(&self.numbers.push, at);
-        let [stiffness, _] = place.value(&self.numbers.impedance, at);
-        let grip = limited_grip(ball.part * (0.5 * push + at(&self.numbers.outward)));
-        self.rubbed(ball, stiffness, 0.0, grip)
+        let [grip, stiffness] = &self.first;
+        let FreeMotion {
+            speed, impedance, ..
+        } = ball.alone;
+        let carried = ball.part * ball.sliding;
+        let stiff = impedance + carried * line(stiffness, ball.deviations);
+        let least = STIFFENING[0] * impedance;
+        let stiff = if stiff > least { stiff } else { least };
+        RubbedBall {
+            // Between the free speed and the held one.
+            speed: self.held_speed + (speed - self.held_speed) * (impedance / stiff),
+            impedance: stiff,
+            grip: ball.part * line(grip, ball.deviations),
+            torque_slope: 0.0,
+            counts: false,
+        }
     }
 
     /// The ball in the second pass, Newton's line through what the first one found; and what its friction torque is more at `v_h` than free, with
@@ -163,49 +198,78 @@ impl NeighbourLaw {
     #[inline(always)]
     #[must_use]
     pub fn second(&self, ball: &BallOfRow, found: &Pressed) -> (RubbedBall, f32) {
-        let at = |nodes: &[f32; 3]| line(nodes, ball.deviations);
-        let numbers = &self.numbers;
         let [behind, ahead] = found.forces;
         let whole = found.parts == [1.0; 2];
+        if !whole {
+            return self.second_in_part(ball, found);
+        }
+        let forces = behind + ahead;
+        let place = Place::of(self.ball_friction * forces * ball.per_sliding);
+        let rubbed = self.at(&place, ball.deviations);
+        let outward = line(&self.numbers.outward, ball.deviations);
+        let change = found.speed - self.held_speed;
+        let slope = rubbed.push_slope + rubbed.stiffness_slope * change;
+        let grip = limited_grip(self.ball_friction * slope + outward);
+        // What the train cuts off stays as it is at these forces.
+        let constant = rubbed.push - (grip - outward) * forces * ball.per_sliding;
+        let held = self.held(ball) + rubbed.by_deviations * ball.sliding;
+        (self.rubbed(ball, rubbed.stiffness, constant, grip), held)
+    }
+
+    /// The same where a ball or a neighbour is on a run-in: friction in part, and all of the ball's torque, because the walk that adds up losses has
+    /// those of balls all of whose contacts rub in full.
+    #[cold]
+    #[inline(never)]
+    fn second_in_part(&self, ball: &BallOfRow, found: &Pressed) -> (RubbedBall, f32) {
+        let [behind, ahead] = found.forces;
         let carried = ball.part * ball.sliding;
         let forces = behind + ahead;
-        // Those that rub.
-        let rubbing = if whole {
-            forces
-        } else {
-            found.parts[0] * behind + found.parts[1] * ahead
-        };
+        let rubbing = found.parts[0] * behind + found.parts[1] * ahead;
         let place = Place::of(self.ball_friction * rubbing / carried);
-        let [push, by_rubbing] = place.value(&numbers.push, at);
-        let [stiffness, stiffening] = place.value(&numbers.impedance, at);
-        let [by_deviations, _] = place.value(&numbers.torque, |nodes| at(nodes) - nodes[0]);
-        let change = by_rubbing + stiffening * (found.speed - self.held_speed);
-        let outward = ball.part * at(&numbers.outward);
-        let mut grip = self.ball_friction * change;
-        if !whole {
-            grip *= if forces > 0.0 {
-                rubbing / forces
-            } else {
-                ball.part
-            };
-        }
-        let grip = limited_grip(grip + outward);
-        // What the train cuts off stays as it is at these forces.
-        let constant = push - (grip - outward) * forces / carried;
-        let mut rubbed = self.rubbed(ball, stiffness, constant, grip);
-        rubbed.counts = whole;
-        let held = self.held(ball);
-        if whole {
-            return (rubbed, held + by_deviations * carried);
-        }
-        // The walk that adds up losses has those of balls all of whose contacts rub in full.
+        let rubbed = self.at(&place, ball.deviations);
+        let outward = ball.part * line(&self.numbers.outward, ball.deviations);
         let change = found.speed - self.held_speed;
+        let slope = rubbed.push_slope + rubbed.stiffness_slope * change;
+        let share = if forces > 0.0 {
+            rubbing / forces
+        } else {
+            ball.part
+        };
+        let grip = limited_grip(share * (self.ball_friction * slope) + outward);
+        let constant = rubbed.push - (grip - outward) * forces / carried;
+        let next = RubbedBall {
+            counts: false,
+            ..self.rubbed(ball, rubbed.stiffness, constant, grip)
+        };
         let curvature = self.curvature * ball.alone.impedance;
-        let by_speed = (rubbed.torque_slope + curvature * change) * change;
-        let [middle, _] = place.value(&numbers.torque, |nodes| nodes[0]);
-        let outward = numbers.outward_torque * forces;
-        let added = by_speed + carried * (middle + by_deviations) + outward;
-        (rubbed, held + added)
+        let by_speed = (next.torque_slope + curvature * change) * change;
+        let (low, high) = place.ends(&self.numbers.nodes, &RubbedNode::NONE);
+        let [middle, ..] = blended(&low.torque, &high.torque, place.fraction);
+        let outward = self.numbers.outward_torque * forces;
+        let added = by_speed + carried * (middle + rubbed.by_deviations) + outward;
+        (next, self.held(ball) + added)
+    }
+
+    /// What friction of neighbours changes in a ball with these deviations, over `mu W`.
+    #[inline(always)]
+    fn at(&self, place: &Place, deviations: [f32; 2]) -> Rubbed {
+        let (low, high) = place.ends(&self.numbers.nodes, &RubbedNode::NONE);
+        let push = line(&low.push, deviations);
+        let push_rise = line(&high.push, deviations) - push;
+        let stiffness = line(&low.impedance, deviations);
+        let stiffness_rise = line(&high.impedance, deviations) - stiffness;
+        let slopes = |node: &RubbedNode| {
+            let [_, screw, nut] = node.torque;
+            deviations[0] * screw + deviations[1] * nut
+        };
+        let torque = slopes(low);
+        Rubbed {
+            push: push + place.fraction * push_rise,
+            push_slope: place.per_width * push_rise,
+            stiffness: stiffness + place.fraction * stiffness_rise,
+            stiffness_slope: place.per_width * stiffness_rise,
+            by_deviations: torque + place.fraction * (slopes(high) - torque),
+        }
     }
 
     /// A ball whose neighbours do not rub, but press it outward; and what its friction torque is more at `v_h` than free, N m.
@@ -226,12 +290,17 @@ impl NeighbourLaw {
     #[inline(always)]
     #[must_use]
     pub fn losses(&self, sliding: f32, impedance: f32) -> Losses {
+        let [first, second, third] = &self.numbers.nodes;
         Losses {
             held_speed: self.held_speed,
             curvature: self.curvature * impedance,
             slope: self.slope * sliding,
             per_force: self.ball_friction / sliding,
-            rubbing: self.numbers.torque.map(|[middle, ..]| sliding * middle),
+            rubbing: [
+                sliding * first.torque[0],
+                sliding * second.torque[0],
+                sliding * third.torque[0],
+            ],
         }
     }
 
@@ -257,7 +326,7 @@ impl NeighbourLaw {
         let FreeMotion {
             speed, impedance, ..
         } = ball.alone;
-        let [least, most] = STIFFENING.map(|factor| factor * impedance);
+        let (least, most) = (STIFFENING[0] * impedance, STIFFENING[1] * impedance);
         let sliding = ball.part * ball.sliding;
         let stiff = bounded(impedance + sliding * stiffness, least, most);
         let held = self.held_speed - speed;
@@ -270,6 +339,28 @@ impl NeighbourLaw {
             counts: ball.part == 1.0,
         }
     }
+}
+
+/// What friction of neighbours changes in a ball, over `mu W`.
+struct Rubbed {
+    /// Net push, and its change with the friction over `mu W`.
+    push: f32,
+    push_slope: f32,
+    /// Impedance, and the same.
+    stiffness: f32,
+    stiffness_slope: f32,
+    /// What the deviations change of the torque, m.
+    by_deviations: f32,
+}
+
+/// Three numbers, interpolated towards others by a fraction.
+#[inline(always)]
+fn blended([a, b, c]: &[f32; 3], [d, e, f]: &[f32; 3], fraction: f32) -> [f32; 3] {
+    [
+        a + fraction * (d - a),
+        b + fraction * (e - b),
+        c + fraction * (f - c),
+    ]
 }
 
 /// Refuses numbers beyond a size.

@@ -115,7 +115,8 @@ impl BallNode {
     pub(super) fn neighbours(&self, branch: usize, load: f32) -> NeighbourNumbers {
         let knots = &self.neighbours[branch & 1];
         let KnotInterval { knot, fraction } = KnotInterval::among(knots, load);
-        let [below, above] = [knot, knot + 1].map(|knot| &knots[knot % NEIGHBOUR_KNOTS].numbers);
+        let below = &knots[knot % NEIGHBOUR_KNOTS].numbers;
+        let above = &knots[(knot + 1) % NEIGHBOUR_KNOTS].numbers;
         below.towards(above, fraction)
     }
 
@@ -124,8 +125,8 @@ impl BallNode {
     pub(super) fn motion(&self, branch: usize, load: f32, deviations: [f32; 2]) -> FreeMotion {
         let knots = &self.branches[branch & 1];
         let KnotInterval { knot, fraction } = self.interval(branch, load);
-        let [below, above] =
-            [knot, knot + 1].map(|knot| knots[knot % KNOTS].numbers.at(deviations));
+        let below = knots[knot % KNOTS].numbers.at(deviations);
+        let above = knots[(knot + 1) % KNOTS].numbers.at(deviations);
         below.towards(above, fraction)
     }
 

@@ -146,7 +146,8 @@ impl Circuit {
         state: &CircuitState<N>,
         shares: &'static [LoadShare],
     ) -> Sharing {
-        self.zone.sharing(state.train.positions(), shares)
+        self.zone
+            .sharing(state.train.positions(), self.balls, shares)
     }
 
     /// Part of its load that a ball carries at a position: below 1 on a run-in, 0 in the return.

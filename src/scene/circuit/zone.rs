@@ -157,8 +157,19 @@ impl LoadedZone {
     pub(super) fn sharing(
         &self,
         positions: impl Iterator<Item = u32>,
+        balls: u16,
         shares: &'static [LoadShare],
     ) -> Sharing {
+        if self.is_closed()
+            && let [all] = shares
+        {
+            let (balls, share) = (balls as f32, all.share());
+            return Sharing {
+                weights: balls * share,
+                per_weight: 1.0 / (balls * share),
+                extremes: [share; 2],
+            };
+        }
         let (mut weights, mut largest) = (0.0, 0.0);
         let mut least = f32::INFINITY;
         for position in positions {
@@ -191,6 +202,9 @@ impl LoadedZone {
     /// Part of its load that a ball carries at a position; 0 in the return.
     #[inline(always)]
     pub(super) fn part(&self, position: u32) -> f32 {
+        if self.is_closed() {
+            return 1.0;
+        }
         let place = position.wrapping_add(self.half_run_in);
         self.run_in(place).unwrap_or(0.0)
     }
@@ -301,7 +315,7 @@ mod tests {
     /// Loads of the balls over the axial load.
     fn loads(zone: &LoadedZone, positions: impl Iterator<Item = u32> + Clone) -> [f32; MOST] {
         let shares = zone.shares(false);
-        let sharing = zone.sharing(positions.clone(), shares);
+        let sharing = zone.sharing(positions.clone(), positions.clone().count() as u16, shares);
         let weight = |ball: LoadedBall| ball.share * ball.run_in;
         let mut loads = [0.0; MOST];
         for (load, position) in loads.iter_mut().zip(positions) {
@@ -325,7 +339,7 @@ mod tests {
                 let zone = zone(lengths, shares);
                 for step in 0..STEPS {
                     let positions = spread(balls, step);
-                    let sharing = zone.sharing(positions.clone(), zone.shares(false));
+                    let sharing = zone.sharing(positions.clone(), balls as u16, zone.shares(false));
                     let loads = loads(&zone, positions);
                     let sum: f64 = loads.iter().copied().map(f64::from).sum();
                     let expected = if sharing.weights > 0.0 { 1.0 } else { 0.0 };
@@ -373,7 +387,7 @@ mod tests {
         let zone = zone([36.5, 2.5, 1.0], LoadShares::EVEN);
         let mut last = loads(&zone, spread(39, 0));
         for step in 1..=STEPS {
-            let sharing = zone.sharing(spread(39, step), zone.shares(false));
+            let sharing = zone.sharing(spread(39, step), 39, zone.shares(false));
             // Lengths of the track are folded to 2^-24 of it.
             assert!((sharing.weights / 36.5 - 1.0).abs() < 1e-5, "{sharing:?}");
             let now = loads(&zone, spread(39, step));
@@ -383,10 +397,13 @@ mod tests {
             last = now;
         }
         let closed = self::zone([37.0, 0.0, 1.0], LoadShares::EVEN);
-        let sharing = closed.sharing(spread(37, 1), closed.shares(false));
+        let sharing = closed.sharing(spread(37, 1), 37, closed.shares(false));
         assert_eq!((sharing.weights, sharing.extremes), (37.0, [1.0; 2]));
         let positions = [0, 1, u32::MAX].into_iter();
-        assert_eq!(closed.sharing(positions, closed.shares(true)).weights, 3.0);
+        assert_eq!(
+            closed.sharing(positions, 3, closed.shares(true)).weights,
+            3.0
+        );
     }
 
     /// With no ball on it, nothing is divided by zero.
@@ -394,7 +411,7 @@ mod tests {
     fn a_zone_without_a_ball_loads_none() {
         let zone = zone([0.5, 4.5, 0.4], LoadShares::EVEN);
         let far = [1 << 31].into_iter();
-        let sharing = zone.sharing(far.clone(), zone.shares(false));
+        let sharing = zone.sharing(far.clone(), 1, zone.shares(false));
         assert_eq!((sharing.per_weight, sharing.weights), (0.0, 0.0));
         assert_eq!(loads(&zone, far), [0.0; MOST]);
     }

@@ -11,7 +11,7 @@
 use super::FoldedBall;
 use crate::ball::pressed::{
     BallKnot, BallLaw, BallNode, BallNumbers, KNOTS, Knot, NEIGHBOUR_KNOTS, NeighbourKnot,
-    NeighbourNumbers,
+    NeighbourNumbers, RubbedNode,
 };
 use crate::error::{Error, attempt};
 use crate::scene::contract::Limits;
@@ -163,16 +163,13 @@ fn of_knot(knot: &BallKnot) -> impl Iterator<Item = u32> + use<> {
 /// Words of a knot of what neighbours change.
 fn of_neighbours(knot: &NeighbourKnot) -> impl Iterator<Item = u32> + use<> {
     let NeighbourNumbers {
-        push,
-        impedance,
-        torque,
+        nodes,
         outward,
         outward_torque,
     } = knot.numbers;
+    let lines = |node: RubbedNode| [node.push, node.impedance, node.torque];
     core::iter::once(knot.load)
-        .chain(push.into_iter().flatten())
-        .chain(impedance.into_iter().flatten())
-        .chain(torque.into_iter().flatten())
+        .chain(nodes.into_iter().flat_map(lines).flatten())
         .chain(outward)
         .chain([outward_torque])
         .map(f32::to_bits)
@@ -221,9 +218,11 @@ const fn read_node(node: &mut BallNode, words: &[u32], at: usize) {
                 float(words, at),
                 float(words, next),
                 NeighbourNumbers {
-                    push: lines(words, at + 1),
-                    impedance: lines(words, at + 10),
-                    torque: lines(words, at + 19),
+                    nodes: [
+                        rubbed_node(words, at + 1),
+                        rubbed_node(words, at + 10),
+                        rubbed_node(words, at + 19),
+                    ],
                     outward: floats(words, at + 28),
                     outward_torque: float(words, at + 31),
                 },
@@ -235,11 +234,11 @@ const fn read_node(node: &mut BallNode, words: &[u32], at: usize) {
     }
 }
 
-/// The lines of three nodes that begin at a word.
-const fn lines(words: &[u32], at: usize) -> [[f32; 3]; 3] {
-    [
-        floats(words, at),
-        floats(words, at + 3),
-        floats(words, at + 6),
-    ]
+/// The node that begins at a word.
+const fn rubbed_node(words: &[u32], at: usize) -> RubbedNode {
+    RubbedNode {
+        push: floats(words, at),
+        impedance: floats(words, at + 3),
+        torque: floats(words, at + 6),
+    }
 }

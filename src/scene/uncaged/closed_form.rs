@@ -183,7 +183,7 @@ const fn neighbours(
         let mut numbers = NeighbourNumbers::NONE;
         let mut node = 0;
         while node < RUBBINGS.len() {
-            numbers.torque[node][0] = RUBBINGS[node] * rubbing;
+            numbers.nodes[node].torque[0] = RUBBINGS[node] * rubbing;
             node += 1;
         }
         branches[branch][knot] = Knot::between(lift_off + load, lift_off + ends[1], numbers);

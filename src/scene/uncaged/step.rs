@@ -2,6 +2,7 @@
 
 use super::{UncagedConstants, UncagedState};
 use crate::ball::LoadShare;
+use crate::ball::folded::FrictionInterval;
 use crate::ball::pressed::{BallNumbers, BallOfRow, NeighbourLaw, Pressed};
 use crate::scene::circuit::{LoadedBall, Sharing, UNLOADED};
 use crate::scene::contract::{Inputs, Regime};
@@ -49,12 +50,15 @@ impl UncagedFriction {
 struct Common {
     /// Axial load of a ball whose weight is 1, N.
     mean: f32,
-    /// Friction coefficient times the load of such a ball, N.
+    /// Friction coefficient times the load of such a ball, N, and 1 / it.
     sliding: f32,
+    per_sliding: f32,
     /// 0 where the load opposes the motion, else 1.
     branch: usize,
     /// -1 where the nut turns backward, else 1.
     direction: f32,
+    /// Friction coefficient of ball and groove.
+    friction: FrictionInterval,
     /// What such a ball does alone.
     numbers: BallNumbers,
     /// What neighbours change in it.
@@ -70,16 +74,10 @@ struct Torques {
     held: f32,
 }
 
-/// A look at all balls.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Pass {
-    /// The first one of balls that rub.
-    First,
-    /// The second one.
-    Second,
-    /// The only one of balls that do not rub.
-    Smooth,
-}
+/// A look at all balls: the first one of balls that rub, the second one, and the only one of balls that do not.
+const FIRST: u8 = 0;
+const SECOND: u8 = 1;
+const SMOOTH: u8 = 2;
 
 /// All balls before a step.
 struct Row<'state, const N: usize> {
@@ -111,39 +109,14 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             balls: state.circuit.train.intake(self.circuit.travel(nut_speed)),
             shares,
         };
-        let own = |ball: &LoadedBall, deviations| {
-            let load = self.law.load_of(common.mean * ball.share);
-            let (part, branch) = (ball.run_in, common.branch);
-            BallOfRow {
-                alone: match part {
-                    1.0 => self.law.at(load, branch, friction, deviations),
-                    _ => self.law.on_run_in(part, load, branch, friction, deviations),
-                },
-                sliding: self.law.sliding(load, friction),
-                part,
-                deviations,
-            }
-        };
-        let (torques, row) = if self.even {
-            // Between the run-ins all balls are alike; the few on them have loads of their own.
-            let alike = |ball: &LoadedBall, deviations| match ball.run_in {
-                1.0 => BallOfRow {
-                    alone: common.numbers.at(deviations),
-                    sliding: common.sliding,
-                    part: 1.0,
-                    deviations,
-                },
-                _ => own(ball, deviations),
-            };
-            self.press(row, &common, alike)
-        } else {
-            self.press(row, &common, own)
-        };
+        let (torques, row) = self.press(row, &common);
         state.circuit.advance(&self.circuit, nut_speed);
 
-        let extremes = sharing
-            .extremes
-            .map(|weight| self.law.load_of(common.mean * weight));
+        let [most, least] = sharing.extremes;
+        let extremes = [
+            self.law.load_of(common.mean * most),
+            self.law.load_of(common.mean * least),
+        ];
         let rubbing = self.row.ball_friction * row.largest_of_both;
         let held = sharing.weights > 0.0
             && self.law.holds_load(extremes[0])
@@ -177,6 +150,27 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
     }
 
+    /// A ball under a load of its own, or with a part of its load on a run-in.
+    #[inline(never)]
+    fn ball_of_own(&self, common: &Common, ball: &LoadedBall, deviations: [f32; 2]) -> BallOfRow {
+        let &Common {
+            branch, friction, ..
+        } = common;
+        let load = self.law.load_of(common.mean * ball.share);
+        let sliding = self.law.sliding(load, friction);
+        let part = ball.run_in;
+        BallOfRow {
+            alone: match part {
+                1.0 => self.law.at(load, branch, friction, deviations),
+                _ => self.law.on_run_in(part, load, branch, friction, deviations),
+            },
+            sliding,
+            per_sliding: 1.0 / sliding,
+            part,
+            deviations,
+        }
+    }
+
     #[inline(always)]
     fn common(&self, state: &UncagedState<N>, inputs: Inputs, sharing: &Sharing) -> Common {
         let direction = direction(inputs.nut_speed);
@@ -190,11 +184,14 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let neighbours = self
             .law
             .neighbours(load, branch, state.friction, &numbers, self.row);
+        let sliding = self.law.sliding(load, state.friction);
         Common {
             mean,
-            sliding: self.law.sliding(load, state.friction),
+            sliding,
+            per_sliding: 1.0 / sliding,
             branch,
             direction,
+            friction: state.friction,
             numbers,
             neighbours,
         }
@@ -202,19 +199,14 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
 
     /// How balls press, in two passes where they rub; and the sums of their torques.
     #[inline(always)]
-    fn press(
-        &self,
-        mut row: Row<'_, N>,
-        common: &Common,
-        of: impl Fn(&LoadedBall, [f32; 2]) -> BallOfRow,
-    ) -> (Torques, RubbedRow) {
-        let rub = self.row.ball_friction > 0.0;
-        if rub {
-            self.take_in(&mut row, common, &of, Pass::First);
+    fn press(&self, mut row: Row<'_, N>, common: &Common) -> (Torques, RubbedRow) {
+        let torques = if self.row.ball_friction > 0.0 {
+            self.take_in::<FIRST>(&mut row, common);
             row.balls = row.balls.press_once();
-        }
-        let last = if rub { Pass::Second } else { Pass::Smooth };
-        let torques = self.take_in(&mut row, common, &of, last);
+            self.take_in::<SECOND>(&mut row, common)
+        } else {
+            self.take_in::<SMOOTH>(&mut row, common)
+        };
         let losses = common
             .neighbours
             .losses(common.sliding, common.numbers.impedance[0]);
@@ -229,20 +221,14 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     /// Gives each ball its free speed and impedance in a pass, a loaded one by what it is under its part of the load with its deviations; returns the
     /// sums of their torques. Not inlined: what the rest of a step holds would take its registers.
     #[inline(never)]
-    fn take_in(
-        &self,
-        row: &mut Row<'_, N>,
-        common: &Common,
-        of: &impl Fn(&LoadedBall, [f32; 2]) -> BallOfRow,
-        pass: Pass,
-    ) -> Torques {
+    fn take_in<const PASS: u8>(&self, row: &mut Row<'_, N>, common: &Common) -> Torques {
         let &Common {
             direction,
             ref numbers,
             ref neighbours,
             ..
         } = common;
-        let units = self.units.map(|unit| direction * unit);
+        let units = [direction * self.units[0], direction * self.units[1]];
         let idle = direction * numbers.free[0];
         let mut torques = Torques::default();
         let mut ahead = row.part_ahead;
@@ -256,12 +242,23 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 continue;
             };
             let deviations = [units[0] * loaded.passing, units[1] * loaded.recirculating];
-            let own = of(&loaded, deviations);
-            let (rubbed, held) = match pass {
-                Pass::First => (neighbours.first(&own), 0.0),
-                Pass::Second => {
+            // Between the run-ins all balls of even loads are alike.
+            let own = if self.even && loaded.run_in == 1.0 {
+                BallOfRow {
+                    alone: numbers.at(deviations),
+                    sliding: common.sliding,
+                    per_sliding: common.per_sliding,
+                    part: 1.0,
+                    deviations,
+                }
+            } else {
+                self.ball_of_own(common, &loaded, deviations)
+            };
+            let (rubbed, held) = match PASS {
+                FIRST => (neighbours.first(&own), 0.0),
+                SECOND => {
                     let behind = self.circuit.part(ball.position_behind());
-                    let parts = [behind, ahead].map(|part| lesser(part, own.part));
+                    let parts = [lesser(behind, own.part), lesser(ahead, own.part)];
                     neighbours.second(
                         &own,
                         &Pressed {
@@ -271,7 +268,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                         },
                     )
                 }
-                Pass::Smooth => neighbours.smooth(&own),
+                _ => neighbours.smooth(&own),
             };
             ahead = own.part;
             torques.free += own.alone.torque;

@@ -97,6 +97,7 @@ impl Row {
         let balls = self.deviations.map(|deviations| BallOfRow {
             alone: numbers.at(deviations),
             sliding,
+            per_sliding: 1.0 / sliding,
             part: 1.0,
             deviations,
         });

@@ -111,9 +111,11 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
             let deviations = [screw * ball.screw_deviation, nut * ball.nut_deviation];
             let deviations = deviations.map(|part| part as f32);
             let load = law.load_of(ball.axial_load as f32);
+            let sliding = law.sliding(load, interval);
             BallOfRow {
                 alone: law.at(load, branch, interval, deviations),
-                sliding: law.sliding(load, interval),
+                sliding,
+                per_sliding: 1.0 / sliding,
                 part: 1.0,
                 deviations,
             }

@@ -101,14 +101,13 @@ pub const LOOPS: &[Row] = &[
         "epas_friction::scene::uncaged::UncagedConstants::friction_of_balls",
         Bound::Takes(&[Total::TakenIn]),
     ),
-    // The same for even loads and for loads of their own.
     row(
-        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::friction_of_balls::{closure#0}",
+        "epas_friction::scene::uncaged::UncagedConstants::take_in",
         Bound::Takes(&[Total::TakenIn]),
     ),
     row(
-        "epas_friction::scene::uncaged::UncagedConstants::take_in::epas_friction::scene::uncaged::UncagedConstants::friction_of_balls::{closure#1}",
-        Bound::Takes(&[Total::TakenIn]),
+        "epas_friction::scene::circuit::zone::LoadedZone::sharing::core::iter::adapters::map::Mapcore::slice::iter::Iterepas_friction::train::ball::Ball, epas_friction::train::ball::Ball::position",
+        BALLS,
     ),
     row(
         "epas_friction::scene::linear::LinearConstants::friction_of_balls",

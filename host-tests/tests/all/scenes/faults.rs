@@ -408,9 +408,9 @@ fn folded_fields<const NODES: usize>(folded: &mut FoldedBall<NODES>) -> Vec<&mut
         &mut last.numbers.slope,
         &mut other.numbers.free[5],
         &mut other.numbers.impedance[2],
-        &mut neighbours.numbers.push[1][0],
-        &mut neighbours.numbers.impedance[2][1],
-        &mut neighbours.numbers.torque[0][0],
+        &mut neighbours.numbers.nodes[1].push[0],
+        &mut neighbours.numbers.nodes[2].impedance[1],
+        &mut neighbours.numbers.nodes[0].torque[0],
         &mut neighbours.numbers.outward[2],
         &mut neighbours.numbers.outward_torque,
     ]

@@ -265,7 +265,9 @@ proptest! {
                 }
                 for knot in folded.law.nodes.iter_mut().flat_map(|node| node.neighbours.as_flattened_mut()) {
                     let numbers = &mut knot.numbers;
-                    numbers.torque = numbers.torque.map(|line| line.map(|arm| arm * scale));
+                    for node in &mut numbers.nodes {
+                        node.torque = node.torque.map(|arm| arm * scale);
+                    }
                     numbers.outward_torque *= scale;
                 }
             });

@@ -149,7 +149,10 @@ fn full_friction_is_what_passes_in_its_direction() {
                 };
                 parts(&S::outputs_at(&constants, inputs, &full, reversal))
             });
-            let [([groove, ball], contacts), ([groove_back, ball_back], contacts_back)] = all;
+            let [
+                ([groove, ball], contacts),
+                ([groove_back, ball_back], contacts_back),
+            ] = all;
             let [with, against] = if direction > 0.0 {
                 [ball, ball_back]
             } else {
@@ -198,10 +201,7 @@ fn full_friction_is_what_passes_in_its_direction() {
         ..linear()
     };
     check::<LinearBearingTrain<LINEAR_BALLS>>(&full, load, 2.0, |outputs| {
-        (
-            [outputs.groove_force, outputs.ball_force],
-            outputs.contacts,
-        )
+        ([outputs.groove_force, outputs.ball_force], outputs.contacts)
     });
 }
 

@@ -154,17 +154,17 @@ fn numbers_that_are_no_law_are_refused_by_name() {
         ("work", |law, x| numbers(law).work = x, &[-0.01, 4.01]),
         (
             "push",
-            |law, x| neighbours(law).push[1][2] = x,
+            |law, x| neighbours(law).nodes[1].push[2] = x,
             &[1.1e3, -1.1e3],
         ),
         (
             "rubbed_impedance",
-            |law, x| neighbours(law).impedance[2][0] = x,
+            |law, x| neighbours(law).nodes[2].impedance[0] = x,
             &[1.1e3],
         ),
         (
             "rubbed_torque",
-            |law, x| neighbours(law).torque[0][1] = x,
+            |law, x| neighbours(law).nodes[0].torque[1] = x,
             &[-1.1e3],
         ),
         ("outward", |law, x| neighbours(law).outward[2] = x, &[1.1e3]),
@@ -210,7 +210,7 @@ fn numbers_that_are_no_law_are_refused_by_name() {
         |law, _| law.deviations = [1e-6, 1.0],
         |law, _| law.lift_off = 1e7,
         |law, _| numbers(law).free = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        |law, _| neighbours(law).push = [[-1e3, 1e3, 0.0]; 3],
+        |law, _| neighbours(law).nodes[2].push = [-1e3, 1e3, 0.0],
         |law, _| numbers(law).slope = -1.0,
     ];
     for change in taken {

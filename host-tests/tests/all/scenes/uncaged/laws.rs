@@ -2,7 +2,9 @@
 
 use std::f64::consts::TAU;
 
-use epas_friction::ball::pressed::{BallNumbers, FreeMotion, NeighbourNumbers, RowConstants};
+use epas_friction::ball::pressed::{
+    BallNumbers, FreeMotion, NeighbourNumbers, RowConstants, RubbedNode,
+};
 use epas_friction::train::RUBBINGS;
 use epas_friction::{
     DeviationMap, Faults, FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration,
@@ -146,9 +148,9 @@ impl Tick {
     }
 
     /// A number of the law that goes with the friction, of a ball: linear between its nodes, and in proportion beyond them.
-    fn by_rubbing(&self, nodes: &[[f32; 3]; 3], ball: usize) -> f64 {
+    fn by_rubbing(&self, of: fn(&RubbedNode) -> &[f32; 3], ball: usize) -> f64 {
         let (_, rubbing) = self.neighbours_of(ball);
-        let nodes = nodes.map(|line| self.line(&line, ball));
+        let nodes = self.neighbours.nodes.map(|node| self.line(of(&node), ball));
         let [first, second, third] = RUBBINGS.map(f64::from);
         let between = |share: f64, low: f64, high: f64| low + share * (high - low);
         if rubbing < first {
@@ -186,8 +188,8 @@ fn every_ball_is_in_balance() {
                 let speed = f64::from(way) * tick.speeds[ball];
                 let alone = f64::from(free.impedance) * (speed - f64::from(free.speed));
                 let rubbed = tick.sliding
-                    * (tick.by_rubbing(&tick.neighbours.push, ball)
-                        + tick.by_rubbing(&tick.neighbours.impedance, ball) * (speed - held));
+                    * (tick.by_rubbing(|node| &node.push, ball)
+                        + tick.by_rubbing(|node| &node.impedance, ball) * (speed - held));
                 let outward = tick.line(&tick.neighbours.outward, ball) * (behind + ahead);
                 let needed = f64::from(way) * (alone + rubbed + outward);
                 // Places on a map to 2^-20 of a period change a free speed; forces add up to a cluster's roundings.
@@ -245,7 +247,7 @@ fn the_torque_is_what_the_balls_lose() {
                     + (f64::from(tick.numbers.slope)
                         + half_speed * f64::from(tick.numbers.work) * push)
                         * x
-                    + tick.sliding * tick.by_rubbing(&tick.neighbours.torque, ball)
+                    + tick.sliding * tick.by_rubbing(|node| &node.torque, ball)
                     + f64::from(tick.neighbours.outward_torque) * (behind + ahead);
             }
             let found = f64::from(way * tick.outputs.friction_torque);
@@ -341,8 +343,8 @@ fn steepest_loss(configuration: &UncagedBallScrewConfiguration, load: f32) -> f6
         .neighbours(load_of_ball, branch, interval, &numbers, row)
         .numbers;
     let sizes = neighbours
-        .torque
-        .map(|line| line.map(f32::abs).iter().sum::<f32>());
+        .nodes
+        .map(|node| node.torque.map(f32::abs).iter().sum::<f32>());
     let steepest = (sizes[0] / RUBBINGS[0])
         .max((sizes[0] + sizes[1]) / (RUBBINGS[1] - RUBBINGS[0]))
         .max((sizes[1] + sizes[2]) / (RUBBINGS[2] - RUBBINGS[1]));
