@@ -168,6 +168,32 @@ fn a_wrong_parameter_is_told_with_its_value_and_range() {
     }
 }
 
+/// What a design file refuses beyond the ranges of the crate, the end of the initialisation refuses too, before it folds.
+#[test]
+fn a_parameter_that_a_design_file_refuses_is_refused() {
+    for (scene, name, value, words) in [
+        (SceneName::Caged, "clearance", -3e-5, "4.2 GPa"),
+        (SceneName::Caged, "clearance", -1.6e-5, "4.2 GPa"),
+        (SceneName::Caged, "lead", 0.0, "is a bearing's"),
+        (SceneName::Caged, "lead", 1e-4, "turns would cross"),
+        (SceneName::Caged, "lead", 0.19, "lead angle"),
+        (SceneName::Caged, "pitch_radius", 0.3, "allowed: 0.01"),
+        (
+            SceneName::Caged,
+            "screw_groove_radius",
+            3e-3,
+            "0.5005 to 0.7",
+        ),
+        (SceneName::Uncaged, "clearance", -3e-5, "4.2 GPa"),
+        (SceneName::Uncaged, "turns", 11.0, "allowed: 0.1 to 10"),
+        (SceneName::Linear, "conformity", 0.75, "0.5005 to 0.7"),
+    ] {
+        let unit = unit(scene);
+        let message = start(&unit, &with(&unit, name, value)).unwrap_err();
+        assert!(message.contains(words), "{scene:?} {name}: {message}");
+    }
+}
+
 #[test]
 fn a_design_without_the_scene_is_refused() {
     let refused = |scene, design: &str| {
