@@ -77,10 +77,10 @@ pub struct Arguments {
     /// Replace a file that exists
     #[arg(long)]
     force: bool,
-    /// Fold every built-in design anew and store the blocks that the program brings with it, and do nothing else
+    /// Fold every built-in design anew and store the blocks that the program brings with it, in its checkout, and do nothing else
     #[arg(long, exclusive = true)]
     store: bool,
-    /// Fold every built-in design anew and fail where a block that the program brings with it has other bits, and do nothing else
+    /// Fold every built-in design anew, in the checkout, and fail where a block that the program brings with it has other bits, and do nothing else
     #[arg(long, exclusive = true)]
     gate: bool,
 }
