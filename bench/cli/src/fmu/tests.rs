@@ -102,6 +102,29 @@ fn every_variable_stands_in_the_description_once_with_its_place() {
     }
 }
 
+/// The documentation names the platform whose library is in the file, and the others by FMI's names; a name of a design is text.
+#[test]
+fn the_documentation_names_its_platforms() {
+    let mut unit = unit(SceneName::Caged);
+    unit.stored.design = "<b>&gear".into();
+    for (version, other) in [
+        (Version::Two, "binaries/win64"),
+        (Version::Three, "binaries/aarch64-darwin"),
+    ] {
+        let place = super::library::place(version).unwrap();
+        let page = super::documentation::documentation(&unit, version, &place);
+        for words in [
+            place.as_str(),
+            other,
+            "--scene caged",
+            "design &lt;b&gt;&amp;gear",
+        ] {
+            assert!(page.contains(words), "{version:?} {words}: {page}");
+        }
+        assert!(!page.contains("<b>"), "{page}");
+    }
+}
+
 #[test]
 fn start_values_are_the_numbers_of_the_design_to_the_bit() {
     for scene in SceneName::ALL {
