@@ -453,12 +453,7 @@ impl DesignFile {
         let clearance = fits.of(&screw, self.loaded_balls, &limits)?;
 
         let mut design = Design::new(
-            // Terminals obey control characters.
-            &self
-                .name
-                .as_deref()
-                .unwrap_or(stem)
-                .replace(char::is_control, " "),
+            &named(self.name.as_deref().unwrap_or(stem))?,
             screw,
             self.loaded_balls,
             Settings::USUAL,
@@ -540,6 +535,19 @@ impl DesignFile {
         }
         Ok(design)
     }
+}
+
+/// A design's name, without what terminals obey: control characters and those that turn the direction of a text.
+fn named(name: &str) -> Result<String, String> {
+    const LONGEST: usize = 200;
+    let letters = name.chars().count();
+    if letters > LONGEST {
+        return Err(format!(
+            "name has {letters} letters; allowed: up to {LONGEST}"
+        ));
+    }
+    let turns = |letter: char| matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    Ok(name.replace(|letter: char| letter.is_control() || turns(letter), " "))
 }
 
 /// Balls that a usual nut has under load: those of two turns and a half that touch.

@@ -31,17 +31,21 @@ impl Existing {
             return Err(no_folder(path, folder));
         }
         // A link counts as its target, or as itself where the target is missing.
-        let Ok(there) = fs::metadata(path).or_else(|_| fs::symlink_metadata(path)) else {
-            return Ok(());
-        };
-        match self {
-            Self::Keep => Err(in_the_way(path)),
-            Self::Replace if there.is_file() || there.is_symlink() => Ok(()),
-            Self::Replace => Err(Failure::Data(format!(
-                "{} is no ordinary file: it stays",
-                path.display()
-            ))),
+        let there = fs::metadata(path).or_else(|_| fs::symlink_metadata(path));
+        match (self, there) {
+            (Self::Keep, Ok(_)) => return Err(in_the_way(path)),
+            (Self::Replace, Ok(there)) if !there.is_file() && !there.is_symlink() => {
+                return Err(Failure::Data(format!(
+                    "{} is no ordinary file: it stays",
+                    path.display()
+                )));
+            }
+            _ => {}
         }
+        // What cannot be written is told before the work and not after it.
+        tempfile::tempfile_in(self::folder(path))
+            .map_err(|error| Failure::file("write", path, &error))?;
+        Ok(())
     }
 }
 
@@ -450,6 +454,18 @@ mod tests {
         fs::write(&any, "").unwrap();
         let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
         assert_eq!(mode(&ours), mode(&any));
+    }
+
+    /// A folder in which nothing can be written is told before any work is done, without the name of another file.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_folder_that_takes_no_file_is_told_first() {
+        let refused = Existing::Keep.check(Path::new("/proc/a.csv"));
+        let message = format!("{:?}", refused.unwrap_err());
+        assert!(
+            message.contains("/proc/a.csv") && !message.contains(".tmp"),
+            "{message}"
+        );
     }
 
     /// Where a file cannot be linked, a whole copy takes its place.
