@@ -146,6 +146,13 @@ impl fmt::Display for Error {
         };
         let Range { minimum, maximum } = self.allowed();
         let field = self.field();
+        match field {
+            "magic" => {
+                return formatter.write_str("magic: these words are no block of this scene");
+            }
+            "checksum" => return formatter.write_str("checksum: the block is damaged"),
+            _ => {}
+        }
         let unit = if LENGTHS.contains(&field) {
             " m; lengths are in metres"
         } else {
@@ -217,6 +224,16 @@ mod tests {
             in_range("friction", 2.0, 0.0, 1.0).unwrap_err().to_string(),
             "friction = 2 is out of range; allowed: 0 to 1"
         );
+    }
+
+    #[test]
+    fn a_foreign_or_damaged_block_is_told_in_words() {
+        let said = |field, value| in_range(field, value, 1.0, 1.0).unwrap_err().to_string();
+        assert_eq!(
+            said("magic", 2.0),
+            "magic: these words are no block of this scene"
+        );
+        assert_eq!(said("checksum", 0.0), "checksum: the block is damaged");
     }
 
     #[test]

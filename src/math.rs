@@ -14,7 +14,7 @@
 //!
 //! The feature `libm` puts `libm`'s cube root, sine and cosine in the place of our own; the feature
 //! `micromath` puts `micromath`'s there, and its square root where the target has no instruction for
-//! one. What runs in the loop calls the functions of this module and never asks which they are; set-up
+//! one. With both features, which two crates of one firmware may choose, `libm` serves. What runs in the loop calls the functions of this module and never asks which they are; set-up
 //! calls those of [`constant`], so that all of it can be done by the compiler.
 
 pub mod constant;
@@ -23,14 +23,11 @@ pub mod own;
 
 #[cfg(feature = "libm")]
 mod libm;
-#[cfg(feature = "micromath")]
+#[cfg(all(feature = "micromath", not(feature = "libm")))]
 mod micromath;
 #[doc(hidden)]
 pub mod powers;
 mod sqrt;
-
-#[cfg(all(feature = "libm", feature = "micromath"))]
-compile_error!("choose one backend of the scalar kernels: feature `libm` or feature `micromath`");
 
 #[cfg(feature = "libm")]
 use self::libm as backend;
@@ -79,4 +76,16 @@ pub fn cbrt_and_squared(x: f32) -> (f32, f32) {
 #[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     backend::sin_cos(x)
+}
+
+#[cfg(all(test, feature = "libm", feature = "micromath"))]
+mod tests {
+    /// To the bit: `micromath` errs by percents.
+    #[test]
+    fn libm_serves_of_two_backends() {
+        for x in [2.0_f32, -0.3, 1e-20, 7e9] {
+            assert_eq!(super::cbrt(x).to_bits(), ::libm::cbrtf(x).to_bits());
+        }
+        assert_eq!(super::sin_cos(1.0), ::libm::sincosf(1.0));
+    }
 }

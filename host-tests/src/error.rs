@@ -139,12 +139,14 @@ impl fmt::Display for ReferenceError {
 
 impl std::error::Error for ReferenceError {}
 
-/// `value`, or the error that names `field` where it is not a number within `min..=max`.
+/// `value`, or the error that names `field` where it is not a number within `min..=max`. An end of the range that was written in single
+/// precision is in it, whichever way it was rounded.
 ///
 /// # Errors
 /// [`ReferenceError::OutOfRange`] naming `field`.
 pub fn within(field: &'static str, value: f64, min: f64, max: f64) -> Result<f64, ReferenceError> {
-    if value.is_finite() && value >= min && value <= max {
+    let an_end = |end: f64| value == f64::from(end as f32);
+    if value.is_finite() && ((min..=max).contains(&value) || an_end(min) || an_end(max)) {
         Ok(value)
     } else {
         Err(ReferenceError::OutOfRange {
@@ -153,5 +155,23 @@ pub fn within(field: &'static str, value: f64, min: f64, max: f64) -> Result<f64
             min,
             max,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// 0.2 in single precision is 0.2000000030; its neighbour is out of range, and so is what has no size.
+    #[test]
+    fn an_end_in_single_precision_is_within_its_range() {
+        let checked = |value| within("field", value, 1e-6, 0.2);
+        for end in [1e-6_f32, 0.2] {
+            assert_eq!(checked(end.into()), Ok(f64::from(end)));
+        }
+        assert!(checked(0.2_f32.next_up().into()).is_err());
+        assert!(checked(1e-6_f32.next_down().into()).is_err());
+        assert!(checked(f64::NAN).is_err());
+        assert!(within("field", f64::INFINITY, 0.0, f64::INFINITY).is_err());
     }
 }

@@ -92,13 +92,13 @@ mod target {
     all(target_arch = "x86_64", target_feature = "sse")
 )))]
 mod target {
-    #[cfg(feature = "micromath")]
+    #[cfg(all(feature = "micromath", not(feature = "libm")))]
     #[inline(always)]
     pub fn sqrt(x: f32) -> f32 {
         super::super::micromath::sqrt(x)
     }
 
-    #[cfg(not(feature = "micromath"))]
+    #[cfg(not(all(feature = "micromath", not(feature = "libm"))))]
     #[inline(always)]
     pub fn sqrt(x: f32) -> f32 {
         ::libm::sqrtf(x)

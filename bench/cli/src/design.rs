@@ -77,10 +77,10 @@ pub struct Arguments {
     /// Replace a file that exists
     #[arg(long)]
     force: bool,
-    /// Fold every built-in design anew and store the blocks that the program brings with it, and do nothing else
+    /// Fold every built-in design anew and store the blocks that the program brings with it, in its checkout, and do nothing else
     #[arg(long, exclusive = true)]
     store: bool,
-    /// Fold every built-in design anew and fail where a block that the program brings with it has other bits, and do nothing else
+    /// Fold every built-in design anew, in the checkout, and fail where a block that the program brings with it has other bits, and do nothing else
     #[arg(long, exclusive = true)]
     gate: bool,
 }
@@ -302,18 +302,18 @@ fn write(target: &Target, block: &[u8]) -> Result<(), Failure> {
     pending.finish()
 }
 
-/// A name for a constant in Rust and C.
+/// A name for a constant in Rust and C: letters and digits, what is between them as one underscore.
 fn constant(name: &std::ffi::OsStr) -> String {
-    let name: String = name
-        .to_string_lossy()
-        .chars()
-        .map(|letter| match letter {
-            'a'..='z' | 'A'..='Z' | '0'..='9' => letter.to_ascii_uppercase(),
-            _ => '_',
-        })
+    let name = name.to_string_lossy().to_ascii_uppercase();
+    let parts: Vec<&str> = name
+        .split(|letter: char| !letter.is_ascii_alphanumeric())
+        .filter(|part| !part.is_empty())
         .collect();
+    let name = parts.join("_");
     if name.starts_with(|first: char| first.is_ascii_uppercase()) {
         name
+    } else if name.is_empty() {
+        "GEAR".into()
     } else {
         format!("GEAR_{name}")
     }

@@ -5,6 +5,7 @@
 //! is the foreign interface, and `run` packs the file. The models are those of `simulate`, and their outputs its bits.
 
 mod description;
+mod documentation;
 mod library;
 mod models;
 mod parameters;
@@ -25,6 +26,7 @@ use zip::ZipWriter;
 use zip::write::SimpleFileOptions;
 
 use description::{Version, description};
+use documentation::documentation;
 use epas_design::files::DesignSource;
 use epas_page::failure::Failure;
 use epas_page::files::{Existing, Pending, ends, refuse_same, standard, told};
@@ -149,10 +151,12 @@ fn packed(unit: &Unit, version: Version, place: &str, library: &[u8]) -> Result<
     };
     let stored = toml::to_string(&unit.stored).map_err(|error| failure(&error))?;
     let description = description(unit, version);
+    let documentation = documentation(unit, version, place);
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default();
     for (name, bytes) in [
         ("modelDescription.xml", description.as_bytes()),
+        ("documentation/index.html", documentation.as_bytes()),
         (&format!("resources/{RESOURCE}"), stored.as_bytes()),
         (place, library),
     ] {

@@ -66,7 +66,7 @@ pub fn folded() -> Result<Vec<u8>, Failure> {
     Ok(blocks.concat())
 }
 
-/// Where the file is.
-pub fn path() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../src/scene/caged/built_in.bin")
+/// Where the file is in a checkout.
+pub fn path(root: &Path) -> PathBuf {
+    root.join("src/scene/caged/built_in.bin")
 }

@@ -5,7 +5,7 @@ pub mod calibration;
 pub mod capacity;
 pub mod coefficient;
 mod deviation;
-mod fits;
+pub mod fits;
 pub mod fold;
 pub mod loads;
 pub mod plausible;
@@ -19,6 +19,7 @@ use std::str::FromStr;
 
 use crate::CagedDesign;
 use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
+use epas_friction::ranges::ROLLING_CONTACT_ANGLE;
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, ClosedFormScrewConfiguration,
     ClosedFormScrewConstants, DISSERTATION_DESIGNS, Error, FrictionBranch, GrooveSize, Limits,
@@ -425,6 +426,12 @@ impl DesignFile {
             nominal_diameter: self.nominal_diameter.is_some(),
             ball_diameter: self.ball_diameter.is_some(),
         };
+        let of_contacts = matches!(self.branch, None | Some(BranchName::Contacts));
+        if of_contacts {
+            // Narrower than the geometry's: one range, whichever is passed.
+            let angle = ROLLING_CONTACT_ANGLE.checked("contact_angle", self.contact_angle);
+            angle.map_err(|error| given.words(&error))?;
+        }
         let screw = BallScrew::new(parameters).map_err(|error| given.words(&error))?;
         given.plausible(&parameters)?;
         if self.loaded_balls == Some(0) {
@@ -437,15 +444,16 @@ impl DesignFile {
             axial_play: self.axial_play,
             axial_preload: self.axial_preload,
         };
-        let clearance = fits.of(&screw, self.loaded_balls)?;
+        let mut limits = LIMITS;
+        if let Some(given) = self.limits {
+            replace(&mut limits.nut_speed, given.nut_speed);
+            replace(&mut limits.axial_load, given.axial_load);
+            replace(&mut limits.friction_torque, given.friction_torque);
+        }
+        let clearance = fits.of(&screw, self.loaded_balls, &limits)?;
 
         let mut design = Design::new(
-            // Terminals obey control characters.
-            &self
-                .name
-                .as_deref()
-                .unwrap_or(stem)
-                .replace(char::is_control, " "),
+            &named(self.name.as_deref().unwrap_or(stem))?,
             screw,
             self.loaded_balls,
             Settings::USUAL,
@@ -480,11 +488,7 @@ impl DesignFile {
             Some(BranchName::Rolling) => Some(FrictionBranch::Rolling),
             Some(BranchName::Sliding) => Some(FrictionBranch::Sliding),
         };
-        if let Some(limits) = self.limits {
-            replace(&mut caged.limits.nut_speed, limits.nut_speed);
-            replace(&mut caged.limits.axial_load, limits.axial_load);
-            replace(&mut caged.limits.friction_torque, limits.friction_torque);
-        }
+        caged.limits = limits;
         design.check().map_err(|error| match error.field() {
             "nut_speed" | "axial_load" | "friction_torque" => format!("limits: {error}"),
             _ => error.to_string(),
@@ -531,6 +535,19 @@ impl DesignFile {
         }
         Ok(design)
     }
+}
+
+/// A design's name, without what terminals obey: control characters and those that turn the direction of a text.
+fn named(name: &str) -> Result<String, String> {
+    const LONGEST: usize = 200;
+    let letters = name.chars().count();
+    if letters > LONGEST {
+        return Err(format!(
+            "name has {letters} letters; allowed: up to {LONGEST}"
+        ));
+    }
+    let turns = |letter: char| matches!(letter, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    Ok(name.replace(|letter: char| letter.is_control() || turns(letter), " "))
 }
 
 /// Balls that a usual nut has under load: those of two turns and a half that touch.

@@ -194,19 +194,44 @@ fn folded() -> Result<Vec<(String, Vec<u32>)>, Failure> {
         .collect()
 }
 
-fn path() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("folded/built_in.bin")
+/// The files of both kinds of stored blocks, in the sources of this program.
+///
+/// # Errors
+/// The user is not in the checkout that this program was built from: no other folder's files are touched.
+fn paths() -> Result<[PathBuf; 2], Failure> {
+    let refused = || {
+        Failure::Domain(
+            "stored blocks are files of epas-friction's sources: --store and --gate run in the checkout that this program was built from"
+                .into(),
+        )
+    };
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let root = fs::canonicalize(root).map_err(|_| refused())?;
+    let here = std::env::current_dir().and_then(fs::canonicalize);
+    let inside = here.is_ok_and(|here| here.starts_with(&root));
+    let paths = [path(&root), built_in::path(&root)];
+    if inside && paths.iter().all(|path| path.is_file()) {
+        Ok(paths)
+    } else {
+        Err(refused())
+    }
+}
+
+/// Where the file of this program's blocks is.
+fn path(root: &Path) -> PathBuf {
+    root.join("bench/design/folded/built_in.bin")
 }
 
 /// Stores the blocks of the built-in designs, folded anew: those of this program and those of the crate.
 ///
 /// # Errors
-/// What cannot be folded; a file that cannot be written.
+/// Outside the checkout of this program; what cannot be folded; a file that cannot be written.
 pub fn store() -> Result<(), Failure> {
+    let [own, the_crate] = paths()?;
     let words = folded()?.into_iter().flat_map(|(_, words)| words);
     let bytes: Vec<u8> = words.flat_map(u32::to_le_bytes).collect();
-    written(&path(), &bytes)?;
-    written(&built_in::path(), &built_in::folded()?)
+    written(&own, &bytes)?;
+    written(&the_crate, &built_in::folded()?)
 }
 
 fn written(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
@@ -217,8 +242,9 @@ fn written(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 /// How many stored blocks have the bits of a new fold.
 ///
 /// # Errors
-/// The designs whose stored blocks have not.
+/// Outside the checkout of this program; the designs whose stored blocks have not.
 pub fn gate() -> Result<usize, Failure> {
+    let [_, the_crate] = paths()?;
     let folded = folded()?;
     let differs =
         |(_, words): &&(String, Vec<u32>)| stored(digest_of(words)).as_ref() != Some(words);
@@ -229,7 +255,7 @@ pub fn gate() -> Result<usize, Failure> {
         .collect();
     let mut differing: Vec<String> = differing.into_iter().map(String::from).collect();
     let anew = built_in::folded()?;
-    if fs::read(built_in::path()).map_err(Failure::File)? != anew {
+    if fs::read(the_crate).map_err(Failure::File)? != anew {
         differing.push("the crate's built_in.bin".into());
     }
     if differing.is_empty() {

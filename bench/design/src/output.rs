@@ -344,7 +344,7 @@ fn rust(summary: &[String], declared: &Declared, name: &str, words: &[u32]) -> S
          Ok(constants) => constants,\n        \
          Err(_) => panic!(\"the block is damaged, or of another version of epas-friction\"),\n    }};\n\n\
          #[rustfmt::skip]\n\
-         #[allow(clippy::large_const_arrays, reason = \"read while compiling alone\")]\n\
+         #[allow(clippy::large_const_arrays, clippy::unreadable_literal, reason = \"read while compiling alone\")]\n\
          const {name}_BLOCK: [u32; {}] = [\n",
         words.len()
     );

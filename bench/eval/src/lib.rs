@@ -53,7 +53,8 @@ pub use train::ScrewNumbers;
 /// Models and fields (SI units, radians; those in brackets may be left out):
 ///
 /// groove_curvature: groove ("screw" or "nut"), pitch_radius, lead_angle, contact_angle,
-/// groove_radius, offset_h, offset_l, [ball_radius]
+/// groove_radius, offset_h, offset_l, [ball_radius]; its fitted curvature is a fit for contact angles up to
+/// 1.257 on a groove that a screw can have: nothing holds it where the groove is wider than the screw
 ///
 /// efficiency: lead_angle, contact_angle, friction, ball_ratio, [rolling_tangent]
 ///

@@ -49,6 +49,7 @@ class Refusals:
             ("friction", -1.0, ("friction", "-1", "allowed")),
             ("friction", math.nan, ("friction", "NaN")),
             ("ball_radius", 5.0, ("ball_radius", "5", "allowed")),
+            ("clearance", -3e-5, ("clearance", "4.2 GPa")),
             ("contact_angle", 0.0, ("contact_angle", "allowed")),
             ("groove_material.poisson_ratio", 0.9, ("groove_material.poisson_ratio", "0.9")),
             ("ball_material.density", math.inf, ("ball_material.density", "inf")),
@@ -132,6 +133,9 @@ class Refusals:
                 one.step(self.step, self.step)
                 status, text = one.said[-1]
                 assert status == 1 and name in text and "NaN" in text, one.said
+                # A flag is told once.
+                one.step(one.get("time"), self.step)
+                assert len(one.said) == 1, one.said
                 assert one.get("faults") != 0
                 assert all(math.isfinite(float(value)) for value in one.outputs().values())
                 self.count += 1
@@ -139,6 +143,10 @@ class Refusals:
             time = one.get("time")
             one.step(time, self.step)
             assert all(math.isfinite(float(value)) for value in one.outputs().values())
+            if name != "motor_torque" and one.get("faults") == 0:
+                # And told when it ends.
+                status, text = one.said[-1]
+                assert status == 0 and "no step any more" in text and len(one.said) == 2, one.said
             one.close()
 
     def ends(self):

@@ -6,12 +6,14 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use epas_cli::fmu::{Causality, Moment, RESOURCE, Running, Stored, Unit, Variable};
 
+use crate::flags::Flags;
 use crate::kinds::Phase;
 pub use crate::kinds::Wanted;
+use crate::outcome::Told;
 use crate::state::Snapshot;
 
 /// What a call may say beside its success.
-pub type Said = Result<Option<String>, String>;
+pub type Said = Result<Option<Told>, String>;
 
 /// The flag of accuracy alone: nothing is wrong with the inputs.
 const ACCURACY: u32 = epas_cli::fmu::ACCURACY;
@@ -30,6 +32,7 @@ pub struct Instance {
     phase: Phase,
     values: Vec<f64>,
     running: Option<Box<dyn Running>>,
+    flags: Flags,
     states: HashMap<usize, Vec<u8>>,
 }
 
@@ -73,6 +76,7 @@ impl Instance {
             phase: Phase::Instantiated,
             values,
             running: None,
+            flags: Flags::default(),
             states: HashMap::new(),
         })
     }
@@ -130,6 +134,7 @@ impl Instance {
         self.phase = Phase::Instantiated;
         self.values = self.unit.starts();
         self.running = None;
+        self.flags = Flags::default();
     }
 
     /// Time, s.
@@ -207,7 +212,7 @@ impl Instance {
         Ok(ticks as u32)
     }
 
-    /// A step; where the model has flagged it, what is wrong.
+    /// A step; a warning where the model has flagged it, with a text where flags begin, change or end.
     pub fn do_step(&mut self, call: &str, time: f64, size: f64) -> Said {
         self.refuse_unless(call, &[Phase::Stepping])?;
         let ticks = self.ticks(size)?;
@@ -245,18 +250,16 @@ impl Instance {
             .collect()
     }
 
-    /// What was wrong with the last tick, in words.
-    fn flagged(&self, time: f64) -> Option<String> {
-        let place = self
-            .unit
-            .variables
-            .iter()
-            .position(|variable| variable.name == "faults")?;
-        let faults = *self.values.get(place)? as u32 & !ACCURACY;
-        if faults == 0 {
-            return None;
-        }
-        let words = epas_cli::fmu::fault_words(faults);
+    /// Flags of the last tick about its inputs.
+    fn faults(&self) -> u32 {
+        let mut pairs = self.unit.variables.iter().zip(&self.values);
+        let faults = pairs.find(|(variable, _)| variable.name == "faults");
+        faults.map_or(0, |(_, value)| *value as u32 & !ACCURACY)
+    }
+
+    /// What is told of the last tick.
+    fn flagged(&mut self, time: f64) -> Option<Told> {
+        let faults = self.faults();
         let inputs: Vec<String> = self
             .unit
             .places(Causality::Input)
@@ -265,10 +268,10 @@ impl Instance {
                 Some(format!("{} = {}", variable.name, self.values.get(place)?))
             })
             .collect();
-        Some(format!(
-            "at {time} s the model has flagged the step (faults = {faults}): {words}; {}",
-            inputs.join(", ")
-        ))
+        self.flags.take(time, faults, |faults| {
+            let words = epas_cli::fmu::fault_words(faults);
+            format!("{words}; {}", inputs.join(", "))
+        })
     }
 
     /// Its state.
@@ -341,6 +344,7 @@ impl Instance {
         self.running = running;
         self.phase = phase;
         self.values = snapshot.values;
+        self.flags = Flags::new(self.faults(), self.time());
         Ok(())
     }
 }

@@ -5,6 +5,7 @@
 //! with pointers: every exported function. What a unit computes stands in `epas_cli::fmu`, and is what `simulate` computes.
 
 mod boundary;
+mod flags;
 mod instance;
 mod kinds;
 mod outcome;

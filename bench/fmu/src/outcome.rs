@@ -10,3 +10,12 @@ pub enum Outcome {
     /// Refused, with a text.
     Refused,
 }
+
+/// What a call says beside its success.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Told {
+    /// Success, or success with a warning.
+    pub outcome: Outcome,
+    /// What the logger is told; nothing that it has been told already.
+    pub text: Option<String>,
+}

@@ -8,7 +8,7 @@ use std::sync::{Arc, LazyLock, Mutex, PoisonError};
 
 use crate::boundary::Logger;
 use crate::instance::{Instance, Said};
-use crate::outcome::Outcome;
+use crate::outcome::{Outcome, Told};
 
 /// An instance with where its texts go.
 struct Entry {
@@ -75,7 +75,14 @@ pub fn call(handle: usize, action: impl FnOnce(&mut Instance, &mut Logger) -> Sa
         .unwrap_or_else(|what| Err(panicked(&*what)));
     let (outcome, message) = match said {
         Ok(None) => return Outcome::Fine,
-        Ok(Some(message)) => (Outcome::Warning, message),
+        Ok(Some(Told {
+            outcome,
+            text: None,
+        })) => return outcome,
+        Ok(Some(Told {
+            outcome,
+            text: Some(text),
+        })) => (outcome, text),
         Err(message) => (Outcome::Refused, message),
     };
     let logger = logger.clone();

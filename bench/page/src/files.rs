@@ -1,6 +1,6 @@
 //! Files that are written whole or not at all.
 
-use std::fs;
+use std::fs::{self, File};
 use std::io::{self, BufRead, BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -31,17 +31,21 @@ impl Existing {
             return Err(no_folder(path, folder));
         }
         // A link counts as its target, or as itself where the target is missing.
-        let Ok(there) = fs::metadata(path).or_else(|_| fs::symlink_metadata(path)) else {
-            return Ok(());
-        };
-        match self {
-            Self::Keep => Err(in_the_way(path)),
-            Self::Replace if there.is_file() || there.is_symlink() => Ok(()),
-            Self::Replace => Err(Failure::Data(format!(
-                "{} is no ordinary file: it stays",
-                path.display()
-            ))),
+        let there = fs::metadata(path).or_else(|_| fs::symlink_metadata(path));
+        match (self, there) {
+            (Self::Keep, Ok(_)) => return Err(in_the_way(path)),
+            (Self::Replace, Ok(there)) if !there.is_file() && !there.is_symlink() => {
+                return Err(Failure::Data(format!(
+                    "{} is no ordinary file: it stays",
+                    path.display()
+                )));
+            }
+            _ => {}
         }
+        // What cannot be written is told before the work and not after it.
+        tempfile::tempfile_in(self::folder(path))
+            .map_err(|error| Failure::file("write", path, &error))?;
+        Ok(())
     }
 }
 
@@ -57,37 +61,37 @@ fn in_the_way(path: &Path) -> Failure {
     Failure::Data(format!("{} exists; --force replaces it", path.display()))
 }
 
-/// A temporary file beside its final place: moved there when it is complete, deleted when dropped before. What is for standard
-/// output waits among the system's temporary files.
+/// Prefix of a complete file that waits for its name, and letters behind it.
+const PREFIX: &str = ".epas-";
+const LETTERS: usize = 6;
+
+/// A file without a name, in the folder of its final place: it gets its name when it is complete, and is gone however the run ends before.
+/// What is for standard output waits among the system's temporary files.
 pub struct Pending {
     path: PathBuf,
     existing: Existing,
-    writer: BufWriter<NamedTempFile>,
+    writer: BufWriter<File>,
 }
 
 impl Pending {
     /// A file that will stand at `path`, in a folder that is there.
     pub fn new(path: &Path, existing: Existing) -> Result<Self, Failure> {
         let failure = |error: io::Error| Failure::file("write", path, &error);
-        let waiting = std::env::temp_dir();
-        let folder = match path.parent() {
-            _ if standard(path) => &waiting,
-            Some(folder) if !folder.as_os_str().is_empty() => folder,
-            _ => Path::new("."),
+        let file = if standard(path) {
+            tempfile::tempfile()
+        } else {
+            let folder = folder(path);
+            if !folder.is_dir() {
+                return Err(no_folder(path, folder));
+            }
+            #[cfg(unix)]
+            sweep(folder);
+            tempfile::tempfile_in(folder)
         };
-        if !folder.is_dir() {
-            return Err(no_folder(path, folder));
-        }
-        let mut builder = Builder::new();
-        builder.prefix(".epas-");
-        // A temporary file is private by default; this one is to become an ordinary file.
-        #[cfg(unix)]
-        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-        let file = builder.tempfile_in(folder).map_err(failure)?;
         Ok(Self {
             path: path.into(),
             existing,
-            writer: BufWriter::new(file),
+            writer: BufWriter::new(file.map_err(failure)?),
         })
     }
 
@@ -103,14 +107,16 @@ impl Pending {
             existing,
             writer,
         } = self;
-        let file = writer
+        let mut complete = writer
             .into_inner()
             .map_err(|error| Failure::file("write", &path, error.error()))?;
         if standard(&path) {
-            let mut complete = file.reopen()?;
+            complete.rewind()?;
             io::copy(&mut complete, &mut io::stdout().lock())?;
             return Ok(());
         }
+        let file = named(folder(&path), &mut complete)
+            .map_err(|error| Failure::file("write", &path, &error))?;
         let placed = match existing {
             Existing::Replace => file.persist(&path),
             Existing::Keep => file.persist_noclobber(&path),
@@ -121,6 +127,99 @@ impl Pending {
                 Err(in_the_way(&path))
             }
             Err(error) => Err(Failure::file("write", &path, &error.error)),
+        }
+    }
+}
+
+/// The folder of a file.
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    }
+}
+
+/// A complete file under a temporary name, deleted when dropped: the file itself where the system can link it, else a copy. Its lock says that
+/// its run goes on.
+fn named(folder: &Path, complete: &mut File) -> io::Result<NamedTempFile<File>> {
+    lock(complete);
+    Builder::new()
+        .prefix(PREFIX)
+        .rand_bytes(LETTERS)
+        .make_in(folder, |path| match linked(complete, path) {
+            Ok(()) => complete.try_clone(),
+            Err(_) => copied(complete, path),
+        })
+}
+
+/// Links a file without a name.
+#[cfg(target_os = "linux")]
+fn linked(file: &File, path: &Path) -> io::Result<()> {
+    use rustix::fs::{AtFlags, CWD, linkat};
+    use std::os::fd::AsRawFd;
+    let own = format!("/proc/self/fd/{}", file.as_raw_fd());
+    Ok(linkat(CWD, own, CWD, path, AtFlags::SYMLINK_FOLLOW)?)
+}
+
+#[cfg(not(target_os = "linux"))]
+fn linked(_: &File, _: &Path) -> io::Result<()> {
+    Err(io::ErrorKind::Unsupported.into())
+}
+
+/// A copy of a file, under a name that is free.
+fn copied(complete: &mut File, path: &Path) -> io::Result<File> {
+    let mut copy = File::options().write(true).create_new(true).open(path)?;
+    lock(&copy);
+    // Another run may have swept it away before it was locked: another name, then.
+    if !path.exists() {
+        return Err(io::ErrorKind::AlreadyExists.into());
+    }
+    let written = complete
+        .rewind()
+        .and_then(|()| io::copy(complete, &mut copy));
+    if let Err(error) = written {
+        // Nobody else deletes it while it is locked.
+        fs::remove_file(path)?;
+        return Err(error);
+    }
+    Ok(copy)
+}
+
+/// Locks a file until it is closed; where a file system has no locks, nothing is swept.
+#[cfg(unix)]
+fn lock(file: &File) {
+    use rustix::fs::{FlockOperation, flock};
+    flock(file, FlockOperation::LockExclusive).unwrap_or_default();
+}
+
+#[cfg(not(unix))]
+fn lock(_: &File) {}
+
+/// Deletes what a run that was killed has left in a folder: files under a temporary name that no run has locked.
+#[cfg(unix)]
+fn sweep(folder: &Path) {
+    use rustix::fs::{FlockOperation, flock};
+    let Ok(entries) = fs::read_dir(folder) else {
+        return;
+    };
+    for entry in entries.flatten() {
+        let name = entry.file_name();
+        let ours = name
+            .to_str()
+            .and_then(|name| name.strip_prefix(PREFIX))
+            .is_some_and(|rest| {
+                rest.len() == LETTERS && rest.bytes().all(|byte| byte.is_ascii_alphanumeric())
+            });
+        // Neither a link nor a pipe is opened.
+        if !ours || !entry.file_type().is_ok_and(|kind| kind.is_file()) {
+            continue;
+        }
+        let Ok(file) = File::open(entry.path()) else {
+            continue;
+        };
+        if flock(&file, FlockOperation::NonBlockingLockExclusive).is_ok() {
+            // What another run has swept meanwhile is gone as well.
+            fs::remove_file(entry.path()).unwrap_or_default();
         }
     }
 }
@@ -272,7 +371,7 @@ pub fn read_text(path: &Path, largest: u64) -> Result<String, Failure> {
     let input: Box<dyn Read> = if standard(path) {
         Box::new(io::stdin())
     } else {
-        Box::new(fs::File::open(path).map_err(|error| Failure::file("open", path, &error))?)
+        Box::new(File::open(path).map_err(|error| Failure::file("open", path, &error))?)
     };
     let mut text = String::new();
     Bounded::new(input, largest)
@@ -305,4 +404,113 @@ pub fn line_of(mut input: impl Read + Seek, byte: u64, line: u64) -> u64 {
     };
     // Where the input cannot be read again, the line is that of the blank lines.
     line + blank_lines().unwrap_or(0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<String> = entries
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .collect();
+        names.sort();
+        names
+    }
+
+    /// However a run ends before its output is complete, nothing of it stays: the file has no name till then.
+    #[test]
+    fn an_output_that_is_not_complete_has_no_name() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("a.csv");
+        let mut pending = Pending::new(&path, Existing::Keep).unwrap();
+        all(&mut pending, &path, "one").unwrap();
+        pending.writer().flush().unwrap();
+        #[cfg(unix)]
+        assert!(names(place.path()).is_empty());
+        pending.finish().unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "one");
+        // What appears meanwhile stays, and nothing beside it.
+        fs::remove_file(&path).unwrap();
+        let mut pending = Pending::new(&path, Existing::Keep).unwrap();
+        all(&mut pending, &path, "two").unwrap();
+        fs::write(&path, "theirs").unwrap();
+        assert!(pending.finish().is_err());
+        assert_eq!(fs::read_to_string(&path).unwrap(), "theirs");
+        write(&path, "three", Existing::Replace).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "three");
+        assert_eq!(names(place.path()), ["a.csv"]);
+    }
+
+    /// An output is an ordinary file: whoever may read another one may read it.
+    #[cfg(unix)]
+    #[test]
+    fn an_output_has_the_permissions_of_any_file() {
+        use std::os::unix::fs::PermissionsExt;
+        let place = tempfile::tempdir().unwrap();
+        let [ours, any] = ["a.csv", "b.csv"].map(|name| place.path().join(name));
+        write(&ours, "", Existing::Keep).unwrap();
+        fs::write(&any, "").unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(&ours), mode(&any));
+    }
+
+    /// A folder in which nothing can be written is told before any work is done, without the name of another file.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_folder_that_takes_no_file_is_told_first() {
+        let refused = Existing::Keep.check(Path::new("/proc/a.csv"));
+        let message = format!("{:?}", refused.unwrap_err());
+        assert!(
+            message.contains("/proc/a.csv") && !message.contains(".tmp"),
+            "{message}"
+        );
+    }
+
+    /// Where a file cannot be linked, a whole copy takes its place.
+    #[test]
+    fn a_copy_is_whole() {
+        let place = tempfile::tempdir().unwrap();
+        let mut complete = tempfile::tempfile().unwrap();
+        complete.write_all(b"whole").unwrap();
+        let path = place.path().join(".epas-aaaaaa");
+        copied(&mut complete, &path).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "whole");
+        let refused = copied(&mut complete, &path).unwrap_err();
+        assert_eq!(refused.kind(), io::ErrorKind::AlreadyExists);
+    }
+
+    /// What a killed run has left goes; what a run has locked, and what is the user's, stays.
+    #[cfg(unix)]
+    #[test]
+    fn the_next_run_sweeps_what_a_killed_one_left() {
+        let place = tempfile::tempdir().unwrap();
+        let path = |name: &str| place.path().join(name);
+        let stay = [
+            ".epas-bbbbbb",
+            ".epas-friction",
+            ".epas-folder",
+            ".epas-a.csv",
+        ];
+        for name in [
+            ".epas-aaaaaa",
+            ".epas-bbbbbb",
+            ".epas-friction",
+            ".epas-a.csv",
+        ] {
+            fs::write(path(name), "").unwrap();
+        }
+        fs::create_dir(path(".epas-folder")).unwrap();
+        let running = File::open(path(".epas-bbbbbb")).unwrap();
+        lock(&running);
+        let pending = Pending::new(&path("out.csv"), Existing::Keep).unwrap();
+        let mut expected = stay.map(String::from);
+        expected.sort();
+        assert_eq!(names(place.path()), expected);
+        drop(running);
+        pending.finish().unwrap();
+        write(&path("next.csv"), "", Existing::Keep).unwrap();
+        assert!(!path(".epas-bbbbbb").exists());
+    }
 }

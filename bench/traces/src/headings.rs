@@ -40,10 +40,45 @@ pub fn missing(column: &str, header: &StringRecord) -> String {
 
 /// Why a text is no number.
 pub fn no_number(text: &[u8]) -> &'static str {
-    let decimal = |letter: &u8| letter.is_ascii_digit() || b",-+eE".contains(letter);
-    if text.contains(&b',') && text.iter().all(decimal) {
+    let only = |letters: &[u8]| {
+        text.iter()
+            .all(|letter| letter.is_ascii_digit() || letters.contains(letter))
+    };
+    if text.contains(&b',') && only(b",-+eE") {
         "is no number: a decimal point is needed in place of the comma"
+    } else if text.contains(&b',') && only(b",.-+eE") {
+        "is no number: no commas between thousands"
+    } else if text.starts_with("\u{2212}".as_bytes()) {
+        "is no number: a hyphen is needed in place of the minus sign"
+    } else if text.first().is_some_and(u8::is_ascii_digit)
+        && text.iter().any(|letter| b":-".contains(letter))
+        && only(b"-:.TZ +")
+    {
+        "is no number: a date or a clock's time; seconds are needed"
     } else {
         "is no number"
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::no_number;
+
+    /// What a spreadsheet writes is named; what is no number at all is not guessed at.
+    #[test]
+    fn what_is_no_number_says_what_is_needed() {
+        for (text, words) in [
+            ("1,5", "decimal point"),
+            ("1,000.0", "no commas between thousands"),
+            ("\u{2212}50", "in place of the minus sign"),
+            ("2026-01-01T00:00:00", "seconds are needed"),
+            ("12:30:01.5", "seconds are needed"),
+        ] {
+            let said = no_number(text.as_bytes());
+            assert!(said.contains(words), "{text}: {said}");
+        }
+        for text in ["-", "", "abc", "1e5x", "--5"] {
+            assert_eq!(no_number(text.as_bytes()), "is no number");
+        }
     }
 }

@@ -81,7 +81,7 @@ fn screw(folded: &Folded) -> Result<String, Failure> {
     }
     let _ = writeln!(
         text,
-        "#[rustfmt::skip]\nconst SCREW_BLOCK: [u32; {count}] = ["
+        "#[rustfmt::skip]\n#[allow(clippy::unreadable_literal)]\nconst SCREW_BLOCK: [u32; {count}] = ["
     );
     for line in words.chunks(6) {
         let line = line.iter().map(|word| format!(" 0x{word:08x},"));

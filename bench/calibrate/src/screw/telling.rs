@@ -76,7 +76,8 @@ pub fn untold(
         .filter(|_| !chosen.at_bound)
         .or(because.map(String::from))
         .unwrap_or_else(|| "the trace does not show it".into());
-    let value = value_of(chosen.name, design);
+    // A design's number, with the digits of single precision.
+    let value = value_of(chosen.name, design) as f32;
     let unit = chosen.unit;
     Some(Untold {
         name: chosen.name,
@@ -203,6 +204,7 @@ pub fn left_out(fixed: &[&str], evidence: &Evidence) -> Vec<String> {
 
 /// Why a position's step is too coarse for what comes before sliding.
 pub fn too_coarse(name: &str, step: f64, value: f64) -> String {
+    let value = value as f32;
     format!(
         "{}: not estimated; a step of the position is {step:.2e} rad of the nut, too coarse for it; {} is set to {value} rad.",
         words(&[name]),
@@ -212,7 +214,7 @@ pub fn too_coarse(name: &str, step: f64, value: f64) -> String {
 
 /// What of a turn ended at its bound.
 pub fn beyond_bound(name: &str, value: f64) -> String {
-    let name = words(&[name]);
+    let (name, value) = (words(&[name]), value as f32);
     format!("{name}: it ended at its bound, which no trace tells; {name} is set to {value} rad.")
 }
 

@@ -306,7 +306,8 @@ impl Made {
 
 /// A gap in micrometres, to a nanometre: it is an f32.
 fn micrometres(gap: f32) -> f64 {
-    (1e9 * f64::from(gap)).round() / 1e3
+    // 0 of either sign is 0.
+    (1e9 * f64::from(gap)).round() / 1e3 + 0.0
 }
 
 /// What a drawing says, in its units.

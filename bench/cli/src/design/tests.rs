@@ -14,8 +14,10 @@ fn a_constant_is_named_after_its_file() {
         ("gear", "GEAR"),
         ("lin-4.1", "LIN_4_1"),
         ("29x7x4", "GEAR_29X7X4"),
-        ("_ä", "GEAR___"),
-        ("", "GEAR_"),
+        ("größe", "GR_E"),
+        ("_ä", "GEAR"),
+        ("-", "GEAR"),
+        ("", "GEAR"),
     ] {
         assert_eq!(constant(name.as_ref()), wanted);
     }

@@ -33,31 +33,49 @@ fn how() -> String {
     )
 }
 
+/// Platforms with their names in FMI 2.0, where it has one, and in FMI 3.0, with what they are: processor and system.
+const PLATFORMS: [(Option<&str>, &str, [&str; 2]); 6] = [
+    (Some("linux64"), "x86_64-linux", ["x86_64", "linux"]),
+    (Some("win64"), "x86_64-windows", ["x86_64", "windows"]),
+    (Some("darwin64"), "x86_64-darwin", ["x86_64", "macos"]),
+    (None, "aarch64-linux", ["aarch64", "linux"]),
+    (None, "aarch64-windows", ["aarch64", "windows"]),
+    (None, "aarch64-darwin", ["aarch64", "macos"]),
+];
+
+/// Folders of platforms in a unit's file, each with processor and system.
+pub fn platforms(version: Version) -> impl Iterator<Item = (&'static str, String)> {
+    PLATFORMS.iter().filter_map(move |(two, three, of)| {
+        let folder = match version {
+            Version::Two => *two,
+            Version::Three => Some(*three),
+        };
+        folder.map(|folder| (folder, of.join(" ")))
+    })
+}
+
+/// Processor and system of this program.
+pub fn platform() -> String {
+    format!("{ARCH} {OS}")
+}
+
 /// Where a library stands in a unit's file, by the names that a version of FMI has for this platform.
 ///
 /// # Errors
 /// Where FMI has no name for it.
 pub fn place(version: Version) -> Result<String, Failure> {
-    let three = match (ARCH, OS) {
-        ("x86_64", "macos") => "x86_64-darwin".to_owned(),
-        ("aarch64", "macos") => "aarch64-darwin".to_owned(),
-        (arch, os) => format!("{arch}-{os}"),
-    };
-    let two = match (ARCH, OS) {
-        ("x86_64", "linux") => "linux64",
-        ("x86_64", "windows") => "win64",
-        ("x86_64", "macos") => "darwin64",
-        _ => "",
-    };
+    let own = platform();
+    let known = platforms(version).find(|(_, of)| *of == own);
+    let folder = known.map(|(folder, _)| folder.to_owned());
     let folder = match version {
-        Version::Two => two,
-        Version::Three => &three,
+        Version::Three => folder.or_else(|| Some(format!("{ARCH}-{OS}"))),
+        Version::Two => folder,
     };
-    if folder.is_empty() {
+    let Some(folder) = folder else {
         return Err(Failure::Data(format!(
             "FMI 2.0 has no name for {ARCH} with {OS}; --fmi 3 has"
         )));
-    }
+    };
     Ok(format!("binaries/{folder}/{LIBRARY}{DLL_SUFFIX}"))
 }
 

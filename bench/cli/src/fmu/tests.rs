@@ -102,6 +102,29 @@ fn every_variable_stands_in_the_description_once_with_its_place() {
     }
 }
 
+/// The documentation names the platform whose library is in the file, and the others by FMI's names; a name of a design is text.
+#[test]
+fn the_documentation_names_its_platforms() {
+    let mut unit = unit(SceneName::Caged);
+    unit.stored.design = "<b>&gear".into();
+    for (version, other) in [
+        (Version::Two, "binaries/win64"),
+        (Version::Three, "binaries/aarch64-darwin"),
+    ] {
+        let place = super::library::place(version).unwrap();
+        let page = super::documentation::documentation(&unit, version, &place);
+        for words in [
+            place.as_str(),
+            other,
+            "--scene caged",
+            "design &lt;b&gt;&amp;gear",
+        ] {
+            assert!(page.contains(words), "{version:?} {words}: {page}");
+        }
+        assert!(!page.contains("<b>"), "{page}");
+    }
+}
+
 #[test]
 fn start_values_are_the_numbers_of_the_design_to_the_bit() {
     for scene in SceneName::ALL {
@@ -165,6 +188,32 @@ fn a_wrong_parameter_is_told_with_its_value_and_range() {
             message.contains(name) && message.contains("allowed"),
             "{scene:?} {name}: {message}"
         );
+    }
+}
+
+/// What a design file refuses beyond the ranges of the crate, the end of the initialisation refuses too, before it folds.
+#[test]
+fn a_parameter_that_a_design_file_refuses_is_refused() {
+    for (scene, name, value, words) in [
+        (SceneName::Caged, "clearance", -3e-5, "4.2 GPa"),
+        (SceneName::Caged, "clearance", -1.6e-5, "4.2 GPa"),
+        (SceneName::Caged, "lead", 0.0, "is a bearing's"),
+        (SceneName::Caged, "lead", 1e-4, "turns would cross"),
+        (SceneName::Caged, "lead", 0.19, "lead angle"),
+        (SceneName::Caged, "pitch_radius", 0.3, "allowed: 0.01"),
+        (
+            SceneName::Caged,
+            "screw_groove_radius",
+            3e-3,
+            "0.5005 to 0.7",
+        ),
+        (SceneName::Uncaged, "clearance", -3e-5, "4.2 GPa"),
+        (SceneName::Uncaged, "turns", 11.0, "allowed: 0.1 to 10"),
+        (SceneName::Linear, "conformity", 0.75, "0.5005 to 0.7"),
+    ] {
+        let unit = unit(scene);
+        let message = start(&unit, &with(&unit, name, value)).unwrap_err();
+        assert!(message.contains(words), "{scene:?} {name}: {message}");
     }
 }
 

@@ -86,7 +86,11 @@ impl Screw<'_> {
             &mut lines,
             (&elements, breakaway.torque),
             &breakaway.parts(),
-            &format!("{:.1} N a contact", contact_load.max(LEAST_LOAD)),
+            &format!(
+                "{:.1} N a contact, reference_load = {:.0} N of the screw",
+                contact_load.max(LEAST_LOAD),
+                axial_load.max(1e-3)
+            ),
             ("N m/rad", "mrad", "N m"),
         );
         Ok(Remembered {
@@ -127,7 +131,7 @@ pub fn of_bearing(
         &mut lines,
         (&elements, breakaway.force),
         &breakaway.parts(),
-        &format!("{load:.1} N a contact"),
+        &format!("{load:.1} N a contact, reference_load = {normal_load:.0} N of the carriage"),
         ("N/m", "mm", "N"),
     );
     Ok(Remembered {

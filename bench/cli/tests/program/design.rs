@@ -214,3 +214,15 @@ fn storing_and_comparing_take_no_design() {
         assert_eq!(run.code, 2, "{arguments}: {}", run.stderr);
     }
 }
+
+/// Elsewhere than in their own checkout both do nothing, at once: sources of another folder are not the user's to change.
+#[test]
+fn storing_and_comparing_are_refused_outside_the_checkout() {
+    let place = tempfile::tempdir().unwrap();
+    for arguments in ["--store", "--gate"] {
+        let run = design(place.path(), arguments);
+        assert_eq!(run.code, 1, "{arguments}: {}", run.stderr);
+        assert!(run.stderr.contains("in the checkout"), "{}", run.stderr);
+        assert!(names(place.path()).is_empty());
+    }
+}

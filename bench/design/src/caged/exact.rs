@@ -62,8 +62,9 @@ impl Exact {
         let unsolved = solved.iter().filter(|found| found.is_err()).count();
         if unsolved as f64 > UNSOLVED * loads.len() as f64 {
             return Err(Failure::Domain(format!(
-                "the exact balance of a ball is not found under {unsolved} of {} loads, friction coefficient {friction}",
-                loads.len()
+                "the exact balance of a ball is not found under {unsolved} of {} loads, friction coefficient {friction}{}",
+                loads.len(),
+                unusual(self.ball.design.contact_angle)
             )));
         }
         let mut samples: Vec<Sample> = solved
@@ -84,4 +85,15 @@ impl Exact {
         samples.dedup_by(|later, earlier| later.at <= earlier.at);
         Ok(samples)
     }
+}
+
+/// A word for a contact angle, rad, under which a ball hardly leans on its grooves, or on one side alone.
+fn unusual(contact_angle: f64) -> String {
+    if (0.25..=1.3).contains(&contact_angle) {
+        return String::new();
+    }
+    format!(
+        "; contact_angle = {contact_angle:.4} rad is {:.0} degrees, and 30 to 60 are usual",
+        contact_angle.to_degrees()
+    )
 }

@@ -1,6 +1,6 @@
 //! How balls fit between the grooves, in the words of a design file.
 
-use epas_friction::{BallScrew, Clearance, Error, defaults};
+use epas_friction::{BallScrew, Clearance, Error, Limits, defaults};
 
 use super::capacity::{self, Preload};
 use super::plausible::Given;
@@ -40,8 +40,14 @@ impl Fits {
     /// The clearance that they say, or the default.
     ///
     /// # Errors
-    /// Two keys, a value out of its range, a preload beyond what a contact bears, a preload of a nut whose balls are not counted.
-    pub fn of(&self, design: &BallScrew, loaded_balls: Option<u16>) -> Result<Clearance, String> {
+    /// Two keys, a value out of its range, a preload beyond what a contact bears, a preload of a nut whose balls are not counted, a force of
+    /// a contact that preloads the nut beyond its largest load.
+    pub fn of(
+        &self,
+        design: &BallScrew,
+        loaded_balls: Option<u16>,
+        limits: &Limits,
+    ) -> Result<Clearance, String> {
         let given = self.given();
         if let [one, other, ..] = given[..] {
             return Err(format!("{one} and {other} say the same; give one of them"));
@@ -49,6 +55,9 @@ impl Fits {
         let made = self.made(design, loaded_balls)?;
         if made.gap() < 0.0 && !given.is_empty() && loaded_balls.is_none() {
             return Err(COUNT.into());
+        }
+        if let (Some(force), Some(balls)) = (self.preload, loaded_balls) {
+            within_load(design, (force, made), balls, limits.axial_load)?;
         }
         Ok(made)
     }
@@ -105,6 +114,23 @@ impl Fits {
 /// What is missing where a preload of a nut is given.
 const COUNT: &str = "loaded_balls is missing: all of them press on the flanks of a preloaded nut";
 
+/// Refuses a force of one contact that preloads the nut beyond its largest axial load, N: a number of the nut in the key of a contact.
+fn within_load(
+    design: &BallScrew,
+    (force, made): (f32, Clearance),
+    balls: u16,
+    most: f32,
+) -> Result<(), String> {
+    let nut = made.axial_preload(design, balls);
+    // A limit that is no load is refused by its name, later.
+    if !(nut > most && most > 0.0) {
+        return Ok(());
+    }
+    Err(format!(
+        "preload = {force} is the force of one contact: the nut's {balls} balls have {nut:.0} N together, beyond limits.axial_load = {most}; a preload of the nut is axial_preload = {force}"
+    ))
+}
+
 /// The clearance of a force of one contact, N; 0 is none.
 fn of_force(design: &BallScrew, force: f32) -> Result<Clearance, String> {
     if force == 0.0 {
@@ -141,13 +167,19 @@ mod tests {
     use super::*;
     use crate::files::DesignSource;
 
+    const LIMITS: Limits = Limits {
+        nut_speed: 2e3,
+        axial_load: 2e4,
+        friction_torque: 100.0,
+    };
+
     fn screw() -> BallScrew {
         let source: DesignSource = "lin-4.1".parse().unwrap();
         *source.load().unwrap().screw()
     }
 
     fn of(fits: Fits) -> Result<Clearance, String> {
-        fits.of(&screw(), Some(71))
+        fits.of(&screw(), Some(71), &LIMITS)
     }
 
     /// Each key gives the clearance whose number it is.
@@ -231,5 +263,31 @@ mod tests {
             words.contains("that of the nut is axial_preload"),
             "{words}"
         );
+    }
+
+    /// Below the pressure that a contact bears, the nut's preload is still bounded by its largest load, in the key of a contact alone.
+    #[test]
+    fn a_preload_of_the_nut_in_the_key_of_a_contact_is_refused() {
+        let screw = screw();
+        let fits = |preload| Fits {
+            preload: Some(preload),
+            ..Fits::default()
+        };
+        let words = of(fits(744.0)).unwrap_err();
+        assert!(words.contains("axial_preload = 744"), "{words}");
+        // The force of a contact at which 71 balls have the largest load together.
+        let most = LIMITS.axial_load / (71.0 * screw.axial_per_normal());
+        assert!(of(fits(1.001 * most)).is_err());
+        let clearance = of(fits(0.999 * most)).unwrap();
+        let nut = Fits {
+            axial_preload: Some(744.0),
+            ..Fits::default()
+        };
+        assert!(of(nut).is_ok());
+        let gap = Fits {
+            clearance: Some(1.01 * clearance.gap()),
+            ..Fits::default()
+        };
+        assert!(of(gap).is_ok());
     }
 }

@@ -1,6 +1,6 @@
 //! Errors in the words of the design file, and numbers that are allowed but mean another unit.
 
-use epas_friction::{BallScrewParameters, Error, GrooveSize};
+use epas_friction::{BallScrewParameters, Error, GrooveSize, Range};
 
 /// Where the numbers of the built-in designs come from.
 pub const SOURCES: &str = "
@@ -30,6 +30,8 @@ const STEEPEST: f32 = 1.732;
 const BALLS: [f32; 2] = [0.01, 0.5];
 /// Largest conformity: those of catalogues go from 0.505 to 0.58.
 const WIDEST: f32 = 0.7;
+/// Smallest angle, rad, that is in degrees: a contact angle is below a right one.
+const DEGREES: f32 = 2.0;
 /// Largest speed of a trace over the limit of its design: above a limit by less, the limit is too tight; above it by more, the unit is another.
 pub const FASTEST: f64 = 1.5;
 /// Turns of a circuit: its return takes the balls back after 1 to 5.
@@ -38,6 +40,7 @@ const TURNS: [f32; 2] = [0.1, 10.0];
 impl Given {
     /// An error with the name and the value that the file has, and the unit that it may be in.
     pub fn words(self, error: &Error) -> String {
+        let error = &narrowed(*error);
         let (field, factor) = match error.field() {
             "pitch_radius" if self.nominal_diameter => ("nominal_diameter", 2.0),
             "ball_radius" if self.ball_diameter => ("ball_diameter", 2.0),
@@ -127,6 +130,22 @@ impl Given {
     }
 }
 
+/// An error about a groove, with the widest one of a file: the crate's ends where the groove has twice the ball's radius.
+fn narrowed(error: Error) -> Error {
+    match error {
+        Error::OutOfRange {
+            field: field @ ("conformity" | "groove_radius"),
+            value,
+            allowed,
+        } => Error::OutOfRange {
+            field,
+            value,
+            allowed: Range::new(allowed.minimum, WIDEST * allowed.maximum),
+        },
+        _ => error,
+    }
+}
+
 /// Refuses a groove that is much wider than its ball.
 ///
 /// # Errors
@@ -146,7 +165,7 @@ pub fn conformity(groove: &str, size: GrooveSize, ball_radius: f32) -> Result<()
         return Ok(());
     }
     Err(format!(
-        "{groove}: {said} is out of range; allowed: above 0.5 to {WIDEST}{}",
+        "{groove}: {said} is out of range; allowed: 0.5005 to {WIDEST}{}",
         other_conformity(ratio)
     ))
 }
@@ -192,11 +211,11 @@ enum Meant {
 
 impl Meant {
     fn asked(self, value: f32) -> String {
-        let value = f64::from(value);
+        let double = f64::from(value);
         match self {
             Self::Micrometres => format!("{value} um? that is {value}e-6"),
-            Self::Millimetres => format!("{value} mm? that is {}", shown(value / 1e3)),
-            Self::Degrees => format!("{value} degrees? that is {:.5}", value.to_radians()),
+            Self::Millimetres => format!("{value} mm? that is {}", shown(double / 1e3)),
+            Self::Degrees => format!("{value} degrees? that is {:.5}", double.to_radians()),
         }
     }
 }
@@ -217,7 +236,9 @@ fn hint(error: &Error) -> Option<Meant> {
     if length.contains(&error.field()) && allowed.contains(value * 1e-3) {
         return Some(Meant::Millimetres);
     }
-    let angle = error.field() == "contact_angle" && allowed.contains(value.to_radians());
+    let angle = error.field() == "contact_angle"
+        && value >= DEGREES
+        && allowed.contains(value.to_radians());
     angle.then_some(Meant::Degrees)
 }
 
@@ -297,8 +318,12 @@ mod tests {
             ),
             ("54", "write conformity = 0.5400"),
             (
+                "0.5",
+                "conformity = 0.5 is out of range; allowed: 0.5005 to 0.7",
+            ),
+            (
                 "0.75",
-                "conformity = 0.75 is out of range; allowed: above 0.5 to 0.7",
+                "conformity = 0.75 is out of range; allowed: 0.5005 to 0.7",
             ),
         ] {
             let text = format!(
@@ -314,6 +339,13 @@ mod tests {
         let degrees = "nominal_diameter = 29e-3\nlead = 7e-3\nball_diameter = 4e-3\nconformity = 0.54\ncontact_angle = 45\n";
         let message = read(degrees, "x").unwrap_err();
         assert!(message.contains("45 degrees? that is 0.78540"), "{message}");
+        // One range, whichever end is passed by how much, and no unit where the number may be in radians.
+        for angle in ["0.005", "0.03", "1.51", "1.57"] {
+            let text = degrees.replace("= 45", &format!("= {angle}"));
+            let message = read(&text, "x").unwrap_err();
+            let words = format!("contact_angle = {angle} is out of range; allowed: 0.05 to 1.5");
+            assert_eq!(message, words);
+        }
     }
 
     #[test]

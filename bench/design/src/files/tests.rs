@@ -223,3 +223,12 @@ fn the_first_design_file_shows_the_default_material() {
     let [given, without] = [TEXT, &rest.join("\n")].map(|text| read(text, "rack").unwrap());
     assert_eq!(given.caged, without.caged);
 }
+
+/// A name is text of one line in one direction, and no longer than a line.
+#[test]
+fn a_name_is_a_line_of_text() {
+    let design = parse(&format!("name = \"a\\u202Eb\\u001Bc\"\n{GOOD}")).unwrap();
+    assert_eq!(design.name, "a b c");
+    let error = parse(&format!("name = \"{}\"\n{GOOD}", "x".repeat(201))).unwrap_err();
+    assert_eq!(error, "name has 201 letters; allowed: up to 200");
+}

@@ -1,6 +1,7 @@
 //! The blocks that come with the crate.
 
 use std::fs;
+use std::path::Path;
 
 use epas_design::{built_in, files};
 use epas_friction::scene::{CagedConstants, built_in as block};
@@ -8,7 +9,8 @@ use epas_friction::scene::{CagedConstants, built_in as block};
 /// Two designs folded anew are the bytes of the file, to the last one; `design --gate` folds all.
 #[test]
 fn the_file_is_what_is_folded() {
-    let stored = fs::read(built_in::path()).unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let stored = fs::read(built_in::path(&root)).unwrap();
     let size = 4 * built_in::Block::WORDS;
     assert_eq!(stored.len(), size * files::built_in().count());
     for wanted in ["25x20x3.5", "lin-4.1"] {

@@ -12,7 +12,7 @@ pub static GEAR_29X7_RANGE: epas_friction::scene::CagedConstants<5> =
     };
 
 #[rustfmt::skip]
-#[allow(clippy::large_const_arrays, reason = "read while compiling alone")]
+#[allow(clippy::large_const_arrays, clippy::unreadable_literal, reason = "read while compiling alone")]
 const GEAR_29X7_RANGE_BLOCK: [u32; 433] = [
     0x53415045, 0x00000001, 0x000001b1, 0x00000005, 0xb24f9c8f, 0x237c3806,
     0x3df5c28f, 0x3be56042, 0x428e0000, 0x3e4ccccd, 0x43fa0000, 0x469c4000,

@@ -16,7 +16,7 @@ pub static GEAR_33X20_BALL: epas_friction::scene::FoldedBall<1> =
     };
 
 #[rustfmt::skip]
-#[allow(clippy::large_const_arrays, reason = "read while compiling alone")]
+#[allow(clippy::large_const_arrays, clippy::unreadable_literal, reason = "read while compiling alone")]
 const GEAR_33X20_BALL_BLOCK: [u32; 2198] = [
     0x55415045, 0x00000004, 0x00000896, 0x00000001, 0xebbe8727, 0x578be0aa,
     0x3d99999a, 0x3ca3d70a, 0x3b360f1b, 0x3c89a906, 0x3bf3b828, 0x3f000000,

@@ -16,7 +16,7 @@ pub static GEAR_33X20_BALL_RANGE: epas_friction::scene::FoldedBall<3> =
     };
 
 #[rustfmt::skip]
-#[allow(clippy::large_const_arrays, reason = "read while compiling alone")]
+#[allow(clippy::large_const_arrays, clippy::unreadable_literal, reason = "read while compiling alone")]
 const GEAR_33X20_BALL_RANGE_BLOCK: [u32; 6556] = [
     0x55415045, 0x00000004, 0x0000199c, 0x00000003, 0x39f66ae2, 0x7225d8f4,
     0x3d99999a, 0x3ca3d70a, 0x3b360f1b, 0x3c89a906, 0x3bf3b828, 0x3f000000,

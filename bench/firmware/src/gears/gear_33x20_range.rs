@@ -12,7 +12,7 @@ pub static GEAR_33X20_RANGE: epas_friction::scene::CagedConstants<5> =
     };
 
 #[rustfmt::skip]
-#[allow(clippy::large_const_arrays, reason = "read while compiling alone")]
+#[allow(clippy::large_const_arrays, clippy::unreadable_literal, reason = "read while compiling alone")]
 const GEAR_33X20_RANGE_BLOCK: [u32; 433] = [
     0x53415045, 0x00000001, 0x000001b1, 0x00000005, 0x160cab60, 0x7caf6d67,
     0x3d99999a, 0x3ca3d70a, 0x42100000, 0x3f000000, 0x42c80000, 0x469c4000,

@@ -12,7 +12,7 @@ pub static GEAR_33X20_WORN: epas_friction::scene::CagedConstants<1> =
     };
 
 #[rustfmt::skip]
-#[allow(clippy::large_const_arrays, reason = "read while compiling alone")]
+#[allow(clippy::large_const_arrays, clippy::unreadable_literal, reason = "read while compiling alone")]
 const GEAR_33X20_WORN_BLOCK: [u32; 101] = [
     0x53415045, 0x00000001, 0x00000065, 0x00000001, 0xaf49ac5b, 0xb4cf3b2c,
     0x3d99999a, 0x3ca3d70a, 0x42100000, 0x3f000000, 0x42c80000, 0x469c4000,

@@ -105,7 +105,7 @@ impl Logger {
     /// Says something.
     pub fn say(&self, outcome: Outcome, message: &str) {
         let (status, category) = match outcome {
-            Outcome::Fine => return,
+            Outcome::Fine => (0, 0),
             Outcome::Warning => (1, 0),
             Outcome::Refused => (3, 1),
         };

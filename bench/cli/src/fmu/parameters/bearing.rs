@@ -4,6 +4,7 @@ use epas_friction::{LinearBearing, LinearBearingParameters};
 
 use super::named::{BALL, BOTH, GROOVE, Values, list, named};
 use crate::fmu::variables::Variable;
+use epas_design::files::plausible;
 use epas_design::files::train::LinearDesign;
 
 /// Parameters of a linear bearing.
@@ -71,6 +72,7 @@ pub fn changed_bearing(design: &LinearDesign, values: &Values<'_>) -> Result<Lin
     };
     let bearing =
         LinearBearing::new(parameters).map_err(|error| named(&error, &parameters.ball_material))?;
+    plausible::conformity("groove", parameters.groove, parameters.ball_radius)?;
     let mut changed = design.clone();
     let configuration = &mut changed.configuration;
     configuration.bearing = bearing;

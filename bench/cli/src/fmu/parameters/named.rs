@@ -129,14 +129,14 @@ impl GrooveNames {
                 list,
                 conformity,
                 None,
-                "groove radius over ball diameter, 0.5005 to 1",
+                "groove radius over ball diameter, 0.5005 to 0.7",
                 value,
             ),
             GrooveSize::Radius(value) => single(
                 list,
                 radius,
                 Some("m"),
-                "groove radius, 0.5005 to 1 ball diameters",
+                "groove radius, 0.5005 to 0.7 ball diameters",
                 value,
             ),
         }

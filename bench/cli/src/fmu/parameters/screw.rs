@@ -8,6 +8,8 @@ use super::named::{BALL, GROOVE, NUT, SCREW, Values, list, named, single};
 use crate::fmu::scene::SceneName;
 use crate::fmu::variables::{Choice, Kind, Variable, parameter};
 use epas_design::files::Design;
+use epas_design::files::fits::Fits;
+use epas_design::files::plausible::{self, Given};
 use epas_design::files::train::UncagedDesign;
 
 /// What both scenes of a ball screw have; a built-in design has other numbers of its own where its balls press on each other.
@@ -54,7 +56,7 @@ impl Common {
         let friction = "Coulomb friction coefficient of ball and groove, 1e-6 to 0.5";
         let loss = "share of the elastic energy that is lost while a contact passes, 0 to 0.2";
         let drag = "drag of the lubricant on one contact under 100 N, 0 to 10";
-        let gap = "radial gap of every contact without load; play above 0, oversize below; -0.02 to 0.05 ball radii";
+        let gap = "radial gap of every contact without load; play above 0, oversize below; -0.02 to 0.05 ball radii, contact pressure without load up to 4.2 GPa";
         let reversal = "nut speed over which friction changes its direction, 1e-6 to 1e3";
         let rolling = self.rolling_resistance;
         list(
@@ -102,7 +104,7 @@ impl Common {
 /// What only a screw with a row of balls has.
 fn row(l: &mut Vec<Variable>, train: &UncagedDesign) {
     let friction = "Coulomb friction coefficient of ball and ball, 0 to 1";
-    let turns = "turns of the loaded track, 0.1 to 100";
+    let turns = "turns of the loaded track, 0.1 to 10";
     list(
         l,
         [
@@ -130,14 +132,14 @@ fn geometry(l: &mut Vec<Variable>, screw: &BallScrewParameters) {
         l,
         "lead",
         Some("m"),
-        "axial travel in one turn, 0 to 0.2",
+        "axial travel in one turn, from the ball diameter to 0.2; a lead angle up to 60 degrees",
         screw.lead,
     );
     single(
         l,
         "ball_radius",
         Some("m"),
-        "ball radius, 1e-4 to 0.05, up to 0.9 pitch radii",
+        "ball radius, 1e-4 to 0.05; 0.01 to 0.5 pitch radii",
         screw.ball_radius,
     );
     SCREW.list(l, screw.screw_groove);
@@ -205,9 +207,13 @@ pub fn changed_screw(
     };
     let screw =
         BallScrew::new(parameters).map_err(|error| named(&error, &parameters.ball_material))?;
-    let clearance = Clearance::new(values.single("clearance"))
-        .and_then(|clearance| clearance.checked(&screw))
-        .map_err(|error| error.to_string())?;
+    Given::default().plausible(&parameters)?;
+    let fits = Fits {
+        clearance: Some(values.single("clearance")),
+        ..Fits::default()
+    };
+    // A preload is one of a contact here: how many balls share the load changes nothing.
+    let clearance = fits.of(&screw, Some(1), &design.caged.limits)?;
     let mut changed = design.clone();
     let caged = &mut changed.caged;
     caged.design = screw;
@@ -220,7 +226,7 @@ pub fn changed_screw(
     caged.limits.axial_load = values.single("limits.axial_load");
     caged.limits.friction_torque = values.single("limits.friction_torque");
     if scene.has_row() {
-        changed_row(&mut changed, values);
+        changed_row(&mut changed, values)?;
     } else {
         changed.rolling_tangent = values.single("rolling_tangent");
         changed.branch = match values.within("branch", 0.0, 2.0)? {
@@ -234,12 +240,14 @@ pub fn changed_screw(
 }
 
 /// The numbers of its row of balls.
-fn changed_row(design: &mut Design, values: &Values<'_>) {
+fn changed_row(design: &mut Design, values: &Values<'_>) -> Result<(), String> {
     let caged = design.caged;
     if let Some(train) = &mut design.uncaged {
         train.gear = caged;
         train.ball_friction = values.single("ball_friction");
         train.turns = values.single("turns");
+        plausible::turns(train.turns)?;
         train.return_length = values.single("return_length");
     }
+    Ok(())
 }
