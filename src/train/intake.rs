@@ -133,7 +133,7 @@ impl<const N: usize> Train<N> {
     }
 }
 
-impl<'train, const N: usize> Intake<'train, N> {
+impl<const N: usize> Intake<'_, N> {
     /// The next ball, backwards from the last one; none when all have come.
     #[inline(always)]
     pub(crate) fn next_ball(&mut self) -> Option<FreeBall<'_>> {

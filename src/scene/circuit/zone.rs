@@ -163,7 +163,7 @@ impl LoadedZone {
         if self.is_closed()
             && let [all] = shares
         {
-            let (balls, share) = (balls as f32, all.share());
+            let (balls, share) = (f32::from(balls), all.share());
             return Sharing {
                 weights: balls * share,
                 per_weight: 1.0 / (balls * share),

@@ -110,6 +110,10 @@ pub const LOOPS: &[Row] = &[
         BALLS,
     ),
     row(
+        "epas_friction::model::FrictionModelepas_friction::scene::linear::LinearBearingTrain, epas_friction::scene::linear::LinearConstants::step",
+        BALLS,
+    ),
+    row(
         "epas_friction::scene::linear::LinearConstants::friction_of_balls",
         Bound::Takes(&[Total::TakenIn]),
     ),
@@ -145,10 +149,8 @@ pub const LOOPS: &[Row] = &[
         "epas_friction::train::settle::settle",
         Bound::Times(Count::Of(2)),
     ),
-    row(
-        "epas_friction::train::rubbing::settle_rubbing",
-        Bound::Times(Count::Of(2)),
-    ),
+    // The same for balls that rub: its walk and that through a row are one loop.
+    row("epas_friction::train::rubbing::settle_rubbing", BALLS),
     row(
         "epas_friction::train::balance::balance",
         Bound::Times(Count::Of(2)),
