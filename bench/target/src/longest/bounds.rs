@@ -15,6 +15,8 @@ pub enum Count {
     BallsLessOne,
     /// Half the balls of the train.
     HalfTheBalls,
+    /// The balls of the train and the two rows of a ring.
+    BallsAndRows,
 }
 
 /// What a loop does on each back edge to its header.
@@ -150,7 +152,10 @@ pub const LOOPS: &[Row] = &[
         Bound::Times(Count::Of(2)),
     ),
     // The same for balls that rub: its walk and that through a row are one loop.
-    row("epas_friction::train::rubbing::settle_rubbing", BALLS),
+    row(
+        "epas_friction::train::rubbing::settle_rubbing",
+        Bound::Times(Count::BallsAndRows),
+    ),
     row(
         "epas_friction::train::balance::balance",
         Bound::Times(Count::Of(2)),

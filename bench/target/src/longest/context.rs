@@ -33,6 +33,7 @@ impl Context {
             Count::Balls => balls,
             Count::BallsLessOne => Some(balls? - 1.0),
             Count::HalfTheBalls => Some((0.5 * balls?).floor()),
+            Count::BallsAndRows => Some(balls? + 2.0),
         }
     }
 
