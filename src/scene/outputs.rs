@@ -19,8 +19,8 @@ pub struct Outputs {
     /// pi`. The motor's torque at constant speed is the sum of the two.
     pub load_torque: f32,
     /// Work out over work in of the two torques above: `load/(load + friction)` where the motor drives, `1 + friction/load` where
-    /// the load does, with their signs. 0 without a load, while standing, where friction is not against the motion and in a fault; negative
-    /// where the motor has to help the load along (not below -1e6).
+    /// the load does, with their signs. 0 without a load, while standing and in a fault; negative where the motor has to help the
+    /// load along (not below -1e6).
     pub efficiency: f32,
     /// What the mechanism does.
     pub regime: Regime,
@@ -149,7 +149,7 @@ impl SceneOutputs for LinearOutputs {
 
 impl Outputs {
     /// Work out over work in of the torques that are put out: `load/(load + friction)` where the motor drives, `1 + friction/load`
-    /// where the load does; 0 without a load, while standing, and where friction is not against the motion.
+    /// where the load does; 0 without a load and while standing.
     #[inline(always)]
     fn efficiency_of_torques(&self) -> f32 {
         let Self {
@@ -162,14 +162,7 @@ impl Outputs {
         }
         // Signs, because the product of two small torques would vanish.
         let alike = (load_torque < 0.0) == (friction_torque < 0.0);
-        let against_motion = match self.regime {
-            Regime::Driving => alike,
-            Regime::BackDriving => !alike,
-            Regime::Standing | Regime::Locked => true,
-        };
-        if friction_torque != 0.0 && !against_motion {
-            0.0
-        } else if alike {
+        if alike {
             load_torque / (load_torque + friction_torque)
         } else {
             let efficiency = 1.0 + friction_torque / load_torque;
@@ -240,9 +233,6 @@ mod tests {
             // A load that hardly counts beside the friction.
             (1e-9, -1.0, Locked, LEAST_EFFICIENCY),
             (-1e-9, 1.0, Locked, LEAST_EFFICIENCY),
-            // Friction that is not against the motion.
-            (2.0, -0.5, Driving, 0.0),
-            (2.0, 0.5, BackDriving, 0.0),
         ] {
             assert_eq!(
                 efficiency_of(load, friction, regime),
