@@ -707,12 +707,12 @@ extern "C" {
 /**
  * Size of `epas_folded_ball_t` in words of four bytes.
  */
-#define EPAS_FOLDED_BALL_WORDS 1488
+#define EPAS_FOLDED_BALL_WORDS 2288
 
 /**
  * Size of `epas_folded_ball_range_t` in words of four bytes.
  */
-#define EPAS_FOLDED_BALL_RANGE_WORDS 4438
+#define EPAS_FOLDED_BALL_RANGE_WORDS 6838
 
 /**
  * Bytes of a state of an adaptation.
@@ -876,7 +876,7 @@ extern "C" {
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 286
+#define EPAS_SCREW_WORDS 319
 
 /**
  * Friction coefficients of a folded ball for a range of them.
@@ -891,7 +891,7 @@ extern "C" {
 /**
  * Size of `epas_screw_range_t` in words of eight bytes.
  */
-#define EPAS_SCREW_RANGE_WORDS 287
+#define EPAS_SCREW_RANGE_WORDS 320
 
 /**
  * Bytes of a state of `epas_linear_t`; as `EPAS_SCREW_STATE_BYTES`.
@@ -901,14 +901,14 @@ extern "C" {
 /**
  * Size of `epas_linear_t` in words of eight bytes.
  */
-#define EPAS_LINEAR_WORDS 286
+#define EPAS_LINEAR_WORDS 318
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises
  * whenever a structure, a function or what a place holds changes. From version 11 on `epas_adaptation_inputs_t` has the lubricant's drag
  * beside the friction torque.
  */
-#define EPAS_ABI_VERSION 11u
+#define EPAS_ABI_VERSION 12u
 
 /**
  * Place for the constants and the state of an adaptation; as `epas_caged_t`.

@@ -39,11 +39,11 @@ pub(crate) struct Target {
 }
 
 impl<'a> Moving<'a> {
-    pub fn new(ball: PlacedBall<'a>, state: BallState) -> Option<Self> {
-        let unit = unit(&ball);
+    pub fn new(ball: &PlacedBall<'a>, state: BallState) -> Option<Self> {
+        let unit = unit(ball);
         let tangent = ball.tangent(&state, unit)?;
         Some(Self {
-            ball,
+            ball: *ball,
             state,
             unit,
             tangent,

@@ -205,7 +205,7 @@ impl<'a> Instant<'a> {
                     return Ok(None);
                 };
                 let lost = ReferenceError::unbalanced(f64::INFINITY);
-                Moving::new(self.ball(seat), state).map(Some).ok_or(lost)
+                Moving::new(&self.ball(seat), state).map(Some).ok_or(lost)
             })
             .collect()
     }
@@ -492,7 +492,7 @@ fn one_by_one(moving: &mut [Option<Moving<'_>>], speeds: &[f64]) -> Result<(), R
         .filter(|(m, _)| m.residual() > ACCEPTED)
         .try_for_each(|(m, speed)| {
             let found = settle(&m.ball, Drive::Speed(*speed), Some(&m.state))?;
-            *m = Moving::new(m.ball, found.state)
+            *m = Moving::new(&m.ball, found.state)
                 .ok_or(ReferenceError::unbalanced(found.residual))?;
             Ok(())
         })

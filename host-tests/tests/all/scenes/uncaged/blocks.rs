@@ -239,8 +239,8 @@ fn a_block_gives_back_what_was_folded() {
     let mut preloaded = BALL;
     preloaded.law.lift_off = 47.1;
     preloaded.law.nodes[0].unheld = [0x8000_0001, 0x7FFF_FFFE];
-    for folded in [BALL, preloaded] {
-        assert_eq!(FoldedBall::read(&block(&folded)), Ok(folded));
+    for folded in [&BALL, &preloaded] {
+        assert_eq!(FoldedBall::read(&block(folded)).as_ref(), Ok(folded));
     }
     let words = block(&BALL_RANGE);
     assert_eq!(FoldedBall::read(&words), Ok(BALL_RANGE));
