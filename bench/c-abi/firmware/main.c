@@ -18,7 +18,7 @@ static epas_linear_t linear;
 #define PAINTED_WORDS 4096u
 
 /* Bytes of stack that a step may take. */
-#define STEP_STACK 640u
+#define STEP_STACK 1536u
 
 static const epas_inputs_t inputs = {120.0f, 8000.0f};
 static const epas_memory_inputs_t memory_inputs = {120.0f, 8000.0f, 100u, 0.0f, 303.15f, 0.0f};

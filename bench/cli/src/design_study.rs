@@ -207,6 +207,11 @@ impl Balls {
         Some(Alone { grooves, free })
     }
 
+    /// Force of two balls that press, over that along the track.
+    fn normal(&self) -> f64 {
+        self.ball.outward().hypot(1.0)
+    }
+
     fn run(
         &self,
         grooves: &DeviatingBall,
@@ -217,7 +222,7 @@ impl Balls {
         let drive = BallDrive {
             axial_load: self.axial_load,
             along,
-            rubbing: neighbours.map(|force| self.ball_friction * force),
+            rubbing: neighbours.map(|force| self.ball_friction * self.normal() * force),
             outward: self.ball.outward() * (neighbours[0] + neighbours[1]),
         };
         grooves.solve(&drive, start).ok()
@@ -248,7 +253,7 @@ impl Balls {
             let allowed = 1e-4 * found + 1e-8 * self.axial_load;
             force = found;
             if left.abs() <= allowed && change <= allowed {
-                return Some(force);
+                return Some(self.normal() * force);
             }
             speed -= left / (rear.stiffness + front.stiffness);
         }

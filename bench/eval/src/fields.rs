@@ -59,6 +59,12 @@ impl<'a> Fields<'a> {
             .map(|number| number.unwrap_or(default))
     }
 
+    /// Whether a field says so; not without it.
+    pub fn flag(&mut self, field: &str) -> Result<bool, BadField> {
+        self.get::<Option<bool>>(field)
+            .map(|flag| flag.unwrap_or(false))
+    }
+
     /// Takes a list of `1..=largest` numbers.
     pub fn list(&mut self, field: &str, largest: usize) -> Result<Vec<f64>, BadField> {
         list(field, self.take(field)?, largest)

@@ -213,30 +213,28 @@ impl DeviatingBall {
             Some(start) => *start,
             None => settle(ball, along, None)?.state,
         };
-        let mut residual = f64::INFINITY;
+        let rubbed = |share: f64| PlacedBall {
+            alike: Some(AlikeNeighbours {
+                contact: self.contact(),
+                friction: drive.rubbing.map(|friction| share * friction),
+                outward: share * drive.outward,
+            }),
+            ..*ball
+        };
         for steps in [1, 3, 10] {
-            let mut last = Some(first);
             let mut solved = None;
+            let mut last = Some(first);
             for step in 1..=steps {
-                let share = f64::from(step) / f64::from(steps);
-                let rubbed = PlacedBall {
-                    alike: Some(AlikeNeighbours {
-                        contact: self.contact(),
-                        friction: drive.rubbing.map(|friction| share * friction),
-                        outward: share * drive.outward,
-                    }),
-                    ..*ball
-                };
-                let found = last.and_then(|last| rubbed.newton(&last, along, unit(ball)));
+                let there = rubbed(f64::from(step) / f64::from(steps));
+                let found = last.and_then(|last| there.newton(&last, along, unit(ball)));
                 solved = found.filter(|found| found.residual <= ball.accuracy(&found.state).1);
                 last = solved.map(|found| found.state);
-                residual = found.map_or(residual, |found| found.residual);
             }
             if let Some(solved) = solved {
                 return Ok(solved);
             }
         }
-        Err(ReferenceError::unbalanced(residual))
+        settle(&rubbed(1.0), along, Some(&first))
     }
 
     /// Contact with a neighbour; a friction coefficient of one makes its force its friction.

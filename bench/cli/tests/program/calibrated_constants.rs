@@ -20,6 +20,7 @@ const fn sound<T: Copy>(checked: Result<T, Error>) -> T {
 // holds for friction coefficients 0.058829404 to 0.1173 and axial loads of 5 to 300 N a ball, both signs
 // certificate: caged_torque, relative error on 2048 states that were not fitted (seed 1): largest 2.68e-3, rms 4.51e-4, mean 8.5e-5; flagged 0.00 %
 #[rustfmt::skip]
+#[allow(clippy::unreadable_literal)]
 const SCREW_BLOCK: [u32; 433] = [
     0x53415045, 0x00000001, 0x000001b1, 0x00000005, 0xc60c915f, 0x55125a1c,
     0x3deb851f, 0x3ca3d70a, 0x42200000, 0x40000000, 0x44fa0000, 0x47c35000,

@@ -6,7 +6,7 @@
 
 use epas_design::uncaged::{Folded, PressedRow};
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
-use epas_friction::ball::pressed::BallOfRow;
+use epas_friction::ball::pressed::{BallOfRow, RowConstants};
 use epas_friction::scene::FoldedBall;
 use epas_friction::{BallScrew, Clearance, Limits, RollingResistance};
 use serde::Serialize;
@@ -121,7 +121,17 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
             }
         })
         .collect();
-    let constants = ball.row(request.ball_friction as f32);
+    let ball_friction = request.ball_friction as f32;
+    let constants = if request.chord {
+        ball.row(ball_friction)
+    } else {
+        RowConstants {
+            ball_friction,
+            outward: 0.0,
+            normal: 1.0,
+            ..ball.row(0.0)
+        }
+    };
     let neighbours = law.neighbours(load, branch, interval, &numbers, constants);
     let sliding = law.sliding(load, interval);
     let losses = neighbours.losses(sliding, numbers.impedance[0]);

@@ -44,6 +44,9 @@ request! {
         ball_friction: f64 = |fields: &mut Fields| fields.or("ball_friction", 0.0),
         /// Radial gap of every contact at the centred ball, m, -0.05 to 0.2 ball radii.
         clearance: f64,
+        /// Whether forces between balls act along the chord between their centres: with a part that points outward, and reported along it. Without, as in
+        /// the papers' figures, along the track.
+        chord: bool = |fields: &mut Fields| fields.flag("chord"),
         /// Speed of the nut, rad/s, up to 1e6 either way.
         nut_speed: f64,
         /// Rear to front in the direction of orbiting, 2 to 64 of them.
@@ -100,7 +103,7 @@ impl Request {
                 .iter()
                 .map(|ball| same!(RowBall { screw_deviation, nut_deviation, axial_load } of ball))
                 .collect(),
-            chord: true,
+            chord: self.chord,
             integration: Integration::Coarse,
         };
         let found = solved(row.solve()).map_err(of_contact)?;

@@ -32,6 +32,18 @@ impl Value<'_> for Option<f64> {
     }
 }
 
+/// True or false; it may be left out.
+impl Value<'_> for Option<bool> {
+    fn take(fields: &mut Fields, field: &str) -> Result<Self, BadField> {
+        let Some(raw) = fields.values.remove(field) else {
+            return Ok(None);
+        };
+        serde_json::from_str(raw.get())
+            .map(Some)
+            .map_err(|_| BadField::new(field, format!("must be true or false, not {}", shown(raw))))
+    }
+}
+
 /// A number or a list of any length; it may be left out.
 impl Value<'_> for Option<OneOrMany> {
     fn take(fields: &mut Fields, field: &str) -> Result<Self, BadField> {
