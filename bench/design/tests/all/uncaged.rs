@@ -39,39 +39,47 @@ fn one(folded: &FoldedUncaged) -> FoldedBall<1> {
     }
 }
 
-/// Regression: a row without friction between balls has 3.4e-5 rms and 9.4e-5 largest relative error of the torque over 20 to 100 N a ball (1.1e-4
-/// and 2.9e-4 over 5 to 300 N), and 0.3 % rms of the forces.
+/// Regression, half as much again as found: a row without friction between balls, which press each other outward, has 7.8e-5 rms and 1.8e-4 largest
+/// relative error of the torque over 20 to 100 N a ball, and 0.3 % rms of the forces.
 #[test]
 fn regression_of_rows_without_friction_between_balls() {
     let figures = &FOLDED.certificate.smooth;
-    assert!(figures.rows >= 44, "{}", figures.rows);
-    // Were what a push loses always half of its work (`BallNumbers::work` 1), they would be 1.5e-4 and 3.7e-4.
-    assert!(figures.torque.rms <= 7e-5, "{}", figures.torque.rms);
-    assert!(figures.torque.largest <= 2e-4, "{}", figures.torque.largest);
-    assert!(figures.forces.rms <= 1e-2, "{}", figures.forces.rms);
+    assert!(figures.rows >= 30, "{}", figures.rows);
+    assert!(figures.torque.rms <= 1.2e-4, "{}", figures.torque.rms);
+    assert!(
+        figures.torque.largest <= 2.8e-4,
+        "{}",
+        figures.torque.largest
+    );
+    assert!(figures.forces.rms <= 5e-3, "{}", figures.forces.rms);
 }
 
-/// Regression: friction between balls of 0.1 changes forces by more than a law of one ball knows: 1.1 % rms of the torque over 5 to 300 N.
+/// Regression: with friction of 0.1 between balls 0.45 % rms of the torque and 1.1 % of the forces.
 #[test]
 fn regression_of_rows_that_rub() {
     let figures = &FOLDED.certificate.rubbing;
-    assert!(figures.torque.rms <= 3e-2, "{}", figures.torque.rms);
-    assert!(figures.forces.rms <= 6e-2, "{}", figures.forces.rms);
+    assert!(figures.rows >= 30, "{}", figures.rows);
+    assert!(figures.torque.rms <= 7e-3, "{}", figures.torque.rms);
+    assert!(figures.forces.rms <= 1.7e-2, "{}", figures.forces.rms);
 }
 
-/// Regression: in waves rows without friction between balls are as exact as others (4.0e-5 rms and 1.2e-4 largest relative error of the torque).
-/// Where friction between them adds up over long waves the torque is held no more (4.7 % rms over 5 to 300 N); these rows are flagged, and
-/// the others are as exact as rows of random deviations.
+/// Regression: in waves 3.7e-4 rms and 1.7e-3 largest relative error of the torque without friction between balls, 1.5 % rms with it; of rows that
+/// are not flagged 0.6 % rms and 2.2 % largest.
 #[test]
 fn regression_of_rows_in_waves() {
     let figures = &FOLDED.certificate.waves;
-    assert!(figures.rows >= 33, "{}", figures.rows);
-    assert!(figures.torque.rms <= 7e-5, "{}", figures.torque.rms);
-    assert!(figures.torque.largest <= 2e-4, "{}", figures.torque.largest);
+    assert!(figures.rows >= 22, "{}", figures.rows);
+    assert!(figures.torque.rms <= 5.6e-4, "{}", figures.torque.rms);
+    assert!(
+        figures.torque.largest <= 2.6e-3,
+        "{}",
+        figures.torque.largest
+    );
     let rubbing = &FOLDED.certificate.rubbing_waves;
-    assert!(rubbing.rows >= 10 && rubbing.flagged <= 0.5, "{rubbing:?}");
-    assert!(rubbing.torque.largest > 0.03, "{rubbing:?}");
-    assert!(rubbing.unflagged_torque.largest <= 0.02, "{rubbing:?}");
+    assert!(rubbing.rows >= 20 && rubbing.flagged <= 0.5, "{rubbing:?}");
+    assert!(rubbing.torque.rms <= 2.3e-2, "{rubbing:?}");
+    assert!(rubbing.unflagged_torque.rms <= 1e-2, "{rubbing:?}");
+    assert!(rubbing.unflagged_torque.largest <= 3.3e-2, "{rubbing:?}");
 }
 
 #[test]

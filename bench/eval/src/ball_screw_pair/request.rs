@@ -46,6 +46,7 @@ request! {
         clearance: f64,
         /// Whether forces between balls act along the chord between their centres: with a part that points outward, and reported along it. Without, as in
         /// the papers' figures, along the track.
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
         chord: bool = |fields: &mut Fields| fields.flag("chord"),
         /// Speed of the nut, rad/s, up to 1e6 either way.
         nut_speed: f64,

@@ -207,7 +207,11 @@ fn friction_rises_in_the_cold() {
     let growths = speeds.map(growth);
     println!("{} N, {speeds:?} rad/s: {growths:.3?}", cold::LEAST.1);
     let least = growth(cold::LEAST.0);
-    assert!(growths.iter().all(|growth| *growth >= least), "{growths:?}");
+    // The least of a flat valley: neighbouring speeds are as low to its third digit.
+    assert!(
+        growths.iter().all(|growth| *growth >= least - 1e-3),
+        "{growths:?}"
+    );
     assert!((least - 0.29).abs() < 0.005, "{least}");
 }
 
