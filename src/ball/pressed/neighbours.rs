@@ -19,7 +19,7 @@ const LARGEST_SPEED: f32 = 0.5;
 /// What neighbours change in a ball under one load: each a line `1, s, n` over the deviations of both grooves.
 ///
 /// A ball that its neighbours rub on needs and loses more than alone at the same speed `v`; with the friction of both,
-/// `m = mu_b (F_behind + F_ahead)/(mu W cos(b))`, and `A`, `H`, `L` linear between the nodes [`RUBBINGS`], zero without friction and beyond the last node in
+/// `m = mu_b (F_behind + F_ahead)/(mu W cos(b))`, and `A`, `H`, `L` linear between the nodes [`RUBBINGS`](crate::train::RUBBINGS), zero without friction and beyond the last node in
 /// proportion to it (`H` as there):
 ///
 /// ```text

@@ -60,6 +60,7 @@ impl Over {
             balls.reverse();
         }
         Request {
+            chord: true,
             screw: ScrewNumbers {
                 pitch_radius: 16.5e-3,
                 lead: 20e-3,
