@@ -18,7 +18,7 @@ const CORE: [&str; 4] = [
 /// QEMU's machines, and where the memory of each is described.
 const MACHINES: [(&str, &str); 2] = [
     ("mps2-an386", "../.."),
-    ("netduinoplus2", "firmware/stm32f405"),
+    ("netduinoplus2", "firmware/stm32f427"),
 ];
 
 /// What a user links of the library, by its functions.
