@@ -595,7 +595,7 @@ const LOOPS: &[Measured] = &[
 /// `reference/ball_screw_ring_reference.rs`, relative where no unit is given.
 #[rustfmt::skip]
 const RING_REFERENCE: &[Measured] = &[
-    largest("ring, residual", 9.5e-10, 6.2e-10),
+    largest("ring, residual", 6e-9, 4e-9),
     largest("ring, balance of power", 6.3e-9, 2.1e-9),
     largest("ring, complementarity", 1e-12, 0.0),
     largest("ring, places in rad", 6.3e-14, 2.1e-14),
