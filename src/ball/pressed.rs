@@ -238,8 +238,7 @@ impl<const NODES: usize> BallLaw<NODES> {
         node.unheld[branch & 1] & (u32::MAX << first) & !beyond == 0
     }
 
-    /// What neighbours change in balls under a load `W`, N, with a friction coefficient and these numbers of [`Self::numbers`]; `ball_friction` between
-    /// balls, `outward` the tangent of the chord's angle, `half_speed` half the nominal speed against the nut.
+    /// What neighbours change in the balls of a row under a load `W`, N, with a friction coefficient and these numbers of [`Self::numbers`].
     #[inline(always)]
     #[must_use]
     pub fn neighbours(

@@ -60,7 +60,7 @@ mod tests {
     use crate::train::ScrewNumbers;
     use std::f64::consts::{FRAC_PI_4, PI};
 
-    /// A row of twelve balls of lin-3.6 under 100 N each, in grooves whose deviations fall along it by a degree and a half: all press.
+    /// A row of twelve balls of lin-2.1 under 100 N each, in grooves whose deviations fall along it by a degree and a half: all press.
     fn row(ball_friction: f64, axial_load: f64) -> Request {
         let balls = (0..12)
             .map(|ball| {
@@ -73,14 +73,7 @@ mod tests {
             })
             .collect();
         Request {
-            screw: ScrewNumbers {
-                pitch_radius: 16.5e-3,
-                lead: 20e-3,
-                ball_radius: 2.778e-3,
-                groove_radius: 3.254e-3,
-                youngs_modulus: 2.1e11,
-                poisson_ratio: 0.28,
-            },
+            screw: ScrewNumbers::LIN_2_1,
             contact_angle: FRAC_PI_4,
             friction: 0.1,
             ball_friction,

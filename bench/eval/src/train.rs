@@ -65,6 +65,16 @@ request! {
 }
 
 impl ScrewNumbers {
+    /// The screw of Lin 2019, Table 2.1: what the report's and the tests' balls run in.
+    pub const LIN_2_1: Self = Self {
+        pitch_radius: 16.5e-3,
+        lead: 20e-3,
+        ball_radius: 2.778e-3,
+        groove_radius: 3.254e-3,
+        youngs_modulus: 2.1e11,
+        poisson_ratio: 0.28,
+    };
+
     /// Refuses what is out of range.
     pub(crate) fn check(&self) -> Result<(), BadField> {
         in_range("pitch_radius", self.pitch_radius, 1e-4, 10.0)?;

@@ -89,7 +89,7 @@ pub struct NeighbourLaw {
     pub ball_friction: f32,
     /// `v_h`.
     pub held_speed: f32,
-    /// Change of a ball's friction torque with its speed, over `mu W`, m; and over the impedance, m.
+    /// Change of a ball's friction torque with its speed at its free speed, over `mu W`, m.
     pub slope: f32,
     /// Torque by the square of a change of speed over the impedance, m: half the speed against the nut, times the work.
     pub curvature: f32,

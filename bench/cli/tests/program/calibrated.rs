@@ -13,7 +13,7 @@ use epas_friction::scene::{
 use epas_friction::{FrictionModel, Inputs};
 use tempfile::tempdir;
 
-use super::run_in;
+use super::simulated_design;
 
 /// As the program writes them.
 #[rustfmt::skip]
@@ -92,18 +92,7 @@ fn a_simulation_runs_what_firmware_evaluates() {
     fs::write(folder.path().join("trace.csv"), trace).unwrap();
     fs::write(folder.path().join("design.toml"), DESIGN).unwrap();
     let simulated = |memory: &[&str]| {
-        let common = [
-            "simulate",
-            "--design",
-            "design.toml",
-            "--input",
-            "trace.csv",
-            "--force",
-            "--output",
-            "out.csv",
-        ];
-        let run = run_in(folder.path(), &[&common, memory].concat(), "");
-        assert_eq!(run.code, 0, "{}", run.stderr);
+        let run = simulated_design(folder.path(), memory);
         run.stdout
     };
     let said = simulated(&[]);

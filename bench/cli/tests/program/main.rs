@@ -63,6 +63,23 @@ fn run_in(folder: &Path, arguments: &[&str], input: &str) -> Run {
     run_with(folder, arguments, input, &[])
 }
 
+/// What `simulate` makes of `design.toml` and `trace.csv` in a folder: `out.csv` there.
+fn simulated_design(folder: &Path, more: &[&str]) -> Run {
+    let common = [
+        "simulate",
+        "--design",
+        "design.toml",
+        "--input",
+        "trace.csv",
+        "--force",
+        "--output",
+        "out.csv",
+    ];
+    let run = run_in(folder, &[&common, more].concat(), "");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    run
+}
+
 /// Runs the program in a folder with some input and some variables of its environment changed.
 fn run_with(folder: &Path, arguments: &[&str], input: &str, variables: &[(&str, &Path)]) -> Run {
     let mut child = Command::new(env!("CARGO_BIN_EXE_epas"))

@@ -8,7 +8,7 @@ use epas_design::files::read;
 use epas_friction::law::coefficient::CoefficientLaw;
 use tempfile::tempdir;
 
-use super::run_in;
+use super::simulated_design;
 
 /// A steering gear's screw.
 const DESIGN: &str = "\
@@ -35,18 +35,7 @@ fn trace() -> String {
 /// What a run says, and the friction torque of its samples, N m.
 fn simulated(folder: &Path, design: &str, more: &[&str]) -> (String, Vec<f64>) {
     fs::write(folder.join("design.toml"), design).unwrap();
-    let common = [
-        "simulate",
-        "--design",
-        "design.toml",
-        "--input",
-        "trace.csv",
-        "--force",
-        "--output",
-        "out.csv",
-    ];
-    let run = run_in(folder, &[&common, more].concat(), "");
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    let run = simulated_design(folder, more);
     (run.stdout, column(folder, "friction_torque"))
 }
 

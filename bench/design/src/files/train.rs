@@ -16,6 +16,7 @@ use super::tables::{
     MaterialTable, from_text, groove_size, mark, material, parsed, radius, replace,
 };
 use crate::Failure;
+use crate::uncaged::BALL_FRICTION;
 
 /// A ball screw without cage.
 #[derive(Clone, Copy, Debug)]
@@ -231,9 +232,6 @@ struct LinearLimitsTable {
     load: Option<f32>,
     friction_force: Option<f32>,
 }
-
-/// Friction of balls on each other where a file gives none.
-const BALL_FRICTION: f32 = 0.1;
 
 /// The built-in train of a ball screw of Lin 2019: Section 3.4.4, with the amplitude of the deviation that
 /// gives the printed peak of Figure 3.25.

@@ -124,14 +124,12 @@ impl Row {
 /// Balls of an open row, as a step presses them: in two passes where they rub.
 #[derive(Clone, Debug, Default)]
 pub struct PressedRow {
-    /// Friction torque of the balls alone, at their free speeds, and what they add by pressing, N m.
+    /// Friction torque of the balls alone, at their free speeds, N m.
     pub free_torque: f64,
-    /// The latter.
+    /// What they add to it by pressing, N m.
     pub added_torque: f64,
     /// Forces between neighbours along the track, N.
     pub forces: Vec<f64>,
-    /// Speeds, as free speeds are counted.
-    pub speeds: Vec<f32>,
     /// What contacts add up to.
     pub sums: RubbedRow,
 }
@@ -173,7 +171,6 @@ impl PressedRow {
             free_torque: balls.iter().map(|ball| f64::from(ball.alone.torque)).sum(),
             added_torque: held + f64::from(sums.by_speed + sums.by_rubbing + outward),
             forces: forces.map(f64::from).collect(),
-            speeds: press.speeds().collect(),
             sums,
         })
     }

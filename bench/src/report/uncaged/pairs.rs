@@ -61,14 +61,7 @@ impl Over {
         }
         Request {
             chord: true,
-            screw: ScrewNumbers {
-                pitch_radius: 16.5e-3,
-                lead: 20e-3,
-                ball_radius: 2.778e-3,
-                groove_radius: 3.254e-3,
-                youngs_modulus: 2.1e11,
-                poisson_ratio: 0.28,
-            },
+            screw: ScrewNumbers::LIN_2_1,
             contact_angle: FRAC_PI_4,
             friction,
             ball_friction: 0.0,
