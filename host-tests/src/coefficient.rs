@@ -113,7 +113,6 @@ pub struct BearingMixture {
 }
 
 impl BearingMixture {
-    /// Factor and power of SKF's model.
     const FACTOR: f64 = 2.6e-8;
     const POWER: f64 = 1.4;
 

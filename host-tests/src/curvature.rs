@@ -89,7 +89,6 @@ struct Forms {
 }
 
 impl Forms {
-    /// From the tangents and second derivatives of the parametrisation and the normal's sense.
     fn new(tangents: [Vector3<f64>; 2], second: [Vector3<f64>; 3], sense: f64) -> Self {
         let [along_phi, along_path] = tangents;
         let [phi_phi, phi_path, path_path] = second;
@@ -113,7 +112,6 @@ impl Forms {
         let twist = f * f / (e_first * g_first);
         let sum = along_phi + along_path;
         let product = along_phi * along_path - twist;
-        // The discriminant as a sum of squares.
         let root = ((along_path - along_phi).powi(2) + 4.0 * twist).sqrt();
         if sum <= 0.0 {
             let kappa2 = 0.5 * (sum - root);
@@ -133,10 +131,6 @@ impl Forms {
 
 impl Surface {
     /// Checks that the numbers describe a surface that is regular at this contact angle.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the field that is not finite or out of range, or `groove_radius`
-    /// (screw) or `offset_h` (nut) where the surface folds, `A <= 0`.
     pub fn check(&self, contact_angle: f64) -> Result<(), ReferenceError> {
         let right_angle = std::f64::consts::FRAC_PI_2 + 1e-6;
         within("pitch_radius", self.pitch_radius, 1e-9, 1e9)?;
@@ -157,7 +151,6 @@ impl Surface {
         ))
     }
 
-    /// Curvature and torsion of the ball path.
     fn path(&self) -> (f64, f64) {
         let (sin, cos) = self.lead_angle.sin_cos();
         (cos * cos / self.pitch_radius, sin * cos / self.pitch_radius)
@@ -277,7 +270,6 @@ impl Surface {
     }
 }
 
-/// `sigma_1` without its `sigma_3`, `sigma_2` and `sigma_3` of Appendix B.
 struct Sigma {
     one: f64,
     two: f64,

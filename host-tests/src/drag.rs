@@ -28,9 +28,6 @@ impl RollingFilm {
     /// FR = E' Rx^2 (2a/Rx) [(0.77 beta^(-1/3) kappa^0.12 U^(-1/12) - 1.8 beta^(-1/4))/(1 + M/6.6) + 1.8 beta^(-1/4)] U^(3/4)
     /// U = 2 eta u/(E' Rx)     M = beta^(1/4) kappa W/U^(3/4)     beta = 4/pi E/(1 + Rx/Rz)     kappa = b/a
     /// ```
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming what describes no contact.
     pub fn force(&self, load: f64, viscosity: f64, speed: f64) -> Result<f64, ReferenceError> {
         let Self {
             rolling_radius: radius,
@@ -59,9 +56,6 @@ impl RollingFilm {
 
 /// Drag torque of a ball screw, N m, whose balls carry an axial load, N, in one flank: every contact by [`RollingFilm::force`], with the
 /// power `2 FR u`, and [`inlet_shear_heating`] on the pitch circle.
-///
-/// # Errors
-/// [`ReferenceError`] naming what describes no contact.
 pub fn screw_torque(
     design: &BallScrewDesign,
     balls: f64,
@@ -129,9 +123,6 @@ pub struct DeepGroove {
 impl DeepGroove {
     /// Drag torque, N m, under a radial load, N, without clearance (`Q = 4.37 F/Z cos^1.5 psi`, Stribeck), at a viscosity, Pa s,
     /// and a speed, rad/s.
-    ///
-    /// # Errors
-    /// As [`RollingFilm::force`].
     pub fn torque(&self, load: f64, viscosity: f64, speed: f64) -> Result<f64, ReferenceError> {
         let Self {
             balls,

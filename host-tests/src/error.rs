@@ -141,9 +141,6 @@ impl std::error::Error for ReferenceError {}
 
 /// `value`, or the error that names `field` where it is not a number within `min..=max`. An end of the range that was written in single
 /// precision is in it, whichever way it was rounded.
-///
-/// # Errors
-/// [`ReferenceError::OutOfRange`] naming `field`.
 pub fn within(field: &'static str, value: f64, min: f64, max: f64) -> Result<f64, ReferenceError> {
     let an_end = |end: f64| value == f64::from(end as f32);
     if value.is_finite() && ((min..=max).contains(&value) || an_end(min) || an_end(max)) {

@@ -44,9 +44,6 @@ pub struct Ellipse {
 }
 
 /// Complete elliptic integrals `(K, E)` of the modulus `sqrt(1 - k²)`.
-///
-/// # Errors
-/// [`ReferenceError`] naming `axis_ratio` outside 0 (exclusive) to 1.
 pub fn complete_integrals(axis_ratio: f64) -> Result<(f64, f64), ReferenceError> {
     let square = axis_ratio * axis_ratio;
     let failed = |_| ReferenceError::input("axis_ratio", "no elliptic integral");
@@ -63,9 +60,6 @@ pub fn complete_integrals(axis_ratio: f64) -> Result<(f64, f64), ReferenceError>
 ///
 /// In Carlson's form the equation is `RD(0, 1, k²) / RD(0, k², 1) = ratio`, without a difference, also
 /// at the circle; solved for `ln(k)` by Brent's method.
-///
-/// # Errors
-/// [`ReferenceError`] naming `radius_ratio` outside 1 to 1e8.
 pub fn axis_ratio(radius_ratio: f64) -> Result<f64, ReferenceError> {
     within("radius_ratio", radius_ratio, 1.0, 1e8)?;
     let target = radius_ratio.ln();
@@ -90,9 +84,6 @@ pub fn axis_ratio(radius_ratio: f64) -> Result<f64, ReferenceError> {
 
 impl Hertz {
     /// From the two relative radii, m in either order, and the contact modulus, Pa.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `relative_radius_1`, `relative_radius_2` or `contact_modulus`.
     pub fn new(
         relative_radius_1: f64,
         relative_radius_2: f64,

@@ -20,9 +20,6 @@ impl Elastic {
     };
 
     /// Refuses what is no elastic body.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `youngs_modulus` or `poisson_ratio`.
     pub fn check(&self) -> Result<(), ReferenceError> {
         within("youngs_modulus", self.youngs_modulus, 1e6, 1e13)?;
         within("poisson_ratio", self.poisson_ratio, 0.0, 0.49)?;

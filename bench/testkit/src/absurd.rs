@@ -170,7 +170,6 @@ pub fn screw_parameters(random: &mut Random) -> BallScrewParameters {
     }
 }
 
-/// From the largest oversize to the most play.
 fn clearance(random: &mut Random, design: &BallScrew) -> Clearance {
     let gap = match random.below(4) {
         0 | 1 => 0.0,
@@ -350,7 +349,6 @@ impl Trial for ClosedFormScrew {
     }
 }
 
-/// A curve of random numbers, from the likely to the absurd.
 fn curve(random: &mut Random) -> LoadCurve {
     let mut start = random.within(0.0, 140.0);
     let steepest = random.size(1e-6, 1e9);
@@ -454,7 +452,6 @@ fn screw_outputs(
     }
 }
 
-/// What both trains put out, without their units.
 struct TrainNumbers {
     friction: f32,
     groove: f32,
@@ -518,7 +515,6 @@ impl TrainNumbers {
         Ok(())
     }
 
-    /// Bits, with the torque of the load, which a bearing does not have.
     fn bits(&self, load_torque: f32, regime: Regime, faults: Faults) -> Vec<u32> {
         vec![
             self.friction.to_bits(),
@@ -563,7 +559,6 @@ pub fn sound_train<const N: usize>(train: &Train<N>) -> Result<(), String> {
     Ok(())
 }
 
-/// Numbers of a ball, from the likely to the absurd.
 fn ball_numbers(random: &mut Random) -> BallNumbers {
     let mut powers = |size: f32| {
         let size = random.of(&[0.0, 1e-3, 0.1, 0.16]) * size;
@@ -585,7 +580,6 @@ fn ball_numbers(random: &mut Random) -> BallNumbers {
     }
 }
 
-/// What neighbours change in a ball, from the likely to the absurd.
 fn neighbour_numbers(random: &mut Random) -> NeighbourNumbers {
     let mut line = |sizes: &[f32]| -> [f32; 3] {
         let size = random.of(sizes);
@@ -602,7 +596,6 @@ fn neighbour_numbers(random: &mut Random) -> NeighbourNumbers {
     }
 }
 
-/// Knots whose loads rise, at times to no more than the last one's.
 fn knots<T: Copy, const K: usize>(
     random: &mut Random,
     numbers: fn(&mut Random) -> T,
@@ -621,7 +614,6 @@ fn knots<T: Copy, const K: usize>(
     })
 }
 
-/// What a host may have folded, from the likely to the absurd.
 fn folded_ball<const NODES: usize>(random: &mut Random) -> FoldedBall<NODES> {
     let mut friction = random.size(1e-6, 0.1);
     let nodes = std::array::from_fn(|_| {
@@ -695,7 +687,6 @@ where
     fn configuration(random: &mut Random) -> UncagedBallScrewConfiguration<NODES> {
         let folded = &FoldedBall::<NODES>::all()[random.below(LOT)];
         let limits = folded.limits;
-        // Turns that hold the balls, from a nearly full track to a nearly empty one.
         let pitch = 2.0 * (folded.ball_radius / folded.path_radius).asin();
         let full = N as f32 * pitch / std::f32::consts::TAU;
         let turns = (full * random.of(&[0.3, 0.999, 1.001, 1.05, 1.5, 5.0])).clamp(0.1, 100.0);

@@ -24,13 +24,11 @@ const fn row(name: &'static str, accepted: [f64; 3], found: [f64; 3]) -> Measure
     }
 }
 
-/// A row of which only the largest error is bounded.
 const fn largest(name: &'static str, accepted: f64, found: f64) -> Measured {
     const OPEN: f64 = f64::INFINITY;
     row(name, [accepted, OPEN, OPEN], [found, 0.0, 0.0])
 }
 
-/// Largest error of each name so far, so that only a larger one is printed.
 static LARGEST: Mutex<BTreeMap<String, f64>> = Mutex::new(BTreeMap::new());
 
 /// Asserts that an error is at most what the row of its name accepts.
@@ -71,7 +69,6 @@ pub fn of(name: &str) -> &'static Measured {
         assert!(found <= *accepted, "{name}: {found:e} above {accepted:e}");
     }
     for (accepted, found) in row.accepted.iter().zip(row.found).take(2) {
-        // Three times, rounded up to two digits.
         let far = found > 0.0 && accepted.is_finite() && *accepted > 3.3 * found;
         assert!(!far, "{name}: {accepted:e} far above {found:e}");
     }

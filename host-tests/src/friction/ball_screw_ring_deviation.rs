@@ -81,7 +81,6 @@ impl GrooveDeviation {
         }
     }
 
-    /// Checks the map.
     pub(crate) fn check(&self, field: &'static str) -> Result<(), ReferenceError> {
         let largest = match self {
             Self::Waves { turns, waves } => {
@@ -96,7 +95,6 @@ impl GrooveDeviation {
                 if values.is_empty() {
                     return Err(ReferenceError::input(field, "has no values"));
                 }
-                // A value that is no number must not be lost in the comparison.
                 values.iter().try_fold(0.0_f64, |largest, value| {
                     within(field, *value, -LARGEST_DEVIATION, LARGEST_DEVIATION)
                         .map(|value| largest.max(value.abs()))

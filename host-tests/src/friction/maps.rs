@@ -72,9 +72,6 @@ impl FrictionMap {
     pub const MIN_AXIS_RATIO: f64 = 0.02;
 
     /// Prepares the maps of a contact with `axis_ratio = b/a` in 0.02 to 1.
-    ///
-    /// # Errors
-    /// When the axis ratio is outside its range.
     pub fn new(axis_ratio: f64) -> Result<Self, ReferenceError> {
         let k = within("axis_ratio", axis_ratio, Self::MIN_AXIS_RATIO, 1.0)?;
         let m = (1.0 - k) * (1.0 + k);

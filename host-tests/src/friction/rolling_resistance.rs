@@ -46,9 +46,6 @@ impl RollingResistance {
     };
 
     /// Refuses what is out of range.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `hysteresis_loss` or `lubricant_drag`.
     pub fn check(&self) -> Result<(), ReferenceError> {
         within("hysteresis_loss", self.hysteresis_loss, 0.0, 0.2)?;
         within("lubricant_drag", self.lubricant_drag, 0.0, 10.0)?;
@@ -92,9 +89,6 @@ pub struct LubricatedContact {
 
 impl LubricatedContact {
     /// Contact of a ball with one groove of a ball screw.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming a number that describes no contact.
     pub fn of(
         design: &BallScrewDesign,
         groove: Groove,
@@ -131,9 +125,6 @@ impl LubricatedContact {
 }
 
 /// Relative radii of ball and groove along and across the track at the nominal contact angle, m.
-///
-/// # Errors
-/// [`ReferenceError`] naming a number that describes no contact.
 pub fn relative_radii(
     design: &BallScrewDesign,
     groove: Groove,
@@ -152,9 +143,6 @@ pub fn relative_radii(
 ///
 /// The groove's surface runs past a contact by `|w_B - w_k| (L/2 pi + R_B cos a n_x)`, with `w_k` zero for the screw
 /// and the nut's speed for the nut.
-///
-/// # Errors
-/// [`ReferenceError`] naming a parameter out of range.
 pub fn rolling_losses(
     design: &BallScrewDesign,
     resistance: &RollingResistance,

@@ -124,9 +124,6 @@ impl KinematicsInput {
     }
 
     /// Checks that every number lies where the model exists.
-    ///
-    /// # Errors
-    /// The first field that does not.
     pub fn validate(&self) -> Result<(), ReferenceError> {
         self.check_lengths_and_angles()?;
         for raceway in Raceway::BOTH {
@@ -170,7 +167,6 @@ impl KinematicsInput {
         check("speed", self.speed, true, "a finite number")
     }
 
-    /// The contact ellipse is one, and smaller than the ball.
     fn check_ellipse(&self, raceway: Raceway) -> Result<(), ReferenceError> {
         let [major_field, minor_field] = match raceway {
             Raceway::Screw => ["semi_major_screw", "semi_minor_screw"],
@@ -217,7 +213,6 @@ impl KinematicsInput {
     }
 }
 
-/// Passes where `value` is finite and `holds` what is required of it.
 fn check(
     field: &'static str,
     value: f64,

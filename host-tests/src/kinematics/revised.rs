@@ -20,9 +20,6 @@ impl Revised {
     /// (22) as printed. **(23) is corrected:** the condition that rolling slip vanishes at `r'_i` is
     /// `omega_R = (omega - omega_m) A_i / (r'_i b_i)`; printed is `omega_m` in place of
     /// `omega - omega_m`.
-    ///
-    /// # Errors
-    /// The field of the input that the model cannot take.
     pub fn new(input: &KinematicsInput) -> Result<Self, ReferenceError> {
         input.validate()?;
         let path = |raceway| input.rolling_path(raceway);

@@ -116,7 +116,6 @@ impl Elements {
     }
 }
 
-/// Share of each element in the whole limit at a tick.
 struct Shares {
     law: Law,
     approach: f64,

@@ -110,7 +110,6 @@ impl LoadExact {
         self.line = held;
     }
 
-    /// Leaves out corners on straight pieces.
     fn simplify(&mut self) {
         let mut kept: Vec<Corner> = Vec::with_capacity(self.line.len());
         for corner in &self.line {
@@ -148,7 +147,6 @@ impl LoadExact {
     }
 }
 
-/// Deflection between two corners.
 fn between(one: &Corner, other: &Corner, approach: f64) -> f64 {
     let span = other.approach - one.approach;
     if span <= 0.0 {

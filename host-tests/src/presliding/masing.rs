@@ -99,7 +99,6 @@ impl Masing {
         }
     }
 
-    /// Limit on the side of `angle`.
     fn limit(&self, angle: f64) -> f64 {
         if angle < 0.0 {
             self.limits.backward

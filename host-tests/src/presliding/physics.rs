@@ -26,7 +26,6 @@ use crate::material::Elastic;
 /// Directions of rays over the axis ratio: the rule for periodic functions errs by `exp(-2 n k)`, so by less than a rounding.
 const RAYS: f64 = 40.0;
 
-/// Sum over the rays of an ellipse with semi-axes 1 and `k`.
 fn over_rays(k: f64, integrand: impl Fn(f64, f64, f64) -> f64) -> f64 {
     let rays = (RAYS / k).ceil();
     let step = PI / rays;
@@ -199,9 +198,6 @@ pub struct Yielding {
 
 impl ScrewBall {
     /// The ball of a design, with exact curvatures.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the number that describes no contact.
     pub fn new(design: BallScrewDesign) -> Result<Self, ReferenceError> {
         let contact = |groove| {
             Ok(StickingContact::new(
@@ -301,9 +297,6 @@ impl ScrewBall {
     }
 
     /// Drift of the ball, m, under a share of the gross slip, with a gap of the third contact, m.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `share` outside 0 to 1.
     pub fn drift(
         &self,
         friction: f64,
@@ -335,9 +328,6 @@ impl ScrewBall {
     }
 
     /// Nut angle until a share of the gross slip, rad: Cattaneo-Mindlin at both contacts, and the drift.
-    ///
-    /// # Errors
-    /// As [`Self::drift`].
     pub fn angle(
         &self,
         friction: f64,

@@ -25,10 +25,6 @@ pub struct Section {
 ///
 /// The printed (C.4) needs `D_2 = (r_G - r_B) cos(beta) + R_P - D_out/2 <= r_G`, which holds where the
 /// nominal contact lies on the screw.
-///
-/// # Errors
-/// [`ReferenceError`] naming `screw_diameter` where the nominal contact lies outside of the screw, the ball's
-/// path inside, or the groove would take half of the diameter or more.
 pub fn groove_reduction(geometry: &Geometry, outer_diameter: f64) -> Result<f64, ReferenceError> {
     let (sin, cos) = geometry.contact_angle.sin_cos();
     let radius = geometry.groove_radius;

@@ -104,9 +104,6 @@ impl CaseStudy {
     }
 
     /// The load case with everything that can be added to it.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the field.
     pub fn setup(&self) -> Result<Setup, ReferenceError> {
         self.geometry.check()?;
         if !(1..=super::problem::LARGEST_TRAIN).contains(&self.balls) {
@@ -186,9 +183,6 @@ impl CaseStudy {
     }
 
     /// The load case.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the field.
     pub fn load(&self) -> Result<StaticLoad, ReferenceError> {
         StaticLoad::new(self.setup()?)
     }

@@ -62,9 +62,6 @@ pub struct Geometry {
 
 impl Geometry {
     /// Refuses numbers that describe no ball screw.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the field.
     pub fn check(&self) -> Result<(), ReferenceError> {
         within("pitch_radius", self.pitch_radius, 1e-4, 10.0)?;
         within("lead", self.lead, 0.0, 10.0 * self.pitch_radius)?;

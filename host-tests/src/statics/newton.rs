@@ -21,9 +21,6 @@ const ROUNDING: f64 = 1e-7;
 
 impl StaticLoad {
     /// Finds the loads from a start that suits the axial load, in three to ten steps.
-    ///
-    /// # Errors
-    /// [`ReferenceError::NotConverged`] with the residual left.
     pub fn solve(&self) -> Result<StaticSolution, ReferenceError> {
         self.solve_from(self.start())
     }
@@ -86,10 +83,6 @@ impl StaticLoad {
     }
 
     /// Finds the loads from any start. Held displacements take their values whatever the start says.
-    ///
-    /// # Errors
-    /// [`ReferenceError::Input`] where the start does not fit the case, [`ReferenceError::NotConverged`] with
-    /// the residual left.
     pub fn solve_from(&self, mut state: State) -> Result<StaticSolution, ReferenceError> {
         self.fits(&state)?;
         for (value, held) in state.nodes.iter_mut().zip(self.held()) {
@@ -249,7 +242,6 @@ impl StaticLoad {
     }
 }
 
-/// The search ended with this residual, see [`StaticLoad::residual`].
 fn not_converged(residual: f64) -> ReferenceError {
     ReferenceError::NotConverged {
         residual,

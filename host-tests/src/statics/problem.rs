@@ -93,11 +93,8 @@ pub struct StaticLoad {
     pub(super) shaft: Shaft,
     pub(super) contact: ContactConstants,
     pub(super) balls: Vec<Ball>,
-    /// Four per ball; None where the arc does not exist.
     pub(super) arms: Vec<[Option<Arm>; 4]>,
-    /// Node and held values.
     pub(super) supports: Vec<(usize, [Option<f64>; 6])>,
-    /// Six per node.
     pub(super) loads: Vec<f64>,
 }
 
@@ -130,9 +127,6 @@ pub const LARGEST_TRAIN: usize = 100_000;
 
 impl StaticLoad {
     /// A load case, checked.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming what is out of range.
     pub fn new(setup: Setup) -> Result<Self, ReferenceError> {
         let Setup {
             geometry,
@@ -207,7 +201,6 @@ impl StaticLoad {
         let mut forces = vec![0.0; 6 * shaft.nodes.len()];
         for load in &loads {
             let node = shaft.node_at(load.position);
-            // A rigid shaft takes its loads at its one node.
             let arm = load.position - shaft.nodes[node];
             let [x, y, _] = load.force;
             let carried = [-y * arm, x * arm, 0.0];
@@ -305,7 +298,6 @@ fn local_deflection(
     let mut curvatures = nominal_curvatures(geometry, groove)?;
     let angle = geometry.contact_angle;
     let [outward, along] = which.signs();
-    // Height of the surface over the nominal one, towards the ball, at an azimuth.
     let height = |azimuth: f64| {
         errors
             .iter()

@@ -40,9 +40,6 @@ impl Shaft {
     /// A screw from 0 to `length`, m, of this outer diameter, m, reduced by its groove. In the train of
     /// balls (from `train[0]` to `train[1]`) elements are 15 mm long as in the dissertation, outside they
     /// are at most a pitch diameter long; `refinement` divides each element by so much.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `screw_length`, `screw_diameter`, `nut_position` or `refinement`.
     pub fn screw(
         geometry: &Geometry,
         elastic: Elastic,
@@ -157,7 +154,6 @@ fn mesh(
 ) -> Result<Vec<f64>, ReferenceError> {
     let train = last - first;
     let inside = (train / ELEMENT_IN_NUT).ceil().max(1.0);
-    // Centred on the train, and no longer than the screw allows.
     let centre = 0.5 * (first + last);
     let half = (0.5 * inside * ELEMENT_IN_NUT)
         .min(centre)

@@ -45,7 +45,6 @@ pub struct StaticSolution {
 /// Least force, N, that residuals and lost contacts are measured against. In a screw without load all
 /// forces go to zero, and relative to them no residual would ever be small.
 pub const LEAST_FORCE: f64 = 1e-9;
-/// Force relative to the largest one below which a ball counts as lost; smaller forces are within the residual.
 const LOST: f64 = 1e-9;
 
 impl StaticSolution {
@@ -170,7 +169,6 @@ impl StaticSolution {
     }
 }
 
-/// Force and moment of the balls on the nut, at the nominal contact points.
 fn on_nut(case: &StaticLoad, at: &Evaluation) -> [f64; 6] {
     let mut force = nalgebra::Vector3::zeros();
     let mut moment = nalgebra::Vector3::zeros();

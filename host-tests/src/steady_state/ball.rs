@@ -37,9 +37,6 @@ impl BallScrewState {
     }
 
     /// Refuses inputs outside their ranges.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the input.
     pub fn check(&self) -> Result<(), ReferenceError> {
         within("lead_angle", self.lead_angle, 1e-6, 1.5)?;
         within("contact_angle", self.contact_angle, 0.01, 1.56)?;

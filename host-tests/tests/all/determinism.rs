@@ -21,7 +21,6 @@ use epas_testkit::remembering::{
 
 const TICKS: u32 = 200_000;
 
-/// A hash (FNV-1a), and one that takes in some numbers.
 const EMPTY: u64 = 0xcbf2_9ce4_8422_2325;
 
 fn taken_in(hash: u64, numbers: &[u32]) -> u64 {
@@ -30,7 +29,6 @@ fn taken_in(hash: u64, numbers: &[u32]) -> u64 {
     })
 }
 
-/// Hash of all bits of all outputs of a run.
 fn hash<S: Trial>(configuration: &S::Configuration, full_scale: [f32; 3]) -> u64 {
     let mut model = FrictionModel::<S>::new(configuration).unwrap();
     let mut random = Random(2019);
@@ -38,7 +36,6 @@ fn hash<S: Trial>(configuration: &S::Configuration, full_scale: [f32; 3]) -> u64
     for tick in 0..TICKS {
         let mut sensors = full_scale.map(|scale| scale * (2.0 * random.unit() - 1.0));
         if tick % 64 == 63 {
-            // A fault of one sensor.
             let edge = EDGES[tick as usize / 64 % EDGES.len()];
             sensors[tick as usize / 64 % 3] = edge;
         }
@@ -114,10 +111,8 @@ fn course<S: Trial>(
     hash
 }
 
-/// Legs of the course.
 const LEGS: usize = COURSE.len() - 1;
 
-/// What the sensors deliver on a leg.
 fn sensors(leg: usize, full_scale: [f32; 3]) -> impl Iterator<Item = [f32; 3]> {
     let ticks = LEG[leg % LEG.len()];
     (0..ticks).map(move |tick| {
@@ -141,7 +136,6 @@ fn remembered<S: Scene<Outputs: std::fmt::Debug>>(
         let temperature = TEMPERATURE + 3.0 * leg as f32;
         for (number, sensors) in sensors(leg, full_scale).enumerate() {
             let outputs = tick(&mut model, sensors, temperature, number % 2 == 1);
-            // The shortest decimals of an f32 tell every two of them apart.
             let digits = format!("{outputs:?}");
             hash = digits
                 .bytes()
@@ -305,7 +299,6 @@ fn slow_courses_give_the_stored_bits() {
             |model, leg| model.set_friction(0.07 + 0.003 * leg as f32).unwrap(),
         ));
     }
-    // One friction coefficient.
     let one = gears::full(gears::screw_wave(0.9), full.tick);
     hashes.push(course::<UncagedBallScrew<{ gears::SCREW_BALLS }>>(
         &one,

@@ -2,7 +2,6 @@
 
 use crate::exact_friction::quadrature;
 
-/// The maps of one axis ratio: a quartic inside the contact, quadrature outside it.
 #[derive(Clone, Copy)]
 pub struct ExactMap {
     axis_ratio: f64,
@@ -41,7 +40,6 @@ impl ExactMap {
     }
 }
 
-/// A ball's contacts BL, BR, TR, TL.
 pub struct ExactBall {
     pub map: ExactMap,
     pub friction: f64,
@@ -141,7 +139,6 @@ impl ExactBall {
     }
 }
 
-/// Cramer's rule.
 fn solve3(m: [[f64; 3]; 3], b: [f64; 3]) -> [f64; 3] {
     let det = |c: [[f64; 3]; 3]| {
         c[0][0] * (c[1][1] * c[2][2] - c[1][2] * c[2][1])

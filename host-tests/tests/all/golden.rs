@@ -2,19 +2,16 @@
 
 use serde_json::Value;
 
-/// The cases under `name`.
 pub fn list(name: &str) -> Vec<Value> {
     let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/golden/friction.json"));
     let all: Value = serde_json::from_str(text).unwrap();
     all[name].as_array().unwrap().clone()
 }
 
-/// The number `name` of a case.
 pub fn number(case: &Value, name: &str) -> f64 {
     case[name].as_f64().unwrap()
 }
 
-/// The list of numbers `name` of a case.
 pub fn numbers(case: &Value, name: &str) -> Vec<f64> {
     case[name]
         .as_array()

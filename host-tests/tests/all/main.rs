@@ -8,6 +8,7 @@ mod exact_friction;
 mod golden;
 mod objects;
 mod recorded;
+mod refusals;
 
 mod adaptation;
 mod balls;

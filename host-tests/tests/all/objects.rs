@@ -30,7 +30,6 @@ impl Numbers {
         std::array::from_fn(|_| self.next())
     }
 
-    /// Seven times of eight within a range, else whatever comes.
     fn within(&mut self, low: f32, high: f32) -> f32 {
         let raw = self.next();
         let bits = raw.to_bits();
@@ -42,7 +41,6 @@ impl Numbers {
         }
     }
 
-    /// The same, uniform in the logarithm.
     fn size(&mut self, low: f32, high: f32) -> f32 {
         let raw = self.next();
         let bits = raw.to_bits();
@@ -54,7 +52,6 @@ impl Numbers {
         }
     }
 
-    /// One of a few, from the low bits of the next number.
     fn choice(&mut self, count: u32) -> u32 {
         (self.next().to_bits() ^ self.0.len() as u32) % count
     }
@@ -184,7 +181,6 @@ fn ball_screw(numbers: &mut Numbers) -> Result<(), String> {
                 ellipse.semi_minor,
             ],
         )?;
-        // Up to the angle for which the fit is made.
         let angle = numbers.within(0.0, 1.256);
         let angle = if (0.0..=1.256).contains(&angle) {
             angle

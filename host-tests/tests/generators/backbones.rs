@@ -5,12 +5,10 @@ use epas_friction::law::memory::{
 };
 use roots::{SimpleConvergency, find_root_brent};
 
-/// Slip across the path.
 fn slip(z: f64) -> f64 {
     1.0 - (1.0 - z).max(0.0).powf(1.5)
 }
 
-/// Spin.
 fn spin(z: f64) -> f64 {
     1.5 * z / (1.0 + 2.25 * z * z).sqrt()
 }

@@ -66,7 +66,6 @@ where
         if tick > 100 && (100..400).contains(&(tick % 500)) {
             let level = LEVEL.of(plain.friction_torque);
             let wanted = level * plain.friction_torque;
-            // Measured: 0. A rounding of either product is 6e-8.
             assert!(
                 (scaled.friction_torque / wanted - 1.0).abs() < 1.2e-7,
                 "{tick}"
@@ -118,7 +117,6 @@ fn stiffness_stays() {
             })
             .unwrap();
         let still = step(&mut model, 0.0).friction_torque;
-        // Measured: 0.
         assert!((still / held - 1.0).abs() < 1.2e-7, "{still} {held}");
     }
 }

@@ -6,7 +6,6 @@ use epas_reference::promises;
 use crate::adaptation::trace::{DRIVE, Truth, configuration, drive};
 use epas_testkit::errors::Errors;
 
-/// From 1 to 1.35 in the first half of a minute, to 0.8 in the second.
 fn wandering(time: f64) -> f64 {
     let half = 0.5 * DRIVE;
     if time < half {
@@ -101,7 +100,6 @@ fn the_level_keeps_its_promise() {
     errors.assert_promised(promises::of("adaptation"));
 }
 
-/// The same inputs give the same bits.
 #[test]
 fn a_drive_repeats_to_the_bit() {
     let run = || drive(&configuration(5.0), NOISE, wandering, 20.0, true);

@@ -3,6 +3,7 @@
 
 use crate::exact_ball::{ExactBall, ExactMap};
 use crate::golden;
+use crate::refusals::assert_refused;
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_reference::promises;
 use epas_testkit::errors::Errors;
@@ -31,7 +32,6 @@ fn analytic() -> AnalyticLinearBall {
     AnalyticLinearBall::new(&parameters(), PUBLISHED_SLOPE).unwrap()
 }
 
-/// The exact ball of the case study.
 fn exact(angles: [f64; 4], forces: [f64; 4]) -> ExactBall {
     static MAP: OnceLock<ExactMap> = OnceLock::new();
     ExactBall {
@@ -53,13 +53,11 @@ fn loaded(deviations: [f64; 4], rho: f64) -> ([f64; 4], [f64; 4]) {
         (sin_tr, cos_tr),
         (sin_tl, cos_tl),
     ] = angles.map(f64::sin_cos);
-    // F_TR sin - F_TL sin = -N_x, F_TR cos + F_TL cos = N_y.
     let determinant = sin_tr * cos_tl + sin_tl * cos_tr;
     let top_right = 100.0 * (sin_tl - rho * cos_tl) / determinant;
     let top_left = 100.0 * (sin_tr + rho * cos_tr) / determinant;
     let across = top_right * sin_tr - top_left * sin_tl;
     let down = top_right * cos_tr + top_left * cos_tl;
-    // F_BL sin - F_BR sin = across, F_BL cos + F_BR cos = down.
     let determinant = sin_bl * cos_br + sin_br * cos_bl;
     let bottom_left = (across * cos_br + down * sin_br) / determinant;
     let bottom_right = (down * sin_bl - across * cos_bl) / determinant;
@@ -278,23 +276,17 @@ fn any_input_gives_a_finite_ball() {
 
 #[test]
 fn a_parameter_out_of_range_is_named() {
-    let good = parameters();
-    let with = |change: fn(&mut LinearBallParameters)| {
-        let mut parameters = good;
-        change(&mut parameters);
-        let error = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).unwrap_err();
-        error.field()
-    };
-    assert_eq!(with(|p| p.ball_radius = 0.0), "ball_radius");
-    assert_eq!(with(|p| p.contact_angle = f32::NAN), "contact_angle");
-    assert_eq!(with(|p| p.axis_ratio = 2.0), "axis_ratio");
-    assert_eq!(
-        with(|p| p.semi_major_coefficient = -1.0),
-        "semi_major_coefficient"
-    );
-    assert_eq!(with(|p| p.friction = f32::INFINITY), "friction");
-    assert_eq!(
-        AnalyticLinearBall::new(&good, 0.0).unwrap_err().field(),
-        "slope"
+    #[rustfmt::skip]
+    assert_refused(
+        &(parameters(), PUBLISHED_SLOPE),
+        |(parameters, slope)| AnalyticLinearBall::new(parameters, *slope),
+        &[
+            ("ball_radius", |(p, _), v| p.ball_radius = v, &[0.0]),
+            ("contact_angle", |(p, _), v| p.contact_angle = v, &[]),
+            ("axis_ratio", |(p, _), v| p.axis_ratio = v, &[2.0]),
+            ("semi_major_coefficient", |(p, _), v| p.semi_major_coefficient = v, &[-1.0]),
+            ("friction", |(p, _), v| p.friction = v, &[]),
+            ("slope", |(_, slope), v| *slope = v, &[0.0]),
+        ],
     );
 }

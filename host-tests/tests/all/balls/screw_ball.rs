@@ -15,7 +15,6 @@ use epas_testkit::measured;
 use epas_testkit::random::Random;
 use std::f64::consts::FRAC_PI_4;
 
-/// The reference's own contact law of one groove.
 fn law(design: &BallScrew, groove: curvature::Groove) -> HertzLaw {
     let given = given::ball_screw(design.parameters());
     given.contact(groove).unwrap().into()
@@ -24,7 +23,6 @@ fn law(design: &BallScrew, groove: curvature::Groove) -> HertzLaw {
 #[test]
 fn row_is_the_closed_form_with_a_third_contact() {
     let mut speeds = Errors::of("row, orbital speed");
-    // A ball's share of the load enters through powers that fit the mean one.
     let of = |quantity: &str| {
         ["mean load", "shares 0.1 to 3"]
             .map(|shares| Errors::of(format!("row, {quantity}, {shares}")))
@@ -247,7 +245,6 @@ fn force_between_two_balls_in_elastic_grooves() {
                     let states =
                         [0.0, theta].map(|theta| tick.ball(theta as f32, 0.0, &LoadShare::MEAN));
                     let difference = states[0].speed_deviation - states[1].speed_deviation;
-                    // The faster ball is behind.
                     let order = if difference > 0.0 {
                         [0.0, theta]
                     } else {

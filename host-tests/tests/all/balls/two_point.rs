@@ -15,7 +15,6 @@ use epas_reference::friction::ball_screw_ball::{
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::friction::maps::FrictionMap;
 
-/// The ball of Lin 2019, Table 3.3.
 const BALL_RADIUS: f64 = 0.005;
 const AXIS_RATIO: f64 = 0.232_146_373;
 const FRICTION: f64 = 0.1;
@@ -34,7 +33,6 @@ fn linear_parameters() -> LinearBallParameters {
     }
 }
 
-/// Its bottom groove turned, 100 N down and `side` of it across.
 fn turned(degrees: f64, side: f64) -> LinearBall {
     let turn = degrees.to_radians();
     let contact_angles = [-turn, turn, 0.0, 0.0].map(|deviation| FRAC_PI_4 + deviation);
@@ -55,7 +53,6 @@ fn exact(degrees: f64, side: f64) -> f64 {
     turned(degrees, side).solve(1.0).unwrap().speed_deviation
 }
 
-/// Mean loads of the weaker and the stronger diagonal.
 fn diagonals(ball: &LinearBall) -> (f64, f64) {
     let [bottom_left, bottom_right, top_right, top_left] = ball.contact_forces;
     let (up, down) = (

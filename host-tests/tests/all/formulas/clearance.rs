@@ -49,13 +49,11 @@ fn conversions_there_and_back() {
         for share in SHARES {
             let oversize = gap(-share, &design);
             let again = Clearance::of_preload(&design, oversize.preload(&design)).unwrap();
-            // Of a division, a root, two products and a cube root squared: a dozen roundings of 2^-24.
             assert!((again.gap() / oversize.gap() - 1.0).abs() < 12.0 * 6e-8);
             assert_eq!(oversize.axial_play(&design), 0.0);
 
             let play = gap(share, &design);
             let again = Clearance::of_axial_play(&design, play.axial_play(&design)).unwrap();
-            // Likewise; no difference cancels.
             assert!((again.gap() / play.gap() - 1.0).abs() < 12.0 * 6e-8);
             assert_eq!(play.preload(&design), 0.0);
             assert_eq!(play.axial_preload(&design, 100), 0.0);
@@ -64,12 +62,10 @@ fn conversions_there_and_back() {
             let preload = Clearance::of_preload(&design, force)
                 .unwrap()
                 .preload(&design);
-            // The power 3/2 of the roundings above.
             assert!((preload / force - 1.0).abs() < 18.0 * 6e-8, "{preload}");
         }
         assert_eq!(Clearance::of_axial_play(&design, 0.0), Ok(Clearance::ZERO));
         assert_eq!(Clearance::ZERO.preload(&design), 0.0);
-        // Whatever the smallest number makes, it is a force.
         for tiny in [-f32::MIN_POSITIVE, -1e-40, -1e-12] {
             assert_eq!(Clearance::new(tiny).unwrap().preload(&design), 0.0);
         }
@@ -91,7 +87,6 @@ fn pressed(design: &BallScrew, gap: f64) -> [f64; 4] {
         nut: contact(curvature::Groove::Nut),
         oversize: -gap,
     };
-    // Outward force on the ball from its contacts.
     let outward = |place: f64| {
         grooves
             .contacts_at([place, 0.0], 0.0)
@@ -127,7 +122,6 @@ fn pressed(design: &BallScrew, gap: f64) -> [f64; 4] {
 fn preload_is_the_force_in_elastic_grooves() {
     let mut errors = SHARES.map(|share| Errors::of(format!("preload at {share} ball radii")));
     for design in designs() {
-        // The reference has one groove radius.
         if design.parameters().screw_groove != design.parameters().nut_groove {
             continue;
         }
@@ -142,7 +136,6 @@ fn preload_is_the_force_in_elastic_grooves() {
             }
             let slope = design.parameters().contact_angle.sin() * design.cos_lead_angle();
             let flank = oversize.axial_preload(&design, 37) / (37.0 * oversize.preload(&design));
-            // Measured: 1.2e-7, roundings.
             assert!((flank / slope - 1.0).abs() < 3.6e-7);
         }
     }
@@ -258,7 +251,6 @@ fn axial_play_is_the_travel_between_helical_grooves() {
     }
 }
 
-/// What is refused, by field and range.
 fn refused<T: std::fmt::Debug>(result: Result<T, Error>, field: &str, allowed: Range) {
     let error = result.unwrap_err();
     assert_eq!(

@@ -20,7 +20,6 @@ use epas_friction::{
     Material, math,
 };
 
-/// Everything that follows from one ball screw.
 #[derive(Clone, Copy, Debug)]
 #[allow(dead_code)] // Read through `Debug`.
 struct SetUp {
@@ -199,7 +198,6 @@ const fn bearings(
     linear: LinearBearingParameters,
     angle: f32,
 ) -> Result<Bearings, epas_friction::Error> {
-    // A match in the place of `?`, as in firmware.
     let linear = match LinearBearing::new(linear) {
         Ok(bearing) => bearing,
         Err(error) => return Err(error),

@@ -407,7 +407,6 @@ fn an_accepted_groove_has_curvatures_up_to_the_edges() {
     assert!(accepted > 150_000 && folded > 50_000);
 }
 
-/// A design that a drawing may ask for is accepted at every contact angle.
 #[test]
 fn every_design_has_curvatures_at_every_contact_angle() {
     let mut random = Random(21);

@@ -7,7 +7,6 @@ use epas_reference::promises;
 use epas_testkit::errors::Errors;
 use epas_testkit::measured;
 
-/// Offsets of both signs, dense about the rim, up to sliding.
 fn offsets() -> Vec<f32> {
     let inside = (0..=100).map(|step| step as f32 / 100.0);
     let outside = (0..=160).map(|step| 1.0 + 10_f32.powf(-4.0 + step as f32 / 20.0));
@@ -97,7 +96,6 @@ fn maps_equal_the_tabulated_cases() {
             ["kappa", "f", "M", "P"].map(|name| golden::numbers(&case, name));
         for index in 0..offset.len() {
             let fast = map.evaluate(offset[index] as f32);
-            // Over the documented errors of the maps.
             let error = [
                 (f64::from(fast.force) - force[index]).abs() / 1e-3,
                 (f64::from(fast.moment) - moment[index]).abs() / (2e-3 * full_moment),

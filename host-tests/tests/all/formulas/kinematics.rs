@@ -1,5 +1,6 @@
 //! The in-loop kinematics (f32) against the float64 reference.
 
+use crate::refusals::assert_refused;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{
@@ -51,7 +52,6 @@ fn golden_cases() -> Vec<(String, KinematicsInput)> {
         .collect()
 }
 
-/// Draws inputs.
 trait Drawn {
     fn input(&mut self) -> KinematicsInput;
 }
@@ -165,7 +165,6 @@ struct Sweep {
     spin_speed: Errors,
     entrainment: Errors,
     rolling: Errors,
-    /// Rolling slip of contacts that came by an update.
     updated: Errors,
     side: Errors,
     spin: Errors,
@@ -246,7 +245,6 @@ impl Sweep {
         }
     }
 
-    /// See the test of the golden cases for where the bounds come from.
     fn assert(&self) {
         assert_scattered(&self.orbital, "orbital speed, relative", 5e-7);
         assert_scattered(&self.spin_speed, "spin speed, relative", 5e-7);
@@ -285,7 +283,6 @@ fn golden_cases_within_the_promise() {
             },
             &tag,
         );
-        // Yaw angles at which side slip vanishes at one contact.
         for raceway in Raceway::BOTH {
             if let Ok(yaw_angle) = reference::yaw_without_side_slip(&input, raceway) {
                 sweep.add(&KinematicsInput { yaw_angle, ..input }, &tag);
@@ -319,12 +316,10 @@ fn published_values() {
     let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
     let ball = kinematics.tick(operating::SPEED as f32);
     for slip in [ball.screw, ball.nut] {
-        // Printed to two decimals: half a unit.
         assert!((slip.entrainment_speed - 1.00).abs() < 0.005);
     }
     let degrees = |radians: f32| f64::from(radians) / DEGREE;
     let (screw, nut) = (kinematics.screw().ratios(), kinematics.nut().ratios());
-    // Likewise.
     assert!((degrees(screw.entrainment_angle) - 1.19).abs() < 0.005);
     measured::assert(
         "published entrainment angle of the nut in degrees",
@@ -353,7 +348,6 @@ fn published_values() {
     }
 }
 
-/// Zeros of either sign are a point.
 #[test]
 fn a_contact_may_be_a_point() {
     let given = parameters(&Random(0x5EED_100A).input());
@@ -472,92 +466,56 @@ fn odd_parameters_are_refused_by_name_or_give_finite_numbers() {
 fn what_cannot_roll_is_refused() {
     let good = parameters(&operating::table_two().unwrap());
     let refused = |given: KinematicsParameters| ContactKinematics::new(&given).unwrap_err();
-    // Contact angle far from the pitch angle.
-    let error = refused(KinematicsParameters {
-        contact_angle_screw: -0.8,
+    #[rustfmt::skip]
+    assert_refused(
+        &good,
+        ContactKinematics::new,
+        &[
+            ("contact_angle_screw", |p, v| p.contact_angle_screw = v, &[-0.8]),
+            ("contact_angle_nut", |p, v| p.contact_angle_nut = v, &[-0.8]),
+            ("ball_diameter", |p, v| p.ball_diameter = v, &[2.1]),
+            ("semi_major_nut", |p, v| p.semi_major_nut = v, &[1.192e-3]),
+            ("semi_minor_screw", |p, v| p.semi_minor_screw = v, &[0.7e-3]),
+            ("groove_radius_nut", |p, v| p.groove_radius_nut = v, &[3.9e-3]),
+        ],
+    );
+    let is_taken = |given: KinematicsParameters| ContactKinematics::new(&given).is_ok();
+    assert!(is_taken(KinematicsParameters {
+        semi_major_nut: 1.19e-3,
         ..good
-    });
-    assert_eq!(error.field(), "contact_angle_screw");
-    assert!(!error.allowed().contains(-0.8));
-    // The grip ends where the range says, but for the last of 24 halvings of less than half a turn (2e-7 rad)
-    // and the rounding of the angle (6e-8 rad).
-    let end = error.allowed().minimum;
-    for (angle, taken) in [(end, true), (end - 4e-7, false)] {
-        let given = KinematicsParameters {
-            contact_angle_screw: angle,
-            ..good
-        };
-        assert_eq!(ContactKinematics::new(&given).is_ok(), taken, "{angle}");
-    }
-    let error = refused(KinematicsParameters {
-        contact_angle_nut: -0.8,
-        ..good
-    });
-    assert_eq!(error.field(), "contact_angle_nut");
-    // A ball's diameter is twice a radius of 10 um to 1 m.
-    let error = refused(KinematicsParameters {
+    }));
+    let range = refused(KinematicsParameters {
         ball_diameter: 2.1,
         ..good
-    });
-    assert_eq!(error.field(), "ball_diameter");
-    assert_eq!(
-        (error.allowed().minimum, error.allowed().maximum),
-        (2e-5, 2.0)
-    );
-    // Ellipse beyond 0.3 of the ball's radius, 1.191 mm.
-    assert!(
-        ContactKinematics::new(&KinematicsParameters {
-            semi_major_nut: 1.19e-3,
-            ..good
-        })
-        .is_ok()
-    );
-    let error = refused(KinematicsParameters {
-        semi_major_nut: 1.192e-3,
+    })
+    .allowed();
+    assert_eq!((range.minimum, range.maximum), (2e-5, 2.0));
+    // The grip ends where the range says, but for the last of 24 halvings of less than half a turn (2e-7 rad)
+    // and the rounding of the angle (6e-8 rad).
+    let with = |contact_angle_screw| KinematicsParameters {
+        contact_angle_screw,
         ..good
-    });
-    assert_eq!(error.field(), "semi_major_nut");
-    let error = refused(KinematicsParameters {
-        semi_minor_screw: 0.7e-3,
-        ..good
-    });
-    assert_eq!(error.field(), "semi_minor_screw");
-    // Rolling radius that folds the path: r' cos(alpha) cos^2(psi) beyond 0.9 r_m.
-    let small = KinematicsParameters {
+    };
+    let end = refused(with(-0.8)).allowed().minimum;
+    assert!(is_taken(with(end)) && !is_taken(with(end - 4e-7)));
+
+    let with = |rolling_radius_screw| KinematicsParameters {
         pitch_radius: 4e-3,
+        rolling_radius_screw,
         ..good
     };
-    let folded = KinematicsParameters {
-        rolling_radius_screw: 6e-3,
-        ..small
-    };
-    let error = refused(folded);
+    let error = refused(with(6e-3));
     assert!(matches!(error, Error::FoldedGroove { .. }));
     assert_eq!(error.field(), "rolling_radius_screw");
-    // Down to a quarter of the ball's diameter.
-    assert_eq!(error.allowed().minimum, 0.25 * small.ball_diameter);
+    assert_eq!(error.allowed().minimum, 0.25 * good.ball_diameter);
     let limit = error.allowed().maximum;
-    let (sin_lead, cos_lead) = f64::from(small.lead_angle).sin_cos();
-    let path_radius = f64::from(small.pitch_radius) * (1.0 + (sin_lead / cos_lead).powi(2));
-    let border = 0.9 * path_radius / f64::from(small.contact_angle_screw).cos();
-    // Ten roundings.
+    let path_radius = f64::from(4e-3_f32) * (1.0 + f64::from(good.lead_angle).tan().powi(2));
+    let border = 0.9 * path_radius / f64::from(good.contact_angle_screw).cos();
     assert!(
         (f64::from(limit) / border - 1.0).abs() < 6e-7,
         "{limit} {border}"
     );
-    for (factor, is_taken) in [(0.9999, true), (1.0001, false)] {
-        let made = ContactKinematics::new(&KinematicsParameters {
-            rolling_radius_screw: limit * factor,
-            ..small
-        });
-        assert_eq!(made.is_ok(), is_taken);
-    }
-    // A groove narrower than the ball.
-    let error = refused(KinematicsParameters {
-        groove_radius_nut: 3.9e-3,
-        ..good
-    });
-    assert_eq!(error.field(), "groove_radius_nut");
+    assert!(is_taken(with(0.9999 * limit)) && !is_taken(with(1.0001 * limit)));
 }
 
 /// Slip along the direction of rolling has the angle 0 or pi, whatever the sign of a side slip of zero, on both raceways.
@@ -667,7 +625,6 @@ fn wrong_numbers_in_the_loop_count_as_zero() {
         kinematics.tick(1e6).screw.entrainment_speed,
         1e6 * kinematics.per_speed().screw.entrainment_speed
     );
-    // Points off the ellipse touch nothing.
     let screw = kinematics.screw();
     for (x, y) in [
         (f32::NAN, 0.0),
@@ -702,7 +659,6 @@ fn parameters_of_a_design_are_those_typed_in() {
         Ok(design) => design,
         Err(_) => panic!("the design is out of range"),
     };
-    // A constant can take them.
     const FOLDED: Result<KinematicsParameters, Error> =
         KinematicsParameters::of(&DESIGN, 120.0, 110.0);
     assert_eq!(FOLDED, KinematicsParameters::of(&DESIGN, 120.0, 110.0));
@@ -747,14 +703,12 @@ fn parameters_of_a_design_are_those_typed_in() {
             let error = KinematicsParameters::of(&design, 1.0, load).unwrap_err();
             assert_eq!(error.field(), "load_nut");
         }
-        // An ellipse that outgrows the ball is refused by the kinematics.
         let crushed = KinematicsParameters::of(&design, 1e7, 1.0).unwrap();
         let error = ContactKinematics::new(&crushed).unwrap_err();
         assert_eq!(error.field(), "semi_major_screw");
     }
 }
 
-/// The numbers in the order of [`FIELDS`].
 fn numbers(p: &KinematicsParameters) -> [f32; 15] {
     [
         p.ball_diameter,

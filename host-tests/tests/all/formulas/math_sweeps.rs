@@ -15,7 +15,6 @@ mod with_libm;
 #[path = "../../../../src/math/micromath.rs"]
 mod with_micromath;
 
-/// Error of a kernel at an input.
 type ErrorAt = fn(f32) -> f64;
 
 /// The line of a sweep over all inputs: errors in ulps of the result, or absolute.
@@ -31,7 +30,6 @@ fn record(errors: &Errors, name: &str) {
     .print();
 }
 
-/// An error at an input.
 fn add(errors: &mut Errors, input: f32, error: f64) {
     errors.add_case(error, || format!("{input:e} ({:#010x})", input.to_bits()));
 }

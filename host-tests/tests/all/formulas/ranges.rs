@@ -13,10 +13,8 @@ use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::ranges::{FRICTION, FRICTION_OF_A_ROW, FRICTION_OR_NONE};
 use epas_friction::{Error, Material, Range};
 
-/// The value whose figures those at both ends are compared with.
 const USUAL: f32 = 0.1;
 
-/// Nominal contact angle, rad.
 const NOMINAL: f32 = FRAC_PI_4;
 
 fn linear(friction: f32) -> LinearBallParameters {
@@ -44,7 +42,6 @@ fn request(friction: f32) -> DesignRequest {
     }
 }
 
-/// A constructor, by what it answers.
 type Constructor = fn(f32) -> Result<(), Error>;
 
 fn refused_beyond(range: Range, constructors: &[Constructor]) {
@@ -145,7 +142,6 @@ fn efficiency_at_both_ends() {
         assert!(dynamic.coefficient().is_finite() && dynamic.efficiency(1e-3).is_finite());
     }
     assert_eq!(optimum_efficiency(0.0), 1.0);
-    // (sqrt 2 - 1)²
     close(optimum_efficiency(1.0), 0.171_572_88, "optimum efficiency");
     for friction in [FRICTION_OR_NONE.minimum, FRICTION_OR_NONE.maximum] {
         let figures = request(friction).figures().unwrap();

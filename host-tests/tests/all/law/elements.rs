@@ -40,7 +40,6 @@ fn by_load() -> LoadExactElements<8> {
     LoadExactElements::new(0.04, 2e-3, 4.0).unwrap()
 }
 
-/// A mixed mechanism: slip across, spin, and rolling resistance with a scale of its own.
 fn mixed() -> ProportionalElements<18> {
     let part = |backbone, share, breakaway_angle| Part {
         backbone,
@@ -58,7 +57,6 @@ fn mixed() -> ProportionalElements<18> {
     .unwrap()
 }
 
-/// Runs a check with every kind of elements.
 macro_rules! each {
     ($check:ident) => {
         $check(&slip());
@@ -146,7 +144,6 @@ fn springs_hold_the_work_until_an_element_slides() {
         assert_eq!(elements.stored_energy(&state), full);
     }
     each!(check);
-    // A preload changes the load that elements see, and nothing that they say of themselves.
     let (plain, preloaded) = (by_load(), PreloadedElements::new(by_load()));
     let mut state = MemoryState::VIRGIN;
     plain.follow(&mut state, 0.3e-3, &LIMITS);
@@ -340,13 +337,11 @@ fn what_is_no_number_does_no_harm() {
                 }
             }
         }
-        // A turn that is none leaves friction where it was.
         let mut state = E::VIRGIN;
         let held = elements.follow(&mut state, 0.3e-3, &LIMITS);
         for turn in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e7] {
             assert_eq!(elements.follow(&mut state, turn, &LIMITS), held);
         }
-        // No limits: no friction, nothing remembered.
         let none = SlidingLimits {
             forward: 0.0,
             backward: 0.0,

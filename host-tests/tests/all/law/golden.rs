@@ -54,7 +54,6 @@ fn path(of: &Value) -> Vec<f64> {
     }
 }
 
-/// A case: angles over the breakaway angle, loads over the reference, and the ratio of either limit to the load.
 struct Case {
     angles: Vec<f64>,
     loads: Vec<f64>,
@@ -90,7 +89,6 @@ impl Case {
         }
     }
 
-    /// Largest difference of friction and of work from the golden ones, and of friction from that in f64.
     fn compare<E: Hysteresis>(
         &self,
         elements: &E,

@@ -12,7 +12,6 @@ use crate::law::elements::proportional;
 use crate::law::transcription::energy;
 use epas_testkit::random::Random;
 
-/// Ticks of the normal run.
 const TICKS: u64 = 1_000_000;
 
 /// A random tick: turns from 1e-4 to 10 breakaway angles, and rarely far beyond; limits and load from 0 to three times the

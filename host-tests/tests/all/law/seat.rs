@@ -70,7 +70,6 @@ fn play_is_free_and_sliding_is_full() {
         load: f32::NAN,
     };
     assert_eq!(seat.follow(&mut state, -1.0, &none), 0.0);
-    // Limits that are no numbers do no lasting harm.
     for limit in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0] {
         let [forward, backward] = [limit; 2];
         for turn in [1.0, -2.0] {
@@ -150,12 +149,10 @@ fn together_they_share_the_limit() {
         load: 1.0,
     };
     let mut state = virgin(&both);
-    // In the play only spin holds.
     let friction = both.follow(&mut state, 0.9e-3, &limits);
     measured::assert("spin in the seat's play", friction / 0.012 - 1.0);
     for (turn, limit) in [(1.0, 0.04), (-1.0, -0.03)] {
         let friction = both.follow(&mut state, turn, &limits);
-        // Two parts that are rounded on their own.
         measured::assert("spin beside the seat, limit", friction / limit - 1.0);
     }
     let parts = [

@@ -358,7 +358,6 @@ fn stored_pairs() {
             missing(&relative).abs(),
             format_args!("{key}: {}", missing(&relative)),
         );
-        // As measured above.
         assert!(
             missing(&solved) > 0.117 && missing(&solved) < 0.122,
             "{key}: {}",
@@ -406,7 +405,6 @@ fn given_contacts_decide_the_orbital_speed() {
             full.contact_force - number(&case["F"]),
             format_args!("{} stored {}", full.contact_force, case["F"]),
         );
-        // With the contacts held the force differs by what the force between the balls moves them.
         let off = (train.contact_forces[0] / number(&case["F"]) - 1.0).abs();
         worst[2] = worst[2].max(off);
         println!(
@@ -455,7 +453,6 @@ fn check_train(train: &ScrewTrain, nut_speed: f64) {
         let parting =
             (train.balls[j + 1].orbital_speed - train.balls[j].orbital_speed) * nut_speed.signum();
         assert!(parting > -1e-12 * nut_speed.abs() && *force >= 0.0);
-        // One of the two is zero. Measured: 0.0.
         assert!((parting * force).abs() < 1e-15 * nut_speed.abs());
     }
 }
@@ -501,7 +498,6 @@ fn any_start_gives_the_same_motion() {
         [0.55, 0.0, 0.19, 0.0],
     ] {
         let other = motion_from(&TRACK, &contacts, 0.1, TAU, start).unwrap();
-        // One minimum: what is left are roundings of 1.1e-16.
         assert!(
             (first.orbital_speed - other.orbital_speed).abs() < 1e-14,
             "{start:?}: {}",
@@ -555,7 +551,6 @@ fn two_point_contact_sticks_on_one_race() {
         motion.gap,
         motion.orbital_speed / TAU
     );
-    // Half a unit of the last digit.
     assert!(
         (across[0] - across[1]).abs() > 3.3055 && across.iter().sum::<f64>() < 3.3065,
         "{across:?}"
@@ -629,7 +624,6 @@ fn stored_closed_forms() {
             );
         }
         assert_eq!(model.contact_force(&two, &one), 0.0);
-        // Against the numerical pair with the same loads.
         let numerical = pair(radius, 2.0, 0.0, BallSlip::Orbiting)
             .solve(ScrewSupport::Load(2.0 * load))
             .unwrap();
@@ -727,7 +721,6 @@ fn hostile_input_converges_or_is_named() {
     );
     let smooth = motion_with_contacts(&TRACK, &contacts, 0.0, 1.0).unwrap();
     assert_eq!(smooth.power_loss, 0.0);
-    // The limit of no friction is the same problem. Measured: 0.0.
     assert!(
         (smooth.orbital_speed
             - motion_with_contacts(&TRACK, &contacts, 0.3, 1.0)
@@ -772,7 +765,6 @@ fn hostile_input_converges_or_is_named() {
     );
 }
 
-/// A sample of the loads and friction coefficients.
 #[test]
 fn hostile_loads_are_solved() {
     solve_hostile_loads(&[-1e-2, -1000.0, 1e4], &[0.01, 0.3]);

@@ -19,38 +19,28 @@ pub struct Brush {
     area: f64,
 }
 
-/// Bristles one behind the other along the path.
 #[derive(Clone, Debug, PartialEq)]
 struct Column {
-    /// Place across the path.
     across: f64,
     bristles: Vec<Bristle>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Bristle {
-    /// Place along the path.
     along: f64,
-    /// Largest traction.
     limit: f64,
     bend: [f64; 2],
 }
 
-/// Motion of one body against the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// Slip across the path.
     pub across: f64,
-    /// Spin about the normal, rad.
     pub spin: f64,
 }
 
-/// Force across the path and moment of a brush.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load {
-    /// Force across the path.
     pub force: f64,
-    /// Moment about the centre.
     pub moment: f64,
 }
 
@@ -97,13 +87,11 @@ impl Brush {
         }
     }
 
-    /// Moment over spin while every bristle sticks.
     #[must_use]
     pub fn spin_stiffness(&self) -> f64 {
         self.sum(|x, bristle| self.stiffness * (x * x + bristle.along.powi(2)))
     }
 
-    /// Moment of spin alone, everything sliding.
     #[must_use]
     pub fn spin_limit(&self) -> f64 {
         self.sum(|x, bristle| bristle.limit * x.hypot(bristle.along))
@@ -124,12 +112,10 @@ impl Brush {
         }
     }
 
-    /// Force and moment after a motion.
     pub fn follow(&mut self, motion: Motion) -> Load {
         let stiffness = self.stiffness;
         for column in &mut self.columns {
             for bristle in &mut column.bristles {
-                // Rotation by the spin: (-y, x).
                 bristle.bend[0] += motion.across - motion.spin * bristle.along;
                 bristle.bend[1] += motion.spin * column.across;
                 let traction = stiffness * bristle.bend[0].hypot(bristle.bend[1]);

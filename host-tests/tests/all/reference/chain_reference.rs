@@ -105,7 +105,6 @@ fn check_laws(
     loss += (0..n - 1)
         .map(|j| ball_friction * chain.contact_forces[j] * chain.ball_slip[j])
         .sum::<f64>();
-    // Up to 130 terms in another order, 1.1e-16 each.
     assert!((loss - chain.power_loss()).abs() < 1.5e-14 * loss);
     // Derived: unbalanced forces do work at speeds of the order of the track's, on three unknowns a ball; and the same roundings.
     let unbalanced = 6.0 * n as f64 * chain.residual * speed.abs();
@@ -244,7 +243,6 @@ fn reversal_swaps_rear_and_front() {
     let swapped = [pair[1], pair[0]];
     let forward = solve_chain(&pair, 0.1, 1.0).unwrap();
     let backward = solve_chain(&swapped, 0.1, -1.0).unwrap();
-    // Mirrored: at most some roundings, 4e-16 N each.
     assert!((forward.contact_forces[0] - backward.contact_forces[0]).abs() < 1e-13);
     check_laws(&swapped, &backward, 0.1, -1.0, "reversed pairs");
     assert_eq!(
@@ -305,7 +303,6 @@ fn linear_model_three_ways() {
         worst[1],
         format_args!("{worst:?}"),
     );
-    // Equal speeds do not press; one ball has no neighbour; no ball no answer.
     assert_eq!(
         pool_adjacent_violators(&[0.3; 4], &[1.0; 4]),
         (vec![0.3; 4], vec![0.0; 3])
@@ -346,7 +343,6 @@ fn hostile_chains_end() {
     let smooth = pair.map(|b| LinearBall { friction: 0.0, ..b });
     let chain = solve_chain(&smooth, 0.1, 1.0).unwrap();
     assert_eq!((chain.contact_forces[0], chain.power_loss()), (0.0, 0.0));
-    // Measured: 0.0; a deviation is a number near one less one, of which a unit of the last place is 2.2e-16.
     assert!((chain.balls[0].speed_deviation - chain.balls[1].speed_deviation).abs() < 7e-16);
     let rough = pair.map(|b| LinearBall { friction: 0.3, ..b });
     let chain = solve_chain(&rough, 0.3, 1.0).unwrap();
@@ -385,7 +381,6 @@ fn hostile_chains_end() {
         ),
         Err(ReferenceError::Undriven)
     );
-    // Through the switch to two-point contact.
     for rho in [-0.99, -0.95, -0.93, -0.9, 0.92, 0.96] {
         let balls = [
             tilted(2.0, rho),

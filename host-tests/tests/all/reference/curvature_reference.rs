@@ -1,5 +1,6 @@
 //! The reference's curvatures against 65-digit values and against each other.
 
+use crate::refusals::assert_refused;
 use epas_reference::curvature::{Groove, Surface, profile};
 use epas_testkit::measured;
 use proptest::prelude::*;
@@ -159,63 +160,21 @@ fn catalogue_surface(groove: Groove) -> Surface {
 
 #[test]
 fn bad_surfaces_are_refused_by_name() {
+    const BAD: &[f64] = &[-1.0, 1e12];
     let good = catalogue_surface(Groove::Screw);
     good.check(0.0).unwrap();
-    for bad in [f64::NAN, f64::INFINITY, -1.0, 1e12] {
-        let refused =
-            |surface: Surface, angle: f64| surface.check(angle).unwrap_err().field().unwrap();
-        assert_eq!(
-            refused(
-                Surface {
-                    pitch_radius: bad,
-                    ..good
-                },
-                0.7
-            ),
-            "pitch_radius"
-        );
-        assert_eq!(
-            refused(
-                Surface {
-                    lead_angle: bad,
-                    ..good
-                },
-                0.7
-            ),
-            "lead_angle"
-        );
-        assert_eq!(
-            refused(
-                Surface {
-                    groove_radius: bad,
-                    ..good
-                },
-                0.7
-            ),
-            "groove_radius"
-        );
-        assert_eq!(
-            refused(
-                Surface {
-                    offset_h: bad,
-                    ..good
-                },
-                0.7
-            ),
-            "offset_h"
-        );
-        assert_eq!(
-            refused(
-                Surface {
-                    offset_l: bad,
-                    ..good
-                },
-                0.7
-            ),
-            "offset_l"
-        );
-        assert_eq!(refused(good, bad), "contact_angle");
-    }
+    assert_refused(
+        &(good, 0.7),
+        |(surface, angle)| surface.check(*angle),
+        &[
+            ("pitch_radius", |(s, _), v| s.pitch_radius = v, BAD),
+            ("lead_angle", |(s, _), v| s.lead_angle = v, BAD),
+            ("groove_radius", |(s, _), v| s.groove_radius = v, BAD),
+            ("offset_h", |(s, _), v| s.offset_h = v, BAD),
+            ("offset_l", |(s, _), v| s.offset_l = v, BAD),
+            ("contact_angle", |(_, angle), v| *angle = v, BAD),
+        ],
+    );
     let folded = Surface {
         pitch_radius: 3.0,
         lead_angle: 0.0,

@@ -315,7 +315,6 @@ fn power_is_convex_and_homogeneous() {
         }
         let h = nalgebra::Matrix3::from_fn(|i, j| here.hessian[i][j] * lengths[i] * lengths[j]);
         let eigen = h.symmetric_eigenvalues();
-        // Convex. Measured: -4.2e-16.
         assert!(eigen.min() > -2e-15 * eigen.max(), "{v:?}: {eigen}");
     }
 }
@@ -331,7 +330,6 @@ fn limits_and_bad_input_of_the_maps() {
     assert!(map.at(f64::NAN).force.is_nan());
     // Far away: force 1 - q/x^2, moment 2 q/x with q = k^2/10, next terms of order x^-4 and x^-3.
     let (x, q) = (1e4, 0.00625);
-    // What is left is x^-2.
     assert!((map.at(x).moment * x / (2.0 * q) - 1.0).abs() < 1e-8);
     // A difference of 6e-11 from one is known to 1.1e-16 of one, twice: 4e-6 at worst.
     assert!(((1.0 - map.at(x).force) * x * x / q - 1.0).abs() < 1e-6);
@@ -376,7 +374,6 @@ fn limits_and_bad_input_of_the_maps() {
         slip_minor: -4.0,
         spin: 0.0,
     });
-    // Some ten roundings of 1.1e-16 of ten.
     assert!(
         (sliding.power - 10.0).abs() < 1e-14 && (sliding.gradient[1] + 1.6).abs() < 1e-14,
         "{sliding:?}"

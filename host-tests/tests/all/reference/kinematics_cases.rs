@@ -9,14 +9,12 @@ use epas_testkit::random::Random;
 
 const DEGREE: f64 = PI / 180.0;
 
-/// The stored cases.
 pub fn cases() -> Vec<Value> {
     let text = include_str!("../../../golden/kinematics.json");
     let file: Value = serde_json::from_str(text).unwrap();
     file["cases"].as_array().unwrap().clone()
 }
 
-/// A number of a case.
 pub fn number(value: &Value, path: &[&str]) -> f64 {
     path.iter()
         .fold(value, |value, key| &value[key])
@@ -49,7 +47,6 @@ pub fn input(case: &Value) -> KinematicsInput {
     }
 }
 
-/// Name of a raceway in a case.
 pub const fn side_of(raceway: Raceway) -> &'static str {
     match raceway {
         Raceway::Screw => "inner",
@@ -57,7 +54,6 @@ pub const fn side_of(raceway: Raceway) -> &'static str {
     }
 }
 
-/// A random input.
 pub fn random_input(random: &mut Random) -> KinematicsInput {
     let pitch_radius = random.between(5e-3, 60e-3);
     let ball_diameter = 2.0 * pitch_radius * random.between(0.04, 0.29);

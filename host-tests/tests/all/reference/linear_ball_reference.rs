@@ -1,5 +1,6 @@
 //! Ball of a linear bearing: stored cases and the laws of the model.
 
+use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, LinearMotion, contact_forces};
 use epas_testkit::measured;
@@ -124,7 +125,6 @@ fn stored_single_balls() {
                 "stored sticking balls, speed deviation",
                 motion.speed_deviation - eps,
             );
-            // From 0 to 5e-7. Measured: 4.43e-7, and a gap of 1.40e-9.
             assert!(
                 (power - motion.power_loss / 0.01 - 2.5e-7).abs() < 2.5e-7
                     && motion.gap / 0.01 < 3e-9
@@ -227,7 +227,6 @@ fn any_start_gives_the_same_motion() {
             for start in starts {
                 let other = ball.solve_from(1.0, start).unwrap();
                 let off = (first.ball_speed - other.ball_speed).abs();
-                // One minimum: what is left are roundings of 1.1e-16.
                 assert!(
                     off < 1e-14,
                     "theta = {theta}, rho = {rho}, start = {start:?}: off {off:e}"
@@ -260,7 +259,6 @@ fn two_point_contact_rolls() {
             );
         }
     }
-    // That one contact is lost, is what the case is for. Measured: -3.5 N.
     let lost = tilted(2.0, -0.98);
     assert!(
         lost.contact_forces[1] < 0.0,
@@ -351,44 +349,15 @@ fn speed_friction_and_load_scale_as_coulomb_says() {
 #[test]
 fn bad_input_is_named() {
     let good = tilted(1.0, 0.2);
-    let field = |ball: LinearBall| match ball.solve(1.0) {
-        Err(ReferenceError::OutOfRange { field, .. }) => field,
-        other => panic!("{other:?}"),
-    };
-    assert_eq!(
-        field(LinearBall {
-            ball_radius: 0.0,
-            ..good
-        }),
-        "ball_radius"
-    );
-    assert_eq!(
-        field(LinearBall {
-            friction: -0.1,
-            ..good
-        }),
-        "friction"
-    );
-    assert_eq!(
-        field(LinearBall {
-            friction: f64::NAN,
-            ..good
-        }),
-        "friction"
-    );
-    assert_eq!(
-        field(LinearBall {
-            contact_forces: [f64::INFINITY; 4],
-            ..good
-        }),
-        "contact_forces"
-    );
-    assert_eq!(
-        field(LinearBall {
-            contact_angles: [1.7; 4],
-            ..good
-        }),
-        "contact_angles"
+    assert_refused(
+        &good,
+        |ball| ball.solve(1.0),
+        &[
+            ("ball_radius", |b, v| b.ball_radius = v, &[0.0]),
+            ("friction", |b, v| b.friction = v, &[-0.1]),
+            ("contact_forces", |b, v| b.contact_forces = [v; 4], &[]),
+            ("contact_angles", |b, v| b.contact_angles = [v; 4], &[1.7]),
+        ],
     );
     for forces in [
         [0.0; 4],
@@ -396,20 +365,16 @@ fn bad_input_is_named() {
         [10.0, 5.0, 0.0, -1.0],
         [0.0, 0.0, 10.0, 10.0],
     ] {
-        assert_eq!(
-            LinearBall {
-                contact_forces: forces,
-                ..good
-            }
-            .solve(1.0),
-            Err(ReferenceError::Undriven)
-        );
+        let ball = LinearBall {
+            contact_forces: forces,
+            ..good
+        };
+        assert_eq!(ball.solve(1.0), Err(ReferenceError::Undriven));
     }
     // Loads from a micro-newton to 1e5 N.
     for scale in [1e-8, 1e-4, 1e3] {
-        let forces = good.contact_forces.map(|f| f * scale);
         let ball = LinearBall {
-            contact_forces: forces,
+            contact_forces: good.contact_forces.map(|f| f * scale),
             ..good
         };
         let motion = ball

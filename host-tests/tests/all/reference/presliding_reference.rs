@@ -77,7 +77,6 @@ fn half_digit(stored: f64, digits: i32) -> f64 {
     0.5001 * power + 1e-12
 }
 
-/// Largest difference of two lists.
 fn apart(one: &[f64], other: &[f64]) -> f64 {
     assert_eq!(one.len(), other.len());
     let differences = one
@@ -87,7 +86,6 @@ fn apart(one: &[f64], other: &[f64]) -> f64 {
     differences.fold(0.0, f64::max)
 }
 
-/// A stored case: its path, and the elements that follow it.
 struct Case<'a> {
     stored: &'a Value,
     angle: Vec<f64>,
@@ -123,7 +121,6 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// Compares with the list of that name, to its nine digits.
     fn check(&self, name: &str, found: &[f64]) {
         let samples = self.stored["samples"].as_array().unwrap();
         let stored = self.stored[name].as_array().unwrap();
@@ -185,7 +182,6 @@ fn tables_are_the_stored_ones_and_follow_their_backbones() {
         // The file's decimals, read to the last bit but one.
         assert!(apart(table.angles, &numbers("theta")) < 2e-15);
         assert!(apart(table.shares, &numbers("weight")) < 1e-16);
-        // Sums of at most ten rounded numbers.
         assert!((table.shares.iter().sum::<f64>() - 1.0).abs() < 1e-15);
         let error = (0..=20_000)
             .map(|step| 10.0 * f64::from(step) / 20_000.0)
@@ -297,7 +293,6 @@ fn a_contact_under_constant_load_is_masings() {
     }
 }
 
-/// A sample: 3000 elements.
 #[test]
 fn dense_elements_converge_to_the_closed_form_under_changing_load() {
     compare_dense_elements(false);
@@ -379,8 +374,6 @@ fn spin_follows_its_backbone_on_narrow_ellipses() {
     }
 }
 
-/// Rolling carries bent bristles out of the contact and unbent ones in: torque falls short of that of a contact at rest, and of Coulomb friction in the end. It matters
-/// where breakaway takes a large part of the contact's length. A sample of the contacts.
 #[test]
 fn rolling_changes_little_before_breakaway() {
     compare_rolling(&ROLLING[2..3]);
@@ -446,9 +439,7 @@ fn spin_takes_friction_from_slip() {
             })
             .force;
     }
-    // Measured: 1.9e-15, roundings of a sum over 41 x 41 bristles.
     assert!((alone - 1.0).abs() < 6e-15);
-    // Velocity centre on the edge of the contact. Measured: 0.922.
     assert!(together < 0.95 && together > 0.9, "{together}");
 }
 
@@ -483,7 +474,6 @@ fn elements_are_passive_and_do_not_drift() {
         ] {
             let torques: Vec<f64> = (0..400)
                 .map(|cycle| {
-                    // Up to the bias plus the swing, then to and fro by the same angle.
                     let turn = if cycle == 0 {
                         bias + swing
                     } else if cycle % 2 == 1 {

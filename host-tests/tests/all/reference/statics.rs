@@ -1,5 +1,6 @@
 //! Static load distribution: the case studies of Lin 2019, laws, and hostile starts.
 
+use crate::refusals::assert_refused;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 use std::sync::Arc;
@@ -7,7 +8,6 @@ use std::sync::Arc;
 use epas_reference::ReferenceError;
 use epas_reference::statics::cases::CaseStudy;
 use epas_reference::statics::contact::GrooveContact;
-use epas_reference::statics::problem::Setup;
 use epas_reference::statics::surface::{HarmonicError, ProfileError};
 use epas_reference::statics::{
     Contact, ContactConstants, Elastic, HertzConvention, Load, Outcome, Shaft, ShaftModel, State,
@@ -181,7 +181,6 @@ fn geometric_errors_of_the_screw_give_the_loads_of_an_independent_solver() {
 fn case_1_is_uneven_and_not_monotone() {
     let nominal = solve(&case_1());
     let forces = nominal.of(Contact::ScrewLeft);
-    // Printed to three decimals: half a unit, here and below.
     assert!((ratio(&forces) - 1.301).abs() < 5e-4, "{}", ratio(&forces));
     let fine = solve(&CaseStudy {
         screw_diameter: 30.8e-3,
@@ -191,7 +190,6 @@ fn case_1_is_uneven_and_not_monotone() {
     let fine = fine.of(Contact::ScrewLeft);
     assert!((ratio(&fine) - 1.340).abs() < 5e-4, "{}", ratio(&fine));
 
-    // Two inner maxima, near balls 11 and 21, and the minimum at ball 29 (counted from 1).
     let peaks: Vec<_> = (1..31)
         .filter(|&ball| forces[ball] > forces[ball - 1] && forces[ball] > forces[ball + 1])
         .map(|ball| ball + 1)
@@ -238,7 +236,6 @@ fn bar_model_falls_from_the_loaded_end() {
 fn case_2_one_large_ball() {
     let (without, with) = (solve(&case_1()), solve(&case_2()));
     let (without, with) = (without.of(Contact::ScrewLeft), with.of(Contact::ScrewLeft));
-    // Printed to a newton: half a unit, here and below.
     assert!((without[16] - 233.0).abs() < 0.5, "{}", without[16]);
     assert!((with[16] - 283.0).abs() < 0.5, "{}", with[16]);
     for ball in [15, 17] {
@@ -261,7 +258,6 @@ fn case_3_offset_squeezes_the_last_balls() {
         (last(&offset), [88.0, 147.0, 223.0, 303.0]),
     ] {
         for (force, text) in found.iter().zip(text) {
-            // Printed to a newton: half a unit.
             assert!((force - text).abs() < 0.5, "{found:?}");
         }
     }
@@ -402,7 +398,6 @@ fn right_curvatures_change_the_ellipse_more_than_the_loads() {
 fn forces_are_the_gradient_of_the_energy() {
     let case = case_3().load().unwrap();
     let mut state = case.solve().unwrap().state;
-    // Off the balance, so that no gradient is zero.
     for (index, value) in state.nodes.iter_mut().enumerate().skip(6) {
         *value += 1e-6 * (index as f64).sin();
     }
@@ -496,7 +491,6 @@ fn energy_is_convex() {
                 );
             }
         }
-        // The right end of case 3 is held; only states that hold it are comparable.
         let (start, _) = case.energy(&case.start());
         assert!(minimum < start, "{minimum} {start}");
     }
@@ -707,7 +701,6 @@ fn finite(solution: &StaticSolution) -> bool {
             .all(|value| value.is_finite())
 }
 
-/// From cold, near and far starts the same forces, or a reason.
 #[test]
 fn hostile_starts() {
     let (mut most, mut told) = (0, 0);
@@ -767,7 +760,6 @@ fn hostile_starts() {
                                 .flatten()
                                 .zip(other.forces.iter().flatten())
                             {
-                                // As measured above.
                                 assert!(
                                     (a - b).abs() <= 6e-9 * largest + near,
                                     "{name}, start {start}: {a} {b}"
@@ -803,7 +795,6 @@ fn all_balls_lost_is_reported() {
         (Outcome::AllBallsLost, 32)
     );
     assert!(solution.axial_shares().is_none() && finite(&solution));
-    // Neither does a screw without load touch them.
     let solution = solve(&CaseStudy {
         axial_load: 0.0,
         ..case_1()
@@ -894,72 +885,51 @@ fn local_curvature_changes_the_constants_little() {
 #[test]
 fn bad_input_names_its_field() {
     let base = case_1();
-    let mut cases = Vec::new();
-    let mut add = |field: &'static str, change: &dyn Fn(&mut CaseStudy)| {
-        let mut case = base.clone();
-        change(&mut case);
-        cases.push((field, case));
-    };
-    for bad in [f64::NAN, f64::INFINITY, -1.0] {
-        add("pitch_radius", &|case| case.geometry.pitch_radius = bad);
-        add("lead", &|case| case.geometry.lead = bad);
-        add("ball_radius", &|case| case.geometry.ball_radius = bad);
-        add("groove_radius", &|case| case.geometry.groove_radius = bad);
-        add("contact_angle", &|case| case.geometry.contact_angle = bad);
-        add("youngs_modulus", &|case| case.elastic.youngs_modulus = bad);
-        add("poisson_ratio", &|case| case.elastic.poisson_ratio = bad);
-        add("screw_length", &|case| case.screw_length = bad);
-        add("screw_diameter", &|case| case.screw_diameter = bad);
-        add("ball_spacing", &|case| case.ball_spacing = bad);
-        add("nut_position", &|case| case.nut_position = bad);
-        add("ball_oversize", &|case| case.ball_oversize = vec![bad]);
-    }
-    add("axial_load", &|case| case.axial_load = f64::NAN);
-    add("end_offset", &|case| case.end_offset = Some(1.0));
-    add("balls", &|case| case.balls = 0);
-    add("balls", &|case| case.balls = 1_000_000_000);
-    add("ball_oversize", &|case| case.ball_oversize = vec![0.0; 31]);
-    add("nut_position", &|case| case.nut_position = 0.01);
-    add("nut_position", &|case| case.ball_spacing = 100.0);
-    add("screw_diameter", &|case| case.screw_diameter = 60e-3);
-    add("refinement", &|case| case.refinement = 0);
-    for (field, case) in cases {
-        match case.load() {
-            Err(error) => assert_eq!(error.field(), Some(field), "{error} of {case:?}"),
-            Ok(_) => panic!("{field} is taken: {case:?}"),
-        }
-    }
-    let case = base.load().unwrap();
-    let mut short = case.start();
-    short.nodes.pop();
-    assert!(matches!(
-        case.solve_from(short),
-        Err(ReferenceError::Input { field: "start", .. })
-    ));
-    let mut hollow = case.start();
-    hollow.balls[3].x = f64::NAN;
-    assert!(matches!(
-        case.solve_from(hollow),
-        Err(ReferenceError::Input { field: "start", .. })
-    ));
-}
-
-#[test]
-fn an_odd_setup_is_refused() {
-    let refused = |change: &dyn Fn(&mut Setup)| {
-        let mut setup = case_1().setup().unwrap();
-        change(&mut setup);
-        StaticLoad::new(setup).unwrap_err().field().unwrap()
-    };
-    assert_eq!(refused(&|setup| setup.balls.clear()), "balls");
-    assert_eq!(refused(&|setup| setup.balls[4].position = 2.0), "balls");
-    assert_eq!(refused(&|setup| setup.loads[0].position = -0.1), "loads");
-    assert_eq!(
-        refused(&|setup| setup.loads[0].force[0] = f64::NAN),
-        "loads"
+    #[rustfmt::skip]
+    assert_refused(
+        &base,
+        CaseStudy::load,
+        &[
+            ("pitch_radius", |case, v| case.geometry.pitch_radius = v, &[-1.0]),
+            ("lead", |case, v| case.geometry.lead = v, &[-1.0]),
+            ("ball_radius", |case, v| case.geometry.ball_radius = v, &[-1.0]),
+            ("groove_radius", |case, v| case.geometry.groove_radius = v, &[-1.0]),
+            ("contact_angle", |case, v| case.geometry.contact_angle = v, &[-1.0]),
+            ("youngs_modulus", |case, v| case.elastic.youngs_modulus = v, &[-1.0]),
+            ("poisson_ratio", |case, v| case.elastic.poisson_ratio = v, &[-1.0]),
+            ("screw_length", |case, v| case.screw_length = v, &[-1.0]),
+            ("screw_diameter", |case, v| case.screw_diameter = v, &[-1.0, 60e-3]),
+            ("ball_spacing", |case, v| case.ball_spacing = v, &[-1.0]),
+            ("nut_position", |case, v| case.nut_position = v, &[-1.0, 0.01]),
+            ("ball_oversize", |case, v| case.ball_oversize = vec![v], &[-1.0]),
+            ("ball_oversize", |case, _| case.ball_oversize = vec![0.0; 31], &[]),
+            ("axial_load", |case, v| case.axial_load = v, &[]),
+            ("end_offset", |case, v| case.end_offset = Some(v), &[1.0]),
+            ("balls", |case, _| case.balls = 0, &[]),
+            ("balls", |case, _| case.balls = 1_000_000_000, &[]),
+            ("nut_position", |case, _| case.ball_spacing = 100.0, &[]),
+            ("refinement", |case, _| case.refinement = 0, &[]),
+        ],
     );
-    assert_eq!(
-        refused(&|setup| setup.supports[0].held[2] = Some(f64::NAN)),
-        "supports"
+    #[rustfmt::skip]
+    assert_refused(
+        &base.setup().unwrap(),
+        |setup| StaticLoad::new(setup.clone()),
+        &[
+            ("balls", |setup, _| setup.balls.clear(), &[]),
+            ("balls", |setup, v| setup.balls[4].position = v, &[2.0]),
+            ("loads", |setup, v| setup.loads[0].position = v, &[-0.1]),
+            ("loads", |setup, v| setup.loads[0].force[0] = v, &[]),
+            ("supports", |setup, v| setup.supports[0].held[2] = Some(v), &[]),
+        ],
+    );
+    let case = base.load().unwrap();
+    assert_refused(
+        &case.start(),
+        |start| case.solve_from(start.clone()),
+        &[
+            ("start", |start, _| start.nodes.truncate(1), &[]),
+            ("start", |start, v| start.balls[3].x = v, &[]),
+        ],
     );
 }

@@ -1,5 +1,6 @@
 //! Whole ball screw with recirculation: stored runs, the features of Figure 3.24, and the laws of contact.
 
+use crate::refusals::assert_refused;
 use epas_reference::friction::ball_screw_closed::ThreePointModel;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::contact_law::HertzLaw;
@@ -127,7 +128,6 @@ fn four_groups_release_and_build_up_again() {
         .filter(|s| s.nut_angle > TAU)
         .map(|s| s.ball_torque)
         .fold(0.0, f64::max);
-    // Measured: 0.259.
     assert!(
         second > 0.2 * peak.ball_torque && second < 0.35 * peak.ball_torque,
         "{second} {}",
@@ -205,41 +205,24 @@ fn refinement_converges() {
 #[test]
 fn bad_input_is_named() {
     let good = screw("3.254", 2.0, BallSlip::Orbiting);
-    assert!(
-        WholeScrew { balls: 39, ..good }
-            .simulate(1.0, 10, 1)
-            .is_err()
+    assert_refused(
+        &good,
+        |screw| screw.simulate(1.0, 10, 1),
+        &[
+            ("balls", |s, _| s.balls = 39, &[]),
+            ("axial_load", |s, v| s.axial_load = v, &[0.0]),
+            ("deviation", |s, v| s.deviation = v, &[]),
+        ],
     );
-    assert!(
-        WholeScrew {
-            nut_speed: 0.0,
-            ..good
-        }
-        .simulate(1.0, 10, 1)
-        .is_err()
-    );
-    assert!(
-        WholeScrew {
-            axial_load: 0.0,
-            ..good
-        }
-        .simulate(1.0, 10, 1)
-        .is_err()
-    );
-    assert!(
-        WholeScrew {
-            deviation: f64::NAN,
-            ..good
-        }
-        .simulate(1.0, 10, 1)
-        .is_err()
-    );
-    assert!(good.simulate(1.0, 0, 1).is_err());
+    let still = WholeScrew {
+        nut_speed: 0.0,
+        ..good
+    };
+    assert!(still.simulate(1.0, 10, 1).is_err() && good.simulate(1.0, 0, 1).is_err());
     let even = WholeScrew {
         deviation: 0.0,
         ..good
-    }
-    .simulate(TAU, 20, 1)
-    .unwrap();
-    assert!(even.iter().all(|s| s.ball_torque == 0.0));
+    };
+    let run = even.simulate(TAU, 20, 1).unwrap();
+    assert!(run.iter().all(|s| s.ball_torque == 0.0));
 }

@@ -17,7 +17,6 @@ fn closed_form(configuration: &ClosedFormScrewConfiguration) -> FrictionModel<Cl
 fn border(mut below: f32, mut beyond: f32, is_beyond: impl Fn(f32) -> bool) -> (f32, f32) {
     assert!(!is_beyond(below) && is_beyond(beyond));
     while below.next_up() < beyond {
-        // Half of the numbers between: positive ones are in the order of their bits.
         let middle = f32::from_bits(u32::midpoint(below.to_bits(), beyond.to_bits()));
         if is_beyond(middle) {
             beyond = middle;
@@ -118,7 +117,6 @@ fn back_driving_ends_where_the_efficiency_does() {
     assert!(turned.regime == Regime::BackDriving && turned.efficiency > 0.0);
     // The regime is that of the full friction; what is put out is less by the passage through standstill, w_s^2 / 2 w^2.
     assert!(held.efficiency < 1e-3);
-    // Roundings of two torques that cancel. Measured: 1.2e-7 of the load's own.
     assert!(
         turned.efficiency - held.efficiency < 3.6e-7,
         "{turned:?} {held:?}"
@@ -152,7 +150,6 @@ fn a_drive_locks_at_a_thousand_pitch_radii() {
     assert!((0.0..1e3).contains(&torque(moves)), "{}", torque(moves));
     assert!(!(0.0..1e3).contains(&torque(locked)), "{}", torque(locked));
     assert!(driven(locked).faults.contains(Faults::FRICTION_LIMIT));
-    // Without a load nothing is locked, and the load alone lowers itself.
     let idle = |nut_speed| {
         let configuration = ClosedFormScrewConfiguration {
             design,
@@ -235,7 +232,6 @@ fn every_scene_counts_its_faults() {
     assert_eq!(faults, Faults::LOAD_RANGE);
 }
 
-/// A share of the load is what it was made of.
 #[test]
 fn a_load_share_gives_its_share() {
     for share in [0.01, 0.97, 1.0, 3.0, 100.0] {

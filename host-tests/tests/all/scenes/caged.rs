@@ -154,7 +154,6 @@ fn screws() -> impl Iterator<Item = CagedFold> {
 static SCREWS: LazyLock<Vec<CagedBallScrewConfiguration>> =
     LazyLock::new(|| screws().map(|fold| one(&fold)).collect());
 
-/// A screw without lead.
 fn bearing() -> CagedFold {
     let flat = BallScrewParameters {
         lead: 0.0,
@@ -184,7 +183,6 @@ pub fn folds() -> Vec<CagedFold> {
         .collect()
 }
 
-/// The block of a fold for one friction coefficient.
 fn one(fold: &CagedFold) -> CagedBallScrewConfiguration {
     CagedBallScrewConfiguration {
         reversal_speed: 1e-6,

@@ -143,7 +143,6 @@ fn another_count_does_not_fit() {
     );
 }
 
-/// A list that has not a number for each ball is none that counts.
 #[test]
 fn a_list_of_another_length_does_not_count() {
     let mut press = Press::<MOST>::with_balls(3).unwrap();

@@ -1,5 +1,6 @@
 //! The ball screw by a closed form in the loop: energy, signs, continuity, bad input.
 
+use crate::refusals::assert_refused;
 use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
@@ -85,7 +86,6 @@ fn torque_is_the_efficiency_of_the_reference() {
                     (computed / expected - 1.0).abs() < 4e-6,
                     "{parameters:?}: {computed}"
                 );
-                // The blending's 2e-6 of friction over load.
                 assert!(
                     (f64::from(outputs.efficiency) - backdrive).abs()
                         < 2.2e-6 * (1.0 - backdrive).max(1.0)
@@ -123,7 +123,6 @@ prop_compose! {
 }
 
 proptest! {
-    /// Friction takes power, never gives it, and never more than its limit.
     #[test]
     fn friction_dissipates((configuration, speed, load) in situation()) {
         let outputs = step(&mut model(&configuration), speed, load);
@@ -263,7 +262,6 @@ fn a_locked_drive_is_said_and_bounded() {
         "locked drive, friction torque in N m",
         driven.friction_torque - 50.0,
     );
-    // That of the torques in the row, of which one is cut.
     let load_torque = driven.load_torque;
     assert_eq!(
         driven.efficiency,
@@ -271,7 +269,6 @@ fn a_locked_drive_is_said_and_bounded() {
     );
     let lowered = step(&mut model, -100.0, 1000.0);
     assert!(lowered.friction_torque < 0.0 && !lowered.faults.any());
-    // Nothing is cut where nothing is put out.
     let still = step(&mut model, 0.0, 1000.0);
     assert!(still.friction_torque == 0.0 && !still.faults.any());
 }
@@ -290,7 +287,6 @@ fn a_self_locking_lead_is_locked_when_back_driven() {
     let lowered = step(&mut model, -50.0, 1000.0);
     assert_eq!(lowered.regime, Regime::Locked);
     assert!(lowered.efficiency < 0.0);
-    // The motor's torque has the sign of the motion.
     assert!((lowered.load_torque + lowered.friction_torque) < 0.0);
     assert_eq!(step(&mut model, 50.0, 1000.0).regime, Regime::Driving);
 }
@@ -332,64 +328,18 @@ fn preload_is_that_of_two_hertzian_flanks() {
 
 #[test]
 fn every_field_of_the_configuration_is_checked() {
-    let good = configuration();
-    let field = |configuration: ClosedFormScrewConfiguration| {
-        FrictionModel::<ClosedFormScrew>::new(&configuration)
-            .unwrap_err()
-            .field()
-    };
-    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 1e30] {
-        assert_eq!(
-            field(ClosedFormScrewConfiguration {
-                friction: bad,
-                ..good
-            }),
-            "friction"
-        );
-        assert_eq!(
-            field(ClosedFormScrewConfiguration {
-                rolling_tangent: bad,
-                ..good
-            }),
-            "rolling_tangent"
-        );
-        assert_eq!(
-            field(ClosedFormScrewConfiguration {
-                reversal_speed: bad,
-                ..good
-            }),
-            "reversal_speed"
-        );
-        let limits = |limits| field(ClosedFormScrewConfiguration { limits, ..good });
-        assert_eq!(
-            limits(Limits {
-                nut_speed: bad,
-                ..good.limits
-            }),
-            "nut_speed"
-        );
-        assert_eq!(
-            limits(Limits {
-                axial_load: bad,
-                ..good.limits
-            }),
-            "axial_load"
-        );
-        assert_eq!(
-            limits(Limits {
-                friction_torque: bad,
-                ..good.limits
-            }),
-            "friction_torque"
-        );
-    }
-    for bad in [0.0, 1e-30] {
-        assert_eq!(
-            field(ClosedFormScrewConfiguration {
-                reversal_speed: bad,
-                ..good
-            }),
-            "reversal_speed"
-        );
-    }
+    const BAD: &[f32] = &[-1.0, 1e30];
+    #[rustfmt::skip]
+    assert_refused(
+        &configuration(),
+        FrictionModel::<ClosedFormScrew>::new,
+        &[
+            ("friction", |c, v| c.friction = v, BAD),
+            ("rolling_tangent", |c, v| c.rolling_tangent = v, BAD),
+            ("reversal_speed", |c, v| c.reversal_speed = v, &[-1.0, 1e30, 0.0, 1e-30]),
+            ("nut_speed", |c, v| c.limits.nut_speed = v, BAD),
+            ("axial_load", |c, v| c.limits.axial_load = v, BAD),
+            ("friction_torque", |c, v| c.limits.friction_torque = v, BAD),
+        ],
+    );
 }

@@ -21,7 +21,6 @@ use epas_testkit::remembering::at;
 
 const TEMPERATURE: f32 = 313.15;
 
-/// A bridge that turns the duty into a torque again.
 struct Bridge(u16);
 
 impl Bridge {
@@ -98,7 +97,6 @@ fn full_friction() -> f32 {
     forward
 }
 
-/// Elements of both forms.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
     Proportional,
@@ -106,7 +104,6 @@ enum Form {
     LoadExact(f64),
 }
 
-/// A true friction, a model that is off by these ratios, and a loop.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Case {
     form: Form,
@@ -139,12 +136,10 @@ impl Case {
         }
     }
 
-    /// Breakaway angle in counts.
     fn counts(&self) -> f64 {
         self.breakaway / ClosedLoop::COUNT
     }
 
-    /// Motor, screw, delay and encoder, with a full friction, N m, of the model.
     fn plant(&self, full: f32) -> ClosedLoop {
         ClosedLoop {
             inertia: 4e-4,
@@ -227,7 +222,6 @@ fn slip(limit: f32, breakaway_angle: f32) -> ProportionalElements<8> {
     ProportionalElements::new(limit, &[part]).unwrap()
 }
 
-/// Runs cases on two threads.
 fn all_are(cases: &[Case], good: impl Fn(&Case, &Swing) -> bool + Sync) {
     let check = |cases: &[Case]| {
         let bad = cases.iter().filter_map(|case| {
@@ -437,7 +431,6 @@ fn noise_without_a_play_hums() {
                 noise,
                 ..QUIET
             };
-            // None at all.
             let play = -(0.5 + 3.0 * noise) / case.counts();
             cases.push(Case { play, ..case });
         }
@@ -445,7 +438,6 @@ fn noise_without_a_play_hums() {
     all_are(&cases, |case, swing| swing.counts > 2.0 * case.counts());
 }
 
-/// The field with which the margin refuses a case.
 fn refused(case: &Case) -> &'static str {
     let error = case.margin().checked_share(case.share).unwrap_err();
     error.field()

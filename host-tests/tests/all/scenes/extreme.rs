@@ -11,7 +11,6 @@ use epas_testkit::random::Random;
 const COMMAND: &str =
     "cargo test --release -p epas-reference --test all scenes::extreme -- --ignored --nocapture";
 
-/// Every scene, from one ball to 64.
 fn all_scenes(seed: u64, models: u64, ticks: u64) -> u64 {
     soak::<ClosedFormScrew>(seed, 2 * models, ticks)
         + soak::<CagedBallScrew<1>>(seed, 2 * models, ticks)
@@ -70,7 +69,6 @@ fn random_numbers_are_refused_or_give_finite_objects() {
     random_objects(1, 100_000);
 }
 
-/// The recorded full run.
 #[test]
 #[ignore = "minutes: cargo test --release -p epas-reference --test all scenes::extreme -- --ignored --nocapture"]
 fn a_hundred_million_random_objects() {
@@ -79,7 +77,6 @@ fn a_hundred_million_random_objects() {
     recorded::print("objects made of random numbers", COUNT, COMMAND);
 }
 
-/// The recorded full run.
 #[test]
 #[ignore = "half an hour: cargo test --release -p epas-reference --test all scenes::extreme -- --ignored --nocapture"]
 fn a_thousand_million_random_inputs() {

@@ -15,7 +15,6 @@ use epas_testkit::gears::{SCREW_BALLS, UncagedScrew, changed, even};
 use epas_testkit::random::Random;
 use proptest::prelude::*;
 
-/// A screw by a closed form without preload whose torque limit does not bind below its lock.
 fn closed_form(seed: u64) -> FrictionModel<ClosedFormScrew> {
     closed_form_configuration(seed).1
 }
@@ -65,7 +64,6 @@ fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> 
     panic!("no screw without cage of a thousand has a model");
 }
 
-/// A linear bearing without deviations; its limits.
 fn linear(seed: u64, ball_friction: f32) -> (FrictionModel<LinearBearingTrain<5>>, LinearLimits) {
     static NONE: DeviationMap = DeviationMap::NONE;
     let mut random = Random(seed);
@@ -190,7 +188,6 @@ proptest! {
         model.reset();
         let back = model.step(inputs(-speed, 1.0, side));
         prop_assert_eq!(there.friction_force, -back.friction_force);
-        // Mirrored, the diagonals change places.
         model.reset();
         let mirrored = model.step(inputs(speed, 1.0, -side));
         // Three roundings of 2^-24: sums in another order.
@@ -243,7 +240,6 @@ proptest! {
             let other = large.step(inputs(speed, scale * scale * load));
             let faults = one.faults.any() || other.faults.any();
             prop_assert!(faults || alike(one.friction_torque, other.friction_torque), "{one:?} {other:?}");
-            // Half of what the torques may differ by.
             prop_assert!(faults || (one.efficiency - other.efficiency).abs() <= 1e-4 * one.efficiency.abs());
         }
 
@@ -297,7 +293,6 @@ proptest! {
         let outputs = uncaged(seed, 0.1).step(inputs(speed, load));
         prop_assert_eq!(outputs.contacts, 0);
         prop_assert!(outputs.faults.any() || outputs.friction_torque == outputs.groove_torque);
-        // One ball has no neighbour, whatever the grooves do.
         let mut random = Random(seed);
         let (configuration, mut model, _) = accepted::<UncagedBallScrew<1>>(&mut random);
         let limits = configuration.folded.limits;

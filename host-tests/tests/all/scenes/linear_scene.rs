@@ -1,6 +1,7 @@
 //! The scene of a linear bearing against the closed forms in f64, ball by ball, and against the numerical
 //! solution of its two-ball case.
 
+use crate::refusals::assert_refused;
 use epas_testkit::gears;
 use epas_testkit::given;
 use epas_testkit::measured;
@@ -39,7 +40,6 @@ fn bearing() -> LinearBearing {
     .unwrap()
 }
 
-/// The reference's own contact of a ball with a groove.
 fn contact() -> Hertz {
     given::linear_bearing(bearing().parameters())
         .contact()
@@ -50,7 +50,6 @@ fn map([cosine, sine]: [f64; 2], order: u8) -> &'static DeviationMap {
     gears::wave(1, order, cosine as f32, sine as f32)
 }
 
-/// Shares of the load along the loaded track.
 const SHARES: [f64; 4] = [0.7, 1.1, 1.3, 0.9];
 
 fn shares() -> &'static [LoadShare] {
@@ -112,7 +111,6 @@ fn ball(
     };
     let rail = wave(RAIL, 1.0, position + travelled);
     let carriage = wave(CARRIAGE, 2.0, position);
-    // Both diagonals share the normal load, and the side load goes from one to the other.
     let (normal, side) = (
         part * loads[0] / (2.0 * FRAC_PI_4.cos()),
         part * loads[1] / (2.0 * FRAC_PI_4.sin()),
@@ -289,95 +287,53 @@ fn groove_friction_is_the_spin_of_all_contacts() {
 
 #[test]
 fn bad_inputs_are_flagged_and_bad_configurations_named() {
+    const BAD: &[f32] = &[-1.0, 1e30];
     let mut model = Model::new(&configuration()).unwrap();
-    let sound = LinearInputs {
-        speed: 0.5,
-        normal_load: 400.0,
-        side_load: 100.0,
+    let inputs = |speed, normal_load, side_load| LinearInputs {
+        speed,
+        normal_load,
+        side_load,
     };
+    let sound = inputs(0.5, 400.0, 100.0);
     model.step(sound);
     for (inputs, faults) in [
-        (
-            LinearInputs {
-                speed: f32::NAN,
-                ..sound
-            },
-            Faults::SPEED_NOT_FINITE,
-        ),
-        (
-            LinearInputs {
-                normal_load: f32::NAN,
-                ..sound
-            },
-            Faults::LOAD_NOT_FINITE,
-        ),
-        (
-            LinearInputs {
-                side_load: f32::INFINITY,
-                ..sound
-            },
-            Faults::LOAD_NOT_FINITE,
-        ),
-        (
-            LinearInputs {
-                speed: -1e9,
-                ..sound
-            },
-            Faults::SPEED_RANGE,
-        ),
-        (
-            LinearInputs {
-                side_load: 1e9,
-                ..sound
-            },
-            Faults::LOAD_RANGE,
-        ),
-        (
-            LinearInputs {
-                normal_load: -1e9,
-                ..sound
-            },
-            Faults::LOAD_RANGE,
-        ),
+        (inputs(f32::NAN, 400.0, 100.0), Faults::SPEED_NOT_FINITE),
+        (inputs(0.5, f32::NAN, 100.0), Faults::LOAD_NOT_FINITE),
+        (inputs(0.5, 400.0, f32::INFINITY), Faults::LOAD_NOT_FINITE),
+        (inputs(-1e9, 400.0, 100.0), Faults::SPEED_RANGE),
+        (inputs(0.5, 400.0, 1e9), Faults::LOAD_RANGE),
+        (inputs(0.5, -1e9, 100.0), Faults::LOAD_RANGE),
     ] {
         let output = model.step(inputs);
         assert!(output.faults.contains(faults), "{inputs:?}: {output:?}");
         assert!(output.friction_force.abs() <= 1e3 && output.largest_contact_force.is_finite());
         assert!(!model.step(sound).faults.any());
     }
-    // Lifted off, and at rest.
-    let lifted = model.step(LinearInputs {
-        normal_load: -10.0,
-        side_load: 0.0,
-        ..sound
-    });
+    let lifted = model.step(inputs(0.5, -10.0, 0.0));
     measured::assert("lifted off, friction in N", lifted.friction_force);
     assert!(!lifted.faults.any());
-    let rest = model.step(LinearInputs {
-        speed: 0.0,
-        ..sound
-    });
+    let rest = model.step(inputs(0.0, 400.0, 100.0));
     assert_eq!((rest.friction_force, rest.regime), (0.0, Regime::Standing));
 
-    let with = |change: &dyn Fn(&mut LinearBearingConfiguration)| {
-        let mut bad = configuration();
-        change(&mut bad);
-        Model::new(&bad).map(|_| ()).unwrap_err().field()
-    };
-    for value in [f32::NAN, f32::INFINITY, -1.0, 1e30] {
-        assert_eq!(with(&|c| c.friction = value), "friction");
-        assert_eq!(with(&|c| c.ball_friction = value), "ball_friction");
-        assert_eq!(with(&|c| c.loaded_length = value), "loaded_length");
-        assert_eq!(with(&|c| c.return_length = value), "return_length");
-        assert_eq!(with(&|c| c.wavelength = value), "wavelength");
-        assert_eq!(with(&|c| c.reversal_speed = value), "reversal_speed");
-        assert_eq!(with(&|c| c.tick = value), "tick");
-        assert_eq!(with(&|c| c.limits.speed = value), "speed");
-        assert_eq!(with(&|c| c.limits.load = value), "load");
-        assert_eq!(with(&|c| c.limits.friction_force = value), "friction_force");
-    }
-    // Twelve balls of 10 mm do not go on 70 mm.
-    assert_eq!(with(&|c| c.loaded_length = 0.05), "pitch");
+    #[rustfmt::skip]
+    assert_refused(
+        &configuration(),
+        Model::new,
+        &[
+            ("friction", |c, v| c.friction = v, BAD),
+            ("ball_friction", |c, v| c.ball_friction = v, BAD),
+            ("loaded_length", |c, v| c.loaded_length = v, BAD),
+            ("return_length", |c, v| c.return_length = v, BAD),
+            ("wavelength", |c, v| c.wavelength = v, BAD),
+            ("reversal_speed", |c, v| c.reversal_speed = v, BAD),
+            ("tick", |c, v| c.tick = v, &[-1.0, 1e30, 0.0, -0.0, 1e-45, 1e9]),
+            ("speed", |c, v| c.limits.speed = v, BAD),
+            ("load", |c, v| c.limits.load = v, BAD),
+            ("friction_force", |c, v| c.limits.friction_force = v, BAD),
+            // Twelve balls of 10 mm do not go on 70 mm.
+            ("pitch", |c, _| c.loaded_length = 0.05, &[]),
+        ],
+    );
 }
 
 /// Every limit still holds at its last number, and no further.

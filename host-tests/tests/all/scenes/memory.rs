@@ -74,7 +74,6 @@ fn speed_sensor() -> SpeedOverTick {
     SpeedOverTick::new(TICK, 1.0).unwrap()
 }
 
-/// Radians without an end that a test reaches: quarter turns are exact.
 fn angle_sensor() -> WrappedAngle {
     WrappedAngle::new(WrappedAngleParameters {
         lowest: -0.5 * TAU,
@@ -88,7 +87,6 @@ fn fresh<I, R>(scene: I, reading: R) -> WithMemoryInputs<I, R> {
     at(scene, reading, TEMPERATURE)
 }
 
-/// A model of the caged screw that follows an angle, rad.
 fn caged_by_angle() -> Caged<WrappedAngle> {
     let configuration = caged();
     Caged::new(&with_memory(
@@ -107,7 +105,6 @@ fn screw(nut_speed: f32, axial_load: f32) -> Inputs {
     }
 }
 
-/// Friction after a steady motion in both directions, with memory and without: the same.
 fn slides_as_without<S>(
     configuration: S::Configuration,
     friction: f32,
@@ -137,7 +134,6 @@ fn slides_as_without<S>(
             for tick in 0..600 {
                 let plain: Figures = without.step(inputs).into();
                 let outputs: Figures = with.step(fresh(inputs, way * speed)).into();
-                // Both directions' breakaway and the play lie behind.
                 if tick as f32 * speed * TICK < 4.0 * breakaway {
                     continue;
                 }
@@ -195,7 +191,6 @@ where
                 }
             });
             if tick < 100 {
-                // Both are on their way to full sliding.
                 continue;
             }
             let difference = known[1].friction - known[0].friction;
@@ -215,10 +210,8 @@ fn churned_lubricant_adds_to_the_friction() {
     churns::<UncagedScrew<SCREW_BALLS>>(uncaged(), screw(0.0, 3000.0));
 }
 
-/// Closed forms of a screw.
 const BRANCHES: [FrictionBranch; 2] = [FrictionBranch::Rolling, FrictionBranch::Sliding];
 
-/// What the outputs of all scenes have.
 #[derive(Clone, Copy, Debug)]
 struct Figures {
     friction: f32,
@@ -338,7 +331,6 @@ fn friction_follows_the_angle_as_its_elements_do() {
     let mut random = Random(17);
     let mut angle = 0.0_f32;
     let mut readings = WrappedAngle::FRESH;
-    // Four ticks know both directions' friction at this load.
     for _ in 0..4 {
         angle_sensor().turn(&mut readings, angle);
         model.step(fresh(screw(0.0, load), angle));
@@ -349,7 +341,6 @@ fn friction_follows_the_angle_as_its_elements_do() {
         let turn = angle_sensor().turn(&mut readings, angle).angle();
         let expected = elements.follow(&mut state, turn, &limits);
         let outputs = model.step(fresh(screw(0.0, load), angle));
-        // Friction over its limit, times it: two roundings.
         assert!((outputs.friction_torque - expected).abs() <= 2e-7 * limits.forward);
         let sticks = expected < 0.98 * limits.forward && expected > -0.98 * limits.backward;
         assert!(!sticks || outputs.regime == Regime::Standing);
@@ -423,7 +414,6 @@ fn wrong_inputs_are_flagged_and_friction_holds() {
         assert_eq!(outputs.friction_torque, sound.friction_torque, "{inputs:?}");
         assert_eq!(model.faulted_ticks() as usize, 1 + number);
     }
-    // The next reading spans the gap.
     let mut without_gap = caged_by_angle();
     let mut with_gap = caged_by_angle();
     for (tick, reading) in [0.0, 0.3e-3, 0.1e-3, 0.9e-3].into_iter().enumerate() {
@@ -437,7 +427,6 @@ fn wrong_inputs_are_flagged_and_friction_holds() {
             assert!(error < 3e-8, "{error}");
         }
     }
-    // A turn beyond the largest is cut and flagged.
     let outputs = model.step(fresh(screw(0.0, 2000.0), angle + 1.5));
     assert_eq!(outputs.faults, Faults::ANGLE_NOT_VALID);
     assert!(outputs.friction_torque.is_finite());
@@ -572,7 +561,6 @@ fn between_steps_the_memory_goes_on() {
     }
 }
 
-/// Phase of the groove that passes by, in units of 2^-32 of its period.
 fn phase_of(state: &impl std::fmt::Debug) -> u32 {
     let phase = printed_phase(state);
     let (_, units) = phase.split_once("units: ").unwrap();
@@ -604,7 +592,6 @@ fn balls_catch_up_with_a_turn_that_was_missed() {
         let missing = (200..400).contains(&tick);
         step(&mut gap, if missing { 1 << 20 } else { tick * counts });
     }
-    // Once the nut rests all that is left of the turn is made.
     let rest = 1000 * counts;
     for _ in 0..400 {
         step(&mut sound, rest);
@@ -729,13 +716,11 @@ fn changes_while_it_runs_keep_the_memory() {
         &raw const first
     ));
     assert_eq!(model.state().remembered.elements, kept.remembered.elements);
-    // Elements hold what they had: a larger limit lets them carry as much, and no more. Measured: 0.
     let after = step(&mut model, 0.0);
     assert!(
         (after.friction_torque - before.friction_torque).abs() <= 1.2e-7 * before.friction_torque
     );
     assert!(!after.faults.any());
-    // Elements slide fully again.
     for _ in 0..100 {
         step(&mut model, 20.0);
     }

@@ -23,12 +23,9 @@ const LOAD: f32 = 300.0;
 /// Noise of the speed, rad/s, in standard deviations.
 const SPEED_NOISE: f64 = 0.05;
 
-/// What a rest does to the friction that is put out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Restlessness {
-    /// Changes of regime.
     changes: usize,
-    /// Ticks whose torque is another than the last one's.
     steps: usize,
     /// Largest difference between two ticks, N m.
     largest: f32,
@@ -52,7 +49,6 @@ impl Restlessness {
     }
 }
 
-/// Regime and friction of a screw's outputs.
 trait Friction {
     fn friction(&self) -> (Regime, f32);
 }
@@ -74,7 +70,6 @@ fn normal(random: &mut Random) -> f64 {
     (0..12).map(|_| random.between(-0.5, 0.5)).sum()
 }
 
-/// A speed of nothing but noise.
 fn speed(random: &mut Random) -> f32 {
     (SPEED_NOISE * normal(random)) as f32
 }
@@ -97,10 +92,8 @@ fn slip(full: f32) -> ProportionalElements<8> {
     ProportionalElements::new(full, &[part]).unwrap()
 }
 
-/// Where the nut has come to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Rest {
-    /// After it slid.
     Slid,
     /// After it went back by half a breakaway angle.
     WentBack,
@@ -158,10 +151,8 @@ where
     Restlessness::of(&outputs)
 }
 
-/// Friction at which the elements are designed, N m: about that of both screws here.
 const FULL: f32 = 0.08;
 
-/// The restlessness of a scene without memory, under speeds.
 fn by_speed<S>(scene: &S::Configuration, mut speed: impl FnMut() -> f32) -> Restlessness
 where
     S: Sliding<Inputs = Inputs, Outputs: Friction>,
@@ -232,7 +223,6 @@ fn rests(half_width: f32, rest: Rest) -> [Restlessness; 2] {
     ]
 }
 
-/// Torque of a count: all elements stick.
 fn torque_of_a_count() -> f32 {
     slip(FULL).initial_stiffness() * ClosedLoop::COUNT as f32
 }
@@ -266,12 +256,10 @@ fn without_a_play_friction_follows_the_counts() {
     }
     for screw in rests(0.0, Rest::Slid) {
         assert!(screw.changes > 1000, "{screw:?}");
-        // Measured: 0.9999999, one count.
         assert!(screw.largest <= 1.00001 * torque_of_a_count(), "{screw:?}");
     }
 }
 
-/// Sliding friction at 5 kN, for which the elements are designed, N m.
 fn full_at_5_kn() -> f32 {
     let mut model = FrictionModel::<CagedScrew>::new(&caged()).unwrap();
     let outputs = model.step(Inputs {
@@ -354,7 +342,6 @@ fn a_dead_band_of_a_count_delays_a_reversal_by_a_count() {
         let off = (behind[tick] - without[tick - 1]).abs();
         assert!(off <= bound, "{tick}: {off} {bound}");
     }
-    // What is lost in between is that of a count.
     let late = (back..behind.len()).map(|tick| (behind[tick] - without[tick]).abs());
     let most = late.fold(0.0, f32::max);
     let count = without[back - 1] - without[back];

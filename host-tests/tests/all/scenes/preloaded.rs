@@ -14,7 +14,6 @@ use epas_testkit::gears::{
     loaded_length, uncaged,
 };
 
-/// Axial preload of each flank, N.
 const PRELOAD: f32 = 300.0;
 
 /// Sum of both flanks under an axial load, over that without: they share one Hertzian deflection,
@@ -36,7 +35,6 @@ fn exact_sum(load: f64, preload: f64) -> f64 {
     (2.0 * low - load) / (2.0 * preload)
 }
 
-/// What a scene tells under a load that opposes a forward motion, N.
 fn told<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, axial_load: f32) -> f32 {
     let constants = S::constants(configuration).unwrap();
     let mut state = S::initial_state(&constants);
@@ -58,7 +56,6 @@ fn told<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, axial_loa
 fn flanks_share<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, preload: f32) {
     let alone = told::<S>(configuration, 0.0);
     let counted = 2.0 * SQRT_2 * preload;
-    // Measured: 4.2e-5.
     assert!((alone / counted - 1.0).abs() < 1e-4, "{alone} {counted}");
     let elements = PreloadedElements::new(());
     for step in 0..60_u8 {
@@ -66,7 +63,6 @@ fn flanks_share<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, p
         for load in [load, -load] {
             let found = f64::from(elements.shared(told::<S>(configuration, load) / alone));
             let exact = exact_sum(load.abs().into(), preload.into());
-            // Measured: 0.83 %.
             assert!(
                 (found / exact - 1.0).abs() < 0.0085,
                 "{load}: {found} {exact}"

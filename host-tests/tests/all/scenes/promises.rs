@@ -155,7 +155,6 @@ fn efficiencies() {
             let found = f64::from(found.sliding_backdrive_efficiency(friction));
             backdrive.add_case(found - exact.sliding_backdrive(), line);
         }
-        // The reference leaves rolling resistance out.
         let found = f64::from(found.rolling_backdrive_efficiency(friction, 0.0));
         driven.add_case(found - exact.rolling_backdrive(), line);
     }

@@ -160,7 +160,6 @@ fn same_bits(folded: &impl Debug, computed: &impl Debug) {
     assert_eq!(folded, computed);
 }
 
-/// Nut or carriage to and fro, over all four quadrants, with a sensor that fails now and then.
 fn manoeuvre() -> impl Iterator<Item = (f32, f32)> {
     (0..4000_i16).map(|tick| {
         let phase = f32::from(tick) * 0.01;
@@ -249,7 +248,6 @@ fn a_model_of_a_reference_takes_the_nut_angle() {
     let mut owning = FrictionModel::<UncagedBallScrew<37>>::of(ONE);
     let at_rest: UncagedOutputs = referring.step(nut(50.0, 3_000.0));
     same_bits(&at_rest, &owning.step(nut(50.0, 3_000.0)));
-    // Half a wave of the screw's deviations.
     referring.set_nut_angle(0.8);
     owning.set_nut_angle(0.8);
     let turned = referring.step(nut(50.0, 3_000.0));
@@ -289,7 +287,6 @@ fn a_refused_gear_names_its_field() {
     assert_eq!(fields, ["tick", "pitch", "speed", "friction"]);
 }
 
-/// What engineers set up one by one.
 #[derive(Debug)]
 #[allow(dead_code)] // Read through `Debug`.
 struct Parts {

@@ -246,7 +246,6 @@ pub fn remembering<S: Sliding<Constants: Copy>, L: CoefficientFor<S::Inputs>>(
     .unwrap()
 }
 
-/// Temperature of the law, K.
 const TEMPERATURE: f32 = 313.15;
 
 pub fn sound<I>(scene: I, reading: f32) -> WithMemoryInputs<I, f32> {
@@ -284,7 +283,6 @@ fn train() {
 const BALL_RADIUS: f64 = 0.005;
 const CONFORMITY: f64 = 0.56;
 
-/// The ellipse between ball and straight groove, from the reference's own Hertz theory.
 fn ellipse() -> EllipseLaw {
     let steel = (206e9, 0.3);
     let across = 1.0 / BALL_RADIUS - 1.0 / (2.0 * CONFORMITY * BALL_RADIUS);
@@ -295,7 +293,6 @@ fn ellipse() -> EllipseLaw {
     }
 }
 
-/// The ball of a carriage under 100 N across the row and a share of it to the side.
 fn ball(turn: f64, side: f64) -> LinearBall {
     let contact_angles = [FRAC_PI_4 - turn, FRAC_PI_4 + turn, FRAC_PI_4, FRAC_PI_4];
     LinearBall {

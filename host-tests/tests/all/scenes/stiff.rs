@@ -44,7 +44,6 @@ fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {
     (speeds, forces)
 }
 
-/// Largest and rms error of a force over the row's largest force, at an impedance ratio.
 fn force_error<const N: usize>(ratio: f32, rows: u32, random: &mut Random) -> (f64, f64) {
     let mut errors = Errors::of(format!("impedance ratio {ratio:e}"));
     for _ in 0..rows {
@@ -80,7 +79,6 @@ fn force_error<const N: usize>(ratio: f32, rows: u32, random: &mut Random) -> (f
     (errors.largest, errors.rms())
 }
 
-/// Rows of random balls, so many for each impedance ratio.
 fn rows_of_light_balls_between_heavy_ones(rows: u32) {
     let mut random = Random(11);
     for ratio in [1.0, 1e2, 1e4, 1e6, 1e9, 1e12] {
@@ -91,7 +89,6 @@ fn rows_of_light_balls_between_heavy_ones(rows: u32) {
     }
 }
 
-/// Fewer rows than in `light_balls_between_heavy_ones_whole`.
 #[test]
 fn light_balls_between_heavy_ones() {
     rows_of_light_balls_between_heavy_ones(60);
@@ -124,7 +121,6 @@ fn full_track<const N: usize>(spare: f32, ticks: u32, random: &mut Random) {
         }
     }
     let after: f64 = train.gaps().map(f64::from).sum();
-    // Gaps are counted in integers; they print as f32.
     measured::assert_at(
         "full track, sum of gaps in m",
         before - after,
@@ -145,13 +141,11 @@ fn tracks_full_and_almost_full_keep_every_ball() {
     full_track::<3>(1e4, 20_000, &mut random);
 }
 
-/// A gear turning to and fro for `ticks`, checked all along.
 fn long_run<const N: usize>(ticks: u64, every: u64) {
     let mut configuration = gears::uncaged();
     configuration.balls = N as u16;
     configuration.turns = 2.5 * N as f32 / 37.0;
     let mut model = FrictionModel::<gears::UncagedScrew<N>>::new(&configuration).unwrap();
-    // A rotation for the sine of speed and load, renewed now and then.
     let turn = 2.0 * std::f64::consts::PI * 1e-4;
     let (step_sin, step_cos) = turn.sin_cos();
     let (mut sin, mut cos) = (0.0, 1.0);
@@ -180,7 +174,6 @@ fn long_run<const N: usize>(ticks: u64, every: u64) {
         contacts as f64 / ticks as f64,
         sum / ticks as f64,
     );
-    // No contact between balls carries more than the whole load, 8 kN.
     assert!(contacts > 0 && worst < 8e3);
 }
 

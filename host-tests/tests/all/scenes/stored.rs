@@ -25,7 +25,6 @@ use epas_testkit::remembering::{
 type Uncaged = UncagedScrew<SCREW_BALLS>;
 type Linear = LinearBearingTrain<LINEAR_BALLS>;
 
-/// Offsets in a block.
 const VERSION_AT: usize = 4;
 const KIND_AT: usize = 6;
 const BALLS_AT: usize = 8;
@@ -100,23 +99,19 @@ impl Manoeuvre {
 
 /// A kind of scene with what the tests do to it.
 trait Kept: StoredScene<Outputs: Debug, State: Debug + PartialEq> {
-    /// Whether the state changes only where something has been set.
     const STILL: bool = false;
 
     fn model() -> FrictionModel<Self>
     where
         Self: Sized;
-    /// One tick; every second one of a scene with memory lies between steps.
     fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs
     where
         Self: Sized;
-    /// Sets what may be set while the model runs.
     fn set(_: &mut FrictionModel<Self>)
     where
         Self: Sized,
     {
     }
-    /// Takes a block over as if no time had passed.
     fn import(model: &mut FrictionModel<Self>, block: &[u8]) -> Result<(), Refusal>
     where
         Self: Sized,
@@ -238,7 +233,6 @@ impl Kept for LinearBySpeed {
     }
 }
 
-/// A block, every byte of which is written.
 fn export<S: StoredScene>(model: &FrictionModel<S>) -> Vec<u8> {
     let [block, other] = [0xA5, 0x5A].map(|fill| {
         let mut block = vec![fill; FrictionModel::<S>::STATE_BYTES];
@@ -257,7 +251,6 @@ fn sealed(mut block: Vec<u8>) -> Vec<u8> {
     block
 }
 
-/// A model after so many ticks of a manoeuvre.
 fn driven<S: Kept>(seed: u64, ticks: u32) -> (FrictionModel<S>, Manoeuvre) {
     let (mut model, mut manoeuvre) = (S::model(), Manoeuvre::new(seed));
     for tick in 0..ticks {
@@ -299,11 +292,9 @@ fn goes_on<S: Kept>(set: bool) {
         assert_eq!(export(&next), export(&model), "seed {seed}");
     }
     assert!(moved > 3000, "{moved} ticks differ from those before");
-    // A caged screw under its first friction has nothing to keep.
     assert_eq!(known, if S::STILL && !set { 0 } else { 6 });
 }
 
-/// No wave in two turns.
 static TWO_TURNS: DeviationMap = match DeviationMap::from_harmonics(2, &[]) {
     Ok(map) => map,
     Err(_) => panic!("a deviation is too large"),

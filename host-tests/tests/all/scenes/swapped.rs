@@ -63,7 +63,6 @@ fn a_swap_turns_nothing() {
         })
         .unwrap();
         let sensor = Deadband::new(counts, half_width).unwrap();
-        // Its friction is the same before and after.
         let whole = with_memory(caged(), slip(0.05), sensor);
         Counted::new(&WithMemoryConfiguration { play, ..whole }).unwrap()
     };
@@ -89,7 +88,6 @@ fn a_swap_turns_nothing() {
     }
 }
 
-/// A closed form has no state: it is the other one at once.
 #[test]
 fn a_closed_form_is_swapped_for_another_one() {
     let of = |branch| FrictionModel::<ClosedFormScrew>::new(&closed_form(branch)).unwrap();

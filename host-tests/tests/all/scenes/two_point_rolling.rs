@@ -42,9 +42,7 @@ struct Case {
     conformity: f64,
     friction: f64,
     ball_friction: f64,
-    /// Load of a ball across the row, N.
     load: f64,
-    /// Deviations of rail and carriage, rad, and their waves on the track.
     rail: (f64, u8),
     carriage: (f64, u8),
 }
@@ -101,7 +99,6 @@ impl Case {
         Model::new(&self.configuration()).unwrap()
     }
 
-    /// Side load of a ball at a ratio; at 1 the weaker diagonal carries nothing.
     fn side(&self, ratio: f64) -> f64 {
         ratio * self.load * self.contact_angle.tan()
     }
@@ -114,7 +111,6 @@ impl Case {
         }
     }
 
-    /// What the next tick puts out at a ratio of the loads; the model stays as it is.
     fn tick(&self, model: &Model, ratio: f64, speed: f64) -> LinearOutputs {
         let mut model = *model;
         let outputs = model.step(self.inputs(ratio, speed));
@@ -123,7 +119,6 @@ impl Case {
         outputs
     }
 
-    /// The exact ball at its deviations of rail and carriage, rad.
     fn ball(&self, [rail, carriage]: [f64; 2], ratio: f64) -> LinearBall {
         let angle = self.contact_angle;
         let contact_angles = [
@@ -216,7 +211,6 @@ fn the_flag_begins_where_two_points_cost_a_tenth_more() {
     }
 }
 
-/// Deviations that are the same everywhere: no ball presses, and every ball is that of the reference.
 fn every_ball_alone_is_flagged_shortly_before_it_jumps(stride: usize) {
     let mut latest = 0.0_f64;
     let mut drawn = 0..;
@@ -324,7 +318,6 @@ fn speeds_without_a_flag() {
     }
 }
 
-/// Deviations of rail and carriage at the model's balls.
 fn deviations(case: &Case, model: &Model, travelled: f64) -> Vec<[f64; 2]> {
     let wave = |(amplitude, order): (f64, u8), at: f64| {
         amplitude * (f64::from(order) * TAU * at / LOADED).cos()
@@ -469,7 +462,6 @@ fn groove_friction_follows_two_point_rolling() {
                 );
             }
         }
-        // Measured: 4.8e-6.
         assert!(last < 1.2e-5 * whole);
     }
 }
@@ -583,6 +575,5 @@ fn shares_of_the_load_move_the_border() {
     };
     let shared = border(&SHARES, 100.0);
     let heavy = border(&[LoadShare::MEAN], 160.0);
-    // Derived: each is found to 1e-5. Measured: 0.
     assert!((shared - heavy).abs() < 2e-5, "{shared} {heavy}");
 }

@@ -55,7 +55,6 @@ fn normalised(contact: &HertzContact, first: &Material, second: &Material) -> [f
     ]
 }
 
-/// The same of the reference.
 fn exact(k: f64, bodies: [(f64, f64); 2]) -> [f64; 3] {
     let [(one, nu_one), (other, nu_other)] = bodies;
     let shear = 2.0 / (1.0 / one + 1.0 / other);
@@ -254,7 +253,6 @@ fn kernel((x, y): (f64, f64), side: f64, nu: f64) -> [f64; 3] {
             sum[2] += area * nu * x * y / cube;
         }
     }
-    // Two bodies, each 1/(2 pi G).
     sum.map(|part| part / PI)
 }
 

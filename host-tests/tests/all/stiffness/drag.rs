@@ -15,7 +15,6 @@ use epas_testkit::given;
 /// Density at which the crate takes the kinematic viscosity, kg/m³.
 const DENSITY: f64 = 850.0;
 
-/// Zero of the Celsius scale, K.
 const ZERO: f32 = 273.15;
 
 /// A law with this drag alone, whose viscosity at 400 K is that of the argument, Pa s.
@@ -271,7 +270,6 @@ fn default_drag_of_a_steering_gear() {
     assert!((at(-40.0) - 0.3).abs() < 0.04);
 }
 
-/// What is out of range is named.
 #[test]
 fn bad_drags_are_refused() {
     let design = CATALOGUE[0].design().unwrap();

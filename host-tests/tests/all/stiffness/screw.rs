@@ -1,5 +1,6 @@
 //! A ball screw and a linear bearing: torques, stiffnesses, breakaway angles, the ball's seat, shares.
 
+use crate::refusals::assert_refused;
 use std::f64::consts::PI;
 
 use epas_design::breakaway::{
@@ -58,7 +59,6 @@ fn tabulated_curvatures(design: &BallScrewDesign) -> [[f64; 2]; 2] {
     })
 }
 
-/// What the table says of one case, by name.
 type Figures = Vec<(&'static str, f64)>;
 
 fn reference_figures(design: BallScrewDesign, balls: f64, axial_load: f64, mu: f64) -> Figures {
@@ -307,7 +307,6 @@ fn every_catalogue_size_is_that_of_the_reference() {
             let clearance = Clearance::new(1e-6).unwrap();
             let seat = Seat::of(&design, &contacts, clearance, 0.1, load);
             let gap = reference.third_gap(f64::from(1e-6_f32), q);
-            // Measured: 2.5e-6.
             assert!((f64::from(seat.gap()) / gap - 1.0).abs() < 7e-6);
             for share in [0.3_f32, 0.9, 1.0] {
                 let drift = reference.drift(mu, q, gap, f64::from(share)).unwrap();
@@ -367,7 +366,6 @@ fn tabulated_angles_with_play() {
             let [none, little, play] = [0.0, 2e-6, 20e-6]
                 .map(|gap| 1e3 * Seat::with_gap(&design, &contacts, gap, 0.1, load).angle(1.0));
             println!("{name} {axial} N: {none} {little} {play}");
-            // Half a unit of the last digit.
             assert!((play - printed).abs() < 0.5, "{play} for {printed}");
             // Some of the force goes over to the grooves' slope. Measured: 0.953 to 1.008.
             assert!((little - none) / added > 0.9 && (little - none) / added < 1.02);
@@ -412,7 +410,6 @@ fn the_limit_surface_is_that_of_quadrature() {
             }
         }
     }
-    // Two terms of the far field leave most of it.
     errors.assert_measured();
 }
 
@@ -437,13 +434,11 @@ fn parts_make_the_whole() {
                 let breakaway = Breakaway::of(&design, &configuration(gap, load, 40)).unwrap();
                 for parts in [breakaway.parts(), breakaway.contact_parts()] {
                     let sum: f32 = parts.iter().map(|part| part.share).sum();
-                    // Derived: three quotients and two sums, 6e-8 each.
                     assert!((sum - 1.0).abs() < 3e-7, "{sum}");
                     for part in parts {
                         assert!(part.share >= 0.0 && part.share <= 1.0);
                         assert!(part.breakaway_angle > 0.0 && part.breakaway_angle.is_finite());
                         let stiffness = 1.5 * part.share * breakaway.torque / part.breakaway_angle;
-                        // Measured: 1.8e-7, three roundings.
                         assert!((stiffness / part.stiffness - 1.0).abs() < 5e-7, "{part:?}");
                     }
                 }
@@ -521,7 +516,6 @@ fn without_lead_nothing_slips() {
     let [slip, spin, rolling] = breakaway.parts();
     assert_eq!((slip.share, slip.stiffness), (0.0, 0.0));
     assert!(slip.breakaway_angle > 0.0);
-    // Derived: two quotients and a sum, 6e-8 each.
     assert!((spin.share + rolling.share - 1.0).abs() < 2e-7);
     assert_eq!(breakaway.seat.drift_angle(1.0), 0.0);
 }
@@ -530,50 +524,24 @@ fn without_lead_nothing_slips() {
 fn errors_name_the_field() {
     let design = CATALOGUE[15].design().unwrap();
     let good = configuration(0.0, 30.0, 37);
-    let field = |configuration| Breakaway::of(&design, &configuration).unwrap_err().field();
-    for friction in [f32::NAN, 0.0, 0.6] {
-        assert_eq!(
-            field(BreakawayConfiguration { friction, ..good }),
-            "friction"
-        );
-    }
-    for contact_load in [f32::NAN, 0.0, -1.0, 1e7, f32::INFINITY] {
-        assert_eq!(
-            field(BreakawayConfiguration {
-                contact_load,
-                ..good
-            }),
-            "contact_load"
-        );
-    }
-    let clearance = Clearance::new(2e-3).unwrap();
-    assert_eq!(
-        field(BreakawayConfiguration { clearance, ..good }),
-        "clearance"
-    );
-    let none = BreakawayConfiguration {
-        loaded_balls: 0,
-        ..good
-    };
-    assert_eq!(field(none), "loaded_balls");
-    let rolling_resistance = RollingResistance {
-        hysteresis_loss: 1.0,
-        ..RollingResistance::STEEL
-    };
-    assert_eq!(
-        field(BreakawayConfiguration {
-            rolling_resistance,
-            ..good
-        }),
-        "hysteresis_loss"
+    #[rustfmt::skip]
+    assert_refused(
+        &good,
+        |configuration| Breakaway::of(&design, configuration),
+        &[
+            ("friction", |c, v| c.friction = v, &[0.0, 0.6]),
+            ("contact_load", |c, v| c.contact_load = v, &[0.0, -1.0, 1e7]),
+            ("clearance", |c, _| c.clearance = Clearance::new(2e-3).unwrap(), &[]),
+            ("loaded_balls", |c, _| c.loaded_balls = 0, &[]),
+            ("hysteresis_loss", |c, v| c.rolling_resistance.hysteresis_loss = v, &[1.0]),
+        ],
     );
     let breakaway = Breakaway::of(&design, &good).unwrap();
-    for angle in [f32::NAN, 0.0, -1.0, 11.0] {
-        assert_eq!(
-            breakaway.with_slip_angle(angle).unwrap_err().field(),
-            "breakaway_angle"
-        );
-    }
+    assert_refused(
+        &1e-3,
+        |angle| breakaway.with_slip_angle(*angle),
+        &[("breakaway_angle", |angle, v| *angle = v, &[0.0, -1.0, 11.0])],
+    );
 }
 
 /// The bearing of Lin 2019, Table 3.3: force of spin `sum of M_0 tan(beta)/(2 r_b)` over four contacts, stiffness `sum of k_tor
@@ -582,7 +550,6 @@ fn errors_name_the_field() {
 fn a_linear_bearing_spins_on_four_points() {
     let bearing = LinearBearing::new(LINEAR_BEARING).unwrap();
     let contacts = BearingContacts::of(&bearing);
-    // Derived: five roundings of 6e-8 of 100: of sine, cosine, radius, product and quotient.
     assert!((contacts.spin_per_travel() - 100.0).abs() < 3e-5);
     let found =
         BearingBreakaway::of(&bearing, 0.1, RollingResistance::STEEL, 24, [100.0, 50.0]).unwrap();
@@ -592,7 +559,6 @@ fn a_linear_bearing_spins_on_four_points() {
     let sum = |f: &dyn Fn(f32) -> f32| 48.0 * (f(100.0) + f(50.0));
     let force = sum(&|load| contact.spin_moment(0.1, load) * 100.0);
     let stiffness = sum(&|load| contact.torsion_stiffness(load) * 1e4);
-    // Measured: 0.0 all; some ten roundings of 6e-8.
     assert!((spin.share * found.force / force - 1.0).abs() < 6e-7);
     assert!((spin.stiffness / stiffness - 1.0).abs() < 6e-7);
     assert!((spin.breakaway_angle / (1.5 * force / stiffness) - 1.0).abs() < 6e-7);
@@ -689,7 +655,6 @@ fn preloaded_contacts() {
     let contacts = ScrewContacts::of(&design);
     let clearance = Clearance::of_preload(&design, 50.0).unwrap();
     let none = contacts.preloaded(0.0, 20, clearance);
-    // Measured: 0.0; the root of an oversize and its power 3/2 are some roundings of 6e-8.
     assert!((none / 50.0 - 1.0).abs() < 4e-7, "{none}");
     assert_eq!(contacts.preloaded(f32::NAN, 20, clearance), none);
     let mut last = none;
@@ -702,7 +667,6 @@ fn preloaded_contacts() {
         let other = (2.0 * 50_f32.powf(2.0 / 3.0) - load.powf(2.0 / 3.0))
             .max(0.0)
             .powf(1.5);
-        // Measured: 2.0e-7 of the load.
         assert!(
             load > last && (load - other - alone).abs() < 6e-7 * load,
             "{axial}"
@@ -729,7 +693,6 @@ fn elements_have_the_parts_stiffness() {
     let breakaway = Breakaway::of(&design, &configuration(-1e-6, 30.0, 37)).unwrap();
     let elements: ProportionalElements<20> = breakaway.elements(&tables).unwrap();
     let sum: f32 = elements.stiffnesses().iter().sum();
-    // Measured: 2.5 %.
     assert!((sum / breakaway.stiffness() - 1.0).abs() < 0.05, "{sum}");
     let fewer: Result<ProportionalElements<20>, _> = breakaway.elements(&Tables {
         rolling_resistance: &[],
@@ -778,7 +741,6 @@ fn elements_have_the_parts_stiffness() {
         loose.part(Mechanism::Slip).breakaway_angle,
         &limits,
     );
-    // Measured: 0.0.
     assert!((whole / loose.torque - 1.0).abs() < 6e-7, "{whole}");
 
     let bearing = LinearBearing::new(LINEAR_BEARING).unwrap();
@@ -792,6 +754,5 @@ fn elements_have_the_parts_stiffness() {
         })
         .unwrap();
     let sum: f32 = elements.stiffnesses().iter().sum();
-    // Measured: 1.4 %.
     assert!((sum / bearing.stiffness() - 1.0).abs() < 0.03, "{sum}");
 }

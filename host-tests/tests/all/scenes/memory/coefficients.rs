@@ -205,7 +205,6 @@ fn full_friction_is_what_passes_in_its_direction() {
     });
 }
 
-/// One coefficient for both directions.
 fn both_ways(friction: f32) -> DirectionalCoefficient {
     DirectionalCoefficient {
         forward: friction,
@@ -213,7 +212,6 @@ fn both_ways(friction: f32) -> DirectionalCoefficient {
     }
 }
 
-/// Full friction of a fresh screw at 5 rad/s under a load, N.
 fn full_friction<S: Sliding<Inputs = Inputs>>(
     configuration: &S::Configuration,
     load: f32,

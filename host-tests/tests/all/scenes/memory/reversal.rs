@@ -23,7 +23,6 @@ type Memory<S> = WithMemory<S, Slip, SpeedOverTick, OneCoefficient>;
 type Screw = UncagedScrew<CROWD>;
 type Bearing = LinearBearingTrain<LINEAR_BALLS>;
 
-/// A scene with memory beside the reference, which is given what the row of the same state has in friction.
 struct Both<S: Sliding<Constants: Copy, State: Copy>> {
     model: FrictionModel<Memory<S>>,
     constants: S::Constants,
@@ -36,21 +35,16 @@ struct Both<S: Sliding<Constants: Copy, State: Copy>> {
     /// Limit and breakaway of the elements.
     limit: f64,
     breakaway: f64,
-    /// Outputs of the last tick, and those of the row that slides.
     outputs: Option<[S::Outputs; 2]>,
-    /// Friction of the grooves, and between balls.
     parts: fn(&S::Outputs) -> [f32; 2],
 }
 
-/// A tick of both.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
     turn: f64,
-    /// Torque of the scene, its part between balls, and the same of the reference.
     torque: f64,
     ball: f64,
     expected: Torque,
-    /// Sliding friction of the row, in its direction.
     row: Row,
     direction: f64,
     travel: f64,
@@ -92,7 +86,6 @@ where
         }
     }
 
-    /// A step at a speed, which the reading has too.
     fn step(&mut self, load: S::Inputs, speed: f32) -> Seen {
         let Self {
             constants,
@@ -191,7 +184,6 @@ fn bearing_of(tick: f32) -> Both<Bearing> {
     )
 }
 
-/// What was found over many reversals.
 #[derive(Debug, Default)]
 struct Found {
     /// Times at which balls turned round, and those of them at which what pressed was a twentieth of the friction or more.
@@ -206,7 +198,6 @@ struct Found {
 }
 
 impl Found {
-    /// A tick after another.
     fn add(&mut self, last: &Seen, seen: &Seen) {
         let full = seen.row.groove + seen.row.ball;
         let error = (seen.torque - seen.expected.groove - seen.expected.ball).abs();
@@ -340,7 +331,6 @@ fn steady_sliding_is_the_row_to_the_bit() {
     ] {
         for number in 0..1500 {
             both.step(screw(0.0, load), speed);
-            // After 1.5 rad friction has turned round, and balls with it.
             if number >= 100 {
                 let [outputs, row] = both.outputs.unwrap();
                 assert_eq!(outputs, row, "{speed} rad/s, {load} N, tick {number}");

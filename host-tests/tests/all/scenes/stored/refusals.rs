@@ -145,7 +145,6 @@ fn uncaged_of_seven() -> UncagedConfiguration {
     }
 }
 
-/// Models of all these configurations say that a block is of other constants.
 fn refused_by_all<S: Kept>(block: &[u8], others: &[S::Configuration])
 where
     S::Configuration: Debug,
@@ -160,7 +159,6 @@ where
     }
 }
 
-/// A sensor of the nut's angle whose turn begins at `lowest`, rad.
 fn wrapped(lowest: f32) -> WrappedAngle {
     WrappedAngle::new(WrappedAngleParameters {
         lowest,
@@ -208,7 +206,6 @@ fn blocks_of_other_constants_are_refused() {
     refused_by_all::<Uncaged>(&block, &others);
     let mut slower = uncaged();
     slower.tick = 2e-5;
-    // What balls do may be folded anew: their places mean the same.
     let mut other_law = uncaged();
     other_law.folded = changed(&BALL_RANGE, |folded| folded.law.lift_off = 20.0);
     for same in [slower, other_law] {
@@ -219,7 +216,6 @@ fn blocks_of_other_constants_are_refused() {
     let block = export(&Linear::model());
     let mut others = [linear(), linear(), linear_of_smaller_balls()];
     others[0].wavelength = 0.05;
-    // A track of the same shape.
     others[1].loaded_length *= 2.0;
     others[1].return_length *= 2.0;
     others[1].wavelength *= 2.0;
@@ -348,7 +344,6 @@ fn a_coefficient_of_other_balls_is_refused() {
     let mut model = Uncaged::model();
     let block = export(&model);
     let (least, largest) = BALL_RANGE.law.friction_range();
-    // The last number before the checksum.
     let at = block.len() - 8;
     let with = |friction: f32| {
         let mut block = block.clone();
@@ -374,7 +369,6 @@ fn absurd_numbers_are_refused() {
         Refusal::OutOfRange { field } => field,
         other => panic!("{other}"),
     };
-    // Two balls in one place.
     let (mut model, _) = driven::<Linear>(1, 50);
     let mut block = export(&model);
     let first = STATE_AT + 5;

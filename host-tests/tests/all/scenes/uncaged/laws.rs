@@ -34,13 +34,10 @@ fn configuration(ball_friction: f32) -> UncagedBallScrewConfiguration {
     }
 }
 
-/// What a tick made of its balls.
 struct Tick {
     outputs: UncagedOutputs,
-    /// Axial load of a ball, N, and the branch of the law.
     load: f32,
     branch: usize,
-    /// Numbers of all balls, and what each does on its own.
     numbers: BallNumbers,
     free: Vec<FreeMotion>,
     /// What neighbours change, the chord, friction coefficient times load, N, and deviations over the largest.
@@ -119,7 +116,6 @@ fn tick(
     }
 }
 
-/// Ticks of a screw that turns to and fro under a load that changes its sign.
 fn ticks(ball_friction: f32, mut check: impl FnMut(&Tick, f32)) {
     let configuration = configuration(ball_friction);
     let mut model = Model::new(&configuration).unwrap();
@@ -139,7 +135,6 @@ fn ticks(ball_friction: f32, mut check: impl FnMut(&Tick, f32)) {
 }
 
 impl Tick {
-    /// Forces of both neighbours of a ball, N, and the friction that they have on it over `mu W`.
     fn neighbours_of(&self, ball: usize) -> ([f64; 2], f64) {
         let behind = self.forces[(ball + SCREW_BALLS - 1) % SCREW_BALLS];
         let ahead = self.forces[ball];
@@ -404,7 +399,6 @@ fn without_deviation_no_ball_presses() {
             assert_eq!((outputs.contacts, outputs.ball_torque), (0, 0.0));
             assert!(outputs.groove_torque * speed > 0.0);
             assert_eq!(outputs.friction_torque, outputs.groove_torque);
-            // The first tick is as good as any other.
             assert_eq!(*first.get_or_insert(outputs), outputs);
         }
     }

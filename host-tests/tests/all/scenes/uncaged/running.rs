@@ -14,7 +14,6 @@ const TICK: f32 = 1e-3;
 
 pub type Model = FrictionModel<UncagedBallScrew<SCREW_BALLS>>;
 
-/// Two waves a turn on the screw, as a share of the largest.
 pub fn configuration(share: f32) -> UncagedBallScrewConfiguration {
     gears::full(screw_wave(share), TICK)
 }
@@ -35,7 +34,6 @@ fn reversal_turns_friction_and_releases_the_balls() {
     }
     let before = step(&mut model, 6.0);
     assert!(before.contacts > 10 && before.friction_torque > 0.0);
-    // At rest nothing rubs; the train stays where it is.
     let positions: Vec<_> = model.state().circuit.train.positions().collect();
     for _ in 0..1000 {
         let rest = step(&mut model, 0.0);
@@ -67,7 +65,6 @@ fn near_standstill_a_share_of_the_friction_is_left() {
             // Backward the load opposes the motion, which is another branch of the law.
             let full = if way > 0.0 { full } else { -blended(-10.0) };
             let error = way * blended(way * speed) / full - share;
-            // A reciprocal root and two products.
             assert!(error.abs() < 3e-7, "{speed} {way}: {error}");
         }
     }
@@ -115,7 +112,6 @@ fn a_zone_that_was_empty_is_loaded_again() {
     let friction: Vec<f32> = (0..60_000)
         .map(|_| model.step(inputs(20.0, 3000.0)).groove_torque)
         .collect();
-    // One ball of four is loaded, for two thirds of the time.
     for minute in friction.chunks(20_000) {
         let loaded = minute.iter().filter(|torque| **torque > 0.0).count();
         assert!((10_000..20_000).contains(&loaded), "{loaded}");

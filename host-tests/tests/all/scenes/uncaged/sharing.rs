@@ -26,14 +26,12 @@ const LOAD: f64 = 50.0 * LOADED;
 /// Room of the balls over their pitch.
 const ROOM: f64 = 0.02;
 
-/// Path radius, m, and azimuth between two touching balls, rad.
 fn path() -> (f64, f64) {
     let design = exact_design();
     let path = design.pitch_radius.hypot(design.lead / TAU);
     (path, 2.0 * (design.ball_radius / path).asin())
 }
 
-/// Turns of the loaded part, and length of the return, m.
 fn lengths() -> (f64, f64) {
     let (path, pitch) = path();
     let distance = (1.0 + ROOM) * pitch;
@@ -100,7 +98,6 @@ fn exact(clearance: Clearance, states: usize, [screw, nut]: [f32; 2]) -> Vec<Rin
         .unwrap()
 }
 
-/// Largest less least, over the mean.
 fn ripple(torques: &[f64]) -> f64 {
     let (least, most) = torques
         .iter()

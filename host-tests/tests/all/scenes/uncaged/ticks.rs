@@ -26,7 +26,6 @@ const SAMPLE: u32 = 6;
 /// Turn of the nut from one event to the next, rad.
 const TURN: f32 = 1.0;
 
-/// A screw in a case: its speed, rad/s, and its load, N a ball.
 #[derive(Clone, Copy)]
 struct Case<const NODES: usize> {
     screw: UncagedBallScrewConfiguration<NODES>,
@@ -54,7 +53,6 @@ impl<const NODES: usize> Case<NODES> {
             nut_speed: direction * speed,
             axial_load: load * BALLS as f32,
         };
-        // Until each event, and from it on.
         let events = [
             (inputs(1.0, load), inputs(1.0, load)),
             (inputs(1.0, load), inputs(-1.0, load)),
@@ -103,7 +101,6 @@ fn all_events<const NODES: usize>(name: &str, cases: &[Case<NODES>], stride: u32
     }
     all.print(name);
     assert!(all.meeting < all.ticks / 3 && all.flagged < all.ticks / 3);
-    // Of each event the largest figures.
     let worst = |errors: fn(&Found) -> &Errors| -> [f64; 3] {
         by_event.iter().map(errors).fold([0.0; 3], |most, errors| {
             let figures = [errors.largest, errors.rms(), errors.mean().abs()];
@@ -139,7 +136,6 @@ const QUADRANTS: [(f32, f32); 4] = [
     (-30.0, -140.0),
 ];
 
-/// The quadrants with this friction between balls, and with so much of the load.
 fn cases(
     folded: &'static FoldedBall,
     ball_friction: f32,
@@ -189,7 +185,6 @@ fn ticks_with_preload(stride: u32) {
         .assert_promised(promises::of("step_uncaged"));
 }
 
-/// Between the nodes, which stand at equal distances in octaves: halfway, where the error is largest, and near the ends.
 fn ticks_between_nodes(stride: u32) {
     let range: &'static FoldedBall<3> = &RANGE;
     let [low, middle, high] = range.law.frictions();
