@@ -21,7 +21,6 @@ pub enum Groove {
 
 impl Groove {
     /// The paper's `zeta_sn`.
-    #[must_use]
     pub const fn sign(self) -> f64 {
         match self {
             Self::Screw => 1.0,
@@ -57,7 +56,6 @@ pub struct Surface {
 }
 
 /// Groove radius and offsets from ball radius, conformity and nominal contact angle: eq. (2)-(4).
-#[must_use]
 pub fn profile(ball_radius: f64, conformity: f64, contact_angle: f64) -> (f64, f64, f64) {
     let groove_radius = 2.0 * conformity * ball_radius;
     let excess = groove_radius - ball_radius;
@@ -69,7 +67,6 @@ pub fn profile(ball_radius: f64, conformity: f64, contact_angle: f64) -> (f64, f
 }
 
 /// First principal curvature by the formula of catalogues, eq. (27), (28).
-#[must_use]
 pub fn literature(groove: Groove, pitch_radius: f64, ball_radius: f64, contact_angle: f64) -> f64 {
     let cos = contact_angle.cos();
     match groove {
@@ -166,7 +163,6 @@ impl Surface {
     }
 
     /// Both principal curvatures by the Weingarten map, in the Frenet frame and per arc length.
-    #[must_use]
     pub fn principal(&self, contact_angle: f64) -> PrincipalCurvatures {
         let (curvature, torsion) = self.path();
         let (sin, cos) = contact_angle.sin_cos();
@@ -200,7 +196,6 @@ impl Surface {
     }
 
     /// Point of the surface, eq. (7) and (10).
-    #[must_use]
     pub fn point(&self, azimuth: f64, contact_angle: f64) -> Vector3<f64> {
         let (sin_alpha, cos_alpha) = self.lead_angle.sin_cos();
         let (sin, cos) = azimuth.sin_cos();
@@ -220,7 +215,6 @@ impl Surface {
     /// azimuth 0 and eq. (12), (17)-(24). A stray sign in (15) is left out, and the nut's normal is
     /// turned into its metal. The fractions printed in (21)-(23) have the sign of `S_phi x S_theta`, against the normal of (12): their
     /// dot products with that normal are taken. Loses digits near a lead angle of 90 degrees, where `tan(alpha)` grows.
-    #[must_use]
     pub fn principal_cartesian(&self, contact_angle: f64) -> PrincipalCurvatures {
         let (sin_alpha, cos_alpha) = self.lead_angle.sin_cos();
         let (sin_phi, cos_phi) = contact_angle.sin_cos();
@@ -243,7 +237,6 @@ impl Surface {
     }
 
     /// First principal curvature of a circular groove, eq. (25), (26).
-    #[must_use]
     pub fn circular_groove(&self, contact_angle: f64) -> f64 {
         let squeeze = contact_angle.cos() * self.lead_angle.cos().powi(2);
         match self.groove {
@@ -254,19 +247,10 @@ impl Surface {
 
     /// First principal curvature by Appendix B, corrected: (A1a) with `-sigma_3`, (A1m) with
     /// `-zeta sigma_13`.
-    #[must_use]
     pub fn appendix_b(&self, contact_angle: f64) -> f64 {
         let zeta = self.groove.sign();
         let sigma = Sigma::new(self, contact_angle, zeta);
         -(sigma.one - sigma.three) / sigma.two
-    }
-
-    /// Appendix B as printed: returns `kappa2` for the screw, and neither curvature for the nut (NaN
-    /// where a root turns complex).
-    #[must_use]
-    pub fn appendix_b_as_printed(&self, contact_angle: f64) -> f64 {
-        let sigma = Sigma::new(self, contact_angle, 1.0);
-        -(sigma.one + sigma.three) / sigma.two
     }
 }
 

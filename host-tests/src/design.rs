@@ -47,7 +47,6 @@ impl BallScrewDesign {
     };
 
     /// Lead angle, rad.
-    #[must_use]
     pub fn lead_angle(&self) -> f64 {
         (self.lead / TAU).atan2(self.pitch_radius)
     }
@@ -61,7 +60,6 @@ impl BallScrewDesign {
     }
 
     /// Surface of one groove, whose arc meets the ball at the nominal contact angle.
-    #[must_use]
     pub fn surface(&self, groove: Groove) -> Surface {
         let groove_radius = match groove {
             Groove::Screw => self.screw_groove_radius,

@@ -88,13 +88,11 @@ pub fn screw_torque(
 }
 
 /// SKF's factor of inlet shear heating at a speed, 1/min, a mean diameter, mm, and a kinematic viscosity, mm²/s.
-#[must_use]
 pub fn inlet_shear_heating(speed: f64, mean_diameter: f64, viscosity: f64) -> f64 {
     1.0 / (1.0 + 1.84e-9 * (speed * mean_diameter).powf(1.28) * viscosity.powf(0.64))
 }
 
 /// SKF's factor of starvation for grease, of a deep groove ball bearing: `exp(-6e-8 nu n (d + D) sqrt(3.1/(2 (D - d))))`, mm.
-#[must_use]
 pub fn starvation(speed: f64, [bore, outside]: [f64; 2], viscosity: f64) -> f64 {
     let width = 3.1 / (2.0 * (outside - bore));
     (-6e-8 * viscosity * speed * (bore + outside) * width.sqrt()).exp()
@@ -102,7 +100,6 @@ pub fn starvation(speed: f64, [bore, outside]: [f64; 2], viscosity: f64) -> f64 
 
 /// SKF's rolling moment of a deep groove ball bearing of the series 62 under a radial load, N, without heating and starvation, N mm:
 /// `3.9e-7 d_m^1.96 F^0.54 (nu n)^0.6`.
-#[must_use]
 pub fn skf_rolling_moment(speed: f64, mean_diameter: f64, load: f64, viscosity: f64) -> f64 {
     3.9e-7 * mean_diameter.powf(1.96) * load.powf(0.54) * (viscosity * speed).powf(0.6)
 }

@@ -7,7 +7,6 @@ use crate::error::{ReferenceError, within};
 
 /// Contact modulus of two bodies given as Young's modulus (Pa) and Poisson's ratio, Pa:
 /// `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2`.
-#[must_use]
 pub fn contact_modulus(first: (f64, f64), second: (f64, f64)) -> f64 {
     let compliance = |(youngs_modulus, poisson_ratio): (f64, f64)| {
         (1.0 - poisson_ratio * poisson_ratio) / youngs_modulus
@@ -115,7 +114,6 @@ impl Hertz {
     }
 
     /// The contact under `load`, N.
-    #[must_use]
     pub fn at(&self, load: f64) -> Ellipse {
         let root = load.max(0.0).cbrt();
         Ellipse {

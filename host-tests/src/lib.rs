@@ -6,7 +6,11 @@
 //! m, forces in N, angles in rad unless a function is free of units. A [`ReferenceError`] names an input that is out of
 //! range, or the balance that was not found.
 
-#![allow(clippy::missing_errors_doc, reason = "said once, above")]
+#![allow(
+    clippy::missing_errors_doc,
+    clippy::must_use_candidate,
+    reason = "errors are described once, above; nearly every function here is pure"
+)]
 
 pub mod closed_loop;
 pub mod coefficient;

@@ -57,25 +57,21 @@ pub struct ScrewFriction {
 
 impl ScrewFriction {
     /// Friction torque, N m.
-    #[must_use]
     pub fn torque(&self) -> f64 {
         self.sliding + self.hysteresis + self.lubricant
     }
 
     /// Efficiency where the nut drives the load: `T / (T + friction)`.
-    #[must_use]
     pub fn efficiency(&self) -> f64 {
         self.ideal / (self.ideal + self.torque())
     }
 
     /// Efficiency where the load drives the nut: `1 - friction / T`; below zero where it cannot.
-    #[must_use]
     pub fn backdrive_efficiency(&self) -> f64 {
         1.0 - self.torque() / self.ideal
     }
 
     /// Contacts that carry.
-    #[must_use]
     pub fn contacts(&self) -> usize {
         self.ball.loads.iter().filter(|load| **load > 0.0).count()
     }
@@ -175,7 +171,6 @@ impl LoadedScrew {
 
     /// The clearance between 20 um of play and 6 um of oversize at which the friction torque is `target`, N m, within 1
     /// %; None where none gives it.
-    #[must_use]
     pub fn clearance_for(&self, target: f64) -> Option<f64> {
         let missing = |clearance: f64| {
             let friction = Self { clearance, ..*self }.solve().ok()?;

@@ -87,7 +87,6 @@ pub struct RingSample {
 }
 
 /// Samples of constant speed and load over an angle of the nut, rad, the start included.
-#[must_use]
 pub fn steady_samples(
     nut_speed: f64,
     axial_load: f64,
@@ -148,25 +147,21 @@ pub struct RingState {
 
 impl RingState {
     /// Friction torque, N m.
-    #[must_use]
     pub fn torque(&self) -> f64 {
         self.groove_torque + self.ball_torque
     }
 
     /// Number of pairs that press.
-    #[must_use]
     pub fn pressing(&self) -> usize {
         self.balls.iter().filter(|ball| ball.force > 0.0).count()
     }
 
     /// Largest force between two balls, N.
-    #[must_use]
     pub fn largest_force(&self) -> f64 {
         self.balls.iter().map(|ball| ball.force).fold(0.0, f64::max)
     }
 
     /// True where the balances, that of power and the complementarity are met.
-    #[must_use]
     pub fn solved(&self) -> bool {
         self.failure.is_none()
     }
@@ -189,7 +184,6 @@ impl RingState {
 
 impl ElasticRing {
     /// Share of the track that the balls fill.
-    #[must_use]
     pub fn occupation(&self) -> f64 {
         let pitch = 2.0 * self.track().ball_contact_angle().0.asin();
         self.balls as f64 * pitch / self.length()

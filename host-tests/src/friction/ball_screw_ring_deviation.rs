@@ -45,7 +45,6 @@ impl GrooveDeviation {
     };
 
     /// One wave of `sine sin(order phi)` in every turn.
-    #[must_use]
     pub fn sine(order: f64, sine: f64) -> Self {
         Self::Waves {
             turns: 1.0,
@@ -58,7 +57,6 @@ impl GrooveDeviation {
     }
 
     /// Deviation at an azimuth along the groove, rad.
-    #[must_use]
     pub fn at(&self, azimuth: f64) -> f64 {
         match self {
             Self::Waves { turns, waves } => {

@@ -103,7 +103,6 @@ pub struct HeldBallFriction {
 
 impl HeldBall {
     /// Outward force of two balls that press on each other on the curved track, on either, over that along the track.
-    #[must_use]
     pub fn outward(&self) -> f64 {
         BallContact::new(&(&self.design).into(), 0.0, 1.0, true).outward_force(1.0)
     }

@@ -16,7 +16,7 @@
 //! | [`contact_law`] | size and stiffness of a Hertzian contact, exact and as the dissertation takes it |
 //! | [`planar`] | equilibrium of a ball whose contacts slip along the track only |
 //! | [`linear_ball`] | ball of a linear bearing, statics, the published analytical formulas |
-//! | [`isotonic`] | rows of balls that push each other, each answering a force in proportion, three ways |
+//! | [`isotonic`] | rows of balls that push each other, each answering a force in proportion, two ways |
 //! | [`chain`] | chains of touching balls in a linear bearing, with and without ball-to-ball friction |
 //! | [`ball_screw_ball`] | ball of a ball screw with given contacts, (3.65) to (3.69) |
 //! | [`ball_screw_grooves`] | the grooves as elastic arcs, (2.11) to (2.14) |

@@ -59,14 +59,12 @@ impl RollingResistance {
     /// other, and they do so by `1/R_x` radians a metre.
     ///
     /// Source: Johnson 1985, section 9.2, after Greenwood, Minshall, Tabor 1961: moment `3/16 loss b N`.
-    #[must_use]
     pub fn hysteresis_force(&self, load: f64, semi_minor: f64, rolling_radius: f64) -> f64 {
         3.0 / 16.0 * self.hysteresis_loss * load * semi_minor / rolling_radius
     }
 
     /// Force of the lubricant against the travel of a contact, N: in proportion to the root of the load, which lies
     /// between the powers 0.47 of Houpert's formula and 0.54 of SKF's for ball bearings.
-    #[must_use]
     pub fn lubricant_force(&self, load: f64) -> f64 {
         self.lubricant_drag * (load / DRAG_LOAD).sqrt()
     }
@@ -110,7 +108,6 @@ impl LubricatedContact {
     ///
     /// Source: Houpert 2002, for fully flooded, isothermal contacts; [`RollingResistance::lubricant_drag`] is this at
     /// [`DRAG_LOAD`].
-    #[must_use]
     pub fn drag(&self, load: f64, rolling_speed: f64) -> f64 {
         let modulus = 2.0 * self.contact_modulus;
         let rx = self.rolling_radius;

@@ -18,7 +18,6 @@ impl Raceway {
     pub const BOTH: [Self; 2] = [Self::Screw, Self::Nut];
 
     /// The paper's upper (+1) or lower (-1) sign.
-    #[must_use]
     pub const fn sign(self) -> f64 {
         match self {
             Self::Screw => 1.0,
@@ -81,7 +80,6 @@ pub struct ContactInput {
 
 impl KinematicsInput {
     /// The numbers of one contact.
-    #[must_use]
     pub const fn contact(&self, raceway: Raceway) -> ContactInput {
         match raceway {
             Raceway::Screw => ContactInput {
@@ -102,7 +100,6 @@ impl KinematicsInput {
     }
 
     /// Advance of the helix per radian, `L / (2 pi) = r_m tan psi`, m.
-    #[must_use]
     pub fn advance(&self) -> f64 {
         self.pitch_radius * self.lead_angle.tan()
     }

@@ -37,7 +37,6 @@ const STRAIGHT: f64 = 1e-15;
 
 impl LoadExact {
     /// Nothing remembered, no load.
-    #[must_use]
     pub fn new() -> Self {
         let corner = Corner {
             approach: 0.0,
@@ -141,7 +140,6 @@ impl LoadExact {
     }
 
     /// Corners of the broken line.
-    #[must_use]
     pub fn corners(&self) -> usize {
         self.line.len()
     }

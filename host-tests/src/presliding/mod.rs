@@ -45,7 +45,6 @@ impl Limits {
     };
 
     /// These limits times `factor`.
-    #[must_use]
     pub fn times(self, factor: f64) -> Self {
         Self {
             forward: self.forward * factor,
@@ -54,7 +53,6 @@ impl Limits {
     }
 
     /// `torque` brought between the limits.
-    #[must_use]
     pub fn hold(self, torque: f64) -> f64 {
         torque.min(self.forward).max(-self.backward)
     }

@@ -71,7 +71,6 @@ struct Last {
 
 impl RowMemory {
     /// A row at rest whose balls go back after twice `half_width`, over the breakaway angle.
-    #[must_use]
     pub fn new(elements: Elements, half_width: f64) -> Self {
         Self {
             elements,

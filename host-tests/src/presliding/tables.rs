@@ -21,13 +21,11 @@ pub struct Table {
 
 impl Table {
     /// The table of that name.
-    #[must_use]
     pub fn named(name: &str) -> Option<Self> {
         TABLES.into_iter().find(|table| table.name == name)
     }
 
     /// Elements of this table, nothing remembered.
-    #[must_use]
     pub fn elements(&self) -> Elements {
         Elements::proportional(self.angles, self.shares)
     }

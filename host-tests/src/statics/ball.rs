@@ -26,7 +26,6 @@ pub struct Ball {
 
 impl Ball {
     /// A ball of nominal size that can touch all four arcs.
-    #[must_use]
     pub const fn new(azimuth: f64, position: f64) -> Self {
         Self {
             azimuth,

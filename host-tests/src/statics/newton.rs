@@ -26,7 +26,6 @@ impl StaticLoad {
     }
 
     /// State with nothing moved but what is held.
-    #[must_use]
     pub fn rest(&self) -> State {
         State {
             nodes: self
@@ -41,7 +40,6 @@ impl StaticLoad {
     /// Shaft moved along its axis by the closed form of evenly shared axial load,
     /// `u = (C_S + C_N) (F / (N sin(beta) cos(alpha)))^(2/3) / (sin(beta) cos(alpha))`, each ball by half of
     /// it. From rest without oversize no contact has a stiffness yet.
-    #[must_use]
     pub fn start(&self) -> State {
         let mut state = self.rest();
         let held = self.held();
@@ -72,7 +70,6 @@ impl StaticLoad {
     }
 
     /// Energy of a state, J, and its gradient over node displacements and ball centres.
-    #[must_use]
     pub fn energy(&self, state: &State) -> (f64, State) {
         let at = System::new(self).evaluate(state);
         let gradient = State {

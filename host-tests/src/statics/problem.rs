@@ -15,7 +15,6 @@ use crate::material::Elastic;
 
 /// Balls evenly along the helix, `spacing` rad apart and centred at `position`, m, the first at
 /// `first_azimuth`, rad.
-#[must_use]
 pub fn even_train(
     geometry: &Geometry,
     count: usize,
@@ -45,7 +44,6 @@ pub struct Support {
 
 impl Support {
     /// Only axial displacement is free: the driven end of the dissertation's case studies.
-    #[must_use]
     pub const fn axial_guide(position: f64) -> Self {
         Self {
             position,
@@ -67,7 +65,6 @@ pub struct Load {
 
 impl Load {
     /// A force along the axis.
-    #[must_use]
     pub const fn axial(position: f64, force: f64) -> Self {
         Self {
             position,
@@ -221,19 +218,16 @@ impl StaticLoad {
     }
 
     /// The shaft with its nodes.
-    #[must_use]
     pub fn shaft(&self) -> &Shaft {
         &self.shaft
     }
 
     /// The balls.
-    #[must_use]
     pub fn balls(&self) -> &[Ball] {
         &self.balls
     }
 
     /// The nominal geometry.
-    #[must_use]
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }

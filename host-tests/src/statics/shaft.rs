@@ -76,7 +76,6 @@ impl Shaft {
     }
 
     /// A rigid ring whose forces and displacements are taken at `position`, m.
-    #[must_use]
     pub fn rigid(position: f64) -> Self {
         Self {
             model: ShaftModel::Rigid,
@@ -104,7 +103,6 @@ impl Shaft {
     }
 
     /// First and last position, m.
-    #[must_use]
     pub fn ends(&self) -> [f64; 2] {
         [
             self.nodes.first().copied().unwrap_or(0.0),
@@ -115,7 +113,6 @@ impl Shaft {
     /// Displacement of a point at `position`, m, and `radial`, m, off the axis: the first node it depends
     /// on, and the matrix on the displacements of that node and the next, eq. (2.21). The printed (2.20) has its two sides
     /// exchanged: the nodes' displacements give the axis', as in (2.21).
-    #[must_use]
     pub fn point(&self, position: f64, radial: Vector3<f64>) -> (usize, SMatrix<f64, 3, 12>) {
         if self.model == ShaftModel::Rigid {
             let arm = radial + Vector3::new(0.0, 0.0, position - self.ends()[0]);

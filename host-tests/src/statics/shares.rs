@@ -55,14 +55,12 @@ impl ShareError {
     };
 
     /// The larger one of both parts, over what they may be: up to 1 where the table serves.
-    #[must_use]
     pub fn over(&self, tolerance: &Self) -> f64 {
         let torque = self.groove_torque.abs() / tolerance.groove_torque;
         torque.max(self.ball_load / tolerance.ball_load)
     }
 
     /// Whether a table that is off by this serves.
-    #[must_use]
     pub fn is_within(&self, tolerance: &Self) -> bool {
         self.over(tolerance) <= 1.0
     }
@@ -104,7 +102,6 @@ impl ShareTable {
     }
 
     /// The table as a friction model takes it: nothing below [`LEAST_SHARE`], and the mean 1.
-    #[must_use]
     pub fn positive(&self) -> Vec<f64> {
         let raised: Vec<f64> = self
             .shares
@@ -119,7 +116,6 @@ impl ShareTable {
     }
 
     /// Balls that carry nothing along the axis, or push against the load.
-    #[must_use]
     pub fn idle(&self) -> usize {
         self.shares
             .iter()
@@ -271,7 +267,6 @@ impl Served {
     }
 
     /// Whether the table serves all of its loads.
-    #[must_use]
     pub fn serves(&self, tolerance: &ShareError) -> bool {
         self.worst.is_within(tolerance)
     }

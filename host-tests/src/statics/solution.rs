@@ -121,7 +121,6 @@ impl StaticSolution {
     }
 
     /// Forces of one contact along the train, N.
-    #[must_use]
     pub fn of(&self, contact: Contact) -> Vec<f64> {
         let index = Contact::ALL.iter().position(|other| *other == contact);
         self.forces
@@ -131,13 +130,11 @@ impl StaticSolution {
     }
 
     /// Axial displacement of the shaft's left end, m.
-    #[must_use]
     pub fn axial_displacement(&self) -> f64 {
         self.displacements.first().map_or(0.0, |six| six[2])
     }
 
     /// Force (N) of the balls on the nut and its moment (N m) about a place on the axis, m.
-    #[must_use]
     pub fn on_nut_about(&self, position: f64) -> [f64; 6] {
         let [x, y, z, about_x, about_y, about_z] = self.on_nut;
         [
@@ -152,7 +149,6 @@ impl StaticSolution {
 
     /// Share of each ball in the axial load: the axial part of its forces on the nut over their sum.
     /// None where nothing is carried along the axis.
-    #[must_use]
     pub fn axial_shares(&self) -> Option<Vec<f64>> {
         let axial: Vec<f64> = self
             .forces

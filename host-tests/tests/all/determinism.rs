@@ -8,11 +8,11 @@ use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::scene::{CagedBallScrew, Scene};
 use epas_friction::{
     CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, FrictionBranch,
-    FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LoadShare, LoadShares,
-    UncagedBallScrew,
+    FrictionModel, LinearBearingTrain, LoadShare, LoadShares, UncagedBallScrew,
 };
 use epas_testkit::absurd::{EDGES, Trial, row_numbers};
 use epas_testkit::gears;
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
 use epas_testkit::remembering::{
     COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,
@@ -150,10 +150,7 @@ fn remembered<S: Scene<Outputs: std::fmt::Debug>>(
 fn memories_give_the_stored_bits() {
     use std::f32::consts::TAU;
     let screw = [100.0, 15_000.0, 0.0];
-    let inputs = |[nut_speed, axial_load, _]: [f32; 3]| Inputs {
-        nut_speed,
-        axial_load,
-    };
+    let inputs = |[nut_speed, axial_load, _]: [f32; 3]| screw_inputs(nut_speed, axial_load);
     let mut angle = 0.0;
     let mut turned = |speed: f32| {
         angle = (angle + speed * TICK).rem_euclid(TAU);
@@ -187,11 +184,7 @@ fn memories_give_the_stored_bits() {
         FrictionModel::new(&linear_by_speed()).unwrap(),
         [2.0, 10_000.0, 10_000.0],
         |model, [speed, normal_load, side_load], temperature, between| {
-            let inputs = LinearInputs {
-                speed,
-                normal_load,
-                side_load,
-            };
+            let inputs = linear_inputs(speed, normal_load, side_load);
             if between {
                 model.between(speed)
             } else {

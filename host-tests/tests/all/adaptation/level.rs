@@ -1,5 +1,6 @@
 //! A level in a model whose friction remembers: limits are scaled, stiffness is not.
 
+use epas_testkit::gears::screw_inputs;
 use std::f32::consts::TAU;
 
 use epas_friction::adaptation::Estimates;
@@ -37,10 +38,7 @@ fn step<S>(model: &mut Model<S>, nut_speed: f32) -> Outputs
 where
     S: Sliding<Constants: Copy, Inputs = Inputs, Outputs: Into<Outputs>>,
 {
-    let scene = Inputs {
-        nut_speed,
-        axial_load: 1000.0,
-    };
+    let scene = screw_inputs(nut_speed, 1000.0);
     let inputs = at(scene, nut_speed, 313.0);
     model.step(inputs).into()
 }

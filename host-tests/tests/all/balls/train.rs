@@ -3,7 +3,6 @@
 
 use crate::refusals::assert_refused;
 use epas_friction::train::{Press, Train};
-use epas_reference::friction::isotonic::isotonic_by_min_max;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 
@@ -259,48 +258,6 @@ fn long_trains_agree_with_a_general_complementarity_solver() {
     let random = &mut Random(2);
     println!("N = 37: {:?}", compare_with_relaxation::<37>(random, 40));
     println!("N = 64: {:?}", compare_with_relaxation::<64>(random, 40));
-}
-
-fn compare_with_isotonic_regression<const N: usize>(random: &mut Random, trials: usize) -> f64 {
-    let mut worst = 0.0_f64;
-    for trial in 0..trials {
-        let (free, impedance, room) = random_train::<N>(random, 1.0, false, 2.0);
-        let mut found = Press::<N>::new();
-        assert!(found.solve(&free, &impedance, &room));
-        let case = Case::of(&free, &impedance, &room);
-        let (speeds, forces) = isotonic_by_min_max(&case.free, &case.compliance);
-        for (ball, (found, exact)) in found.speeds().zip(&speeds).enumerate() {
-            assert!(
-                (f64::from(found) - exact).abs() < 1e-8,
-                "N = {N}, trial {trial}, ball {ball}: {found}, exactly {exact}"
-            );
-        }
-        let largest = forces.iter().fold(0.0_f64, |most, &force| most.max(force));
-        for (link, (found, exact)) in found.forces().zip(&forces).enumerate() {
-            let error = (f64::from(found) - exact).abs() / largest.max(1e-6);
-            worst = worst.max(error);
-            measured::assert_at(
-                "press, isotonic regression",
-                error,
-                format_args!("N = {N}, trial {trial}, link {link}: {found}, exactly {exact}"),
-            );
-        }
-    }
-    worst
-}
-
-/// Balls that all touch, in a row: the weighted isotonic regression, by the formula
-/// `v_j = max over i <= j of min over k >= j of the mean of i..k`.
-#[test]
-fn touching_rows_are_the_isotonic_regression() {
-    let random = &mut Random(5);
-    let worst = [
-        compare_with_isotonic_regression::<2>(random, 200),
-        compare_with_isotonic_regression::<16>(random, 100),
-        compare_with_isotonic_regression::<37>(random, 50),
-        compare_with_isotonic_regression::<64>(random, 50),
-    ];
-    println!("largest force error over largest force: {worst:?}");
 }
 
 /// Smallest distance of a train, and whether its balls still stand in their order: the distances and the

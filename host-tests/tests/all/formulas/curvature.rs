@@ -1,10 +1,10 @@
 //! The crate's curvature forms against 65-digit values of the Weingarten map.
 
+use epas_friction::Error;
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
-use epas_friction::{CATALOGUE, Error};
 use epas_reference::curvature::{self, Surface};
 use epas_testkit::absurd;
 use epas_testkit::measured;
@@ -169,63 +169,6 @@ fn without_offsets_the_groove_is_a_tube_and_without_lead_a_bearing() {
             }
         }
     }
-}
-
-/// On the catalogue sizes the fitted form against the 65-digit truth: 2.4e-7 of the form, the rest roundings of the
-/// set-up in f32.
-#[test]
-fn fitted_form_holds_on_catalogue_cases() {
-    let mut worst = 0.0_f64;
-    for case in golden().iter().filter(|case| case.tag == "catalogue") {
-        for groove in GROOVES {
-            let fitted = FittedCurvature::new(&case.arch(groove), 72f32.to_radians());
-            let truth = case.truth(groove).kappa1;
-            let error = f64::from(fitted.first(case.contact_angle())) / truth - 1.0;
-            measured::assert_at(
-                "fitted curvature on tabulated cases",
-                error,
-                format_args!("{}: {error:e}", case.line(groove)),
-            );
-            worst = worst.max(error.abs());
-        }
-    }
-    println!("fitted: max {worst:.2e}");
-}
-
-/// The fit against the crate's exact form (itself held above) on all 31 sizes, all contact angles of
-/// 0 to 70 degrees in steps of 0.1 degree. 7e-7 of the fit and 4e-7 of the exact form add up.
-#[test]
-fn fitted_form_follows_the_exact_form_on_all_sizes() {
-    let (mut worst, mut sum, mut squares, mut count) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
-    for size in CATALOGUE {
-        let design = size.design().unwrap();
-        for groove in GROOVES {
-            let fitted = FittedCurvature::of(&design, groove);
-            let exact = GothicArch::of(&design, groove);
-            for step in 0..=700 {
-                let angle = ContactAngle::new((0.1 * step as f32).to_radians());
-                let truth = f64::from(exact.principal(angle).kappa1);
-                let error = f64::from(fitted.first(angle)) / truth - 1.0;
-                assert!(
-                    error.abs() <= 1.1e-6,
-                    "{} {groove:?} at {} degrees: {error:e}",
-                    size.name,
-                    0.1 * step as f32
-                );
-                worst = worst.max(error.abs());
-                sum += error;
-                squares += error * error;
-                count += 1.0;
-            }
-        }
-    }
-    println!(
-        "fitted: max {worst:.2e} rms {:.1e} mean {:.1e}",
-        (squares / count).sqrt(),
-        sum / count
-    );
-    measured::assert("fitted curvature, rms", (squares / count).sqrt());
-    measured::assert("fitted curvature, mean", sum / count);
 }
 
 /// A straight groove (lead angle 90 degrees) has no curvature along the path, in every form.

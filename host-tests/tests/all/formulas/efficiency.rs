@@ -1,6 +1,7 @@
 //! Closed-form efficiency: the reference against 17-digit values, the crate against both, and the laws
 //! that bind efficiency, torque and self-locking.
 
+use crate::golden::cases;
 use crate::refusals::assert_refused;
 use epas_design::efficiency::{
     DesignRequest, Duty, DynamicCorrection, optimum_contact_angle, optimum_efficiency,
@@ -12,15 +13,6 @@ use epas_testkit::designs::SCREW_TRACK;
 use epas_testkit::measured;
 use proptest::prelude::*;
 use serde_json::Value;
-
-fn golden(list: &str) -> Vec<Value> {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/efficiency.json"
-    ));
-    let golden: Value = serde_json::from_str(text).unwrap();
-    golden[list].as_array().unwrap().clone()
-}
 
 fn number(case: &Value, name: &str) -> f64 {
     case[name].as_str().unwrap().parse().unwrap()
@@ -42,7 +34,7 @@ fn screw(case: &Value) -> Screw {
 
 #[test]
 fn reference_equals_17_digit_values() {
-    for case in golden("closed_form") {
+    for case in cases("efficiency", "closed_form") {
         let screw = screw(&case);
         let (alpha, f) = (screw.lead_angle, screw.friction);
         for (computed, name) in [
@@ -111,7 +103,7 @@ fn reference_equals_17_digit_values() {
 #[test]
 fn crate_holds_over_all_cases() {
     let (mut worst, mut worst_loss) = (0.0_f64, 0.0_f64);
-    for case in golden("closed_form") {
+    for case in cases("efficiency", "closed_form") {
         let exact = screw(&case);
         let fast = EfficiencyGeometry::new(
             exact.lead_angle as f32,
@@ -198,7 +190,7 @@ fn crate_holds_over_all_cases() {
 /// exact steady state: the part of second order in the dynamic number is left.
 #[test]
 fn dynamic_correction_reaches_the_exact_steady_state() {
-    for case in golden("exact") {
+    for case in cases("efficiency", "exact") {
         let fast = EfficiencyGeometry::new(
             number(&case, "alpha") as f32,
             number(&case, "beta") as f32,
@@ -236,7 +228,7 @@ fn dynamic_correction_reaches_the_exact_steady_state() {
 /// Integrated from a rolling start, the ball's equations of motion lead to the rolling efficiency.
 #[test]
 fn rolling_efficiency_is_where_the_equations_of_motion_lead() {
-    for case in golden("rolling") {
+    for case in cases("efficiency", "rolling") {
         let fast = EfficiencyGeometry::new(
             number(&case, "alpha") as f32,
             number(&case, "beta") as f32,
@@ -416,7 +408,7 @@ fn back_driving_without_lead() {
 /// The rolling back-drive efficiency is the balance of work at the slipping contact.
 #[test]
 fn rolling_backdrive_equals_the_reference() {
-    for case in golden("closed_form") {
+    for case in cases("efficiency", "closed_form") {
         let exact = screw(&case);
         let fast = EfficiencyGeometry::new(
             exact.lead_angle as f32,

@@ -1,5 +1,6 @@
 //! The in-loop kinematics (f32) against the float64 reference.
 
+use crate::reference::kinematics_cases;
 use crate::refusals::assert_refused;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
@@ -12,45 +13,9 @@ use epas_reference::promises;
 use epas_testkit::errors::Errors;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
-use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 
 const DEGREE: f64 = PI / 180.0;
-
-fn golden_cases() -> Vec<(String, KinematicsInput)> {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/kinematics.json"
-    ));
-    let file: Value = serde_json::from_str(text).unwrap();
-    let cases = file["cases"].as_array().unwrap();
-    cases
-        .iter()
-        .map(|case| {
-            let number = |group: &str, key: &str| case[group][key].as_f64().unwrap();
-            let length = |group: &str, key: &str| 1e-3 * number(group, key);
-            let input = KinematicsInput {
-                ball_diameter: length("geom", "D"),
-                pitch_radius: length("geom", "r_m"),
-                lead_angle: number("geom", "psi"),
-                groove_radius_screw: length("geom", "r_i"),
-                groove_radius_nut: length("geom", "r_o"),
-                contact_angle_screw: number("state", "alpha_i"),
-                contact_angle_nut: number("state", "alpha_o"),
-                pitch_angle: number("state", "beta"),
-                yaw_angle: number("state", "betap"),
-                rolling_radius_screw: length("state", "rp_i"),
-                rolling_radius_nut: length("state", "rp_o"),
-                speed: number("state", "omega"),
-                semi_major_screw: length("inner", "a"),
-                semi_minor_screw: length("inner", "b"),
-                semi_major_nut: length("outer", "a"),
-                semi_minor_nut: length("outer", "b"),
-            };
-            (case["tag"].as_str().unwrap().to_owned(), input)
-        })
-        .collect()
-}
 
 trait Drawn {
     fn input(&mut self) -> KinematicsInput;
@@ -267,7 +232,9 @@ impl Sweep {
 #[test]
 fn golden_cases_within_the_promise() {
     let mut sweep = Sweep::default();
-    for (tag, input) in golden_cases() {
+    for case in kinematics_cases::cases() {
+        let tag = case["tag"].as_str().unwrap().to_owned();
+        let input = kinematics_cases::input(&case, 1e-3);
         sweep.add(&input, &tag);
         sweep.add(
             &KinematicsInput {

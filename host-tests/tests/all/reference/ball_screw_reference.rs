@@ -1,5 +1,6 @@
 //! Ball of a ball screw: stored single balls and pairs, given contacts, and the laws of the model.
 
+use crate::golden::file as golden;
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_ball::{
     Groove, ScrewContact, ScrewMotion, ScrewTrack, motion_from, motion_with_contacts,
@@ -18,11 +19,6 @@ use epas_testkit::designs::SCREW_TRACK as TRACK;
 use epas_testkit::measured;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_4, TAU};
-
-fn golden(name: &str) -> Value {
-    let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
 
 /// Hertz constants with the right curvatures, as stored for the two groove radii (mm).
 fn law(side: &str, groove_radius: &str) -> HertzLaw {

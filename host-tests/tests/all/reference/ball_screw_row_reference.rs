@@ -1,5 +1,6 @@
 //! Rows of balls in elastic grooves: stored pairs with play and oversize, and the laws of the model.
 
+use crate::golden::file;
 use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
 use epas_reference::design::BallScrewDesign;
@@ -13,14 +14,6 @@ use epas_testkit::measured;
 use epas_testkit::random::Random;
 use serde_json::Value;
 use std::f64::consts::TAU;
-
-fn golden() -> Value {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/ballscrew_exact.json"
-    ));
-    serde_json::from_str(text).unwrap()
-}
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
@@ -95,7 +88,7 @@ impl Off {
 
 /// Solves all stored pairs. A stored force has a sign; where it is negative, the balls press in the other order.
 fn compare(integration: Integration) -> Off {
-    let all = golden();
+    let all = file("ballscrew_exact");
     let mut off = Off::default();
     for case in all["cases"].as_array().unwrap() {
         let mut row = stored_row(&all, case, integration);
@@ -172,7 +165,7 @@ fn typical(all: &Value) -> ElasticRow {
 /// Where pressing is possible in one order, the other one has nothing.
 #[test]
 fn one_order_presses() {
-    let mut row = typical(&golden());
+    let mut row = typical(&file("ballscrew_exact"));
     let one = row.solve().unwrap().contact_forces[0];
     row.balls.reverse();
     let other = row.solve().unwrap().contact_forces[0];
@@ -185,7 +178,7 @@ fn one_order_presses() {
 /// Force, speed and torque by clearance have no jump at zero: steps of 10 nm on both sides of it change them alike, to first order.
 #[test]
 fn continuous_through_zero_clearance() {
-    let all = golden();
+    let all = file("ballscrew_exact");
     let step = 1e-8;
     for reversed in [false, true] {
         let at = |clearance: f64| {
@@ -223,7 +216,7 @@ fn continuous_through_zero_clearance() {
 /// Coulomb friction is in proportion to its coefficient, and loads shift with it: the loss over the coefficient tends to a limit.
 #[test]
 fn no_friction_no_loss() {
-    let mut row = typical(&golden());
+    let mut row = typical(&file("ballscrew_exact"));
     let mut loss = |friction: f64| {
         row.friction = friction;
         row.solve().unwrap().groove_loss() / friction
@@ -240,7 +233,7 @@ fn no_friction_no_loss() {
 /// changes friction by its square.
 #[test]
 fn one_ball_is_that_of_the_pair_model() {
-    let all = golden();
+    let all = file("ballscrew_exact");
     for (load, clearance) in [(50.0, 0.0), (-30.0, -3e-6), (80.0, 3e-6)] {
         let mut row = typical(&all);
         row.clearance = clearance;
@@ -283,7 +276,7 @@ fn one_ball_is_that_of_the_pair_model() {
 
 #[test]
 fn rubbing_takes_power() {
-    let mut row = typical(&golden());
+    let mut row = typical(&file("ballscrew_exact"));
     if row.solve().unwrap().contact_forces[0] == 0.0 {
         row.balls.reverse();
     }
@@ -307,7 +300,7 @@ fn rubbing_takes_power() {
 
 #[test]
 fn bad_inputs_are_named() {
-    let good = typical(&golden());
+    let good = typical(&file("ballscrew_exact"));
     #[rustfmt::skip]
     assert_refused(
         &good,
@@ -332,7 +325,7 @@ fn bad_inputs_are_named() {
 /// A wider groove of the nut has shorter contacts there and leaves those of the screw: balls rest in both, and power balances.
 #[test]
 fn grooves_have_a_radius_each() {
-    let all = golden();
+    let all = file("ballscrew_exact");
     let row = typical(&all);
     let mut wider = row.clone();
     wider.design.nut_groove_radius *= 1.03;
@@ -403,7 +396,7 @@ fn check(row: &ElasticRow, found: &RowMotion) {
 }
 
 fn answered(seed: u64, rows: usize, balls: usize) -> f64 {
-    let all = golden();
+    let all = file("ballscrew_exact");
     let mut random = Random(seed);
     let mut solved = 0;
     for _ in 0..rows {
@@ -447,7 +440,7 @@ fn extreme_rows_are_answered_or_named_whole() {
 }
 
 fn solve_extreme_rows(rows: usize, least: usize) {
-    let all = golden();
+    let all = file("ballscrew_exact");
     let mut random = Random(5);
     let mut solved = 0;
     for _ in 0..rows {

@@ -97,21 +97,6 @@ impl Brush {
         self.sum(|x, bristle| bristle.limit * x.hypot(bristle.along))
     }
 
-    /// Rolls by one cell: every bristle stands where the next one stood, one leaves the contact and a new one enters, unbent.
-    pub fn roll(&mut self, forward: bool) {
-        for column in &mut self.columns {
-            let bends = column.bristles.iter().map(|bristle| bristle.bend);
-            let moved: Vec<_> = if forward {
-                std::iter::once([0.0; 2]).chain(bends).collect()
-            } else {
-                bends.skip(1).chain([[0.0; 2]]).collect()
-            };
-            for (bristle, bend) in column.bristles.iter_mut().zip(moved) {
-                bristle.bend = bend;
-            }
-        }
-    }
-
     pub fn follow(&mut self, motion: Motion) -> Load {
         let stiffness = self.stiffness;
         for column in &mut self.columns {

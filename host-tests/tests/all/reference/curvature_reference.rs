@@ -1,21 +1,12 @@
 //! The reference's curvatures against 65-digit values and against each other.
 
+use crate::golden::cases;
 use crate::refusals::assert_refused;
 use epas_reference::curvature::{Groove, Surface, profile};
-use epas_testkit::measured;
 use proptest::prelude::*;
 use serde_json::Value;
 
 const GROOVES: [Groove; 2] = [Groove::Screw, Groove::Nut];
-
-fn golden() -> Vec<Value> {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/curvature.json"
-    ));
-    let golden: Value = serde_json::from_str(text).unwrap();
-    golden["cases"].as_array().unwrap().clone()
-}
 
 fn surface(case: &Value, groove: Groove) -> Surface {
     let field = |name: &str| case[name].as_f64().unwrap();
@@ -34,7 +25,7 @@ fn surface(case: &Value, groove: Groove) -> Surface {
 #[test]
 fn weingarten_map_equals_65_digit_values() {
     let mut worst = [0.0_f64; 2];
-    for case in golden() {
+    for case in cases("curvature", "cases") {
         for (groove, name) in [(Groove::Screw, "screw"), (Groove::Nut, "nut")] {
             let surface = surface(&case, groove);
             let angle = case["phi"].as_f64().unwrap();
@@ -112,37 +103,6 @@ proptest! {
         prop_assert!(across >= principal.kappa2 * (1.0 + 1e-6));
         prop_assert!(across <= principal.kappa2 + 1e-2 * (principal.kappa1 - principal.kappa2));
     }
-}
-
-/// (A1a) with `+sigma_3` returns the second curvature, and (A1m) without `zeta` is right for the screw
-/// only.
-#[test]
-fn appendix_b_as_printed_returns_the_wrong_curvature() {
-    let (groove_radius, offset_h, offset_l) = profile(1.5875, 0.528, std::f64::consts::FRAC_PI_4);
-    let surface = |groove| Surface {
-        groove,
-        pitch_radius: 8.0,
-        lead_angle: 0.4,
-        groove_radius,
-        offset_h,
-        offset_l,
-    };
-    let screw = surface(Groove::Screw);
-    let printed = screw.appendix_b_as_printed(0.7);
-    measured::assert(
-        "Appendix B as printed",
-        printed / screw.principal(0.7).kappa2 - 1.0,
-    );
-    let nut = surface(Groove::Nut);
-    let printed = nut.appendix_b_as_printed(0.7);
-    assert!(
-        printed.is_nan() || (printed / nut.principal(0.7).kappa2 - 1.0).abs() > 1e-3,
-        "{printed}"
-    );
-    measured::assert(
-        "Appendix B as corrected",
-        nut.appendix_b(0.7) / nut.principal(0.7).kappa1 - 1.0,
-    );
 }
 
 /// A catalogue size, mm: 32 x 20 with balls of 6.35.

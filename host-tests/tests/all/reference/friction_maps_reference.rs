@@ -1,25 +1,11 @@
 //! Force, moment and power of one contact: three evaluations of the same integrals, and the laws they obey.
 
 use super::area::friction_over_area;
+use crate::golden::{file as golden, list_of as list};
 use epas_reference::friction::maps::FrictionMap;
 use epas_reference::friction::patch::{Patch, PatchVelocity};
 use epas_testkit::measured;
 use epas_testkit::random::Random;
-use serde_json::Value;
-
-fn golden(name: &str) -> Value {
-    let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn list(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|x| x.as_f64().unwrap())
-        .collect()
-}
 
 /// The stored maps were computed with 30 digits; what remains is the rounding of a few hundred terms here.
 #[test]

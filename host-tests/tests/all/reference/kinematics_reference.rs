@@ -21,7 +21,7 @@ fn golden_cases_within_1e_12() {
     let mut worst = 0.0_f64;
     for case in cases() {
         let tag = case["tag"].as_str().unwrap();
-        let revised = Revised::new(&input(&case)).unwrap();
+        let revised = Revised::new(&input(&case, 1.0)).unwrap();
         let ball = revised.evaluate();
         let mut check = |name: &str, found: f64, wanted: f64, scale: f64| {
             let error = (found - wanted).abs() / scale;
@@ -80,7 +80,7 @@ fn golden_cases_within_1e_12() {
 fn rolling_slip_keeps_its_own_digits() {
     let mut naive_worst = 0.0_f64;
     for case in cases() {
-        let revised = Revised::new(&input(&case)).unwrap();
+        let revised = Revised::new(&input(&case, 1.0)).unwrap();
         for raceway in Raceway::BOTH {
             let golden = number(&case, &[side_of(raceway), "roll_over_omega"]);
             let contact = revised.input().contact(raceway);

@@ -1,45 +1,12 @@
 //! Ball of a linear bearing: stored cases and the laws of the model.
 
+use super::linear_cases::tilted;
+use crate::golden::{file as golden, list_of as list};
 use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
-use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, LinearMotion, contact_forces};
+use epas_reference::friction::linear_ball::{LinearBall, LinearMotion};
 use epas_testkit::measured;
-use serde_json::Value;
 use std::f64::consts::FRAC_PI_4;
-
-fn golden(name: &str) -> Value {
-    let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn list(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|x| x.as_f64().unwrap())
-        .collect()
-}
-
-/// The linear bearing of Table 3.3; `Psi` with the five digits of the stored cases.
-fn ball(deviations: [f64; 4], side_force_ratio: f64) -> LinearBall {
-    let contact_angles = deviations.map(|d| FRAC_PI_4 + d);
-    LinearBall {
-        ball_radius: 0.005,
-        friction: 0.1,
-        contact_angles,
-        contact_forces: contact_forces(contact_angles, 100.0 * side_force_ratio, 100.0),
-        ellipse: EllipseLaw {
-            semi_major_constant: 0.0005307 * 0.005_f64.cbrt(),
-            axis_ratio: 0.23214637336606972,
-        },
-    }
-}
-
-fn tilted(theta_degrees: f64, side_force_ratio: f64) -> LinearBall {
-    let theta = theta_degrees.to_radians();
-    ball([-theta, theta, 0.0, 0.0], side_force_ratio)
-}
 
 /// Balance of (3.25) from the forces and moments themselves, energy, and Coulomb's limit.
 fn check_laws(ball: &LinearBall, motion: &LinearMotion, speed: f64) {

@@ -1,5 +1,6 @@
 //! Friction before gross sliding: the exact hysteresis, its elements and the brush against stored cases, each other and the literature.
 
+use crate::golden::file;
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
@@ -14,14 +15,6 @@ use epas_reference::presliding::tables::{TABLES, Table};
 use serde_json::Value;
 
 use epas_testkit::random::Random;
-
-fn golden() -> Value {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/presliding.json"
-    ));
-    serde_json::from_str(text).unwrap()
-}
 
 /// A path of a stored case: straight strokes, or sines less their values at the start.
 fn path(given: &Value) -> Vec<f64> {
@@ -140,7 +133,7 @@ impl<'a> Case<'a> {
 /// The stored cases hold nine digits: half of the last one is 5e-10 for torques below one and 5e-9 above.
 #[test]
 fn stored_cases_to_their_last_digit() {
-    let golden = golden();
+    let golden = file("presliding");
     let cases = golden["cases"].as_array().unwrap();
     assert_eq!(cases.len(), 21);
     for case in cases {
@@ -166,7 +159,7 @@ fn stored_cases_to_their_last_digit() {
 
 #[test]
 fn tables_are_the_stored_ones_and_follow_their_backbones() {
-    let golden = golden();
+    let golden = file("presliding");
     let stored = golden["tables"].as_object().unwrap();
     assert_eq!(stored.len(), TABLES.len());
     for table in &TABLES {
@@ -305,7 +298,7 @@ fn dense_elements_converge_to_the_closed_form_under_changing_load_whole() {
 }
 
 fn compare_dense_elements(convergence: bool) {
-    let golden = golden();
+    let golden = file("presliding");
     for case in golden["cases"].as_array().unwrap() {
         let case = Case::new(case);
         let Form::LoadExact { largest_load, .. } = case.form else {
@@ -371,50 +364,6 @@ fn spin_follows_its_backbone_on_narrow_ellipses() {
             })
             .fold(0.0, f64::max);
         assert!(low < off && off < high, "{ratio}: {off}");
-    }
-}
-
-#[test]
-fn rolling_changes_little_before_breakaway() {
-    compare_rolling(&ROLLING[2..3]);
-}
-
-#[test]
-#[ignore = "six contacts"]
-fn rolling_changes_little_before_breakaway_whole() {
-    compare_rolling(&ROLLING);
-}
-
-/// Screw, load, axis ratio, path of rolling at breakaway over the contact's length, largest loss on the way, loss in the end; measured.
-const ROLLING: [(&str, f64, f64, f64, f64); 6] = [
-    ("lin-3.6, 300 N", 0.215, 0.0454, 0.00013, 0.00013),
-    ("lin-3.6, 1 kN", 0.215, 0.0678, 0.00071, 0.00071),
-    ("lin-3.6, 5 kN", 0.215, 0.1159, 0.00435, 0.00435),
-    ("lin-4.1, 300 N", 0.173, 0.1325, 0.00659, 0.00659),
-    ("lin-4.1, 1 kN", 0.173, 0.1979, 0.02116, 0.02116),
-    ("lin-4.1, 5 kN", 0.173, 0.3384, 0.08215, 0.08215),
-];
-
-fn compare_rolling(contacts: &[(&str, f64, f64, f64, f64)]) {
-    for &(name, ratio, rolled, largest, steady) in contacts {
-        let cells = 600;
-        let mut still = Brush::new(ratio, 41, cells, 2.0 / 3.0);
-        let mut rolling = still.clone();
-        let turn = 1.0 / (rolled * f64::from(cells as u32));
-        let motion = Motion {
-            across: turn,
-            spin: 0.0,
-        };
-        let losses: Vec<f64> = (0..(5.0 / turn) as usize)
-            .map(|_| {
-                rolling.roll(true);
-                still.follow(motion).force - rolling.follow(motion).force
-            })
-            .collect();
-        let found = losses.iter().copied().fold(0.0, f64::max);
-        // Measured above, to five decimals: half a unit, and as much for other roundings.
-        assert!((found - largest).abs() < 1e-5, "{name}: {found}");
-        assert!((losses[losses.len() - 1] - steady).abs() < 1e-5, "{name}");
     }
 }
 

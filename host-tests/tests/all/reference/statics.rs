@@ -1,5 +1,6 @@
 //! Static load distribution: the case studies of Lin 2019, laws, and hostile starts.
 
+use crate::golden::{file, list_of as list};
 use crate::refusals::assert_refused;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
@@ -13,24 +14,6 @@ use epas_reference::statics::{
     Contact, ContactConstants, Elastic, HertzConvention, Load, Outcome, Shaft, ShaftModel, State,
     StaticLoad, StaticSolution, Support,
 };
-use serde_json::Value;
-
-fn golden() -> Value {
-    serde_json::from_str(include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/ballscrew.json"
-    )))
-    .unwrap()
-}
-
-fn list(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|entry| entry.as_f64().unwrap())
-        .collect()
-}
 
 fn solve(case: &CaseStudy) -> StaticSolution {
     case.load().unwrap().solve().unwrap()
@@ -76,7 +59,7 @@ fn ratio(forces: &[f64]) -> f64 {
 /// Stored forces were found by another solver to 2e-9 N of residual; stored angles are rounded to 1e-12.
 #[test]
 fn contact_forces_are_those_of_an_independent_solver() {
-    let golden = golden();
+    let golden = file("ballscrew");
     for (name, case) in [
         ("case1_D32", case_1()),
         (
@@ -133,7 +116,7 @@ fn contact_forces_are_those_of_an_independent_solver() {
 
 #[test]
 fn geometric_errors_of_the_screw_give_the_loads_of_an_independent_solver() {
-    let golden = golden();
+    let golden = file("ballscrew");
     let thousand = CaseStudy {
         axial_load: 1000.0,
         ..case_1()
@@ -318,7 +301,7 @@ fn table_b1_reproduces_with_the_dissertations_conventions() {
 
 #[test]
 fn hertzian_constants_are_the_golden_ones() {
-    let golden = golden();
+    let golden = file("ballscrew");
     for (name, radius) in [("3.11136", 3.11136e-3), ("3.254", 3.254e-3)] {
         for (field, convention) in [
             ("correct", HertzConvention::Correct),

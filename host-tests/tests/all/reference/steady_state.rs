@@ -1,20 +1,12 @@
 //! The exact steady state against 17-digit values, its own equations, and the closed form it leads to.
 
+use crate::golden::cases;
 use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
 use epas_reference::efficiency::Screw;
 use epas_reference::steady_state::BallScrewState;
 use epas_testkit::measured;
 use serde_json::Value;
-
-fn golden(list: &str) -> Vec<Value> {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/efficiency.json"
-    ));
-    let golden: Value = serde_json::from_str(text).unwrap();
-    golden[list].as_array().unwrap().clone()
-}
 
 fn number(case: &Value, name: &str) -> f64 {
     case[name].as_str().unwrap().parse().unwrap()
@@ -37,7 +29,7 @@ fn state(case: &Value) -> BallScrewState {
 #[test]
 fn equals_17_digit_values() {
     let mut worst = 0.0_f64;
-    for case in golden("exact") {
+    for case in cases("efficiency", "exact") {
         let found = state(&case)
             .solve()
             .unwrap_or_else(|error| panic!("{case}: {error:?}"));
@@ -68,7 +60,7 @@ fn equals_17_digit_values() {
 
 #[test]
 fn below_the_limit_there_is_no_steady_state() {
-    for case in golden("exact_no_steady_state") {
+    for case in cases("efficiency", "exact_no_steady_state") {
         assert!(state(&case).solve().is_err(), "{case}");
     }
 }
@@ -166,7 +158,7 @@ fn hostile_inputs_converge_or_say_why() {
 #[test]
 fn bad_inputs_are_refused_by_name() {
     assert_refused(
-        &state(&golden("exact")[0]),
+        &state(&cases("efficiency", "exact")[0]),
         BallScrewState::solve,
         &[
             ("lead_angle", |s, v| s.lead_angle = v, &[-1e300]),
@@ -179,57 +171,6 @@ fn bad_inputs_are_refused_by_name() {
             ("ball_density", |s, v| s.ball_density = v, &[-1e300]),
         ],
     );
-}
-
-/// Eq. (14) and its correction for inertia against the exact steady state, where it exists, over friction 0.001 to 0.3, lead
-/// angles 1 to 45 and contact angles 20 to 70 degrees: the errors go with the dynamic number and with its square.
-#[test]
-fn inertia_corrects_the_closed_form() {
-    for (rpm, axial_load) in [
-        (2000.0, 2113.0),
-        (10_000.0, 2113.0),
-        (2000.0, 21.13),
-        (10_000.0, 211.3),
-        (10_000.0, 21.13),
-    ] {
-        let (mut closed_worst, mut corrected_worst, mut cases) = (0.0_f64, 0.0_f64, 0);
-        for friction in [0.001, 0.01, 0.03, 0.075, 0.15, 0.3] {
-            for lead_degrees in 1..=45 {
-                for contact_degrees in (20..=70).step_by(5) {
-                    let state = BallScrewState {
-                        lead_angle: f64::from(lead_degrees).to_radians(),
-                        contact_angle: f64::from(contact_degrees).to_radians(),
-                        friction,
-                        ball_radius: 4.37e-3,
-                        pitch_radius: 24.3e-3,
-                        speed: rpm * std::f64::consts::TAU / 60.0,
-                        axial_load,
-                        ball_density: 7800.0,
-                    };
-                    let Ok(exact) = state.solve() else { continue };
-                    let screw = Screw {
-                        lead_angle: state.lead_angle,
-                        contact_angle: state.contact_angle,
-                        friction,
-                        ball_ratio: state.ball_radius / state.pitch_radius,
-                        rolling_tangent: 0.0,
-                    };
-                    let corrected = screw.sliding_drive_with_inertia(state.dynamic_number());
-                    closed_worst =
-                        closed_worst.max((screw.sliding_drive() - exact.efficiency).abs());
-                    corrected_worst = corrected_worst.max((corrected - exact.efficiency).abs());
-                    cases += 1;
-                }
-            }
-        }
-        println!(
-            "{rpm} rpm, {axial_load} N: {closed_worst:.1e}, {corrected_worst:.1e} in {cases} cases"
-        );
-        assert!(cases > 1000);
-        let state = format!("steady state, {rpm} rpm, {axial_load} N");
-        measured::assert(&format!("{state}, closed form"), closed_worst);
-        measured::assert(&format!("{state}, corrected"), corrected_worst);
-    }
 }
 
 /// From no load to 100 kN, without friction and with 0.3, at the published screw and below its existence limit.
@@ -276,7 +217,7 @@ fn no_load_and_no_friction_are_named() {
 #[test]
 fn dynamic_coefficient_is_the_stored_one() {
     let mut seen = 0;
-    for case in golden("exact") {
+    for case in cases("efficiency", "exact") {
         if case.get("k1").is_none_or(Value::is_null) {
             continue;
         }

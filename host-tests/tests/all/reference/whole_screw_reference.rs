@@ -1,5 +1,6 @@
 //! Whole ball screw with recirculation: stored runs, the features of Figure 3.24, and the laws of contact.
 
+use crate::golden::{file as golden, list_of as list};
 use crate::refusals::assert_refused;
 use epas_reference::friction::ball_screw_closed::ThreePointModel;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
@@ -8,22 +9,7 @@ use epas_reference::friction::linear_ball::EllipseLaw;
 use epas_reference::friction::whole_screw::WholeScrew;
 use epas_testkit::designs::SCREW_TRACK;
 use epas_testkit::measured;
-use serde_json::Value;
 use std::f64::consts::{FRAC_PI_4, TAU};
-
-fn golden(name: &str) -> Value {
-    let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-fn list(value: &Value) -> Vec<f64> {
-    value
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|x| x.as_f64().unwrap())
-        .collect()
-}
 
 fn law(side: &str, groove_radius: &str) -> HertzLaw {
     let all = golden("ballscrew");

@@ -4,8 +4,9 @@ use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SL
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, Faults,
-    FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LoadShare, Regime,
+    FrictionBranch, FrictionModel, LinearBearingTrain, LoadShare, Regime,
 };
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 
 use epas_testkit::gears;
 
@@ -38,10 +39,7 @@ fn at_the_reversal_speed_a_mechanism_moves() {
         (speed.next_down(), Regime::Standing),
         (-speed.next_down(), Regime::Standing),
     ] {
-        let inputs = Inputs {
-            nut_speed,
-            axial_load: 1000.0,
-        };
+        let inputs = screw_inputs(nut_speed, 1000.0);
         assert_eq!(model.step(inputs).regime, regime, "{nut_speed}");
     }
 
@@ -53,10 +51,7 @@ fn at_the_reversal_speed_a_mechanism_moves() {
         (speed, Regime::Driving),
         (speed.next_down(), Regime::Standing),
     ] {
-        let inputs = Inputs {
-            nut_speed,
-            axial_load: 1000.0,
-        };
+        let inputs = screw_inputs(nut_speed, 1000.0);
         assert_eq!(model.step(inputs).regime, regime, "{nut_speed}");
     }
 
@@ -68,11 +63,7 @@ fn at_the_reversal_speed_a_mechanism_moves() {
         (speed, Regime::Driving),
         (speed.next_down(), Regime::Standing),
     ] {
-        let inputs = LinearInputs {
-            speed,
-            normal_load: 1000.0,
-            side_load: 0.0,
-        };
+        let inputs = linear_inputs(speed, 1000.0, 0.0);
         assert_eq!(model.step(inputs).regime, regime, "{speed}");
     }
 }
@@ -82,10 +73,7 @@ fn at_the_reversal_speed_a_mechanism_moves() {
 fn without_a_load_a_screw_drives() {
     let mut model = FrictionModel::<gears::CagedScrew>::new(&gears::caged()).unwrap();
     for nut_speed in [50.0, -50.0] {
-        let outputs = model.step(Inputs {
-            nut_speed,
-            axial_load: 0.0,
-        });
+        let outputs = model.step(screw_inputs(nut_speed, 0.0));
         assert_eq!((outputs.regime, outputs.efficiency), (Regime::Driving, 0.0));
         assert!(outputs.friction_torque * nut_speed > 0.0);
     }
@@ -105,10 +93,7 @@ fn back_driving_ends_where_the_efficiency_does() {
             clearance: Clearance::ZERO,
             ..gears::closed_form(FrictionBranch::Rolling)
         };
-        closed_form(&configuration).step(Inputs {
-            nut_speed: -50.0,
-            axial_load: 1000.0,
-        })
+        closed_form(&configuration).step(screw_inputs(-50.0, 1000.0))
     };
     let (turns, holds) = border(1e-6, 0.1, |tangent| {
         lowered(tangent).regime == Regime::Locked
@@ -139,10 +124,7 @@ fn a_drive_locks_at_a_thousand_pitch_radii() {
             friction,
             ..gears::closed_form(FrictionBranch::Sliding)
         };
-        closed_form(&configuration).step(Inputs {
-            nut_speed: 50.0,
-            axial_load: 1000.0,
-        })
+        closed_form(&configuration).step(screw_inputs(50.0, 1000.0))
     };
     let (moves, locked) = border(1e-3, 0.5, |friction| {
         driven(friction).regime == Regime::Locked
@@ -157,10 +139,7 @@ fn a_drive_locks_at_a_thousand_pitch_radii() {
             ..gears::closed_form(FrictionBranch::Sliding)
         };
         closed_form(&configuration)
-            .step(Inputs {
-                nut_speed,
-                axial_load: 0.0,
-            })
+            .step(screw_inputs(nut_speed, 0.0))
             .regime
     };
     assert_eq!(
@@ -177,10 +156,7 @@ fn an_uncaged_screw_is_locked_by_its_own_friction() {
         FrictionModel::<gears::UncagedScrew<{ gears::SCREW_BALLS }>>::new(&configuration).unwrap();
     for step in 0..400_u16 {
         let axial_load = -2.0 * f32::from(step);
-        let outputs = model.step(Inputs {
-            nut_speed: 20.0,
-            axial_load,
-        });
+        let outputs = model.step(screw_inputs(20.0, axial_load));
         let sustains = outputs.friction_torque.abs() < -outputs.load_torque;
         let expected = if outputs.load_torque >= 0.0 {
             Regime::Driving
@@ -203,29 +179,15 @@ fn every_scene_counts_its_faults() {
         FrictionModel::<LinearBearingTrain<{ gears::LINEAR_BALLS }>>::new(&gears::linear())
             .unwrap();
     for tick in 1..=3 {
-        let _ = screw.step(Inputs {
-            nut_speed: f32::NAN,
-            axial_load: 1.0,
-        });
-        let _ = bearing.step(LinearInputs {
-            speed: 0.1,
-            normal_load: f32::NAN,
-            side_load: 1.0,
-        });
+        let _ = screw.step(screw_inputs(f32::NAN, 1.0));
+        let _ = bearing.step(linear_inputs(0.1, f32::NAN, 1.0));
         assert_eq!(
             (screw.faulted_ticks(), bearing.faulted_ticks()),
             (tick, tick)
         );
     }
-    let _ = screw.step(Inputs {
-        nut_speed: 1.0,
-        axial_load: 1.0,
-    });
-    let _ = bearing.step(LinearInputs {
-        speed: 0.1,
-        normal_load: 1.0,
-        side_load: 0.0,
-    });
+    let _ = screw.step(screw_inputs(1.0, 1.0));
+    let _ = bearing.step(linear_inputs(0.1, 1.0, 0.0));
     assert_eq!((screw.faulted_ticks(), bearing.faulted_ticks()), (0, 0));
     let mut faults = Faults::LOAD_RANGE;
     faults |= Faults::LOAD_RANGE;

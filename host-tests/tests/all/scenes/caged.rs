@@ -1,6 +1,7 @@
 //! What a caged screw promises: certificates of blocks that `epas-design` folds, each of 2,048 states that were not fitted; and laws that
 //! hold for all of them.
 
+use epas_testkit::gears::screw_inputs;
 use std::sync::LazyLock;
 
 use epas_design::{CagedDesign, CagedFold, Failure, Figure, Folded};
@@ -8,7 +9,7 @@ use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
 use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, Clearance, DISSERTATION_DESIGNS, FrictionModel,
-    Inputs, Limits, Outputs, Regime, defaults,
+    Limits, Outputs, Regime, defaults,
 };
 use epas_reference::promises;
 use epas_testkit::errors::Errors;
@@ -191,10 +192,7 @@ fn one(fold: &CagedFold) -> CagedBallScrewConfiguration {
 }
 
 fn step(model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, load_per_ball: f32) -> Outputs {
-    model.step(Inputs {
-        nut_speed,
-        axial_load: 37.0 * load_per_ball,
-    })
+    model.step(screw_inputs(nut_speed, 37.0 * load_per_ball))
 }
 
 /// What the motor gives is what the load takes and what friction takes; a load that friction holds does not turn the nut.

@@ -4,10 +4,10 @@ use crate::refusals::assert_refused;
 use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
-    DISSERTATION_DESIGNS, Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
+    DISSERTATION_DESIGNS, Faults, FrictionBranch, FrictionModel, Limits, Outputs, Regime,
 };
-use epas_reference::efficiency::Screw;
 use epas_testkit::gears::oversize;
+use epas_testkit::gears::screw_inputs;
 use epas_testkit::measured;
 use proptest::prelude::*;
 
@@ -33,72 +33,7 @@ fn model(configuration: &ClosedFormScrewConfiguration) -> FrictionModel<ClosedFo
 }
 
 fn step(model: &mut FrictionModel<ClosedFormScrew>, nut_speed: f32, axial_load: f32) -> Outputs {
-    model.step(Inputs {
-        nut_speed,
-        axial_load,
-    })
-}
-
-/// Far from the reversal the friction torque is the closed-form efficiency's, in both directions and
-/// both branches: `T = F lead/2pi (1/eta - 1)` driving, `F lead/2pi (1 - eta)` back-driving.
-#[test]
-fn torque_is_the_efficiency_of_the_reference() {
-    let designs = DISSERTATION_DESIGNS.map(|design| design.parameters);
-    let sizes = CATALOGUE.map(|size| size.parameters());
-    for parameters in designs.into_iter().chain(sizes) {
-        for branch in [FrictionBranch::Rolling, FrictionBranch::Sliding] {
-            let design = BallScrew::new(parameters).unwrap();
-            let mut model = model(&ClosedFormScrewConfiguration {
-                design,
-                branch,
-                ..configuration()
-            });
-            let lead = f64::from(parameters.lead);
-            let pitch_radius = f64::from(parameters.pitch_radius);
-            let screw = Screw {
-                lead_angle: (lead / (std::f64::consts::TAU * pitch_radius)).atan(),
-                contact_angle: f64::from(parameters.contact_angle),
-                friction: f64::from(0.075_f32),
-                ball_ratio: f64::from(parameters.ball_radius) / pitch_radius,
-                rolling_tangent: 0.0,
-            };
-            let (drive, backdrive) = match branch {
-                FrictionBranch::Rolling => (screw.rolling_screw(), screw.rolling_backdrive()),
-                FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
-            };
-            let arm = lead / std::f64::consts::TAU;
-            for (speed, load) in [(100.0, 900.0), (-100.0, -900.0)] {
-                let outputs = step(&mut model, speed, load);
-                let expected = 900.0 * arm * (1.0 / drive - 1.0);
-                let computed = f64::from(outputs.friction_torque * speed.signum());
-                // A dozen roundings, and 2e-6 of blending at 500 times the reversal speed.
-                assert!(
-                    (computed / expected - 1.0).abs() < 4e-6,
-                    "{parameters:?}: {computed}"
-                );
-                // Some roundings of 6e-8, and a quarter of the blending at most.
-                assert!((f64::from(outputs.efficiency) - drive).abs() < 7e-7);
-                assert_eq!(outputs.regime, Regime::Driving);
-                let outputs = step(&mut model, speed, -load);
-                let expected = 900.0 * arm * (1.0 - backdrive);
-                let computed = f64::from(outputs.friction_torque * speed.signum());
-                assert!(
-                    (computed / expected - 1.0).abs() < 4e-6,
-                    "{parameters:?}: {computed}"
-                );
-                assert!(
-                    (f64::from(outputs.efficiency) - backdrive).abs()
-                        < 2.2e-6 * (1.0 - backdrive).max(1.0)
-                );
-                let expected = if backdrive > 0.0 {
-                    Regime::BackDriving
-                } else {
-                    Regime::Locked
-                };
-                assert_eq!(outputs.regime, expected);
-            }
-        }
-    }
+    model.step(screw_inputs(nut_speed, axial_load))
 }
 
 prop_compose! {
@@ -202,10 +137,7 @@ proptest! {
         load_bits in any::<u32>(),
     ) {
         let mut touched = model(&configuration);
-        let wild = Inputs {
-            nut_speed: f32::from_bits(speed_bits),
-            axial_load: f32::from_bits(load_bits),
-        };
+        let wild = screw_inputs(f32::from_bits(speed_bits), f32::from_bits(load_bits));
         let outputs = touched.step(wild);
         prop_assert!(outputs.friction_torque.is_finite() && outputs.load_torque.is_finite());
         prop_assert!((-1e6..=1.0).contains(&outputs.efficiency));

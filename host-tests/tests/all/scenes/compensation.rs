@@ -1,5 +1,6 @@
 //! Compensation of friction in the loop: motor, delay, encoder and exact friction.
 
+use epas_testkit::gears::screw_inputs;
 use std::convert::Infallible;
 
 use embedded_hal::pwm::{ErrorType, SetDutyCycle};
@@ -15,7 +16,7 @@ use epas_friction::scene::{
 use epas_friction::{Faults, FrictionModel, Inputs, Outputs, UncagedOutputs};
 use epas_reference::closed_loop::{ClosedLoop, Swing};
 
-use epas_testkit::gears::{CAGED_PRELOAD, CagedConfiguration, CagedScrew, caged};
+use epas_testkit::gears::{CAGED_PRELOAD, CagedScrew, caged};
 use epas_testkit::random::Random;
 use epas_testkit::remembering::at;
 
@@ -76,14 +77,7 @@ fn model<E: Elements + Copy>(elements: E, play: f64, load: f64) -> Caged<E> {
 }
 
 fn still(reading: u32) -> WithMemoryInputs<Inputs, u32> {
-    at(
-        Inputs {
-            nut_speed: 0.0,
-            axial_load: 0.0,
-        },
-        reading,
-        TEMPERATURE,
-    )
+    at(screw_inputs(0.0, 0.0), reading, TEMPERATURE)
 }
 
 /// Full friction of the model, N m: by the preload alone, the same in both directions.
@@ -441,48 +435,6 @@ fn noise_without_a_play_hums() {
 fn refused(case: &Case) -> &'static str {
     let error = case.margin().checked_share(case.share).unwrap_err();
     error.field()
-}
-
-/// Every loop with a friction without memory, which follows the speed as `w / sqrt(w² + w_s²)`, swings for ever.
-#[test]
-fn friction_by_the_speed_hums() {
-    let scene = caged();
-    let full = full_friction();
-    for (rate, reversal_speed) in [(1000, 0.5), (1000, 0.2), (10_000, 0.5), (20_000, 0.5)] {
-        for breakaway in [2e-3, 10e-3] {
-            let mut model = FrictionModel::<CagedScrew>::new(&CagedConfiguration {
-                reversal_speed,
-                ..scene
-            })
-            .unwrap();
-            let mut stage = stage(4.0 * full, 0.95);
-            let mut last = 0;
-            let swing = Case {
-                breakaway,
-                rate,
-                ..QUIET
-            }
-            .plant(full)
-            .run(
-                || 0.5,
-                |count| {
-                    let turn = (count - last) as f64 * ClosedLoop::COUNT;
-                    last = count;
-                    let outputs = model.step(Inputs {
-                        nut_speed: (turn * f64::from(rate)) as f32,
-                        axial_load: 0.0,
-                    });
-                    let Ok(applied) = stage.apply(&outputs);
-                    Bridge::torque(applied.duty, 4.0 * full)
-                },
-            );
-            // Measured: 21 to 1527 counts, 0.44 to 1.9 rad/s.
-            assert!(
-                swing.counts > 15.0 && swing.speed > 0.3,
-                "{rate} {reversal_speed} {breakaway}: {swing:?}"
-            );
-        }
-    }
 }
 
 /// Torque and flags of a screw without cage are put out as those of a caged one.

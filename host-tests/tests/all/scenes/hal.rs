@@ -1,6 +1,7 @@
 //! The adapters for `embedded-hal`: frames on the bus, wrap-around, faults of bus and sensor, duty cycles.
 
 use crate::refusals::assert_refused;
+use epas_testkit::gears::screw_inputs;
 use std::cell::Cell;
 use std::f32::consts::TAU;
 
@@ -14,7 +15,7 @@ use epas_friction::hal::{
 };
 use epas_friction::{
     BallScrew, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
-    Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
+    Faults, FrictionBranch, FrictionModel, Limits, Outputs, Regime,
 };
 
 const READ_ANGLE: u16 = 0xFFFF;
@@ -737,10 +738,7 @@ fn a_failed_bus_leaves_the_bridge_neutral() {
         let nut_speed = encoder
             .tick(true)
             .map_or(f32::NAN, |motion| motion.nut_speed);
-        let outputs = model.step(Inputs {
-            nut_speed,
-            axial_load: 8_000.0,
-        });
+        let outputs = model.step(screw_inputs(nut_speed, 8_000.0));
         let Ok(applied) = stage.apply(&outputs);
         if tick == 0 || tick == 20 {
             assert!(applied.neutral && applied.duty == 4200, "tick {tick}");

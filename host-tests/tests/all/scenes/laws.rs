@@ -7,11 +7,11 @@ use epas_friction::train::Press;
 use epas_friction::{
     BallScrew, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, DeviationMap,
     FrictionModel, GrooveSize, Inputs, LinearBearingConfiguration, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShares, Regime, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    LinearLimits, LoadShares, Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 use epas_testkit::absurd::{Trial, accepted};
 use epas_testkit::gears::{SCREW_BALLS, UncagedScrew, changed, even};
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
 use proptest::prelude::*;
 
@@ -83,10 +83,7 @@ fn linear(seed: u64, ball_friction: f32) -> (FrictionModel<LinearBearingTrain<5>
 }
 
 fn inputs(nut_speed: f32, axial_load: f32) -> Inputs {
-    Inputs {
-        nut_speed,
-        axial_load,
-    }
+    screw_inputs(nut_speed, axial_load)
 }
 
 proptest! {
@@ -179,11 +176,7 @@ proptest! {
         seed: u64, speed in -1.0_f32..1.0, normal in 0.0_f32..0.5, side in -1.0_f32..1.0, more in 1.0_f32..2.0,
     ) {
         let (mut model, limits) = linear(seed, 0.3);
-        let inputs = |speed: f32, more: f32, side: f32| LinearInputs {
-            speed: speed * limits.speed,
-            normal_load: more * normal * limits.load,
-            side_load: more * side * normal * limits.load,
-        };
+        let inputs = |speed: f32, more: f32, side: f32| linear_inputs(speed * limits.speed, more * normal * limits.load, more * side * normal * limits.load);
         let there = model.step(inputs(speed, 1.0, side));
         model.reset();
         let back = model.step(inputs(-speed, 1.0, side));

@@ -3,6 +3,7 @@
 
 use crate::refusals::assert_refused;
 use epas_testkit::gears;
+use epas_testkit::gears::linear_inputs;
 use epas_testkit::given;
 use epas_testkit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -156,11 +157,11 @@ fn every_ball_is_in_balance() {
                 .map(|units| weight(f64::from(units) / 2_f64.powi(32) * (LOADED + RETURN)))
                 .collect();
             let weights: f64 = before.iter().map(|(_, weight)| weight).sum();
-            let output = model.step(LinearInputs {
-                speed: speed as f32,
-                normal_load: loads[0] as f32,
-                side_load: loads[1] as f32,
-            });
+            let output = model.step(linear_inputs(
+                speed as f32,
+                loads[0] as f32,
+                loads[1] as f32,
+            ));
             assert!(!output.faults.any());
             let train = &model.state().circuit.train;
             let forces: Vec<f64> = train.forces().map(f64::from).collect();
@@ -259,11 +260,7 @@ fn groove_friction_is_the_spin_of_all_contacts() {
         }
         .solve(1.0)
         .unwrap();
-        let output = model.step(LinearInputs {
-            speed: 1.0,
-            normal_load: normal as f32,
-            side_load: side as f32,
-        });
+        let output = model.step(linear_inputs(1.0, normal as f32, side as f32));
         // Spin takes the power of 4/3 of a load.
         let loaded: f64 = parts.iter().map(|part| part.powf(4.0 / 3.0)).sum();
         let exact = loaded * motion.power_loss;
@@ -289,11 +286,7 @@ fn groove_friction_is_the_spin_of_all_contacts() {
 fn bad_inputs_are_flagged_and_bad_configurations_named() {
     const BAD: &[f32] = &[-1.0, 1e30];
     let mut model = Model::new(&configuration()).unwrap();
-    let inputs = |speed, normal_load, side_load| LinearInputs {
-        speed,
-        normal_load,
-        side_load,
-    };
+    let inputs = |speed, normal_load, side_load| linear_inputs(speed, normal_load, side_load);
     let sound = inputs(0.5, 400.0, 100.0);
     model.step(sound);
     for (inputs, faults) in [
@@ -340,11 +333,7 @@ fn bad_inputs_are_flagged_and_bad_configurations_named() {
 #[test]
 fn limits_hold_to_their_last_number() {
     let limits = configuration().limits;
-    let sound = LinearInputs {
-        speed: 0.5,
-        normal_load: 400.0,
-        side_load: 100.0,
-    };
+    let sound = linear_inputs(0.5, 400.0, 100.0);
     let (speed_range, load_range) = (Faults::SPEED_RANGE.bits(), Faults::LOAD_RANGE.bits());
     let range = |inputs| {
         let mut model = Model::new(&configuration()).unwrap();

@@ -2,9 +2,10 @@
 
 use crate::refusals::assert_refused;
 use epas_friction::{
-    Faults, FrictionModel, Inputs, Limits, LoadProportionalConfiguration,
-    LoadProportionalConstants, LoadProportionalScrew, Outputs, Regime,
+    Faults, FrictionModel, Limits, LoadProportionalConfiguration, LoadProportionalConstants,
+    LoadProportionalScrew, Outputs, Regime,
 };
+use epas_testkit::gears::screw_inputs;
 use proptest::prelude::*;
 
 const DRIVE: LoadProportionalConfiguration = LoadProportionalConfiguration {
@@ -23,10 +24,7 @@ const DRIVE: LoadProportionalConfiguration = LoadProportionalConfiguration {
 
 fn step(configuration: &LoadProportionalConfiguration, nut_speed: f32, axial_load: f32) -> Outputs {
     let mut model = FrictionModel::<LoadProportionalScrew>::new(configuration).unwrap();
-    model.step(Inputs {
-        nut_speed,
-        axial_load,
-    })
+    model.step(screw_inputs(nut_speed, axial_load))
 }
 
 /// `T = T_C + eta |tau| + b |w|` against the motion; the efficiency is work out over work in.

@@ -4,6 +4,7 @@
 mod coefficients;
 mod reversal;
 
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::f32::consts::TAU;
 
 use epas_friction::defaults::COEFFICIENT;
@@ -21,8 +22,7 @@ use epas_friction::scene::{
     WithMemoryInputs,
 };
 use epas_friction::{
-    ClosedFormScrew, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain,
-    LinearInputs, Regime,
+    ClosedFormScrew, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, Regime,
 };
 
 use epas_testkit::gears::{
@@ -99,10 +99,7 @@ fn caged_by_angle() -> Caged<WrappedAngle> {
 }
 
 fn screw(nut_speed: f32, axial_load: f32) -> Inputs {
-    Inputs {
-        nut_speed,
-        axial_load,
-    }
+    screw_inputs(nut_speed, axial_load)
 }
 
 fn slides_as_without<S>(
@@ -296,11 +293,7 @@ fn steady_sliding_is_the_scene_without_memory() {
     let mut configuration = linear();
     configuration.reversal_speed = 1e-9;
     let friction = configuration.friction;
-    let load = LinearInputs {
-        speed: 0.0,
-        normal_load: 1500.0,
-        side_load: 200.0,
-    };
+    let load = linear_inputs(0.0, 1500.0, 200.0);
     slides_as_without::<LinearBearingTrain<LINEAR_BALLS>>(
         configuration,
         friction,

@@ -6,6 +6,7 @@ use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband, N
 use epas_friction::scene::{Freshness, Sliding, WithMemory, WithMemoryConfiguration};
 use epas_friction::{FrictionModel, Inputs, Outputs, Regime, UncagedOutputs};
 use epas_reference::closed_loop::ClosedLoop;
+use epas_testkit::gears::screw_inputs;
 
 use epas_testkit::gears::{
     CagedConfiguration, CagedScrew, SCREW_BALLS, UncagedConfiguration, UncagedScrew, caged,
@@ -123,10 +124,7 @@ where
         let noise = SPEED_NOISE * TICK / 2.0_f64.sqrt() * normal(random);
         let count = ((0.3 + turn + noise) / ClosedLoop::COUNT).floor() as u32;
         let outputs = model.step(at(
-            Inputs {
-                nut_speed: speed(random),
-                axial_load: LOAD,
-            },
+            screw_inputs(speed(random), LOAD),
             count % 16384,
             TEMPERATURE,
         ));
@@ -160,10 +158,7 @@ where
     let mut model = FrictionModel::<S>::new(scene).unwrap();
     let outputs: Vec<_> = (0..TICKS)
         .map(|_| {
-            let outputs = model.step(Inputs {
-                nut_speed: speed(),
-                axial_load: LOAD,
-            });
+            let outputs = model.step(screw_inputs(speed(), LOAD));
             outputs.friction()
         })
         .collect();
@@ -262,10 +257,7 @@ fn without_a_play_friction_follows_the_counts() {
 
 fn full_at_5_kn() -> f32 {
     let mut model = FrictionModel::<CagedScrew>::new(&caged()).unwrap();
-    let outputs = model.step(Inputs {
-        nut_speed: 100.0,
-        axial_load: 5e3,
-    });
+    let outputs = model.step(screw_inputs(100.0, 5e3));
     outputs.friction_torque
 }
 
@@ -285,10 +277,7 @@ fn under_5_kn(half_width: f32, counts_of_ticks: impl IntoIterator<Item = i32>) -
     })
     .unwrap();
     let friction = |count: i32| {
-        let inputs = Inputs {
-            nut_speed: 0.0,
-            axial_load: 5e3,
-        };
+        let inputs = screw_inputs(0.0, 5e3);
         let reading = (8000 + count).rem_euclid(16_384) as u32;
         model.step(at(inputs, reading, TEMPERATURE)).friction_torque
     };

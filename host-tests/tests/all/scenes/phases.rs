@@ -1,10 +1,11 @@
 //! Where the groove that passes by stands, how far a circuit reaches, and how long its ticks may be.
 
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::f32::consts::TAU;
 
 use epas_friction::{
-    DeviationMap, Error, FrictionModel, Inputs, LinearBearing, LinearBearingConfiguration,
-    LinearBearingParameters, LinearBearingTrain, LinearInputs, UncagedBallScrewConfiguration,
+    DeviationMap, Error, FrictionModel, LinearBearing, LinearBearingConfiguration,
+    LinearBearingParameters, LinearBearingTrain, UncagedBallScrewConfiguration,
 };
 
 use epas_testkit::gears::{
@@ -24,10 +25,7 @@ fn from_angle(angle: f32) -> Vec<f32> {
     };
     let mut model = FrictionModel::<Uncaged>::new(&configuration).unwrap();
     model.set_nut_angle(angle);
-    let inputs = Inputs {
-        nut_speed: 30.0,
-        axial_load: 3000.0,
-    };
+    let inputs = screw_inputs(30.0, 3000.0);
     (0..600)
         .map(|_| model.step(inputs).friction_torque)
         .collect()
@@ -40,11 +38,7 @@ fn from_position(position: f32, (cosine, sine): (f32, f32)) -> Vec<f32> {
     };
     let mut model = FrictionModel::<Linear>::new(&configuration).unwrap();
     model.set_carriage_position(position);
-    let inputs = LinearInputs {
-        speed: 1.0,
-        normal_load: 3000.0,
-        side_load: 1000.0,
-    };
+    let inputs = linear_inputs(1.0, 3000.0, 1000.0);
     (0..600)
         .map(|_| model.step(inputs).friction_force)
         .collect()

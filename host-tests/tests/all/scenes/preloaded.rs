@@ -1,5 +1,6 @@
 //! The load that every scene of a screw tells the elements of its memory, and what both flanks carry by it.
 
+use epas_testkit::gears::screw_inputs;
 use std::f32::consts::SQRT_2;
 
 use epas_friction::law::coefficient::DirectionalCoefficient;
@@ -42,10 +43,7 @@ fn told<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, axial_loa
         forward: 0.075,
         backward: 0.075,
     };
-    let inputs = Inputs {
-        nut_speed: 1.0,
-        axial_load,
-    };
+    let inputs = screw_inputs(1.0, axial_load);
     S::by_direction(&S::sliding_friction(
         &constants, &mut state, inputs, friction,
     ))

@@ -1,5 +1,6 @@
 //! A whole gear folded by the compiler is the gear that a program would set up, to the bit, and runs like it.
 
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::fmt::Debug;
 use std::hint::black_box;
 
@@ -13,9 +14,9 @@ use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
     ClosedFormScrewConstants, DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch,
     FrictionModel, GrooveSize, Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration,
-    LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits,
-    LoadShare, LoadShares, Material, Outputs, Scene, UncagedBallScrew,
-    UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
+    LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearLimits, LoadShare,
+    LoadShares, Material, Outputs, Scene, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedConstants, UncagedOutputs,
 };
 
 use epas_testkit::gears::{BALL, BALL_NODES, BALL_RANGE, UncagedScrew};
@@ -205,10 +206,7 @@ fn same_gear<S>(
 }
 
 const fn nut(nut_speed: f32, axial_load: f32) -> Inputs {
-    Inputs {
-        nut_speed,
-        axial_load,
-    }
+    screw_inputs(nut_speed, axial_load)
 }
 
 #[test]
@@ -234,10 +232,8 @@ fn a_folded_ball_screw_without_cage_is_the_one_set_up_at_run_time() {
 
 #[test]
 fn a_folded_linear_bearing_is_the_one_set_up_at_run_time() {
-    same_gear::<LinearBearingTrain<24>>(&CARRIAGE, &linear(), |speed, load| LinearInputs {
-        speed: 0.01 * speed,
-        normal_load: 2_000.0,
-        side_load: 0.1 * load,
+    same_gear::<LinearBearingTrain<24>>(&CARRIAGE, &linear(), |speed, load| {
+        linear_inputs(0.01 * speed, 2_000.0, 0.1 * load)
     });
 }
 

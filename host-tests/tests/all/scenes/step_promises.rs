@@ -2,6 +2,7 @@
 
 use epas_testkit::designs::{SCREW_TRACK as TRACK, screw};
 use epas_testkit::errors::Errors;
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
 use epas_testkit::remembering::at;
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -18,10 +19,9 @@ use epas_friction::scene::{
 use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
-    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Inputs, Limits,
+    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadProportionalConfiguration, LoadProportionalScrew, LoadShare,
-    Material,
+    LinearLimits, LoadProportionalConfiguration, LoadProportionalScrew, LoadShare, Material,
 };
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
@@ -78,10 +78,7 @@ fn closed_form_step() {
                     let (sum, blended) = (force.abs(), direction * force);
                     let exact =
                         0.5 * direction * (drive * (sum + blended) + backdrive * (sum - blended));
-                    let found = model.step(Inputs {
-                        nut_speed: speed,
-                        axial_load: load,
-                    });
+                    let found = model.step(screw_inputs(speed, load));
                     errors.add_case(f64::from(found.friction_torque) / exact - 1.0, || {
                         format!("{parameters:?} {branch:?} {speed} {load}")
                     });
@@ -126,10 +123,7 @@ fn load_proportional() {
                     let exact = w / w.hypot(0.5)
                         * (f64::from(coulomb_friction) + loss * torque.abs())
                         + f64::from(viscous_friction) * w;
-                    let found = model.step(Inputs {
-                        nut_speed: speed,
-                        axial_load: load,
-                    });
+                    let found = model.step(screw_inputs(speed, load));
                     let found = f64::from(found.friction_torque);
                     let error = if exact == 0.0 {
                         found
@@ -385,11 +379,11 @@ fn linear_step() {
                 .solve(1.0)
                 .unwrap()
                 .power_loss;
-                let inputs = LinearInputs {
-                    speed: speed as f32,
-                    normal_load: (24.0 * per_ball) as f32,
-                    side_load: (24.0 * per_ball * side) as f32,
-                };
+                let inputs = linear_inputs(
+                    speed as f32,
+                    (24.0 * per_ball) as f32,
+                    (24.0 * per_ball * side) as f32,
+                );
                 let known = sound(inputs, inputs.speed);
                 for (found, errors) in [
                     (model.step(inputs), &mut errors),

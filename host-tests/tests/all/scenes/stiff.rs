@@ -1,12 +1,13 @@
 //! Stiff cases: impedances that differ by powers of ten, full tracks, long runs.
 
 use crate::recorded;
+use epas_friction::FrictionModel;
 use epas_friction::train::{Press, Train};
-use epas_friction::{FrictionModel, Inputs};
 use epas_reference::promises;
 use epas_testkit::absurd::{Trial, sound_train};
 use epas_testkit::errors::Errors;
 use epas_testkit::gears;
+use epas_testkit::gears::screw_inputs;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 
@@ -225,14 +226,8 @@ fn standstill_is_smooth_at_the_least_reversal_speed() {
         configuration.reversal_speed = width;
         configuration.limits.nut_speed = 1e6;
         let mut model = FrictionModel::<gears::CagedScrew>::new(&configuration).unwrap();
-        let mut friction = |nut_speed: f32| {
-            model
-                .step(Inputs {
-                    nut_speed,
-                    axial_load: 4e3,
-                })
-                .friction_torque
-        };
+        let mut friction =
+            |nut_speed: f32| model.step(screw_inputs(nut_speed, 4e3)).friction_torque;
         let full = friction(1e6);
         let mut last = 0.0;
         let mut speed = 1e-38_f32;

@@ -2,6 +2,7 @@
 
 mod refusals;
 
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::f32::consts::TAU;
 use std::fmt::Debug;
 
@@ -74,18 +75,15 @@ impl Manoeuvre {
     }
 
     fn screw(&self) -> Inputs {
-        Inputs {
-            nut_speed: self.speed,
-            axial_load: self.delivered(),
-        }
+        screw_inputs(self.speed, self.delivered())
     }
 
     fn bearing(&self) -> LinearInputs {
-        LinearInputs {
-            speed: 0.02 * self.speed,
-            normal_load: 2000.0 + 0.2 * self.delivered(),
-            side_load: 0.05 * self.load,
-        }
+        linear_inputs(
+            0.02 * self.speed,
+            2000.0 + 0.2 * self.delivered(),
+            0.05 * self.load,
+        )
     }
 
     fn delivered(&self) -> f32 {

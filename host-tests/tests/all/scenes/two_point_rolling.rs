@@ -2,6 +2,7 @@
 //! each other, which jump there.
 
 use epas_testkit::gears;
+use epas_testkit::gears::linear_inputs;
 use epas_testkit::given;
 use epas_testkit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -104,11 +105,11 @@ impl Case {
     }
 
     fn inputs(&self, ratio: f64, speed: f64) -> LinearInputs {
-        LinearInputs {
-            speed: speed as f32,
-            normal_load: (BALLS as f64 * self.load) as f32,
-            side_load: (BALLS as f64 * self.side(ratio)) as f32,
-        }
+        linear_inputs(
+            speed as f32,
+            (BALLS as f64 * self.load) as f32,
+            (BALLS as f64 * self.side(ratio)) as f32,
+        )
     }
 
     fn tick(&self, model: &Model, ratio: f64, speed: f64) -> LinearOutputs {
@@ -470,11 +471,7 @@ fn groove_friction_follows_two_point_rolling() {
 #[test]
 fn the_flag_stands_beside_faults_and_not_without_load() {
     let mut model = CASE.model();
-    let beyond = LinearInputs {
-        speed: 1.0,
-        normal_load: 100.0,
-        side_load: 1e7,
-    };
+    let beyond = linear_inputs(1.0, 100.0, 1e7);
     let outputs = model.step(beyond);
     assert_eq!(outputs.faults, Faults::LOAD_RANGE | Faults::BEYOND_MODEL);
     assert_eq!(model.faulted_ticks(), 1);

@@ -1,5 +1,6 @@
 //! A ball screw and a linear bearing: torques, stiffnesses, breakaway angles, the ball's seat, shares.
 
+use crate::golden::cases;
 use crate::refusals::assert_refused;
 use std::f64::consts::PI;
 
@@ -23,20 +24,10 @@ use epas_reference::friction::rolling_resistance;
 use epas_reference::hertz::Hertz;
 use epas_reference::material::Elastic;
 use epas_reference::presliding::physics::{ScrewBall, slip_and_spin};
-use serde_json::Value;
 
 use epas_testkit::designs::LINEAR_BEARING;
 use epas_testkit::errors::Errors;
 use epas_testkit::given;
-
-fn golden() -> Vec<Value> {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/presliding.json"
-    ));
-    let all: Value = serde_json::from_str(text).unwrap();
-    all["physics"].as_array().unwrap().clone()
-}
 
 fn named(name: &str) -> &'static NamedDesign {
     DISSERTATION_DESIGNS
@@ -239,7 +230,7 @@ fn crate_figures(design: &BallScrew, balls: u16, axial_load: f32, mu: f32) -> Fi
 #[test]
 fn tabulated_physics() {
     let mut largest = [0.0_f64; 2];
-    for case in golden() {
+    for case in cases("presliding", "physics") {
         let design = named(case["design"].as_str().unwrap());
         let screw = BallScrew::new(design.parameters).unwrap();
         let (load, mu) = (case["F"].as_f64().unwrap(), case["mu"].as_f64().unwrap());

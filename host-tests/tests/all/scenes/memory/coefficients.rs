@@ -11,8 +11,8 @@ use epas_friction::scene::{
 };
 use epas_friction::{
     ClosedFormScrew, Faults, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain,
-    LinearInputs,
 };
+use epas_testkit::gears::linear_inputs;
 
 use super::{
     BRANCHES, BREAKAWAY, Caged, Slip, TEMPERATURE, angle_sensor, caged_by_angle, fresh, screw,
@@ -191,11 +191,7 @@ fn full_friction_is_what_passes_in_its_direction() {
             outputs.contacts,
         )
     });
-    let load = LinearInputs {
-        speed: 0.0,
-        normal_load: 1500.0,
-        side_load: 200.0,
-    };
+    let load = linear_inputs(0.0, 1500.0, 200.0);
     let full = LinearBearingConfiguration {
         return_length: 0.0405,
         ..linear()

@@ -7,11 +7,12 @@ use epas_friction::scene::{
     Motion, ReversalState, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryState,
 };
 use epas_friction::{
-    FrictionModel, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, LinearOutputs,
-    Regime, UncagedOutputs,
+    FrictionModel, LinearBearingConfiguration, LinearBearingTrain, LinearOutputs, Regime,
+    UncagedOutputs,
 };
 use epas_reference::presliding::elements::Elements;
 use epas_reference::presliding::row::{Row, RowMemory, Torque};
+use epas_testkit::gears::linear_inputs;
 
 use super::{BREAKAWAY, OneCoefficient, Slip, TICK, at, caged_by_angle, fresh, screw, slip};
 use epas_testkit::gears::{
@@ -260,11 +261,7 @@ fn nothing_steps_where_balls_turn_round() {
     }
     let mut bearing = Found::default();
     for _ in 0..60 {
-        let load = LinearInputs {
-            speed: 0.0,
-            normal_load: 100.0 * 50.0_f32.powf(random.unit()),
-            side_load: 20.0,
-        };
+        let load = linear_inputs(0.0, 100.0 * 50.0_f32.powf(random.unit()), 20.0);
         let tick = 5e-5 * 20.0_f32.powf(random.unit());
         to_and_fro(bearing_of(tick), load, 2.0, &mut random, &mut bearing);
     }
@@ -310,11 +307,8 @@ fn a_row_makes_no_energy() {
     let screw_load =
         |random: &mut Random| screw(0.0, random.sign() * 100.0 * 200.0_f32.powf(random.unit()));
     check(screw_of(5e-4), screw_load, 90.0);
-    let bearing_load = |random: &mut Random| LinearInputs {
-        speed: 0.0,
-        normal_load: 100.0 * 50.0_f32.powf(random.unit()),
-        side_load: 20.0,
-    };
+    let bearing_load =
+        |random: &mut Random| linear_inputs(0.0, 100.0 * 50.0_f32.powf(random.unit()), 20.0);
     check(bearing_of(1e-4), bearing_load, 2.0);
 }
 

@@ -1,5 +1,6 @@
 //! Laws of a screw without cage, tick by tick: balances of the balls, where the torque comes from, mirrors, and what is no matter.
 
+use epas_testkit::gears::screw_inputs;
 use std::f64::consts::TAU;
 
 use epas_friction::ball::pressed::{
@@ -19,10 +20,7 @@ const TICK: f32 = 1e-3;
 type Model = FrictionModel<UncagedBallScrew<SCREW_BALLS>>;
 
 fn inputs(nut_speed: f32, axial_load: f32) -> Inputs {
-    Inputs {
-        nut_speed,
-        axial_load,
-    }
+    screw_inputs(nut_speed, axial_load)
 }
 
 /// Two turns that 37 balls fill, with waves on screw and nut.

@@ -1,5 +1,6 @@
 //! Screws without cage while they run: reversal, return, loads of the balls, angle, regime, inputs that are none.
 
+use epas_testkit::gears::screw_inputs;
 use std::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use epas_friction::{
@@ -19,10 +20,7 @@ pub fn configuration(share: f32) -> UncagedBallScrewConfiguration {
 }
 
 pub fn inputs(nut_speed: f32, axial_load: f32) -> Inputs {
-    Inputs {
-        nut_speed,
-        axial_load,
-    }
+    screw_inputs(nut_speed, axial_load)
 }
 
 #[test]

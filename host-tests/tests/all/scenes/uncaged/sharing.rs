@@ -1,10 +1,9 @@
 //! Loads of the balls at the borders of the loaded part: they add up to the axial load at every angle, beside the exact ring of balls.
 
+use epas_testkit::gears::screw_inputs;
 use std::f64::consts::TAU;
 
-use epas_friction::{
-    FrictionModel, Inputs, LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration,
-};
+use epas_friction::{FrictionModel, LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration};
 use epas_reference::friction::ball_screw_ring::{
     ElasticRing, GrooveDeviation, RingState, steady_samples,
 };
@@ -60,10 +59,7 @@ fn torques(
         tick: 1e-3,
     };
     let mut model = FrictionModel::<UncagedBallScrew<BALLS>>::new(&configuration).unwrap();
-    let inputs = Inputs {
-        nut_speed: nut_speed as f32,
-        axial_load: LOAD as f32,
-    };
+    let inputs = screw_inputs(nut_speed as f32, LOAD as f32);
     (0..ticks)
         .map(|_| {
             let outputs = model.step(inputs);

@@ -2,8 +2,9 @@
 //! each tick against the exact ring of balls at the same places.
 
 use epas_friction::scene::FoldedBall;
-use epas_friction::{Clearance, Inputs, LoadShares, UncagedBallScrewConfiguration};
+use epas_friction::{Clearance, LoadShares, UncagedBallScrewConfiguration};
 use epas_reference::promises;
+use epas_testkit::gears::screw_inputs;
 
 use super::exact::{BALLS, Beside, Found, PLAIN, PRELOADED, RANGE, TICK, oversize, screw, uneven};
 use epas_testkit::errors::Errors;
@@ -49,10 +50,8 @@ impl<const NODES: usize> Case<NODES> {
         let Self { speed, load, .. } = *self;
         let mut beside = Beside::new(self.screw, self.clearance);
         beside.set_friction(self.friction);
-        let inputs = |direction: f32, load: f32| Inputs {
-            nut_speed: direction * speed,
-            axial_load: load * BALLS as f32,
-        };
+        let inputs =
+            |direction: f32, load: f32| screw_inputs(direction * speed, load * BALLS as f32);
         let events = [
             (inputs(1.0, load), inputs(1.0, load)),
             (inputs(1.0, load), inputs(-1.0, load)),
@@ -120,10 +119,10 @@ fn all_events<const NODES: usize>(name: &str, cases: &[Case<NODES>], stride: u32
         println!("{name}: {what} [{largest:.2e}, {rms:.2e}, {mean:.2e}]");
     }
     for (what, figures) in figures {
-        let row = measured::of(&format!("{name}: {what}"));
-        let held = figures.iter().zip(row.accepted);
-        let held = held.clone().all(|(found, accepted)| *found <= accepted);
-        assert!(held, "{name}: {what} {figures:?}, {:?}", row.accepted);
+        let accepted = measured::of(&format!("{name}: {what}")).accepted();
+        let mut both = figures.iter().zip(&accepted);
+        let held = both.all(|(found, accepted)| found <= accepted);
+        assert!(held, "{name}: {what} {figures:?}, {accepted:?}");
     }
     all
 }
