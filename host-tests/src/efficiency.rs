@@ -127,11 +127,6 @@ impl Screw {
         w0 * w0 * cos_a * grip / (cos * (1.0 + s0) + g * (cos * c0 + f * sin)) * bracket
     }
 
-    /// Eq. (14) with the first order of inertia, [`Screw::dynamic_coefficient`].
-    pub fn sliding_drive_with_inertia(&self, dynamic_number: f64) -> f64 {
-        self.sliding_drive() * (1.0 + self.dynamic_coefficient() * dynamic_number)
-    }
-
     /// Self-braking of driving, eq. (16).
     pub fn locked_drive(&self) -> bool {
         self.contact_angle.sin() <= self.friction * self.root()

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::sync::LazyLock;
 
+use super::gears::{linear_inputs, screw_inputs};
 use super::random::Random;
 use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw};
 use epas_friction::ball::pressed::{
@@ -210,12 +211,20 @@ pub trait Trial: Scene<Configuration: Debug> + Sized {
     fn name() -> String;
     /// A random configuration, which may be refused.
     fn configuration(random: &mut Random) -> Self::Configuration;
+    /// Full scales of three sensors; 0 for one that the scene has not.
+    fn full_scales(configuration: &Self::Configuration) -> [f32; 3];
     /// Three sensor signals of the next tick, sound or not.
     fn sensors(
         random: &mut Random,
         configuration: &Self::Configuration,
         last: [f32; 3],
-    ) -> [f32; 3];
+    ) -> [f32; 3] {
+        let full_scales = Self::full_scales(configuration);
+        std::array::from_fn(|sensor| match full_scales[sensor] {
+            0.0 => 0.0,
+            full_scale => random.signal(full_scale, last[sensor]),
+        })
+    }
     /// The inputs of these signals.
     fn inputs(sensors: [f32; 3]) -> Self::Inputs;
     /// The tick by its outputs alone.
@@ -307,23 +316,16 @@ impl Trial for ClosedFormScrew {
         }
     }
 
-    fn sensors(
-        random: &mut Random,
-        configuration: &ClosedFormScrewConfiguration,
-        last: [f32; 3],
-    ) -> [f32; 3] {
+    fn full_scales(configuration: &ClosedFormScrewConfiguration) -> [f32; 3] {
         [
-            random.signal(configuration.limits.nut_speed, last[0]),
-            random.signal(configuration.limits.axial_load, last[1]),
+            configuration.limits.nut_speed,
+            configuration.limits.axial_load,
             0.0,
         ]
     }
 
     fn inputs([nut_speed, axial_load, _]: [f32; 3]) -> Inputs {
-        Inputs {
-            nut_speed,
-            axial_load,
-        }
+        screw_inputs(nut_speed, axial_load)
     }
 
     fn check(
@@ -397,14 +399,10 @@ impl<const N: usize> Trial for CagedBallScrew<N> {
         }
     }
 
-    fn sensors(
-        random: &mut Random,
-        configuration: &CagedBallScrewConfiguration<N>,
-        last: [f32; 3],
-    ) -> [f32; 3] {
+    fn full_scales(configuration: &CagedBallScrewConfiguration<N>) -> [f32; 3] {
         [
-            random.signal(configuration.limits.nut_speed, last[0]),
-            random.signal(configuration.limits.axial_load, last[1]),
+            configuration.limits.nut_speed,
+            configuration.limits.axial_load,
             0.0,
         ]
     }
@@ -715,23 +713,16 @@ where
         }
     }
 
-    fn sensors(
-        random: &mut Random,
-        configuration: &UncagedBallScrewConfiguration<NODES>,
-        last: [f32; 3],
-    ) -> [f32; 3] {
+    fn full_scales(configuration: &UncagedBallScrewConfiguration<NODES>) -> [f32; 3] {
         [
-            random.signal(configuration.folded.limits.nut_speed, last[0]),
-            random.signal(configuration.folded.limits.axial_load, last[1]),
+            configuration.folded.limits.nut_speed,
+            configuration.folded.limits.axial_load,
             0.0,
         ]
     }
 
     fn inputs([nut_speed, axial_load, _]: [f32; 3]) -> Inputs {
-        Inputs {
-            nut_speed,
-            axial_load,
-        }
+        screw_inputs(nut_speed, axial_load)
     }
 
     fn check(
@@ -823,25 +814,13 @@ impl<const N: usize> Trial for LinearBearingTrain<N> {
         }
     }
 
-    fn sensors(
-        random: &mut Random,
-        configuration: &LinearBearingConfiguration,
-        last: [f32; 3],
-    ) -> [f32; 3] {
+    fn full_scales(configuration: &LinearBearingConfiguration) -> [f32; 3] {
         let LinearLimits { speed, load, .. } = configuration.limits;
-        [
-            random.signal(speed, last[0]),
-            random.signal(load, last[1]),
-            random.signal(load, last[2]),
-        ]
+        [speed, load, load]
     }
 
     fn inputs([speed, normal_load, side_load]: [f32; 3]) -> LinearInputs {
-        LinearInputs {
-            speed,
-            normal_load,
-            side_load,
-        }
+        linear_inputs(speed, normal_load, side_load)
     }
 
     fn check(

@@ -405,48 +405,6 @@ fn back_driving_without_lead() {
     }
 }
 
-/// The rolling back-drive efficiency is the balance of work at the slipping contact.
-#[test]
-fn rolling_backdrive_equals_the_reference() {
-    for case in cases("efficiency", "closed_form") {
-        let exact = screw(&case);
-        let fast = EfficiencyGeometry::new(
-            exact.lead_angle as f32,
-            exact.contact_angle as f32,
-            exact.ball_ratio as f32,
-        )
-        .unwrap();
-        let computed = fast.rolling_backdrive_efficiency(exact.friction as f32, 0.0);
-        measured::assert_at(
-            "rolling back-drive efficiency",
-            f64::from(computed) - exact.rolling_backdrive(),
-            format_args!("{case}"),
-        );
-    }
-}
-
-/// 86.1 % at a friction of 0.075, "for all helix angles": up to 42.9 degrees driving, 47.1 back-driving.
-#[test]
-fn published_optimum_reproduces_within_its_range() {
-    assert!((optimum_efficiency(0.075) - 0.861).abs() < 5e-4);
-    let largest = |drive| {
-        optimum_contact_angle(drive, 0.1, 0.075)
-            .unwrap()
-            .largest_lead_angle
-            .to_degrees()
-    };
-    // Printed to three decimals: half a unit, beside 2e-6 degrees of f32.
-    assert!((largest(Drive::Driving) - 42.855).abs() < 5e-4);
-    assert!((largest(Drive::BackDriving) - 47.145).abs() < 5e-4);
-    let steep = 50f32.to_radians();
-    assert!(
-        optimum_contact_angle(Drive::Driving, steep, 0.075)
-            .unwrap()
-            .contact_angle
-            .is_none()
-    );
-}
-
 #[test]
 fn design_procedure_returns_every_step_consistently() {
     let request = DesignRequest {

@@ -11,7 +11,6 @@ use epas_friction::{BallScrew, CATALOGUE, Error, GrooveSize};
 use epas_reference::kinematics::{self as reference, KinematicsInput, Raceway, Revised, operating};
 use epas_reference::promises;
 use epas_testkit::errors::Errors;
-use epas_testkit::measured;
 use epas_testkit::random::Random;
 use std::f64::consts::{PI, TAU};
 
@@ -274,45 +273,6 @@ fn random_geometries() {
     sweep
         .slide_to_roll
         .assert_promised(promises::of("slip_ratios"));
-}
-
-/// Alberdi et al., sections 4.1 and 4.2, and yaw angles of section 4.3.2.
-#[test]
-fn published_values() {
-    let input = operating::table_two().unwrap();
-    let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
-    let ball = kinematics.tick(operating::SPEED as f32);
-    for slip in [ball.screw, ball.nut] {
-        assert!((slip.entrainment_speed - 1.00).abs() < 0.005);
-    }
-    let degrees = |radians: f32| f64::from(radians) / DEGREE;
-    let (screw, nut) = (kinematics.screw().ratios(), kinematics.nut().ratios());
-    assert!((degrees(screw.entrainment_angle) - 1.19).abs() < 0.005);
-    measured::assert(
-        "published entrainment angle of the nut in degrees",
-        degrees(nut.entrainment_angle) - 0.87,
-    );
-    measured::assert(
-        "published slide-to-roll ratio in per cent",
-        100.0 * screw.slide_to_roll - 4.16,
-    );
-    for (yaw, side) in [(-2.291, "nut"), (3.105, "screw")] {
-        let turned = KinematicsInput {
-            yaw_angle: yaw * DEGREE,
-            ..input
-        };
-        let ball = ContactKinematics::new(&parameters(&turned)).unwrap();
-        let slip = if side == "nut" {
-            ball.per_speed().nut
-        } else {
-            ball.per_speed().screw
-        };
-        measured::assert_at(
-            "published yaw angles, side slip",
-            slip.side_slip / slip.entrainment_speed,
-            format_args!("{side}"),
-        );
-    }
 }
 
 #[test]

@@ -13,11 +13,15 @@ use epas_testkit::errors::Errors;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 
-const LIMITS: SlidingLimits = SlidingLimits {
-    forward: 0.05,
-    backward: 0.03,
-    load: 1.0,
-};
+const LIMITS: SlidingLimits = sliding_limits(0.05, 0.03, 1.0);
+
+pub const fn sliding_limits(forward: f32, backward: f32, load: f32) -> SlidingLimits {
+    SlidingLimits {
+        forward,
+        backward,
+        load,
+    }
+}
 
 pub fn proportional<const N: usize>(
     backbone: &Backbone<N>,
@@ -75,11 +79,11 @@ fn steady_sliding_has_the_friction_of_gross_sliding() {
         let mut random = Random(1);
         let mut state = E::VIRGIN;
         for _ in 0..20_000 {
-            let limits = SlidingLimits {
-                forward: random.between(0.0, 0.2) as f32,
-                backward: random.between(0.0, 0.2) as f32,
-                load: random.between(1e-3, 6.0) as f32,
-            };
+            let limits = sliding_limits(
+                random.between(0.0, 0.2) as f32,
+                random.between(0.0, 0.2) as f32,
+                random.between(1e-3, 6.0) as f32,
+            );
             let sign = random.sign();
             let friction =
                 elements.follow(&mut state, sign * random.between(1.0, 1e3) as f32, &limits);
@@ -99,11 +103,7 @@ fn steady_sliding_has_the_friction_of_gross_sliding() {
 #[test]
 fn breakaway_is_where_all_slides() {
     fn check<E: Hysteresis>(elements: &E) {
-        let unit = SlidingLimits {
-            forward: 0.04,
-            backward: 0.04,
-            load: 1.0,
-        };
+        let unit = sliding_limits(0.04, 0.04, 1.0);
         let after = |turn| elements.follow(&mut E::VIRGIN.clone(), turn, &unit);
         let breakaway = elements.breakaway();
         // Past the breakaway by sixteen roundings of 6e-8; and a thousandth before it.
@@ -122,11 +122,7 @@ fn breakaway_is_where_all_slides() {
 #[test]
 fn springs_hold_the_work_until_an_element_slides() {
     fn check<E: Hysteresis>(elements: &E) {
-        let unit = SlidingLimits {
-            forward: 0.04,
-            backward: 0.04,
-            load: 1.0,
-        };
+        let unit = sliding_limits(0.04, 0.04, 1.0);
         let mut state = E::VIRGIN;
         let breakaway = elements.breakaway();
         let turn = 1e-3 * breakaway;
@@ -159,11 +155,7 @@ fn springs_hold_the_work_until_an_element_slides() {
 fn nothing_drifts_below_breakaway() {
     fn check<E: Hysteresis>(elements: &E) {
         let mut state = E::VIRGIN;
-        let limits = SlidingLimits {
-            forward: 0.04,
-            backward: 0.04,
-            load: 1.0,
-        };
+        let limits = sliding_limits(0.04, 0.04, 1.0);
         let first = elements.follow(&mut state, 0.6e-3, &limits);
         let mut cycle = |turn: f32| {
             elements.follow(&mut state, -turn, &limits);
@@ -250,16 +242,12 @@ fn the_mirror_image_is_the_same_to_the_bit() {
         let (mut state, mut image) = (E::VIRGIN, E::VIRGIN);
         for _ in 0..5_000 {
             let turn = random.between(-2e-3, 2e-3) as f32;
-            let limits = SlidingLimits {
-                forward: random.between(0.01, 0.06) as f32,
-                backward: random.between(0.01, 0.06) as f32,
-                load: random.between(0.0, 4.0) as f32,
-            };
-            let mirrored = SlidingLimits {
-                forward: limits.backward,
-                backward: limits.forward,
-                load: limits.load,
-            };
+            let limits = sliding_limits(
+                random.between(0.01, 0.06) as f32,
+                random.between(0.01, 0.06) as f32,
+                random.between(0.0, 4.0) as f32,
+            );
+            let mirrored = sliding_limits(limits.backward, limits.forward, limits.load);
             let friction = elements.follow(&mut state, turn, &limits);
             assert_eq!(elements.follow(&mut image, -turn, &mirrored), -friction);
         }
@@ -279,11 +267,11 @@ fn any_turn_and_any_stiffness() {
             for _ in 0..2_000 {
                 let size = f64::from(breakaway_angle) * 10_f64.powf(random.between(-6.0, 9.0));
                 let turn = random.sign() * size as f32;
-                let limits = SlidingLimits {
-                    forward: limit * random.unit(),
-                    backward: limit * random.unit(),
-                    load: 20.0 * random.unit(),
-                };
+                let limits = sliding_limits(
+                    limit * random.unit(),
+                    limit * random.unit(),
+                    20.0 * random.unit(),
+                );
                 for friction in [
                     part.follow(&mut first, turn, &limits),
                     by_load.follow(&mut second, turn, &limits),
@@ -315,11 +303,7 @@ fn what_is_no_number_does_no_harm() {
                     for load in numbers {
                         let mut state = E::VIRGIN;
                         elements.follow(&mut state, 1e-3, &LIMITS);
-                        let limits = SlidingLimits {
-                            forward,
-                            backward,
-                            load,
-                        };
+                        let limits = sliding_limits(forward, backward, load);
                         let friction = elements.follow(&mut state, turn, &limits);
                         let is_sound = [forward, backward]
                             .iter()
@@ -342,11 +326,7 @@ fn what_is_no_number_does_no_harm() {
         for turn in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e7] {
             assert_eq!(elements.follow(&mut state, turn, &LIMITS), held);
         }
-        let none = SlidingLimits {
-            forward: 0.0,
-            backward: 0.0,
-            load: 0.0,
-        };
+        let none = sliding_limits(0.0, 0.0, 0.0);
         assert_eq!(elements.follow(&mut state, 1.0, &none), 0.0);
         assert_eq!(elements.stored_energy(&state), 0.0);
     }
@@ -384,15 +364,8 @@ fn rounding_is_as_promised() {
             let turn = f64::from(random.sign()) * 10_f64.powf(random.between(-6.0, 1.0));
             let [forward, backward, load] = [(); 3].map(|()| random.between(0.0, 4.0) as f32);
             let turn = turn as f32;
-            let friction = elements.follow(
-                &mut state,
-                turn,
-                &SlidingLimits {
-                    forward,
-                    backward,
-                    load,
-                },
-            );
+            let friction =
+                elements.follow(&mut state, turn, &sliding_limits(forward, backward, load));
             let [t, f, b, l] = [turn, forward, backward, load].map(f64::from);
             errors.add_case(f64::from(friction) - exact.follow(t, f, b, l), || {
                 tick.to_string()
@@ -461,11 +434,7 @@ fn flanks_share_as_promised() {
         let turn = random.sign() * 10_f64.powf(random.between(-6.0, 1.0)) as f32;
         let [forward, backward] = [(); 2].map(|()| random.between(0.0, 4.0) as f32);
         let load = random.between(1.0, 4.0) as f32;
-        let limits = SlidingLimits {
-            forward,
-            backward,
-            load,
-        };
+        let limits = sliding_limits(forward, backward, load);
         let found = f64::from(elements.follow(&mut state, turn, &limits));
         let [turn, forward, backward, load] = [turn, forward, backward, load].map(f64::from);
         let wanted = exact.follow(turn, forward, backward, both_flanks(load));

@@ -8,7 +8,6 @@ use std::sync::Arc;
 
 use epas_reference::ReferenceError;
 use epas_reference::statics::cases::CaseStudy;
-use epas_reference::statics::contact::GrooveContact;
 use epas_reference::statics::surface::{HarmonicError, ProfileError};
 use epas_reference::statics::{
     Contact, ContactConstants, Elastic, HertzConvention, Load, Outcome, Shaft, ShaftModel, State,
@@ -46,14 +45,6 @@ fn with_error(case: &CaseStudy, error: HarmonicError) -> StaticLoad {
         surface.push(Arc::new(error));
     }
     StaticLoad::new(setup).unwrap()
-}
-
-fn ratio(forces: &[f64]) -> f64 {
-    let largest = forces.iter().fold(0.0, |most: f64, force| most.max(*force));
-    let smallest = forces
-        .iter()
-        .fold(f64::INFINITY, |least: f64, force| least.min(*force));
-    largest / smallest
 }
 
 /// Stored forces were found by another solver to 2e-9 N of residual; stored angles are rounded to 1e-12.
@@ -158,49 +149,6 @@ fn geometric_errors_of_the_screw_give_the_loads_of_an_independent_solver() {
     }
 }
 
-/// Figure 2.9: the largest load is about 1.34 of the smallest. The outer diameter is not printed; the
-/// mesh of 27 elements at 32 mm gives 1.301, a finer one at 30.8 mm 1.340.
-#[test]
-fn case_1_is_uneven_and_not_monotone() {
-    let nominal = solve(&case_1());
-    let forces = nominal.of(Contact::ScrewLeft);
-    assert!((ratio(&forces) - 1.301).abs() < 5e-4, "{}", ratio(&forces));
-    let fine = solve(&CaseStudy {
-        screw_diameter: 30.8e-3,
-        refinement: 4,
-        ..case_1()
-    });
-    let fine = fine.of(Contact::ScrewLeft);
-    assert!((ratio(&fine) - 1.340).abs() < 5e-4, "{}", ratio(&fine));
-
-    let peaks: Vec<_> = (1..31)
-        .filter(|&ball| forces[ball] > forces[ball - 1] && forces[ball] > forces[ball + 1])
-        .map(|ball| ball + 1)
-        .collect();
-    assert_eq!(peaks.len(), 2, "{peaks:?}");
-    assert!(
-        peaks[0].abs_diff(11) <= 1 && peaks[1].abs_diff(21) <= 1,
-        "{peaks:?}"
-    );
-    let least = (0..32)
-        .min_by(|a, b| forces[*a].total_cmp(&forces[*b]))
-        .unwrap();
-    assert_eq!(least + 1, 29);
-    assert!(
-        nominal
-            .of(Contact::ScrewRight)
-            .iter()
-            .all(|force| *force == 0.0)
-    );
-    for angles in &nominal.contact_angles {
-        assert!(
-            (45.5..46.1).contains(&angles[0].to_degrees()),
-            "{}",
-            angles[0].to_degrees()
-        );
-    }
-}
-
 /// Figure 2.9 again: a shaft that only stretches shares the load in a falling row.
 #[test]
 fn bar_model_falls_from_the_loaded_end() {
@@ -214,89 +162,10 @@ fn bar_model_falls_from_the_loaded_end() {
     );
 }
 
-/// Figure 2.11: one ball 1 um larger takes 283 N in place of 233 N, its neighbours 2.2 % less.
-#[test]
-fn case_2_one_large_ball() {
-    let (without, with) = (solve(&case_1()), solve(&case_2()));
-    let (without, with) = (without.of(Contact::ScrewLeft), with.of(Contact::ScrewLeft));
-    assert!((without[16] - 233.0).abs() < 0.5, "{}", without[16]);
-    assert!((with[16] - 283.0).abs() < 0.5, "{}", with[16]);
-    for ball in [15, 17] {
-        let change = with[ball] / without[ball] - 1.0;
-        assert!((change + 0.022).abs() < 5e-4, "{change}");
-    }
-}
-
-/// Figure 2.12: an end pushed aside by 300 um squeezes the last balls on the other diagonal.
-#[test]
-fn case_3_offset_squeezes_the_last_balls() {
-    let straight = solve(&CaseStudy {
-        end_offset: None,
-        ..case_3()
-    });
-    let offset = solve(&case_3());
-    let last = |solution: &StaticSolution| solution.of(Contact::ScrewRight)[28..].to_vec();
-    for (found, text) in [
-        (last(&straight), [84.0, 100.0, 128.0, 164.0]),
-        (last(&offset), [88.0, 147.0, 223.0, 303.0]),
-    ] {
-        for (force, text) in found.iter().zip(text) {
-            assert!((force - text).abs() < 0.5, "{found:?}");
-        }
-    }
-    // The force that holds the end aside.
-    assert!(
-        (offset.reactions[1][0] - 100.7).abs() < 0.05,
-        "{}",
-        offset.reactions[1][0]
-    );
-}
-
 fn constants(groove_radius: f64, convention: HertzConvention) -> ContactConstants {
     let mut geometry = case_1().geometry;
     geometry.groove_radius = groove_radius;
     ContactConstants::of_one_material(&geometry, Elastic::STEEL, convention).unwrap()
-}
-
-/// Table B.1 to its last printed digit, at most 0.03 %: eigenvalues of the second fundamental form alone,
-/// a groove radius of 0.56 ball diameters, and `F_1` = 1.
-#[test]
-fn table_b1_reproduces_with_the_dissertations_conventions() {
-    let ContactConstants { screw, nut } = constants(3.11136e-3, HertzConvention::Dissertation);
-    let row = |contact: &GrooveContact| {
-        [
-            contact.deflection,
-            contact.semi_major,
-            contact.semi_minor,
-            contact.principal_radii[0],
-            contact.principal_radii[1],
-            contact.relative_radii[0],
-            contact.relative_radii[1],
-            (contact.relative_radii[0] * contact.relative_radii[1]).sqrt(),
-            contact.eccentricity,
-        ]
-    };
-    let printed_screw = [
-        1.812e-7, 7.962e-5, 1.657e-5, -3.137e-3, 10.254e-3, 2.186e-3, 24.254e-3, 7.281e-3, 0.978,
-    ];
-    let printed_nut = [
-        1.628e-7, 8.030e-5, 2.036e-5, -3.077e-3, -13.141e-3, 3.523e-3, 28.612e-3, 10.040e-3, 0.967,
-    ];
-    let mut worst: f64 = 0.0;
-    for (found, printed) in row(&screw)
-        .into_iter()
-        .zip(printed_screw)
-        .chain(row(&nut).into_iter().zip(printed_nut))
-    {
-        let deviation = (found / printed - 1.0).abs();
-        // The eccentricities are printed with three digits.
-        let allowed = if printed > 0.1 { 6e-4 } else { 3e-4 };
-        assert!(deviation <= allowed, "{found} for {printed}");
-        if printed < 0.1 {
-            worst = worst.max(deviation);
-        }
-    }
-    println!("Table B.1: largest deviation {worst:.2e}");
 }
 
 #[test]
@@ -333,45 +202,6 @@ fn hertzian_constants_are_the_golden_ones() {
                 }
             }
         }
-    }
-}
-
-/// The dissertation's ellipse is too long by 5 % (screw) and 9 % (nut), and too stiff a load by `F_1`.
-#[test]
-fn right_curvatures_change_the_ellipse_more_than_the_loads() {
-    let (right, printed) = (
-        constants(3.11136e-3, HertzConvention::Correct),
-        constants(3.11136e-3, HertzConvention::Dissertation),
-    );
-    let change = |right: f64, printed: f64| right / printed - 1.0;
-    for (found, expected) in [
-        (
-            change(right.screw.deflection, printed.screw.deflection),
-            -0.098,
-        ),
-        (change(right.nut.deflection, printed.nut.deflection), -0.021),
-        (
-            change(right.screw.semi_major, printed.screw.semi_major),
-            -0.052,
-        ),
-        (change(right.nut.semi_major, printed.nut.semi_major), -0.081),
-    ] {
-        // Printed to a tenth of a per cent: half a unit.
-        assert!((found - expected).abs() < 5e-4, "{found} for {expected}");
-    }
-    let mut setup = case_1().setup().unwrap();
-    setup.contact = printed;
-    let printed = StaticLoad::new(setup).unwrap().solve().unwrap();
-    for (force, printed) in solve(&case_1())
-        .of(Contact::ScrewLeft)
-        .iter()
-        .zip(printed.of(Contact::ScrewLeft))
-    {
-        measured::assert_at(
-            "loads by the printed curvatures",
-            force / printed - 1.0,
-            format_args!("{force} {printed}"),
-        );
     }
 }
 

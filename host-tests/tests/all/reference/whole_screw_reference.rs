@@ -91,51 +91,6 @@ fn stored_runs() {
     }
 }
 
-/// Figure 3.24: four groups of contacts, one per cycle of the deviation, then release, then a second, lower build-up; groove
-/// torque nearly constant.
-#[test]
-fn four_groups_release_and_build_up_again() {
-    let run = screw("3.254", 2.3, BallSlip::Orbiting)
-        .simulate(2.0 * TAU, 200, 10)
-        .unwrap();
-    let peak = run
-        .iter()
-        .filter(|s| s.nut_angle < TAU)
-        .max_by(|a, b| a.ball_torque.total_cmp(&b.ball_torque))
-        .unwrap();
-    let pressed: Vec<bool> = peak.contact_forces.iter().map(|f| *f > 0.0).collect();
-    let groups = (0..37)
-        .filter(|&j| pressed[j] && !pressed[(j + 36) % 37])
-        .count();
-    println!("{groups} groups, {} contacts", peak.contacts());
-    assert_eq!(groups, 4);
-    let second = run
-        .iter()
-        .filter(|s| s.nut_angle > TAU)
-        .map(|s| s.ball_torque)
-        .fold(0.0, f64::max);
-    assert!(
-        second > 0.2 * peak.ball_torque && second < 0.35 * peak.ball_torque,
-        "{second} {}",
-        peak.ball_torque
-    );
-    let grooves: Vec<_> = run
-        .iter()
-        .map(epas_reference::friction::whole_screw::WholeScrewState::groove_torque)
-        .collect();
-    let (low, high) = grooves
-        .iter()
-        .fold((f64::INFINITY, 0.0_f64), |(l, h), t| (l.min(*t), h.max(*t)));
-    measured::assert_at(
-        "whole screw, groove torque over a turn",
-        high / low - 1.0,
-        format_args!("{low} {high}"),
-    );
-    let occupation = screw("3.254", 2.3, BallSlip::Orbiting).occupation();
-    // Printed to three decimals: half a unit.
-    assert!((occupation - 0.978).abs() < 5e-4, "{occupation}");
-}
-
 #[test]
 fn balls_never_overlap_and_forces_only_push() {
     for (theta, speed) in [(2.5, TAU), (-2.5, TAU), (3.0, -TAU), (3.0, 0.1)] {

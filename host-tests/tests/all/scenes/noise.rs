@@ -9,8 +9,7 @@ use epas_reference::closed_loop::ClosedLoop;
 use epas_testkit::gears::screw_inputs;
 
 use epas_testkit::gears::{
-    CagedConfiguration, CagedScrew, SCREW_BALLS, UncagedConfiguration, UncagedScrew, caged,
-    changed, uncaged,
+    CagedScrew, SCREW_BALLS, UncagedConfiguration, UncagedScrew, caged, uncaged,
 };
 use epas_testkit::random::Random;
 use epas_testkit::remembering::at;
@@ -151,62 +150,11 @@ where
 
 const FULL: f32 = 0.08;
 
-fn by_speed<S>(scene: &S::Configuration, mut speed: impl FnMut() -> f32) -> Restlessness
-where
-    S: Sliding<Inputs = Inputs, Outputs: Friction>,
-{
-    let mut model = FrictionModel::<S>::new(scene).unwrap();
-    let outputs: Vec<_> = (0..TICKS)
-        .map(|_| {
-            let outputs = model.step(screw_inputs(speed(), LOAD));
-            outputs.friction()
-        })
-        .collect();
-    Restlessness::of(&outputs)
-}
-
 fn screw() -> UncagedConfiguration {
     UncagedConfiguration {
         tick: TICK as f32,
         ..uncaged()
     }
-}
-
-/// Speeds of differences of counts: of an encoder on the nut itself, with the same noise.
-fn counted() -> impl FnMut() -> f32 {
-    let count = ClosedLoop::COUNT * 2.5;
-    let mut random = Random(11);
-    let mut last = 0.0;
-    move || {
-        let noise = SPEED_NOISE * TICK / 2.0_f64.sqrt() * normal(&mut random);
-        let now = (noise / count).floor();
-        let turn = (now - last) * count;
-        last = now;
-        (turn / TICK) as f32
-    }
-}
-
-/// Friction that follows the speed follows its noise too, in every tick: measured 408 changes of regime at a reversal speed of twice the
-/// noise, 3656 with speeds that are differences of counts, and steps of the whole friction.
-#[test]
-fn friction_by_the_speed_chatters() {
-    let mut random = Random(11);
-    let scene = CagedConfiguration {
-        reversal_speed: 0.1,
-        ..caged()
-    };
-    let rest = by_speed::<CagedScrew>(&scene, || speed(&mut random));
-    assert!(rest.changes > 300 && rest.steps == TICKS - 1, "{rest:?}");
-    assert!(rest.largest > 0.07, "{rest:?}");
-    let rest = by_speed::<CagedScrew>(&scene, counted());
-    assert!(rest.changes > 3000 && rest.largest > 0.08, "{rest:?}");
-    let mut random = Random(11);
-    let scene = UncagedConfiguration {
-        folded: changed(screw().folded, |folded| folded.reversal_speed = 0.1),
-        ..screw()
-    };
-    let rest = by_speed::<UncagedScrew<SCREW_BALLS>>(&scene, || speed(&mut random));
-    assert!(rest.changes > 300 && rest.largest > 0.04, "{rest:?}");
 }
 
 /// Both screws, hands off, behind a play of so many counts to either side.

@@ -1,15 +1,12 @@
 //! What a step promises, and what it calls: measured against the float64 reference.
 
-use epas_testkit::designs::{SCREW_TRACK as TRACK, screw};
 use epas_testkit::errors::Errors;
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
 use epas_testkit::remembering::at;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use epas_friction::ball::{
-    AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow,
-};
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
@@ -24,9 +21,7 @@ use epas_friction::{
     LinearLimits, LoadProportionalConfiguration, LoadProportionalScrew, LoadShare, Material,
 };
 use epas_reference::efficiency::Screw;
-use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
 use epas_reference::friction::chain::solve_chain;
-use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::isotonic::isotonic_by_min_max;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::hertz::{Hertz, contact_modulus};
@@ -139,74 +134,6 @@ fn load_proportional() {
     }
     // Seven roundings of 2^-24, which add up at random.
     errors.assert_promised(promises::of("step_load_proportional"));
-}
-
-/// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.
-fn model(friction: f64) -> ThreePointModel {
-    let stored: serde_json::Value =
-        serde_json::from_str(include_str!("../../../golden/ballscrew.json")).unwrap();
-    let law = |side: &str| {
-        let stored = &stored["hertz"][format!("{side}_rG3.254")]["correct"];
-        let value = |key: &str| stored[key].as_f64().unwrap() * 1e-3;
-        HertzLaw {
-            ellipse: EllipseLaw {
-                semi_major_constant: value("Ca"),
-                axis_ratio: value("Cb") / value("Ca"),
-            },
-            compliance: value("C"),
-        }
-    };
-    ThreePointModel {
-        track: TRACK,
-        screw: law("S"),
-        nut: law("N"),
-        friction,
-        contact_angle: FRAC_PI_4,
-    }
-}
-
-/// Balls of one screw against the closed form with exact contact integrals.
-#[test]
-fn balls_of_a_screw() {
-    let (mut row_errors, mut ball_errors) = (Errors::default(), Errors::default());
-    for friction in [0.05, 0.12] {
-        let row = ScrewRow::new(&screw(), friction as f32, GrooveFit::Zero).unwrap();
-        let model = model(friction);
-        for load in [
-            -1000.0, -100.0, -10.0, -1.0, -0.1, 0.1, 1.0, 10.0, 100.0, 1000.0_f64,
-        ] {
-            for speed in [1.0, -1.0] {
-                let tick = row.at(speed as f32, load as f32);
-                for (theta, eta) in [-3.0, -1.0, 0.0, 2.0, 3.0_f64]
-                    .into_iter()
-                    .flat_map(|theta| [-3.0, 0.0, 1.0, 3.0_f64].map(|eta| (theta, eta)))
-                {
-                    let (t, e) = (theta.to_radians(), eta.to_radians());
-                    let support = Support::of(load, speed);
-                    let side = if load < 0.0 { 1.0 } else { -1.0 };
-                    let angles = ContactAngles {
-                        screw: FRAC_PI_4 + side * t,
-                        nut: FRAC_PI_4 - side * e,
-                        third: if support == Support::ThirdOnScrew {
-                            FRAC_PI_4 - side * t
-                        } else {
-                            FRAC_PI_4 + side * e
-                        },
-                    };
-                    let exact = model.ball(support, angles, load, speed).unwrap();
-                    let ball = tick.ball(t as f32, e as f32, &LoadShare::MEAN);
-                    let line = || format!("{friction} {load} {speed} {theta} {eta}");
-                    let error = f64::from(ball.groove_torque) / exact.groove_loss() - 1.0;
-                    row_errors.add_case(error, line);
-                    let found = f64::from(ball.speed_deviation + tick.nominal_speed());
-                    let error = found / TRACK.path_radius() - exact.orbital_speed / speed;
-                    ball_errors.add_case(error, line);
-                }
-            }
-        }
-    }
-    row_errors.assert_promised(promises::of("screw_row"));
-    ball_errors.assert_promised(promises::of("screw_ball"));
 }
 
 /// A scene with a memory whose elements slide fully within a tick of the motions here, and whose balls follow every turn: in steady
