@@ -42,7 +42,6 @@ fn hash<S: Trial>(configuration: &S::Configuration, full_scale: [f32; 3]) -> u64
         let outputs = model.step(S::inputs(sensors));
         hash = taken_in(hash, &S::numbers(&outputs));
     }
-    println!("{}: {hash:#018x}", S::name());
     hash
 }
 

@@ -175,10 +175,6 @@ pub fn equioscillates(
         .iter()
         .filter(|e| e.1.abs() >= (1.0 - within) * largest)
         .count();
-    println!(
-        "{name}: {level} of {} extremes within {within} of {largest:.4e}",
-        found.len()
-    );
     assert!(level >= count, "{name}: {found:?}");
     largest
 }

@@ -224,7 +224,6 @@ fn errors(configuration: &AdaptationConfiguration, seed: u64, ticks: u64) -> (f6
 fn the_factored_form_is_the_information_form() {
     for (forgetting, seed) in [(2.0, 1), (20.0, 2), (1000.0, 3)] {
         let (spread, place) = errors(&all_five(forgetting), seed, 350_000);
-        println!("{forgetting}: {spread:e} {place:e}");
         assert!(
             spread < 1e-2 && place < 0.2,
             "{forgetting}: {spread:e} {place:e}"
@@ -238,6 +237,5 @@ fn the_factored_form_is_the_information_form() {
 #[ignore = "five minutes"]
 fn a_life_long() {
     let (spread, place) = errors(&all_five(5.0), 4, 100_000_000);
-    println!("{spread:e} {place:e}");
     assert!(spread < 0.1 && place < 0.5, "{spread:e} {place:e}");
 }

@@ -57,8 +57,8 @@ fn row_is_the_closed_form_with_a_third_contact() {
             for speed in [1.0, -1.0] {
                 let tick = row.at(speed as f32, load as f32);
                 for share in [0.1, 0.5, 1.0, 1.5, 3.0] {
-                    for theta in [-3.0f64, 0.0, 3.0] {
-                        for eta in [-3.0f64, 0.0, 3.0] {
+                    for theta in [-3.0f64, -1.0, 0.0, 2.0, 3.0] {
+                        for eta in [-3.0f64, 0.0, 1.0, 3.0] {
                             let (t, e) = (theta.to_radians(), eta.to_radians());
                             let support = Support::of(load, speed);
                             let side = if load < 0.0 { 1.0 } else { -1.0 };
@@ -92,13 +92,16 @@ fn row_is_the_closed_form_with_a_third_contact() {
                             let case = format!(
                                 "{nominal} rad, friction {friction}, {load} N, nut speed {speed}, share {share}, {theta}, {eta} degrees"
                             );
-                            speeds.add_at(dev, &case);
-                            compliances[usize::from(share != 1.0)].add_at(y, &case);
-                            torques[usize::from(share != 1.0)].add_at(p, &case);
                             if share == 1.0 && nominal == FRAC_PI_4 {
                                 row_errors.add_at(p, &case);
                                 ball_errors.add_at(dev, &case);
                             }
+                            if [theta, eta].iter().any(|angle| angle % 3.0 != 0.0) {
+                                continue;
+                            }
+                            speeds.add_at(dev, &case);
+                            compliances[usize::from(share != 1.0)].add_at(y, &case);
+                            torques[usize::from(share != 1.0)].add_at(p, &case);
                             if share == 1.0 {
                                 mains.add_at(n, &case);
                                 thirds.add_at(n3, &case);
@@ -283,10 +286,6 @@ fn table_3_7() {
             [0.0, degrees.to_radians()].map(|theta| tick.ball(theta as f32, 0.0, &LoadShare::MEAN));
         let difference = states[0].speed_deviation - states[1].speed_deviation;
         let force = f64::from(difference / (states[0].compliance + states[1].compliance));
-        println!(
-            "{degrees} degrees: row {force:.3} N ({:+.1} %)",
-            100.0 * (force / published - 1.0)
-        );
         // Speeds and compliances in closed form are a few per cent off.
         measured::assert("Table 3.7, row", force / published - 1.0);
     }

@@ -201,7 +201,6 @@ fn forces_equal_an_exhaustive_search_over_all_sets_of_contacts() {
         compare_with_exhaustive_search::<8>(random, 2.0),
         compare_with_exhaustive_search::<10>(random, 2.0),
     ];
-    println!("largest force error over largest force, most joins: {results:?}");
     assert_eq!(results[4].1, 7);
 }
 
@@ -310,10 +309,6 @@ fn a_million_ticks_leave_no_overlap() {
         }
     }
     worst = worst.min(check_order(&train, length, pitch));
-    println!(
-        "largest overlap {} m, contacts {pressing}, at most {most}",
-        -worst
-    );
     assert!(worst > -1e-9, "overlap {worst} m");
     assert!(most > 5 && pressing > 1_000_000, "the balls hardly met");
 }

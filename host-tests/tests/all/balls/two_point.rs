@@ -94,11 +94,6 @@ fn the_speed_of_a_linear_ball_jumps_where_a_diagonal_is_weak() {
         let semi_major = semi_major_constant() * strong.cbrt() / BALL_RADIUS;
         let moment = FrictionMap::new(AXIS_RATIO).unwrap().at(0.0).moment;
         let predicted = moment * semi_major;
-        println!(
-            "{degrees} degrees: border at a side force of {side:.4}, diagonals {:.4} ({predicted:.4} predicted), \
-             speed deviation {before:+.2e} before, {after:+.2e} after",
-            weak / strong
-        );
         measured::assert_at(
             "linear jump, load of the weak diagonal",
             weak / strong / predicted - 1.0,
@@ -208,7 +203,6 @@ fn a_row_with_play_has_the_mean_speed_of_two_contacts() {
             [normal, 0.0, 0.0, normal]
         };
         let error = speed - orbital_speed(&design, &angles, &forces);
-        println!("screw {screw:+} nut {nut:+} degrees, {load:+} N: {error:+.2e}");
         worst = worst.max(error.abs());
         // Equal angles on screw and nut: both races give the same speed.
         if angles[1] == angles[2] && load < 0.0 || angles[0] == angles[3] && load > 0.0 {

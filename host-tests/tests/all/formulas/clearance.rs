@@ -142,7 +142,6 @@ fn preload_is_the_force_in_elastic_grooves() {
     // The ball moves towards the groove in which it is softer, and its contact angles turn: both grow with the gap.
     // Measured: 4.0e-3 at 0.02, 2.4e-4 at 1e-3, and 6.4e-6 of the ellipse at 1e-5.
     for (share, errors) in SHARES.iter().zip(&errors) {
-        println!("{}: {:.2e}", errors.name, errors.largest);
         assert!(
             errors.largest < 0.3 * f64::from(*share) + 1e-5,
             "{}",
@@ -242,7 +241,6 @@ fn axial_play_is_the_travel_between_helical_grooves() {
     // The grooves bend around the axis, which the plane section leaves out. Measured: 4.3e-5 at 0.02, 3.1e-6 at 1e-3,
     // 2.3e-7 of roundings at 1e-5.
     for (share, errors) in SHARES.iter().zip(&errors) {
-        println!("{}: {:.2e}", errors.name, errors.largest);
         assert!(
             errors.largest < 5e-3 * f64::from(*share) + 5e-7,
             "{}",

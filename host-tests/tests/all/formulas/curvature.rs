@@ -104,7 +104,6 @@ const GROOVES: [Groove; 2] = [Groove::Screw, Groove::Nut];
 /// 2^-24 / A: four such roundings, and the bound grows below A = 0.3.
 #[test]
 fn exact_form_holds_in_f32_over_all_cases() {
-    let mut worst = [0.0_f64; 2];
     let mut sum = [0.0_f64; 2];
     let mut count = 0.0;
     for case in golden() {
@@ -123,21 +122,12 @@ fn exact_form_holds_in_f32_over_all_cases() {
                 truth.kappa2
             );
             if case.area(groove) > 0.3 && error1.abs() > 1e-7 * truth.kappa2.abs() {
-                worst[0] = worst[0].max((error1 / truth.kappa1).abs());
                 sum[0] += error1 / truth.kappa1;
             }
-            worst[1] = worst[1].max(error2.abs());
             sum[1] += error2;
             count += 1.0;
         }
     }
-    println!(
-        "kappa1: max {:.2e} mean {:.1e}; kappa2: max {:.2e} mean {:.1e}",
-        worst[0],
-        sum[0] / count,
-        worst[1],
-        sum[1] / count
-    );
     measured::assert("bias of kappa1", sum[0] / count);
     measured::assert("bias of kappa2", sum[1] / count);
 }
@@ -198,7 +188,6 @@ fn a_straight_groove_has_no_curvature_along_it() {
 /// The sum of the curvatures of ball and groove keeps its digits, though it cancels to a twentieth.
 #[test]
 fn relative_curvature_across_does_not_cancel() {
-    let mut worst = 0.0_f64;
     for case in golden().iter().filter(|case| case.tag == "catalogue") {
         // The clearance of these cases: H = (r_s - r_b) cos 45.
         let clearance = case.h * std::f64::consts::SQRT_2;
@@ -210,7 +199,6 @@ fn relative_curvature_across_does_not_cancel() {
                 .relative(case.contact_angle(), clearance as f32);
             let along = f64::from(computed.along) / (ball_curvature + truth.kappa1) - 1.0;
             let across = f64::from(computed.across) / (ball_curvature + truth.kappa2) - 1.0;
-            worst = worst.max(across.abs());
             measured::assert_at(
                 "relative curvature along",
                 along,
@@ -223,7 +211,6 @@ fn relative_curvature_across_does_not_cancel() {
             );
         }
     }
-    println!("across: max {worst:.2e}");
 }
 
 #[test]
@@ -297,7 +284,7 @@ fn edge(random: &mut Random, groove: Groove) -> (Surface, ContactAngle) {
 #[test]
 fn an_accepted_groove_has_curvatures_up_to_the_edges() {
     let mut random = Random(20);
-    let (mut accepted, mut folded, mut worst) = (0, 0, 0.0_f64);
+    let (mut accepted, mut folded) = (0, 0);
     for _ in 0..400_000 {
         let groove = random.of(&GROOVES);
         let (surface, angle) = edge(&mut random, groove);
@@ -339,14 +326,12 @@ fn an_accepted_groove_has_curvatures_up_to_the_edges() {
         let allowed = 8.0 * 2f64.powi(-24) * magnified;
         for (found, truth) in [found.kappa1, found.kappa2].into_iter().zip(truth) {
             let error = (f64::from(found) - truth).abs() / scale;
-            worst = worst.max(error / allowed);
             assert!(
                 error <= allowed,
                 "{surface:?} {angle:?}: {found} for {truth}, {error:e} of {allowed:e}"
             );
         }
     }
-    println!("{accepted} accepted, {folded} folded; error at most {worst:.2} of its bound");
     assert!(accepted > 150_000 && folded > 50_000);
 }
 

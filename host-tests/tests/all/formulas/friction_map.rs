@@ -18,7 +18,6 @@ fn offsets() -> Vec<f32> {
 
 #[test]
 fn maps_equal_the_contact_integral() {
-    println!("axis ratio | force max rms mean | moment | power | inside");
     let mut all = <[Errors; 3]>::default();
     for axis_ratio in [
         0.05_f32,
@@ -65,12 +64,6 @@ fn maps_equal_the_contact_integral() {
         }
         // The quartic is exact: what is left are roundings (6e-8 each) of terms up to 1.5.
         measured::assert_at("friction map inside the contact", inside, axis_ratio);
-        println!(
-            "{axis_ratio:.3} | {} | inside {inside:.1e}",
-            errors
-                .map(|e| format!("{:.1e} {:.1e} {:+.1e}", e.largest, e.rms(), e.mean()))
-                .join(" | ")
-        );
     }
     // Documented errors of the maps: the two-term expansion outside the contact, continuous at its rim, is
     // chosen for its cost within 1e-3, 2e-3 and 1e-3.

@@ -674,7 +674,6 @@ fn lead_angle_of_a_design() {
         let truth = (f64::from(given.lead) / (TAU * f64::from(given.pitch_radius))).atan();
         worst = worst.max((f64::from(design.lead_angle()) - truth).abs());
     }
-    println!("lead angle within {worst:e} rad");
     // Two roundings of the angle above 1 rad, 6e-8 each, two of the smaller of sine and cosine, up to 0.71: 3e-8 each over
     // a cosine of 0.71. Measured: 1.9e-7.
     assert!(worst < 2.1e-7, "{worst:e}");

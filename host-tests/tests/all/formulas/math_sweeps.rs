@@ -112,12 +112,10 @@ fn check_roots(stride: usize) {
     ];
     let [sqrt, _, cbrt, squared] = kernels.map(|(name, bound, error)| {
         let errors = sweep(1, LARGEST, stride, error);
-        println!("{name}: {errors}");
         if stride == 1 {
             record(&errors, &format!("math::{name}, ulp"));
         }
         let corners = around_powers_of_two(error);
-        println!("  around powers of two: {corners}");
         assert!(errors.largest <= bound, "{name} at {}", errors.worst);
         assert!(corners.largest <= bound, "{name} at {}", corners.worst);
         // A rounding error is spread evenly over a unit in the last place: 1/sqrt(12) rms. Of two million samples the rms
@@ -170,7 +168,6 @@ fn check_angles(stride: usize) {
                 }
             }
         }
-        println!("{name}: {errors}");
         if stride == 1 {
             record(&errors, &format!("math::sin_cos: {name}"));
         }
@@ -307,7 +304,6 @@ fn other_backends_err_as_documented() {
     ];
     for (name, least, most, first, last, error) in cases {
         let errors = sweep(first, last, STRIDE, error);
-        println!("{name}: {errors}");
         assert!(
             (least..=most).contains(&errors.largest),
             "{name}: {:e}",
@@ -317,7 +313,6 @@ fn other_backends_err_as_documented() {
     let cbrt = sweep(normal, LARGEST, STRIDE, |x| {
         relative(with_micromath::cbrt(x), f64::from(x).cbrt())
     });
-    println!("micromath cbrt, relative: max {:.3e}", cbrt.largest);
     assert!(
         cbrt.largest > 0.01,
         "micromath has become accurate: say so in the documentation"

@@ -176,7 +176,6 @@ fn nothing_drifts_below_breakaway() {
         }
         let drift = f64::from(cycle(0.15e-3) - settled[2]).abs() / f64::from(CYCLES) / 0.04;
         // No rounding adds up: what is found is none at all. A hundred thousand cycles at the bound are a ten-thousandth of friction.
-        println!("drift {drift:.1e} a cycle");
         assert!(drift < 1e-9);
     }
     each!(check);
@@ -204,7 +203,6 @@ fn minor_loops_close() {
             }
             worst = worst.max(open.abs());
         }
-        println!("open by {worst:.1e} N m");
         // Friction of 0.05 N m: roundings of 2^-24 a tick and element, and the snap to the limit. Measured: 7.5e-9 N m.
         assert!(worst < 2.2e-8);
     }
@@ -228,7 +226,6 @@ fn halved_ticks_have_the_same_friction() {
             }
             worst = worst.max((friction - last).abs());
         }
-        println!("halved by {worst:.1e} N m");
         // Up to sixteen times as many roundings of 2^-24 of 0.05 N m. Measured: 2.2e-8 N m.
         assert!(worst < 6.6e-8);
     }

@@ -91,7 +91,6 @@ fn every_kind(count: u64) {
     // turn of up to a few breakaway angles that stick is 3e-7 of it times 3.
     const ACCEPTED: f64 = -1e-6 * 5.1;
     let check = |name: &str, found: f64| {
-        println!("{name}: least {found:.1e} a tick");
         assert!(found >= ACCEPTED, "{name}: {found:e}");
     };
     let of = |elements: &ProportionalElements<8>, seed| {
@@ -157,6 +156,5 @@ fn a_stiffness_that_follows_the_load_makes_energy() {
         least = least.min(1.5 * load * deflection * turn - (stored - before));
         before = stored;
     }
-    println!("{least:.1e}");
     assert!(least < -0.1);
 }

@@ -159,7 +159,6 @@ fn friction_sums(motion: &ScrewMotion, nut_speed: f64) -> ([f64; 3], [f64; 3], f
 
 #[test]
 fn stored_single_balls() {
-    let mut worst = 0.0_f64;
     for case in golden("ballscrew")["single_ball"].as_array().unwrap() {
         let radius = number(&case["rG"]).to_string();
         let mu = number(&case["mu"]);
@@ -171,7 +170,6 @@ fn stored_single_balls() {
         let motion = &solved.balls[0];
         // The stored values come from a 48-point rule, which is off by up to 2e-7 of the forces.
         let ratio = motion.orbital_speed / TAU - number(&case["wB_over_wN"]);
-        worst = worst.max(ratio.abs());
         measured::assert_at(
             "single balls of a screw, speed ratio",
             ratio,
@@ -254,7 +252,6 @@ fn stored_single_balls() {
             format_args!("{name}: input {input}, loss {}", motion.power_loss),
         );
     }
-    println!("largest difference of the speed ratio: {worst:e}");
 }
 
 /// The pair in contact: energy with the slip between balls relative to the orbiting frame.
@@ -342,13 +339,6 @@ fn stored_pairs() {
             .unwrap();
         let missing =
             |m: &ElasticMotion| (m.groove_loss() + m.ball_loss - pair_input(m)) / m.ball_loss;
-        println!(
-            "{key}: force {} and {} N, excess of loss {} and {}",
-            solved.contact_force,
-            relative.contact_force,
-            missing(&solved),
-            missing(&relative)
-        );
         measured::assert_at(
             "pairs of a screw, missing power",
             missing(&relative).abs(),
@@ -368,7 +358,6 @@ fn stored_pairs() {
 
 #[test]
 fn given_contacts_decide_the_orbital_speed() {
-    let mut worst = [0.0_f64; 3];
     for case in golden("ballscrew")["impedance"].as_array().unwrap() {
         let contacts = [
             stored_contacts(&case["contacts1"]),
@@ -377,14 +366,12 @@ fn given_contacts_decide_the_orbital_speed() {
         let train = solve_screw_train(&TRACK, &contacts, 0.1, 0.1, 1.0).unwrap();
         for (ball, key) in [(0, "wB1"), (1, "wB2")] {
             let off = (train.free_speeds[ball] - number(&case[key])).abs();
-            worst[0] = worst[0].max(off);
             measured::assert_at(
                 "given contacts, orbital speed",
                 off,
                 format_args!("{key}: {} stored {}", train.free_speeds[ball], case[key]),
             );
             let iterated = (train.free_speeds[ball] - number(&case[format!("{key}_imp")])).abs();
-            worst[1] = worst[1].max(iterated);
             measured::assert_at(
                 "given contacts, orbital speed by impedances",
                 iterated,
@@ -402,11 +389,6 @@ fn given_contacts_decide_the_orbital_speed() {
             format_args!("{} stored {}", full.contact_force, case["F"]),
         );
         let off = (train.contact_forces[0] / number(&case["F"]) - 1.0).abs();
-        worst[2] = worst[2].max(off);
-        println!(
-            "given contacts {} N, elastic {} N, impedance {} N",
-            train.contact_forces[0], case["F"], case["F_imp"]
-        );
         measured::assert_at(
             "given contacts, contact force",
             off,
@@ -414,10 +396,6 @@ fn given_contacts_decide_the_orbital_speed() {
         );
         check_train(&train, 1.0);
     }
-    println!(
-        "speed {:e}, against the impedance iteration {:e}, force {}",
-        worst[0], worst[1], worst[2]
-    );
 }
 
 /// Along the track and in rotation every ball is balanced by the forces of its neighbours; power in = power lost.
@@ -466,7 +444,6 @@ fn longer_trains_balance_and_reverse() {
         .collect();
     let forward = solve_screw_train(&TRACK, &train, 0.1, 0.1, TAU).unwrap();
     check_train(&forward, TAU);
-    println!("{:?}", forward.contact_forces);
     let backward = solve_screw_train(&TRACK, &train, 0.1, 0.1, -TAU).unwrap();
     check_train(&backward, -TAU);
     // Given contacts do not know the direction, but for the term with the sine of the ball-to-ball angle.
@@ -625,7 +602,6 @@ fn stored_closed_forms() {
             .unwrap();
         let off = model.contact_force(&one, &two) / numerical.contact_force - 1.0;
         let loss = one.groove_loss() / numerical_single(radius, load) - 1.0;
-        println!("{key}: force {off:.4}, groove loss {loss:.4} of the numerical model");
         measured::assert_at(
             "closed forms of a screw, contact force",
             off,
@@ -662,10 +638,6 @@ fn closed_speed_and_third_contact_against_the_numerical_model() {
             .contact
             .groove;
         let support = Support::of(load, speed);
-        println!(
-            "{load} N, {speed} rad/s: third {third:?}, ratio {}",
-            solved.balls[0].orbital_speed / speed
-        );
         assert_eq!(third.on_nut(), support == Support::ThirdOnNut);
         let angles = ContactAngles {
             screw: FRAC_PI_4,

@@ -195,7 +195,6 @@ fn balls_meet_and_part_without_overlap() {
         let samples = steady_samples(nut_speed, 7.0 * load, 1.5 * TAU, 90);
         let states = run(&ring, &samples);
         let pressing: Vec<usize> = states.iter().map(RingState::pressing).collect();
-        println!("{load} {nut_speed} {clearance}: {pressing:?}");
         let events: usize = states.iter().map(|state| state.events).sum();
         assert!(pressing.windows(2).any(|pair| pair[0] < pair[1]));
         assert!(pressing.windows(2).any(|pair| pair[0] > pair[1]));
@@ -217,7 +216,6 @@ fn torque_is_odd_under_mirror() {
             ..short_ring(5, 0.1)
         })
     });
-    println!("{pressing:?}");
     assert!(pressing.contains(&true));
 }
 
@@ -410,7 +408,6 @@ fn follow_gaps(numbers_of_steps: &[usize]) {
         }
         passed += crossings(&states);
     }
-    println!("{passed} crossings, {worst:e} rad beyond");
     // Measured: 13 a ring.
     assert!(passed > 11 * numbers_of_steps.len(), "{passed}");
     // Measured: 2.8e-3, of gaps of 1e-2 rad, where a ball is on a run-in; 2e-2 where a rate came from a jump.
@@ -452,7 +449,6 @@ fn steps_converge() {
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     };
     let [coarse, middle] = [20, 80].map(off);
-    println!("{coarse:e} {middle:e}");
     measured::assert("ring in 20 steps, places in rad", coarse);
     // A quarter of the step leaves a sixteenth in the second order; half of that is room for events that fall elsewhere in a step.
     assert!(middle < coarse / 8.0);
@@ -567,11 +563,9 @@ fn random_rings_have_an_answer_whole() {
                 assert!(state.power_error.abs() <= 1e-7 && state.residual <= 1e-8);
             } else {
                 failed += 1;
-                println!("{:?}: {ring:?}", state.failure);
             }
         }
     }
-    println!("{failed} of {states} states without an answer");
     assert!(failed * 1000 <= states, "{failed} of {states}");
 }
 

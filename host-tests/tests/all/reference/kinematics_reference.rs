@@ -18,14 +18,12 @@ fn turn(left: f64, right: f64) -> f64 {
 /// operations in float64, slip counted against the entrainment speed.
 #[test]
 fn golden_cases_within_1e_12() {
-    let mut worst = 0.0_f64;
     for case in cases() {
         let tag = case["tag"].as_str().unwrap();
         let revised = Revised::new(&input(&case, 1.0)).unwrap();
         let ball = revised.evaluate();
-        let mut check = |name: &str, found: f64, wanted: f64, scale: f64| {
+        let check = |name: &str, found: f64, wanted: f64, scale: f64| {
             let error = (found - wanted).abs() / scale;
-            worst = worst.max(error);
             measured::assert_at(
                 "golden kinematics",
                 error,
@@ -71,14 +69,12 @@ fn golden_cases_within_1e_12() {
             check("slip y", slip_y, golden("slip_y"), entrainment);
         }
     }
-    println!("golden cases: largest error {worst:.1e}");
 }
 
 /// Rolling slip is small beside the speeds that (31) subtracts. From its zero it keeps its digits: 1e-12
 /// of itself wherever it is not itself a cancellation of rolling radius and sagitta.
 #[test]
 fn rolling_slip_keeps_its_own_digits() {
-    let mut naive_worst = 0.0_f64;
     for case in cases() {
         let revised = Revised::new(&input(&case, 1.0)).unwrap();
         for raceway in Raceway::BOTH {
@@ -92,12 +88,9 @@ fn rolling_slip_keeps_its_own_digits() {
                     error,
                     format_args!("{}: {error:e}", case["tag"]),
                 );
-                naive_worst = naive_worst
-                    .max((revised.rolling_slip_as_printed(raceway, 0.0) / golden - 1.0).abs());
             }
         }
     }
-    println!("rolling slip as printed in float64: relative error {naive_worst:.1e}");
 }
 
 /// Harris' kinematics of an angular-contact ball bearing with its inner ring turning, in the form of
@@ -173,61 +166,6 @@ fn neither_side_slip_nor_spin_can_vanish_at_both_contacts() {
             (sum - wanted) / ball.spin_speed,
             format_args!("{input:?}"),
         );
-    }
-}
-
-/// With `eps = D / d_m cos alpha cos^2 psi`: `omega_m / omega = (1 - eps) / 2`, `v_e` and the side
-/// slip-to-roll ratio in closed form, at the ball's own radius (no ellipse).
-#[test]
-fn equal_contact_angles_have_closed_forms() {
-    let mut random = Random(0x5EED_0005);
-    for _ in 0..2000 {
-        let mut input = random_input(&mut random);
-        input.contact_angle_nut = input.contact_angle_screw;
-        input.rolling_radius_screw = 0.5 * input.ball_diameter;
-        input.rolling_radius_nut = 0.5 * input.ball_diameter;
-        input.yaw_angle = 0.0;
-        for axis in [
-            &mut input.semi_major_screw,
-            &mut input.semi_minor_screw,
-            &mut input.semi_major_nut,
-            &mut input.semi_minor_nut,
-        ] {
-            *axis = 0.0;
-        }
-        let ball = Revised::new(&input).unwrap().evaluate();
-        let gamma = 0.5 * input.ball_diameter / input.pitch_radius;
-        let (sine, cosine) = input.lead_angle.sin_cos();
-        let eps = gamma * input.contact_angle_screw.cos() * cosine * cosine;
-        measured::assert(
-            "equal contact angles, orbital speed",
-            ball.orbital_speed / input.speed - 0.5 * (1.0 - eps),
-        );
-        for raceway in Raceway::BOTH {
-            let contact = ball.contact(raceway);
-            assert_eq!(contact.rolling_slip, 0.0);
-            let rolling = contact.entrainment_speed * contact.entrainment_angle.cos();
-            let wanted =
-                input.speed.abs() * input.pitch_radius * (1.0 - eps * eps) / (2.0 * cosine);
-            measured::assert_at(
-                "equal contact angles, rolling speed",
-                rolling / wanted - 1.0,
-                format_args!("{input:?}"),
-            );
-            let side_ratio = contact.side_slip.abs() / rolling;
-            let wanted = gamma * (sine * cosine).abs() / (1.0 - raceway.sign() * eps);
-            measured::assert_at(
-                "equal contact angles, side slip",
-                side_ratio - wanted,
-                format_args!("{input:?}"),
-            );
-            let angle = contact.entrainment_angle.tan().abs();
-            measured::assert_at(
-                "equal contact angles, side slip",
-                angle - 0.5 * wanted,
-                format_args!("{input:?}"),
-            );
-        }
     }
 }
 

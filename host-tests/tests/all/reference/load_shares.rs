@@ -191,10 +191,6 @@ fn one_table_for_all_loads() {
             ]
             .concat();
             let alone = Served::best_alone(&all, &TOLERANCE).unwrap().unwrap();
-            println!(
-                "{name}, {fault:?}: {:.0} N, {:?} at {:.0} N, {:?}",
-                alone.table.axial_load, alone.worst, alone.worst_at, alone.of_largest
-            );
             assert!(alone.of_largest.groove_torque.abs() < 0.013);
             assert!(alone.of_largest.ball_load < 0.1);
             if fault == Fault::None {

@@ -367,31 +367,6 @@ fn spin_follows_its_backbone_on_narrow_ellipses() {
     }
 }
 
-/// Slip under a spin that slides already: friction across follows the direction of the motion, so it comes late and stays small.
-#[test]
-fn spin_takes_friction_from_slip() {
-    let brush = || Brush::new(0.19, 41, 41, 2.0 / 3.0);
-    let mut both = brush();
-    let mut across = brush();
-    let (mut together, mut alone) = (0.0, 0.0);
-    for _ in 0..2000 {
-        alone = across
-            .follow(Motion {
-                across: 5e-3,
-                spin: 0.0,
-            })
-            .force;
-        together = both
-            .follow(Motion {
-                across: 5e-3,
-                spin: 5e-3,
-            })
-            .force;
-    }
-    assert!((alone - 1.0).abs() < 6e-15);
-    assert!(together < 0.95 && together > 0.9, "{together}");
-}
-
 /// Elements never give out more than was put in, whatever the limits do, and a closed path leaves no trace.
 #[test]
 fn elements_are_passive_and_do_not_drift() {

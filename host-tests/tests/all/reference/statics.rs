@@ -243,7 +243,6 @@ fn forces_are_the_gradient_of_the_energy() {
         let slope = (side(h) - side(-h)) / (2.0 * h);
         balls = balls.max((slope - gradient.balls[index].y).abs());
     }
-    println!("largest difference: {nodes:.1e} on nodes, {balls:.1e} on balls, of {scale:.1e} N");
     measured::assert_at(
         "energy by differences, nodes",
         nodes / scale.max(100.0),
@@ -590,7 +589,6 @@ fn hostile_starts() {
             }
         }
     }
-    println!("at most {most} steps; {told} of 448 starts end with a reason");
     assert!(told <= 20, "{told}");
 }
 
@@ -664,7 +662,6 @@ fn a_constant_profile_offset_is_an_oversize() {
     {
         worst = worst.max((a - b).abs());
     }
-    println!("profile offset against oversize: {worst:.1e} N");
     measured::assert_at(
         "profile offset, forces in N",
         worst,

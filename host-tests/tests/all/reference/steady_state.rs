@@ -28,7 +28,6 @@ fn state(case: &Value) -> BallScrewState {
 /// Both solvers stop at residuals of 1e-13 (1e-10 at worst).
 #[test]
 fn equals_17_digit_values() {
-    let mut worst = 0.0_f64;
     for case in cases("efficiency", "exact") {
         let found = state(&case)
             .solve()
@@ -49,13 +48,10 @@ fn equals_17_digit_values() {
         ] {
             let error = relative(computed, name);
             measured::assert_at(&format!("steady state, {name}"), error, &case);
-            if name == "eta" {
-                worst = worst.max(error);
-            }
+            if name == "eta" {}
         }
         assert!(found.steps <= 12, "{case}: {} steps", found.steps);
     }
-    println!("efficiency: {worst:.1e}");
 }
 
 #[test]
@@ -63,59 +59,6 @@ fn below_the_limit_there_is_no_steady_state() {
     for case in cases("efficiency", "exact_no_steady_state") {
         assert!(state(&case).solve().is_err(), "{case}");
     }
-}
-
-/// The published case, 2113 N on one ball at 2000 rpm: 0.8601, and the closed form (14) within 5.1e-6 of
-/// it over the paper's sweeps (the paper states 0.33 and 0.86 %, which do not reproduce).
-#[test]
-fn closed_form_is_its_limit() {
-    let published = BallScrewState {
-        lead_angle: 10_f64.to_radians(),
-        contact_angle: 45_f64.to_radians(),
-        friction: 0.075,
-        ball_radius: 4.37e-3,
-        pitch_radius: 24.3e-3,
-        speed: 2000.0 * std::f64::consts::TAU / 60.0,
-        axial_load: 2113.0,
-        ball_density: 7800.0,
-    };
-    let closed = |state: &BallScrewState| {
-        Screw {
-            lead_angle: state.lead_angle,
-            contact_angle: state.contact_angle,
-            friction: state.friction,
-            ball_ratio: state.ball_radius / state.pitch_radius,
-            rolling_tangent: 0.0,
-        }
-        .sliding_drive()
-    };
-    let found = published.solve().unwrap();
-    assert!((found.efficiency - 0.860_106_89).abs() < 5e-9);
-    let mut largest = 0.0_f64;
-    for degrees in 8..=45 {
-        let state = BallScrewState {
-            lead_angle: f64::from(degrees).to_radians(),
-            ..published
-        };
-        let error = state.solve().unwrap().efficiency - closed(&state);
-        largest = largest.max(error.abs());
-    }
-    measured::assert_at(
-        "steady state, closed form",
-        largest,
-        format_args!("{largest:e}"),
-    );
-    let slow = BallScrewState {
-        speed: 0.1 * published.speed,
-        ..published
-    };
-    let error = |state: &BallScrewState| state.solve().unwrap().efficiency - closed(state);
-    let ratio = error(&published) / error(&slow);
-    measured::assert_at(
-        "steady state, error over the square of the speed",
-        ratio - 100.0,
-        format_args!("{ratio}"),
-    );
 }
 
 /// Hostile inputs: an answer with a small residual, or the reason; never a loop, NaN or panic.
@@ -205,7 +148,6 @@ fn no_load_and_no_friction_are_named() {
                 ),
                 // A light ball at 200 rad/s is thrown off its screw: the centrifugal force passes the load.
                 Err(error) => {
-                    println!("{axial_load} N, friction {friction}: {error:?}");
                     assert!(axial_load < 1.5, "{axial_load} N: {error:?}");
                 }
             }

@@ -56,13 +56,11 @@ fn stored_runs() {
         let run = screw("3.254", theta, BallSlip::Total)
             .simulate(2.0 * TAU, 200, 1)
             .unwrap();
-        let mut worst = [0.0_f64; 2];
         for (i, state) in run.iter().enumerate() {
             let errors = [
                 state.main_torque * 1e3 / groove[i] - 1.0,
                 state.ball_torque * 1e3 - between[i],
             ];
-            worst = [worst[0].max(errors[0].abs()), worst[1].max(errors[1].abs())];
             // N mm. The stored compliances rest on a 48-point rule, 1e-6 off.
             measured::assert_at(
                 "whole screw, stored groove torque",
@@ -84,10 +82,6 @@ fn stored_runs() {
             );
             assert_eq!(state.contacts(), contacts[i] as usize, "{key} step {i}");
         }
-        println!(
-            "{key}: groove {:e} relative, balls {:e} N mm",
-            worst[0], worst[1]
-        );
     }
 }
 
@@ -138,7 +132,6 @@ fn refinement_converges() {
         run.iter().map(|s| s.ball_torque).sum::<f64>() / run.len() as f64
     };
     let [coarse, middle, fine] = [1, 8, 64].map(mean);
-    println!("{coarse} {middle} {fine}");
     measured::assert("whole screw, eight steps", middle / fine - 1.0);
     measured::assert("whole screw, one step", coarse / fine - 1.0);
 }

@@ -67,7 +67,6 @@ fn certified(folded: &Folded, errors: &mut Errors, line: &str) {
         ..
     } = *torque;
     assert_eq!((flagged, unsolved), (0.0, 0), "{line}");
-    println!("{line}: {largest:.1e} {rms:.1e} {mean:+.1e}, {worst_load} N, {worst_friction}");
     errors.add_figures([largest, rms, mean], states as f64, || {
         format!("{line}, {worst_load} N, {worst_friction}")
     });

@@ -254,7 +254,6 @@ fn preload_is_that_of_two_hertzian_flanks() {
         let computed = f64::from(step(&mut model, 400.0, load as f32).friction_torque);
         worst = worst.max((computed / expected - 1.0).abs());
     }
-    println!("preload: {worst:.2e}");
     measured::assert_at("preload of two flanks", worst, format_args!("{worst:e}"));
 }
 

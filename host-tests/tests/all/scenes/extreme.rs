@@ -61,7 +61,6 @@ fn random_objects(seed: u64, count: u64) {
             panic!("seed {seed:#x}: {error}");
         }
     }
-    println!("{count} random objects");
 }
 
 #[test]

@@ -265,7 +265,6 @@ fn groove_friction_is_the_spin_of_all_contacts() {
         let loaded: f64 = parts.iter().map(|part| part.powf(4.0 / 3.0)).sum();
         let exact = loaded * motion.power_loss;
         let error = f64::from(output.groove_force) / exact - 1.0;
-        println!("{normal} N, {side} N: {exact:.6} N, error {error:.1e}");
         // The exact ball rolls slower by a part d of its spin, because that saves spin in proportion to d and
         // costs slip in proportion to d² only: at its best M(0)/f'(0) (a tan(beta)/R_B)²/2 of the loss, which
         // the closed form leaves out. Between unequal diagonals a yaw saves in the same way. On top, f32 and the fitted moment: exact at pure spin.

@@ -70,7 +70,6 @@ fn a_rail_is_the_same_a_wavelength_on() {
     assert!(difference(&here, &from_position(5.0 * wavelength, sine)) < 2e-7);
     let quarter = from_position(0.25 * wavelength, sine);
     assert!(difference(&quarter, &from_position(0.0, cosine)) < 2e-7);
-    println!("a quarter on: {}", difference(&here, &quarter));
     assert!(difference(&here, &quarter) > 1e-5);
 }
 

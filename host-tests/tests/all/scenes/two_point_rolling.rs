@@ -428,7 +428,6 @@ fn a_row_is_flagged_before_a_ball_jumps() {
             }
             ratio += 0.02;
         }
-        println!("{case:?}: flagged from {border:.3}, a ball jumps at {jump:?}");
         earliest = earliest.max(jump.unwrap() - border);
     }
     assert!(most >= 5, "only {most} balls touch");

@@ -63,7 +63,6 @@ fn at_celsius(law: &CoefficientLaw, speed: f64, celsius: f64) -> f64 {
 #[test]
 fn the_reference_has_the_tabulated_coefficients() {
     let speeds = [0.1, 1.0, 5.0, 20.0, 100.0, 200.0];
-    let mut largest = 0.0_f64;
     for (celsius, row) in [
         (-20.0, [0.094, 0.064, 0.053, 0.051, 0.050, 0.050]),
         (20.0, [0.116, 0.104, 0.085, 0.066, 0.054, 0.052]),
@@ -72,10 +71,8 @@ fn the_reference_has_the_tabulated_coefficients() {
         for (speed, printed) in speeds.into_iter().zip(row) {
             let error = (full_law(speed, celsius) - printed).abs();
             assert!(error < 5e-4, "{celsius} C, {speed} rad/s: {error}");
-            largest = largest.max(error);
         }
     }
-    println!("largest {largest:.1e}");
     for (celsius, printed) in [(-20.0, 0.20), (20.0, 4.9), (80.0, 73.0)] {
         // Measured: 0.73 %, of figures with two digits.
         let found = film().half_share_speed(OIL.at(celsius)) / ENTRAINMENT;
@@ -135,7 +132,6 @@ fn the_form_with_its_best_speed() {
     let best = (0..=200)
         .map(|step| largest(0.5 + 0.005 * f64::from(step)))
         .fold(f64::MAX, f64::min);
-    println!("{best}");
     assert!((best - 0.057).abs() < 5e-4, "{best}");
 }
 
@@ -203,7 +199,6 @@ fn viscosities_by_two_points() {
             worst(&mineral_oil, &mineral, from, to),
             worst(&synthetic_oil, &synthetic, from, to),
         ];
-        println!("{from} to {to}: {found:.3?}");
         for (found, printed) in found.into_iter().zip(printed) {
             assert!((found - printed).abs() < 5e-3, "{found} for {printed}");
         }
@@ -334,7 +329,6 @@ fn default_half_share_speed_is_of_skf_mixture() {
         film.half_share_speed(viscosity) / ENTRAINMENT
     };
     let films = [0.08e-6, 0.15e-6].map(film);
-    println!("half-share speed {speed:.3} rad/s; of a film {films:.2?}");
     assert!(
         (speed - f64::from(law.half_share_speed)).abs() < 5e-3,
         "{speed}"
@@ -552,7 +546,6 @@ fn viscosities_go_through_their_points() {
             }
         }
     }
-    println!("{worst:.2e}");
     // Derived: 10 K from a pole below 512 K, which is rounded to 1.5e-5 K, five times over; twice that for the roundings of the rest.
     assert!(worst < 1.6e-5, "{worst:e}");
 }

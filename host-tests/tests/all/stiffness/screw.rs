@@ -229,7 +229,6 @@ fn tabulated_angles_with_a_seat() {
             let seat = Seat::with_gap(&design, &contacts, 0.0, 0.1, load);
             for (share, printed) in [(0.9, ninety), (1.0, whole)] {
                 let found = 1e3 * seat.angle(share);
-                println!("{name} {axial} N, {share}: {found} for {printed}");
                 assert!((found - printed).abs() < 0.05, "{found}");
             }
         }
@@ -251,7 +250,6 @@ fn tabulated_angles_with_play() {
             let load = contacts.contact_load(axial, named.loaded_balls);
             let [none, little, play] = [0.0, 2e-6, 20e-6]
                 .map(|gap| 1e3 * Seat::with_gap(&design, &contacts, gap, 0.1, load).angle(1.0));
-            println!("{name} {axial} N: {none} {little} {play}");
             assert!((play - printed).abs() < 0.5, "{play} for {printed}");
             // Some of the force goes over to the grooves' slope. Measured: 0.953 to 1.008.
             assert!((little - none) / added > 0.9 && (little - none) / added < 1.02);
@@ -271,7 +269,6 @@ fn the_limit_surface_is_that_of_quadrature() {
     ] {
         let [power, _] = slip_and_spin(k, x);
         let added = power / x - 1.0;
-        println!("spin adds {added:.4} at {x}");
         assert!((added - printed).abs() < digit, "{x}: {added}");
     }
     let mut errors = Errors::of("torque of slip and of spin over their sum");
@@ -528,7 +525,6 @@ fn the_whole_torque_is_near_that_of_exact_balls() {
         errors.add_at(error, line);
     }
     errors.assert_measured();
-    println!("within 5 %: {:.2}", small / errors.count);
     // Measured: 0.53.
     assert!(small > 0.5 * errors.count);
 }

@@ -88,9 +88,6 @@ fn a_return_without_load_takes_its_share_of_the_balls() {
     // Two thirds of the balls carry what all carry under 1.5 times the load; but a ball on the run-in loses less than in proportion to its load: with
     // the power of 7/6, 1/2 - 1/(2 + 1/6) = 0.038 of a ball on each, of 24.7.
     let ratio = sum / (f64::from(whole.groove_torque) / 1.5);
-    println!(
-        "groove torque with return over two thirds: {ratio:.5}, largest force {largest_force} N"
-    );
     assert!((ratio - 1.0 + 2.0 * 0.0385 / 24.67).abs() < 1e-3, "{ratio}");
     // Balls in the return have no speed of their own: none presses with more than its impedance. Derived: that is 1e-6 N for a
     // speed as large as that of all.

@@ -114,7 +114,6 @@ fn borders_of_the_load_make_no_ripple() {
                 .windows(2)
                 .map(|pair| (pair[1] / pair[0] - 1.0).abs())
                 .fold(0.0, f64::max);
-            println!("{name}, {nut_speed} rad/s: ripple {found:.5}, largest step {step:.5}");
             assert!(found < 5e-3 && step < 1e-3, "{name}: {found} {step}");
         }
     }
