@@ -10,10 +10,10 @@ use epas_friction::{
     CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, FrictionBranch,
     FrictionModel, LinearBearingTrain, LoadShare, LoadShares, UncagedBallScrew,
 };
-use epas_testkit::absurd::{EDGES, Trial, row_numbers};
 use epas_testkit::gears;
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{EDGES, Trial, row_numbers};
 use epas_testkit::remembering::{
     COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,
     linear_by_speed, uncaged_by_counts,
@@ -89,7 +89,6 @@ const COURSE: [[f32; 3]; 18] = [
     [-1.0, 0.9, -0.6],
 ];
 
-/// Ticks from one point of the course to the next, in turn.
 const LEG: [u32; 4] = [400, 1500, 1, 200];
 
 /// Hash of all bits of all outputs of a slow course, in which `change` sets what it likes at each of the course's points.
@@ -233,7 +232,6 @@ const STORED_ROWS: [&str; 3] = [
     "0xef6cafdcb6e8dcc8",
 ];
 
-/// Shares of the load that differ from ball to ball and with the sign of the load.
 static UNEVEN: [[LoadShare; 3]; 2] = [
     [share(1.3), share(0.7), share(1.0)],
     [share(0.6), share(1.0), share(1.4)],

@@ -8,12 +8,10 @@ pub fn file(name: &str) -> Value {
     serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// A list of cases of a file.
 pub fn cases(file_name: &str, list: &str) -> Vec<Value> {
     file(file_name)[list].as_array().unwrap().clone()
 }
 
-/// Friction cases.
 pub fn list(name: &str) -> Vec<Value> {
     cases("friction", name)
 }

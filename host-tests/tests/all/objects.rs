@@ -16,7 +16,7 @@ use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, LoadShare, Material,
 };
-use epas_testkit::absurd::row_numbers;
+use epas_testkit::random_scenes::row_numbers;
 
 /// Numbers to make objects of, in turn; zeros when they are used up.
 pub struct Numbers(pub Vec<f32>);
@@ -65,7 +65,6 @@ fn all_finite(what: &str, values: &[f32]) -> Result<(), String> {
     }
 }
 
-/// A refusal must name a value that is not allowed, and a range.
 fn refused(what: &str, error: &Error) -> Result<(), String> {
     if error.field().is_empty() || error.allowed().contains(error.value()) {
         Err(format!("{what} refuses an allowed value: {error}"))

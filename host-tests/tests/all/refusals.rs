@@ -61,7 +61,6 @@ pub fn assert_refused<P: Clone, V: Number, T, E: Refusal>(
     }
 }
 
-/// The same with no more than these values.
 pub fn assert_refused_at<P: Clone, V: Number, T, E: Refusal>(
     sound: &P,
     make: impl Fn(&P) -> Result<T, E>,

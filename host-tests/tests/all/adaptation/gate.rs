@@ -25,7 +25,6 @@ fn running() -> Adaptation {
     adaptation
 }
 
-/// Each flag is a bit of its own, for a log; those of a closed gate come first.
 #[test]
 fn flags_are_bits() {
     let flags = [

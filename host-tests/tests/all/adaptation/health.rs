@@ -72,7 +72,6 @@ fn drift_counts_from_commissioning() {
     assert_eq!(adaptation, Adaptation::new(&slow()).unwrap());
 }
 
-/// An average over a day of sliding still moves in f32.
 #[test]
 fn a_slow_average_does_not_stand_still() {
     let configuration = AdaptationConfiguration {

@@ -72,7 +72,6 @@ fn what_was_found_is_there_again() {
     assert_eq!(other.level(), was.level());
 }
 
-/// A level at its bound is flagged from the first tick on, in whichever tick the block was written.
 #[test]
 fn a_level_at_its_bound_is_known_again() {
     let mut was = driven();
@@ -144,7 +143,6 @@ fn a_block_that_is_not_its_own_is_refused() {
     assert_eq!(other.import(&block), Err(Refusal::OtherConstants));
 }
 
-/// A block with the right checksum and numbers that no adaptation leaves.
 #[test]
 fn numbers_that_no_adaptation_leaves_are_refused() {
     let block = export(&driven());

@@ -89,7 +89,6 @@ fn drag_and_offset_are_found() {
     assert!((found.backward - 1.2).abs() < 0.02, "{found:?}");
 }
 
-/// The promise: errors of the level from the second second of a drive on whose level wanders, with 2 s to forget.
 #[test]
 fn the_level_keeps_its_promise() {
     let mut errors = Errors::of("level");

@@ -32,7 +32,6 @@ fn analytic() -> AnalyticLinearBall {
     AnalyticLinearBall::new(&parameters(), PUBLISHED_SLOPE).unwrap()
 }
 
-/// Speed deviation of the exact ball.
 fn exact(angles: [f64; 4], forces: [f64; 4]) -> f64 {
     let ball = LinearBall {
         contact_angles: angles,

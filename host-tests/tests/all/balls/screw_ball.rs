@@ -149,7 +149,6 @@ fn elastic(deviations: &[f64], nut_speed: f64) -> ElasticBalls {
     }
 }
 
-/// Without play friction closes a third contact: on the screw or on the nut, with the direction.
 #[test]
 fn the_third_contact_follows_load_and_direction() {
     let row = ScrewRow::new(&design(), 0.1, GrooveFit::Zero).unwrap();
@@ -188,7 +187,6 @@ fn the_third_contact_follows_load_and_direction() {
     third.assert_measured();
 }
 
-/// Angles deviate on the screw and in the nut, each with its own groove.
 #[test]
 fn contact_angles_deviate_with_their_groove() {
     let row = ScrewRow::new(&design(), 0.1, GrooveFit::Zero).unwrap();
@@ -292,7 +290,7 @@ fn table_3_7() {
 }
 
 #[test]
-fn hostile_input_gives_finite_contacts() {
+fn invalid_input_gives_finite_contacts() {
     let odd = [
         0.0,
         -1.0,

@@ -78,7 +78,6 @@ impl Case {
         panic!("no active set fits {self:?}");
     }
 
-    /// Projected Gauss-Seidel on the complementarity problem, over-relaxed, until it stands still.
     fn relaxation(&self) -> Vec<f64> {
         let n = self.balls();
         let mut force = vec![0.0_f64; n];
@@ -313,7 +312,6 @@ fn a_million_ticks_leave_no_overlap() {
     assert!(most > 5 && pressing > 1_000_000, "the balls hardly met");
 }
 
-/// The same balls, numbered from another one, do the same.
 #[test]
 fn numbering_does_not_matter() {
     const N: usize = 8;
@@ -351,7 +349,6 @@ fn numbering_does_not_matter() {
     assert!(sets > 5, "{sets} sets of contacts");
 }
 
-/// One ball has nothing to press on; a full track moves as one, whatever its balls would do.
 #[test]
 fn a_single_ball_and_a_full_track() {
     let mut single = Train::<1>::evenly_spaced(0.1, 0.01, 1).unwrap();
@@ -381,8 +378,6 @@ fn a_single_ball_and_a_full_track() {
     }
 }
 
-/// Balls at equal speeds, and balls that drift apart, press on none; at standstill those in contact do
-/// with what sets them in motion.
 #[test]
 fn equal_speeds_gaps_and_standstill() {
     let mut train = Train::<4>::new(1.0, 0.01, &[0.0; 4]).unwrap();
@@ -438,7 +433,6 @@ fn equal_speeds_join_nothing() {
     );
 }
 
-/// What the rule leaves out is no more than the last bit: the least speed more makes a contact.
 #[test]
 fn the_least_excess_of_speed_joins() {
     let (joins, forces) = joins_and_forces([1.0 + f32::EPSILON, 1.0], false);
@@ -447,10 +441,8 @@ fn the_least_excess_of_speed_joins() {
     assert_eq!(forces, [f32::EPSILON * 8.0, 0.0]);
 }
 
-/// Whatever comes in, forces and speeds are finite, forces not negative, and the next sound tick finds
-/// the balls in their order.
 #[test]
-fn absurd_inputs_do_no_harm() {
+fn invalid_inputs_do_no_harm() {
     let wild = [
         f32::NAN,
         f32::INFINITY,
@@ -482,7 +474,7 @@ fn absurd_inputs_do_no_harm() {
     }
 }
 
-/// A travel beyond 3 % of the track counts as that, either way, and one that is no number as none.
+/// A travel beyond 3 % of the track counts as that, either way, and NaN as none.
 #[test]
 fn a_travel_without_bound_is_three_per_cent_of_the_track() {
     for (travel, counts) in [
@@ -504,7 +496,6 @@ fn a_travel_without_bound_is_three_per_cent_of_the_track() {
     }
 }
 
-/// Balls of which nothing valid is known press on none, and the last one is foremost, as in a new train.
 #[test]
 fn what_is_not_valid_joins_nothing() {
     let mut press = Press::<5>::new();

@@ -62,7 +62,6 @@ fn diagonals(ball: &LinearBall) -> (f64, f64) {
     (up.min(down), up.max(down))
 }
 
-/// Side-force ratio at which the speed jumps: there it is half of what it was.
 fn border(degrees: f64) -> f64 {
     let (mut low, mut high) = (0.8, 0.995);
     while high - low > 1e-6 {
@@ -145,7 +144,6 @@ fn the_speed_of_a_linear_ball_jumps_where_a_diagonal_is_weak() {
     }
 }
 
-/// Orbital speed over the nut's in equilibrium of Coulomb friction.
 fn orbital_speed(design: &BallScrew, angles: &[f32; 4], forces: &[f32; 4]) -> f64 {
     let numbers = given::ball_screw(design.parameters());
     let contacts: Vec<_> = Flank::ALL

@@ -42,7 +42,6 @@ fn gap(share: f32, design: &BallScrew) -> Clearance {
         .unwrap()
 }
 
-/// Preload and play give back the gap that they come from.
 #[test]
 fn conversions_there_and_back() {
     for design in designs() {
@@ -117,7 +116,6 @@ fn pressed(design: &BallScrew, gap: f64) -> [f64; 4] {
         .map(|contact| contact.load)
 }
 
-/// Forces of an oversized ball in elastic grooves, exact in float64.
 #[test]
 fn preload_is_the_force_in_elastic_grooves() {
     let mut errors = SHARES.map(|share| Errors::of(format!("preload at {share} ball radii")));
@@ -317,7 +315,6 @@ fn what_is_refused_is_named() {
     }
 }
 
-/// Scenes of a ball screw that know its clearance take what their design's balls allow, and name what they do not.
 #[test]
 fn scenes_refuse_a_clearance_beyond_their_balls() {
     let own = gears::closed_form(FrictionBranch::Rolling);

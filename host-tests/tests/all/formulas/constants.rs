@@ -98,7 +98,6 @@ const fn unwrapped<E: Copy>(result: Result<BallScrew, E>) -> BallScrew {
     }
 }
 
-/// The 31 sizes of the catalogue, folded by the compiler.
 const CATALOGUE_SET_UPS: [SetUp; SIZES] = {
     let first = unwrapped(CATALOGUE[0].design());
     let mut all = [SetUp::of(first, FRICTION, ROLLING_TANGENT); SIZES];

@@ -6,9 +6,9 @@ use epas_friction::curvature::{
 };
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
 use epas_reference::curvature::{self, Surface};
-use epas_testkit::absurd;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes;
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -161,7 +161,6 @@ fn without_offsets_the_groove_is_a_tube_and_without_lead_a_bearing() {
     }
 }
 
-/// A straight groove (lead angle 90 degrees) has no curvature along the path, in every form.
 #[test]
 fn a_straight_groove_has_no_curvature_along_it() {
     let path = HelixPath {
@@ -339,7 +338,7 @@ fn an_accepted_groove_has_curvatures_up_to_the_edges() {
 fn every_design_has_curvatures_at_every_contact_angle() {
     let mut random = Random(21);
     for _ in 0..20_000 {
-        let design = absurd::design(&mut random);
+        let design = random_scenes::design(&mut random);
         for groove in GROOVES {
             let angle = ContactAngle::new(random.unit() * std::f32::consts::FRAC_PI_2);
             for angle in [ContactAngle::new(0.0), angle, ContactAngle::new(1.5533)] {

@@ -221,7 +221,6 @@ fn dynamic_correction_reaches_the_exact_steady_state() {
     }
 }
 
-/// Integrated from a rolling start, the ball's equations of motion lead to the rolling efficiency.
 #[test]
 fn rolling_efficiency_is_where_the_equations_of_motion_lead() {
     for case in cases("efficiency", "rolling") {
@@ -285,7 +284,6 @@ proptest! {
         }
     }
 
-    /// A screw locks exactly where its efficiency is not positive, but for the last rounding.
     #[test]
     fn locking_is_where_efficiency_ends((lead, contact, ratio, friction) in angles()) {
         let screw = EfficiencyGeometry::new(lead, contact, ratio).unwrap();
@@ -299,7 +297,6 @@ proptest! {
         }
     }
 
-    /// More friction never helps, and no friction loses nothing.
     #[test]
     fn efficiency_falls_with_friction((lead, contact, ratio, friction) in angles()) {
         let screw = EfficiencyGeometry::new(lead, contact, ratio).unwrap();

@@ -131,7 +131,6 @@ fn conformity_and_groove_radius_agree() {
     }
 }
 
-/// Lead and lead angle lead to the same path; its curvature and torsion are those of the reference.
 #[test]
 fn path_from_lead_equals_path_from_lead_angle() {
     for size in CATALOGUE {

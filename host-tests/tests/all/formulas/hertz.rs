@@ -125,7 +125,6 @@ fn load_enters_with_its_powers_and_a_lost_contact_has_no_ellipse() {
     }
 }
 
-/// Designs give the same contact as their numbers taken through the reference's surface.
 #[test]
 fn designs_give_the_contact_of_their_surface() {
     let dissertation = DISSERTATION_DESIGNS.map(|design| design.parameters);

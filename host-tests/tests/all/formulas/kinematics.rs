@@ -79,7 +79,6 @@ fn parameters(input: &KinematicsInput) -> KinematicsParameters {
     }
 }
 
-/// Set up with other contacts, which then become these.
 fn updated(given: &KinematicsParameters) -> ContactKinematics {
     let mut kinematics = ContactKinematics::new(&KinematicsParameters {
         contact_angle_screw: 0.99 * given.contact_angle_screw,
@@ -361,8 +360,6 @@ fn all_finite(kinematics: &ContactKinematics) -> bool {
     numbers.iter().all(|number| number.is_finite())
 }
 
-/// Each field with NaN, infinities, zeros, negative, huge and tiny numbers: an error that names it, or finite
-/// results.
 #[test]
 fn odd_parameters_are_refused_by_name_or_give_finite_numbers() {
     let good = parameters(&operating::table_two().unwrap());
@@ -388,7 +385,6 @@ fn odd_parameters_are_refused_by_name_or_give_finite_numbers() {
     }
 }
 
-/// The refusals that the physics asks for, each with its field and a range that would do.
 #[test]
 fn what_cannot_roll_is_refused() {
     let good = parameters(&operating::table_two().unwrap());
@@ -471,7 +467,6 @@ fn slip_along_the_direction_of_rolling_has_an_angle_of_zero_or_pi() {
     assert!(against > 0);
 }
 
-/// An update is the set-up with other contacts, bit for bit; a refused one changes nothing.
 #[test]
 fn update_is_set_up_again() {
     let mut random = Random(0x5EED_1007);
@@ -539,7 +534,6 @@ fn update_is_set_up_again() {
     }
 }
 
-/// In the loop a wrong speed counts as none.
 #[test]
 fn wrong_numbers_in_the_loop_count_as_zero() {
     let kinematics = ContactKinematics::new(&parameters(&operating::table_two().unwrap())).unwrap();
@@ -564,7 +558,6 @@ fn wrong_numbers_in_the_loop_count_as_zero() {
     }
 }
 
-/// No load: an ellipse without extent. The ball rolls on a point; slip there is exact.
 #[test]
 fn unloaded_contact() {
     let input = KinematicsInput {

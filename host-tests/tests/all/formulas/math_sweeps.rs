@@ -17,7 +17,6 @@ mod with_micromath;
 
 type ErrorAt = fn(f32) -> f64;
 
-/// The line of a sweep over all inputs: errors in ulps of the result, or absolute.
 fn record(errors: &Errors, name: &str) {
     recorded::Sweep {
         quantity: name,

@@ -121,7 +121,6 @@ fn a_balls_power_is_that_of_the_reference() {
     }
 }
 
-/// Defaults pass the checks that a configuration makes of them, in a constant too.
 #[test]
 fn defaults_are_valid() {
     const STEEL: Result<RollingResistance, Error> = defaults::ROLLING_RESISTANCE.checked();

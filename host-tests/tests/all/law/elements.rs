@@ -99,7 +99,6 @@ fn steady_sliding_has_the_friction_of_gross_sliding() {
     each!(check);
 }
 
-/// From rest to sliding within the breakaway that the elements name, and not much before.
 #[test]
 fn breakaway_is_where_all_slides() {
     fn check<E: Hysteresis>(elements: &E) {
@@ -181,7 +180,6 @@ fn nothing_drifts_below_breakaway() {
     each!(check);
 }
 
-/// A minor loop inside another: friction comes back to the branch that was left.
 #[test]
 fn minor_loops_close() {
     fn check<E: Hysteresis>(elements: &E) {
@@ -280,9 +278,8 @@ fn any_turn_and_any_stiffness() {
     }
 }
 
-/// Not what a model passes on, but nothing that stays: every input, then sound ones.
 #[test]
-fn what_is_no_number_does_no_harm() {
+fn nan_and_infinity_do_no_harm() {
     fn check<E: Hysteresis>(elements: &E) {
         let numbers = [
             f32::NAN,
@@ -494,7 +491,6 @@ fn set_ups_are_refused_by_field() {
     assert_eq!(by_load(1.0, 1e-3, 0.0), "largest_load");
 }
 
-/// Elements that would have no friction at all are refused: fewer than two in proportion, whatever its parts, and none by load.
 #[test]
 fn too_few_elements_are_refused() {
     fn slides<E: Elements>(elements: &E) -> f32 {

@@ -188,7 +188,6 @@ fn tables_are_the_golden_ones() {
     check("spin10", &SPIN_10.elements);
 }
 
-/// Random loops of four sines, amplitudes to one and a half breakaway angles, against the stack of turning points.
 #[test]
 fn tables_follow_exact_loops() {
     fn follow<const N: usize>(name: &str, backbone: &Backbone<N>, curve: Curve) {

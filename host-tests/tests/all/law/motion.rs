@@ -89,7 +89,6 @@ fn a_counter_of_all_bits_overflows_without_a_jump() {
     }
 }
 
-/// Not an angle: friction holds, and the next turn spans the gap.
 #[test]
 fn gaps_are_spanned() {
     let sensor = counter(16_384, 1e-3, 1.0);
@@ -232,7 +231,6 @@ fn a_play_lets_through_what_it_does_not_take() {
     near(moved(0.25e-3), 0.25e-3, 1.0);
 }
 
-/// Noise within the play never turns the output round, and what moves and what stays add up to the turn.
 #[test]
 fn a_play_keeps_noise_away() {
     let play = Play::new(1.0).unwrap();

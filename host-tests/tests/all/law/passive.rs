@@ -85,7 +85,6 @@ fn least<E: Hysteresis>(
     least
 }
 
-/// Energy lost by every kind of elements, at the least.
 fn every_kind(count: u64) {
     // Of the scale: the largest limit, 5.1 times the reference, over a breakaway angle. Half an ulp of such a friction times a
     // turn of up to a few breakaway angles that stick is 3e-7 of it times 3.

@@ -62,7 +62,6 @@ fn every_ball_has_an_answer_whole() {
     solve_all(12, 60, 2);
 }
 
-/// The caged ball of a drawn state, and the sign of its loads.
 fn caged(state: &Promised) -> (CagedBall, f64) {
     let ball = CagedBall {
         design: state.row.design,
@@ -150,7 +149,6 @@ fn a_caged_ball_names_what_is_wrong() {
     );
 }
 
-/// A wrong load has its own error in its own place; its neighbours have their answers.
 #[test]
 fn a_wrong_load_of_a_caged_ball_stops_no_other() {
     let found = screw().along(&[10.0, 0.0, f64::NAN, 2e6, 20.0]).unwrap();
@@ -164,7 +162,6 @@ fn a_wrong_load_of_a_caged_ball_stops_no_other() {
     assert_eq!(screw().along(&[]), Ok(vec![]));
 }
 
-/// The contacts of the pair that a load presses carry, on either side, and the torque opposes the nut.
 #[test]
 fn a_caged_ball_carries_loads_of_both_signs_in_their_order() {
     let ball = CagedBall {

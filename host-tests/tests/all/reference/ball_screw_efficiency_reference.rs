@@ -159,7 +159,6 @@ fn bad_inputs_are_named() {
     );
 }
 
-/// A screw under reversed load and the same friction, braced by oversize, drags alike: neither flank is preferred.
 #[test]
 fn oversize_braces_both_flanks() {
     let braced = screw(table_3_6(), 30.0).braced_by_oversize().unwrap();

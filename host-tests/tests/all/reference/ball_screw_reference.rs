@@ -20,7 +20,6 @@ use epas_testkit::measured;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-/// Hertz constants with the right curvatures, as stored for the two groove radii (mm).
 fn law(side: &str, groove_radius: &str) -> HertzLaw {
     let all = golden("ballscrew");
     let stored = &all["hertz"][format!("{side}_rG{groove_radius}")]["correct"];
@@ -656,7 +655,7 @@ fn closed_speed_and_third_contact_against_the_numerical_model() {
 }
 
 #[test]
-fn hostile_input_converges_or_is_named() {
+fn extreme_input_converges_or_is_named() {
     let contacts = stored_contacts(&golden("ballscrew")["impedance"][3]["contacts1"]);
     assert_eq!(
         motion_with_contacts(&TRACK, &contacts, 0.1, 0.0),
@@ -734,20 +733,20 @@ fn hostile_input_converges_or_is_named() {
 }
 
 #[test]
-fn hostile_loads_are_solved() {
-    solve_hostile_loads(&[-1e-2, -1000.0, 1e4], &[0.01, 0.3]);
+fn extreme_loads_are_solved() {
+    solve_extreme_loads(&[-1e-2, -1000.0, 1e4], &[0.01, 0.3]);
 }
 
 #[test]
 #[ignore = "ninety balls"]
-fn hostile_loads_are_solved_whole() {
-    solve_hostile_loads(
+fn extreme_loads_are_solved_whole() {
+    solve_extreme_loads(
         &[-1e-2, -1.0, -100.0, -1000.0, 30.0, 1e4],
         &[0.01, 0.05, 0.1, 0.2, 0.3],
     );
 }
 
-fn solve_hostile_loads(loads: &[f64], frictions: &[f64]) {
+fn solve_extreme_loads(loads: &[f64], frictions: &[f64]) {
     let mut solved = 0;
     let mut refused = Vec::new();
     for &load in loads {
@@ -767,7 +766,7 @@ fn solve_hostile_loads(loads: &[f64], frictions: &[f64]) {
                         let (_, _, input) = friction_sums(ball, 1.0);
                         assert!(ball.power_loss > 0.0);
                         measured::assert(
-                            "hostile balls of a screw, power balance",
+                            "balls under extreme loads of a screw, power balance",
                             input / ball.power_loss - 1.0,
                         );
                     }

@@ -94,7 +94,6 @@ fn check(ring: &ElasticRing, state: &RingState) {
     measured::assert("ring, distances all around", around / length - 1.0);
 }
 
-/// Balls alike do not press, even where they fill the whole track; each is one that is alone.
 #[test]
 fn touching_balls_alike_move_as_one_alone() {
     let mut ring = short_ring(5, 0.0);
@@ -185,7 +184,6 @@ fn touching_balls_are_a_row() {
     }
 }
 
-/// Balls that meet and part on the way: no state is left without an answer, every one keeps the laws, and both things happen.
 #[test]
 fn balls_meet_and_part_without_overlap() {
     for (load, nut_speed, clearance) in [(-50.0, TAU, 0.0), (60.0, -1.0, 1e-6), (-40.0, 3.0, -1e-6)]
@@ -288,7 +286,6 @@ fn friction_does_not_depend_on_speed() {
     }
 }
 
-/// Loads that grow, pass zero and turn, and a nut that stops and turns: torques follow, and only rest has no answer.
 #[test]
 fn loads_and_ways_change_on_the_way() {
     for clearance in [-2e-6, 1e-6] {
@@ -330,7 +327,6 @@ fn crossings(states: &[RingState]) -> usize {
         .sum()
 }
 
-/// Balls of the return carry nothing and go along; under the load they carry their shares of it.
 #[test]
 fn balls_of_the_return_carry_nothing() {
     let mut ring = short_ring(6, 0.0);
@@ -414,7 +410,6 @@ fn follow_gaps(numbers_of_steps: &[usize]) {
     assert!(worst < 4.2e-3, "{worst:e}");
 }
 
-/// The force between balls that points outward changes what they carry, and a fixed total of power is still balanced.
 #[test]
 fn outward_force_moves_balls() {
     let mut ring = short_ring(3, 1.0);
@@ -431,7 +426,6 @@ fn outward_force_moves_balls() {
     measured::assert("ring, force that points outward", change);
 }
 
-/// Places of the balls converge with the second order of the step, through meeting and parting.
 #[test]
 fn steps_converge() {
     let mut ring = short_ring(5, 0.1);
@@ -523,7 +517,6 @@ fn bad_inputs_are_named() {
     );
 }
 
-/// Samples of a wave, many of them, are the wave.
 #[test]
 fn samples_are_lines_between_values() {
     let values: Vec<f64> = (0..64)
@@ -548,7 +541,6 @@ fn published(degrees: f64) -> ElasticRing {
     }
 }
 
-/// Rings over designs, fits, loads of either sign, deviations of both grooves, returns and changes on the way: every state has an answer.
 #[test]
 #[ignore = "minutes"]
 fn random_rings_have_an_answer_whole() {

@@ -162,7 +162,6 @@ fn typical(all: &Value) -> ElasticRow {
     }
 }
 
-/// Where pressing is possible in one order, the other one has nothing.
 #[test]
 fn one_order_presses() {
     let mut row = typical(&file("ballscrew_exact"));
@@ -359,7 +358,6 @@ fn random_row(random: &mut Random, all: &Value, balls: usize) -> ElasticRow {
     }
 }
 
-/// Complementarity of what was found, from speeds and forces alone.
 fn check(row: &ElasticRow, found: &RowMotion) {
     measured::assert("random rows, residual", found.residual);
     measured::assert("random rows, balance of power", found.power_error);
@@ -426,7 +424,6 @@ fn random_rows_have_an_answer_whole() {
     assert!(answered(4, 20, 16) >= 0.95);
 }
 
-/// Over all that the inputs allow, a row has an answer that meets every balance, or a named error. A sample of the rows.
 #[test]
 fn extreme_rows_are_answered_or_named() {
     solve_extreme_rows(2, 1);

@@ -10,7 +10,6 @@
 /// A rectangular grid of bristles on an ellipse with the minor semi-axis `axis_ratio` along the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brush {
-    /// Columns across the path.
     columns: Vec<Column>,
     /// Traction of a bristle over its bend.
     stiffness: f64,

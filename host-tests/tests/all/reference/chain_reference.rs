@@ -258,7 +258,7 @@ fn long_chain_is_solved_and_balanced() {
 }
 
 #[test]
-fn hostile_chains_end() {
+fn extreme_chains_end() {
     let pair = [tilted(2.0, -0.6), tilted(2.0, 0.6)];
     // Without friction in the grooves there is no force, and the speeds are the limit.
     let smooth = pair.map(|b| LinearBall { friction: 0.0, ..b });

@@ -19,7 +19,6 @@ pub fn ball(deviations: [f64; 4], side_force_ratio: f64) -> LinearBall {
     }
 }
 
-/// The bottom groove turned.
 pub fn tilted(theta_degrees: f64, side_force_ratio: f64) -> LinearBall {
     let theta = theta_degrees.to_radians();
     ball([-theta, theta, 0.0, 0.0], side_force_ratio)

@@ -248,7 +248,6 @@ fn one_table_serves_up_to_one_percent_of_friction() {
     }
 }
 
-/// Each load is served once, by a table that is within the tolerance there; a range ends where no table reaches further.
 #[test]
 fn ranges_follow_each_other() {
     for (name, case) in screws() {
@@ -323,7 +322,6 @@ fn no_fewer_tables_would_serve() {
     }
 }
 
-/// Balls that push against the load: no table says that, and the load is said to have none.
 #[test]
 fn balls_that_push_against_the_load() {
     let all = [

@@ -192,7 +192,6 @@ fn tables_are_the_stored_ones_and_follow_their_backbones() {
     }
 }
 
-/// A random path that turns often, on all scales, and at times goes far beyond breakaway.
 fn wander(random: &mut Random, ticks: usize) -> Vec<f64> {
     let (mut angle, mut towards) = (0.0, 0.0);
     let mut angles = vec![0.0];

@@ -1,4 +1,4 @@
-//! Static load distribution: the case studies of Lin 2019, laws, and hostile starts.
+//! Static load distribution: the case studies of Lin 2019, laws, and extreme starts.
 
 use crate::golden::{file, list_of as list};
 use crate::refusals::assert_refused;
@@ -149,7 +149,6 @@ fn geometric_errors_of_the_screw_give_the_loads_of_an_independent_solver() {
     }
 }
 
-/// Figure 2.9 again: a shaft that only stretches shares the load in a falling row.
 #[test]
 fn bar_model_falls_from_the_loaded_end() {
     let mut setup = case_1().setup().unwrap();
@@ -255,7 +254,7 @@ fn forces_are_the_gradient_of_the_energy() {
     );
 }
 
-/// `V((a + b) / 2) <= (V(a) + V(b)) / 2` on pairs of states from small to absurd, and the minimum is below
+/// `V((a + b) / 2) <= (V(a) + V(b)) / 2` on pairs of states from small to extreme, and the minimum is below
 /// all of them.
 #[test]
 fn energy_is_convex() {
@@ -514,7 +513,7 @@ fn finite(solution: &StaticSolution) -> bool {
 }
 
 #[test]
-fn hostile_starts() {
+fn extreme_starts() {
     let (mut most, mut told) = (0, 0);
     for load in [0.0, 1e-6, 1e-3, 1.0, 1e3, 1e5, -1e5] {
         for oversize in [0.0, 7e-6, 100e-6, -100e-6] {
@@ -592,7 +591,6 @@ fn hostile_starts() {
     assert!(told <= 20, "{told}");
 }
 
-/// Small balls between unloaded grooves carry nothing; so does a screw that is held clear of them.
 #[test]
 fn all_balls_lost_is_reported() {
     let case = CaseStudy {

@@ -68,7 +68,6 @@ fn at_the_reversal_speed_a_mechanism_moves() {
     }
 }
 
-/// Under no load a screw drives: its motor turns against friction alone.
 #[test]
 fn without_a_load_a_screw_drives() {
     let mut model = FrictionModel::<gears::CagedScrew>::new(&gears::caged()).unwrap();
@@ -108,7 +107,6 @@ fn back_driving_ends_where_the_efficiency_does() {
     );
 }
 
-/// A drive counts as locked from the friction on at which its torque would be a thousand pitch radii times the load.
 #[test]
 fn a_drive_locks_at_a_thousand_pitch_radii() {
     let mut parameters = CATALOGUE[30].parameters();
@@ -169,7 +167,6 @@ fn an_uncaged_screw_is_locked_by_its_own_friction() {
     }
 }
 
-/// Every scene counts its faulted ticks, and a flag that stands already stays.
 #[test]
 fn every_scene_counts_its_faults() {
     let mut screw =
@@ -201,7 +198,6 @@ fn a_load_share_gives_its_share() {
     }
 }
 
-/// A ball that would stand still or run with the track has no speed deviation: at the border the deviation counts.
 #[test]
 fn a_speed_deviation_of_one_counts() {
     let ball = AnalyticLinearBall::new(

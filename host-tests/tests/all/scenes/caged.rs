@@ -19,7 +19,6 @@ use epas_testkit::folded;
 const FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
 const CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 20e-6];
 
-/// Every `step`-th design to a diameter of 63 mm, with its name.
 fn designs(step: usize) -> impl Iterator<Item = (&'static str, BallScrewParameters)> {
     let sizes = CATALOGUE
         .iter()
@@ -72,7 +71,6 @@ fn certified(folded: &Folded, errors: &mut Errors, line: &str) {
     });
 }
 
-/// A block for one friction coefficient, of some of every second design.
 fn folded_steps(taken: impl Fn(usize) -> bool) {
     let mut errors = Errors::of("folded step");
     for (place, (name, parameters)) in designs(2).enumerate().filter(|(place, _)| taken(*place)) {
@@ -136,7 +134,6 @@ fn folded_step_between_nodes_whole() {
     folded_steps_between_nodes(|_| true);
 }
 
-/// Screws of all leads, with preload, without, and with play; loads to 300 N a ball.
 fn screws() -> impl Iterator<Item = CagedFold> {
     let sizes = [10_usize, 15, 22, 30].map(|size| CATALOGUE[size].parameters());
     let steering = [DISSERTATION_DESIGNS[2].parameters];
@@ -174,7 +171,6 @@ fn of_lead(gap: f32, lead: f32) -> CagedFold {
     fold(parameters, gap, 0.1)
 }
 
-/// What of all these is stored.
 pub fn folds() -> Vec<CagedFold> {
     let leads = GAPS.map(|gap| LEADS.map(|lead| of_lead(gap, lead)));
     screws()
@@ -239,7 +235,6 @@ fn without_a_load_friction_is_that_of_the_preload() {
     }
 }
 
-/// Nothing jumps where the load passes through zero or the speed through standstill.
 #[test]
 fn friction_is_continuous() {
     for screw in SCREWS.iter() {
@@ -274,7 +269,6 @@ fn friction_is_continuous() {
     }
 }
 
-/// A screw of zero lead is a bearing: no torque of the load, but friction.
 #[test]
 fn zero_lead_is_a_bearing() {
     let mut model = FrictionModel::new(&one(&bearing())).unwrap();

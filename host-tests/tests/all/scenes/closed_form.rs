@@ -66,7 +66,6 @@ proptest! {
         prop_assert!(outputs.efficiency <= 1.0);
     }
 
-    /// Turning everything round turns the torques round, to the bit.
     #[test]
     fn odd_under_reversal_of_speed_and_load((configuration, speed, load) in situation()) {
         let mut model = model(&configuration);
@@ -96,7 +95,6 @@ proptest! {
         prop_assert!((f64::from(outputs.efficiency) - expected).abs() < allowed);
     }
 
-    /// More load, more friction: strictly without preload, not less with it.
     #[test]
     fn friction_rises_with_load((configuration, speed, load) in situation()) {
         prop_assume!(speed.abs() > 1.0);
@@ -110,7 +108,6 @@ proptest! {
         }
     }
 
-    /// Through zero speed the torque is continuous: a small step of speed is a small step of torque.
     #[test]
     fn continuous_through_zero_speed((configuration, _, load) in situation()) {
         // A torque limit would cut the full torque, but not the slope at standstill.
@@ -172,7 +169,6 @@ fn faults_are_named_and_counted() {
     assert_eq!(model.faulted_ticks(), 0);
 }
 
-/// A screw that locks in driving holds the load with the friction limit, flagged, and still lowers it.
 #[test]
 fn a_locked_drive_is_said_and_bounded() {
     // Contact angle 20 degrees, lead angle 60: f R = 0.99 > Sb = 0.34 at f = 0.5.
@@ -205,7 +201,6 @@ fn a_locked_drive_is_said_and_bounded() {
     assert!(still.friction_torque == 0.0 && !still.faults.any());
 }
 
-/// A self-locking fine lead: the load does not turn it, the motor has to push it down.
 #[test]
 fn a_self_locking_lead_is_locked_when_back_driven() {
     let mut parameters = CATALOGUE[0].parameters();

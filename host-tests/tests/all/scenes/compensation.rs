@@ -196,7 +196,6 @@ impl Case {
     }
 }
 
-/// A bridge with the share as it is: what a margin forbids is tried here too.
 fn stage(full_torque: f32, share: f32) -> FrictionFeedForward<Bridge> {
     let configuration = FeedForwardConfiguration {
         full_torque,
@@ -322,7 +321,6 @@ fn quiet_within_the_margin_whole() {
     is_quiet_within_the_margin(1);
 }
 
-/// At rest nothing at all moves, however noisy the angle is within the play.
 #[test]
 fn noise_within_the_play_moves_nothing() {
     let mut cases = Vec::new();
@@ -345,7 +343,6 @@ fn noise_within_the_play_moves_nothing() {
     all_are(&cases, |_, swing| swing.counts == 0.0);
 }
 
-/// With all of the friction put out nothing stops the nut any more.
 #[test]
 fn all_of_the_friction_never_comes_to_rest() {
     let mut cases = Vec::new();
@@ -406,7 +403,6 @@ fn an_early_breakaway_hums_without_a_play() {
     all_are(&cases, |case, swing| swing.counts > 2.0 * case.counts());
 }
 
-/// Noise that reaches the elements makes a loop hum from rest that a play keeps quiet.
 #[test]
 fn noise_without_a_play_hums() {
     let mut cases = Vec::new();
@@ -437,9 +433,8 @@ fn refused(case: &Case) -> &'static str {
     error.field()
 }
 
-/// Torque and flags of a screw without cage are put out as those of a caged one.
 #[test]
-fn outputs_of_both_screws_are_put_out_alike() {
+fn outputs_of_both_screws_are_applied_alike() {
     let mut stage = stage(1.0, 0.5);
     for (torque, faults) in [
         (0.3, Faults::NONE),
@@ -461,7 +456,6 @@ fn outputs_of_both_screws_are_put_out_alike() {
     }
 }
 
-/// The stage takes what the margin allows, and names what it does not.
 #[test]
 fn a_share_beyond_the_margin_is_named_with_its_range() {
     let margin = CompensationMargin {

@@ -4,9 +4,9 @@ use crate::objects;
 use crate::recorded;
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{ClosedFormScrew, LinearBearingTrain, UncagedBallScrew};
-use epas_testkit::absurd;
-use epas_testkit::absurd::soak;
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes;
+use epas_testkit::random_scenes::soak;
 
 const COMMAND: &str =
     "cargo test --release -p epas-reference --test all scenes::extreme -- --ignored --nocapture";
@@ -43,7 +43,6 @@ fn forces_that_rounding_makes_negative_do_not_drive() {
     soak::<UncagedBallScrew<64>>(0x000a_e000_0001_27ac, 1, 100);
 }
 
-/// Objects made of random numbers, most of them likely to be accepted, the rest anything.
 fn random_objects(seed: u64, count: u64) {
     for object in 0..count {
         let seed = seed.wrapping_add(object);
@@ -51,7 +50,7 @@ fn random_objects(seed: u64, count: u64) {
         let numbers = (0..48)
             .map(|_| {
                 if random.one_in(64) {
-                    random.of(&absurd::EDGES)
+                    random.of(&random_scenes::EDGES)
                 } else {
                     random.anything()
                 }

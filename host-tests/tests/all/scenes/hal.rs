@@ -135,7 +135,6 @@ fn odd_parity_is_surfaced() {
     encoder.release().done();
 }
 
-/// The error flag makes the driver read the sensor's errors, by which the sensor clears them.
 #[test]
 fn the_error_flag_is_read_and_cleared() {
     let flagged = sealed(0x404D);
@@ -196,7 +195,6 @@ impl SpiDevice for Line {
     }
 }
 
-/// A sensor that answers each command in the frame after, and a bus that fails when told to.
 #[derive(Debug, Default)]
 struct Sensor {
     angle: Cell<u16>,
@@ -308,7 +306,6 @@ fn beyond_the_largest_speed_no_speed_comes_out() {
     }
 }
 
-/// One wrong angle of sound parity costs two ticks, and neither gives a speed.
 #[test]
 fn one_wild_angle_costs_two_ticks() {
     let sensor = sensor();

@@ -9,10 +9,10 @@ use epas_friction::{
     FrictionModel, GrooveSize, Inputs, LinearBearingConfiguration, LinearBearingTrain,
     LinearLimits, LoadShares, Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
-use epas_testkit::absurd::{Trial, accepted};
 use epas_testkit::gears::{SCREW_BALLS, UncagedScrew, changed, even};
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{Trial, accepted};
 use proptest::prelude::*;
 
 fn closed_form(seed: u64) -> FrictionModel<ClosedFormScrew> {
@@ -40,7 +40,6 @@ fn closed_form_configuration(
     }
 }
 
-/// A screw without cage, whose grooves do not deviate and whose balls all carry the same load.
 fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> {
     static NONE: DeviationMap = DeviationMap::NONE;
     let mut random = Random(seed);

@@ -328,7 +328,6 @@ fn bad_inputs_are_flagged_and_bad_configurations_named() {
     );
 }
 
-/// Every limit still holds at its last number, and no further.
 #[test]
 fn limits_hold_to_their_last_number() {
     let limits = configuration().limits;
@@ -356,7 +355,6 @@ fn limits_hold_to_their_last_number() {
     }
 }
 
-/// The shortest wavelength is a thousandth of the track, and 0.1 mm on a track that is shorter than 100 mm.
 #[test]
 fn the_shortest_wavelength_is_that_of_the_track() {
     let with = |loaded_length: f32, wavelength: f32| {

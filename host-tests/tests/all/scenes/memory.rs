@@ -304,7 +304,6 @@ fn steady_sliding_is_the_scene_without_memory() {
     );
 }
 
-/// Below breakaway friction is what the elements make of the angle between the limits of sliding in both directions.
 #[test]
 fn friction_follows_the_angle_as_its_elements_do() {
     let load = 3000.0;
@@ -341,7 +340,6 @@ fn friction_follows_the_angle_as_its_elements_do() {
     }
 }
 
-/// The speed has no part in it: with the angle at rest friction stays, whatever the speed's noise says.
 #[test]
 fn noise_of_the_speed_changes_nothing() {
     let mut model = caged_by_angle();
@@ -357,7 +355,6 @@ fn noise_of_the_speed_changes_nothing() {
     }
 }
 
-/// What is wrong with an input is flagged in its tick; friction stays finite, and what is sound goes on.
 #[test]
 fn wrong_inputs_are_flagged_and_friction_holds() {
     let mut model = caged_by_angle();
@@ -425,7 +422,6 @@ fn wrong_inputs_are_flagged_and_friction_holds() {
     assert!(outputs.friction_torque.is_finite());
 }
 
-/// Steps with a fault are counted; a reading between two steps with a fault is flagged, and leaves the count as it is.
 #[test]
 fn faults_between_steps_are_flagged_and_not_counted() {
     let mut model = caged_by_angle();
@@ -440,7 +436,6 @@ fn faults_between_steps_are_flagged_and_not_counted() {
     assert_eq!(model.faulted_ticks(), 0);
 }
 
-/// Loads hold, then fade, then are none: friction is then that of the preload.
 #[test]
 fn an_old_load_fades() {
     let mut model = caged_by_angle();
@@ -602,7 +597,6 @@ fn balls_catch_up_with_a_turn_that_was_missed() {
     }
 }
 
-/// An angle that is set while turns wait for the next step is that of the last reading.
 #[test]
 fn an_angle_is_set_once() {
     type Model = FrictionModel<WithMemory<UncagedScrew<SCREW_BALLS>, Slip, WrappedAngle>>;
@@ -652,7 +646,6 @@ fn without_a_load_a_nut_that_turns_does_not_stand() {
     }
 }
 
-/// Mirrored motion and load give mirrored friction.
 #[test]
 fn odd_under_reversal_of_motion_and_load() {
     let (mut model, mut mirrored) = (caged_by_angle(), caged_by_angle());
@@ -680,7 +673,6 @@ fn odd_under_reversal_of_motion_and_load() {
     }
 }
 
-/// Constants are swapped: memory stays, balls have the new friction at once, and constants that do not fit are refused.
 #[test]
 fn changes_while_it_runs_keep_the_memory() {
     let configuration = uncaged();

@@ -157,7 +157,6 @@ fn screw() -> UncagedConfiguration {
     }
 }
 
-/// Both screws, hands off, behind a play of so many counts to either side.
 fn rests(half_width: f32, rest: Rest) -> [Restlessness; 2] {
     let angle = Deadband::new(counts(), half_width * ClosedLoop::COUNT as f32).unwrap();
     [

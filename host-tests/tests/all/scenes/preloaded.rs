@@ -77,7 +77,6 @@ fn a_caged_screw_tells_what_its_flanks_share() {
     }
 }
 
-/// An oversize that presses a contact with less than a thousandth of a newton is no preload.
 #[test]
 fn a_preload_that_is_none_is_none() {
     let closed = closed_form(FrictionBranch::Rolling);

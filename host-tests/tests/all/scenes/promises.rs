@@ -121,7 +121,6 @@ fn efficiencies() {
     driven.assert_promised(promises::of("rolling_backdrive_efficiency"));
 }
 
-/// One wave in a period, between the table's samples as well as on them.
 #[test]
 fn deviations() {
     let mut random = Random(26);

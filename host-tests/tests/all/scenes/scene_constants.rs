@@ -175,7 +175,6 @@ fn manoeuvre() -> impl Iterator<Item = (f32, f32)> {
     })
 }
 
-/// Constants are the same as at run time, and so is every output of every tick, and the state at the end.
 fn same_gear<S>(
     constants: &'static S::Constants,
     configuration: &S::Configuration,
@@ -237,7 +236,6 @@ fn a_folded_linear_bearing_is_the_one_set_up_at_run_time() {
     });
 }
 
-/// The angle moves the screw's deviations under the balls, whoever owns the constants.
 #[test]
 fn a_model_of_a_reference_takes_the_nut_angle() {
     let mut referring = FrictionModel::<UncagedBallScrew<37>, _>::of(&ONE);
@@ -251,7 +249,6 @@ fn a_model_of_a_reference_takes_the_nut_angle() {
     assert_ne!(Outputs::from(turned), Outputs::from(at_rest));
 }
 
-/// A bad field is an error of the compiler where a constant is asked for, and names itself where it is not.
 #[test]
 fn a_refused_gear_names_its_field() {
     const BAD: Result<UncagedConstants<37>, Error> =

@@ -225,7 +225,6 @@ fn ball(turn: f64, side: f64) -> LinearBall {
     }
 }
 
-/// The force between two balls that a yaw moment loads.
 #[test]
 fn pairs_in_a_linear_bearing() {
     let ellipse = ellipse();

@@ -4,12 +4,12 @@ use crate::recorded;
 use epas_friction::FrictionModel;
 use epas_friction::train::{Press, Train};
 use epas_reference::promises;
-use epas_testkit::absurd::{Trial, sound_train};
 use epas_testkit::errors::Errors;
 use epas_testkit::gears;
 use epas_testkit::gears::screw_inputs;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{Trial, sound_train};
 
 /// Speeds and forces of a row in contact by the max-min formula of isotonic regression, in f64.
 fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {

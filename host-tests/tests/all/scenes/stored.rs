@@ -149,7 +149,6 @@ impl Kept for Uncaged {
     }
 }
 
-/// Balls that press.
 impl Kept for UncagedScrew<CROWD> {
     fn model() -> FrictionModel<Self> {
         FrictionModel::new(&crowded()).unwrap()
@@ -315,7 +314,6 @@ fn a_scene_with_memory_goes_on_to_the_bit() {
     goes_on::<LinearBySpeed>(false);
 }
 
-/// A model that has run takes a block over as a fresh one does.
 #[test]
 fn what_a_model_did_before_an_import_does_not_count() {
     fn check<S: Kept>() {
@@ -339,7 +337,6 @@ fn what_a_model_did_before_an_import_does_not_count() {
     check::<LinearBySpeed>();
 }
 
-/// A closed form has no state: its block is that of any other closed form.
 #[test]
 fn closed_forms_are_kept_too() {
     let of = |branch| FrictionModel::<ClosedFormScrew>::new(&closed_form(branch)).unwrap();
@@ -418,7 +415,6 @@ fn a_refusal_says_what_is_wrong() {
     }
 }
 
-/// Every byte of a block counts: flash that is set aside for it is neither too little nor wasted.
 #[test]
 fn blocks_are_as_small_as_said() {
     fn bytes<S: StoredScene>() -> usize {

@@ -96,7 +96,6 @@ fn a_closed_form_is_swapped_for_another_one() {
     assert_ne!(model.step(INPUTS), before);
 }
 
-/// Balls of a bearing go on from their places; the friction that was set before counts no more.
 #[test]
 fn a_bearing_takes_the_friction_of_its_new_constants() {
     let inputs = linear_inputs(0.5, 2000.0, 300.0);

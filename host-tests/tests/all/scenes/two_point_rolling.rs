@@ -155,7 +155,6 @@ impl Case {
         })
     }
 
-    /// Least ratio above `from` at which the model says that it leaves its accuracy.
     fn flagged_from(&self, model: &Model, from: f64, speed: f64) -> f64 {
         let (mut sound, mut flagged) = (from, 1.2 * from.signum());
         assert!(!self.tick(model, sound, speed).faults.any(), "{self:?}");
@@ -286,7 +285,6 @@ fn a_ball_alone_is_flagged_shortly_before_it_jumps_whole() {
     every_ball_alone_is_flagged_shortly_before_it_jumps(1);
 }
 
-/// Speeds of balls that do not press, as far as no flag stands: one groove that deviates, both signs.
 #[test]
 fn speeds_without_a_flag() {
     for (load, name) in [
@@ -558,7 +556,6 @@ fn the_flag_knows_what_neighbours_save() {
     }
 }
 
-/// Without deviations nothing presses, and the border is that of the heaviest ball of the load table.
 #[test]
 fn shares_of_the_load_move_the_border() {
     let border = |shares: &'static [LoadShare], load: f64| {

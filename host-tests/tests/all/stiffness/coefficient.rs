@@ -59,7 +59,6 @@ fn at_celsius(law: &CoefficientLaw, speed: f64, celsius: f64) -> f64 {
     f64::from(law.at_temperature(kelvin(celsius)).at(speed as f32))
 }
 
-/// Half a unit of the last digit, 5e-4.
 #[test]
 fn the_reference_has_the_tabulated_coefficients() {
     let speeds = [0.1, 1.0, 5.0, 20.0, 100.0, 200.0];
@@ -254,7 +253,6 @@ fn sweeps_are_monotone() {
     }
 }
 
-/// Equal coefficients are that number, bit by bit, whatever comes in.
 #[test]
 fn equal_coefficients_are_constant() {
     for friction in [1e-6_f32, 0.05, 0.1, 0.123_456_79, 1.0] {
@@ -397,7 +395,6 @@ fn faulty_inputs() {
     assert!((found / exact - 1.0).abs() < 2.4e-7, "{found} {exact}");
 }
 
-/// The factor of a direction scales its coefficient, and only that.
 #[test]
 fn directions_differ() {
     let law = CoefficientLaw::new(&CoefficientParameters {

@@ -26,7 +26,6 @@ fn law(drag: RollingDrag, viscosity: f32) -> CoefficientLaw {
     .unwrap()
 }
 
-/// Five sizes with the balls of about three turns.
 const SIZES: [(&str, u16); 5] = [
     ("lin-4.1", 71),
     ("lin-3.6", 37),
@@ -223,7 +222,6 @@ fn drag_is_viscous() {
     }
 }
 
-/// What the default says of itself: two digits.
 #[test]
 fn default_drag_of_a_steering_gear() {
     let law = CoefficientLaw::new(&defaults::COEFFICIENT).unwrap();

@@ -389,7 +389,6 @@ fn a_seat_is_monotone() {
     }
 }
 
-/// A ball bearing has no slip across its path; everything else stands.
 #[test]
 fn without_lead_nothing_slips() {
     let mut parameters = DISSERTATION_DESIGNS[1].parameters;

@@ -25,7 +25,6 @@ use epas_testkit::random::Random;
 
 type Model = FrictionModel<WithMemory<CagedScrew, Slip, SpeedOverTick>>;
 
-/// Friction under a coefficient that follows speed and temperature is that of a screw in which this coefficient is set.
 #[test]
 fn a_coefficient_by_a_law_is_one_that_is_set() {
     let law = CoefficientLaw::new(&CoefficientParameters {
@@ -59,7 +58,6 @@ fn a_coefficient_by_a_law_is_one_that_is_set() {
     }
 }
 
-/// A law whose coefficients are all the same is one coefficient, to the bit.
 #[test]
 fn equal_coefficients_are_one() {
     let scene = caged();
@@ -90,7 +88,6 @@ fn equal_coefficients_are_one() {
     }
 }
 
-/// A law that gives more than the scene takes is refused, at set-up and while it runs.
 #[test]
 fn coefficients_beyond_the_scene_are_refused() {
     let scene = caged();

@@ -220,7 +220,6 @@ impl Found {
     }
 }
 
-/// Half a second in one direction, then to and fro by lot with up to that speed.
 fn to_and_fro<S>(
     mut both: Both<S>,
     load: S::Inputs,
@@ -312,7 +311,6 @@ fn a_row_makes_no_energy() {
     check(bearing_of(1e-4), bearing_load, 2.0);
 }
 
-/// In steady sliding all outputs are those of the row, to the bit.
 #[test]
 fn steady_sliding_is_the_row_to_the_bit() {
     let mut both = screw_of(5e-4);

@@ -9,12 +9,12 @@ use epas_friction::scene::{StoredScene, WithMemory, WithMemoryConfiguration};
 use epas_friction::stored::VERSION;
 use epas_friction::{Faults, FrictionModel, LinearBearingTrain, Refusal, UncagedBallScrew};
 
-use epas_testkit::absurd::{Trial, accepted};
 use epas_testkit::gears::{
     BALL_RANGE, CagedConfiguration, CagedScrew, LINEAR_BALLS, UncagedConfiguration, UncagedScrew,
     caged, changed, linear, linear_of_smaller_balls, uncaged,
 };
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{Trial, accepted};
 use epas_testkit::remembering::{COUNTS, CagedByAngle, UncagedByCounts, slip, with_memory};
 
 use super::{
@@ -22,7 +22,6 @@ use super::{
     VERSION_AT, driven, export, sealed,
 };
 
-/// The reason, and a model that is as it was.
 fn refused<S: Kept>(model: &mut FrictionModel<S>, block: &[u8]) -> Refusal {
     let before = export(model);
     let faulted = model.faulted_ticks();
@@ -338,7 +337,6 @@ fn a_ratio_of_two_coefficients_is_in_range() {
     }
 }
 
-/// A friction coefficient for which these balls were not folded.
 #[test]
 fn a_coefficient_of_other_balls_is_refused() {
     let mut model = Uncaged::model();
@@ -362,9 +360,8 @@ fn a_coefficient_of_other_balls_is_refused() {
     }
 }
 
-/// Numbers that no state has, in a block that is whole.
 #[test]
-fn absurd_numbers_are_refused() {
+fn numbers_out_of_range_are_refused() {
     let field = |refusal| match refusal {
         Refusal::OutOfRange { field } => field,
         other => panic!("{other}"),
@@ -414,7 +411,6 @@ fn absurd_numbers_are_refused() {
     assert_eq!(field(refused(&mut model, &sealed(beyond))), "inputs");
 }
 
-/// Every model leaves blocks that it takes, and where a block of random numbers is taken the model goes on as sound as ever.
 #[test]
 fn random_blocks_are_refused_or_harmless() {
     fn check<S: Trial + StoredScene>(models: u64) -> (u32, u32)

@@ -178,7 +178,6 @@ fn refusal<const NODES: usize>(words: &[u32]) -> &'static str {
         .field()
 }
 
-/// A block gives back what was folded, to the bit, and says from which inputs.
 #[test]
 fn a_block_gives_back_what_was_folded() {
     let mut preloaded = BALL;
@@ -201,7 +200,6 @@ fn a_block_gives_back_what_was_folded() {
     assert!(short.iter().all(|&word| word == 7));
 }
 
-/// Every bit counts: of each word one, and of the header all.
 #[test]
 fn every_flipped_bit_is_found() {
     let words = block(&BALL);
@@ -222,7 +220,6 @@ fn every_flipped_bit_is_found() {
     }
 }
 
-/// Blocks of another version, of another number of coefficients, of another scene, and parts of a block are refused by name.
 #[test]
 fn other_blocks_are_refused_by_name() {
     let (one, range) = (block(&BALL), block(&BALL_RANGE));

@@ -20,7 +20,6 @@ use epas_testkit::folded;
 use epas_testkit::gears::wave;
 use epas_testkit::given;
 
-/// Balls of a screw.
 pub const BALLS: usize = 16;
 
 pub const TICK: f32 = 1e-3;
@@ -34,7 +33,6 @@ const TOUCHING: f64 = 1e-9;
 /// Share of a ball's load below which the largest force of a state is taken as that share.
 const SMALL: f64 = 1e-2;
 
-/// The screw whose balls are folded: Lin 2019, Table 3.6.
 pub fn design() -> BallScrew {
     BallScrew::new(DISSERTATION_DESIGNS[1].parameters).unwrap()
 }
@@ -73,7 +71,6 @@ pub fn oversize() -> Clearance {
     Clearance::of_preload(&design(), 15.0).unwrap()
 }
 
-/// What of all these is stored.
 pub fn folds() -> [UncagedFold; 3] {
     [
         fold(Clearance::ZERO, None),

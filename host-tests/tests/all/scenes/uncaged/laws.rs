@@ -381,7 +381,6 @@ fn which_ball_is_the_first_is_no_matter() {
     }
 }
 
-/// Grooves that do not deviate press no ball, from the first tick on.
 #[test]
 fn without_deviation_no_ball_presses() {
     let configuration = UncagedBallScrewConfiguration {

@@ -140,7 +140,7 @@ fn shares_of_the_load_go_to_their_balls() {
 }
 
 #[test]
-fn absurd_inputs_are_flagged_and_leave_no_trace() {
+fn invalid_inputs_are_flagged_and_leave_no_trace() {
     let sound = inputs(4.0, 900.0);
     let mut model = Model::new(&configuration(1.0)).unwrap();
     let mut untouched = Model::new(&configuration(1.0)).unwrap();
@@ -201,7 +201,6 @@ fn absurd_inputs_are_flagged_and_leave_no_trace() {
     assert!(output.groove_torque > 0.01);
 }
 
-/// A quarter of a turn of a deviation with two waves a turn turns its sign.
 #[test]
 fn the_nut_angle_moves_the_screw_under_the_balls() {
     let mut there = Model::new(&configuration(0.9)).unwrap();

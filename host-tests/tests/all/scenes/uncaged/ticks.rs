@@ -21,10 +21,8 @@ const EVENTS: [&str; 4] = [
 /// Ticks of an event that may be compared, the first of which is that in which it happens.
 const COMPARED: u32 = 30;
 
-/// Every so many of them are, by default; all in the tests whose names end in `_whole`.
 const SAMPLE: u32 = 6;
 
-/// Turn of the nut from one event to the next, rad.
 const TURN: f32 = 1.0;
 
 #[derive(Clone, Copy)]
@@ -81,7 +79,7 @@ impl<const NODES: usize> Case<NODES> {
     }
 }
 
-/// All ticks of some cases. In each event by itself the ticks are held to what is accepted of all: none is a weak hour of the model.
+/// All ticks of some cases. In each event by itself the ticks are held to what is accepted of all: none is worse than the whole.
 ///
 /// Where two balls meet within a tick the crate lets them press with the part of their force that the tick has left, and the exact ring, which
 /// stands where the tick begins, not at all: these ticks count by themselves, and their share is printed.

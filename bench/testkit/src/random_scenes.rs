@@ -149,7 +149,7 @@ fn groove(random: &mut Random) -> GrooveSize {
     })
 }
 
-/// What a drawing may say, from the likely to the absurd.
+/// What a drawing may say, from the likely to the extreme.
 pub fn screw_parameters(random: &mut Random) -> BallScrewParameters {
     if random.one_in(2) {
         return random.of(&CATALOGUE).parameters();
