@@ -48,7 +48,6 @@ impl ClosedLoop {
     /// Frequency of the push, Hz: that of a steering wheel that shakes.
     pub const PUSHES: f64 = 25.0;
 
-    /// Longest step of the motion, s: 1 % of a period of the stiffest screw here.
     const LONGEST_STEP: f64 = 2e-5;
 
     /// Runs a compensation: torque of a count that the encoder gives. `noise` is added to the angle before it is counted, in

@@ -17,7 +17,6 @@ pub struct Vogel {
 
 impl Vogel {
     /// Viscosity, Pa s.
-    #[must_use]
     pub fn at(&self, celsius: f64) -> f64 {
         let place = |t: f64| 1.0 / (t + self.offset);
         let b = (self.viscosity_40 / self.viscosity_100).ln() / (place(40.0) - place(100.0));
@@ -36,7 +35,6 @@ pub struct Walther {
 
 impl Walther {
     /// Kinematic viscosity, mm²/s.
-    #[must_use]
     pub fn at(&self, celsius: f64) -> f64 {
         let height = |nu: f64| (nu + 0.7).log10().log10();
         let place = |t: f64| (t + 273.15).log10();
@@ -67,7 +65,6 @@ pub struct FilmContact {
 impl FilmContact {
     /// Central film thickness, m, at a viscosity, Pa s, and a mean speed of both surfaces, m/s:
     /// `H = 2.69 U^0.67 G^0.53 W^-0.067 (1 - 0.61 exp(-0.73 k))`.
-    #[must_use]
     pub fn film(&self, viscosity: f64, speed: f64) -> f64 {
         let modulus = 2.0 * self.contact_modulus;
         let speed = viscosity * speed / (modulus * self.rolling_radius);
@@ -82,14 +79,12 @@ impl FilmContact {
     }
 
     /// Share of the load that asperities carry: `1/(1 + film/roughness)^2`.
-    #[must_use]
     pub fn asperities(&self, viscosity: f64, speed: f64) -> f64 {
         (1.0 + self.film(viscosity, speed) / self.roughness).powi(-2)
     }
 
     /// Mean speed of the surfaces, m/s, at which asperities carry one half: the film is `sqrt(2) - 1` of the roughness, and grows
     /// with the speed to the power of 0.67.
-    #[must_use]
     pub fn half_share_speed(&self, viscosity: f64) -> f64 {
         let film = (std::f64::consts::SQRT_2 - 1.0) * self.roughness;
         (film / self.film(viscosity, 1.0)).powf(1.0 / 0.67)
@@ -97,7 +92,6 @@ impl FilmContact {
 }
 
 /// Friction coefficient: boundary where asperities carry, full film where the lubricant does.
-#[must_use]
 pub fn coefficient(boundary: f64, full_film: f64, asperities: f64) -> f64 {
     full_film + (boundary - full_film) * asperities
 }
@@ -113,19 +107,16 @@ pub struct BearingMixture {
 }
 
 impl BearingMixture {
-    /// Factor and power of SKF's model.
     const FACTOR: f64 = 2.6e-8;
     const POWER: f64 = 1.4;
 
     /// Share of boundary lubrication at a speed, rad/s.
-    #[must_use]
     pub fn boundary_share(&self, speed: f64) -> f64 {
         let product = speed.abs() * 30.0 / std::f64::consts::PI * (1e6 * self.kinematic_viscosity);
         (-Self::FACTOR * product.powf(Self::POWER) * (1e3 * self.mean_diameter)).exp()
     }
 
     /// Speed at which boundary and film friction have half each, rad/s: `(ln 2/(2.6e-8 d_m))^(1/1.4)/nu`.
-    #[must_use]
     pub fn half_share_speed(&self) -> f64 {
         let exponent = std::f64::consts::LN_2 / (Self::FACTOR * (1e3 * self.mean_diameter));
         let product = exponent.powf(1.0 / Self::POWER);

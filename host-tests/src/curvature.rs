@@ -21,7 +21,6 @@ pub enum Groove {
 
 impl Groove {
     /// The paper's `zeta_sn`.
-    #[must_use]
     pub const fn sign(self) -> f64 {
         match self {
             Self::Screw => 1.0,
@@ -57,7 +56,6 @@ pub struct Surface {
 }
 
 /// Groove radius and offsets from ball radius, conformity and nominal contact angle: eq. (2)-(4).
-#[must_use]
 pub fn profile(ball_radius: f64, conformity: f64, contact_angle: f64) -> (f64, f64, f64) {
     let groove_radius = 2.0 * conformity * ball_radius;
     let excess = groove_radius - ball_radius;
@@ -69,7 +67,6 @@ pub fn profile(ball_radius: f64, conformity: f64, contact_angle: f64) -> (f64, f
 }
 
 /// First principal curvature by the formula of catalogues, eq. (27), (28).
-#[must_use]
 pub fn literature(groove: Groove, pitch_radius: f64, ball_radius: f64, contact_angle: f64) -> f64 {
     let cos = contact_angle.cos();
     match groove {
@@ -89,7 +86,6 @@ struct Forms {
 }
 
 impl Forms {
-    /// From the tangents and second derivatives of the parametrisation and the normal's sense.
     fn new(tangents: [Vector3<f64>; 2], second: [Vector3<f64>; 3], sense: f64) -> Self {
         let [along_phi, along_path] = tangents;
         let [phi_phi, phi_path, path_path] = second;
@@ -113,7 +109,6 @@ impl Forms {
         let twist = f * f / (e_first * g_first);
         let sum = along_phi + along_path;
         let product = along_phi * along_path - twist;
-        // The discriminant as a sum of squares.
         let root = ((along_path - along_phi).powi(2) + 4.0 * twist).sqrt();
         if sum <= 0.0 {
             let kappa2 = 0.5 * (sum - root);
@@ -133,10 +128,6 @@ impl Forms {
 
 impl Surface {
     /// Checks that the numbers describe a surface that is regular at this contact angle.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the field that is not finite or out of range, or `groove_radius`
-    /// (screw) or `offset_h` (nut) where the surface folds, `A <= 0`.
     pub fn check(&self, contact_angle: f64) -> Result<(), ReferenceError> {
         let right_angle = std::f64::consts::FRAC_PI_2 + 1e-6;
         within("pitch_radius", self.pitch_radius, 1e-9, 1e9)?;
@@ -157,7 +148,6 @@ impl Surface {
         ))
     }
 
-    /// Curvature and torsion of the ball path.
     fn path(&self) -> (f64, f64) {
         let (sin, cos) = self.lead_angle.sin_cos();
         (cos * cos / self.pitch_radius, sin * cos / self.pitch_radius)
@@ -173,7 +163,6 @@ impl Surface {
     }
 
     /// Both principal curvatures by the Weingarten map, in the Frenet frame and per arc length.
-    #[must_use]
     pub fn principal(&self, contact_angle: f64) -> PrincipalCurvatures {
         let (curvature, torsion) = self.path();
         let (sin, cos) = contact_angle.sin_cos();
@@ -207,7 +196,6 @@ impl Surface {
     }
 
     /// Point of the surface, eq. (7) and (10).
-    #[must_use]
     pub fn point(&self, azimuth: f64, contact_angle: f64) -> Vector3<f64> {
         let (sin_alpha, cos_alpha) = self.lead_angle.sin_cos();
         let (sin, cos) = azimuth.sin_cos();
@@ -227,7 +215,6 @@ impl Surface {
     /// azimuth 0 and eq. (12), (17)-(24). A stray sign in (15) is left out, and the nut's normal is
     /// turned into its metal. The fractions printed in (21)-(23) have the sign of `S_phi x S_theta`, against the normal of (12): their
     /// dot products with that normal are taken. Loses digits near a lead angle of 90 degrees, where `tan(alpha)` grows.
-    #[must_use]
     pub fn principal_cartesian(&self, contact_angle: f64) -> PrincipalCurvatures {
         let (sin_alpha, cos_alpha) = self.lead_angle.sin_cos();
         let (sin_phi, cos_phi) = contact_angle.sin_cos();
@@ -250,7 +237,6 @@ impl Surface {
     }
 
     /// First principal curvature of a circular groove, eq. (25), (26).
-    #[must_use]
     pub fn circular_groove(&self, contact_angle: f64) -> f64 {
         let squeeze = contact_angle.cos() * self.lead_angle.cos().powi(2);
         match self.groove {
@@ -261,23 +247,13 @@ impl Surface {
 
     /// First principal curvature by Appendix B, corrected: (A1a) with `-sigma_3`, (A1m) with
     /// `-zeta sigma_13`.
-    #[must_use]
     pub fn appendix_b(&self, contact_angle: f64) -> f64 {
         let zeta = self.groove.sign();
         let sigma = Sigma::new(self, contact_angle, zeta);
         -(sigma.one - sigma.three) / sigma.two
     }
-
-    /// Appendix B as printed: returns `kappa2` for the screw, and neither curvature for the nut (NaN
-    /// where a root turns complex).
-    #[must_use]
-    pub fn appendix_b_as_printed(&self, contact_angle: f64) -> f64 {
-        let sigma = Sigma::new(self, contact_angle, 1.0);
-        -(sigma.one + sigma.three) / sigma.two
-    }
 }
 
-/// `sigma_1` without its `sigma_3`, `sigma_2` and `sigma_3` of Appendix B.
 struct Sigma {
     one: f64,
     two: f64,

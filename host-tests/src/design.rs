@@ -47,15 +47,11 @@ impl BallScrewDesign {
     };
 
     /// Lead angle, rad.
-    #[must_use]
     pub fn lead_angle(&self) -> f64 {
         (self.lead / TAU).atan2(self.pitch_radius)
     }
 
     /// Refuses grooves that a ball does not run in as the elastic models take it: radii of 1.001 to 2 ball radii.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `screw_groove_radius` or `nut_groove_radius`.
     pub fn check_grooves(&self) -> Result<(), ReferenceError> {
         check_groove_radii(
             self.ball_radius,
@@ -64,7 +60,6 @@ impl BallScrewDesign {
     }
 
     /// Surface of one groove, whose arc meets the ball at the nominal contact angle.
-    #[must_use]
     pub fn surface(&self, groove: Groove) -> Surface {
         let groove_radius = match groove {
             Groove::Screw => self.screw_groove_radius,
@@ -82,17 +77,11 @@ impl BallScrewDesign {
     }
 
     /// Contact of a ball with one groove at the nominal contact angle.
-    ///
-    /// # Errors
-    /// As [`Self::contact_at`].
     pub fn contact(&self, groove: Groove) -> Result<Hertz, ReferenceError> {
         self.contact_at(groove, self.contact_angle)
     }
 
     /// Contact of a ball that touches the same groove surface at another contact angle, rad.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the number that describes no contact.
     pub fn contact_at(&self, groove: Groove, contact_angle: f64) -> Result<Hertz, ReferenceError> {
         within("ball_radius", self.ball_radius, 1e-9, 1e9)?;
         let surface = self.surface(groove);
@@ -107,10 +96,6 @@ impl BallScrewDesign {
     }
 }
 
-/// Refuses groove radii of screw and nut, m, beyond 1.001 to 2 ball radii.
-///
-/// # Errors
-/// [`ReferenceError`] naming `screw_groove_radius` or `nut_groove_radius`.
 pub(crate) fn check_groove_radii(
     ball_radius: f64,
     [screw, nut]: [f64; 2],
@@ -137,9 +122,6 @@ pub struct LinearBearingDesign {
 impl LinearBearingDesign {
     /// Contact of a ball with any of its four arcs: relative radii `r_B` along the straight track and
     /// `r_B r_G / (r_G - r_B)` across it.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the number that describes no contact.
     pub fn contact(&self) -> Result<Hertz, ReferenceError> {
         let (ball, groove) = (self.ball_radius, self.groove_radius);
         within("ball_radius", ball, 1e-9, 1e9)?;

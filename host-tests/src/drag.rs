@@ -3,7 +3,7 @@
 //! Sources: Biboulet and Houpert 2010, "Hydrodynamic force and moment in pure rolling lubricated contacts, part 2: point contacts", eqs. (14)
 //! and (30) to (32); SKF General Catalogue, model of the frictional moment: rolling moment, inlet shear heating, starvation.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{PI, TAU};
 
 use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
@@ -28,9 +28,6 @@ impl RollingFilm {
     /// FR = E' Rx^2 (2a/Rx) [(0.77 beta^(-1/3) kappa^0.12 U^(-1/12) - 1.8 beta^(-1/4))/(1 + M/6.6) + 1.8 beta^(-1/4)] U^(3/4)
     /// U = 2 eta u/(E' Rx)     M = beta^(1/4) kappa W/U^(3/4)     beta = 4/pi E/(1 + Rx/Rz)     kappa = b/a
     /// ```
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming what describes no contact.
     pub fn force(&self, load: f64, viscosity: f64, speed: f64) -> Result<f64, ReferenceError> {
         let Self {
             rolling_radius: radius,
@@ -59,9 +56,6 @@ impl RollingFilm {
 
 /// Drag torque of a ball screw, N m, whose balls carry an axial load, N, in one flank: every contact by [`RollingFilm::force`], with the
 /// power `2 FR u`, and [`inlet_shear_heating`] on the pitch circle.
-///
-/// # Errors
-/// [`ReferenceError`] naming what describes no contact.
 pub fn screw_torque(
     design: &BallScrewDesign,
     balls: f64,
@@ -94,71 +88,6 @@ pub fn screw_torque(
 }
 
 /// SKF's factor of inlet shear heating at a speed, 1/min, a mean diameter, mm, and a kinematic viscosity, mm²/s.
-#[must_use]
 pub fn inlet_shear_heating(speed: f64, mean_diameter: f64, viscosity: f64) -> f64 {
     1.0 / (1.0 + 1.84e-9 * (speed * mean_diameter).powf(1.28) * viscosity.powf(0.64))
-}
-
-/// SKF's factor of starvation for grease, of a deep groove ball bearing: `exp(-6e-8 nu n (d + D) sqrt(3.1/(2 (D - d))))`, mm.
-#[must_use]
-pub fn starvation(speed: f64, [bore, outside]: [f64; 2], viscosity: f64) -> f64 {
-    let width = 3.1 / (2.0 * (outside - bore));
-    (-6e-8 * viscosity * speed * (bore + outside) * width.sqrt()).exp()
-}
-
-/// SKF's rolling moment of a deep groove ball bearing of the series 62 under a radial load, N, without heating and starvation, N mm:
-/// `3.9e-7 d_m^1.96 F^0.54 (nu n)^0.6`.
-#[must_use]
-pub fn skf_rolling_moment(speed: f64, mean_diameter: f64, load: f64, viscosity: f64) -> f64 {
-    3.9e-7 * mean_diameter.powf(1.96) * load.powf(0.54) * (viscosity * speed).powf(0.6)
-}
-
-/// A deep groove ball bearing.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DeepGroove {
-    /// Number of balls.
-    pub balls: u16,
-    /// Ball diameter, m.
-    pub ball_diameter: f64,
-    /// Diameter of the pitch circle, m.
-    pub pitch_diameter: f64,
-    /// Radius of the grooves over the ball diameter.
-    pub conformity: f64,
-}
-
-impl DeepGroove {
-    /// Drag torque, N m, under a radial load, N, without clearance (`Q = 4.37 F/Z cos^1.5 psi`, Stribeck), at a viscosity, Pa s,
-    /// and a speed, rad/s.
-    ///
-    /// # Errors
-    /// As [`RollingFilm::force`].
-    pub fn torque(&self, load: f64, viscosity: f64, speed: f64) -> Result<f64, ReferenceError> {
-        let Self {
-            balls,
-            ball_diameter,
-            pitch_diameter,
-            conformity,
-        } = *self;
-        let ratio = ball_diameter / pitch_diameter;
-        let mean = 0.25 * speed * pitch_diameter * (1.0 - ratio * ratio);
-        let steel = 210e9 / (2.0 * (1.0 - 0.28 * 0.28));
-        let mut power = 0.0;
-        for ball in 0..balls {
-            let angle = TAU * f64::from(ball) / f64::from(balls);
-            if angle.cos() < 1e-9 || (angle - FRAC_PI_2).abs() < 1e-9 {
-                continue;
-            }
-            let force = 4.37 * load / f64::from(balls) * angle.cos().powf(1.5);
-            for side in [1.0, -1.0] {
-                let contact = RollingFilm {
-                    rolling_radius: 0.5 * ball_diameter * (1.0 - side * ratio),
-                    transverse_radius: 1.0
-                        / (2.0 / ball_diameter - 1.0 / (conformity * ball_diameter)),
-                    contact_modulus: steel,
-                };
-                power += 2.0 * contact.force(force, viscosity, mean)? * mean;
-            }
-        }
-        Ok(power / speed)
-    }
 }

@@ -18,26 +18,22 @@ pub struct Screw {
 }
 
 /// Tangent of the rolling friction angle, eq. (2): `f_r / (r_b Sb)`, `f_r` a length.
-#[must_use]
 pub fn rolling_tangent(rolling_lever: f64, ball_radius: f64, contact_angle: f64) -> f64 {
     rolling_lever / (ball_radius * contact_angle.sin())
 }
 
 impl Screw {
     /// `R = sqrt(Cb² + ta²)`.
-    #[must_use]
     pub fn root(&self) -> f64 {
         self.contact_angle.cos().hypot(self.lead_angle.tan())
     }
 
     /// Eq. (3), times `ta` above and below so that it exists without lead where rolling resists.
-    #[must_use]
     pub fn rolling_screw(&self) -> f64 {
         self.rolling(self.ball_ratio, self.ball_ratio - self.contact_angle.cos())
     }
 
     /// Eq. (4) as printed. It breaks the energy balance; the right one is eq. (3).
-    #[must_use]
     pub fn rolling_nut(&self) -> f64 {
         let cos = self.contact_angle.cos();
         self.rolling(self.ball_ratio + 2.0 * cos, self.ball_ratio + cos)
@@ -61,7 +57,6 @@ impl Screw {
 
     /// Eq. (11), efficiency over the slip angle at the screw contact, with the numerator's sign
     /// corrected: `Sb + f (Cb cos(psiA) + ta sin(psiA))` where psiA is psiB plus pi.
-    #[must_use]
     pub fn at_slip_angle(&self, slip_angle: f64) -> f64 {
         let (sin_b, cos_b) = self.contact_angle.sin_cos();
         let (sin_psi, cos_psi) = slip_angle.sin_cos();
@@ -72,13 +67,11 @@ impl Screw {
     }
 
     /// Slip angle of full sliding, eq. (13).
-    #[must_use]
     pub fn slip_angle(&self) -> f64 {
         self.lead_angle.tan().atan2(self.contact_angle.cos())
     }
 
     /// One less the efficiency of driving, eq. (14).
-    #[must_use]
     pub fn loss_drive(&self) -> f64 {
         let sin = self.contact_angle.sin();
         self.friction / (self.lead_angle.cos().powi(2) * sin * (self.root() + self.friction * sin))
@@ -86,21 +79,18 @@ impl Screw {
 
     /// Efficiency of driving in full sliding, eq. (14), as that of a plain sliding screw with the lead angle `zeta`:
     /// `tan(zeta) / tan(zeta + phi)` with `tan(zeta) = R / Sb`, `tan(phi) = f`.
-    #[must_use]
     pub fn sliding_drive(&self) -> f64 {
         let x = self.contact_angle.sin() / self.root();
         (x - self.friction) / (x * (1.0 + self.friction * x))
     }
 
     /// Efficiency of back-driving in full sliding, eq. (17): `tan(zeta - phi) / tan(zeta)`.
-    #[must_use]
     pub fn sliding_backdrive(&self) -> f64 {
         let x = self.contact_angle.sin() / self.root();
         x * (1.0 - self.friction * x) / (x + self.friction)
     }
 
     /// One less the efficiency of back-driving, eq. (17).
-    #[must_use]
     pub fn loss_backdrive(&self) -> f64 {
         let root = self.root();
         self.friction
@@ -119,7 +109,6 @@ impl Screw {
     /// ```
     ///
     /// Not in the paper: the next term of the expansion of eq. (5)-(9) whose first is eq. (14). No number where driving locks.
-    #[must_use]
     pub fn dynamic_coefficient(&self) -> f64 {
         let (sin, cos) = self.contact_angle.sin_cos();
         let (f, a, root) = (self.friction, self.ball_ratio, self.root());
@@ -138,27 +127,18 @@ impl Screw {
         w0 * w0 * cos_a * grip / (cos * (1.0 + s0) + g * (cos * c0 + f * sin)) * bracket
     }
 
-    /// Eq. (14) with the first order of inertia, [`Screw::dynamic_coefficient`].
-    #[must_use]
-    pub fn sliding_drive_with_inertia(&self, dynamic_number: f64) -> f64 {
-        self.sliding_drive() * (1.0 + self.dynamic_coefficient() * dynamic_number)
-    }
-
     /// Self-braking of driving, eq. (16).
-    #[must_use]
     pub fn locked_drive(&self) -> bool {
         self.contact_angle.sin() <= self.friction * self.root()
     }
 
     /// Self-braking of back-driving, eq. (19).
-    #[must_use]
     pub fn locked_backdrive(&self) -> bool {
         self.friction * self.contact_angle.sin() >= self.root()
     }
 
     /// Efficiency of rolling where the load back-drives, from the work of the slipping contact: input
     /// `Q Ca (Sb + f Cb)`, loss `f Q r_b Sa` per ball (rolling resistance left out).
-    #[must_use]
     pub fn rolling_backdrive(&self) -> f64 {
         let (sin, cos) = self.contact_angle.sin_cos();
         let input = sin + self.friction * cos;
@@ -168,7 +148,6 @@ impl Screw {
 
 /// Optimum contact angle of driving, from eq. (15): `Ca Sb = sin(pi/4 + phi/2)`; `None` beyond its
 /// range `alpha <= pi/4 - phi/2`.
-#[must_use]
 pub fn optimum_drive(lead_angle: f64, friction: f64) -> Option<f64> {
     let sin = (FRAC_PI_4 + 0.5 * friction.atan()).sin() / lead_angle.cos();
     (sin <= 1.0).then(|| sin.asin())
@@ -176,20 +155,17 @@ pub fn optimum_drive(lead_angle: f64, friction: f64) -> Option<f64> {
 
 /// Optimum contact angle of back-driving, from eq. (18) with its lost `R` restored:
 /// `Ca Sb = sin(pi/4 - phi/2)`; `None` beyond its range `alpha <= pi/4 + phi/2`.
-#[must_use]
 pub fn optimum_backdrive(lead_angle: f64, friction: f64) -> Option<f64> {
     let sin = (FRAC_PI_4 - 0.5 * friction.atan()).sin() / lead_angle.cos();
     (sin <= 1.0).then(|| sin.asin())
 }
 
 /// Highest efficiency of full sliding, for either direction: 86.1 % at a friction of 0.075.
-#[must_use]
 pub fn optimum_efficiency(friction: f64) -> f64 {
     ((1.0 + friction * friction).sqrt() - friction).powi(2)
 }
 
 /// Least contact angle that does not lock driving, from eq. (16): `Sb = sin(phi) / Ca`.
-#[must_use]
 pub fn locking_border_drive(lead_angle: f64, friction: f64) -> Option<f64> {
     let sin = friction.atan().sin() / lead_angle.cos();
     (sin <= 1.0).then(|| sin.asin())
@@ -197,20 +173,17 @@ pub fn locking_border_drive(lead_angle: f64, friction: f64) -> Option<f64> {
 
 /// Largest contact angle that does not lock back-driving, from eq. (19): `Sb = cos(phi) / Ca`; only
 /// below a lead angle of `phi`.
-#[must_use]
 pub fn locking_border_backdrive(lead_angle: f64, friction: f64) -> Option<f64> {
     let sin = friction.atan().cos() / lead_angle.cos();
     (sin <= 1.0).then(|| sin.asin())
 }
 
 /// Normal load per axial load, friction neglected, eq. (20).
-#[must_use]
 pub fn normal_per_axial_load(lead_angle: f64, contact_angle: f64) -> f64 {
     1.0 / (lead_angle.cos() * contact_angle.sin())
 }
 
 /// Normal load times pitch radius per torque, friction neglected, eq. (21).
-#[must_use]
 pub fn normal_per_torque(lead_angle: f64, contact_angle: f64) -> f64 {
     1.0 / (lead_angle.sin() * contact_angle.sin())
 }

@@ -59,7 +59,6 @@ pub enum ReferenceError {
 
 impl ReferenceError {
     /// An input that is wrong in another way than by its range.
-    #[must_use]
     pub fn input(field: &'static str, message: impl Into<String>) -> Self {
         Self::Input {
             field,
@@ -68,7 +67,6 @@ impl ReferenceError {
     }
 
     /// An iteration that left unbalanced forces, N.
-    #[must_use]
     pub const fn unbalanced(residual: f64) -> Self {
         Self::NotConverged {
             residual,
@@ -77,7 +75,6 @@ impl ReferenceError {
     }
 
     /// Name of the wrong input; None where all inputs are fine and the model has no solution for them.
-    #[must_use]
     pub const fn field(&self) -> Option<&'static str> {
         match self {
             Self::OutOfRange { field, .. } | Self::Input { field, .. } => Some(field),
@@ -86,7 +83,6 @@ impl ReferenceError {
     }
 
     /// This error about an input that the caller knows by another name.
-    #[must_use]
     pub fn renamed(mut self, to: &'static str) -> Self {
         if let Self::OutOfRange { field, .. } | Self::Input { field, .. } = &mut self {
             *field = to;
@@ -95,7 +91,6 @@ impl ReferenceError {
     }
 
     /// This error with a residual times `factor`: of a model that was solved in scaled units.
-    #[must_use]
     pub(crate) fn scaled(mut self, factor: f64) -> Self {
         if let Self::NotConverged { residual, .. } = &mut self {
             *residual *= factor;
@@ -141,9 +136,6 @@ impl std::error::Error for ReferenceError {}
 
 /// `value`, or the error that names `field` where it is not a number within `min..=max`. An end of the range that was written in single
 /// precision is in it, whichever way it was rounded.
-///
-/// # Errors
-/// [`ReferenceError::OutOfRange`] naming `field`.
 pub fn within(field: &'static str, value: f64, min: f64, max: f64) -> Result<f64, ReferenceError> {
     let an_end = |end: f64| value == f64::from(end as f32);
     if value.is_finite() && ((min..=max).contains(&value) || an_end(min) || an_end(max)) {

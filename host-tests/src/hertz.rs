@@ -7,7 +7,6 @@ use crate::error::{ReferenceError, within};
 
 /// Contact modulus of two bodies given as Young's modulus (Pa) and Poisson's ratio, Pa:
 /// `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2`.
-#[must_use]
 pub fn contact_modulus(first: (f64, f64), second: (f64, f64)) -> f64 {
     let compliance = |(youngs_modulus, poisson_ratio): (f64, f64)| {
         (1.0 - poisson_ratio * poisson_ratio) / youngs_modulus
@@ -44,9 +43,6 @@ pub struct Ellipse {
 }
 
 /// Complete elliptic integrals `(K, E)` of the modulus `sqrt(1 - k²)`.
-///
-/// # Errors
-/// [`ReferenceError`] naming `axis_ratio` outside 0 (exclusive) to 1.
 pub fn complete_integrals(axis_ratio: f64) -> Result<(f64, f64), ReferenceError> {
     let square = axis_ratio * axis_ratio;
     let failed = |_| ReferenceError::input("axis_ratio", "no elliptic integral");
@@ -63,9 +59,6 @@ pub fn complete_integrals(axis_ratio: f64) -> Result<(f64, f64), ReferenceError>
 ///
 /// In Carlson's form the equation is `RD(0, 1, k²) / RD(0, k², 1) = ratio`, without a difference, also
 /// at the circle; solved for `ln(k)` by Brent's method.
-///
-/// # Errors
-/// [`ReferenceError`] naming `radius_ratio` outside 1 to 1e8.
 pub fn axis_ratio(radius_ratio: f64) -> Result<f64, ReferenceError> {
     within("radius_ratio", radius_ratio, 1.0, 1e8)?;
     let target = radius_ratio.ln();
@@ -90,9 +83,6 @@ pub fn axis_ratio(radius_ratio: f64) -> Result<f64, ReferenceError> {
 
 impl Hertz {
     /// From the two relative radii, m in either order, and the contact modulus, Pa.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `relative_radius_1`, `relative_radius_2` or `contact_modulus`.
     pub fn new(
         relative_radius_1: f64,
         relative_radius_2: f64,
@@ -124,7 +114,6 @@ impl Hertz {
     }
 
     /// The contact under `load`, N.
-    #[must_use]
     pub fn at(&self, load: f64) -> Ellipse {
         let root = load.max(0.0).cbrt();
         Ellipse {

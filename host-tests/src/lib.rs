@@ -3,7 +3,14 @@
 //!
 //! It is written from the papers, with their misprints corrected and named, and shares no code with
 //! the fast library that is measured against it. Each module names paper and equations; lengths are in
-//! m, forces in N, angles in rad unless a function is free of units.
+//! m, forces in N, angles in rad unless a function is free of units. A [`ReferenceError`] names an input that is out of
+//! range, or the balance that was not found.
+
+#![allow(
+    clippy::missing_errors_doc,
+    clippy::must_use_candidate,
+    reason = "errors are described once, above; nearly every function here is pure"
+)]
 
 pub mod closed_loop;
 pub mod coefficient;

@@ -20,9 +20,6 @@ impl Elastic {
     };
 
     /// Refuses what is no elastic body.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `youngs_modulus` or `poisson_ratio`.
     pub fn check(&self) -> Result<(), ReferenceError> {
         within("youngs_modulus", self.youngs_modulus, 1e6, 1e13)?;
         within("poisson_ratio", self.poisson_ratio, 0.0, 0.49)?;
@@ -30,13 +27,11 @@ impl Elastic {
     }
 
     /// Shear modulus, Pa: `E / (2 (1 + nu))`.
-    #[must_use]
     pub fn shear_modulus(&self) -> f64 {
         self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
     }
 
     /// Contact modulus with another body, Pa.
-    #[must_use]
     pub fn contact_modulus(&self, other: &Self) -> f64 {
         contact_modulus(
             (self.youngs_modulus, self.poisson_ratio),

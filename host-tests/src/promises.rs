@@ -94,7 +94,6 @@ pub static PROMISES: LazyLock<Promises> = LazyLock::new(|| {
 ///
 /// # Panics
 /// Where there is none of this name.
-#[must_use]
 pub fn of(name: &str) -> &'static Promise {
     let found = PROMISES.all().find(|promise| promise.name == name);
     found.unwrap_or_else(|| panic!("promises.toml has no entry {name:?}"))

@@ -9,7 +9,7 @@ use std::fmt::Debug;
 use epas_friction::scene::{CagedBallScrew, StoredScene};
 use epas_friction::stored::crc32;
 use epas_friction::{ClosedFormScrew, FrictionModel, LinearBearingTrain, UncagedBallScrew};
-use epas_testkit::absurd::{Trial, accepted};
+use epas_testkit::random_scenes::{Trial, accepted};
 use epas_testkit::random::Random;
 use libfuzzer_sys::fuzz_target;
 

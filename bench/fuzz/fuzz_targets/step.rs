@@ -6,7 +6,7 @@
 
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{ClosedFormScrew, LinearBearingTrain, UncagedBallScrew};
-use epas_testkit::absurd::{Trial, accepted};
+use epas_testkit::random_scenes::{Trial, accepted};
 use epas_testkit::random::Random;
 use libfuzzer_sys::fuzz_target;
 

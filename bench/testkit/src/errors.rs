@@ -110,7 +110,7 @@ impl Errors {
 
     /// Within the row of this name in the table of measured bounds.
     pub fn assert_measured(&self) {
-        let [largest, rms, mean] = measured::of(&self.name).accepted;
+        let [largest, rms, mean] = measured::of(&self.name).accepted();
         self.assert(largest, rms, mean);
     }
 }

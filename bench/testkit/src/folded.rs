@@ -6,7 +6,6 @@ use epas_design::caged::CagedFold;
 use epas_design::uncaged::UncagedFold;
 use epas_friction::scene::{CagedBallScrewConfiguration, FoldedBall};
 
-/// The stored blocks.
 static STORED: &[u8] = include_bytes!("../folded.bin");
 
 /// Makes `folded.bin` anew.

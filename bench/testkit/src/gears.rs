@@ -9,9 +9,9 @@ use epas_friction::scene::{
 use epas_friction::train::RUBBINGS;
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
-    DeviationMap, FrictionBranch, GrooveSize, Harmonic, Limits, LinearBearing,
-    LinearBearingConfiguration, LinearBearingParameters, LinearLimits, LoadShare, LoadShares,
-    Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    DeviationMap, FrictionBranch, GrooveSize, Harmonic, Inputs, Limits, LinearBearing,
+    LinearBearingConfiguration, LinearBearingParameters, LinearInputs, LinearLimits, LoadShare,
+    LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 /// Balls of [`uncaged`], and of [`full`].
@@ -367,4 +367,21 @@ pub fn printed_phase(state: &impl std::fmt::Debug) -> String {
     let state = format!("{state:?}");
     let (_, phase) = state.split_once("phase: ").unwrap();
     phase.split_once('}').unwrap().0.to_owned()
+}
+
+/// Inputs of a ball screw: rad/s, N.
+pub const fn screw_inputs(nut_speed: f32, axial_load: f32) -> Inputs {
+    Inputs {
+        nut_speed,
+        axial_load,
+    }
+}
+
+/// Inputs of a linear bearing: m/s, N.
+pub const fn linear_inputs(speed: f32, normal_load: f32, side_load: f32) -> LinearInputs {
+    LinearInputs {
+        speed,
+        normal_load,
+        side_load,
+    }
 }

@@ -5,7 +5,6 @@
     reason = "a test fails by a panic, and an error is its message"
 )]
 
-pub mod absurd;
 pub mod designs;
 pub mod errors;
 pub mod folded;
@@ -14,4 +13,5 @@ pub mod given;
 pub mod measured;
 pub mod promised;
 pub mod random;
+pub mod random_scenes;
 pub mod remembering;

@@ -21,7 +21,6 @@ const HARDEST: [&str; 6] = [
     "lin-4.1",
 ];
 
-/// Largest deviation of a groove, degrees.
 const LARGEST_DEVIATION: f64 = 3.0;
 
 /// A state with its design's name.
@@ -76,7 +75,6 @@ pub fn row(random: &mut Random, balls: usize) -> Promised {
                 .map(|_| RowBall {
                     screw_deviation: deviation * random.signed(),
                     nut_deviation: deviation * random.signed(),
-                    // As many in every octave of the load.
                     axial_load: side * random.between(5_f64.ln(), 300_f64.ln()).exp(),
                 })
                 .collect(),
@@ -93,7 +91,6 @@ fn design(random: &mut Random) -> (&'static str, BallScrewParameters) {
         return (name, named(name).unwrap());
     }
     if kind == HARDEST.len() {
-        // Close conformity.
         let groove = GrooveSize::Conformity(0.52);
         let close = BallScrewParameters {
             pitch_radius: 31.5e-3,

@@ -48,7 +48,6 @@ impl Groove {
         }
     }
 
-    /// Signs of the x and z component of the direction from ball centre to contact.
     pub(crate) const fn signs(self) -> (f64, f64) {
         match self {
             Self::ScrewLeft => (-1.0, -1.0),
@@ -82,9 +81,6 @@ impl From<&BallScrewDesign> for ScrewTrack {
 
 impl ScrewTrack {
     /// Checks the design.
-    ///
-    /// # Errors
-    /// When a value is outside its range.
     pub fn check(&self) -> Result<(), ReferenceError> {
         within("ball_radius", self.ball_radius, 1e-6, 1.0)?;
         within(
@@ -290,7 +286,6 @@ impl ScrewRow {
             || (v.x.hypot(v.y) / self.patch.semi_major).hypot(v.z) > 30.0 * rest_spin
     }
 
-    /// Friction in units of the ball radius and the nut's speed, and the true Coulomb power beside that of the forces.
     fn friction(&self, y: &Vector4<f64>, rest_spin: f64) -> (ScrewContactFriction, f64) {
         let v = self.velocity(y);
         let here = self.local(y, rest_spin);
@@ -328,7 +323,6 @@ pub(crate) fn ball_dissipation(rows: &[ScrewRow], y: &Vector4<f64>, rest_spin: f
     sum
 }
 
-/// Rows of a ball's contacts; at least one loaded contact on the screw and one on the nut.
 pub(crate) fn ball_rows(
     track: &ScrewTrack,
     contacts: &[ScrewContact],
@@ -349,7 +343,6 @@ pub(crate) fn ball_rows(
     }
 }
 
-/// Start: half the nut's speed, rolling about z.
 pub(crate) fn rolling(track: &ScrewTrack) -> Vector4<f64> {
     Vector4::new(
         0.55,
@@ -383,7 +376,6 @@ pub(crate) fn ball_minimum(
     )
 }
 
-/// Puts ball radius, nut speed and friction coefficient back.
 pub(crate) fn dimensional(
     track: &ScrewTrack,
     rows: &[ScrewRow],
@@ -432,9 +424,6 @@ pub(crate) fn dimensional(
 ///
 /// Source: Lin 2019, eqs. (3.65) to (3.69), appendix F. Corrected: `Sig` of (3.20) is odd while the force holds the sign
 /// of the spin; here friction at rest is bounded by Coulomb's law instead.
-///
-/// # Errors
-/// When an input is out of range, at `nut_speed = 0`, without a loaded contact on screw and nut, or without convergence.
 pub fn motion_with_contacts(
     track: &ScrewTrack,
     contacts: &[ScrewContact],
@@ -453,9 +442,6 @@ pub fn motion_with_contacts(
 }
 
 /// As [`motion_with_contacts`], from a given start of `(w_B, Om_x, Om_y, Om_z)/w_N`.
-///
-/// # Errors
-/// As [`motion_with_contacts`].
 pub fn motion_from(
     track: &ScrewTrack,
     contacts: &[ScrewContact],

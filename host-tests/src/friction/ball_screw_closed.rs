@@ -123,9 +123,6 @@ impl ThreePointModel {
     /// `N = F/(sin b cos a)/(1 - phi mu)`, `N_3 = 2 phi mu N` with `phi` the mean of the two main contacts' share of sliding
     /// friction. Compliance: `Y = (1/kappa_S + 1/kappa_N)/4` with `kappa` the slope of the friction force along the track by the slip.
     /// `phi`, `kappa` and the loss come from the exact integrals of [`Patch::friction`].
-    ///
-    /// # Errors
-    /// When an input is out of range; for two-point contact, which has no pinned contact; at `nut_speed = 0`.
     pub fn ball(
         &self,
         support: Support,
@@ -159,7 +156,6 @@ impl ThreePointModel {
             }
             _ => orbital_speed * path / (r * cos_b),
         };
-        // Spins of the contacts against their grooves.
         let spins = [spin * sin_b, (spin - nut_speed * cos_a) * sin_b];
         let contact = |ellipse: EllipseLaw, normal: f64, slip: f64, spin: f64| {
             let a = ellipse.semi_major_constant * normal.cbrt();

@@ -57,25 +57,21 @@ pub struct ScrewFriction {
 
 impl ScrewFriction {
     /// Friction torque, N m.
-    #[must_use]
     pub fn torque(&self) -> f64 {
         self.sliding + self.hysteresis + self.lubricant
     }
 
     /// Efficiency where the nut drives the load: `T / (T + friction)`.
-    #[must_use]
     pub fn efficiency(&self) -> f64 {
         self.ideal / (self.ideal + self.torque())
     }
 
     /// Efficiency where the load drives the nut: `1 - friction / T`; below zero where it cannot.
-    #[must_use]
     pub fn backdrive_efficiency(&self) -> f64 {
         1.0 - self.torque() / self.ideal
     }
 
     /// Contacts that carry.
-    #[must_use]
     pub fn contacts(&self) -> usize {
         self.ball.loads.iter().filter(|load| **load > 0.0).count()
     }
@@ -84,9 +80,6 @@ impl ScrewFriction {
 impl LoadedScrew {
     /// Solves one ball, at a nut speed of 1 rad/s: Coulomb friction does not depend on it, and the lubricant's drag is
     /// given as a force.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming an input out of range, or of a balance that is not found.
     pub fn solve(&self) -> Result<ScrewFriction, ReferenceError> {
         within("friction", self.friction, 0.0, 1.0)?;
         within("balls", self.balls, 1.0, 1e4)?;
@@ -137,9 +130,6 @@ impl LoadedScrew {
 
     /// Friction torque of two nuts that are braced against each other by `|axial_load|`, N m: one drives, the other is
     /// driven.
-    ///
-    /// # Errors
-    /// As [`Self::solve`].
     pub fn double_nut_torque(&self) -> Result<f64, ReferenceError> {
         let opposite = Self {
             axial_load: -self.axial_load,
@@ -150,9 +140,6 @@ impl LoadedScrew {
 
     /// The same screw with balls so much larger than their grooves that each diagonal carries the axial force
     /// `|axial_load|` without an outer load; and next to none of that (a fiftieth).
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming a number that describes no contact.
     pub fn braced_by_oversize(&self) -> Result<Self, ReferenceError> {
         let deflection = self.design.contact(Groove::Screw)?.deflection
             + self.design.contact(Groove::Nut)?.deflection;
@@ -175,7 +162,6 @@ impl LoadedScrew {
         target: f64,
         torque: impl Fn(&Self) -> Result<f64, ReferenceError>,
     ) -> Option<f64> {
-        // Power laws are straight lines in logarithms.
         let missing = |logarithm: f64| {
             let friction = logarithm.exp();
             Some((torque(&Self { friction, ..*self }).ok()? / target).ln())
@@ -185,7 +171,6 @@ impl LoadedScrew {
 
     /// The clearance between 20 um of play and 6 um of oversize at which the friction torque is `target`, N m, within 1
     /// %; None where none gives it.
-    #[must_use]
     pub fn clearance_for(&self, target: f64) -> Option<f64> {
         let missing = |clearance: f64| {
             let friction = Self { clearance, ..*self }.solve().ok()?;

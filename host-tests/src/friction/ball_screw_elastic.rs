@@ -140,7 +140,6 @@ impl Problem<'_> {
     fn residual(&self, q: &DVector<f64>) -> Option<DVector<f64>> {
         let n = self.balls.grooves.len();
         let mu = self.balls.friction;
-        // Friction reverses with the nut; motions are in units of the nut's speed.
         let sign = self.balls.nut_speed.signum();
         let mut r = DVector::zeros(self.size());
         let axial = PER_BALL * n;
@@ -185,7 +184,6 @@ impl Problem<'_> {
         r.iter().all(|x| x.is_finite()).then_some(r)
     }
 
-    /// Force per unit of displacement, N: makes the terms of displacements as large as those of forces.
     fn stiffness(&self) -> f64 {
         let grooves = &self.balls.grooves[0];
         (self.unit / (grooves.screw.compliance + grooves.nut.compliance)).powf(1.5)
@@ -278,13 +276,11 @@ impl Problem<'_> {
         Some(jacobian)
     }
 
-    /// Damped Newton steps until the residual no longer falls.
     fn solve(&self, start: DVector<f64>, tolerance: f64) -> (DVector<f64>, f64) {
         let mut q = start;
         let Some(mut r) = self.residual(&q) else {
             return (q, f64::INFINITY);
         };
-        // A few steps are the rule. With play and a light load the way to the balance is curved and takes many short ones.
         for _ in 0..400 {
             if r.amax() <= tolerance {
                 break;
@@ -331,9 +327,6 @@ impl ElasticBalls {
     }
 
     /// Balance without friction: places and axial displacement, by the least elastic energy.
-    ///
-    /// # Errors
-    /// When an input is out of range or the energy cannot be balanced.
     pub fn frictionless(&self, axial_load: f64) -> Result<(Vec<[f64; 2]>, f64), ReferenceError> {
         self.check()?;
         let load = within("axial_load", axial_load, -1e9, 1e9)?;
@@ -361,7 +354,6 @@ impl ElasticBalls {
             };
             sum.gradient[4] = -load * unit;
             for ball in 0..2 {
-                // A single ball is solved as two equal halves of a pair, each with its share of the load.
                 let grooves = &self.grooves[ball.min(self.grooves.len() - 1)];
                 let share = if self.grooves.len() == 1 { 0.5 } else { 1.0 };
                 let index = [2 * ball, 2 * ball + 1, 4];
@@ -391,9 +383,6 @@ impl ElasticBalls {
     }
 
     /// Each ball on its own (no force between the balls), under the given support.
-    ///
-    /// # Errors
-    /// When an input is out of range, or without convergence: see [`Self::solve`].
     pub fn solve_apart(&self, support: ScrewSupport) -> Result<ElasticMotion, ReferenceError> {
         self.run(support, false)
     }
@@ -407,9 +396,6 @@ impl ElasticBalls {
     ///
     /// Source: Lin 2019, eqs. (3.69) to (3.76). Corrected: (3.69) is lost in the text and rebuilt as six equations of balance per ball;
     /// for the front ball the outward part of the normal force does not reverse.
-    ///
-    /// # Errors
-    /// When an input is out of range, at `nut_speed = 0`, or when the residual stays above 1e-6 of the load.
     pub fn solve(&self, support: ScrewSupport) -> Result<ElasticMotion, ReferenceError> {
         let apart = self.run(support, false)?;
         let [rear, front] = apart.balls.as_slice() else {

@@ -29,9 +29,6 @@ pub struct ElasticGrooves {
 
 impl ElasticGrooves {
     /// Checks the design.
-    ///
-    /// # Errors
-    /// When a value is outside its range.
     pub fn check(&self) -> Result<(), ReferenceError> {
         self.track.check()?;
         let r = self.track.ball_radius;
@@ -156,7 +153,6 @@ impl ElasticGrooves {
             * ((on_screw + on_nut).powi(2) - across.powi(2))
                 .max(0.0)
                 .sqrt();
-        // From the arc centre on the nut to the one on the screw, and the ball between them.
         let share = on_nut / (on_screw + on_nut);
         let x = share * across - arms[nut][0];
         let z = share * along - arms[nut][1];

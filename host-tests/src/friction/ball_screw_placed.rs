@@ -34,7 +34,6 @@ impl std::ops::AddAssign for Rubbing {
     }
 }
 
-/// What is given along the track.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Drive {
     /// Force of the neighbours on the ball in the direction of orbiting, N.
@@ -43,7 +42,6 @@ pub(crate) enum Drive {
     Speed(f64),
 }
 
-/// Where a ball is and how it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BallState {
     /// Ball centre x, z, and axial displacement of the screw, m.
@@ -57,7 +55,6 @@ pub(crate) struct BallState {
 }
 
 impl BallState {
-    /// A state of given place, motion and force.
     pub fn new(place: Vector3<f64>, motion: Vector4<f64>, force: f64) -> Self {
         Self {
             place,
@@ -77,7 +74,6 @@ impl BallState {
     }
 }
 
-/// A solved ball.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Solved {
     pub state: BallState,
@@ -87,13 +83,11 @@ pub(crate) struct Solved {
     pub stiffness: f64,
 }
 
-/// A ball with all that does not change while it is solved.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PlacedBall<'a> {
     pub grooves: &'a ElasticGrooves,
     /// Friction coefficient of the grooves.
     pub friction: f64,
-    /// 1 where the nut turns forward, -1 backward.
     pub direction: f64,
     /// Axial force of the screw on the ball, N; positive along z.
     pub axial_load: f64,
@@ -121,14 +115,12 @@ pub(crate) struct AlikeNeighbours {
 const STICK_SLIP: f64 = 1e-7;
 
 impl AlikeNeighbours {
-    /// Direction of the slip, and its size.
     fn slip(&self, state: &BallState) -> (Vector2<f64>, f64) {
         let slip = self.contact.slip(state, state);
         let size = slip.norm().hypot(STICK_SLIP);
         (slip / size, size)
     }
 
-    /// Friction with a slip in a direction, of size 1 at most.
     fn rubbing(&self, direction: Vector2<f64>) -> Rubbing {
         let [behind, ahead] = self.friction;
         let [_, mut sum] = self.contact.rubbing(behind, direction);
@@ -137,7 +129,6 @@ impl AlikeNeighbours {
         sum
     }
 
-    /// What both do to the ball.
     pub fn on_ball(&self, state: &BallState) -> Rubbing {
         let mut sum = self.rubbing(self.slip(state).0);
         sum.in_plane[0] += self.outward;
@@ -172,7 +163,6 @@ impl PlacedBall<'_> {
         track.path_radius() / track.ball_radius
     }
 
-    /// Contacts that carry, at a place; `None` where the ball has left its grooves.
     pub fn rows(&self, place: &Vector3<f64>) -> Option<Vec<ScrewRow>> {
         self.grooves
             .contacts_at([place.x, place.y], place.z)
@@ -188,7 +178,6 @@ impl PlacedBall<'_> {
             .collect()
     }
 
-    /// Contacts that carry in a state.
     pub fn rows_of(&self, state: &BallState) -> Option<Vec<ScrewRow>> {
         let mut rows = self.rows(&state.place)?;
         for row in &mut rows {
@@ -216,7 +205,6 @@ impl PlacedBall<'_> {
         sum
     }
 
-    /// What is unbalanced.
     pub fn balance(&self, state: &BallState) -> Option<Balance> {
         let mut all = self.given(state);
         for row in &self.rows_of(state)? {

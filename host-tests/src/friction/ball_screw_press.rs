@@ -43,7 +43,6 @@ fn by_tangents(balls: &[PlacedBall<'_>], now: &[Solved]) -> Option<Vec<Solved>> 
         let (wanted, _) = pool_adjacent_violators(&unforced, &compliance);
         let mut change = 0.0_f64;
         for (index, (ball, solved)) in balls.iter().zip(&mut now).enumerate() {
-            // A ball that presses on none has no force, to the last digit.
             let with = |other: Option<usize>| {
                 other.and_then(|other| wanted.get(other)) == Some(&wanted[index])
             };
@@ -63,7 +62,6 @@ fn by_tangents(balls: &[PlacedBall<'_>], now: &[Solved]) -> Option<Vec<Solved>> 
     None
 }
 
-/// Neighbours at one speed.
 struct Cluster {
     balls: Range<usize>,
     speed: f64,

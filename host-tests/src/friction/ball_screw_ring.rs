@@ -87,7 +87,6 @@ pub struct RingSample {
 }
 
 /// Samples of constant speed and load over an angle of the nut, rad, the start included.
-#[must_use]
 pub fn steady_samples(
     nut_speed: f64,
     axial_load: f64,
@@ -142,32 +141,27 @@ pub struct RingState {
     pub complementarity: f64,
     /// Instants solved inside the step before, where balls met or parted.
     pub events: usize,
-    /// Why there is no solution. Speeds, forces and torques then are no numbers, and the balls go on with their speeds of before: states that
-    /// follow are solved at places that are off by what the speeds change in a step.
+    /// Why there is no solution: speeds, forces and torques then are NaN, and the balls go on with their speeds of before.
     pub failure: Option<ReferenceError>,
 }
 
 impl RingState {
     /// Friction torque, N m.
-    #[must_use]
     pub fn torque(&self) -> f64 {
         self.groove_torque + self.ball_torque
     }
 
     /// Number of pairs that press.
-    #[must_use]
     pub fn pressing(&self) -> usize {
         self.balls.iter().filter(|ball| ball.force > 0.0).count()
     }
 
     /// Largest force between two balls, N.
-    #[must_use]
     pub fn largest_force(&self) -> f64 {
         self.balls.iter().map(|ball| ball.force).fold(0.0, f64::max)
     }
 
     /// True where the balances, that of power and the complementarity are met.
-    #[must_use]
     pub fn solved(&self) -> bool {
         self.failure.is_none()
     }
@@ -190,7 +184,6 @@ impl RingState {
 
 impl ElasticRing {
     /// Share of the track that the balls fill.
-    #[must_use]
     pub fn occupation(&self) -> f64 {
         let pitch = 2.0 * self.track().ball_contact_angle().0.asin();
         self.balls as f64 * pitch / self.length()
@@ -200,12 +193,10 @@ impl ElasticRing {
         (&self.design).into()
     }
 
-    /// Length of the whole track as an azimuth, rad.
     fn length(&self) -> f64 {
         TAU * self.turns + self.return_length / self.track().path_radius()
     }
 
-    /// The track, after a check of all inputs.
     pub(crate) fn checked(&self) -> Result<RingTrack, ReferenceError> {
         within("friction", self.friction, 1e-3, 1.0)?;
         within("ball_friction", self.ball_friction, 0.0, 1.0)?;
@@ -227,10 +218,8 @@ impl ElasticRing {
         self.grooves(&laws, 0.0, 0.0)
             .check()
             .map_err(|error| error.renamed("contact_angle"))?;
-        // Turned arcs must still be arcs.
         let angle = self.design.contact_angle;
         within("contact_angle", angle, 0.25, 1.3)?;
-        // A track that is full to rounding is full.
         within("balls", self.occupation(), 0.0, 1.0 + 1e-12)?;
         let pitch = 2.0 * self.track().ball_contact_angle().0.asin();
         let track = RingTrack {
@@ -267,7 +256,6 @@ impl ElasticRing {
         Ok(())
     }
 
-    /// Grooves around a ball with both deviations, rad.
     pub(crate) fn grooves(&self, laws: &[HertzLaw; 2], screw: f64, nut: f64) -> ElasticGrooves {
         let angle = self.design.contact_angle;
         ElasticGrooves {
@@ -282,10 +270,8 @@ impl ElasticRing {
     }
 }
 
-/// The track, by azimuths in rad.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RingTrack {
-    /// Whole length, and that of the loaded part.
     pub length: f64,
     pub loaded: f64,
     /// Over which a ball takes up its load, half of it before the loaded part.
@@ -294,7 +280,6 @@ pub(crate) struct RingTrack {
     pub pitch: f64,
     /// 1 / number of loaded balls, where all balls are spread evenly over the track.
     pub per_ball: f64,
-    /// Contact laws on screw and nut.
     pub laws: [HertzLaw; 2],
 }
 

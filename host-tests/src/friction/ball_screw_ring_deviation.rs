@@ -45,7 +45,6 @@ impl GrooveDeviation {
     };
 
     /// One wave of `sine sin(order phi)` in every turn.
-    #[must_use]
     pub fn sine(order: f64, sine: f64) -> Self {
         Self::Waves {
             turns: 1.0,
@@ -58,7 +57,6 @@ impl GrooveDeviation {
     }
 
     /// Deviation at an azimuth along the groove, rad.
-    #[must_use]
     pub fn at(&self, azimuth: f64) -> f64 {
         match self {
             Self::Waves { turns, waves } => {
@@ -81,7 +79,6 @@ impl GrooveDeviation {
         }
     }
 
-    /// Checks the map.
     pub(crate) fn check(&self, field: &'static str) -> Result<(), ReferenceError> {
         let largest = match self {
             Self::Waves { turns, waves } => {
@@ -96,7 +93,6 @@ impl GrooveDeviation {
                 if values.is_empty() {
                     return Err(ReferenceError::input(field, "has no values"));
                 }
-                // A value that is no number must not be lost in the comparison.
                 values.iter().try_fold(0.0_f64, |largest, value| {
                     within(field, *value, -LARGEST_DEVIATION, LARGEST_DEVIATION)
                         .map(|value| largest.max(value.abs()))

@@ -37,7 +37,6 @@ enum Event {
     Border,
 }
 
-/// Balls that move along the track.
 struct March<'a> {
     ring: &'a ElasticRing,
     track: RingTrack,
@@ -48,7 +47,6 @@ struct March<'a> {
     nut_angle: f64,
     last: Option<Last>,
     rates: Rates,
-    /// Speeds over the nut's speed until the next solution.
     speeds: Vec<f64>,
     events: usize,
     /// Speed of a nominal ball, with the direction and the load that it belongs to.
@@ -61,10 +59,6 @@ impl ElasticRing {
     /// A state is solved from the one before; from nothing at the start, where the nut or the load turns, and where that does not lead
     /// to a balance. Between the samples balls move with speeds that change by a line, as they did before. A sample at rest has no friction,
     /// and says so.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming an input out of range; `samples` where times fall or there are none. A state without a solution is no error
-    /// of the march: see [`RingState::failure`].
     pub fn simulate(
         &self,
         samples: &[RingSample],
@@ -130,7 +124,6 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Solves the balls where they are.
     fn state(&mut self, sample: &RingSample) -> RingState {
         let events = std::mem::take(&mut self.events);
         let failure = if sample.nut_speed == 0.0 {
@@ -142,7 +135,6 @@ impl<'a> March<'a> {
         self.result(sample, events, failure).checked()
     }
 
-    /// Moves the balls to the next sample.
     fn advance(&mut self, sample: &RingSample, next: &RingSample) {
         let whole = sample.nut_speed.abs() * (next.time - sample.time);
         let direction = sample.nut_speed.signum();
@@ -154,7 +146,6 @@ impl<'a> March<'a> {
         };
         let mut done = 0.0;
         let mut endings = 0;
-        // Every ball meets its neighbour a few times at most.
         for _ in 0..8 * self.ring.balls + 64 {
             let left = whole - done;
             if left <= 0.0 {
@@ -180,7 +171,6 @@ impl<'a> March<'a> {
         self.go(direction, whole - done);
     }
 
-    /// The first event within a travel of the nut, and its travel.
     fn next_event(
         &self,
         direction: f64,
@@ -235,7 +225,6 @@ impl<'a> March<'a> {
         found
     }
 
-    /// Moves all balls while the nut turns by `travel`.
     fn go(&mut self, direction: f64, travel: f64) {
         let n = self.gaps.len();
         // Speeds of now: the solution may be a while ago where a state had none.
@@ -247,7 +236,6 @@ impl<'a> March<'a> {
             let gap = self.gaps[pair] + moved[(pair + 1) % n] - moved[pair];
             self.gaps[pair] = gap.max(0.0);
         }
-        // Rounding, and what was cut off below zero, goes where it matters least.
         let slack = self.track.length - n as f64 * self.track.pitch;
         let excess = self.gaps.iter().sum::<f64>() - slack.max(0.0);
         if let Some(largest) = self.gaps.iter_mut().max_by(|a, b| a.total_cmp(b)) {
@@ -262,7 +250,6 @@ impl<'a> March<'a> {
         }
     }
 
-    /// Azimuths of the balls from the start of the track.
     fn places(&self) -> Vec<f64> {
         let mut place = self.first;
         let mut places = Vec::with_capacity(self.gaps.len());
@@ -273,7 +260,6 @@ impl<'a> March<'a> {
         places
     }
 
-    /// Load of a ball at an azimuth over the mean, linear between the middles of the parts.
     fn share(&self, azimuth: f64) -> f64 {
         let shares = &self.ring.load_shares;
         let Some(last) = shares.len().checked_sub(1) else {
@@ -282,7 +268,6 @@ impl<'a> March<'a> {
         let from_middle = azimuth / self.track.loaded * shares.len() as f64 - 0.5;
         let entry = |at: f64| {
             if self.track.run_in == 0.0 {
-                // Without a return the first part follows on the last.
                 shares[at.rem_euclid(shares.len() as f64) as usize % shares.len()]
             } else {
                 shares[at.clamp(0.0, last as f64) as usize]
@@ -293,7 +278,6 @@ impl<'a> March<'a> {
         first + (from_middle - below) * (second - first)
     }
 
-    /// What every ball finds where it is.
     fn seats(&self, axial_load: f64) -> Vec<Option<Seat>> {
         let azimuths: Vec<f64> = self
             .places()
@@ -483,7 +467,6 @@ impl<'a> March<'a> {
         }
     }
 
-    /// See [`RingState::complementarity`].
     fn violation(&self, settled: &Settled, direction: f64, balls: &[RingBall]) -> f64 {
         let n = balls.len();
         let largest = balls
@@ -508,7 +491,6 @@ fn closes(gap: f64, closing: f64, faster: f64) -> Option<f64> {
     // gap - closing s - faster s^2/2 = 0, in the form that does not cancel.
     let root = (closing * closing + 2.0 * faster * gap).sqrt();
     let travel = if gap <= 0.0 {
-        // Balls that part just now, and may meet again.
         -2.0 * closing / faster
     } else {
         2.0 * gap / (closing + root)

@@ -27,7 +27,6 @@ pub(crate) struct Moving<'a> {
     tangent: Tangent,
 }
 
-/// What a round does to a ball.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Target {
     /// Change of place over its unit, and of the motion.
@@ -84,7 +83,6 @@ impl<'a> Moving<'a> {
         (compliance > 0.0).then_some((unforced, compliance))
     }
 
-    /// Goes to its target; less far where the tangents do not lead there. Stays where nothing leads on.
     pub fn follow(&mut self, target: &Target) {
         let change = &target.change;
         let shift = change.fixed_rows::<3>(0).amax() / LONGEST_WAY;
@@ -111,7 +109,6 @@ impl<'a> Moving<'a> {
         }
     }
 
-    /// Tangents of the present state.
     fn renewed(&mut self) -> Option<()> {
         self.tangent = self.ball.tangent(&self.state, self.unit)?;
         Some(())
@@ -139,7 +136,6 @@ fn between(from: &Rubbing, to: &Rubbing, fraction: f64) -> Rubbing {
     }
 }
 
-/// A ball of a row: one under load, or one that goes along.
 pub(crate) enum InRow<'a, 'b> {
     Loaded(&'b Moving<'a>),
     Idle {
@@ -151,7 +147,6 @@ pub(crate) enum InRow<'a, 'b> {
     },
 }
 
-/// Newton's step of a row.
 pub(crate) struct RowStep {
     /// Changes of place and motion; of a ball that carries no load, of its speed alone.
     pub changes: Vec<SVector<f64, 7>>,

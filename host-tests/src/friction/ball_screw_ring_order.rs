@@ -3,7 +3,6 @@
 /// Balls on a ring, numbered along the track; pair `j` is ball `j` and the next one, the last with the first.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Neighbours {
-    /// Number of balls.
     pub balls: usize,
     /// 1 where they orbit along the track's numbers, -1 against them.
     pub direction: f64,
@@ -20,7 +19,6 @@ impl Neighbours {
         }
     }
 
-    /// Index of the pair of a ball and the next one ahead.
     pub fn pair_ahead(&self, ball: usize) -> usize {
         let n = self.balls;
         if self.direction > 0.0 {
@@ -30,7 +28,6 @@ impl Neighbours {
         }
     }
 
-    /// The ball ahead of a ball.
     pub fn ahead(&self, ball: usize) -> usize {
         let n = self.balls;
         if self.direction > 0.0 {
@@ -40,7 +37,6 @@ impl Neighbours {
         }
     }
 
-    /// Net forces on the balls in the direction of orbiting.
     pub fn net(&self, forces: &[f64]) -> Vec<f64> {
         let mut nets = vec![0.0; forces.len()];
         for j in 0..forces.len() {

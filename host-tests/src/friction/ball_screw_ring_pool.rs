@@ -35,7 +35,6 @@ pub(crate) fn pool_ring(
     (speeds, forces)
 }
 
-/// All balls in a ring without any gap.
 fn closed(unforced: &[f64], compliance: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let weight: f64 = compliance.iter().map(|y| 1.0 / y).sum();
     let moment: f64 = unforced.iter().zip(compliance).map(|(v, y)| v / y).sum();
@@ -58,7 +57,6 @@ fn closed(unforced: &[f64], compliance: &[f64]) -> (Vec<f64>, Vec<f64>) {
 mod tests {
     use super::pool_ring;
 
-    /// A gap elsewhere turns the ring, and changes nothing else.
     #[test]
     fn any_gap_breaks_the_ring() {
         let unforced = [0.3, 0.1, 0.5, 0.2, 0.4];
@@ -74,9 +72,7 @@ mod tests {
                 assert_eq!(pushes[j], forces[(j + turn) % 5]);
             }
         }
-        // Balls 0 and 1 press; 2 is apart from 3; 3 follows 4 at its own speed.
         assert!(forces[0] > 0.0 && speeds[0] == speeds[1] && forces[2..] == [0.0; 3]);
-        // What each ball is pushed by makes its speed.
         for j in 0..5 {
             let net = forces[(j + 4) % 5] - forces[j];
             assert!((unforced[j] + compliance[j] * net - speeds[j]).abs() < 1e-15);

@@ -8,7 +8,6 @@ const SUDDEN: f64 = 0.05;
 /// Travel of the nut that tells how speeds change, rad: their rounding over it is 1e-6.
 const TELLING: f64 = 1e-7;
 
-/// What the last solution leaves.
 pub(crate) struct Last {
     pub settled: Settled,
     pub direction: f64,
@@ -28,7 +27,6 @@ pub(crate) struct Rates {
 }
 
 impl Last {
-    /// States and forces as they were, carried on by their changes.
     pub fn expected(&self, rates: &Rates) -> (Vec<Option<BallState>>, Vec<f64>) {
         let states = self
             .settled
@@ -117,7 +115,6 @@ impl Last {
 }
 
 impl Rates {
-    /// No changes.
     pub fn none(balls: usize) -> Self {
         Self {
             speeds: vec![0.0; balls],

@@ -27,7 +27,6 @@ const PATIENCE: usize = 8;
 const OVERTAKES: f64 = 1e-12;
 const PULLS: f64 = 1e-10;
 
-/// A ball under load.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seat {
     pub grooves: ElasticGrooves,
@@ -39,21 +38,17 @@ pub(crate) struct Seat {
 
 /// What is given at an instant. Balls stand in the order of the track; ball `j` touches the next one where `touching[j]`, the last the first.
 pub(crate) struct Instant<'a> {
-    /// None for a ball that carries no load.
     pub seats: &'a [Option<Seat>],
     pub touching: &'a [bool],
     pub friction: f64,
     pub neighbours: Neighbours,
     pub between: BallContact,
     pub integration: Integration,
-    /// Speed of a ball that carries no load, over the nut's speed.
     pub idle_speed: f64,
 }
 
-/// Solution of an instant.
 #[derive(Clone, Debug)]
 pub(crate) struct Settled {
-    /// None for a ball that carries no load.
     pub states: Vec<Option<BallState>>,
     /// Orbital speeds over the nut's speed.
     pub speeds: Vec<f64>,
@@ -67,7 +62,6 @@ pub(crate) struct Settled {
     pub power: Power,
 }
 
-/// Powers over `R_B w_N`, N.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Power {
     /// What the nut puts in.
@@ -79,7 +73,6 @@ pub(crate) struct Power {
 }
 
 impl Power {
-    /// What the nut puts in less what is lost, over the latter; zero where nothing is lost.
     pub fn error(&self) -> f64 {
         let lost = self.grooves + self.balls;
         if lost > 0.0 {
@@ -105,9 +98,6 @@ impl<'a> Instant<'a> {
     }
 
     /// From states near the end where there are any, and with the forces along the track that belong to them.
-    ///
-    /// # Errors
-    /// [`ReferenceError::NotConverged`] where a balance is not met.
     pub fn settle(
         &self,
         start: &[Option<BallState>],
@@ -119,13 +109,11 @@ impl<'a> Instant<'a> {
         if let Ok(found) = first {
             return Ok(found);
         }
-        // From nothing.
         let n = self.seats.len();
         let cold = self.seated(&vec![None; n])?;
         self.rounds(cold, &vec![0.0; n]).or_else(|_| self.by_rows())
     }
 
-    /// States of the balls under load: given ones, and those of balls that came under load without a neighbour's force.
     fn seated(
         &self,
         start: &[Option<BallState>],
@@ -144,7 +132,6 @@ impl<'a> Instant<'a> {
             .collect()
     }
 
-    /// Newton's method on all balls.
     fn rounds(
         &self,
         states: Vec<Option<BallState>>,
@@ -231,7 +218,6 @@ impl<'a> Instant<'a> {
         next
     }
 
-    /// Where Newton's step leads, with the pairs that press: balls, and forces along the track.
     fn targets(
         &self,
         moving: &[Option<Moving<'a>>],
@@ -323,7 +309,6 @@ impl<'a> Instant<'a> {
         self.between.in_part(part(rear).min(part(front)))
     }
 
-    /// Laws of speed and force of all balls.
     fn laws(&self, moving: &[Option<Moving<'a>>]) -> Result<(Vec<f64>, Vec<f64>), ReferenceError> {
         let idle = (self.idle_speed, 1.0 / UNLOADED);
         moving
@@ -334,7 +319,6 @@ impl<'a> Instant<'a> {
             .ok_or(ReferenceError::unbalanced(f64::INFINITY))
     }
 
-    /// Speeds and forces by linear laws, in the order of the track.
     pub fn pool(&self, unforced: &[f64], compliance: &[f64]) -> (Vec<f64>, Vec<f64>) {
         let n = self.seats.len();
         let order = self.neighbours.order();
@@ -380,7 +364,6 @@ impl<'a> Instant<'a> {
         (all, loss)
     }
 
-    /// Puts the neighbours' forces on the balls; the power lost between them.
     fn push(&self, moving: &mut [Option<Moving<'a>>], forces: &[f64]) -> f64 {
         let states: Vec<_> = moving.iter().map(|m| m.as_ref().map(|m| m.state)).collect();
         let (rubbing, loss) = self.rubbing(&states, forces);
@@ -469,13 +452,11 @@ impl<'a> Instant<'a> {
     }
 }
 
-/// Largest unbalanced force of a ball over the sum of its loads.
 fn residual(moving: &[Option<Moving<'_>>]) -> f64 {
     let balls = moving.iter().flatten();
     balls.map(Moving::residual).fold(0.0, f64::max)
 }
 
-/// True where every ball has gone the whole step: it has the speed of those that it presses on.
 fn goes_together(moving: &[Option<Moving<'_>>], speeds: &[f64]) -> bool {
     moving
         .iter()
@@ -483,7 +464,6 @@ fn goes_together(moving: &[Option<Moving<'_>>], speeds: &[f64]) -> bool {
         .all(|(m, speed)| m.as_ref().is_none_or(|m| m.state.motion[0] == *speed))
 }
 
-/// Balls that Newton's method on all leaves unbalanced, each at its speed.
 fn one_by_one(moving: &mut [Option<Moving<'_>>], speeds: &[f64]) -> Result<(), ReferenceError> {
     moving
         .par_iter_mut()

@@ -108,11 +108,6 @@ const POWER_ERROR: f64 = 1e-8;
 
 impl ElasticRow {
     /// Solves the row: every ball alone, then pressing.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming an input out of range; [`ReferenceError::Standstill`] at `nut_speed = 0`; [`ReferenceError::Undriven`] where a
-    /// ball has no axial load; [`ReferenceError::NotConverged`] where a ball's balance, the balance of power or the complementarity of the
-    /// forces is not met: there is no answer then, and never a wrong one.
     pub fn solve(&self) -> Result<RowMotion, ReferenceError> {
         let grooves = self.grooves()?;
         let direction = self.nut_speed.signum();
@@ -167,7 +162,6 @@ impl ElasticRow {
         }
     }
 
-    /// The row as part of a ring, all balls with the friction between them in one Newton's method.
     fn at_once(
         &self,
         balls: &[PlacedBall<'_>],
@@ -175,7 +169,6 @@ impl ElasticRow {
         between: BallContact,
     ) -> Result<Pressing, ReferenceError> {
         let direction = self.nut_speed.signum();
-        // A ring counts its balls along the track.
         let along = |index: usize| {
             if direction > 0.0 {
                 index
@@ -232,7 +225,6 @@ impl ElasticRow {
         })
     }
 
-    /// Grooves of every ball, after a check of all inputs.
     fn grooves(&self) -> Result<Vec<ElasticGrooves>, ReferenceError> {
         within("friction", self.friction, 1e-3, 1.0)?;
         within("ball_friction", self.ball_friction, 0.0, 1.0)?;
@@ -310,7 +302,6 @@ impl ElasticRow {
     }
 }
 
-/// Sum of the loads of a ball's contacts, N.
 fn sum_of_loads(ball: &PlacedBall<'_>, state: &BallState) -> f64 {
     ball.loads(&state.place).iter().sum()
 }

@@ -12,7 +12,6 @@ const UNEQUAL: f64 = 1e-11;
 /// Passes in which the friction between balls settles.
 const PASSES: usize = 60;
 
-/// Balls as they press.
 pub(crate) struct Pressing {
     pub balls: Vec<Solved>,
     /// Forces between neighbours, N.
@@ -21,7 +20,6 @@ pub(crate) struct Pressing {
     pub ball_loss: f64,
 }
 
-/// Forces between balls, with the friction between them from the pass before, until both agree. Leaves that friction on the balls.
 pub(crate) fn press_and_rub(
     balls: &mut [PlacedBall<'_>],
     free: &[Solved],
@@ -60,7 +58,6 @@ impl Pressing {
             .iter()
             .map(|ball| ball.axial_load.abs())
             .fold(0.0, f64::max);
-        // As precise as the balance of a ball is accepted.
         let allowed = 1e-7 * largest + 1e-8 * load;
         let left: f64 = self.balls.iter().map(|ball| ball.state.force).sum();
         let mut worst = left.abs();
@@ -106,20 +103,15 @@ impl Pressing {
     }
 }
 
-/// What two touching balls do to each other.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BallContact {
-    /// Slip over `R_B w_N` by the motions of the rear and of the front ball.
     slips: [SMatrix<f64, 2, 4>; 2],
     cos: f64,
-    /// Path radius over ball radius.
     path: f64,
-    /// Force that points outward over the force along the track.
     outward: f64,
     friction: f64,
 }
 
-/// Forces of a contact between two balls, besides the one along the track.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct BetweenBalls {
     pub on_rear: Rubbing,
@@ -161,7 +153,6 @@ impl BallContact {
         self.outward * along
     }
 
-    /// Forces of two balls that press with `along` along the track, N.
     pub fn between(&self, along: f64, rear: &BallState, front: &BallState) -> BetweenBalls {
         let slip = self.slip(rear, front);
         let limit = self.friction * self.normal_force(along.max(0.0));
@@ -178,7 +169,6 @@ impl BallContact {
         self.slips[0] * rear.motion + self.slips[1] * front.motion
     }
 
-    /// What two balls that press with `along`, N, do to the rear and to the front one while they slip in a direction, of size 1 at most.
     pub fn rubbing(&self, along: f64, direction: Vector2<f64>) -> [Rubbing; 2] {
         let pull = direction * -(self.friction * self.normal_force(along.max(0.0)));
         [(self.slips[0], 1.0), (self.slips[1], -1.0)].map(|(of, side)| {
@@ -190,7 +180,6 @@ impl BallContact {
         })
     }
 
-    /// How the forces of two balls that press with `along`, N, change with it and with their slip.
     pub fn slope(&self, along: f64, rear: &BallState, front: &BallState) -> BallContactSlope {
         let slip: Vector2<f64> = self.slips[0] * rear.motion + self.slips[1] * front.motion;
         let size = slip.norm().max(1e-12);
@@ -222,12 +211,10 @@ impl BallContact {
         }
     }
 
-    /// The same contact where balls do not rub.
     pub fn smooth(self) -> Self {
         self.in_part(0.0)
     }
 
-    /// The same contact with a part of its friction.
     pub fn in_part(self, part: f64) -> Self {
         Self {
             friction: part * self.friction,
@@ -235,7 +222,6 @@ impl BallContact {
         }
     }
 
-    /// True where balls feel more than the force along the track.
     pub fn acts(&self) -> bool {
         self.friction > 0.0 || self.outward > 0.0
     }

@@ -19,7 +19,6 @@ use super::ball_screw_placed::{BallState, Drive, PlacedBall, Solved, main_direct
 use super::newton::{Local, Minimum, minimise, root_between};
 use crate::error::ReferenceError;
 
-/// Solves one ball: from `hint` where it leads there, or else from nothing.
 pub(crate) fn settle(
     ball: &PlacedBall<'_>,
     drive: Drive,
@@ -37,7 +36,6 @@ pub(crate) fn settle(
         }
         solved.residual <= SHARP * ball.accuracy(&solved.state).1
     };
-    // The cheapest start first; a coarse search and Newton's method are cheaper than a fine search.
     let _ = hint.copied().is_some_and(&mut sharp)
         || search.guess().is_some_and(&mut sharp)
         || by_smoothing(ball, drive, unit).is_some_and(&mut sharp)
@@ -57,7 +55,6 @@ pub(crate) fn near(ball: &PlacedBall<'_>) -> Option<BallState> {
     let search = Search::new(ball, Drive::Force(0.0), unit(ball));
     let (place, rows) = search.guessed_place()?;
     let total: f64 = rows.iter().map(|row| row.patch.friction_limit).sum();
-    // From coarse smoothing on: a contact that sticks is found in a few steps.
     let motion = [1e-1, 1e-2, 1e-3, ball.rest_spin].into_iter().fold(
         rolling(&ball.grooves.track),
         |from, rest_spin| {
@@ -74,7 +71,6 @@ pub(crate) fn near(ball: &PlacedBall<'_>) -> Option<BallState> {
 /// residual that is just accepted belongs to a motion that is not.
 const SHARP: f64 = 0.01;
 
-/// Scale of the displacements, m.
 pub(crate) fn unit(ball: &PlacedBall<'_>) -> f64 {
     let (_, reach) = ball.grooves.two_point_start(ball.axial_load);
     reach.max(ball.grooves.oversize.abs())
@@ -116,7 +112,6 @@ fn by_smoothing(ball: &PlacedBall<'_>, drive: Drive, unit: f64) -> Option<BallSt
     Some(here)
 }
 
-/// Spins of smoothing over the nut's speed at which Newton's method finds a ball from the guess, the narrowest first.
 const WIDE_SMOOTHING: [f64; 4] = [0.1, 1.0, 10.0, 100.0];
 /// Largest factor of the spin of smoothing from one state to the next.
 const SHORTEST_STEP: f64 = 0.99;
@@ -125,7 +120,6 @@ struct Search<'a> {
     ball: &'a PlacedBall<'a>,
     drive: Drive,
     unit: f64,
-    /// Across the diagonal that carries the load.
     across: [f64; 2],
 }
 
@@ -160,7 +154,6 @@ impl<'a> Search<'a> {
         (end.residual <= 1e-6 * scale).then(|| end.point * self.unit)
     }
 
-    /// Motion of least power at a place, and the force along the track.
     fn motion(&self, rows: &[ScrewRow], start: &Vector4<f64>) -> Option<(Vector4<f64>, f64)> {
         least_motion(self.ball, self.drive, rows, start)
     }
@@ -197,14 +190,12 @@ impl<'a> Search<'a> {
         None
     }
 
-    /// Start for Newton's method with the push of a third contact that spins with the ball.
     fn guess(&self) -> Option<BallState> {
         let (place, rows) = self.guessed_place()?;
         let (motion, force) = self.motion(&rows, &rolling(&self.ball.grooves.track))?;
         Some(BallState::new(place, motion, force))
     }
 
-    /// Where that push moves the ball, and its contacts there.
     fn guessed_place(&self) -> Option<(Vector3<f64>, Vec<ScrewRow>)> {
         let ball = self.ball;
         let frictionless = self.place(&Vector3::zeros(), None)?;
@@ -230,7 +221,6 @@ impl<'a> Search<'a> {
         2.0 * self.ball.friction * self.ball.loads(frictionless).iter().sum::<f64>()
     }
 
-    /// The push that answers itself, between its bounds, to a tolerance over them.
     fn bracketed(&self, tolerance: f64) -> Option<BallState> {
         let frictionless = self.place(&Vector3::zeros(), None)?;
         let bound = self.bound(&frictionless);
@@ -270,7 +260,6 @@ fn sharpened<const N: usize>(
     end
 }
 
-/// Motion of least power at a place, and the force along the track.
 pub(crate) fn least_motion(
     ball: &PlacedBall<'_>,
     drive: Drive,

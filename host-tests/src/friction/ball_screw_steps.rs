@@ -4,7 +4,6 @@ use nalgebra::{Matrix4, SMatrix, Vector4};
 
 use super::ball_screw_placed::{Balance, BallState, Drive, PlacedBall, Solved};
 
-/// Short steps of Newton's method, after which a start is given up: near the end it takes few.
 const SHORT_STEPS: usize = 20;
 
 impl PlacedBall<'_> {
@@ -88,7 +87,6 @@ impl PlacedBall<'_> {
         state
     }
 
-    /// The Jacobian by the unknowns: the column of the orbital speed makes place for that of the force where the speed is given.
     fn driven_jacobian(
         &self,
         state: &BallState,

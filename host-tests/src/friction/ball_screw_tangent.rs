@@ -13,7 +13,6 @@ use super::ball_screw_ball::ScrewRow;
 use super::ball_screw_placed::{Balance, BallState, PlacedBall, normal};
 use super::patch::PatchVelocity;
 
-/// Unbalanced forces of a ball, and their derivatives.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Tangent {
     pub balance: Balance,
@@ -23,7 +22,6 @@ pub(crate) struct Tangent {
     pub loads: f64,
 }
 
-/// Friction of a contact for a friction coefficient of one, with its derivatives.
 struct Slope {
     gradient: Vector3<f64>,
     by_velocity: Matrix3<f64>,
@@ -66,8 +64,6 @@ impl Slope {
 }
 
 impl PlacedBall<'_> {
-    /// What is unbalanced at a state, and how it changes with the place over `unit` and with the motion. `None` where the ball has left its
-    /// grooves.
     pub fn tangent(&self, state: &BallState, unit: f64) -> Option<Tangent> {
         let rows = self.rows_of(state)?;
         let cos_a = self.grooves.track.lead_angle().1;
@@ -119,7 +115,6 @@ impl PlacedBall<'_> {
         all.all(|x| x.is_finite()).then_some(sum)
     }
 
-    /// Forces that do not come from the contacts.
     pub fn given(&self, state: &BallState) -> Balance {
         let mut rubbing = self.rubbing;
         if let Some(alike) = &self.alike {
@@ -152,7 +147,6 @@ impl PlacedBall<'_> {
         all
     }
 
-    /// Change of a contact's forces of given size with the angle of its normal.
     fn turned(
         &self,
         row: &ScrewRow,
@@ -175,7 +169,6 @@ impl PlacedBall<'_> {
     }
 }
 
-/// Change of a contact's velocities and of their rows with the angle of its normal.
 struct Turned {
     rows: SMatrix<f64, 3, 4>,
     velocity: Vector3<f64>,
@@ -190,7 +183,6 @@ impl Turned {
             0.0, -nx, 0.0, -nz, //
             0.0, -nz, 0.0, nx,
         );
-        // The nut's rotation along z over its speed.
         let nut = if row.contact.groove.on_nut() {
             cos_a
         } else {
@@ -259,7 +251,6 @@ mod tests {
             for column in 0..7 {
                 let step = 1e-5 * SVector::<f64, 7>::ith(column, 1.0);
                 let differences = (at(&step) - at(&-step)) / 2e-5;
-                // Cubed steps of 1e-5 against a scale of 1, and rounding over the step.
                 let off = (differences - found.jacobian.column(column)).amax();
                 assert!(
                     off < 1e-6 * largest,

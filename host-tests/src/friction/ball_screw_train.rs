@@ -94,10 +94,6 @@ impl Train<4> for Rows<'_> {
 ///
 /// The friction between balls acts on each by virtual power of the slip (3.73), which keeps the power balance exact; the moments of
 /// (3.75) follow, with `cos a` in place of one (1.8 per cent at a lead angle of 11 degrees) in its part along the track.
-///
-/// # Errors
-/// When an input is out of range, at `nut_speed = 0`, for an empty list, for a ball without a loaded contact on screw and nut, or
-/// without convergence.
 pub fn solve_screw_train(
     track: &ScrewTrack,
     balls: &[Vec<ScrewContact>],

@@ -45,9 +45,6 @@ pub struct CagedBallFriction {
 
 impl CagedBall {
     /// Friction under each of these axial loads, N, none of them zero, all of one sign; in their order.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming an input out of range, for all loads; or of a load's balance that is not found, for that load.
     pub fn along(
         &self,
         axial_loads: &[f64],

@@ -87,9 +87,6 @@ impl Train<3> for LinearTrain<'_> {
 ///
 /// Corrected: the count of unknowns after (3.31) is `4 n - 1`; for the front ball of a pair the normal force reverses, but the
 /// moment terms of (3.29) keep their sign (force and arm both reverse).
-///
-/// # Errors
-/// As [`LinearBall::solve`]; when the balls' radii or friction coefficients differ; with an empty list.
 pub fn solve_chain(
     balls: &[LinearBall],
     ball_friction: f64,

@@ -27,9 +27,6 @@ impl HertzLaw {
     ///
     /// Source: Lin 2019, appendix B. Corrected: the left side of (B.8) is the larger radius over the smaller; (B.1) holds the
     /// factor `F2` of the deflection, not `F1`; the exponents of (B.11) are 1/3.
-    ///
-    /// # Errors
-    /// As [`Hertz::new`].
     pub fn new(
         relative_radius_1: f64,
         relative_radius_2: f64,

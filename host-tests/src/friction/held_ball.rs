@@ -103,15 +103,11 @@ pub struct HeldBallFriction {
 
 impl HeldBall {
     /// Outward force of two balls that press on each other on the curved track, on either, over that along the track.
-    #[must_use]
     pub fn outward(&self) -> f64 {
         BallContact::new(&(&self.design).into(), 0.0, 1.0, true).outward_force(1.0)
     }
 
     /// The ball where the arc centres of the screw's and the nut's groove are turned by these angles, rad, -0.2 to 0.2.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming an input out of range.
     pub fn in_grooves(
         &self,
         screw_deviation: f64,
@@ -156,7 +152,6 @@ impl DeviatingBall {
         near(&self.placed(axial_load)).map(BallStart)
     }
 
-    /// The ball with no friction of its neighbours.
     fn placed(&self, axial_load: f64) -> PlacedBall<'_> {
         PlacedBall {
             grooves: &self.grooves,
@@ -171,9 +166,6 @@ impl DeviatingBall {
     }
 
     /// How it runs, found from the state of a neighbouring one, or from nothing.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming an input out of range, or of a balance that is not found.
     pub fn solve(
         &self,
         drive: &BallDrive,
@@ -201,7 +193,6 @@ impl DeviatingBall {
         self.friction_of(&ball, &solved)
     }
 
-    /// The ball with friction of its neighbours: from the start, at once or in steps of that friction.
     fn rubbed(
         &self,
         ball: &PlacedBall<'_>,
@@ -237,7 +228,6 @@ impl DeviatingBall {
         settle(&rubbed(1.0), along, Some(&first))
     }
 
-    /// Contact with a neighbour; a friction coefficient of one makes its force its friction.
     fn contact(&self) -> BallContact {
         BallContact::new(&self.grooves.track, 1.0, 1.0, false)
     }
@@ -327,7 +317,6 @@ mod tests {
             let found = ball.solve(&drive, Some(&near)).unwrap();
             assert!((found.torque / expected.torque - 1.0).abs() < 1e-7);
             assert!((found.orbital_speed - expected.orbital_speed).abs() < 1e-7);
-            // It has not been found already.
             assert!(near.0.motion != expected.start.0.motion);
         }
     }

@@ -55,9 +55,6 @@ pub struct LinearMotion {
 
 impl LinearBall {
     /// Checks every input.
-    ///
-    /// # Errors
-    /// When a value is outside its range, or when no bottom or no top contact is loaded.
     pub fn check(&self) -> Result<(), ReferenceError> {
         within("ball_radius", self.ball_radius, 1e-6, 1.0)?;
         within("friction", self.friction, 0.0, 1.0)?;
@@ -121,18 +118,11 @@ impl LinearBall {
     }
 
     /// Motion of the ball when no other ball touches it: eqs. (3.22) to (3.25), by least dissipation.
-    ///
-    /// # Errors
-    /// As [`Self::check`]; at `speed = 0`; and when the residual stays above 1e-6 of the largest load.
     pub fn solve(&self, speed: f64) -> Result<LinearMotion, ReferenceError> {
-        // Pure rolling about the x axis at the mean contact angle.
         self.solve_from(speed, [0.5, 0.7, 0.0])
     }
 
     /// As [`Self::solve`], from a given start of `(v_B, R_B w_x, R_B w_y)/v`; the result does not depend on it.
-    ///
-    /// # Errors
-    /// As [`Self::solve`].
     pub fn solve_from(&self, speed: f64, start: [f64; 3]) -> Result<LinearMotion, ReferenceError> {
         self.check()?;
         within("speed", speed, -1e6, 1e6)?;

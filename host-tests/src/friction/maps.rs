@@ -72,9 +72,6 @@ impl FrictionMap {
     pub const MIN_AXIS_RATIO: f64 = 0.02;
 
     /// Prepares the maps of a contact with `axis_ratio = b/a` in 0.02 to 1.
-    ///
-    /// # Errors
-    /// When the axis ratio is outside its range.
     pub fn new(axis_ratio: f64) -> Result<Self, ReferenceError> {
         let k = within("axis_ratio", axis_ratio, Self::MIN_AXIS_RATIO, 1.0)?;
         let m = (1.0 - k) * (1.0 + k);
@@ -176,43 +173,6 @@ impl FrictionMap {
             moment,
             power: moment + x * force,
             slope: -moment_slope * inverse,
-        }
-    }
-
-    /// The same integrals without closed form or rearrangement, by the Gauss rule on the integral as it stands in the
-    /// type's documentation: an independent check of [`Self::at`].
-    ///
-    /// Good to about 1e-13 of the power; force and moment lose digits to cancellation as the offset grows.
-    pub fn by_line_integral(&self, offset: f64) -> MapValue {
-        let x = offset.abs();
-        let sign = if offset < 0.0 { -1.0 } else { 1.0 };
-        let x2 = x * x;
-        let m = self.parameter;
-        let end = if x > 1.0 { 1.0 / x } else { 1.0 };
-        let power = 0.375
-            * quarter(end, |s2, _| {
-                (1.0 - m * s2).sqrt() * (1.0 - x2 * s2) * (1.0 + x2 * (4.0 - 5.0 * s2))
-            });
-        let force = 0.75
-            * x
-            * quarter(end, |s2, _| {
-                (1.0 - m * s2).sqrt() * (4.0 - 6.0 * s2 - 2.0 * x2 * s2 * (4.0 - 5.0 * s2))
-            });
-        let edge = if x > 1.0 {
-            3.0 * (1.0 - m / x2).sqrt() * (x2 - 1.0).sqrt() / x2
-        } else {
-            0.0
-        };
-        let slope = 0.375
-            * quarter(end, |s2, _| {
-                (1.0 - m * s2).sqrt() * (8.0 - 12.0 * s2 - 12.0 * x2 * s2 * (4.0 - 5.0 * s2))
-            })
-            + edge;
-        MapValue {
-            force: sign * force,
-            moment: power - x * force,
-            power,
-            slope,
         }
     }
 }

@@ -159,7 +159,6 @@ pub fn root_between(
         if value.abs() <= of_value || (high - low).abs() <= of_place {
             return Some(place);
         }
-        // `high` is always the newest.
         if value * at_high < 0.0 {
             (low, at_low) = (high, at_high);
         } else {

@@ -68,7 +68,6 @@ const FARTHEST: f64 = 1e12;
 /// Nodes that are evaluated at once, so that the compiler uses the lanes of the processor.
 const LANES: usize = 4;
 
-/// Sine and cosine of the nodes' `t`, and their weights.
 type Nodes = [[f64; LANES]; 3];
 
 /// Nodes beyond the last have no weight.
@@ -94,14 +93,12 @@ fn nodes(integration: Integration) -> &'static [Nodes] {
     }
 }
 
-/// Power, gradient and Hessian by rows, as they are summed over the nodes.
 const TERMS: usize = 13;
 
 /// What the terms of a node depend on beside the node: axes, and the velocity centre in the plane scaled to the unit disc.
 struct Centre {
     semi_major: f64,
     semi_minor: f64,
-    /// Distance from the contact centre, and the direction to it.
     distance: f64,
     cos: f64,
     sin: f64,
@@ -111,7 +108,6 @@ struct Centre {
 }
 
 impl Centre {
-    /// Terms of one node.
     #[inline(always)]
     fn terms(&self, [sin_t, cos_t, weight]: [f64; 3]) -> [f64; TERMS] {
         let (a, b) = (self.semi_major, self.semi_minor);
@@ -152,7 +148,6 @@ impl Centre {
         ]
     }
 
-    /// Terms summed over the nodes, in their order.
     fn summed(&self, nodes: &[Nodes]) -> [f64; TERMS] {
         let mut sums = [0.0; TERMS];
         for [sin, cos, weight] in nodes {

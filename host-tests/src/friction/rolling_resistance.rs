@@ -46,9 +46,6 @@ impl RollingResistance {
     };
 
     /// Refuses what is out of range.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `hysteresis_loss` or `lubricant_drag`.
     pub fn check(&self) -> Result<(), ReferenceError> {
         within("hysteresis_loss", self.hysteresis_loss, 0.0, 0.2)?;
         within("lubricant_drag", self.lubricant_drag, 0.0, 10.0)?;
@@ -62,14 +59,12 @@ impl RollingResistance {
     /// other, and they do so by `1/R_x` radians a metre.
     ///
     /// Source: Johnson 1985, section 9.2, after Greenwood, Minshall, Tabor 1961: moment `3/16 loss b N`.
-    #[must_use]
     pub fn hysteresis_force(&self, load: f64, semi_minor: f64, rolling_radius: f64) -> f64 {
         3.0 / 16.0 * self.hysteresis_loss * load * semi_minor / rolling_radius
     }
 
     /// Force of the lubricant against the travel of a contact, N: in proportion to the root of the load, which lies
     /// between the powers 0.47 of Houpert's formula and 0.54 of SKF's for ball bearings.
-    #[must_use]
     pub fn lubricant_force(&self, load: f64) -> f64 {
         self.lubricant_drag * (load / DRAG_LOAD).sqrt()
     }
@@ -92,9 +87,6 @@ pub struct LubricatedContact {
 
 impl LubricatedContact {
     /// Contact of a ball with one groove of a ball screw.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming a number that describes no contact.
     pub fn of(
         design: &BallScrewDesign,
         groove: Groove,
@@ -116,7 +108,6 @@ impl LubricatedContact {
     ///
     /// Source: Houpert 2002, for fully flooded, isothermal contacts; [`RollingResistance::lubricant_drag`] is this at
     /// [`DRAG_LOAD`].
-    #[must_use]
     pub fn drag(&self, load: f64, rolling_speed: f64) -> f64 {
         let modulus = 2.0 * self.contact_modulus;
         let rx = self.rolling_radius;
@@ -131,9 +122,6 @@ impl LubricatedContact {
 }
 
 /// Relative radii of ball and groove along and across the track at the nominal contact angle, m.
-///
-/// # Errors
-/// [`ReferenceError`] naming a number that describes no contact.
 pub fn relative_radii(
     design: &BallScrewDesign,
     groove: Groove,
@@ -152,9 +140,6 @@ pub fn relative_radii(
 ///
 /// The groove's surface runs past a contact by `|w_B - w_k| (L/2 pi + R_B cos a n_x)`, with `w_k` zero for the screw
 /// and the nut's speed for the nut.
-///
-/// # Errors
-/// [`ReferenceError`] naming a parameter out of range.
 pub fn rolling_losses(
     design: &BallScrewDesign,
     resistance: &RollingResistance,

@@ -6,21 +6,16 @@ use super::isotonic::pool_adjacent_violators;
 use super::newton::{Local, STAGES};
 use crate::error::ReferenceError;
 
-/// A train of balls whose first unknown is the speed along the track, rear to front.
 pub(crate) trait Train<const N: usize> {
     /// Number of balls.
     fn balls(&self) -> usize;
-    /// Start of one ball.
     fn start(&self, ball: usize) -> SVector<f64, N>;
-    /// Power of a ball, smoothed at rest.
     fn local(&self, ball: usize, y: &SVector<f64, N>, rest_spin: f64) -> Local<N>;
-    /// True when no contact of the ball is near rest.
     fn moves(&self, ball: usize, y: &SVector<f64, N>, rest_spin: f64) -> bool;
     /// Slip between two touching balls, two components, from the unknowns of the rear and of the front ball.
     fn slip(&self) -> [SMatrix<f64, 2, N>; 2];
     /// Friction coefficient between balls, per unit of the multiplier of `v_j <= v_(j+1)`.
     fn ball_friction(&self) -> f64;
-    /// Largest friction limit of a contact, N.
     fn largest(&self) -> f64;
 }
 
@@ -92,7 +87,6 @@ pub(crate) fn solve_train<const N: usize>(
     Ok((solution, rest_spin))
 }
 
-/// Result of the train's minimisation.
 #[derive(Clone)]
 pub(crate) struct TrainMinimum<const N: usize> {
     pub points: Vec<SVector<f64, N>>,
@@ -165,18 +159,13 @@ fn minimise_train<const N: usize>(
     result
 }
 
-/// Solution of the quadratic model at a point.
 struct QuadraticStep<const N: usize> {
     directions: Vec<SVector<f64, N>>,
     multipliers: Vec<f64>,
-    /// Largest unbalanced force at the point, with these multipliers.
     residual: f64,
-    /// Derivative of the total along the step.
     slope: f64,
 }
 
-/// The step to the minimum of the quadratic model; each Hessian is shifted by `shift` of its mean, and by more until it is positive
-/// definite. None where no shift makes it so.
 fn quadratic_step<const N: usize>(
     points: &[SVector<f64, N>],
     locals: &[Local<N>],
@@ -231,11 +220,9 @@ fn quadratic_step<const N: usize>(
     })
 }
 
-/// Where a shortened step leads.
 struct Reached<const N: usize> {
     points: Vec<SVector<f64, N>>,
     locals: Vec<Local<N>>,
-    /// Whether the total changed by more than its rounding.
     falls: bool,
 }
 
@@ -331,7 +318,6 @@ fn full_system<const N: usize>(
     (residual, jacobian)
 }
 
-/// Newton steps on the full system, the set of contacts chosen anew at each step.
 fn solve_full_system<const N: usize>(
     train: &impl Train<N>,
     start: &TrainMinimum<N>,
@@ -340,7 +326,6 @@ fn solve_full_system<const N: usize>(
     tolerance: f64,
 ) -> TrainMinimum<N> {
     let n = start.points.len();
-    // A force per speed of the size of a ball's stiffness, so that forces and partings weigh alike.
     let penalty = train.largest();
     let system = |points: &[SVector<f64, N>], forces: &[f64]| {
         let locals: Vec<_> = points

@@ -75,7 +75,6 @@ impl WholeScrewState {
     }
 }
 
-/// Intervals of the table over one side of the deviation.
 const TABLE: usize = 512;
 
 impl WholeScrew {
@@ -122,9 +121,6 @@ impl WholeScrew {
     /// M-matrix, solved by growing the set of contacts until no gap is negative, in at most as many linear systems as
     /// there are balls. Balls never overlap.
     /// The activation rule printed in (3.77), by the free speeds of two neighbours, lets chains of balls overlap.
-    ///
-    /// # Errors
-    /// When an input is out of range, or the balls do not fit.
     pub fn simulate(
         &self,
         nut_angle: f64,
@@ -192,7 +188,6 @@ impl WholeScrew {
         Ok(states)
     }
 
-    /// Speeds and forces of one substep, in the direction of orbiting.
     fn press(&self, balls: &[ThreePointBall], gaps: &[f64], step: f64) -> (Vec<f64>, Vec<f64>) {
         let n = balls.len();
         let path = self.model.track.path_radius();
@@ -280,7 +275,6 @@ impl WholeScrew {
     }
 }
 
-/// Linear interpolation of the table at a real index.
 fn interpolate(table: &[ThreePointBall], at: f64) -> ThreePointBall {
     let last = table.len() - 1;
     let at = at.clamp(0.0, last as f64);

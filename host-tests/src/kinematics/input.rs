@@ -18,7 +18,6 @@ impl Raceway {
     pub const BOTH: [Self; 2] = [Self::Screw, Self::Nut];
 
     /// The paper's upper (+1) or lower (-1) sign.
-    #[must_use]
     pub const fn sign(self) -> f64 {
         match self {
             Self::Screw => 1.0,
@@ -81,7 +80,6 @@ pub struct ContactInput {
 
 impl KinematicsInput {
     /// The numbers of one contact.
-    #[must_use]
     pub const fn contact(&self, raceway: Raceway) -> ContactInput {
         match raceway {
             Raceway::Screw => ContactInput {
@@ -102,7 +100,6 @@ impl KinematicsInput {
     }
 
     /// Advance of the helix per radian, `L / (2 pi) = r_m tan psi`, m.
-    #[must_use]
     pub fn advance(&self) -> f64 {
         self.pitch_radius * self.lead_angle.tan()
     }
@@ -124,9 +121,6 @@ impl KinematicsInput {
     }
 
     /// Checks that every number lies where the model exists.
-    ///
-    /// # Errors
-    /// The first field that does not.
     pub fn validate(&self) -> Result<(), ReferenceError> {
         self.check_lengths_and_angles()?;
         for raceway in Raceway::BOTH {
@@ -170,7 +164,6 @@ impl KinematicsInput {
         check("speed", self.speed, true, "a finite number")
     }
 
-    /// The contact ellipse is one, and smaller than the ball.
     fn check_ellipse(&self, raceway: Raceway) -> Result<(), ReferenceError> {
         let [major_field, minor_field] = match raceway {
             Raceway::Screw => ["semi_major_screw", "semi_minor_screw"],
@@ -217,7 +210,6 @@ impl KinematicsInput {
     }
 }
 
-/// Passes where `value` is finite and `holds` what is required of it.
 fn check(
     field: &'static str,
     value: f64,

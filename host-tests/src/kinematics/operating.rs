@@ -52,7 +52,6 @@ pub struct Ellipse {
 /// `cos_squared` is `cos^2 psi` for the curvature of the helical groove, (9) and (10), and 1 for that
 /// of a bearing's ring, which the traditional formulation takes. `None` for a load that is not
 /// positive.
-#[must_use]
 pub fn ellipse(
     raceway: Raceway,
     contact_angle: f64,
@@ -106,7 +105,6 @@ pub fn ellipse(
 /// 1000 rpm), pitch angle 40°, yaw 0, rolling radii `D/2`.
 ///
 /// `helical_curvature`: the groove's curvature of the revised (true) or traditional formulation.
-#[must_use]
 pub fn case_one(lead_angle: f64, helical_curvature: bool) -> Option<KinematicsInput> {
     let cos_squared = if helical_curvature {
         lead_angle.cos().powi(2)
@@ -123,7 +121,6 @@ pub fn case_one(lead_angle: f64, helical_curvature: bool) -> Option<KinematicsIn
 }
 
 /// The screw of Table 2 as the paper analyses it.
-#[must_use]
 pub fn table_two() -> Option<KinematicsInput> {
     case_one(LEAD_ANGLE, true)
 }
@@ -176,7 +173,6 @@ pub struct LoadedBall {
 /// At 1500 N and 1000 rpm: 41.0° and 154.7 N; with `F / Z` in place of `F / (Z cos psi)`, 152.4 N.
 /// The paper's 151 N is neither (2.5 and 0.9 % less) and would need 41.47°. `None` where no
 /// equilibrium is found.
-#[must_use]
 pub fn loaded_ball(axial_load: f64, speed: f64) -> Option<LoadedBall> {
     let cos_psi = LEAD_ANGLE.cos();
     let share = axial_load / (f64::from(BALLS) * cos_psi);

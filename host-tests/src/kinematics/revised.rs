@@ -20,9 +20,6 @@ impl Revised {
     /// (22) as printed. **(23) is corrected:** the condition that rolling slip vanishes at `r'_i` is
     /// `omega_R = (omega - omega_m) A_i / (r'_i b_i)`; printed is `omega_m` in place of
     /// `omega - omega_m`.
-    ///
-    /// # Errors
-    /// The field of the input that the model cannot take.
     pub fn new(input: &KinematicsInput) -> Result<Self, ReferenceError> {
         input.validate()?;
         let path = |raceway| input.rolling_path(raceway);
@@ -42,25 +39,21 @@ impl Revised {
     }
 
     /// The input.
-    #[must_use]
     pub const fn input(&self) -> &KinematicsInput {
         &self.input
     }
 
     /// `omega_m / omega`.
-    #[must_use]
     pub const fn orbital_ratio(&self) -> f64 {
         self.orbital_ratio
     }
 
     /// `omega_R / omega`.
-    #[must_use]
     pub const fn spin_ratio(&self) -> f64 {
         self.spin_ratio
     }
 
     /// (23) as printed, per rad/s of the screw; for comparison only.
-    #[must_use]
     pub fn spin_ratio_as_printed(&self) -> f64 {
         let inner = Raceway::Screw;
         self.orbital_ratio * self.input.rolling_path(inner)
@@ -69,7 +62,6 @@ impl Revised {
 
     /// The ball's rotation relative to the orbiting frame, in (tangent, normal, binormal), per rad/s
     /// of the screw: (27).
-    #[must_use]
     pub fn rotation(&self) -> [f64; 3] {
         let (sin_beta, cos_beta) = self.input.pitch_angle.sin_cos();
         let (sin_yaw, cos_yaw) = self.input.yaw_angle.sin_cos();
@@ -103,7 +95,6 @@ impl Revised {
     }
 
     /// `S_k(y)`, m: (14).
-    #[must_use]
     pub fn distance(&self, raceway: Raceway, y: f64) -> f64 {
         0.5 * self.input.ball_diameter - self.deficit(raceway, y)
     }
@@ -120,20 +111,17 @@ impl Revised {
     /// (31) is linear in `S` and, by (22) and (23), zero at `S = r'_k`. It is evaluated from that
     /// zero, as `(r'_k - S)` times its slope, because the printed difference of two nearly equal
     /// speeds loses three digits.
-    #[must_use]
     pub fn rolling_slip(&self, raceway: Raceway, y: f64) -> f64 {
         self.inside_rolling_radius(raceway, y) * self.rolling_gradient(raceway)
     }
 
     /// `r'_k - S_k(y)`, m.
-    #[must_use]
     pub fn inside_rolling_radius(&self, raceway: Raceway, y: f64) -> f64 {
         let contact = self.input.contact(raceway);
         (contact.rolling_radius - 0.5 * self.input.ball_diameter) + self.deficit(raceway, y)
     }
 
     /// Slope of (31) in `-S_k`, per rad/s of the screw.
-    #[must_use]
     pub fn rolling_gradient(&self, raceway: Raceway) -> f64 {
         raceway.sign()
             * self.frame_ratio(raceway)
@@ -143,7 +131,6 @@ impl Revised {
     }
 
     /// (31) as printed, per rad/s of the screw, m.
-    #[must_use]
     pub fn rolling_slip_as_printed(&self, raceway: Raceway, y: f64) -> f64 {
         let distance = self.distance(raceway, y);
         let cos_psi = self.input.lead_angle.cos();
@@ -154,20 +141,17 @@ impl Revised {
     }
 
     /// Side slip per rad/s of the screw, m: (32), with `omega_t` for the misprinted `omega_l`.
-    #[must_use]
     pub fn side_slip(&self, raceway: Raceway, y: f64) -> f64 {
         self.distance(raceway, y) * self.side_gradient(raceway)
     }
 
     /// Side slip over `S_k`, per rad/s of the screw.
-    #[must_use]
     pub fn side_gradient(&self, raceway: Raceway) -> f64 {
         let [tangent, _, _] = self.rotation();
         self.frame_ratio(raceway) * self.input.lead_angle.sin() + raceway.sign() * tangent
     }
 
     /// Spin per rad/s of the screw: (34).
-    #[must_use]
     pub fn spin(&self, raceway: Raceway) -> f64 {
         let [_, normal, binormal] = self.rotation();
         let (sin_alpha, cos_alpha) = self.input.contact(raceway).contact_angle.sin_cos();
@@ -176,7 +160,6 @@ impl Revised {
     }
 
     /// Slip `(x, y)` at a point of the contact, m/s: (30) with (31) to (34).
-    #[must_use]
     pub fn slip(&self, raceway: Raceway, x: f64, y: f64) -> [f64; 2] {
         let spin = self.spin(raceway);
         [
@@ -187,7 +170,6 @@ impl Revised {
 
     /// Entrainment velocity at the centre per rad/s of the screw, m, with the sign of (36): against
     /// the mean velocity of the surfaces in the frame of the moving contact.
-    #[must_use]
     pub fn entrainment(&self, raceway: Raceway) -> [f64; 2] {
         let [tangent, _, _] = self.rotation();
         let distance = self.distance(raceway, 0.0);
@@ -208,7 +190,6 @@ impl Revised {
     /// **(37) and (39)** print an arc tangent of a quotient; taken here is atan2, of the reversed
     /// components of (36) for the entrainment angle. The ratios come from the coefficients per rad/s,
     /// so that they exist at standstill.
-    #[must_use]
     pub fn evaluate(&self) -> BallKinematics {
         let speed = self.input.speed;
         BallKinematics {
@@ -246,7 +227,6 @@ impl Revised {
     ///
     /// **(26) is corrected:** its second term's third component reads
     /// `-x cos psi cos alpha +- y sin psi`; printed is `-+ x cos psi cos alpha`.
-    #[must_use]
     pub fn slip_by_vectors(&self, raceway: Raceway, x: f64, y: f64) -> [f64; 3] {
         let input = &self.input;
         let contact = input.contact(raceway);

@@ -38,7 +38,6 @@ pub struct BallKinematics {
 
 impl BallKinematics {
     /// One contact.
-    #[must_use]
     pub const fn contact(&self, raceway: Raceway) -> &ContactKinematics {
         match raceway {
             Raceway::Screw => &self.screw,

@@ -9,9 +9,6 @@ use super::revised::Revised;
 use crate::error::ReferenceError;
 
 /// Yaw angle at which side slip vanishes at a contact, rad, by Brent's method within 20° of zero.
-///
-/// # Errors
-/// The field that the model refuses; `yaw_angle` where side slip does not vanish within 20°.
 pub fn yaw_without_side_slip(
     input: &KinematicsInput,
     raceway: Raceway,

@@ -38,7 +38,6 @@ pub enum Form {
 
 impl Form {
     /// Elements with nothing remembered.
-    #[must_use]
     pub fn elements(&self) -> Elements {
         match *self {
             Self::Proportional(table) => table.elements(),
@@ -77,7 +76,6 @@ impl Path<'_> {
     }
 
     /// Torques of elements: one for every angle, the first zero.
-    #[must_use]
     pub fn torque(&self, mut elements: Elements) -> Vec<f64> {
         let follow = |tick: Tick| elements.follow(tick.turn, tick.limits, tick.load);
         std::iter::once(0.0)
@@ -87,7 +85,6 @@ impl Path<'_> {
 
     /// Torques that the elements of `form` stand for: by the stack of turning points under constant limits in proportion, by the broken line under
     /// limits of a Hertzian contact. None for elements in proportion under a load: what they stand for is not one law.
-    #[must_use]
     pub fn exact(&self, form: &Form) -> Option<Vec<f64>> {
         let torques: Vec<f64> = match form {
             Form::Proportional(table) => {
@@ -121,7 +118,6 @@ pub struct Answers {
 
 /// Torques over a path by the elements of `form`, and what these stand for. Under a Hertzian contact's limits the exact torques are those
 /// of [`DENSE`] elements up to the form's largest load, as in the stored cases: within 7e-7 of the closed form ([`Path::exact`]) there.
-#[must_use]
 pub fn answers(path: &Path<'_>, form: &Form) -> Answers {
     Answers {
         torque: path.torque(form.elements()),
@@ -135,7 +131,6 @@ pub fn answers(path: &Path<'_>, form: &Form) -> Answers {
 }
 
 /// Work that friction takes over a path: torque at the end of each tick times its turn.
-#[must_use]
 pub fn work(path: &Path<'_>, torque: &[f64]) -> f64 {
     path.ticks()
         .zip(torque.iter().skip(1))

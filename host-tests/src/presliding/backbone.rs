@@ -13,7 +13,6 @@ pub enum Backbone {
 
 impl Backbone {
     /// Torque at `angle`, not negative.
-    #[must_use]
     pub fn torque(self, angle: f64) -> f64 {
         match self {
             Self::Slip if angle >= 1.0 => 1.0,
@@ -26,7 +25,6 @@ impl Backbone {
     }
 
     /// Slope at `angle`, not negative.
-    #[must_use]
     pub fn stiffness(self, angle: f64) -> f64 {
         match self {
             Self::Slip => 1.5 * (1.0 - angle).max(0.0).sqrt(),

@@ -39,7 +39,6 @@ impl Elements {
     ///
     /// # Panics
     /// Where an angle is not positive.
-    #[must_use]
     pub fn proportional(angles: &[f64], shares: &[f64]) -> Self {
         assert!(angles.iter().all(|angle| *angle > 0.0), "{angles:?}");
         Self {
@@ -58,7 +57,6 @@ impl Elements {
 
     /// `count` elements that meet the surface one after the other as the load rises, up to `largest_load`: Gauss-Legendre nodes of the
     /// integral that [`super::load_exact`] solves in closed form.
-    #[must_use]
     pub fn load_exact(count: NonZeroUsize, largest_load: f64) -> Self {
         let rule = GaussLegendre::new(count);
         let half = 0.5 * largest_load.cbrt();
@@ -79,7 +77,6 @@ impl Elements {
     }
 
     /// `count` elements of the same kind at the middles of equal intervals.
-    #[must_use]
     pub fn dense(count: usize, largest_load: f64) -> Self {
         let width = largest_load.cbrt() / count as f64;
         Self {
@@ -107,7 +104,6 @@ impl Elements {
     }
 
     /// Stored energy, over limit times breakaway angle.
-    #[must_use]
     pub fn energy(&self) -> f64 {
         self.elements
             .iter()
@@ -116,7 +112,6 @@ impl Elements {
     }
 }
 
-/// Share of each element in the whole limit at a tick.
 struct Shares {
     law: Law,
     approach: f64,

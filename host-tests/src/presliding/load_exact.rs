@@ -37,7 +37,6 @@ const STRAIGHT: f64 = 1e-15;
 
 impl LoadExact {
     /// Nothing remembered, no load.
-    #[must_use]
     pub fn new() -> Self {
         let corner = Corner {
             approach: 0.0,
@@ -110,7 +109,6 @@ impl LoadExact {
         self.line = held;
     }
 
-    /// Leaves out corners on straight pieces.
     fn simplify(&mut self) {
         let mut kept: Vec<Corner> = Vec::with_capacity(self.line.len());
         for corner in &self.line {
@@ -142,13 +140,11 @@ impl LoadExact {
     }
 
     /// Corners of the broken line.
-    #[must_use]
     pub fn corners(&self) -> usize {
         self.line.len()
     }
 }
 
-/// Deflection between two corners.
 fn between(one: &Corner, other: &Corner, approach: f64) -> f64 {
     let span = other.approach - one.approach;
     if span <= 0.0 {

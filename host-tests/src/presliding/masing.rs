@@ -29,7 +29,6 @@ pub struct Masing {
 
 impl Masing {
     /// Nothing remembered, at angle zero, which first loading starts from. The limits are not negative.
-    #[must_use]
     pub fn new(backbone: Backbone, limits: Limits) -> Self {
         Self {
             backbone,
@@ -61,7 +60,6 @@ impl Masing {
     }
 
     /// Turning points that are remembered.
-    #[must_use]
     pub fn depth(&self) -> usize {
         self.turns.len()
     }
@@ -99,7 +97,6 @@ impl Masing {
         }
     }
 
-    /// Limit on the side of `angle`.
     fn limit(&self, angle: f64) -> f64 {
         if angle < 0.0 {
             self.limits.backward

@@ -5,17 +5,6 @@
 //! turning point (Masing 1926), and a loop that closes is forgotten (Madelung 1905). Parallel elements that stick and slip (Iwan 1966)
 //! do the same for a backbone of straight pieces.
 //!
-//! | file | what |
-//! |---|---|
-//! | [`backbone`] | first loading of a contact across its path, and of a contact that spins |
-//! | [`masing`] | exact hysteresis under constant limits: a stack of turning points |
-//! | [`load_exact`] | exact hysteresis of a Hertzian contact under a changing load, by the method of dimensionality reduction |
-//! | [`elements`] | a few elements in place of either, with the energy that they store |
-//! | [`row`] | balls that press on each other, behind such elements |
-//! | [`tables`] | angles and shares of elements that follow a backbone |
-//! | [`physics`] | stiffness of a contact, and breakaway of a screw, from first principles |
-//! | [`answers`] | torques over a path, as asked for by a request or a stored case |
-//!
 //! Units: an angle is one over the breakaway angle of gross slip across, a torque one over the limit under the reference load, a load one
 //! over the reference load. So the first stiffness is 1.5 under any load.
 
@@ -45,7 +34,6 @@ impl Limits {
     };
 
     /// These limits times `factor`.
-    #[must_use]
     pub fn times(self, factor: f64) -> Self {
         Self {
             forward: self.forward * factor,
@@ -54,7 +42,6 @@ impl Limits {
     }
 
     /// `torque` brought between the limits.
-    #[must_use]
     pub fn hold(self, torque: f64) -> f64 {
         torque.min(self.forward).max(-self.backward)
     }

@@ -26,7 +26,6 @@ use crate::material::Elastic;
 /// Directions of rays over the axis ratio: the rule for periodic functions errs by `exp(-2 n k)`, so by less than a rounding.
 const RAYS: f64 = 40.0;
 
-/// Sum over the rays of an ellipse with semi-axes 1 and `k`.
 fn over_rays(k: f64, integrand: impl Fn(f64, f64, f64) -> f64) -> f64 {
     let rays = (RAYS / k).ceil();
     let step = PI / rays;
@@ -42,7 +41,6 @@ fn over_rays(k: f64, integrand: impl Fn(f64, f64, f64) -> f64) -> f64 {
 /// Compliance of one half space along the major and the minor axis of an ellipse with the semi-axes 1 and `k`, times `G`.
 ///
 /// Traction `1/(2 pi k sqrt(..))` of the resultant 1.
-#[must_use]
 pub fn tangential_compliance(k: f64, nu: f64) -> [f64; 2] {
     let scale = 1.0 / (2.0 * PI * k) / (2.0 * PI);
     [
@@ -87,7 +85,6 @@ fn twisted(k: f64, nu: f64) -> [f64; 4] {
 
 /// Moment over the angle by which two bodies turn against each other that are bonded over an ellipse with semi-axes 1 and
 /// `k`; each body by its shear modulus and Poisson's ratio.
-#[must_use]
 pub fn torsion_stiffness(k: f64, bodies: [(f64, f64); 2]) -> f64 {
     let mut m = [0.0; 4];
     for (shear, nu) in bodies {
@@ -108,7 +105,6 @@ pub fn torsion_stiffness(k: f64, bodies: [(f64, f64); 2]) -> f64 {
 /// `a w`. The second number is its derivative by the slip, the friction force over `mu F`.
 ///
 /// By Gauss' rule in the radius's angle and the trapezoidal rule round about; within 2e-5, where the centre lies inside.
-#[must_use]
 pub fn slip_and_spin(k: f64, slip: f64) -> [f64; 2] {
     const RINGS: u32 = 600;
     const SECTORS: u32 = 1200;
@@ -139,7 +135,6 @@ pub struct StickingContact {
 
 impl StickingContact {
     /// A contact of these two bodies.
-    #[must_use]
     pub fn new(hertz: Hertz, first: &Elastic, second: &Elastic) -> Self {
         Self {
             hertz,
@@ -148,7 +143,6 @@ impl StickingContact {
     }
 
     /// Compliance against slip along the major axis and along the minor one, m/N, under a load, N.
-    #[must_use]
     pub fn compliance(&self, load: f64) -> [f64; 2] {
         let semi_major = self.hertz.at(load).semi_major;
         let mut sum = [0.0; 2];
@@ -162,14 +156,12 @@ impl StickingContact {
     }
 
     /// Stiffness against spin, N m/rad, under a load, N.
-    #[must_use]
     pub fn torsion(&self, load: f64) -> f64 {
         torsion_stiffness(self.hertz.axis_ratio, self.bodies)
             * self.hertz.at(load).semi_major.powi(3)
     }
 
     /// Moment of gross spin, N m: friction times load times the mean distance from the centre, weighed by pressure.
-    #[must_use]
     pub fn spin_moment(&self, friction: f64, load: f64) -> f64 {
         // The mean of the radius over a Hertzian pressure is 3 pi/16, that of the direction one integral.
         let k = self.hertz.axis_ratio;
@@ -199,9 +191,6 @@ pub struct Yielding {
 
 impl ScrewBall {
     /// The ball of a design, with exact curvatures.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the number that describes no contact.
     pub fn new(design: BallScrewDesign) -> Result<Self, ReferenceError> {
         let contact = |groove| {
             Ok(StickingContact::new(
@@ -218,7 +207,6 @@ impl ScrewBall {
     }
 
     /// The same with other ellipses.
-    #[must_use]
     pub fn with_ellipses(design: BallScrewDesign, screw: Hertz, nut: Hertz) -> Self {
         let contact = |hertz| StickingContact::new(hertz, &design.ball, &design.groove);
         Self {
@@ -229,13 +217,11 @@ impl ScrewBall {
     }
 
     /// Slip across the path per angle of the nut, both contacts together, m.
-    #[must_use]
     pub fn lever(&self) -> f64 {
         self.design.ball_radius * self.design.lead_angle().sin()
     }
 
     /// Spin of a contact per angle of the nut: on two points, and on three.
-    #[must_use]
     pub fn spin_ratios(&self) -> [f64; 2] {
         let (sin, cos) = self.design.contact_angle.sin_cos();
         let cos_lead = self.design.lead_angle().cos();
@@ -247,19 +233,16 @@ impl ScrewBall {
     }
 
     /// Path that a contact rolls per angle of the nut, m.
-    #[must_use]
     pub fn rolled(&self) -> f64 {
         self.design.pitch_radius / (2.0 * self.design.lead_angle().cos())
     }
 
     /// Load of a contact under an axial load of so many balls, N.
-    #[must_use]
     pub fn contact_load(&self, axial_load: f64, balls: f64) -> f64 {
         axial_load / (balls * self.design.lead_angle().cos() * self.design.contact_angle.sin())
     }
 
     /// Slip across the path alone.
-    #[must_use]
     pub fn slip(&self, friction: f64, load: f64) -> Yielding {
         let lever = self.lever();
         let [screw, _] = self.screw.compliance(load);
@@ -271,7 +254,6 @@ impl ScrewBall {
     }
 
     /// Spin of both contacts alone, by a spin ratio.
-    #[must_use]
     pub fn spin(&self, friction: f64, load: f64, ratio: f64) -> Yielding {
         let both = [self.screw, self.nut];
         Yielding {
@@ -287,7 +269,6 @@ impl ScrewBall {
     }
 
     /// Torques of gross slip and of gross spin of a ball that does both.
-    #[must_use]
     pub fn slip_and_spin(&self, friction: f64, load: f64, ratio: f64) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for contact in [self.screw, self.nut] {
@@ -301,9 +282,6 @@ impl ScrewBall {
     }
 
     /// Drift of the ball, m, under a share of the gross slip, with a gap of the third contact, m.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `share` outside 0 to 1.
     pub fn drift(
         &self,
         friction: f64,
@@ -335,9 +313,6 @@ impl ScrewBall {
     }
 
     /// Nut angle until a share of the gross slip, rad: Cattaneo-Mindlin at both contacts, and the drift.
-    ///
-    /// # Errors
-    /// As [`Self::drift`].
     pub fn angle(
         &self,
         friction: f64,
@@ -353,7 +328,6 @@ impl ScrewBall {
 
     /// Gap of the third contact under a load, m: twice the clearance, and the mean deflection of the loaded contacts, which
     /// opens the other diagonal.
-    #[must_use]
     pub fn third_gap(&self, clearance: f64, load: f64) -> f64 {
         2.0 * clearance
             + 0.5 * (self.screw.hertz.at(load).deflection + self.nut.hertz.at(load).deflection)

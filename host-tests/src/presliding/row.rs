@@ -23,7 +23,6 @@ pub struct Row {
 }
 
 impl Row {
-    /// Limits of a row whose balls go forward or backward.
     fn limits(&self, direction: f64) -> Limits {
         let (with, against) = (self.groove + self.ball, self.free);
         if direction < 0.0 {
@@ -61,7 +60,6 @@ pub struct RowMemory {
     last: Option<Last>,
 }
 
-/// What the last tick leaves.
 #[derive(Clone, Copy, Debug)]
 struct Last {
     direction: f64,
@@ -73,7 +71,6 @@ struct Last {
 
 impl RowMemory {
     /// A row at rest whose balls go back after twice `half_width`, over the breakaway angle.
-    #[must_use]
     pub fn new(elements: Elements, half_width: f64) -> Self {
         Self {
             elements,
@@ -84,7 +81,6 @@ impl RowMemory {
         }
     }
 
-    /// Takes a turn in: direction of the balls, and their travel.
     fn play(&mut self, turn: f64) -> (f64, f64) {
         let position = self.position + turn;
         self.position = position.clamp(-self.half_width, self.half_width);

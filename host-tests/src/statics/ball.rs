@@ -26,7 +26,6 @@ pub struct Ball {
 
 impl Ball {
     /// A ball of nominal size that can touch all four arcs.
-    #[must_use]
     pub const fn new(azimuth: f64, position: f64) -> Self {
         Self {
             azimuth,
@@ -55,19 +54,13 @@ pub struct Arm {
     pub contact: Contact,
     /// Centre of the arc from the nominal ball centre, m, without shift.
     centre: Vector2<f64>,
-    /// `|centre|`, m.
     excess: f64,
-    /// Shift of the centre by errors and by the nut's pose, m.
     shift: Vector2<f64>,
-    /// Radius of the arc, m.
     groove_radius: f64,
-    /// Oversize of the ball's radius, m.
     oversize: f64,
     /// `C^(-3/2)`, N/m^(3/2).
     stiffness: f64,
-    /// Errors that bend the section away from an arc.
     profile: Errors,
-    /// Azimuth, rad.
     azimuth: f64,
     /// First node of the shaft that moves the arc; none on the nut.
     pub node: Option<usize>,
@@ -228,7 +221,6 @@ impl Arm {
         }
         let radius = self.groove_radius - deviation.offset;
         let (sin, cos) = (angle - start).sin_cos();
-        // From the ball's centre to the foot point, radial and tangential at the start angle.
         let (radial, tangential) = (radius * cos - distance, radius * sin);
         let span = radial.hypot(tangential);
         let (sin_start, cos_start) = start.sin_cos();
@@ -250,7 +242,6 @@ impl Arm {
     }
 }
 
-/// Nearest point of a bent section.
 struct Foot {
     /// Penetration more than that of the nominal arc, m.
     gain: f64,

@@ -25,10 +25,6 @@ pub struct Section {
 ///
 /// The printed (C.4) needs `D_2 = (r_G - r_B) cos(beta) + R_P - D_out/2 <= r_G`, which holds where the
 /// nominal contact lies on the screw.
-///
-/// # Errors
-/// [`ReferenceError`] naming `screw_diameter` where the nominal contact lies outside of the screw, the ball's
-/// path inside, or the groove would take half of the diameter or more.
 pub fn groove_reduction(geometry: &Geometry, outer_diameter: f64) -> Result<f64, ReferenceError> {
     let (sin, cos) = geometry.contact_angle.sin_cos();
     let radius = geometry.groove_radius;
@@ -69,7 +65,6 @@ pub fn groove_reduction(geometry: &Geometry, outer_diameter: f64) -> Result<f64,
 
 impl Section {
     /// A circular section of this diameter, m.
-    #[must_use]
     pub fn circular(diameter: f64, elastic: Elastic) -> Self {
         let area = PI * (0.5 * diameter).powi(2);
         let second_moment = 0.25 * PI * (0.5 * diameter).powi(4);
@@ -93,7 +88,6 @@ impl Section {
     /// (D.1) as printed, four times the same block, has no equilibrium of moments: the off-diagonal
     /// block holds `EI (2 - Phi) / (L (1 + Phi))` and the couplings `6 EI / L²` with their own signs. In (D.2) the fifth number of
     /// the diagonal is `EI (4 + Phi) / (L (1 + Phi))` as the fourth one, for the printed `6 EI / (L² (1 + Phi))`.
-    #[must_use]
     pub fn stiffness(&self, length: f64) -> SMatrix<f64, 12, 12> {
         let mut k = SMatrix::<f64, 12, 12>::zeros();
         let mut pair = |first: usize, second: usize, value: f64| {
@@ -119,7 +113,6 @@ impl Section {
     }
 
     /// Displacement and rotation at the fraction `xi` of an element from those of its nodes, (C.1), (C.2).
-    #[must_use]
     pub fn shape(&self, xi: f64, length: f64) -> SMatrix<f64, 6, 12> {
         let phi = self.shear_share(length);
         let scale = 1.0 / (1.0 + phi);

@@ -54,7 +54,6 @@ pub struct CaseStudy {
 
 impl CaseStudy {
     /// Table 2.1 with an outer diameter of 32 mm, which the dissertation does not print, under 5000 N.
-    #[must_use]
     pub fn table_2_1() -> Self {
         Self {
             geometry: Geometry {
@@ -82,7 +81,6 @@ impl CaseStudy {
 
     /// Table 4.1: 71 balls on 3.75 turns, the first half a spacing after azimuth zero, with an outer
     /// diameter of 28 mm, which is not printed, under 1000 N.
-    #[must_use]
     pub fn table_4_1() -> Self {
         Self {
             geometry: Geometry {
@@ -104,9 +102,6 @@ impl CaseStudy {
     }
 
     /// The load case with everything that can be added to it.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the field.
     pub fn setup(&self) -> Result<Setup, ReferenceError> {
         self.geometry.check()?;
         if !(1..=super::problem::LARGEST_TRAIN).contains(&self.balls) {
@@ -186,9 +181,6 @@ impl CaseStudy {
     }
 
     /// The load case.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the field.
     pub fn load(&self) -> Result<StaticLoad, ReferenceError> {
         StaticLoad::new(self.setup()?)
     }

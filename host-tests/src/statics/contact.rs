@@ -49,9 +49,6 @@ pub struct ContactConstants {
 
 impl ContactConstants {
     /// For screw, nut and balls of the given materials.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming what describes no contact.
     pub fn new(
         geometry: &Geometry,
         [screw, nut, ball]: [Elastic; 3],
@@ -66,9 +63,6 @@ impl ContactConstants {
     }
 
     /// All three bodies of one material.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
     pub fn of_one_material(
         geometry: &Geometry,
         elastic: Elastic,
@@ -79,9 +73,6 @@ impl ContactConstants {
 }
 
 /// Principal curvatures of the nominal groove at the nominal contact point, 1/m, convex positive.
-///
-/// # Errors
-/// [`ReferenceError`] where the groove folds.
 pub fn nominal_curvatures(
     geometry: &Geometry,
     groove: Groove,
@@ -121,9 +112,6 @@ fn contact(
 }
 
 /// The exact contact of a ball with a surface of these curvatures.
-///
-/// # Errors
-/// [`ReferenceError`] naming `groove_radius` where the ball does not fit into the groove.
 pub fn exact(
     ball_radius: f64,
     curvatures: PrincipalCurvatures,
@@ -156,13 +144,11 @@ fn sorted([first, second]: [f64; 2]) -> [f64; 2] {
     }
 }
 
-/// Appendix B as printed, with `F_1` = 1.
 fn as_printed(
     geometry: &Geometry,
     groove: Groove,
     contact_modulus: f64,
 ) -> Result<GrooveContact, ReferenceError> {
-    // The eigenvalue next to the arc's radius is the one across the path.
     let eigenvalues = second_form(geometry, groove).symmetric_eigenvalues();
     let [across, along] = {
         let from_arc = |value: f64| (value + geometry.groove_radius).abs();

@@ -27,7 +27,6 @@ impl Contact {
     ];
 
     /// Signs of the arc centre's coordinates: outward and along the screw.
-    #[must_use]
     pub const fn signs(self) -> [f64; 2] {
         match self {
             Self::ScrewLeft => [1.0, 1.0],
@@ -38,7 +37,6 @@ impl Contact {
     }
 
     /// Whether the arc belongs to the screw.
-    #[must_use]
     pub const fn is_screw(self) -> bool {
         matches!(self, Self::ScrewLeft | Self::ScrewRight)
     }
@@ -62,9 +60,6 @@ pub struct Geometry {
 
 impl Geometry {
     /// Refuses numbers that describe no ball screw.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the field.
     pub fn check(&self) -> Result<(), ReferenceError> {
         within("pitch_radius", self.pitch_radius, 1e-4, 10.0)?;
         within("lead", self.lead, 0.0, 10.0 * self.pitch_radius)?;
@@ -85,25 +80,21 @@ impl Geometry {
     }
 
     /// Advance of the ball path per radian, m: eq. (2.2).
-    #[must_use]
     pub fn advance(&self) -> f64 {
         self.lead / std::f64::consts::TAU
     }
 
     /// Lead angle `alpha`, rad: eq. (2.5).
-    #[must_use]
     pub fn lead_angle(&self) -> f64 {
         (self.advance() / self.pitch_radius).atan()
     }
 
     /// Distance `r_G - r_B` of the arc's centre from the nominal ball centre, m.
-    #[must_use]
     pub fn excess(&self) -> f64 {
         self.groove_radius - self.ball_radius
     }
 
     /// Rows are the unit vectors `x3` (outward) and `z3` (across the groove) at an azimuth.
-    #[must_use]
     pub fn section_axes(&self, azimuth: f64) -> Matrix2x3<f64> {
         let (sin, cos) = azimuth.sin_cos();
         let (sin_lead, cos_lead) = self.lead_angle().sin_cos();
@@ -111,7 +102,6 @@ impl Geometry {
     }
 
     /// Centre of an arc from the nominal ball centre, m, in the section: eq. (2.4).
-    #[must_use]
     pub fn arc_centre(&self, contact: Contact) -> Vector2<f64> {
         let [outward, along] = contact.signs();
         let (sin, cos) = self.contact_angle.sin_cos();
@@ -120,7 +110,6 @@ impl Geometry {
 
     /// Nominal contact point, m: its radial vector from the screw's axis (no `z` part), and its `z` from
     /// the ball centre's.
-    #[must_use]
     pub fn contact_point(&self, contact: Contact, azimuth: f64) -> (Vector3<f64>, f64) {
         let [outward, along] = contact.signs();
         let (sin, cos) = self.contact_angle.sin_cos();

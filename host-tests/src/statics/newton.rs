@@ -21,15 +21,11 @@ const ROUNDING: f64 = 1e-7;
 
 impl StaticLoad {
     /// Finds the loads from a start that suits the axial load, in three to ten steps.
-    ///
-    /// # Errors
-    /// [`ReferenceError::NotConverged`] with the residual left.
     pub fn solve(&self) -> Result<StaticSolution, ReferenceError> {
         self.solve_from(self.start())
     }
 
     /// State with nothing moved but what is held.
-    #[must_use]
     pub fn rest(&self) -> State {
         State {
             nodes: self
@@ -44,7 +40,6 @@ impl StaticLoad {
     /// Shaft moved along its axis by the closed form of evenly shared axial load,
     /// `u = (C_S + C_N) (F / (N sin(beta) cos(alpha)))^(2/3) / (sin(beta) cos(alpha))`, each ball by half of
     /// it. From rest without oversize no contact has a stiffness yet.
-    #[must_use]
     pub fn start(&self) -> State {
         let mut state = self.rest();
         let held = self.held();
@@ -75,7 +70,6 @@ impl StaticLoad {
     }
 
     /// Energy of a state, J, and its gradient over node displacements and ball centres.
-    #[must_use]
     pub fn energy(&self, state: &State) -> (f64, State) {
         let at = System::new(self).evaluate(state);
         let gradient = State {
@@ -86,10 +80,6 @@ impl StaticLoad {
     }
 
     /// Finds the loads from any start. Held displacements take their values whatever the start says.
-    ///
-    /// # Errors
-    /// [`ReferenceError::Input`] where the start does not fit the case, [`ReferenceError::NotConverged`] with
-    /// the residual left.
     pub fn solve_from(&self, mut state: State) -> Result<StaticSolution, ReferenceError> {
         self.fits(&state)?;
         for (value, held) in state.nodes.iter_mut().zip(self.held()) {
@@ -249,7 +239,6 @@ impl StaticLoad {
     }
 }
 
-/// The search ended with this residual, see [`StaticLoad::residual`].
 fn not_converged(residual: f64) -> ReferenceError {
     ReferenceError::NotConverged {
         residual,

@@ -15,7 +15,6 @@ use crate::material::Elastic;
 
 /// Balls evenly along the helix, `spacing` rad apart and centred at `position`, m, the first at
 /// `first_azimuth`, rad.
-#[must_use]
 pub fn even_train(
     geometry: &Geometry,
     count: usize,
@@ -45,7 +44,6 @@ pub struct Support {
 
 impl Support {
     /// Only axial displacement is free: the driven end of the dissertation's case studies.
-    #[must_use]
     pub const fn axial_guide(position: f64) -> Self {
         Self {
             position,
@@ -67,7 +65,6 @@ pub struct Load {
 
 impl Load {
     /// A force along the axis.
-    #[must_use]
     pub const fn axial(position: f64, force: f64) -> Self {
         Self {
             position,
@@ -93,11 +90,8 @@ pub struct StaticLoad {
     pub(super) shaft: Shaft,
     pub(super) contact: ContactConstants,
     pub(super) balls: Vec<Ball>,
-    /// Four per ball; None where the arc does not exist.
     pub(super) arms: Vec<[Option<Arm>; 4]>,
-    /// Node and held values.
     pub(super) supports: Vec<(usize, [Option<f64>; 6])>,
-    /// Six per node.
     pub(super) loads: Vec<f64>,
 }
 
@@ -130,9 +124,6 @@ pub const LARGEST_TRAIN: usize = 100_000;
 
 impl StaticLoad {
     /// A load case, checked.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming what is out of range.
     pub fn new(setup: Setup) -> Result<Self, ReferenceError> {
         let Setup {
             geometry,
@@ -207,7 +198,6 @@ impl StaticLoad {
         let mut forces = vec![0.0; 6 * shaft.nodes.len()];
         for load in &loads {
             let node = shaft.node_at(load.position);
-            // A rigid shaft takes its loads at its one node.
             let arm = load.position - shaft.nodes[node];
             let [x, y, _] = load.force;
             let carried = [-y * arm, x * arm, 0.0];
@@ -228,19 +218,16 @@ impl StaticLoad {
     }
 
     /// The shaft with its nodes.
-    #[must_use]
     pub fn shaft(&self) -> &Shaft {
         &self.shaft
     }
 
     /// The balls.
-    #[must_use]
     pub fn balls(&self) -> &[Ball] {
         &self.balls
     }
 
     /// The nominal geometry.
-    #[must_use]
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
@@ -305,7 +292,6 @@ fn local_deflection(
     let mut curvatures = nominal_curvatures(geometry, groove)?;
     let angle = geometry.contact_angle;
     let [outward, along] = which.signs();
-    // Height of the surface over the nominal one, towards the ball, at an azimuth.
     let height = |azimuth: f64| {
         errors
             .iter()

@@ -40,9 +40,6 @@ impl Shaft {
     /// A screw from 0 to `length`, m, of this outer diameter, m, reduced by its groove. In the train of
     /// balls (from `train[0]` to `train[1]`) elements are 15 mm long as in the dissertation, outside they
     /// are at most a pitch diameter long; `refinement` divides each element by so much.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `screw_length`, `screw_diameter`, `nut_position` or `refinement`.
     pub fn screw(
         geometry: &Geometry,
         elastic: Elastic,
@@ -79,7 +76,6 @@ impl Shaft {
     }
 
     /// A rigid ring whose forces and displacements are taken at `position`, m.
-    #[must_use]
     pub fn rigid(position: f64) -> Self {
         Self {
             model: ShaftModel::Rigid,
@@ -107,7 +103,6 @@ impl Shaft {
     }
 
     /// First and last position, m.
-    #[must_use]
     pub fn ends(&self) -> [f64; 2] {
         [
             self.nodes.first().copied().unwrap_or(0.0),
@@ -118,7 +113,6 @@ impl Shaft {
     /// Displacement of a point at `position`, m, and `radial`, m, off the axis: the first node it depends
     /// on, and the matrix on the displacements of that node and the next, eq. (2.21). The printed (2.20) has its two sides
     /// exchanged: the nodes' displacements give the axis', as in (2.21).
-    #[must_use]
     pub fn point(&self, position: f64, radial: Vector3<f64>) -> (usize, SMatrix<f64, 3, 12>) {
         if self.model == ShaftModel::Rigid {
             let arm = radial + Vector3::new(0.0, 0.0, position - self.ends()[0]);
@@ -157,7 +151,6 @@ fn mesh(
 ) -> Result<Vec<f64>, ReferenceError> {
     let train = last - first;
     let inside = (train / ELEMENT_IN_NUT).ceil().max(1.0);
-    // Centred on the train, and no longer than the screw allows.
     let centre = 0.5 * (first + last);
     let half = (0.5 * inside * ELEMENT_IN_NUT)
         .min(centre)

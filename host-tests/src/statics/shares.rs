@@ -55,19 +55,16 @@ impl ShareError {
     };
 
     /// The larger one of both parts, over what they may be: up to 1 where the table serves.
-    #[must_use]
     pub fn over(&self, tolerance: &Self) -> f64 {
         let torque = self.groove_torque.abs() / tolerance.groove_torque;
         torque.max(self.ball_load / tolerance.ball_load)
     }
 
     /// Whether a table that is off by this serves.
-    #[must_use]
     pub fn is_within(&self, tolerance: &Self) -> bool {
         self.over(tolerance) <= 1.0
     }
 
-    /// Both parts, each the larger one of two errors by size.
     fn or(self, other: Self) -> Self {
         let larger = |one: f64, other: f64| if other.abs() > one.abs() { other } else { one };
         Self {
@@ -79,9 +76,6 @@ impl ShareError {
 
 impl ShareTable {
     /// The shares of a solution.
-    ///
-    /// # Errors
-    /// [`ReferenceError::Input`] naming `axial_load` where no ball carries anything along the axis.
     pub fn new(axial_load: f64, solution: &StaticSolution) -> Result<Self, ReferenceError> {
         let parts = solution.axial_shares().ok_or_else(|| {
             ReferenceError::input(
@@ -97,9 +91,6 @@ impl ShareTable {
     }
 
     /// The tables of several loads, on all cores, where `solve` finds the balls' forces under an axial load.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] of the static model, or naming `axial_load`.
     pub fn of_loads(
         loads: &[f64],
         solve: impl Fn(f64) -> Result<StaticSolution, ReferenceError> + Sync,
@@ -111,7 +102,6 @@ impl ShareTable {
     }
 
     /// The table as a friction model takes it: nothing below [`LEAST_SHARE`], and the mean 1.
-    #[must_use]
     pub fn positive(&self) -> Vec<f64> {
         let raised: Vec<f64> = self
             .shares
@@ -126,7 +116,6 @@ impl ShareTable {
     }
 
     /// Balls that carry nothing along the axis, or push against the load.
-    #[must_use]
     pub fn idle(&self) -> usize {
         self.shares
             .iter()
@@ -135,9 +124,6 @@ impl ShareTable {
     }
 
     /// How far this table, as a friction model takes it, is off under the load of another one.
-    ///
-    /// # Errors
-    /// [`ReferenceError::Input`] naming `shares` where the other table has another number of balls.
     pub fn error_at(&self, load: &Self) -> Result<ShareError, ReferenceError> {
         alike(self, load)?;
         Ok(Measured::of(self).error_at(&Measured::of(load)))
@@ -145,9 +131,6 @@ impl ShareTable {
 
     /// The loads around one of `size`, N, that this table serves: from the smallest to the largest size, without a gap.
     /// None where it does not serve that one of `loads`, ordered by size, whose size is nearest.
-    ///
-    /// # Errors
-    /// [`ReferenceError::Input`] naming `shares` where tables have different numbers of balls.
     pub fn range(
         &self,
         loads: &[Self],
@@ -178,7 +161,6 @@ impl ShareTable {
     }
 }
 
-/// Whether two tables have as many balls.
 fn alike(one: &ShareTable, other: &ShareTable) -> Result<(), ReferenceError> {
     let [one, other] = [one, other].map(|table| table.shares.len());
     if one == other {
@@ -191,15 +173,12 @@ fn alike(one: &ShareTable, other: &ShareTable) -> Result<(), ReferenceError> {
     }
 }
 
-/// What errors of a table are made of.
 struct Measured<'a> {
     load: &'a ShareTable,
     positive: Vec<f64>,
     /// Friction of the grooves over that of a ball under the mean load: by the shares as a friction model takes them.
     positive_friction: f64,
-    /// By the shares as they are.
     friction: f64,
-    /// Share of the ball that carries most, either way.
     largest: f64,
 }
 
@@ -221,7 +200,6 @@ impl<'a> Measured<'a> {
         }
     }
 
-    /// Of this table under the load of another one with as many balls.
     fn error_at(&self, other: &Self) -> ShareError {
         let apart = self
             .positive
@@ -236,12 +214,10 @@ impl<'a> Measured<'a> {
         }
     }
 
-    /// Friction of the grooves, in units that tables of as many balls have in common.
     fn groove_torque(&self) -> f64 {
         self.load.axial_load.abs().powf(4.0 / 3.0) * self.friction
     }
 
-    /// Load of the ball that carries most, in such units.
     fn ball_load(&self) -> f64 {
         self.load.axial_load.abs() * self.largest
     }
@@ -268,9 +244,6 @@ impl Served {
     /// The one of these tables that does best under all of their loads. Where some serve them all, it is the one with
     /// the smallest error; else the one whose error is smallest in parts of the largest friction and ball load, so that
     /// large loads decide. None of none.
-    ///
-    /// # Errors
-    /// [`ReferenceError::Input`] naming `shares` where tables have different numbers of balls.
     pub fn best_alone(
         loads: &[ShareTable],
         tolerance: &ShareError,
@@ -294,7 +267,6 @@ impl Served {
     }
 
     /// Whether the table serves all of its loads.
-    #[must_use]
     pub fn serves(&self, tolerance: &ShareError) -> bool {
         self.worst.is_within(tolerance)
     }
@@ -315,10 +287,6 @@ impl ShareTables {
     ///
     /// Each range is as long as any table makes it from where it starts. No other choice takes fewer: parts of what a
     /// table serves are served by it too.
-    ///
-    /// # Errors
-    /// [`ReferenceError::Input`] naming `axial_load` where loads have both signs or are not in order, `shares` where
-    /// tables have different numbers of balls; [`ReferenceError::OutOfRange`] naming `tolerance`.
     pub fn fewest(loads: &[ShareTable], tolerance: &ShareError) -> Result<Self, ReferenceError> {
         for part in [tolerance.groove_torque, tolerance.ball_load] {
             within("tolerance", part, 1e-9, 1.0)?;
@@ -342,7 +310,6 @@ impl ShareTables {
                     .find(|load| !errors.serves(table, *load))
                     .unwrap_or(loads.len())
             };
-            // Of tables that reach as far, the one with the smallest error there.
             let best = (0..loads.len())
                 .map(|table| (table, reach(table)))
                 .filter(|(_, end)| *end > start)
@@ -367,11 +334,9 @@ impl ShareTables {
     }
 }
 
-/// Errors of every table under every load.
 struct Errors<'a> {
     loads: Vec<Measured<'a>>,
     tolerance: &'a ShareError,
-    /// Row by row, one row a table.
     rows: Vec<ShareError>,
 }
 
@@ -399,7 +364,6 @@ impl<'a> Errors<'a> {
         self.at(table, load).is_within(self.tolerance)
     }
 
-    /// A table with loads, of which there is at least one.
     fn served(&self, table: usize, range: Range<usize>) -> Served {
         let loads = &self.loads[range.clone()];
         let most = |of: fn(&Measured<'a>) -> f64| loads.iter().map(of).fold(0.0, f64::max);
@@ -431,9 +395,6 @@ impl<'a> Errors<'a> {
 }
 
 /// Loads from `smallest` to `largest`, N, of the sign of `largest`, each at most a tenth larger than the one before.
-///
-/// # Errors
-/// [`ReferenceError`] naming `axial_load` where the sizes are not within 1e-6 to 1e8 N or in the wrong order.
 pub fn loads_between(smallest: f64, largest: f64) -> Result<Vec<f64>, ReferenceError> {
     let [from, to] = [smallest.abs(), largest.abs()];
     within("axial_load", to, 1e-6, 1e8)?;
@@ -445,7 +406,6 @@ pub fn loads_between(smallest: f64, largest: f64) -> Result<Vec<f64>, ReferenceE
     let mut loads: Vec<f64> = (0..=steps as usize)
         .map(|step| (from * (to / from).powf(step as f64 / steps)).copysign(largest))
         .collect();
-    // The ends are what was asked for, to the last digit.
     loads[0] = from.copysign(largest);
     if let Some(last) = loads.last_mut() {
         *last = largest;

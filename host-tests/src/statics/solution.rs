@@ -45,7 +45,6 @@ pub struct StaticSolution {
 /// Least force, N, that residuals and lost contacts are measured against. In a screw without load all
 /// forces go to zero, and relative to them no residual would ever be small.
 pub const LEAST_FORCE: f64 = 1e-9;
-/// Force relative to the largest one below which a ball counts as lost; smaller forces are within the residual.
 const LOST: f64 = 1e-9;
 
 impl StaticSolution {
@@ -122,7 +121,6 @@ impl StaticSolution {
     }
 
     /// Forces of one contact along the train, N.
-    #[must_use]
     pub fn of(&self, contact: Contact) -> Vec<f64> {
         let index = Contact::ALL.iter().position(|other| *other == contact);
         self.forces
@@ -132,13 +130,11 @@ impl StaticSolution {
     }
 
     /// Axial displacement of the shaft's left end, m.
-    #[must_use]
     pub fn axial_displacement(&self) -> f64 {
         self.displacements.first().map_or(0.0, |six| six[2])
     }
 
     /// Force (N) of the balls on the nut and its moment (N m) about a place on the axis, m.
-    #[must_use]
     pub fn on_nut_about(&self, position: f64) -> [f64; 6] {
         let [x, y, z, about_x, about_y, about_z] = self.on_nut;
         [
@@ -153,7 +149,6 @@ impl StaticSolution {
 
     /// Share of each ball in the axial load: the axial part of its forces on the nut over their sum.
     /// None where nothing is carried along the axis.
-    #[must_use]
     pub fn axial_shares(&self) -> Option<Vec<f64>> {
         let axial: Vec<f64> = self
             .forces
@@ -170,7 +165,6 @@ impl StaticSolution {
     }
 }
 
-/// Force and moment of the balls on the nut, at the nominal contact points.
 fn on_nut(case: &StaticLoad, at: &Evaluation) -> [f64; 6] {
     let mut force = nalgebra::Vector3::zeros();
     let mut moment = nalgebra::Vector3::zeros();

@@ -92,7 +92,6 @@ pub struct HarmonicError {
 impl HarmonicError {
     /// Pitch error, eq. (4.1): the ball path moved along the axis by `amplitude sin(phi)`. Of it only
     /// the part `cos(alpha)` across the groove moves the section; eq. (4.2).
-    #[must_use]
     pub fn pitch(geometry: &Geometry, amplitude: f64) -> Self {
         Self {
             direction: Direction::Across,
@@ -103,7 +102,6 @@ impl HarmonicError {
     }
 
     /// Roundness error, eq. (4.3): the pitch radius changed by `amplitude sin(2 phi)`; eq. (4.4).
-    #[must_use]
     pub const fn roundness(amplitude: f64) -> Self {
         Self {
             direction: Direction::Radial,
@@ -114,7 +112,6 @@ impl HarmonicError {
     }
 
     /// Error of the groove centre across the groove, `amplitude sin(cycles phi)` (section 2.4.2).
-    #[must_use]
     pub const fn across(amplitude: f64, cycles: f64) -> Self {
         Self {
             direction: Direction::Across,

@@ -11,7 +11,6 @@ use super::shaft::ShaftModel;
 /// Degrees of freedom and the banded matrix over the free ones.
 pub struct System<'a> {
     case: &'a StaticLoad,
-    /// Index among the free degrees of freedom.
     free: Vec<Option<usize>>,
     free_count: usize,
     elements: Vec<SMatrix<f64, 12, 12>>,
@@ -19,7 +18,6 @@ pub struct System<'a> {
     first_row: Vec<usize>,
     start: Vec<usize>,
     rows: Vec<usize>,
-    /// Diagonal of the shaft's own stiffness, N/m.
     diagonal: Vec<f64>,
 }
 
@@ -125,7 +123,6 @@ impl<'a> System<'a> {
         }
     }
 
-    /// The twelve displacements of a node and the next.
     fn pair(nodes: &[f64], node: usize) -> SVector<f64, 12> {
         let mut pair = SVector::<f64, 12>::zeros();
         for (entry, value) in pair.iter_mut().zip(nodes.iter().skip(6 * node)) {
@@ -207,7 +204,6 @@ impl<'a> System<'a> {
         noise
     }
 
-    /// Adds a block over two pairs of nodes to the band.
     fn add_block(
         &self,
         values: &mut [f64],
@@ -245,7 +241,6 @@ impl<'a> System<'a> {
             }
             let trace = block.trace();
             if trace <= 0.0 {
-                // No contact: the ball stays.
                 eliminated.push(Matrix2::zeros());
                 continue;
             }

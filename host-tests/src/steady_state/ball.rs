@@ -25,21 +25,16 @@ pub struct BallScrewState {
 
 impl BallScrewState {
     /// Mass of the ball, kg.
-    #[must_use]
     pub fn ball_mass(&self) -> f64 {
         self.ball_density * 4.0 / 3.0 * std::f64::consts::PI * self.ball_radius.powi(3)
     }
 
     /// Dynamic number `m r_m Omega² / Fa` of the first-order correction.
-    #[must_use]
     pub fn dynamic_number(&self) -> f64 {
         self.ball_mass() * self.pitch_radius * self.speed * self.speed / self.axial_load
     }
 
     /// Refuses inputs outside their ranges.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the input.
     pub fn check(&self) -> Result<(), ReferenceError> {
         within("lead_angle", self.lead_angle, 1e-6, 1.5)?;
         within("contact_angle", self.contact_angle, 0.01, 1.56)?;

@@ -136,7 +136,6 @@ impl Scaled {
         ])
     }
 
-    /// The solution as `eps` goes to zero, in closed form.
     fn start(&self) -> Unknowns {
         let Self {
             sin_a,
@@ -191,7 +190,6 @@ impl Scaled {
                 .map(|length| y - length * step)
                 .map(|trial| (trial, self.residual(&trial)))
                 .find(|(_, trial)| trial.norm() < residual.norm());
-            // None is shorter: at the floor of rounding.
             let Some(next) = shorter else { break };
             (y, residual) = next;
         }
@@ -211,9 +209,6 @@ impl Scaled {
 
 impl BallScrewState {
     /// The steady state, or why there is none.
-    ///
-    /// # Errors
-    /// [`ReferenceError`].
     pub fn solve(&self) -> Result<SteadyState, ReferenceError> {
         self.check()?;
         if self.friction == 0.0 {

@@ -8,12 +8,12 @@ use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::scene::{CagedBallScrew, Scene};
 use epas_friction::{
     CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, FrictionBranch,
-    FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LoadShare, LoadShares,
-    UncagedBallScrew,
+    FrictionModel, LinearBearingTrain, LoadShare, LoadShares, UncagedBallScrew,
 };
-use epas_testkit::absurd::{EDGES, Trial, row_numbers};
 use epas_testkit::gears;
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{EDGES, Trial, row_numbers};
 use epas_testkit::remembering::{
     COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,
     linear_by_speed, uncaged_by_counts,
@@ -21,7 +21,6 @@ use epas_testkit::remembering::{
 
 const TICKS: u32 = 200_000;
 
-/// A hash (FNV-1a), and one that takes in some numbers.
 const EMPTY: u64 = 0xcbf2_9ce4_8422_2325;
 
 fn taken_in(hash: u64, numbers: &[u32]) -> u64 {
@@ -30,7 +29,6 @@ fn taken_in(hash: u64, numbers: &[u32]) -> u64 {
     })
 }
 
-/// Hash of all bits of all outputs of a run.
 fn hash<S: Trial>(configuration: &S::Configuration, full_scale: [f32; 3]) -> u64 {
     let mut model = FrictionModel::<S>::new(configuration).unwrap();
     let mut random = Random(2019);
@@ -38,14 +36,12 @@ fn hash<S: Trial>(configuration: &S::Configuration, full_scale: [f32; 3]) -> u64
     for tick in 0..TICKS {
         let mut sensors = full_scale.map(|scale| scale * (2.0 * random.unit() - 1.0));
         if tick % 64 == 63 {
-            // A fault of one sensor.
             let edge = EDGES[tick as usize / 64 % EDGES.len()];
             sensors[tick as usize / 64 % 3] = edge;
         }
         let outputs = model.step(S::inputs(sensors));
         hash = taken_in(hash, &S::numbers(&outputs));
     }
-    println!("{}: {hash:#018x}", S::name());
     hash
 }
 
@@ -93,7 +89,6 @@ const COURSE: [[f32; 3]; 18] = [
     [-1.0, 0.9, -0.6],
 ];
 
-/// Ticks from one point of the course to the next, in turn.
 const LEG: [u32; 4] = [400, 1500, 1, 200];
 
 /// Hash of all bits of all outputs of a slow course, in which `change` sets what it likes at each of the course's points.
@@ -114,10 +109,8 @@ fn course<S: Trial>(
     hash
 }
 
-/// Legs of the course.
 const LEGS: usize = COURSE.len() - 1;
 
-/// What the sensors deliver on a leg.
 fn sensors(leg: usize, full_scale: [f32; 3]) -> impl Iterator<Item = [f32; 3]> {
     let ticks = LEG[leg % LEG.len()];
     (0..ticks).map(move |tick| {
@@ -141,7 +134,6 @@ fn remembered<S: Scene<Outputs: std::fmt::Debug>>(
         let temperature = TEMPERATURE + 3.0 * leg as f32;
         for (number, sensors) in sensors(leg, full_scale).enumerate() {
             let outputs = tick(&mut model, sensors, temperature, number % 2 == 1);
-            // The shortest decimals of an f32 tell every two of them apart.
             let digits = format!("{outputs:?}");
             hash = digits
                 .bytes()
@@ -156,10 +148,7 @@ fn remembered<S: Scene<Outputs: std::fmt::Debug>>(
 fn memories_give_the_stored_bits() {
     use std::f32::consts::TAU;
     let screw = [100.0, 15_000.0, 0.0];
-    let inputs = |[nut_speed, axial_load, _]: [f32; 3]| Inputs {
-        nut_speed,
-        axial_load,
-    };
+    let inputs = |[nut_speed, axial_load, _]: [f32; 3]| screw_inputs(nut_speed, axial_load);
     let mut angle = 0.0;
     let mut turned = |speed: f32| {
         angle = (angle + speed * TICK).rem_euclid(TAU);
@@ -193,11 +182,7 @@ fn memories_give_the_stored_bits() {
         FrictionModel::new(&linear_by_speed()).unwrap(),
         [2.0, 10_000.0, 10_000.0],
         |model, [speed, normal_load, side_load], temperature, between| {
-            let inputs = LinearInputs {
-                speed,
-                normal_load,
-                side_load,
-            };
+            let inputs = linear_inputs(speed, normal_load, side_load);
             if between {
                 model.between(speed)
             } else {
@@ -247,7 +232,6 @@ const STORED_ROWS: [&str; 3] = [
     "0xef6cafdcb6e8dcc8",
 ];
 
-/// Shares of the load that differ from ball to ball and with the sign of the load.
 static UNEVEN: [[LoadShare; 3]; 2] = [
     [share(1.3), share(0.7), share(1.0)],
     [share(0.6), share(1.0), share(1.4)],
@@ -305,7 +289,6 @@ fn slow_courses_give_the_stored_bits() {
             |model, leg| model.set_friction(0.07 + 0.003 * leg as f32).unwrap(),
         ));
     }
-    // One friction coefficient.
     let one = gears::full(gears::screw_wave(0.9), full.tick);
     hashes.push(course::<UncagedBallScrew<{ gears::SCREW_BALLS }>>(
         &one,

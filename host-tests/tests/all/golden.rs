@@ -1,25 +1,30 @@
-//! Reading the tabulated friction cases.
+//! Reading the golden cases.
 
 use serde_json::Value;
 
-/// The cases under `name`.
-pub fn list(name: &str) -> Vec<Value> {
-    let text = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/golden/friction.json"));
-    let all: Value = serde_json::from_str(text).unwrap();
-    all[name].as_array().unwrap().clone()
+/// A file of `golden`.
+pub fn file(name: &str) -> Value {
+    let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
+    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
 }
 
-/// The number `name` of a case.
+pub fn cases(file_name: &str, list: &str) -> Vec<Value> {
+    file(file_name)[list].as_array().unwrap().clone()
+}
+
+pub fn list(name: &str) -> Vec<Value> {
+    cases("friction", name)
+}
+
 pub fn number(case: &Value, name: &str) -> f64 {
     case[name].as_f64().unwrap()
 }
 
-/// The list of numbers `name` of a case.
 pub fn numbers(case: &Value, name: &str) -> Vec<f64> {
-    case[name]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|value| value.as_f64().unwrap())
-        .collect()
+    list_of(&case[name])
+}
+
+pub fn list_of(value: &Value) -> Vec<f64> {
+    let numbers = value.as_array().unwrap().iter();
+    numbers.map(|number| number.as_f64().unwrap()).collect()
 }

@@ -3,11 +3,10 @@
 //! `cargo test -p epas-reference --test all scenes::caged` runs one part. A test whose name ends in `_whole` is the whole sweep of a test that by
 //! default runs a sample; all of them run with `cargo test -p epas-reference --test all -- --ignored _whole`.
 
-mod exact_ball;
-mod exact_friction;
 mod golden;
 mod objects;
 mod recorded;
+mod refusals;
 
 mod adaptation;
 mod balls;

@@ -16,7 +16,7 @@ use epas_friction::train::{Press, Train};
 use epas_friction::{
     BallScrew, BallScrewParameters, Clearance, Error, GrooveSize, LoadShare, Material,
 };
-use epas_testkit::absurd::row_numbers;
+use epas_testkit::random_scenes::row_numbers;
 
 /// Numbers to make objects of, in turn; zeros when they are used up.
 pub struct Numbers(pub Vec<f32>);
@@ -30,7 +30,6 @@ impl Numbers {
         std::array::from_fn(|_| self.next())
     }
 
-    /// Seven times of eight within a range, else whatever comes.
     fn within(&mut self, low: f32, high: f32) -> f32 {
         let raw = self.next();
         let bits = raw.to_bits();
@@ -42,7 +41,6 @@ impl Numbers {
         }
     }
 
-    /// The same, uniform in the logarithm.
     fn size(&mut self, low: f32, high: f32) -> f32 {
         let raw = self.next();
         let bits = raw.to_bits();
@@ -54,7 +52,6 @@ impl Numbers {
         }
     }
 
-    /// One of a few, from the low bits of the next number.
     fn choice(&mut self, count: u32) -> u32 {
         (self.next().to_bits() ^ self.0.len() as u32) % count
     }
@@ -68,7 +65,6 @@ fn all_finite(what: &str, values: &[f32]) -> Result<(), String> {
     }
 }
 
-/// A refusal must name a value that is not allowed, and a range.
 fn refused(what: &str, error: &Error) -> Result<(), String> {
     if error.field().is_empty() || error.allowed().contains(error.value()) {
         Err(format!("{what} refuses an allowed value: {error}"))
@@ -184,7 +180,6 @@ fn ball_screw(numbers: &mut Numbers) -> Result<(), String> {
                 ellipse.semi_minor,
             ],
         )?;
-        // Up to the angle for which the fit is made.
         let angle = numbers.within(0.0, 1.256);
         let angle = if (0.0..=1.256).contains(&angle) {
             angle

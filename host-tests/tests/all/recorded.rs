@@ -14,7 +14,6 @@ pub struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
-    /// The line, to be pasted.
     pub fn print(&self) {
         // Three digits: what the next compiler may change is not recorded.
         let short = |number: f64| -> f64 { format!("{number:.2e}").parse().unwrap() };
@@ -32,7 +31,6 @@ impl Sweep<'_> {
     }
 }
 
-/// So many of something, none of which failed: a failure ends the test before.
 pub fn print(what: &str, count: u64, command: &str) {
     println!(
         "recorded.json, runs: {}",

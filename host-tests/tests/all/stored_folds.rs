@@ -40,7 +40,6 @@ fn stored() -> BTreeMap<u64, Vec<u32>> {
     blocks().map(|words| (digest_of(&words), words)).collect()
 }
 
-/// Every fold has its block, and no block has no fold.
 #[test]
 fn each_fold_is_stored() {
     let stored: Vec<u64> = stored().into_keys().collect();

@@ -5,12 +5,10 @@ use epas_friction::law::memory::{
 };
 use roots::{SimpleConvergency, find_root_brent};
 
-/// Slip across the path.
 fn slip(z: f64) -> f64 {
     1.0 - (1.0 - z).max(0.0).powf(1.5)
 }
 
-/// Spin.
 fn spin(z: f64) -> f64 {
     1.5 * z / (1.0 + 2.25 * z * z).sqrt()
 }
@@ -108,10 +106,6 @@ impl Curve {
             .map(|element| (f64::from(element.angle), f64::from(element.weight)));
         let (least, corners) = self.best(N);
         let error = self.error(&stored);
-        println!(
-            "{name}: stored {error:.5}, best {least:.5} with corners {:.4?}",
-            corners.iter().map(|corner| corner.0).collect::<Vec<_>>()
-        );
         let sum: f64 = stored.iter().map(|element| element.1).sum();
         // Derived: rounded to f32 one by one, each by 6e-8 of less than one.
         assert!((sum - 1.0).abs() < 6e-8 * N as f64);
@@ -168,7 +162,6 @@ fn chords_are_within_their_closed_form() {
             .map(|z| (z, slip(z)))
             .collect();
         let error = SLIP.error(&elements(&corners)) * f64::from(count * count);
-        println!("{count}: {error:.4} / N²");
         assert!((0.12..0.17).contains(&error));
     }
 }

@@ -35,12 +35,10 @@ fn range(seed: u32) -> (f64, f64) {
 #[test]
 fn the_inverse_cube_root_takes_the_best_parabola() {
     let interval = range(inverse_cube_root::SEED);
-    println!("{interval:?}");
     let exact = |c: f64| c.powf(-1.0 / 3.0);
     let best = minimax(exact, |c| 1.0 / exact(c), interval, (2, 0));
     let [p0, p1, p2] = inverse_cube_root::PARABOLA.map(f64::from);
     let stored = [p0, -p1, p2];
-    println!("{:?}", best.numerator);
     // Eight digits are stored; an f32 near one holds them to 6e-8, and an end of the range that is off by 1e-7 moves the
     // coefficients, which are as large as its width's inverse squared, by 1e-6.
     for (found, stored) in best.numerator.iter().zip(stored) {
@@ -64,17 +62,14 @@ fn no_seed_has_a_much_narrower_range() {
     let best = (0..1024)
         .map(|step| spread(inverse_cube_root::SEED - (1 << 22) + step * (1 << 13)))
         .fold(f64::MAX, f64::min);
-    println!("{stored} {best}");
     assert!(stored < best * 1.000_2);
 }
 
 #[test]
 fn the_cube_root_takes_the_best_cubic_with_the_leading_coefficient_minus_one() {
     let interval = range(cube_root::SEED);
-    println!("{interval:?}");
     let exact = |h: f64| h.powf(-1.0 / 3.0) / 3.0_f64.sqrt();
     let best = minimax(exact, |h| 1.0 / exact(h), interval, (3, 0));
-    println!("{:?} {:e}", best.numerator, best.error);
     // Off by as much, the leading coefficient moves the cubic by 1e-4 (0.1/2)³/4, 3e-9: a thousandth of its error.
     assert!((best.numerator[3] + 1.0).abs() < 1e-4);
     let [zero, centre, offset] =

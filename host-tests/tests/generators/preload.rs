@@ -32,7 +32,6 @@ fn the_displacement_takes_the_best_series() {
     let exact = |s: f64| (displacement(s.sqrt()) / s.sqrt() - 1.0) / s;
     let weight = |s: f64| s * s.sqrt();
     let best = minimax(exact, weight, interval, (2, 0));
-    println!("{:?} {:e}", best.numerator, best.error);
     let stored = CLOSING.map(f64::from);
     // Five digits are stored, rounded to half a unit of the last one, 5e-6. Ten of it change the displacement by 5e-6, a hundredth of the error.
     for (found, stored) in best.numerator.iter().zip(stored) {
@@ -61,7 +60,6 @@ fn the_sum_of_both_forces_meets_the_load_where_a_side_is_lost() {
             sum / ((1.0 + x).powf(1.5) + (1.0 - x).powf(1.5)) - 1.0
         })
         .fold(0.0_f64, |worst, error| worst.max(error.abs()));
-    println!("{worst:.2e}");
     // Measured: 8.35e-3.
     assert!(worst < 8.4e-3);
 }

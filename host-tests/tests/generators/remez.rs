@@ -10,22 +10,17 @@ const GRID: usize = 4000;
 /// `f(x)` near enough to `(n_0 + n_1 x + ...) / (1 + d_1 x + ...)`.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// Coefficients of the numerator, from the constant on.
     pub numerator: Vec<f64>,
-    /// Coefficients of the denominator, from the constant 1 on.
     pub denominator: Vec<f64>,
-    /// Largest weighted error.
     pub error: f64,
 }
 
 impl Fit {
-    /// The quotient at a place.
     pub fn at(&self, x: f64) -> f64 {
         polynomial(&self.numerator, x) / polynomial(&self.denominator, x)
     }
 }
 
-/// A polynomial from its constant on.
 pub fn polynomial(coefficients: &[f64], x: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
@@ -127,7 +122,6 @@ fn levelled(
     fit
 }
 
-/// Places and values of the extremes of an error, ends included, one for each run of one sign.
 pub fn extremes(error: impl Fn(f64) -> f64, (low, high): (f64, f64)) -> Vec<(f64, f64)> {
     // Closer together at the ends, where the extremes are.
     let place = |i: usize| {
@@ -181,10 +175,6 @@ pub fn equioscillates(
         .iter()
         .filter(|e| e.1.abs() >= (1.0 - within) * largest)
         .count();
-    println!(
-        "{name}: {level} of {} extremes within {within} of {largest:.4e}",
-        found.len()
-    );
     assert!(level >= count, "{name}: {found:?}");
     largest
 }

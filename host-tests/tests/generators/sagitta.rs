@@ -10,7 +10,6 @@ fn the_fourth_power_takes_the_best_cubic_without_a_constant() {
     // z⁴ over z: what is fitted has no constant, and the weight vanishes with z.
     let interval = (1e-3 * end, end);
     let best = minimax(|z| z.powi(3), |z| z, interval, (2, 0));
-    println!("{:?} {:e}", best.numerator, best.error);
     let stored = FOURTH_POWER.map(f64::from);
     // Measured: 3.1e-7. Formed in f32 by some six operations from numbers of its own size, 6e-8 each.
     for (found, stored) in best.numerator.iter().zip(stored) {

@@ -130,7 +130,6 @@ impl Information {
     }
 }
 
-/// Ticks by lot: motion that jumps, wanders, or stays the same for minutes; noise, and readings far off.
 struct Ticks {
     random: Random,
     speed: f64,
@@ -151,7 +150,6 @@ impl Ticks {
     fn next(&mut self) -> AdaptationInputs {
         let random = &mut self.random;
         if self.left == 0 {
-            // Now and then a drive on a straight road, on which nothing changes.
             let most = random.of(&[2, 20, 200, 2000, 20_000]);
             self.left = 1 + random.below(most);
             let size = random.between(-0.6, 1.9);
@@ -184,8 +182,6 @@ fn all_five(forgetting_time: f32) -> AdaptationConfiguration {
     }
 }
 
-/// What `ticks` leave: the largest relative error of a deviation, and the largest error of an estimate over its deviation at
-/// set-up, both against f64.
 fn errors(configuration: &AdaptationConfiguration, seed: u64, ticks: u64) -> (f64, f64) {
     let mut adaptation = Adaptation::new(configuration).unwrap();
     let mut exact = Information::new(configuration);
@@ -209,7 +205,6 @@ fn errors(configuration: &AdaptationConfiguration, seed: u64, ticks: u64) -> (f6
             let wanted = exact.deviations();
             for ((found, exact), largest) in deviations.iter().zip(wanted).zip(exact.deviations) {
                 let found = f64::from(*found);
-                // A cap in f32: two roundings of a sum of five squares.
                 assert!(
                     found > 0.0 && found <= largest * (1.0 + 1e-6),
                     "{tick}: {found}"
@@ -229,7 +224,6 @@ fn errors(configuration: &AdaptationConfiguration, seed: u64, ticks: u64) -> (f6
 fn the_factored_form_is_the_information_form() {
     for (forgetting, seed) in [(2.0, 1), (20.0, 2), (1000.0, 3)] {
         let (spread, place) = errors(&all_five(forgetting), seed, 350_000);
-        println!("{forgetting}: {spread:e} {place:e}");
         assert!(
             spread < 1e-2 && place < 0.2,
             "{forgetting}: {spread:e} {place:e}"
@@ -243,6 +237,5 @@ fn the_factored_form_is_the_information_form() {
 #[ignore = "five minutes"]
 fn a_life_long() {
     let (spread, place) = errors(&all_five(5.0), 4, 100_000_000);
-    println!("{spread:e} {place:e}");
     assert!(spread < 0.1 && place < 0.5, "{spread:e} {place:e}");
 }

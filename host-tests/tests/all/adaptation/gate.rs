@@ -1,5 +1,6 @@
 //! What does not count: ticks without motion, with faults, at limits; and what nothing may wind up.
 
+use crate::refusals::{assert_refused, assert_refused_at};
 use epas_friction::adaptation::{
     Adaptation, AdaptationConfiguration, AdaptationFlags, AdaptationInputs,
 };
@@ -11,7 +12,6 @@ use epas_testkit::random::Random;
 
 const HOUR: usize = 360_000;
 
-/// An adaptation after some seconds of motion at a level of 1.2.
 fn running() -> Adaptation {
     let mut adaptation = Adaptation::new(&configuration(5.0)).unwrap();
     for tick in 0..2000 {
@@ -25,7 +25,6 @@ fn running() -> Adaptation {
     adaptation
 }
 
-/// Each flag is a bit of its own, for a log; those of a closed gate come first.
 #[test]
 fn flags_are_bits() {
     let flags = [
@@ -68,7 +67,6 @@ fn what_does_not_count_changes_nothing_and_says_why() {
                 ..good
             },
         ),
-        // Just turned round: friction has not.
         (
             AdaptationFlags::STANDING,
             AdaptationInputs {
@@ -187,7 +185,6 @@ fn what_does_not_count_changes_nothing_and_says_why() {
     assert_ne!(adaptation, before);
 }
 
-/// An hour at rest is nothing; what follows is as if it had not been.
 #[test]
 fn an_hour_at_rest_changes_nothing() {
     let mut adaptation = running();
@@ -228,7 +225,6 @@ fn an_hour_of_the_same_winds_nothing_up() {
         let adapted = adaptation.update(&inputs(1.0));
         let moved = (adapted.estimates.backward - backward).abs();
         backward = adapted.estimates.backward;
-        // Measured: 0.
         assert!(moved < 1.2e-7);
     }
     let deviations = adaptation.deviations();
@@ -255,11 +251,9 @@ fn an_hour_of_the_same_winds_nothing_up() {
     assert!((furthest - 0.048).abs() < 3e-4, "{furthest}");
 }
 
-/// A jammed sensor that shows ten times the friction moves the level to its bound and not beyond, and flags it in every tick.
 #[test]
 fn bounds_hold() {
     let mut adaptation = running();
-    // Only a correction says that an error was cut.
     let mut last = [AdaptationFlags::NONE; 9];
     for tick in 0..20_000 {
         let way = if tick % 100 < 50 { 1.0 } else { -1.0 };
@@ -353,55 +347,38 @@ fn every_tick_has_a_configuration() {
 
 #[test]
 fn set_ups_are_refused_by_field() {
-    type Change = fn(&mut AdaptationConfiguration, f32);
-    let fields: [(&str, Change, f32, f32); 20] = [
-        ("tick", |c, v| c.tick = v, 0.0, 2.0),
-        ("forgetting_time", |c, v| c.forgetting_time = v, 1.9, 1100.0),
-        ("filter_time", |c, v| c.filter_time = v, -1e-3, 1.1),
-        ("noise", |c, v| c.noise = v, 1e-7, 1.1e3),
-        ("level_deviation", |c, v| c.level_deviation = v, -0.1, 11.0),
-        ("least_level", |c, v| c.least_level = v, 0.09, 1.01),
-        ("largest_level", |c, v| c.largest_level = v, 0.99, 10.1),
-        ("drag_deviation", |c, v| c.drag_deviation = v, -1e-6, 1.1e3),
-        ("largest_drag", |c, v| c.largest_drag = v, -1e-6, 1.1e4),
-        (
-            "offset_deviation",
-            |c, v| c.offset_deviation = v,
-            -1e-6,
-            1.1e3,
-        ),
-        ("largest_offset", |c, v| c.largest_offset = v, -1e-6, 1.1e4),
-        ("load_deviation", |c, v| c.load_deviation = v, -1e-6, 1.1),
-        (
-            "largest_load_error",
-            |c, v| c.largest_load_error = v,
-            -1e-6,
-            1.1,
-        ),
-        ("largest_torque", |c, v| c.largest_torque = v, 0.0, 1.1e6),
-        ("largest_speed", |c, v| c.largest_speed = v, 0.0, 1.1e6),
-        ("least_speed", |c, v| c.least_speed = v, -1e-6, 501.0),
-        ("least_friction", |c, v| c.least_friction = v, -1e-6, 11.0),
-        ("average_time", |c, v| c.health.average_time = v, 3.9, 1.1e5),
-        ("fall", |c, v| c.health.fall = v, 0.0, 0.91),
-        ("hysteresis", |c, v| c.health.hysteresis = v, -1e-6, 0.31),
-    ];
-    for (field, change, below, above) in fields {
-        for value in [below, above, f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
-            let mut wrong = configuration(5.0);
-            change(&mut wrong, value);
-            let error = Adaptation::new(&wrong).unwrap_err();
-            assert_eq!(error.field(), field, "{value}");
-            assert!(!error.allowed().contains(value));
-        }
-    }
-    let mut wrong = configuration(5.0);
-    wrong.health.rise = 9.5;
-    assert_eq!(Adaptation::new(&wrong).unwrap_err().field(), "rise");
-    // A torque limit so far above the noise that its square would leave f32.
-    let wrong = AdaptationConfiguration {
-        largest_torque: 1e4,
-        ..configuration(5.0)
-    };
-    assert_eq!(Adaptation::new(&wrong).unwrap_err().field(), "noise");
+    #[rustfmt::skip]
+    assert_refused(
+        &configuration(5.0),
+        Adaptation::new,
+        &[
+            ("tick", |c, v| c.tick = v, &[0.0, 2.0]),
+            ("forgetting_time", |c, v| c.forgetting_time = v, &[1.9, 1e4]),
+            ("filter_time", |c, v| c.filter_time = v, &[-1e-3, 1.1]),
+            ("noise", |c, v| c.noise = v, &[1e-7, 1.1e3]),
+            ("level_deviation", |c, v| c.level_deviation = v, &[-0.1, 11.0]),
+            ("least_level", |c, v| c.least_level = v, &[0.09, 1.01]),
+            ("largest_level", |c, v| c.largest_level = v, &[0.99, 10.1]),
+            ("drag_deviation", |c, v| c.drag_deviation = v, &[-1e-6, 1.1e3]),
+            ("largest_drag", |c, v| c.largest_drag = v, &[-1e-6, 1.1e4]),
+            ("offset_deviation", |c, v| c.offset_deviation = v, &[-1e-6, 1.1e3]),
+            ("largest_offset", |c, v| c.largest_offset = v, &[-1e-6, 1.1e4]),
+            ("load_deviation", |c, v| c.load_deviation = v, &[-1e-6, 1.1]),
+            ("largest_load_error", |c, v| c.largest_load_error = v, &[-1e-6, 1.1]),
+            ("largest_torque", |c, v| c.largest_torque = v, &[0.0, 1.1e6]),
+            ("largest_speed", |c, v| c.largest_speed = v, &[0.0, 1.1e6]),
+            ("least_speed", |c, v| c.least_speed = v, &[-1e-6, 501.0]),
+            ("least_friction", |c, v| c.least_friction = v, &[-1e-6, 11.0]),
+            ("average_time", |c, v| c.health.average_time = v, &[3.9, 1.1e5]),
+            ("fall", |c, v| c.health.fall = v, &[0.0, 0.91]),
+            ("rise", |c, v| c.health.rise = v, &[9.5]),
+            ("hysteresis", |c, v| c.health.hysteresis = v, &[-1e-6, 0.31]),
+        ],
+    );
+    // So far above the noise that its square would leave f32.
+    assert_refused_at(
+        &configuration(5.0),
+        Adaptation::new,
+        &[("noise", |c, v| c.largest_torque = v, &[1e4])],
+    );
 }

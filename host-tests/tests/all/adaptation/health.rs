@@ -18,7 +18,6 @@ fn slow() -> AdaptationConfiguration {
     }
 }
 
-/// Seconds of motion in both directions at a level.
 fn run(adaptation: &mut Adaptation, level: f32, seconds: usize) -> Adapted {
     let mut last = None;
     for tick in 0..100 * seconds {
@@ -34,7 +33,6 @@ fn run(adaptation: &mut Adaptation, level: f32, seconds: usize) -> Adapted {
 fn a_level_that_falls_is_flagged_and_its_flag_goes_late() {
     let mut adaptation = Adaptation::new(&slow()).unwrap();
     let health = run(&mut adaptation, 1.0, 300).health;
-    // Measured: 2.8e-8.
     assert!(health.drift.abs() < 8e-8 && !health.fallen && !health.risen);
     let health = run(&mut adaptation, 0.5, 85).health;
     assert!(!health.fallen && health.drift > -0.3, "{health:?}");
@@ -54,14 +52,12 @@ fn a_level_that_falls_is_flagged_and_its_flag_goes_late() {
     );
 }
 
-/// Drift is relative to the level at commissioning.
 #[test]
 fn drift_counts_from_commissioning() {
     let mut adaptation = Adaptation::new(&slow()).unwrap();
     run(&mut adaptation, 1.4, 60);
     adaptation.commission();
     assert_eq!(adaptation.health().drift, 0.0);
-    // The average goes on from the level that was commissioned, to what 60 s with 5 s of forgetting leave of the first level.
     let health = run(&mut adaptation, 1.4, 1).health;
     assert!(health.drift.abs() < 1e-4, "{health:?}");
     // 1.4 times 1.4 is a rise of 0.4, not of 0.96. Derived: after 700 s exp(-7) of it is left, 3.6e-4. Measured: 4.0e-4.
@@ -76,7 +72,6 @@ fn drift_counts_from_commissioning() {
     assert_eq!(adaptation, Adaptation::new(&slow()).unwrap());
 }
 
-/// An average over a day of sliding still moves in f32.
 #[test]
 fn a_slow_average_does_not_stand_still() {
     let configuration = AdaptationConfiguration {

@@ -1,5 +1,6 @@
 //! A level in a model whose friction remembers: limits are scaled, stiffness is not.
 
+use epas_testkit::gears::screw_inputs;
 use std::f32::consts::TAU;
 
 use epas_friction::adaptation::Estimates;
@@ -37,10 +38,7 @@ fn step<S>(model: &mut Model<S>, nut_speed: f32) -> Outputs
 where
     S: Sliding<Constants: Copy, Inputs = Inputs, Outputs: Into<Outputs>>,
 {
-    let scene = Inputs {
-        nut_speed,
-        axial_load: 1000.0,
-    };
+    let scene = screw_inputs(nut_speed, 1000.0);
     let inputs = at(scene, nut_speed, 313.0);
     model.step(inputs).into()
 }
@@ -66,7 +64,6 @@ where
         if tick > 100 && (100..400).contains(&(tick % 500)) {
             let level = LEVEL.of(plain.friction_torque);
             let wanted = level * plain.friction_torque;
-            // Measured: 0. A rounding of either product is 6e-8.
             assert!(
                 (scaled.friction_torque / wanted - 1.0).abs() < 1.2e-7,
                 "{tick}"
@@ -118,7 +115,6 @@ fn stiffness_stays() {
             })
             .unwrap();
         let still = step(&mut model, 0.0).friction_torque;
-        // Measured: 0.
         assert!((still / held - 1.0).abs() < 1.2e-7, "{still} {held}");
     }
 }

@@ -8,7 +8,6 @@ use crate::adaptation::trace::{configuration, sound};
 
 const BYTES: usize = Adaptation::<epas_friction::adaptation::AdaptationConstants>::STATE_BYTES;
 
-/// Where the state begins in a block, and its parts.
 const ESTIMATES_AT: usize = 16;
 const DIAGONAL_AT: usize = ESTIMATES_AT + 20;
 const ABOVE_AT: usize = DIAGONAL_AT + 20;
@@ -54,7 +53,6 @@ fn what_was_found_is_there_again() {
     assert_eq!(is.deviations(), was.deviations());
     assert_eq!(is.health(), was.health());
     assert_eq!(export(&is), block);
-    // What an adaptation did before does not count.
     let mut used = driven();
     run(&mut used, 777);
     assert_eq!(used.import(&block), Ok(()));
@@ -63,7 +61,6 @@ fn what_was_found_is_there_again() {
         run(&mut used, 7);
         assert_eq!(is, used);
     }
-    // Filter, gate and thresholds may be set anew.
     let mut other = Adaptation::new(&AdaptationConfiguration {
         filter_time: 0.05,
         least_speed: 1.0,
@@ -75,7 +72,6 @@ fn what_was_found_is_there_again() {
     assert_eq!(other.level(), was.level());
 }
 
-/// A level at its bound is flagged from the first tick on, in whichever tick the block was written.
 #[test]
 fn a_level_at_its_bound_is_known_again() {
     let mut was = driven();
@@ -101,7 +97,6 @@ fn a_level_at_its_bound_is_known_again() {
     }
 }
 
-/// A block, how it is refused, and that nothing changed.
 fn refused(block: &[u8]) -> Refusal {
     let mut adaptation = driven();
     run(&mut adaptation, 5);
@@ -141,7 +136,6 @@ fn a_block_that_is_not_its_own_is_refused() {
         }
     );
     assert_eq!(with(0, b"EPAG"), Refusal::NotAState);
-    // A caged ball screw's.
     assert_eq!(with(6, &1_u16.to_le_bytes()), Refusal::OtherScene);
     assert!(matches!(with(8, &[37, 0]), Refusal::OtherBalls { .. }));
     assert_eq!(with(12, &[1, 2, 3, 4]), Refusal::OtherConstants);
@@ -149,11 +143,9 @@ fn a_block_that_is_not_its_own_is_refused() {
     assert_eq!(other.import(&block), Err(Refusal::OtherConstants));
 }
 
-/// A block with the right checksum and numbers that no adaptation leaves.
 #[test]
 fn numbers_that_no_adaptation_leaves_are_refused() {
     let block = export(&driven());
-    // Three numbers, two flags and the checksum.
     assert_eq!(BYTES, HEALTH_AT + 14 + 4);
     let with = |at: usize, number: f32| {
         let mut wrong = block;

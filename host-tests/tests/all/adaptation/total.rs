@@ -7,7 +7,6 @@ use proptest::prelude::*;
 
 use crate::adaptation::trace::{configuration, sound};
 
-/// Any bits, or a usual number.
 fn any_number(usual: f32) -> impl Strategy<Value = f32> {
     prop_oneof![
         2 => any::<u32>().prop_map(f32::from_bits),
@@ -92,7 +91,6 @@ proptest! {
         for inputs in &ticks {
             let adapted = adaptation.update(inputs);
             let found = adapted.estimates;
-            // Bounds of the configuration.
             prop_assert!((0.4..=2.5).contains(&found.forward) && (0.4..=2.5).contains(&found.backward));
             prop_assert!(found.drag.abs() <= 2e-3 && found.offset.abs() <= 0.05 && found.load_error.abs() <= 0.1);
             prop_assert!(adapted.health.drift.is_finite());
@@ -104,7 +102,6 @@ proptest! {
                 // Any input up to its limit, ten thousand times the noise: some roundings of a cap.
                 prop_assert!(found > 0.0 && found <= set * 1.001, "{found} {set}");
             }
-            // A tick that does not count might as well not have been.
             if adapted.flags.counted() {
                 clean.update(inputs);
             }

@@ -27,7 +27,6 @@ const PRELOADED: f64 = 0.025;
 /// Lead over a turn, m, of a lead of 7 mm.
 const REDUCED_LEAD: f64 = 7e-3 / TAU;
 
-/// What is wrong with the vehicle beside its level.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Truth {
     /// Drag, N m s/rad.
@@ -36,16 +35,13 @@ pub struct Truth {
     pub offset: f64,
     /// Part of the load that the load channel does not show.
     pub load_error: f64,
-    /// Noise of the motor's torque at each tick, one standard deviation, N m.
     pub noise: f64,
 }
 
-/// A tick as it is and as the model has it.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     pub speed: f64,
     pub turn: f64,
-    /// Axial load, N.
     pub load: f64,
 }
 
@@ -70,7 +66,6 @@ pub fn samples(seconds: f64) -> impl Iterator<Item = Sample> {
     let mut last = motion(0.0).0;
     (1..=ticks).map(move |tick| {
         let (angle, load) = motion(tick as f64 * TICK);
-        // Between two parts the angle jumps; the nut does not.
         let turn = angle - last;
         last = angle;
         let turn = if turn.abs() > 0.2 { 0.0 } else { turn };
@@ -91,17 +86,13 @@ pub fn limits(load: f64) -> Limits {
     }
 }
 
-/// What a trial leaves.
 #[derive(Clone, Debug, Default)]
 pub struct Left {
-    /// Root mean square of the error of the level, after the first second.
     pub level: f64,
     /// Root mean square of true friction less that of the model, N m, with the levels found, and without.
     pub adapted: f64,
     pub without: f64,
-    /// The last tick.
     pub last: Option<Adapted>,
-    /// Errors of the level, each update.
     pub errors: Vec<f64>,
 }
 
@@ -206,12 +197,10 @@ fn sliding(limits: Limits, load: f64) -> SlidingLimits {
     }
 }
 
-/// A normal number, by the sum of twelve uniform ones.
 pub fn normal(random: &mut Random) -> f64 {
     (0..12).map(|_| random.between(0.0, 1.0)).sum::<f64>() - 6.0
 }
 
-/// A configuration for these drives.
 pub fn configuration(forgetting_time: f32) -> AdaptationConfiguration {
     AdaptationConfiguration {
         forgetting_time,
@@ -219,7 +208,6 @@ pub fn configuration(forgetting_time: f32) -> AdaptationConfiguration {
     }
 }
 
-/// An update in motion, on which nothing is wrong.
 pub const fn sound(observed: f32, modelled: f32, nut_speed: f32) -> AdaptationInputs {
     AdaptationInputs {
         observed,

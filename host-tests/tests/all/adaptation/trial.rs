@@ -6,7 +6,6 @@ use epas_reference::promises;
 use crate::adaptation::trace::{DRIVE, Truth, configuration, drive};
 use epas_testkit::errors::Errors;
 
-/// From 1 to 1.35 in the first half of a minute, to 0.8 in the second.
 fn wandering(time: f64) -> f64 {
     let half = 0.5 * DRIVE;
     if time < half {
@@ -90,7 +89,6 @@ fn drag_and_offset_are_found() {
     assert!((found.backward - 1.2).abs() < 0.02, "{found:?}");
 }
 
-/// The promise: errors of the level from the second second of a drive on whose level wanders, with 2 s to forget.
 #[test]
 fn the_level_keeps_its_promise() {
     let mut errors = Errors::of("level");
@@ -101,7 +99,6 @@ fn the_level_keeps_its_promise() {
     errors.assert_promised(promises::of("adaptation"));
 }
 
-/// The same inputs give the same bits.
 #[test]
 fn a_drive_repeats_to_the_bit() {
     let run = || drive(&configuration(5.0), NOISE, wandering, 20.0, true);

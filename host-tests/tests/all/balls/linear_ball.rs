@@ -1,15 +1,16 @@
-//! One ball and pairs of balls in a linear bearing: published tables, tabulated cases, and the least
-//! exact dissipation found by an f64 minimiser.
+//! One ball and pairs of balls in a linear bearing: published tables, tabulated cases, and the
+//! exact ball of the reference.
 
-use crate::exact_ball::{ExactBall, ExactMap};
 use crate::golden;
+use crate::reference::linear_cases;
+use crate::refusals::assert_refused;
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
+use epas_reference::friction::linear_ball::LinearBall;
 use epas_reference::promises;
 use epas_testkit::errors::Errors;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 use std::f64::consts::FRAC_PI_4;
-use std::sync::OnceLock;
 
 const BALL_RADIUS: f64 = 0.005;
 const AXIS_RATIO: f64 = 0.232_146_373_366_069_72;
@@ -31,46 +32,21 @@ fn analytic() -> AnalyticLinearBall {
     AnalyticLinearBall::new(&parameters(), PUBLISHED_SLOPE).unwrap()
 }
 
-/// The exact ball of the case study.
-fn exact(angles: [f64; 4], forces: [f64; 4]) -> ExactBall {
-    static MAP: OnceLock<ExactMap> = OnceLock::new();
-    ExactBall {
-        map: *MAP.get_or_init(|| ExactMap::new(AXIS_RATIO)),
-        friction: FRICTION,
-        semi_major: PSI * BALL_RADIUS.powf(-2.0 / 3.0),
-        angles,
-        forces,
-    }
+fn exact(angles: [f64; 4], forces: [f64; 4]) -> f64 {
+    let ball = LinearBall {
+        contact_angles: angles,
+        contact_forces: forces,
+        ..linear_cases::ball([0.0; 4], 0.0)
+    };
+    ball.solve(1.0).unwrap().speed_deviation
 }
 
-/// Contact angles and forces where the bottom groove is turned: `N_y` = 100 N and `N_x = rho N_y` act on
-/// the top groove and give its contact forces, the ball's equilibrium gives those of the bottom.
+/// Contact angles and forces where the grooves are turned, without forces of contacts that are lost.
 fn loaded(deviations: [f64; 4], rho: f64) -> ([f64; 4], [f64; 4]) {
-    let angles = deviations.map(|deviation| FRAC_PI_4 + deviation);
-    let [
-        (sin_bl, cos_bl),
-        (sin_br, cos_br),
-        (sin_tr, cos_tr),
-        (sin_tl, cos_tl),
-    ] = angles.map(f64::sin_cos);
-    // F_TR sin - F_TL sin = -N_x, F_TR cos + F_TL cos = N_y.
-    let determinant = sin_tr * cos_tl + sin_tl * cos_tr;
-    let top_right = 100.0 * (sin_tl - rho * cos_tl) / determinant;
-    let top_left = 100.0 * (sin_tr + rho * cos_tr) / determinant;
-    let across = top_right * sin_tr - top_left * sin_tl;
-    let down = top_right * cos_tr + top_left * cos_tl;
-    // F_BL sin - F_BR sin = across, F_BL cos + F_BR cos = down.
-    let determinant = sin_bl * cos_br + sin_br * cos_bl;
-    let bottom_left = (across * cos_br + down * sin_br) / determinant;
-    let bottom_right = (down * sin_bl - across * cos_bl) / determinant;
+    let ball = linear_cases::ball(deviations, rho);
     (
-        angles,
-        [
-            bottom_left.max(0.0),
-            bottom_right.max(0.0),
-            top_right.max(0.0),
-            top_left.max(0.0),
-        ],
+        ball.contact_angles,
+        ball.contact_forces.map(|force| force.max(0.0)),
     )
 }
 
@@ -82,47 +58,6 @@ fn turned(degrees: f64, rho: f64) -> ([f64; 4], [f64; 4]) {
 
 fn single(values: [f64; 4]) -> [f32; 4] {
     values.map(|value| value as f32)
-}
-
-#[test]
-fn statics_of_the_case_study_are_those_of_the_tables() {
-    for case in golden::list("single") {
-        let (_, forces) = turned(
-            golden::number(&case, "theta_deg"),
-            golden::number(&case, "rho"),
-        );
-        for (force, given) in forces.into_iter().zip(golden::numbers(&case, "F")) {
-            // A dozen roundings, 1.1e-16 each, of loads of 100 N.
-            assert!((force - given).abs() < 1.4e-13, "{case}");
-        }
-    }
-}
-
-#[test]
-fn exact_minimiser_agrees_with_the_tabulated_balls() {
-    let (mut worst, mut worst_power) = (0.0_f64, 0.0_f64);
-    for case in golden::list("single") {
-        let (angles, forces) = turned(
-            golden::number(&case, "theta_deg"),
-            golden::number(&case, "rho"),
-        );
-        let (motion, dissipation) = exact(angles, forces).solve(0.0);
-        let eps = 2.0 * motion[0] - 1.0;
-        worst = worst.max((eps - golden::number(&case, "eps")).abs());
-        measured::assert_at(
-            "exact ball, speed deviation",
-            eps - golden::number(&case, "eps"),
-            format_args!("{case}\n{eps}"),
-        );
-        let power = golden::number(&case, "P_over_v");
-        worst_power = worst_power.max((dissipation / power - 1.0).abs());
-        measured::assert_at(
-            "exact ball, loss",
-            dissipation / power - 1.0,
-            format_args!("{case}\n{dissipation}"),
-        );
-    }
-    println!("minimiser against tables: deviation {worst:.1e}, loss {worst_power:.1e} relative");
 }
 
 #[test]
@@ -156,7 +91,6 @@ fn table_3_5_ball_to_ball_force() {
 
 #[test]
 fn tabulated_single_balls() {
-    println!("speed deviation, in units of v/2");
     for (name, near) in [
         ("four-point", false),
         ("next to the two-point switch", true),
@@ -186,8 +120,7 @@ fn random_contact_angles_and_side_forces() {
         let deviations = [0; 4].map(|_| 3_f64.to_radians() * random.signed());
         let rho = 0.8 * random.signed();
         let (angles, forces) = loaded(deviations, rho);
-        let (motion, _) = exact(angles, forces).solve(0.0);
-        let eps = 2.0 * motion[0] - 1.0;
+        let eps = exact(angles, forces);
         let formula = analytic().speed_deviation(&single(angles), &single(forces));
         let error = f64::from(formula.speed_deviation) - eps;
         errors.add_at(error, format_args!("deviations {deviations:?} rho {rho}"));
@@ -197,23 +130,18 @@ fn random_contact_angles_and_side_forces() {
 
 #[test]
 fn side_force_sweep_up_to_two_point_rolling() {
-    println!("largest error in units of v/2 over |theta| <= 3 degrees");
-    println!("rho | (3.43) | largest deviation");
     for rho in [
         0.0, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.93, 0.96, 0.99,
     ] {
-        let (mut worst, mut largest) = (0.0_f64, 0.0_f64);
+        let mut worst = 0.0_f64;
         for degrees in -3..=3 {
             for side in [-1.0, 1.0] {
                 let (angles, forces) = turned(f64::from(degrees), side * rho);
-                let (motion, _) = exact(angles, forces).solve(0.0);
-                let eps = 2.0 * motion[0] - 1.0;
-                largest = largest.max(eps.abs());
+                let eps = exact(angles, forces);
                 let formula = analytic().speed_deviation(&single(angles), &single(forces));
                 worst = worst.max((f64::from(formula.speed_deviation) - eps).abs());
             }
         }
-        println!("{rho:.2} | {worst:.1e} | {largest:.1e}");
         if rho <= 0.6 {
             measured::assert("side force to 0.6, (3.43)", worst);
         }
@@ -278,23 +206,17 @@ fn any_input_gives_a_finite_ball() {
 
 #[test]
 fn a_parameter_out_of_range_is_named() {
-    let good = parameters();
-    let with = |change: fn(&mut LinearBallParameters)| {
-        let mut parameters = good;
-        change(&mut parameters);
-        let error = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).unwrap_err();
-        error.field()
-    };
-    assert_eq!(with(|p| p.ball_radius = 0.0), "ball_radius");
-    assert_eq!(with(|p| p.contact_angle = f32::NAN), "contact_angle");
-    assert_eq!(with(|p| p.axis_ratio = 2.0), "axis_ratio");
-    assert_eq!(
-        with(|p| p.semi_major_coefficient = -1.0),
-        "semi_major_coefficient"
-    );
-    assert_eq!(with(|p| p.friction = f32::INFINITY), "friction");
-    assert_eq!(
-        AnalyticLinearBall::new(&good, 0.0).unwrap_err().field(),
-        "slope"
+    #[rustfmt::skip]
+    assert_refused(
+        &(parameters(), PUBLISHED_SLOPE),
+        |(parameters, slope)| AnalyticLinearBall::new(parameters, *slope),
+        &[
+            ("ball_radius", |(p, _), v| p.ball_radius = v, &[0.0]),
+            ("contact_angle", |(p, _), v| p.contact_angle = v, &[]),
+            ("axis_ratio", |(p, _), v| p.axis_ratio = v, &[2.0]),
+            ("semi_major_coefficient", |(p, _), v| p.semi_major_coefficient = v, &[-1.0]),
+            ("friction", |(p, _), v| p.friction = v, &[]),
+            ("slope", |(_, slope), v| *slope = v, &[0.0]),
+        ],
     );
 }

@@ -8,6 +8,7 @@ use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreeP
 use epas_reference::friction::ball_screw_elastic::{BallSlip, ElasticBalls, ScrewSupport};
 use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::contact_law::HertzLaw;
+use epas_reference::promises;
 use epas_testkit::designs::{SCREW_GROOVE_RADIUS, SCREW_TRACK as TRACK, screw as design};
 use epas_testkit::errors::Errors;
 use epas_testkit::given;
@@ -15,7 +16,6 @@ use epas_testkit::measured;
 use epas_testkit::random::Random;
 use std::f64::consts::FRAC_PI_4;
 
-/// The reference's own contact law of one groove.
 fn law(design: &BallScrew, groove: curvature::Groove) -> HertzLaw {
     let given = given::ball_screw(design.parameters());
     given.contact(groove).unwrap().into()
@@ -24,7 +24,6 @@ fn law(design: &BallScrew, groove: curvature::Groove) -> HertzLaw {
 #[test]
 fn row_is_the_closed_form_with_a_third_contact() {
     let mut speeds = Errors::of("row, orbital speed");
-    // A ball's share of the load enters through powers that fit the mean one.
     let of = |quantity: &str| {
         ["mean load", "shares 0.1 to 3"]
             .map(|shares| Errors::of(format!("row, {quantity}, {shares}")))
@@ -34,6 +33,7 @@ fn row_is_the_closed_form_with_a_third_contact() {
     let mut mains = Errors::of("row, main load");
     let mut thirds = Errors::of("row, third load");
     let mut rubbings = Errors::of("row, rubbing");
+    let (mut row_errors, mut ball_errors) = (Errors::default(), Errors::default());
     for (nominal, friction) in [
         (FRAC_PI_4, 0.05),
         (FRAC_PI_4, 0.12),
@@ -57,8 +57,8 @@ fn row_is_the_closed_form_with_a_third_contact() {
             for speed in [1.0, -1.0] {
                 let tick = row.at(speed as f32, load as f32);
                 for share in [0.1, 0.5, 1.0, 1.5, 3.0] {
-                    for theta in [-3.0f64, 0.0, 3.0] {
-                        for eta in [-3.0f64, 0.0, 3.0] {
+                    for theta in [-3.0f64, -1.0, 0.0, 2.0, 3.0] {
+                        for eta in [-3.0f64, 0.0, 1.0, 3.0] {
                             let (t, e) = (theta.to_radians(), eta.to_radians());
                             let support = Support::of(load, speed);
                             let side = if load < 0.0 { 1.0 } else { -1.0 };
@@ -92,6 +92,13 @@ fn row_is_the_closed_form_with_a_third_contact() {
                             let case = format!(
                                 "{nominal} rad, friction {friction}, {load} N, nut speed {speed}, share {share}, {theta}, {eta} degrees"
                             );
+                            if share == 1.0 && nominal == FRAC_PI_4 {
+                                row_errors.add_at(p, &case);
+                                ball_errors.add_at(dev, &case);
+                            }
+                            if [theta, eta].iter().any(|angle| angle % 3.0 != 0.0) {
+                                continue;
+                            }
                             speeds.add_at(dev, &case);
                             compliances[usize::from(share != 1.0)].add_at(y, &case);
                             torques[usize::from(share != 1.0)].add_at(p, &case);
@@ -113,6 +120,8 @@ fn row_is_the_closed_form_with_a_third_contact() {
     {
         errors.assert_measured();
     }
+    row_errors.assert_promised(promises::of("screw_row"));
+    ball_errors.assert_promised(promises::of("screw_ball"));
 }
 
 /// Balls in grooves without play that give way, the second one in a screw groove that deviates by `theta`.
@@ -140,7 +149,6 @@ fn elastic(deviations: &[f64], nut_speed: f64) -> ElasticBalls {
     }
 }
 
-/// Without play friction closes a third contact: on the screw or on the nut, with the direction.
 #[test]
 fn the_third_contact_follows_load_and_direction() {
     let row = ScrewRow::new(&design(), 0.1, GrooveFit::Zero).unwrap();
@@ -179,7 +187,6 @@ fn the_third_contact_follows_load_and_direction() {
     third.assert_measured();
 }
 
-/// Angles deviate on the screw and in the nut, each with its own groove.
 #[test]
 fn contact_angles_deviate_with_their_groove() {
     let row = ScrewRow::new(&design(), 0.1, GrooveFit::Zero).unwrap();
@@ -247,7 +254,6 @@ fn force_between_two_balls_in_elastic_grooves() {
                     let states =
                         [0.0, theta].map(|theta| tick.ball(theta as f32, 0.0, &LoadShare::MEAN));
                     let difference = states[0].speed_deviation - states[1].speed_deviation;
-                    // The faster ball is behind.
                     let order = if difference > 0.0 {
                         [0.0, theta]
                     } else {
@@ -278,17 +284,13 @@ fn table_3_7() {
             [0.0, degrees.to_radians()].map(|theta| tick.ball(theta as f32, 0.0, &LoadShare::MEAN));
         let difference = states[0].speed_deviation - states[1].speed_deviation;
         let force = f64::from(difference / (states[0].compliance + states[1].compliance));
-        println!(
-            "{degrees} degrees: row {force:.3} N ({:+.1} %)",
-            100.0 * (force / published - 1.0)
-        );
         // Speeds and compliances in closed form are a few per cent off.
         measured::assert("Table 3.7, row", force / published - 1.0);
     }
 }
 
 #[test]
-fn hostile_input_gives_finite_contacts() {
+fn invalid_input_gives_finite_contacts() {
     let odd = [
         0.0,
         -1.0,

@@ -1,12 +1,11 @@
 //! The train of balls: the pooling pass against exhaustive search, a general complementarity solver
 //! and stored chains; positions over many ticks.
 
+use crate::refusals::assert_refused;
 use epas_friction::train::{Press, Train};
-use epas_reference::friction::isotonic::isotonic_by_min_max;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 
-/// A train in float64, read from exactly what the pass was given.
 #[derive(Debug)]
 struct Case {
     free: Vec<f64>,
@@ -54,7 +53,6 @@ impl Case {
             }
             let mut force = vec![0.0; n];
             for start in (0..n).filter(|&j| !closed((j + n - 1) % n)) {
-                // Arc from `start` to the first ball with an open link in front, as (ball, offset to start).
                 let mut arc = vec![(start, 0.0)];
                 while let Some(&(ball, offset)) = arc.last().filter(|&&(ball, _)| closed(ball)) {
                     arc.push(((ball + 1) % n, offset - self.room[ball]));
@@ -80,7 +78,6 @@ impl Case {
         panic!("no active set fits {self:?}");
     }
 
-    /// Projected Gauss-Seidel on the complementarity problem, over-relaxed, until it stands still.
     fn relaxation(&self) -> Vec<f64> {
         let n = self.balls();
         let mut force = vec![0.0_f64; n];
@@ -110,14 +107,12 @@ impl Case {
     }
 }
 
-/// Largest force error relative to the largest force of the train.
 fn force_error<const N: usize>(case: &Case, found: &Press<N>, exact: &[f64]) -> f64 {
     let largest = exact.iter().fold(0.0, |m: f64, &f| m.max(f));
     let worst = found
         .forces()
         .zip(exact)
         .fold(0.0, |m: f64, (f, &e)| m.max((f64::from(f) - e).abs()));
-    // Where rooms all but let the balls go free, forces are small differences of what drives them.
     let driving = case
         .free
         .iter()
@@ -205,8 +200,6 @@ fn forces_equal_an_exhaustive_search_over_all_sets_of_contacts() {
         compare_with_exhaustive_search::<8>(random, 2.0),
         compare_with_exhaustive_search::<10>(random, 2.0),
     ];
-    println!("largest force error over largest force, most joins: {results:?}");
-    // The sweep did reach the bound of N - 1 joins.
     assert_eq!(results[4].1, 7);
 }
 
@@ -265,54 +258,10 @@ fn long_trains_agree_with_a_general_complementarity_solver() {
     println!("N = 64: {:?}", compare_with_relaxation::<64>(random, 40));
 }
 
-fn compare_with_isotonic_regression<const N: usize>(random: &mut Random, trials: usize) -> f64 {
-    let mut worst = 0.0_f64;
-    for trial in 0..trials {
-        let (free, impedance, room) = random_train::<N>(random, 1.0, false, 2.0);
-        let mut found = Press::<N>::new();
-        assert!(found.solve(&free, &impedance, &room));
-        let case = Case::of(&free, &impedance, &room);
-        let (speeds, forces) = isotonic_by_min_max(&case.free, &case.compliance);
-        for (ball, (found, exact)) in found.speeds().zip(&speeds).enumerate() {
-            // As in `check_speeds`. Measured: 4.1e-9.
-            assert!(
-                (f64::from(found) - exact).abs() < 1e-8,
-                "N = {N}, trial {trial}, ball {ball}: {found}, exactly {exact}"
-            );
-        }
-        let largest = forces.iter().fold(0.0_f64, |most, &force| most.max(force));
-        for (link, (found, exact)) in found.forces().zip(&forces).enumerate() {
-            let error = (f64::from(found) - exact).abs() / largest.max(1e-6);
-            worst = worst.max(error);
-            measured::assert_at(
-                "press, isotonic regression",
-                error,
-                format_args!("N = {N}, trial {trial}, link {link}: {found}, exactly {exact}"),
-            );
-        }
-    }
-    worst
-}
-
-/// Balls that all touch, in a row: the weighted isotonic regression, by the formula
-/// `v_j = max over i <= j of min over k >= j of the mean of i..k`.
-#[test]
-fn touching_rows_are_the_isotonic_regression() {
-    let random = &mut Random(5);
-    let worst = [
-        compare_with_isotonic_regression::<2>(random, 200),
-        compare_with_isotonic_regression::<16>(random, 100),
-        compare_with_isotonic_regression::<37>(random, 50),
-        compare_with_isotonic_regression::<64>(random, 50),
-    ];
-    println!("largest force error over largest force: {worst:?}");
-}
-
 /// Smallest distance of a train, and whether its balls still stand in their order: the distances and the
 /// balls add up to the track, once around.
 fn check_order<const N: usize>(train: &Train<N>, length: f64, pitch: f64) -> f64 {
     let sum: f64 = train.gaps().map(f64::from).sum();
-    // Length, pitch and every distance are rounded to f32 once, 2^-24 of what adds up to the length: three roundings.
     let rounding = 2e-7 * length;
     assert!(
         (sum + N as f64 * pitch - length).abs() < rounding,
@@ -337,7 +286,6 @@ fn a_million_ticks_leave_no_overlap() {
     let (mut worst, mut pressing, mut most) = (f64::INFINITY, 0, 0);
     let mut phase = 0.0_f64;
     for tick in 0..1_000_000_u32 {
-        // One second each of forward, standstill, backward; slow and fast.
         let way = match tick / 1000 % 4 {
             0 => 2e-4,
             1 => 0.0,
@@ -360,27 +308,19 @@ fn a_million_ticks_leave_no_overlap() {
         }
     }
     worst = worst.min(check_order(&train, length, pitch));
-    println!(
-        "largest overlap {} m, contacts {pressing}, at most {most}",
-        -worst
-    );
     assert!(worst > -1e-9, "overlap {worst} m");
     assert!(most > 5 && pressing > 1_000_000, "the balls hardly met");
 }
 
-/// The same balls, numbered from another one, do the same.
 #[test]
 fn numbering_does_not_matter() {
     const N: usize = 8;
-    // Whole parts of the track by powers of two, so that positions are exact.
     let unit = 2_f32.powi(-10);
     let (length, pitch) = (128.0 * unit, 8.0 * unit);
     let gaps = [0.0, unit, 0.0, 0.0, 2.0 * unit, 0.0, 0.0, 0.0];
     let last = length - 8.0 * pitch - 3.0 * unit;
-    // Balls meet and part: which of them is the fastest changes every 25 ticks.
     let speed = |j: usize, tick: usize| 0.01 * (((j * 5 + tick / 25 * 3) % 8) as f32 - 3.5);
     let mut one = Train::<N>::new(length, pitch, &gaps).unwrap();
-    // Ball 3 of the first is ball 0 of the second.
     let mut turned = gaps;
     turned[7] = last;
     turned.rotate_left(3);
@@ -409,7 +349,6 @@ fn numbering_does_not_matter() {
     assert!(sets > 5, "{sets} sets of contacts");
 }
 
-/// One ball has nothing to press on; a full track moves as one, whatever its balls would do.
 #[test]
 fn a_single_ball_and_a_full_track() {
     let mut single = Train::<1>::evenly_spaced(0.1, 0.01, 1).unwrap();
@@ -439,8 +378,6 @@ fn a_single_ball_and_a_full_track() {
     }
 }
 
-/// Balls at equal speeds, and balls that drift apart, press on none; at standstill those in contact do
-/// with what sets them in motion.
 #[test]
 fn equal_speeds_gaps_and_standstill() {
     let mut train = Train::<4>::new(1.0, 0.01, &[0.0; 4]).unwrap();
@@ -448,7 +385,6 @@ fn equal_speeds_gaps_and_standstill() {
     assert!(train.forces().eq([0.0; 4]));
     train.step(&[-0.02, -0.01, 0.0, 0.01], &[1e3; 4], 1e-3);
     assert!(train.forces().eq([0.0; 4]));
-    // Now the gaps are 1e-5 m: pushed together again they close, and then they press.
     train.step(&[0.004, 0.002, 0.0, 0.0], &[1e3; 4], 1e-3);
     assert!(train.forces().eq([0.0; 4]));
     for _ in 0..20 {
@@ -462,7 +398,6 @@ fn equal_speeds_gaps_and_standstill() {
     }
     assert_eq!(places, train.positions().collect::<Vec<_>>());
     assert_eq!(pressed, train.forces().collect::<Vec<_>>());
-    // Backwards the same speeds would drive them apart.
     train.step(&[-0.004, -0.002, 0.0, 0.0], &[1e3; 4], -1e-3);
     assert!(train.forces().eq([0.0; 4]));
 }
@@ -486,23 +421,18 @@ fn joins_and_forces<const N: usize>(free: [f32; N], ring: bool) -> (usize, [f32;
 #[test]
 fn equal_speeds_join_nothing() {
     for ring in [false, true] {
-        // Single balls.
         assert_eq!(joins_and_forces([1.0; 6], ring), (0, [0.0; 6]));
-        // A single ball behind a pair with its speed, and one more behind that.
         let pair = [0.5, 0.5, 1.0, 0.0];
         assert_eq!(joins_and_forces(pair, ring), (1, [0.0, 0.0, 8.0, 0.0]));
-        // A pair behind a pair.
         let pairs = [1.0, 0.0, 1.0, 0.0];
         assert_eq!(joins_and_forces(pairs, ring), (2, [8.0, 0.0, 8.0, 0.0]));
     }
-    // Across the place where the ring closes: the last ball runs into the first.
     assert_eq!(
         joins_and_forces([0.0, 0.5, 1.0], true),
         (1, [0.0, 0.0, 8.0])
     );
 }
 
-/// What the rule leaves out is no more than the last bit: the least speed more makes a contact.
 #[test]
 fn the_least_excess_of_speed_joins() {
     let (joins, forces) = joins_and_forces([1.0 + f32::EPSILON, 1.0], false);
@@ -511,10 +441,8 @@ fn the_least_excess_of_speed_joins() {
     assert_eq!(forces, [f32::EPSILON * 8.0, 0.0]);
 }
 
-/// Whatever comes in, forces and speeds are finite, forces not negative, and the next sound tick finds
-/// the balls in their order.
 #[test]
-fn absurd_inputs_do_no_harm() {
+fn invalid_inputs_do_no_harm() {
     let wild = [
         f32::NAN,
         f32::INFINITY,
@@ -546,7 +474,7 @@ fn absurd_inputs_do_no_harm() {
     }
 }
 
-/// A travel beyond 3 % of the track counts as that, either way, and one that is no number as none.
+/// A travel beyond 3 % of the track counts as that, either way, and NaN as none.
 #[test]
 fn a_travel_without_bound_is_three_per_cent_of_the_track() {
     for (travel, counts) in [
@@ -568,7 +496,6 @@ fn a_travel_without_bound_is_three_per_cent_of_the_track() {
     }
 }
 
-/// Balls of which nothing valid is known press on none, and the last one is foremost, as in a new train.
 #[test]
 fn what_is_not_valid_joins_nothing() {
     let mut press = Press::<5>::new();
@@ -581,23 +508,16 @@ fn what_is_not_valid_joins_nothing() {
     assert!(press.forces().chain(press.speeds()).eq([0.0; 10]));
 }
 
-/// What does not fit on the track is refused by name.
 #[test]
 fn bad_tracks_are_refused() {
-    let field = |result: Result<Train<5>, epas_friction::Error>| result.unwrap_err().field();
-    for bad in [f32::NAN, f32::INFINITY, 0.0, -1.0, 1e5] {
-        assert_eq!(field(Train::<5>::new(bad, 0.01, &[0.0; 5])), "length");
-        assert_eq!(field(Train::<5>::new(1.0, bad, &[0.0; 5])), "pitch");
-    }
-    assert_eq!(field(Train::<5>::new(1.0, 0.21, &[0.0; 5])), "pitch");
-    for bad in [f32::NAN, f32::INFINITY, -1e-3, 0.6] {
-        assert_eq!(
-            field(Train::<5>::new(1.0, 0.1, &[0.0, bad, 0.0, 0.0, 0.0])),
-            "gaps"
-        );
-    }
-    assert_eq!(
-        field(Train::<5>::new(1.0, 0.1, &[0.2, 0.2, 0.2, 0.0, 0.0])),
-        "gaps"
+    assert_refused(
+        &(1.0, 0.1, [0.0; 5]),
+        |(length, pitch, gaps)| Train::<5>::new(*length, *pitch, gaps),
+        &[
+            ("length", |p, v| p.0 = v, &[0.0, -1.0, 1e5]),
+            ("pitch", |p, v| p.1 = v, &[0.0, -1.0, 1e5, 0.21]),
+            ("gaps", |p, v| p.2[1] = v, &[-1e-3, 0.6]),
+            ("gaps", |p, _| p.2 = [0.2, 0.2, 0.2, 0.0, 0.0], &[]),
+        ],
     );
 }

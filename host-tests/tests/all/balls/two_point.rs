@@ -15,7 +15,6 @@ use epas_reference::friction::ball_screw_ball::{
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::friction::maps::FrictionMap;
 
-/// The ball of Lin 2019, Table 3.3.
 const BALL_RADIUS: f64 = 0.005;
 const AXIS_RATIO: f64 = 0.232_146_373;
 const FRICTION: f64 = 0.1;
@@ -34,7 +33,6 @@ fn linear_parameters() -> LinearBallParameters {
     }
 }
 
-/// Its bottom groove turned, 100 N down and `side` of it across.
 fn turned(degrees: f64, side: f64) -> LinearBall {
     let turn = degrees.to_radians();
     let contact_angles = [-turn, turn, 0.0, 0.0].map(|deviation| FRAC_PI_4 + deviation);
@@ -55,7 +53,6 @@ fn exact(degrees: f64, side: f64) -> f64 {
     turned(degrees, side).solve(1.0).unwrap().speed_deviation
 }
 
-/// Mean loads of the weaker and the stronger diagonal.
 fn diagonals(ball: &LinearBall) -> (f64, f64) {
     let [bottom_left, bottom_right, top_right, top_left] = ball.contact_forces;
     let (up, down) = (
@@ -65,7 +62,6 @@ fn diagonals(ball: &LinearBall) -> (f64, f64) {
     (up.min(down), up.max(down))
 }
 
-/// Side-force ratio at which the speed jumps: there it is half of what it was.
 fn border(degrees: f64) -> f64 {
     let (mut low, mut high) = (0.8, 0.995);
     while high - low > 1e-6 {
@@ -97,11 +93,6 @@ fn the_speed_of_a_linear_ball_jumps_where_a_diagonal_is_weak() {
         let semi_major = semi_major_constant() * strong.cbrt() / BALL_RADIUS;
         let moment = FrictionMap::new(AXIS_RATIO).unwrap().at(0.0).moment;
         let predicted = moment * semi_major;
-        println!(
-            "{degrees} degrees: border at a side force of {side:.4}, diagonals {:.4} ({predicted:.4} predicted), \
-             speed deviation {before:+.2e} before, {after:+.2e} after",
-            weak / strong
-        );
         measured::assert_at(
             "linear jump, load of the weak diagonal",
             weak / strong / predicted - 1.0,
@@ -153,7 +144,6 @@ fn the_speed_of_a_linear_ball_jumps_where_a_diagonal_is_weak() {
     }
 }
 
-/// Orbital speed over the nut's in equilibrium of Coulomb friction.
 fn orbital_speed(design: &BallScrew, angles: &[f32; 4], forces: &[f32; 4]) -> f64 {
     let numbers = given::ball_screw(design.parameters());
     let contacts: Vec<_> = Flank::ALL
@@ -211,7 +201,6 @@ fn a_row_with_play_has_the_mean_speed_of_two_contacts() {
             [normal, 0.0, 0.0, normal]
         };
         let error = speed - orbital_speed(&design, &angles, &forces);
-        println!("screw {screw:+} nut {nut:+} degrees, {load:+} N: {error:+.2e}");
         worst = worst.max(error.abs());
         // Equal angles on screw and nut: both races give the same speed.
         if angles[1] == angles[2] && load < 0.0 || angles[0] == angles[3] && load > 0.0 {

@@ -42,20 +42,17 @@ fn gap(share: f32, design: &BallScrew) -> Clearance {
         .unwrap()
 }
 
-/// Preload and play give back the gap that they come from.
 #[test]
 fn conversions_there_and_back() {
     for design in designs() {
         for share in SHARES {
             let oversize = gap(-share, &design);
             let again = Clearance::of_preload(&design, oversize.preload(&design)).unwrap();
-            // Of a division, a root, two products and a cube root squared: a dozen roundings of 2^-24.
             assert!((again.gap() / oversize.gap() - 1.0).abs() < 12.0 * 6e-8);
             assert_eq!(oversize.axial_play(&design), 0.0);
 
             let play = gap(share, &design);
             let again = Clearance::of_axial_play(&design, play.axial_play(&design)).unwrap();
-            // Likewise; no difference cancels.
             assert!((again.gap() / play.gap() - 1.0).abs() < 12.0 * 6e-8);
             assert_eq!(play.preload(&design), 0.0);
             assert_eq!(play.axial_preload(&design, 100), 0.0);
@@ -64,12 +61,10 @@ fn conversions_there_and_back() {
             let preload = Clearance::of_preload(&design, force)
                 .unwrap()
                 .preload(&design);
-            // The power 3/2 of the roundings above.
             assert!((preload / force - 1.0).abs() < 18.0 * 6e-8, "{preload}");
         }
         assert_eq!(Clearance::of_axial_play(&design, 0.0), Ok(Clearance::ZERO));
         assert_eq!(Clearance::ZERO.preload(&design), 0.0);
-        // Whatever the smallest number makes, it is a force.
         for tiny in [-f32::MIN_POSITIVE, -1e-40, -1e-12] {
             assert_eq!(Clearance::new(tiny).unwrap().preload(&design), 0.0);
         }
@@ -91,7 +86,6 @@ fn pressed(design: &BallScrew, gap: f64) -> [f64; 4] {
         nut: contact(curvature::Groove::Nut),
         oversize: -gap,
     };
-    // Outward force on the ball from its contacts.
     let outward = |place: f64| {
         grooves
             .contacts_at([place, 0.0], 0.0)
@@ -122,12 +116,10 @@ fn pressed(design: &BallScrew, gap: f64) -> [f64; 4] {
         .map(|contact| contact.load)
 }
 
-/// Forces of an oversized ball in elastic grooves, exact in float64.
 #[test]
 fn preload_is_the_force_in_elastic_grooves() {
     let mut errors = SHARES.map(|share| Errors::of(format!("preload at {share} ball radii")));
     for design in designs() {
-        // The reference has one groove radius.
         if design.parameters().screw_groove != design.parameters().nut_groove {
             continue;
         }
@@ -142,14 +134,12 @@ fn preload_is_the_force_in_elastic_grooves() {
             }
             let slope = design.parameters().contact_angle.sin() * design.cos_lead_angle();
             let flank = oversize.axial_preload(&design, 37) / (37.0 * oversize.preload(&design));
-            // Measured: 1.2e-7, roundings.
             assert!((flank / slope - 1.0).abs() < 3.6e-7);
         }
     }
     // The ball moves towards the groove in which it is softer, and its contact angles turn: both grow with the gap.
     // Measured: 4.0e-3 at 0.02, 2.4e-4 at 1e-3, and 6.4e-6 of the ellipse at 1e-5.
     for (share, errors) in SHARES.iter().zip(&errors) {
-        println!("{}: {:.2e}", errors.name, errors.largest);
         assert!(
             errors.largest < 0.3 * f64::from(*share) + 1e-5,
             "{}",
@@ -249,7 +239,6 @@ fn axial_play_is_the_travel_between_helical_grooves() {
     // The grooves bend around the axis, which the plane section leaves out. Measured: 4.3e-5 at 0.02, 3.1e-6 at 1e-3,
     // 2.3e-7 of roundings at 1e-5.
     for (share, errors) in SHARES.iter().zip(&errors) {
-        println!("{}: {:.2e}", errors.name, errors.largest);
         assert!(
             errors.largest < 5e-3 * f64::from(*share) + 5e-7,
             "{}",
@@ -258,7 +247,6 @@ fn axial_play_is_the_travel_between_helical_grooves() {
     }
 }
 
-/// What is refused, by field and range.
 fn refused<T: std::fmt::Debug>(result: Result<T, Error>, field: &str, allowed: Range) {
     let error = result.unwrap_err();
     assert_eq!(
@@ -327,7 +315,6 @@ fn what_is_refused_is_named() {
     }
 }
 
-/// Scenes of a ball screw that know its clearance take what their design's balls allow, and name what they do not.
 #[test]
 fn scenes_refuse_a_clearance_beyond_their_balls() {
     let own = gears::closed_form(FrictionBranch::Rolling);

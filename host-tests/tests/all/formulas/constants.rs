@@ -11,16 +11,11 @@ use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
-use epas_friction::geometry::{ContactAngle, Groove, HelixPath};
+use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{ContactKinematics, EllipticContact, KinematicsParameters};
-use epas_friction::material::contact_modulus;
-use epas_friction::{
-    BallScrew, CATALOGUE, DISSERTATION_DESIGNS, GrooveSize, LinearBearing, LinearBearingParameters,
-    Material, math,
-};
+use epas_friction::{BallScrew, CATALOGUE, math};
 
-/// Everything that follows from one ball screw.
 #[derive(Clone, Copy, Debug)]
 #[allow(dead_code)] // Read through `Debug`.
 struct SetUp {
@@ -103,7 +98,6 @@ const fn unwrapped<E: Copy>(result: Result<BallScrew, E>) -> BallScrew {
     }
 }
 
-/// The 31 sizes of the catalogue, folded by the compiler.
 const CATALOGUE_SET_UPS: [SetUp; SIZES] = {
     let first = unwrapped(CATALOGUE[0].design());
     let mut all = [SetUp::of(first, FRICTION, ROLLING_TANGENT); SIZES];
@@ -111,19 +105,6 @@ const CATALOGUE_SET_UPS: [SetUp; SIZES] = {
     while index < SIZES {
         let design = unwrapped(CATALOGUE[index].design());
         all[index] = SetUp::of(design, FRICTION, ROLLING_TANGENT);
-        index += 1;
-    }
-    all
-};
-
-/// The three designs of the dissertation, one of them with its grooves by conformity.
-const DISSERTATION_SET_UPS: [SetUp; 3] = {
-    let first = unwrapped(BallScrew::new(DISSERTATION_DESIGNS[0].parameters));
-    let mut all = [SetUp::of(first, FRICTION, 0.0); 3];
-    let mut index = 1;
-    while index < 3 {
-        let design = unwrapped(BallScrew::new(DISSERTATION_DESIGNS[index].parameters));
-        all[index] = SetUp::of(design, FRICTION, 0.0);
         index += 1;
     }
     all
@@ -148,11 +129,6 @@ fn a_folded_ball_screw_has_the_bits_of_one_made_at_run_time() {
         );
         same_bits(folded, &computed);
     }
-    for (named, folded) in DISSERTATION_DESIGNS.iter().zip(&DISSERTATION_SET_UPS) {
-        let design = BallScrew::new(black_box(named.parameters)).unwrap();
-        let computed = SetUp::of(black_box(design), black_box(FRICTION), black_box(0.0));
-        same_bits(folded, &computed);
-    }
 }
 
 /// Set-up shares the algebra of the exact curvatures with the loop, but neither the square root, which must not
@@ -173,71 +149,6 @@ fn the_roots_of_set_up_are_those_of_the_loop() {
         let cos_lead_angle = 1.0 / math::sqrt(1.0 + slope * slope);
         assert_eq!(set_up.cos_lead_angle.to_bits(), cos_lead_angle.to_bits());
     }
-}
-
-const LINEAR: LinearBearingParameters = LinearBearingParameters {
-    ball_radius: 2e-3,
-    groove: GrooveSize::Conformity(0.52),
-    contact_angle: 0.8,
-    ball_material: Material::SILICON_NITRIDE,
-    groove_material: Material::STEEL,
-};
-
-#[derive(Debug)]
-#[allow(dead_code)] // Read through `Debug`.
-struct Bearings {
-    linear: LinearBearing,
-    linear_contact: HertzContact,
-    by_radii: HertzContact,
-    angled: EfficiencyGeometry,
-    angle: ContactAngle,
-    path: HelixPath,
-    modulus: f32,
-}
-
-const fn bearings(
-    linear: LinearBearingParameters,
-    angle: f32,
-) -> Result<Bearings, epas_friction::Error> {
-    // A match in the place of `?`, as in firmware.
-    let linear = match LinearBearing::new(linear) {
-        Ok(bearing) => bearing,
-        Err(error) => return Err(error),
-    };
-    let angled = match EfficiencyGeometry::new(angle, 0.5, 0.15) {
-        Ok(geometry) => geometry,
-        Err(error) => return Err(error),
-    };
-    let contact_angle = match ContactAngle::checked(angle) {
-        Ok(contact_angle) => contact_angle,
-        Err(error) => return Err(error),
-    };
-    let path = match HelixPath::checked_from_lead_angle(0.02, angle) {
-        Ok(path) => path,
-        Err(error) => return Err(error),
-    };
-    let modulus = contact_modulus(&Material::STEEL, &Material::SILICON_NITRIDE);
-    let by_radii = match HertzContact::checked(2e-3, 40e-3, modulus) {
-        Ok(contact) => contact,
-        Err(error) => return Err(error),
-    };
-    Ok(Bearings {
-        linear,
-        linear_contact: HertzContact::of_linear(&linear),
-        by_radii,
-        angled,
-        angle: contact_angle,
-        path,
-        modulus,
-    })
-}
-
-#[test]
-fn folded_bearings_have_the_bits_of_those_made_at_run_time() {
-    const FOLDED: Result<Bearings, epas_friction::Error> = bearings(LINEAR, 0.17);
-    let computed = bearings(black_box(LINEAR), black_box(0.17));
-    assert!(FOLDED.is_ok());
-    same_bits(&FOLDED, &computed);
 }
 
 /// The screw of Alberdi et al., Table 2, at 1500 N.
@@ -287,15 +198,4 @@ fn folded_kinematics_have_the_bits_of_those_made_at_run_time() {
     assert!(format!("{FOLDED:?}") != format!("{computed:?}"));
     assert!(computed.update(black_box(screw), black_box(nut)));
     same_bits(&FOLDED, &computed);
-}
-
-/// The error of a refused constant is a value like any other: the field, what was found, what is allowed.
-#[test]
-fn a_refused_constant_names_its_field() {
-    const PRINTED: LinearBearingParameters = LinearBearingParameters {
-        groove: GrooveSize::Radius(f32::NAN),
-        ..LINEAR
-    };
-    const REFUSED: Result<LinearBearing, epas_friction::Error> = LinearBearing::new(PRINTED);
-    assert_eq!(REFUSED.unwrap_err().field(), "groove_radius");
 }

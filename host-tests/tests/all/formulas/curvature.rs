@@ -1,14 +1,14 @@
 //! The crate's curvature forms against 65-digit values of the Weingarten map.
 
+use epas_friction::Error;
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
 use epas_friction::geometry::{ContactAngle, Groove, GrooveProfile, HelixPath};
-use epas_friction::{CATALOGUE, Error};
 use epas_reference::curvature::{self, Surface};
-use epas_testkit::absurd;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes;
 use serde::Deserialize;
 
 #[derive(Deserialize)]
@@ -104,7 +104,6 @@ const GROOVES: [Groove; 2] = [Groove::Screw, Groove::Nut];
 /// 2^-24 / A: four such roundings, and the bound grows below A = 0.3.
 #[test]
 fn exact_form_holds_in_f32_over_all_cases() {
-    let mut worst = [0.0_f64; 2];
     let mut sum = [0.0_f64; 2];
     let mut count = 0.0;
     for case in golden() {
@@ -123,21 +122,12 @@ fn exact_form_holds_in_f32_over_all_cases() {
                 truth.kappa2
             );
             if case.area(groove) > 0.3 && error1.abs() > 1e-7 * truth.kappa2.abs() {
-                worst[0] = worst[0].max((error1 / truth.kappa1).abs());
                 sum[0] += error1 / truth.kappa1;
             }
-            worst[1] = worst[1].max(error2.abs());
             sum[1] += error2;
             count += 1.0;
         }
     }
-    println!(
-        "kappa1: max {:.2e} mean {:.1e}; kappa2: max {:.2e} mean {:.1e}",
-        worst[0],
-        sum[0] / count,
-        worst[1],
-        sum[1] / count
-    );
     measured::assert("bias of kappa1", sum[0] / count);
     measured::assert("bias of kappa2", sum[1] / count);
 }
@@ -171,64 +161,6 @@ fn without_offsets_the_groove_is_a_tube_and_without_lead_a_bearing() {
     }
 }
 
-/// On the catalogue sizes the fitted form against the 65-digit truth: 2.4e-7 of the form, the rest roundings of the
-/// set-up in f32.
-#[test]
-fn fitted_form_holds_on_catalogue_cases() {
-    let mut worst = 0.0_f64;
-    for case in golden().iter().filter(|case| case.tag == "catalogue") {
-        for groove in GROOVES {
-            let fitted = FittedCurvature::new(&case.arch(groove), 72f32.to_radians());
-            let truth = case.truth(groove).kappa1;
-            let error = f64::from(fitted.first(case.contact_angle())) / truth - 1.0;
-            measured::assert_at(
-                "fitted curvature on tabulated cases",
-                error,
-                format_args!("{}: {error:e}", case.line(groove)),
-            );
-            worst = worst.max(error.abs());
-        }
-    }
-    println!("fitted: max {worst:.2e}");
-}
-
-/// The fit against the crate's exact form (itself held above) on all 31 sizes, all contact angles of
-/// 0 to 70 degrees in steps of 0.1 degree. 7e-7 of the fit and 4e-7 of the exact form add up.
-#[test]
-fn fitted_form_follows_the_exact_form_on_all_sizes() {
-    let (mut worst, mut sum, mut squares, mut count) = (0.0_f64, 0.0_f64, 0.0_f64, 0.0_f64);
-    for size in CATALOGUE {
-        let design = size.design().unwrap();
-        for groove in GROOVES {
-            let fitted = FittedCurvature::of(&design, groove);
-            let exact = GothicArch::of(&design, groove);
-            for step in 0..=700 {
-                let angle = ContactAngle::new((0.1 * step as f32).to_radians());
-                let truth = f64::from(exact.principal(angle).kappa1);
-                let error = f64::from(fitted.first(angle)) / truth - 1.0;
-                assert!(
-                    error.abs() <= 1.1e-6,
-                    "{} {groove:?} at {} degrees: {error:e}",
-                    size.name,
-                    0.1 * step as f32
-                );
-                worst = worst.max(error.abs());
-                sum += error;
-                squares += error * error;
-                count += 1.0;
-            }
-        }
-    }
-    println!(
-        "fitted: max {worst:.2e} rms {:.1e} mean {:.1e}",
-        (squares / count).sqrt(),
-        sum / count
-    );
-    measured::assert("fitted curvature, rms", (squares / count).sqrt());
-    measured::assert("fitted curvature, mean", sum / count);
-}
-
-/// A straight groove (lead angle 90 degrees) has no curvature along the path, in every form.
 #[test]
 fn a_straight_groove_has_no_curvature_along_it() {
     let path = HelixPath {
@@ -255,7 +187,6 @@ fn a_straight_groove_has_no_curvature_along_it() {
 /// The sum of the curvatures of ball and groove keeps its digits, though it cancels to a twentieth.
 #[test]
 fn relative_curvature_across_does_not_cancel() {
-    let mut worst = 0.0_f64;
     for case in golden().iter().filter(|case| case.tag == "catalogue") {
         // The clearance of these cases: H = (r_s - r_b) cos 45.
         let clearance = case.h * std::f64::consts::SQRT_2;
@@ -267,7 +198,6 @@ fn relative_curvature_across_does_not_cancel() {
                 .relative(case.contact_angle(), clearance as f32);
             let along = f64::from(computed.along) / (ball_curvature + truth.kappa1) - 1.0;
             let across = f64::from(computed.across) / (ball_curvature + truth.kappa2) - 1.0;
-            worst = worst.max(across.abs());
             measured::assert_at(
                 "relative curvature along",
                 along,
@@ -280,7 +210,6 @@ fn relative_curvature_across_does_not_cancel() {
             );
         }
     }
-    println!("across: max {worst:.2e}");
 }
 
 #[test]
@@ -354,7 +283,7 @@ fn edge(random: &mut Random, groove: Groove) -> (Surface, ContactAngle) {
 #[test]
 fn an_accepted_groove_has_curvatures_up_to_the_edges() {
     let mut random = Random(20);
-    let (mut accepted, mut folded, mut worst) = (0, 0, 0.0_f64);
+    let (mut accepted, mut folded) = (0, 0);
     for _ in 0..400_000 {
         let groove = random.of(&GROOVES);
         let (surface, angle) = edge(&mut random, groove);
@@ -396,23 +325,20 @@ fn an_accepted_groove_has_curvatures_up_to_the_edges() {
         let allowed = 8.0 * 2f64.powi(-24) * magnified;
         for (found, truth) in [found.kappa1, found.kappa2].into_iter().zip(truth) {
             let error = (f64::from(found) - truth).abs() / scale;
-            worst = worst.max(error / allowed);
             assert!(
                 error <= allowed,
                 "{surface:?} {angle:?}: {found} for {truth}, {error:e} of {allowed:e}"
             );
         }
     }
-    println!("{accepted} accepted, {folded} folded; error at most {worst:.2} of its bound");
     assert!(accepted > 150_000 && folded > 50_000);
 }
 
-/// A design that a drawing may ask for is accepted at every contact angle.
 #[test]
 fn every_design_has_curvatures_at_every_contact_angle() {
     let mut random = Random(21);
     for _ in 0..20_000 {
-        let design = absurd::design(&mut random);
+        let design = random_scenes::design(&mut random);
         for groove in GROOVES {
             let angle = ContactAngle::new(random.unit() * std::f32::consts::FRAC_PI_2);
             for angle in [ContactAngle::new(0.0), angle, ContactAngle::new(1.5533)] {

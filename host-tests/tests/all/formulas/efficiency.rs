@@ -1,6 +1,8 @@
 //! Closed-form efficiency: the reference against 17-digit values, the crate against both, and the laws
 //! that bind efficiency, torque and self-locking.
 
+use crate::golden::cases;
+use crate::refusals::assert_refused;
 use epas_design::efficiency::{
     DesignRequest, Duty, DynamicCorrection, optimum_contact_angle, optimum_efficiency,
 };
@@ -11,15 +13,6 @@ use epas_testkit::designs::SCREW_TRACK;
 use epas_testkit::measured;
 use proptest::prelude::*;
 use serde_json::Value;
-
-fn golden(list: &str) -> Vec<Value> {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/efficiency.json"
-    ));
-    let golden: Value = serde_json::from_str(text).unwrap();
-    golden[list].as_array().unwrap().clone()
-}
 
 fn number(case: &Value, name: &str) -> f64 {
     case[name].as_str().unwrap().parse().unwrap()
@@ -41,7 +34,7 @@ fn screw(case: &Value) -> Screw {
 
 #[test]
 fn reference_equals_17_digit_values() {
-    for case in golden("closed_form") {
+    for case in cases("efficiency", "closed_form") {
         let screw = screw(&case);
         let (alpha, f) = (screw.lead_angle, screw.friction);
         for (computed, name) in [
@@ -109,8 +102,7 @@ fn reference_equals_17_digit_values() {
 /// without bound and are held relatively.
 #[test]
 fn crate_holds_over_all_cases() {
-    let (mut worst, mut worst_loss) = (0.0_f64, 0.0_f64);
-    for case in golden("closed_form") {
+    for case in cases("efficiency", "closed_form") {
         let exact = screw(&case);
         let fast = EfficiencyGeometry::new(
             exact.lead_angle as f32,
@@ -141,7 +133,6 @@ fn crate_holds_over_all_cases() {
                 error < 6e-7,
                 "{expected} of {case}: {computed} errs by {error:e}"
             );
-            worst = worst.max(error);
         }
         for (computed, expected) in [
             (fast.sliding_loss(f), rounded.loss_drive()),
@@ -149,7 +140,6 @@ fn crate_holds_over_all_cases() {
         ] {
             let error = (f64::from(computed) - expected).abs() / expected.max(f64::MIN_POSITIVE);
             assert!(error < 6e-7, "loss of {case}: {error:e}");
-            worst_loss = worst_loss.max(error);
         }
         assert_eq!(
             fast.locks(Drive::Driving, f),
@@ -190,14 +180,13 @@ fn crate_holds_over_all_cases() {
             "{case}"
         );
     }
-    println!("efficiency {worst:.2e} absolute, loss {worst_loss:.2e} relative");
 }
 
 /// The first-order dynamic correction is the crate's `k1` to f32, and brings the closed form to the
 /// exact steady state: the part of second order in the dynamic number is left.
 #[test]
 fn dynamic_correction_reaches_the_exact_steady_state() {
-    for case in golden("exact") {
+    for case in cases("efficiency", "exact") {
         let fast = EfficiencyGeometry::new(
             number(&case, "alpha") as f32,
             number(&case, "beta") as f32,
@@ -232,10 +221,9 @@ fn dynamic_correction_reaches_the_exact_steady_state() {
     }
 }
 
-/// Integrated from a rolling start, the ball's equations of motion lead to the rolling efficiency.
 #[test]
 fn rolling_efficiency_is_where_the_equations_of_motion_lead() {
-    for case in golden("rolling") {
+    for case in cases("efficiency", "rolling") {
         let fast = EfficiencyGeometry::new(
             number(&case, "alpha") as f32,
             number(&case, "beta") as f32,
@@ -296,7 +284,6 @@ proptest! {
         }
     }
 
-    /// A screw locks exactly where its efficiency is not positive, but for the last rounding.
     #[test]
     fn locking_is_where_efficiency_ends((lead, contact, ratio, friction) in angles()) {
         let screw = EfficiencyGeometry::new(lead, contact, ratio).unwrap();
@@ -310,14 +297,12 @@ proptest! {
         }
     }
 
-    /// More friction never helps, and no friction loses nothing.
     #[test]
     fn efficiency_falls_with_friction((lead, contact, ratio, friction) in angles()) {
         let screw = EfficiencyGeometry::new(lead, contact, ratio).unwrap();
         prop_assert_eq!(screw.sliding_efficiency(0.0), 1.0);
         prop_assert_eq!(screw.rolling_efficiency(0.0, 0.0), 1.0);
         prop_assert!(screw.sliding_loss(friction) > screw.sliding_loss(0.9 * friction));
-        // In the range of use full sliding is the pessimistic one of the two.
         if contact > 0.5 && friction < 0.15 {
             prop_assert!(screw.sliding_loss(friction) > screw.rolling_loss(friction, 0.0));
         }
@@ -413,49 +398,6 @@ fn back_driving_without_lead() {
     }
 }
 
-/// The rolling back-drive efficiency is the balance of work at the slipping contact.
-#[test]
-fn rolling_backdrive_equals_the_reference() {
-    for case in golden("closed_form") {
-        let exact = screw(&case);
-        let fast = EfficiencyGeometry::new(
-            exact.lead_angle as f32,
-            exact.contact_angle as f32,
-            exact.ball_ratio as f32,
-        )
-        .unwrap();
-        let computed = fast.rolling_backdrive_efficiency(exact.friction as f32, 0.0);
-        measured::assert_at(
-            "rolling back-drive efficiency",
-            f64::from(computed) - exact.rolling_backdrive(),
-            format_args!("{case}"),
-        );
-    }
-}
-
-/// 86.1 % at a friction of 0.075, "for all helix angles": up to 42.9 degrees driving, 47.1 back-driving.
-#[test]
-fn published_optimum_reproduces_within_its_range() {
-    // Printed to a tenth of a per cent: half a unit.
-    assert!((optimum_efficiency(0.075) - 0.861).abs() < 5e-4);
-    let largest = |drive| {
-        optimum_contact_angle(drive, 0.1, 0.075)
-            .unwrap()
-            .largest_lead_angle
-            .to_degrees()
-    };
-    // Printed to three decimals: half a unit, beside 2e-6 degrees of f32.
-    assert!((largest(Drive::Driving) - 42.855).abs() < 5e-4);
-    assert!((largest(Drive::BackDriving) - 47.145).abs() < 5e-4);
-    let steep = 50f32.to_radians();
-    assert!(
-        optimum_contact_angle(Drive::Driving, steep, 0.075)
-            .unwrap()
-            .contact_angle
-            .is_none()
-    );
-}
-
 #[test]
 fn design_procedure_returns_every_step_consistently() {
     let request = DesignRequest {
@@ -511,109 +453,55 @@ fn design_procedure_returns_every_step_consistently() {
     );
 }
 
+const BAD: &[f32] = &[-1.0, 1e30];
+
 #[test]
 fn bad_requests_are_refused_by_name() {
-    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 1e30] {
-        let geometry = |lead, contact, ratio| {
-            EfficiencyGeometry::new(lead, contact, ratio)
-                .unwrap_err()
-                .field()
-        };
-        assert_eq!(geometry(bad, 0.7, 0.1), "lead_angle");
-        assert_eq!(geometry(0.1, bad, 0.1), "contact_angle");
-        assert_eq!(geometry(0.1, 0.7, bad), "ball_ratio");
-        let optimum = |lead, friction| {
-            optimum_contact_angle(Drive::Driving, lead, friction)
-                .unwrap_err()
-                .field()
-        };
-        assert_eq!(optimum(bad, 0.1), "lead_angle");
-        assert_eq!(optimum(0.1, bad), "friction");
-        let good = DesignRequest {
-            duty: Duty::MoveAxialLoad(1000.0),
-            lead_angle: 0.1,
-            friction: 0.075,
-            screw_length: 0.5,
-            pitch_radius: SCREW_TRACK.pitch_radius as f32,
-            ball_ratio: (SCREW_TRACK.ball_radius / SCREW_TRACK.pitch_radius) as f32,
-            osculation: 0.95,
-            loaded_balls: 30,
-            rotation: 1.0,
-            material: Material::STEEL,
-        };
-        let field = |request: DesignRequest| request.figures().unwrap_err().field();
-        assert_eq!(
-            field(DesignRequest {
-                duty: Duty::MoveAxialLoad(bad),
-                ..good
-            }),
-            "axial_load"
-        );
-        assert_eq!(
-            field(DesignRequest {
-                duty: Duty::DeliverTorque(bad),
-                ..good
-            }),
-            "torque"
-        );
-        assert_eq!(
-            field(DesignRequest {
-                lead_angle: bad,
-                ..good
-            }),
-            "lead_angle"
-        );
-        assert_eq!(
-            field(DesignRequest {
-                friction: bad,
-                ..good
-            }),
-            "friction"
-        );
-        assert_eq!(
-            field(DesignRequest {
-                screw_length: bad,
-                ..good
-            }),
-            "screw_length"
-        );
-        assert_eq!(
-            field(DesignRequest {
-                pitch_radius: bad,
-                ..good
-            }),
-            "pitch_radius"
-        );
-        assert_eq!(
-            field(DesignRequest {
-                ball_ratio: bad,
-                ..good
-            }),
-            "ball_ratio"
-        );
-        assert_eq!(
-            field(DesignRequest {
-                osculation: bad,
-                ..good
-            }),
-            "osculation"
-        );
-        let huge = if bad == -1.0 { -1e30 } else { bad };
-        assert_eq!(
-            field(DesignRequest {
-                rotation: huge,
-                ..good
-            }),
-            "rotation"
-        );
-        assert_eq!(
-            field(DesignRequest {
-                loaded_balls: 0,
-                ..good
-            }),
-            "loaded_balls"
-        );
-    }
+    assert_refused(
+        &(0.1, 0.7, 0.1),
+        |&(lead, contact, ratio)| EfficiencyGeometry::new(lead, contact, ratio),
+        &[
+            ("lead_angle", |p, v| p.0 = v, BAD),
+            ("contact_angle", |p, v| p.1 = v, BAD),
+            ("ball_ratio", |p, v| p.2 = v, BAD),
+        ],
+    );
+    assert_refused(
+        &(0.1, 0.1),
+        |&(lead, friction)| optimum_contact_angle(Drive::Driving, lead, friction),
+        &[
+            ("lead_angle", |p, v| p.0 = v, BAD),
+            ("friction", |p, v| p.1 = v, BAD),
+        ],
+    );
+    let good = DesignRequest {
+        duty: Duty::MoveAxialLoad(1000.0),
+        lead_angle: 0.1,
+        friction: 0.075,
+        screw_length: 0.5,
+        pitch_radius: SCREW_TRACK.pitch_radius as f32,
+        ball_ratio: (SCREW_TRACK.ball_radius / SCREW_TRACK.pitch_radius) as f32,
+        osculation: 0.95,
+        loaded_balls: 30,
+        rotation: 1.0,
+        material: Material::STEEL,
+    };
+    assert_refused(
+        &good,
+        DesignRequest::figures,
+        &[
+            ("axial_load", |p, v| p.duty = Duty::MoveAxialLoad(v), BAD),
+            ("torque", |p, v| p.duty = Duty::DeliverTorque(v), BAD),
+            ("lead_angle", |p, v| p.lead_angle = v, BAD),
+            ("friction", |p, v| p.friction = v, BAD),
+            ("screw_length", |p, v| p.screw_length = v, BAD),
+            ("pitch_radius", |p, v| p.pitch_radius = v, BAD),
+            ("ball_ratio", |p, v| p.ball_ratio = v, BAD),
+            ("osculation", |p, v| p.osculation = v, BAD),
+            ("rotation", |p, v| p.rotation = v, &[-1e30, 1e30]),
+            ("loaded_balls", |p, _| p.loaded_balls = 0, &[]),
+        ],
+    );
     assert!(EfficiencyGeometry::new(0.0, 0.7, 0.1).is_ok());
     assert_eq!(
         EfficiencyGeometry::of(&CATALOGUE[0].design().unwrap()).ball_ratio(),

@@ -1,13 +1,12 @@
 //! Friction of one contact: the library's maps against quadrature and against tabulated cases.
 
-use crate::exact_friction::quadrature;
 use crate::golden;
 use epas_friction::contact::FrictionMap;
+use epas_reference::friction::maps;
 use epas_reference::promises;
 use epas_testkit::errors::Errors;
 use epas_testkit::measured;
 
-/// Offsets of both signs, dense about the rim, up to sliding.
 fn offsets() -> Vec<f32> {
     let inside = (0..=100).map(|step| step as f32 / 100.0);
     let outside = (0..=160).map(|step| 1.0 + 10_f32.powf(-4.0 + step as f32 / 20.0));
@@ -19,7 +18,6 @@ fn offsets() -> Vec<f32> {
 
 #[test]
 fn maps_equal_the_contact_integral() {
-    println!("axis ratio | force max rms mean | moment | power | inside");
     let mut all = <[Errors; 3]>::default();
     for axis_ratio in [
         0.05_f32,
@@ -36,11 +34,13 @@ fn maps_equal_the_contact_integral() {
         1.0,
     ] {
         let map = FrictionMap::new(axis_ratio).unwrap();
-        let full_moment = quadrature(f64::from(axis_ratio), 0.0, 2000)[1];
+        let integral = maps::FrictionMap::new(axis_ratio.into()).unwrap();
+        let full_moment = integral.at(0.0).moment;
         let mut errors = <[Errors; 3]>::default();
         let mut inside = 0.0_f64;
         for offset in offsets() {
-            let exact = quadrature(f64::from(axis_ratio), f64::from(offset), 2000);
+            let exact = integral.at(offset.into());
+            let exact = [exact.force, exact.moment, exact.power];
             let fast = map.evaluate(offset);
             // Power grows with the offset: its error is taken relative to it outside the contact.
             let scale = f64::from(offset.abs()).max(1.0);
@@ -64,12 +64,6 @@ fn maps_equal_the_contact_integral() {
         }
         // The quartic is exact: what is left are roundings (6e-8 each) of terms up to 1.5.
         measured::assert_at("friction map inside the contact", inside, axis_ratio);
-        println!(
-            "{axis_ratio:.3} | {} | inside {inside:.1e}",
-            errors
-                .map(|e| format!("{:.1e} {:.1e} {:+.1e}", e.largest, e.rms(), e.mean()))
-                .join(" | ")
-        );
     }
     // Documented errors of the maps: the two-term expansion outside the contact, continuous at its rim, is
     // chosen for its cost within 1e-3, 2e-3 and 1e-3.
@@ -97,7 +91,6 @@ fn maps_equal_the_tabulated_cases() {
             ["kappa", "f", "M", "P"].map(|name| golden::numbers(&case, name));
         for index in 0..offset.len() {
             let fast = map.evaluate(offset[index] as f32);
-            // Over the documented errors of the maps.
             let error = [
                 (f64::from(fast.force) - force[index]).abs() / 1e-3,
                 (f64::from(fast.moment) - moment[index]).abs() / (2e-3 * full_moment),

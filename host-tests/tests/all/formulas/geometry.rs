@@ -1,175 +1,60 @@
 //! Designs: every field of every constructor with every kind of bad number; derived constants.
 
+use crate::refusals::assert_refused;
 use epas_friction::curvature::{GothicArch, LiteratureCurvature};
 use epas_friction::geometry::{ContactAngle, Groove, HelixPath};
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, DISSERTATION_DESIGNS, Error, GrooveSize,
-    LinearBearing, LinearBearingParameters, Material,
+    LinearBearing,
 };
 use epas_testkit::designs::{LINEAR_BEARING, SCREW_GROOVE_RADIUS, SCREW_TRACK, screw};
-
-const BAD: [f32; 7] = [
-    f32::NAN,
-    f32::INFINITY,
-    f32::NEG_INFINITY,
-    -1.0,
-    f32::MAX,
-    f32::MIN,
-    -1e-40,
-];
 
 fn good() -> BallScrewParameters {
     *screw().parameters()
 }
 
+const BAD: &[f32] = &[-1.0, f32::MAX, f32::MIN, -1e-40];
+/// Zeros too, and what is next to them.
+const NOT_POSITIVE: &[f32] = &[-1.0, f32::MAX, f32::MIN, -1e-40, 0.0, -0.0, 1e-30];
+
 #[test]
 fn every_field_of_a_ball_screw_is_checked() {
-    let field = |parameters: BallScrewParameters| BallScrew::new(parameters).unwrap_err().field();
-    for bad in BAD {
-        assert_eq!(
-            field(BallScrewParameters {
-                pitch_radius: bad,
-                ..good()
-            }),
-            "pitch_radius"
-        );
-        assert_eq!(
-            field(BallScrewParameters {
-                lead: bad,
-                ..good()
-            }),
-            "lead"
-        );
-        assert_eq!(
-            field(BallScrewParameters {
-                ball_radius: bad,
-                ..good()
-            }),
-            "ball_radius"
-        );
-        assert_eq!(
-            field(BallScrewParameters {
-                contact_angle: bad,
-                ..good()
-            }),
-            "contact_angle"
-        );
-        for (size, name) in [
-            (GrooveSize::Conformity(bad), "conformity"),
-            (GrooveSize::Radius(bad), "groove_radius"),
-        ] {
-            assert_eq!(
-                field(BallScrewParameters {
-                    screw_groove: size,
-                    ..good()
-                }),
-                name
-            );
-            assert_eq!(
-                field(BallScrewParameters {
-                    nut_groove: size,
-                    ..good()
-                }),
-                name
-            );
-        }
-        for (material, name) in [
-            (
-                Material {
-                    youngs_modulus: bad,
-                    ..Material::STEEL
-                },
-                "youngs_modulus",
-            ),
-            (
-                Material {
-                    poisson_ratio: bad,
-                    ..Material::STEEL
-                },
-                "poisson_ratio",
-            ),
-            (
-                Material {
-                    density: bad,
-                    ..Material::STEEL
-                },
-                "density",
-            ),
-        ] {
-            assert_eq!(
-                field(BallScrewParameters {
-                    ball_material: material,
-                    ..good()
-                }),
-                name
-            );
-            assert_eq!(
-                field(BallScrewParameters {
-                    groove_material: material,
-                    ..good()
-                }),
-                name
-            );
-        }
-    }
-    for zero in [0.0, -0.0, 1e-30] {
-        assert_eq!(
-            field(BallScrewParameters {
-                pitch_radius: zero,
-                ..good()
-            }),
-            "pitch_radius"
-        );
-        assert_eq!(
-            field(BallScrewParameters {
-                ball_radius: zero,
-                ..good()
-            }),
-            "ball_radius"
-        );
-        assert_eq!(
-            field(BallScrewParameters {
-                contact_angle: zero,
-                ..good()
-            }),
-            "contact_angle"
-        );
-    }
-    for conformity in [0.5, 0.49, 0.500_4, 1.01] {
-        let parameters = BallScrewParameters {
-            nut_groove: GrooveSize::Conformity(conformity),
-            ..good()
-        };
-        assert_eq!(field(parameters), "conformity");
-    }
+    #[rustfmt::skip]
+    assert_refused(
+        &good(),
+        |parameters| BallScrew::new(*parameters),
+        &[
+            ("pitch_radius", |p, v| p.pitch_radius = v, NOT_POSITIVE),
+            ("lead", |p, v| p.lead = v, BAD),
+            ("ball_radius", |p, v| p.ball_radius = v, NOT_POSITIVE),
+            ("contact_angle", |p, v| p.contact_angle = v, NOT_POSITIVE),
+            ("conformity", |p, v| p.screw_groove = GrooveSize::Conformity(v), BAD),
+            ("conformity", |p, v| p.nut_groove = GrooveSize::Conformity(v), BAD),
+            ("conformity", |p, v| p.nut_groove = GrooveSize::Conformity(v), &[0.5, 0.49, 0.500_4, 1.01]),
+            ("groove_radius", |p, v| p.screw_groove = GrooveSize::Radius(v), BAD),
+            ("groove_radius", |p, v| p.nut_groove = GrooveSize::Radius(v), BAD),
+            ("youngs_modulus", |p, v| p.ball_material.youngs_modulus = v, BAD),
+            ("poisson_ratio", |p, v| p.ball_material.poisson_ratio = v, BAD),
+            ("density", |p, v| p.ball_material.density = v, BAD),
+            ("youngs_modulus", |p, v| p.groove_material.youngs_modulus = v, BAD),
+            ("poisson_ratio", |p, v| p.groove_material.poisson_ratio = v, BAD),
+            ("density", |p, v| p.groove_material.density = v, BAD),
+        ],
+    );
 }
 
 #[test]
 fn every_field_of_a_linear_bearing_is_checked() {
-    let linear = LINEAR_BEARING;
-    assert!(LinearBearing::new(linear).is_ok());
-    let field = |parameters| LinearBearing::new(parameters).unwrap_err().field();
-    for bad in BAD {
-        assert_eq!(
-            field(LinearBearingParameters {
-                ball_radius: bad,
-                ..linear
-            }),
-            "ball_radius"
-        );
-        assert_eq!(
-            field(LinearBearingParameters {
-                contact_angle: bad,
-                ..linear
-            }),
-            "contact_angle"
-        );
-        let groove = GrooveSize::Conformity(bad);
-        assert_eq!(
-            field(LinearBearingParameters { groove, ..linear }),
-            "conformity"
-        );
-    }
+    #[rustfmt::skip]
+    assert_refused(
+        &LINEAR_BEARING,
+        |parameters| LinearBearing::new(*parameters),
+        &[
+            ("ball_radius", |p, v| p.ball_radius = v, BAD),
+            ("contact_angle", |p, v| p.contact_angle = v, BAD),
+            ("conformity", |p, v| p.groove = GrooveSize::Conformity(v), BAD),
+        ],
+    );
 }
 
 /// A thick ball in a wide groove on a thin screw: the groove reaches the axis.
@@ -187,7 +72,6 @@ fn a_folded_screw_is_refused() {
     assert!(matches!(error, Error::FoldedGroove { .. }));
     assert_eq!(error.field(), "groove_radius");
     assert!(!error.allowed().contains(error.value()));
-    // A long lead stretches the helix and unfolds it.
     assert!(
         BallScrew::new(BallScrewParameters {
             lead: 50e-3,
@@ -212,7 +96,6 @@ fn built_in_designs_are_all_valid_and_named_after_their_numbers() {
             "{}",
             size.name
         );
-        // Likewise.
         assert!(
             (design.lead() - 1e-3 * numbers[1]).abs() < 1e-8,
             "{}",
@@ -230,7 +113,6 @@ fn built_in_designs_are_all_valid_and_named_after_their_numbers() {
     }
 }
 
-/// The two ways to give a groove are one: conformity is groove radius over ball diameter.
 #[test]
 fn conformity_and_groove_radius_agree() {
     let by_radius = BallScrew::new(good()).unwrap();
@@ -249,7 +131,6 @@ fn conformity_and_groove_radius_agree() {
     }
 }
 
-/// Lead and lead angle lead to the same path; its curvature and torsion are those of the reference.
 #[test]
 fn path_from_lead_equals_path_from_lead_angle() {
     for size in CATALOGUE {
@@ -301,6 +182,5 @@ fn zero_lead_is_a_bearing() {
 fn mass_of_a_ball_is_its_volume_times_density() {
     let design = BallScrew::new(good()).unwrap();
     let expected = 7800.0 * 4.0 / 3.0 * std::f64::consts::PI * SCREW_TRACK.ball_radius.powi(3);
-    // Five roundings of 2^-24.
     assert!((f64::from(design.ball_mass()) / expected - 1.0).abs() < 3e-7);
 }

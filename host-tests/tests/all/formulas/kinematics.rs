@@ -1,5 +1,7 @@
 //! The in-loop kinematics (f32) against the float64 reference.
 
+use crate::reference::kinematics_cases;
+use crate::refusals::assert_refused;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{
@@ -9,49 +11,11 @@ use epas_friction::{BallScrew, CATALOGUE, Error, GrooveSize};
 use epas_reference::kinematics::{self as reference, KinematicsInput, Raceway, Revised, operating};
 use epas_reference::promises;
 use epas_testkit::errors::Errors;
-use epas_testkit::measured;
 use epas_testkit::random::Random;
-use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 
 const DEGREE: f64 = PI / 180.0;
 
-fn golden_cases() -> Vec<(String, KinematicsInput)> {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/kinematics.json"
-    ));
-    let file: Value = serde_json::from_str(text).unwrap();
-    let cases = file["cases"].as_array().unwrap();
-    cases
-        .iter()
-        .map(|case| {
-            let number = |group: &str, key: &str| case[group][key].as_f64().unwrap();
-            let length = |group: &str, key: &str| 1e-3 * number(group, key);
-            let input = KinematicsInput {
-                ball_diameter: length("geom", "D"),
-                pitch_radius: length("geom", "r_m"),
-                lead_angle: number("geom", "psi"),
-                groove_radius_screw: length("geom", "r_i"),
-                groove_radius_nut: length("geom", "r_o"),
-                contact_angle_screw: number("state", "alpha_i"),
-                contact_angle_nut: number("state", "alpha_o"),
-                pitch_angle: number("state", "beta"),
-                yaw_angle: number("state", "betap"),
-                rolling_radius_screw: length("state", "rp_i"),
-                rolling_radius_nut: length("state", "rp_o"),
-                speed: number("state", "omega"),
-                semi_major_screw: length("inner", "a"),
-                semi_minor_screw: length("inner", "b"),
-                semi_major_nut: length("outer", "a"),
-                semi_minor_nut: length("outer", "b"),
-            };
-            (case["tag"].as_str().unwrap().to_owned(), input)
-        })
-        .collect()
-}
-
-/// Draws inputs.
 trait Drawn {
     fn input(&mut self) -> KinematicsInput;
 }
@@ -115,7 +79,6 @@ fn parameters(input: &KinematicsInput) -> KinematicsParameters {
     }
 }
 
-/// Set up with other contacts, which then become these.
 fn updated(given: &KinematicsParameters) -> ContactKinematics {
     let mut kinematics = ContactKinematics::new(&KinematicsParameters {
         contact_angle_screw: 0.99 * given.contact_angle_screw,
@@ -165,7 +128,6 @@ struct Sweep {
     spin_speed: Errors,
     entrainment: Errors,
     rolling: Errors,
-    /// Rolling slip of contacts that came by an update.
     updated: Errors,
     side: Errors,
     spin: Errors,
@@ -246,7 +208,6 @@ impl Sweep {
         }
     }
 
-    /// See the test of the golden cases for where the bounds come from.
     fn assert(&self) {
         assert_scattered(&self.orbital, "orbital speed, relative", 5e-7);
         assert_scattered(&self.spin_speed, "spin speed, relative", 5e-7);
@@ -269,7 +230,9 @@ impl Sweep {
 #[test]
 fn golden_cases_within_the_promise() {
     let mut sweep = Sweep::default();
-    for (tag, input) in golden_cases() {
+    for case in kinematics_cases::cases() {
+        let tag = case["tag"].as_str().unwrap().to_owned();
+        let input = kinematics_cases::input(&case, 1e-3);
         sweep.add(&input, &tag);
         sweep.add(
             &KinematicsInput {
@@ -285,7 +248,6 @@ fn golden_cases_within_the_promise() {
             },
             &tag,
         );
-        // Yaw angles at which side slip vanishes at one contact.
         for raceway in Raceway::BOTH {
             if let Ok(yaw_angle) = reference::yaw_without_side_slip(&input, raceway) {
                 sweep.add(&KinematicsInput { yaw_angle, ..input }, &tag);
@@ -312,48 +274,6 @@ fn random_geometries() {
         .assert_promised(promises::of("slip_ratios"));
 }
 
-/// Alberdi et al., sections 4.1 and 4.2, and yaw angles of section 4.3.2.
-#[test]
-fn published_values() {
-    let input = operating::table_two().unwrap();
-    let kinematics = ContactKinematics::new(&parameters(&input)).unwrap();
-    let ball = kinematics.tick(operating::SPEED as f32);
-    for slip in [ball.screw, ball.nut] {
-        // Printed to two decimals: half a unit.
-        assert!((slip.entrainment_speed - 1.00).abs() < 0.005);
-    }
-    let degrees = |radians: f32| f64::from(radians) / DEGREE;
-    let (screw, nut) = (kinematics.screw().ratios(), kinematics.nut().ratios());
-    // Likewise.
-    assert!((degrees(screw.entrainment_angle) - 1.19).abs() < 0.005);
-    measured::assert(
-        "published entrainment angle of the nut in degrees",
-        degrees(nut.entrainment_angle) - 0.87,
-    );
-    measured::assert(
-        "published slide-to-roll ratio in per cent",
-        100.0 * screw.slide_to_roll - 4.16,
-    );
-    for (yaw, side) in [(-2.291, "nut"), (3.105, "screw")] {
-        let turned = KinematicsInput {
-            yaw_angle: yaw * DEGREE,
-            ..input
-        };
-        let ball = ContactKinematics::new(&parameters(&turned)).unwrap();
-        let slip = if side == "nut" {
-            ball.per_speed().nut
-        } else {
-            ball.per_speed().screw
-        };
-        measured::assert_at(
-            "published yaw angles, side slip",
-            slip.side_slip / slip.entrainment_speed,
-            format_args!("{side}"),
-        );
-    }
-}
-
-/// Zeros of either sign are a point.
 #[test]
 fn a_contact_may_be_a_point() {
     let given = parameters(&Random(0x5EED_100A).input());
@@ -440,8 +360,6 @@ fn all_finite(kinematics: &ContactKinematics) -> bool {
     numbers.iter().all(|number| number.is_finite())
 }
 
-/// Each field with NaN, infinities, zeros, negative, huge and tiny numbers: an error that names it, or finite
-/// results.
 #[test]
 fn odd_parameters_are_refused_by_name_or_give_finite_numbers() {
     let good = parameters(&operating::table_two().unwrap());
@@ -467,97 +385,60 @@ fn odd_parameters_are_refused_by_name_or_give_finite_numbers() {
     }
 }
 
-/// The refusals that the physics asks for, each with its field and a range that would do.
 #[test]
 fn what_cannot_roll_is_refused() {
     let good = parameters(&operating::table_two().unwrap());
     let refused = |given: KinematicsParameters| ContactKinematics::new(&given).unwrap_err();
-    // Contact angle far from the pitch angle.
-    let error = refused(KinematicsParameters {
-        contact_angle_screw: -0.8,
+    #[rustfmt::skip]
+    assert_refused(
+        &good,
+        ContactKinematics::new,
+        &[
+            ("contact_angle_screw", |p, v| p.contact_angle_screw = v, &[-0.8]),
+            ("contact_angle_nut", |p, v| p.contact_angle_nut = v, &[-0.8]),
+            ("ball_diameter", |p, v| p.ball_diameter = v, &[2.1]),
+            ("semi_major_nut", |p, v| p.semi_major_nut = v, &[1.192e-3]),
+            ("semi_minor_screw", |p, v| p.semi_minor_screw = v, &[0.7e-3]),
+            ("groove_radius_nut", |p, v| p.groove_radius_nut = v, &[3.9e-3]),
+        ],
+    );
+    let is_taken = |given: KinematicsParameters| ContactKinematics::new(&given).is_ok();
+    assert!(is_taken(KinematicsParameters {
+        semi_major_nut: 1.19e-3,
         ..good
-    });
-    assert_eq!(error.field(), "contact_angle_screw");
-    assert!(!error.allowed().contains(-0.8));
-    // The grip ends where the range says, but for the last of 24 halvings of less than half a turn (2e-7 rad)
-    // and the rounding of the angle (6e-8 rad).
-    let end = error.allowed().minimum;
-    for (angle, taken) in [(end, true), (end - 4e-7, false)] {
-        let given = KinematicsParameters {
-            contact_angle_screw: angle,
-            ..good
-        };
-        assert_eq!(ContactKinematics::new(&given).is_ok(), taken, "{angle}");
-    }
-    let error = refused(KinematicsParameters {
-        contact_angle_nut: -0.8,
-        ..good
-    });
-    assert_eq!(error.field(), "contact_angle_nut");
-    // A ball's diameter is twice a radius of 10 um to 1 m.
-    let error = refused(KinematicsParameters {
+    }));
+    let range = refused(KinematicsParameters {
         ball_diameter: 2.1,
         ..good
-    });
-    assert_eq!(error.field(), "ball_diameter");
-    assert_eq!(
-        (error.allowed().minimum, error.allowed().maximum),
-        (2e-5, 2.0)
-    );
-    // Ellipse beyond 0.3 of the ball's radius, 1.191 mm.
-    assert!(
-        ContactKinematics::new(&KinematicsParameters {
-            semi_major_nut: 1.19e-3,
-            ..good
-        })
-        .is_ok()
-    );
-    let error = refused(KinematicsParameters {
-        semi_major_nut: 1.192e-3,
+    })
+    .allowed();
+    assert_eq!((range.minimum, range.maximum), (2e-5, 2.0));
+    // The grip ends where the range says, but for the last of 24 halvings of less than half a turn (2e-7 rad)
+    // and the rounding of the angle (6e-8 rad).
+    let with = |contact_angle_screw| KinematicsParameters {
+        contact_angle_screw,
         ..good
-    });
-    assert_eq!(error.field(), "semi_major_nut");
-    let error = refused(KinematicsParameters {
-        semi_minor_screw: 0.7e-3,
-        ..good
-    });
-    assert_eq!(error.field(), "semi_minor_screw");
-    // Rolling radius that folds the path: r' cos(alpha) cos^2(psi) beyond 0.9 r_m.
-    let small = KinematicsParameters {
+    };
+    let end = refused(with(-0.8)).allowed().minimum;
+    assert!(is_taken(with(end)) && !is_taken(with(end - 4e-7)));
+
+    let with = |rolling_radius_screw| KinematicsParameters {
         pitch_radius: 4e-3,
+        rolling_radius_screw,
         ..good
     };
-    let folded = KinematicsParameters {
-        rolling_radius_screw: 6e-3,
-        ..small
-    };
-    let error = refused(folded);
+    let error = refused(with(6e-3));
     assert!(matches!(error, Error::FoldedGroove { .. }));
     assert_eq!(error.field(), "rolling_radius_screw");
-    // Down to a quarter of the ball's diameter.
-    assert_eq!(error.allowed().minimum, 0.25 * small.ball_diameter);
+    assert_eq!(error.allowed().minimum, 0.25 * good.ball_diameter);
     let limit = error.allowed().maximum;
-    let (sin_lead, cos_lead) = f64::from(small.lead_angle).sin_cos();
-    let path_radius = f64::from(small.pitch_radius) * (1.0 + (sin_lead / cos_lead).powi(2));
-    let border = 0.9 * path_radius / f64::from(small.contact_angle_screw).cos();
-    // Ten roundings.
+    let path_radius = f64::from(4e-3_f32) * (1.0 + f64::from(good.lead_angle).tan().powi(2));
+    let border = 0.9 * path_radius / f64::from(good.contact_angle_screw).cos();
     assert!(
         (f64::from(limit) / border - 1.0).abs() < 6e-7,
         "{limit} {border}"
     );
-    for (factor, is_taken) in [(0.9999, true), (1.0001, false)] {
-        let made = ContactKinematics::new(&KinematicsParameters {
-            rolling_radius_screw: limit * factor,
-            ..small
-        });
-        assert_eq!(made.is_ok(), is_taken);
-    }
-    // A groove narrower than the ball.
-    let error = refused(KinematicsParameters {
-        groove_radius_nut: 3.9e-3,
-        ..good
-    });
-    assert_eq!(error.field(), "groove_radius_nut");
+    assert!(is_taken(with(0.9999 * limit)) && !is_taken(with(1.0001 * limit)));
 }
 
 /// Slip along the direction of rolling has the angle 0 or pi, whatever the sign of a side slip of zero, on both raceways.
@@ -586,7 +467,6 @@ fn slip_along_the_direction_of_rolling_has_an_angle_of_zero_or_pi() {
     assert!(against > 0);
 }
 
-/// An update is the set-up with other contacts, bit for bit; a refused one changes nothing.
 #[test]
 fn update_is_set_up_again() {
     let mut random = Random(0x5EED_1007);
@@ -654,7 +534,6 @@ fn update_is_set_up_again() {
     }
 }
 
-/// In the loop a wrong speed counts as none.
 #[test]
 fn wrong_numbers_in_the_loop_count_as_zero() {
     let kinematics = ContactKinematics::new(&parameters(&operating::table_two().unwrap())).unwrap();
@@ -667,7 +546,6 @@ fn wrong_numbers_in_the_loop_count_as_zero() {
         kinematics.tick(1e6).screw.entrainment_speed,
         1e6 * kinematics.per_speed().screw.entrainment_speed
     );
-    // Points off the ellipse touch nothing.
     let screw = kinematics.screw();
     for (x, y) in [
         (f32::NAN, 0.0),
@@ -680,7 +558,6 @@ fn wrong_numbers_in_the_loop_count_as_zero() {
     }
 }
 
-/// No load: an ellipse without extent. The ball rolls on a point; slip there is exact.
 #[test]
 fn unloaded_contact() {
     let input = KinematicsInput {
@@ -702,7 +579,6 @@ fn parameters_of_a_design_are_those_typed_in() {
         Ok(design) => design,
         Err(_) => panic!("the design is out of range"),
     };
-    // A constant can take them.
     const FOLDED: Result<KinematicsParameters, Error> =
         KinematicsParameters::of(&DESIGN, 120.0, 110.0);
     assert_eq!(FOLDED, KinematicsParameters::of(&DESIGN, 120.0, 110.0));
@@ -747,14 +623,12 @@ fn parameters_of_a_design_are_those_typed_in() {
             let error = KinematicsParameters::of(&design, 1.0, load).unwrap_err();
             assert_eq!(error.field(), "load_nut");
         }
-        // An ellipse that outgrows the ball is refused by the kinematics.
         let crushed = KinematicsParameters::of(&design, 1e7, 1.0).unwrap();
         let error = ContactKinematics::new(&crushed).unwrap_err();
         assert_eq!(error.field(), "semi_major_screw");
     }
 }
 
-/// The numbers in the order of [`FIELDS`].
 fn numbers(p: &KinematicsParameters) -> [f32; 15] {
     [
         p.ball_diameter,
@@ -793,7 +667,6 @@ fn lead_angle_of_a_design() {
         let truth = (f64::from(given.lead) / (TAU * f64::from(given.pitch_radius))).atan();
         worst = worst.max((f64::from(design.lead_angle()) - truth).abs());
     }
-    println!("lead angle within {worst:e} rad");
     // Two roundings of the angle above 1 rad, 6e-8 each, two of the smaller of sine and cosine, up to 0.71: 3e-8 each over
     // a cosine of 0.71. Measured: 1.9e-7.
     assert!(worst < 2.1e-7, "{worst:e}");

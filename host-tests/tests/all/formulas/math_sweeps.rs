@@ -15,10 +15,8 @@ mod with_libm;
 #[path = "../../../../src/math/micromath.rs"]
 mod with_micromath;
 
-/// Error of a kernel at an input.
 type ErrorAt = fn(f32) -> f64;
 
-/// The line of a sweep over all inputs: errors in ulps of the result, or absolute.
 fn record(errors: &Errors, name: &str) {
     recorded::Sweep {
         quantity: name,
@@ -31,7 +29,6 @@ fn record(errors: &Errors, name: &str) {
     .print();
 }
 
-/// An error at an input.
 fn add(errors: &mut Errors, input: f32, error: f64) {
     errors.add_case(error, || format!("{input:e} ({:#010x})", input.to_bits()));
 }
@@ -112,21 +109,27 @@ fn check_roots(stride: usize) {
             ulps(math::cbrt_squared(x), f64::from(x).cbrt().powi(2))
         }),
     ];
-    for (name, bound, error) in kernels {
+    let [sqrt, _, cbrt, squared] = kernels.map(|(name, bound, error)| {
         let errors = sweep(1, LARGEST, stride, error);
-        println!("{name}: {errors}");
         if stride == 1 {
             record(&errors, &format!("math::{name}, ulp"));
         }
         let corners = around_powers_of_two(error);
-        println!("  around powers of two: {corners}");
         assert!(errors.largest <= bound, "{name} at {}", errors.worst);
         assert!(corners.largest <= bound, "{name} at {}", corners.worst);
         // A rounding error is spread evenly over a unit in the last place: 1/sqrt(12) rms. Of two million samples the rms
         // scatters by 0.13/sqrt(2e6) = 9e-5, the mean by 0.29/sqrt(2e6) = 2e-4: three times that.
         assert!((errors.rms() - 0.288_7).abs() < 3e-4, "{name}");
         assert!(errors.mean().abs() < 6e-4, "{name} is biased");
-    }
+        errors
+    });
+    // `cbrt_and_squared` has the bits of both, see `symmetries_hold_to_the_bit`.
+    let mut both = cbrt.clone();
+    both.join(&squared);
+    sqrt.assert_promised(promises::of("sqrt"));
+    cbrt.assert_promised(promises::of("cbrt"));
+    squared.assert_promised(promises::of("cbrt_squared"));
+    both.assert_promised(promises::of("cbrt_and_squared"));
 }
 
 fn check_angles(stride: usize) {
@@ -136,6 +139,7 @@ fn check_angles(stride: usize) {
     let absolute_cos = |x: f32| f64::from(math::sin_cos(x).1) - f64::from(x).cos();
     let relative_sin = |x: f32| absolute_sin(x) / f64::from(x).sin();
     let relative_cos = |x: f32| absolute_cos(x) / f64::from(x).cos();
+    let mut full = Errors::default();
     for (name, bound, bits, error) in [
         // Roundings of 2^-25 at values below one: of the table's number, and of the last sum.
         (
@@ -163,7 +167,6 @@ fn check_angles(stride: usize) {
                 }
             }
         }
-        println!("{name}: {errors}");
         if stride == 1 {
             record(&errors, &format!("math::sin_cos: {name}"));
         }
@@ -173,7 +176,11 @@ fn check_angles(stride: usize) {
             "sine and cosine, mean over the bound",
             errors.mean() / bound,
         );
+        if bits == full_turn && name.ends_with("absolute") {
+            full.join(&errors);
+        }
     }
+    full.assert_promised(promises::of("sin_cos"));
 }
 
 #[test]
@@ -296,7 +303,6 @@ fn other_backends_err_as_documented() {
     ];
     for (name, least, most, first, last, error) in cases {
         let errors = sweep(first, last, STRIDE, error);
-        println!("{name}: {errors}");
         assert!(
             (least..=most).contains(&errors.largest),
             "{name}: {:e}",
@@ -306,7 +312,6 @@ fn other_backends_err_as_documented() {
     let cbrt = sweep(normal, LARGEST, STRIDE, |x| {
         relative(with_micromath::cbrt(x), f64::from(x).cbrt())
     });
-    println!("micromath cbrt, relative: max {:.3e}", cbrt.largest);
     assert!(
         cbrt.largest > 0.01,
         "micromath has become accurate: say so in the documentation"

@@ -114,7 +114,6 @@ fn a_balls_power_is_that_of_the_reference() {
             })
             .sum();
         let exact = found.hysteresis + found.lubricant;
-        // Measured: 2.1e-7, roundings.
         assert!(
             (f64::from(torque) / exact - 1.0).abs() < 6e-7,
             "{torque} {exact}"
@@ -122,12 +121,10 @@ fn a_balls_power_is_that_of_the_reference() {
     }
 }
 
-/// Defaults pass the checks that a configuration makes of them, in a constant too.
 #[test]
 fn defaults_are_valid() {
     const STEEL: Result<RollingResistance, Error> = defaults::ROLLING_RESISTANCE.checked();
     assert_eq!(STEEL, Ok(RollingResistance::STEEL));
     assert!(epas_friction::ranges::FRICTION_OF_A_ROW.contains(defaults::FRICTION));
-    // And not the constant's way out of an error.
     assert_eq!(defaults::CLEARANCE.gap(), -1e-6);
 }

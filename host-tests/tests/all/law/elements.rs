@@ -13,11 +13,15 @@ use epas_testkit::errors::Errors;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 
-const LIMITS: SlidingLimits = SlidingLimits {
-    forward: 0.05,
-    backward: 0.03,
-    load: 1.0,
-};
+const LIMITS: SlidingLimits = sliding_limits(0.05, 0.03, 1.0);
+
+pub const fn sliding_limits(forward: f32, backward: f32, load: f32) -> SlidingLimits {
+    SlidingLimits {
+        forward,
+        backward,
+        load,
+    }
+}
 
 pub fn proportional<const N: usize>(
     backbone: &Backbone<N>,
@@ -40,7 +44,6 @@ fn by_load() -> LoadExactElements<8> {
     LoadExactElements::new(0.04, 2e-3, 4.0).unwrap()
 }
 
-/// A mixed mechanism: slip across, spin, and rolling resistance with a scale of its own.
 fn mixed() -> ProportionalElements<18> {
     let part = |backbone, share, breakaway_angle| Part {
         backbone,
@@ -58,7 +61,6 @@ fn mixed() -> ProportionalElements<18> {
     .unwrap()
 }
 
-/// Runs a check with every kind of elements.
 macro_rules! each {
     ($check:ident) => {
         $check(&slip());
@@ -77,11 +79,11 @@ fn steady_sliding_has_the_friction_of_gross_sliding() {
         let mut random = Random(1);
         let mut state = E::VIRGIN;
         for _ in 0..20_000 {
-            let limits = SlidingLimits {
-                forward: random.between(0.0, 0.2) as f32,
-                backward: random.between(0.0, 0.2) as f32,
-                load: random.between(1e-3, 6.0) as f32,
-            };
+            let limits = sliding_limits(
+                random.between(0.0, 0.2) as f32,
+                random.between(0.0, 0.2) as f32,
+                random.between(1e-3, 6.0) as f32,
+            );
             let sign = random.sign();
             let friction =
                 elements.follow(&mut state, sign * random.between(1.0, 1e3) as f32, &limits);
@@ -97,15 +99,10 @@ fn steady_sliding_has_the_friction_of_gross_sliding() {
     each!(check);
 }
 
-/// From rest to sliding within the breakaway that the elements name, and not much before.
 #[test]
 fn breakaway_is_where_all_slides() {
     fn check<E: Hysteresis>(elements: &E) {
-        let unit = SlidingLimits {
-            forward: 0.04,
-            backward: 0.04,
-            load: 1.0,
-        };
+        let unit = sliding_limits(0.04, 0.04, 1.0);
         let after = |turn| elements.follow(&mut E::VIRGIN.clone(), turn, &unit);
         let breakaway = elements.breakaway();
         // Past the breakaway by sixteen roundings of 6e-8; and a thousandth before it.
@@ -124,11 +121,7 @@ fn breakaway_is_where_all_slides() {
 #[test]
 fn springs_hold_the_work_until_an_element_slides() {
     fn check<E: Hysteresis>(elements: &E) {
-        let unit = SlidingLimits {
-            forward: 0.04,
-            backward: 0.04,
-            load: 1.0,
-        };
+        let unit = sliding_limits(0.04, 0.04, 1.0);
         let mut state = E::VIRGIN;
         let breakaway = elements.breakaway();
         let turn = 1e-3 * breakaway;
@@ -146,7 +139,6 @@ fn springs_hold_the_work_until_an_element_slides() {
         assert_eq!(elements.stored_energy(&state), full);
     }
     each!(check);
-    // A preload changes the load that elements see, and nothing that they say of themselves.
     let (plain, preloaded) = (by_load(), PreloadedElements::new(by_load()));
     let mut state = MemoryState::VIRGIN;
     plain.follow(&mut state, 0.3e-3, &LIMITS);
@@ -162,11 +154,7 @@ fn springs_hold_the_work_until_an_element_slides() {
 fn nothing_drifts_below_breakaway() {
     fn check<E: Hysteresis>(elements: &E) {
         let mut state = E::VIRGIN;
-        let limits = SlidingLimits {
-            forward: 0.04,
-            backward: 0.04,
-            load: 1.0,
-        };
+        let limits = sliding_limits(0.04, 0.04, 1.0);
         let first = elements.follow(&mut state, 0.6e-3, &limits);
         let mut cycle = |turn: f32| {
             elements.follow(&mut state, -turn, &limits);
@@ -187,13 +175,11 @@ fn nothing_drifts_below_breakaway() {
         }
         let drift = f64::from(cycle(0.15e-3) - settled[2]).abs() / f64::from(CYCLES) / 0.04;
         // No rounding adds up: what is found is none at all. A hundred thousand cycles at the bound are a ten-thousandth of friction.
-        println!("drift {drift:.1e} a cycle");
         assert!(drift < 1e-9);
     }
     each!(check);
 }
 
-/// A minor loop inside another: friction comes back to the branch that was left.
 #[test]
 fn minor_loops_close() {
     fn check<E: Hysteresis>(elements: &E) {
@@ -215,7 +201,6 @@ fn minor_loops_close() {
             }
             worst = worst.max(open.abs());
         }
-        println!("open by {worst:.1e} N m");
         // Friction of 0.05 N m: roundings of 2^-24 a tick and element, and the snap to the limit. Measured: 7.5e-9 N m.
         assert!(worst < 2.2e-8);
     }
@@ -239,7 +224,6 @@ fn halved_ticks_have_the_same_friction() {
             }
             worst = worst.max((friction - last).abs());
         }
-        println!("halved by {worst:.1e} N m");
         // Up to sixteen times as many roundings of 2^-24 of 0.05 N m. Measured: 2.2e-8 N m.
         assert!(worst < 6.6e-8);
     }
@@ -253,16 +237,12 @@ fn the_mirror_image_is_the_same_to_the_bit() {
         let (mut state, mut image) = (E::VIRGIN, E::VIRGIN);
         for _ in 0..5_000 {
             let turn = random.between(-2e-3, 2e-3) as f32;
-            let limits = SlidingLimits {
-                forward: random.between(0.01, 0.06) as f32,
-                backward: random.between(0.01, 0.06) as f32,
-                load: random.between(0.0, 4.0) as f32,
-            };
-            let mirrored = SlidingLimits {
-                forward: limits.backward,
-                backward: limits.forward,
-                load: limits.load,
-            };
+            let limits = sliding_limits(
+                random.between(0.01, 0.06) as f32,
+                random.between(0.01, 0.06) as f32,
+                random.between(0.0, 4.0) as f32,
+            );
+            let mirrored = sliding_limits(limits.backward, limits.forward, limits.load);
             let friction = elements.follow(&mut state, turn, &limits);
             assert_eq!(elements.follow(&mut image, -turn, &mirrored), -friction);
         }
@@ -282,11 +262,11 @@ fn any_turn_and_any_stiffness() {
             for _ in 0..2_000 {
                 let size = f64::from(breakaway_angle) * 10_f64.powf(random.between(-6.0, 9.0));
                 let turn = random.sign() * size as f32;
-                let limits = SlidingLimits {
-                    forward: limit * random.unit(),
-                    backward: limit * random.unit(),
-                    load: 20.0 * random.unit(),
-                };
+                let limits = sliding_limits(
+                    limit * random.unit(),
+                    limit * random.unit(),
+                    20.0 * random.unit(),
+                );
                 for friction in [
                     part.follow(&mut first, turn, &limits),
                     by_load.follow(&mut second, turn, &limits),
@@ -298,9 +278,8 @@ fn any_turn_and_any_stiffness() {
     }
 }
 
-/// Not what a model passes on, but nothing that stays: every input, then sound ones.
 #[test]
-fn what_is_no_number_does_no_harm() {
+fn nan_and_infinity_do_no_harm() {
     fn check<E: Hysteresis>(elements: &E) {
         let numbers = [
             f32::NAN,
@@ -318,11 +297,7 @@ fn what_is_no_number_does_no_harm() {
                     for load in numbers {
                         let mut state = E::VIRGIN;
                         elements.follow(&mut state, 1e-3, &LIMITS);
-                        let limits = SlidingLimits {
-                            forward,
-                            backward,
-                            load,
-                        };
+                        let limits = sliding_limits(forward, backward, load);
                         let friction = elements.follow(&mut state, turn, &limits);
                         let is_sound = [forward, backward]
                             .iter()
@@ -340,18 +315,12 @@ fn what_is_no_number_does_no_harm() {
                 }
             }
         }
-        // A turn that is none leaves friction where it was.
         let mut state = E::VIRGIN;
         let held = elements.follow(&mut state, 0.3e-3, &LIMITS);
         for turn in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, 1e7] {
             assert_eq!(elements.follow(&mut state, turn, &LIMITS), held);
         }
-        // No limits: no friction, nothing remembered.
-        let none = SlidingLimits {
-            forward: 0.0,
-            backward: 0.0,
-            load: 0.0,
-        };
+        let none = sliding_limits(0.0, 0.0, 0.0);
         assert_eq!(elements.follow(&mut state, 1.0, &none), 0.0);
         assert_eq!(elements.stored_energy(&state), 0.0);
     }
@@ -389,15 +358,8 @@ fn rounding_is_as_promised() {
             let turn = f64::from(random.sign()) * 10_f64.powf(random.between(-6.0, 1.0));
             let [forward, backward, load] = [(); 3].map(|()| random.between(0.0, 4.0) as f32);
             let turn = turn as f32;
-            let friction = elements.follow(
-                &mut state,
-                turn,
-                &SlidingLimits {
-                    forward,
-                    backward,
-                    load,
-                },
-            );
+            let friction =
+                elements.follow(&mut state, turn, &sliding_limits(forward, backward, load));
             let [t, f, b, l] = [turn, forward, backward, load].map(f64::from);
             errors.add_case(f64::from(friction) - exact.follow(t, f, b, l), || {
                 tick.to_string()
@@ -466,11 +428,7 @@ fn flanks_share_as_promised() {
         let turn = random.sign() * 10_f64.powf(random.between(-6.0, 1.0)) as f32;
         let [forward, backward] = [(); 2].map(|()| random.between(0.0, 4.0) as f32);
         let load = random.between(1.0, 4.0) as f32;
-        let limits = SlidingLimits {
-            forward,
-            backward,
-            load,
-        };
+        let limits = sliding_limits(forward, backward, load);
         let found = f64::from(elements.follow(&mut state, turn, &limits));
         let [turn, forward, backward, load] = [turn, forward, backward, load].map(f64::from);
         let wanted = exact.follow(turn, forward, backward, both_flanks(load));
@@ -533,7 +491,6 @@ fn set_ups_are_refused_by_field() {
     assert_eq!(by_load(1.0, 1e-3, 0.0), "largest_load");
 }
 
-/// Elements that would have no friction at all are refused: fewer than two in proportion, whatever its parts, and none by load.
 #[test]
 fn too_few_elements_are_refused() {
     fn slides<E: Elements>(elements: &E) -> f32 {

@@ -89,7 +89,6 @@ fn a_counter_of_all_bits_overflows_without_a_jump() {
     }
 }
 
-/// Not an angle: friction holds, and the next turn spans the gap.
 #[test]
 fn gaps_are_spanned() {
     let sensor = counter(16_384, 1e-3, 1.0);
@@ -214,7 +213,6 @@ fn a_play_lets_through_what_it_does_not_take() {
         let moved = play.follow(&mut state, turn);
         (moved.turn, moved.direction)
     };
-    // Measured: 5.8e-11, half an ulp of 1e-3.
     let near = |found: (f32, f32), turn: f32, way: f32| {
         assert!(
             (found.0 - turn).abs() < 1.8e-10 && found.1 == way,
@@ -224,7 +222,6 @@ fn a_play_lets_through_what_it_does_not_take() {
     near(moved(0.5e-3), 0.0, 0.0);
     near(moved(1.5e-3), 1e-3, 1.0);
     near(moved(0.25e-3), 0.25e-3, 1.0);
-    // Back through the whole play, of twice the half width, with nothing moved.
     near(moved(-0.5e-3), 0.0, 1.0);
     near(moved(0.5e-3), 0.0, 1.0);
     near(moved(-2e-3), 0.0, 1.0);
@@ -234,7 +231,6 @@ fn a_play_lets_through_what_it_does_not_take() {
     near(moved(0.25e-3), 0.25e-3, 1.0);
 }
 
-/// Noise within the play never turns the output round, and what moves and what stays add up to the turn.
 #[test]
 fn a_play_keeps_noise_away() {
     let play = Play::new(1.0).unwrap();

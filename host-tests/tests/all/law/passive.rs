@@ -12,7 +12,6 @@ use crate::law::elements::proportional;
 use crate::law::transcription::energy;
 use epas_testkit::random::Random;
 
-/// Ticks of the normal run.
 const TICKS: u64 = 1_000_000;
 
 /// A random tick: turns from 1e-4 to 10 breakaway angles, and rarely far beyond; limits and load from 0 to three times the
@@ -86,13 +85,11 @@ fn least<E: Hysteresis>(
     least
 }
 
-/// Energy lost by every kind of elements, at the least.
 fn every_kind(count: u64) {
     // Of the scale: the largest limit, 5.1 times the reference, over a breakaway angle. Half an ulp of such a friction times a
     // turn of up to a few breakaway angles that stick is 3e-7 of it times 3.
     const ACCEPTED: f64 = -1e-6 * 5.1;
     let check = |name: &str, found: f64| {
-        println!("{name}: least {found:.1e} a tick");
         assert!(found >= ACCEPTED, "{name}: {found:e}");
     };
     let of = |elements: &ProportionalElements<8>, seed| {
@@ -158,6 +155,5 @@ fn a_stiffness_that_follows_the_load_makes_energy() {
         least = least.min(1.5 * load * deflection * turn - (stored - before));
         before = stored;
     }
-    println!("{least:.1e}");
     assert!(least < -0.1);
 }

@@ -1,13 +1,13 @@
 //! The seat, and kinds of elements side by side.
 
+use epas_friction::law::Elements;
 use epas_friction::law::memory::{
     Backbone, BackboneElement, Hysteresis, ParallelElements, SLIP_6, SLIP_8, SPIN_4, SPIN_8,
     SeatElement, SeatState,
 };
-use epas_friction::law::{Elements, SlidingLimits};
 use epas_reference::promises;
 
-use crate::law::elements::proportional;
+use crate::law::elements::{proportional, sliding_limits};
 use crate::law::transcription;
 use epas_testkit::errors::Errors;
 use epas_testkit::measured;
@@ -26,11 +26,7 @@ fn friction_is_that_of_the_formula() {
     for tick in 0..200_000 {
         let turn = random.between(-2.5, 2.5) as f32;
         let [forward, backward] = [(); 2].map(|()| random.between(0.0, 3.0) as f32);
-        let limits = SlidingLimits {
-            forward,
-            backward,
-            load: 1.0,
-        };
+        let limits = sliding_limits(forward, backward, 1.0);
         let friction = f64::from(seat.follow(&mut state, turn, &limits));
         let end = |limit: f32| 0.5 + f64::from(limit).powf(2.0 / 3.0);
         exact = (exact + f64::from(turn)).clamp(-end(backward), end(forward));
@@ -44,11 +40,7 @@ fn friction_is_that_of_the_formula() {
 #[test]
 fn play_is_free_and_sliding_is_full() {
     let seat = SeatElement::new(0.04, 1e-3, 2e-3).unwrap();
-    let limits = SlidingLimits {
-        forward: 0.04,
-        backward: 0.03,
-        load: 1.0,
-    };
+    let limits = sliding_limits(0.04, 0.03, 1.0);
     let mut state = SeatElement::VIRGIN;
     assert_eq!(seat.follow(&mut state, 1e-3, &limits), 0.0);
     assert_eq!(seat.follow(&mut state, -2e-3, &limits), 0.0);
@@ -64,26 +56,13 @@ fn play_is_free_and_sliding_is_full() {
     for (turn, friction) in [(1e6, 0.04), (-1e6, -0.03), (1e5, 0.04)] {
         assert_eq!(seat.follow(&mut state, turn, &limits), friction);
     }
-    let none = SlidingLimits {
-        forward: 0.0,
-        backward: 0.0,
-        load: f32::NAN,
-    };
+    let none = sliding_limits(0.0, 0.0, f32::NAN);
     assert_eq!(seat.follow(&mut state, -1.0, &none), 0.0);
-    // Limits that are no numbers do no lasting harm.
     for limit in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0] {
         let [forward, backward] = [limit; 2];
         for turn in [1.0, -2.0] {
             let load = limit;
-            seat.follow(
-                &mut state,
-                turn,
-                &SlidingLimits {
-                    forward,
-                    backward,
-                    load,
-                },
-            );
+            seat.follow(&mut state, turn, &sliding_limits(forward, backward, load));
         }
         assert_eq!(seat.follow(&mut state, 1e3, &limits), 0.04);
     }
@@ -117,11 +96,7 @@ fn together_they_are_the_sum_of_both() {
         let size = 10_f64.powf(random.between(-6.0, 1.0));
         let turn = random.sign() * size as f32;
         let [forward, backward] = [(); 2].map(|()| random.between(0.0, 3.0) as f32);
-        let limits = SlidingLimits {
-            forward,
-            backward,
-            load: 1.0,
-        };
+        let limits = sliding_limits(forward, backward, 1.0);
         let found = of_tables.follow(&mut of_tables_state, turn, &limits);
         let found_seated = seated.follow(&mut seated_state, turn, &limits);
         let [turn, forward, backward] = [turn, forward, backward].map(f64::from);
@@ -144,18 +119,12 @@ fn together_they_share_the_limit() {
     let spin = proportional(&SPIN_8, 0.012, 0.1e-3);
     let seat = SeatElement::new(0.028, 1e-3, 2e-3).unwrap();
     let both = ParallelElements::new(spin, seat, 0.3).unwrap();
-    let limits = SlidingLimits {
-        forward: 0.04,
-        backward: 0.03,
-        load: 1.0,
-    };
+    let limits = sliding_limits(0.04, 0.03, 1.0);
     let mut state = virgin(&both);
-    // In the play only spin holds.
     let friction = both.follow(&mut state, 0.9e-3, &limits);
     measured::assert("spin in the seat's play", friction / 0.012 - 1.0);
     for (turn, limit) in [(1.0, 0.04), (-1.0, -0.03)] {
         let friction = both.follow(&mut state, turn, &limits);
-        // Two parts that are rounded on their own.
         measured::assert("spin beside the seat, limit", friction / limit - 1.0);
     }
     let parts = [
@@ -182,11 +151,7 @@ fn together_they_share_the_limit() {
         0.5,
     );
     let (half, whole) = (half.unwrap(), proportional(&SLIP_8, 1.0, 1.0));
-    let unit = SlidingLimits {
-        forward: 1.0,
-        backward: 1.0,
-        load: 1.0,
-    };
+    let unit = sliding_limits(1.0, 1.0, 1.0);
     let mut halves = virgin(&half);
     let mut state = epas_friction::law::memory::MemoryState::VIRGIN;
     for turn in [0.3, -0.4, 0.9, -2.0, 0.1] {

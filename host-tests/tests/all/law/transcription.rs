@@ -1,21 +1,17 @@
 //! The elements' update in f64, straight from its formula, and their stored energy.
 
-/// Springs of constant stiffness, and how the limits are shared among them.
 pub struct Elements {
     pub stiffnesses: Vec<f64>,
     pub shares: Shares,
     pub torques: Vec<f64>,
 }
 
-/// Shares of the limit.
 pub enum Shares {
     Constant(Vec<f64>),
-    /// Squares of the places at which springs touch.
     ByLoad(Vec<f64>),
 }
 
 impl Elements {
-    /// Elements of a table, angles over the breakaway angle and limits over the reference.
     pub fn of_table(angles: &[f64], weights: &[f64]) -> Self {
         Self {
             stiffnesses: weights.iter().zip(angles).map(|(w, z)| w / z).collect(),
@@ -24,7 +20,6 @@ impl Elements {
         }
     }
 
-    /// Elements that touch by load, `count` of them.
     pub fn by_load(count: usize, largest_load: f64) -> Self {
         let half = 0.5 * largest_load.cbrt();
         let rule = gauss_quad::GaussLegendre::new(count.try_into().unwrap());
@@ -57,7 +52,6 @@ impl Elements {
         }
     }
 
-    /// Friction after a turn.
     pub fn follow(&mut self, turn: f64, forward: f64, backward: f64, load: f64) -> f64 {
         let shares = self.shares(load);
         for ((f, k), share) in self.torques.iter_mut().zip(&self.stiffnesses).zip(shares) {
@@ -67,7 +61,6 @@ impl Elements {
     }
 }
 
-/// Energy of springs.
 pub fn energy(torques: &[f32], stiffnesses: &[f32]) -> f64 {
     let springs = torques.iter().zip(stiffnesses);
     springs

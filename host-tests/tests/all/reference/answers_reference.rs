@@ -1,5 +1,6 @@
 //! Every state of the promised domain has an answer, the same from every start.
 
+use crate::refusals::assert_refused;
 use epas_friction::geometry::named;
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
@@ -14,7 +15,6 @@ use epas_testkit::random::Random;
 const POWER_ERROR: f64 = 1e-8;
 /// Unbalanced force over the sum of the loads that is accepted.
 const RESIDUAL: f64 = 1e-8;
-/// Axial loads, N.
 const LOADS: [f64; 8] = [5.0, 9.0, 16.0, 29.0, 52.0, 93.0, 167.0, 300.0];
 
 fn solve_all(seed: u64, count: usize, balls: usize) {
@@ -45,13 +45,11 @@ fn solve_all(seed: u64, count: usize, balls: usize) {
     }
 }
 
-/// A sample of the single balls.
 #[test]
 fn every_single_ball_has_an_answer() {
     solve_all(11, 40, 1);
 }
 
-/// A sample of the pairs.
 #[test]
 fn every_pair_has_an_answer() {
     solve_all(12, 8, 2);
@@ -64,7 +62,6 @@ fn every_ball_has_an_answer_whole() {
     solve_all(12, 60, 2);
 }
 
-/// The caged ball of a drawn state, and the sign of its loads.
 fn caged(state: &Promised) -> (CagedBall, f64) {
     let ball = CagedBall {
         design: state.row.design,
@@ -132,65 +129,26 @@ fn compare_paths(balls: usize) {
     }
 }
 
-/// A screw that the tests of wrong inputs start from.
 fn screw() -> CagedBall {
     caged(&promised::row(&mut Random(1), 1)).0
 }
 
 #[test]
 fn a_caged_ball_names_what_is_wrong() {
-    let ball = screw();
-    let radius = ball.design.ball_radius;
-    let mut angle = ball;
-    angle.design.contact_angle = 1.56;
-    let wrong = [
-        (
-            "friction",
-            CagedBall {
-                friction: 0.0,
-                ..ball
-            },
-        ),
-        (
-            "friction",
-            CagedBall {
-                friction: f64::NAN,
-                ..ball
-            },
-        ),
-        (
-            "clearance",
-            CagedBall {
-                clearance: 0.21 * radius,
-                ..ball
-            },
-        ),
-        (
-            "clearance",
-            CagedBall {
-                clearance: -0.051 * radius,
-                ..ball
-            },
-        ),
-        (
-            "hysteresis_loss",
-            CagedBall {
-                rolling: RollingResistance {
-                    hysteresis_loss: -0.1,
-                    lubricant_drag: 0.0,
-                },
-                ..ball
-            },
-        ),
-        ("contact_angle", angle),
-    ];
-    for (field, ball) in wrong {
-        let error = ball.along(&[10.0]).unwrap_err();
-        assert_eq!(error.field(), Some(field), "{error}");
-    }
+    #[rustfmt::skip]
+    assert_refused(
+        &screw(),
+        |ball| ball.along(&[10.0]),
+        &[
+            ("friction", |b, v| b.friction = v, &[0.0]),
+            // Over the ball radius.
+            ("clearance", |b, v| b.clearance = v * b.design.ball_radius, &[0.21, -0.051]),
+            ("hysteresis_loss", |b, v| b.rolling.hysteresis_loss = v, &[-0.1]),
+            ("contact_angle", |b, v| b.design.contact_angle = v, &[1.56]),
+        ],
+    );
 }
 
-/// A wrong load has its own error in its own place; its neighbours have their answers.
 #[test]
 fn a_wrong_load_of_a_caged_ball_stops_no_other() {
     let found = screw().along(&[10.0, 0.0, f64::NAN, 2e6, 20.0]).unwrap();
@@ -204,7 +162,6 @@ fn a_wrong_load_of_a_caged_ball_stops_no_other() {
     assert_eq!(screw().along(&[]), Ok(vec![]));
 }
 
-/// The contacts of the pair that a load presses carry, on either side, and the torque opposes the nut.
 #[test]
 fn a_caged_ball_carries_loads_of_both_signs_in_their_order() {
     let ball = CagedBall {

@@ -8,7 +8,6 @@ use gauss_quad::GaussLegendre;
 
 use epas_reference::friction::patch::{Patch, PatchVelocity};
 
-/// Nodes in each direction of each panel.
 const NODES: usize = 12;
 /// Panels halve towards the velocity centre down to 2^-24 of the ellipse.
 const LEVELS: i32 = 24;
@@ -42,7 +41,6 @@ pub fn friction_over_area(patch: &Patch, velocity: PatchVelocity) -> (f64, [f64;
                 for &(p_node, p_weight) in rule.as_node_weight_pairs() {
                     let (sin_p, cos_p) = at(p_low, p_high, p_node).sin_cos();
                     let (x, y) = (a * sin_p * cos_q, b * sin_q);
-                    // Height of the half-sphere times the area element of the unit disc.
                     let measure = cos_q * cos_p * (cos_q * cos_p) * cos_q;
                     let weight = 0.25 * (q_high - q_low) * (p_high - p_low) * q_weight * p_weight;
                     let load = pressure * weight * measure;

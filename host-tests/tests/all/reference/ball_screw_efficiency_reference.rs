@@ -1,5 +1,6 @@
 //! Rolling resistance and the efficiency of a loaded ball screw: laws and limits.
 
+use crate::refusals::assert_refused;
 use epas_friction::{DISSERTATION_DESIGNS, defaults};
 use epas_reference::curvature::Groove;
 use epas_reference::design::BallScrewDesign;
@@ -11,7 +12,6 @@ use gauss_quad::GaussLegendre;
 
 use epas_testkit::given;
 
-/// One ball with the crate's defaults, widened.
 fn screw(design: BallScrewDesign, ball_load: f64) -> LoadedScrew {
     LoadedScrew {
         design,
@@ -46,7 +46,6 @@ fn hysteresis_is_a_share_of_the_front_halfs_work() {
     });
     let resistance = RollingResistance::STEEL;
     let force = resistance.hysteresis_force(load, semi_minor, radius);
-    // Quadrature of forty nodes is exact to rounding.
     assert!((force / (resistance.hysteresis_loss * work) - 1.0).abs() < 1e-13);
 }
 
@@ -105,7 +104,6 @@ fn parts_of_the_torque_follow_their_parameters() {
         };
         let found = other.solve().unwrap();
         assert_eq!(found.sliding, steel.sliding);
-        // Three roundings.
         assert!((found.hysteresis - factor * steel.hysteresis).abs() <= 1e-15 * found.hysteresis);
         assert_eq!(found.lubricant == 0.0, factor == 0.0);
     }
@@ -146,63 +144,21 @@ fn hysteresis_without_lead_is_that_of_a_bearing() {
 
 #[test]
 fn bad_inputs_are_named() {
-    let good = screw(table_3_6(), 50.0);
-    for (bad, field) in [
-        (
-            LoadedScrew {
-                friction: 1.1,
-                ..good
-            },
-            "friction",
-        ),
-        (
-            LoadedScrew {
-                friction: f64::NAN,
-                ..good
-            },
-            "friction",
-        ),
-        (LoadedScrew { balls: 0.0, ..good }, "balls"),
-        (
-            LoadedScrew {
-                axial_load: f64::INFINITY,
-                ..good
-            },
-            "axial_load",
-        ),
-        (
-            LoadedScrew {
-                clearance: 0.1,
-                ..good
-            },
-            "clearance",
-        ),
-        (
-            LoadedScrew {
-                rolling: RollingResistance {
-                    hysteresis_loss: 0.3,
-                    ..good.rolling
-                },
-                ..good
-            },
-            "hysteresis_loss",
-        ),
-        (
-            LoadedScrew {
-                rolling: RollingResistance {
-                    lubricant_drag: -1.0,
-                    ..good.rolling
-                },
-                ..good
-            },
-            "lubricant_drag",
-        ),
-    ] {
-        assert_eq!(bad.solve().unwrap_err().field(), Some(field));
-    }
+    #[rustfmt::skip]
+    assert_refused(
+        &screw(table_3_6(), 50.0),
+        LoadedScrew::solve,
+        &[
+            ("friction", |s, v| s.friction = v, &[1.1]),
+            ("balls", |s, v| s.balls = v, &[0.0]),
+            ("axial_load", |s, v| s.axial_load = v, &[]),
+            ("clearance", |s, v| s.clearance = v, &[0.1]),
+            ("hysteresis_loss", |s, v| s.rolling.hysteresis_loss = v, &[0.3]),
+            ("lubricant_drag", |s, v| s.rolling.lubricant_drag = v, &[-1.0]),
+        ],
+    );
 }
 
-/// A screw under reversed load and the same friction, braced by oversize, drags alike: neither flank is preferred.
 #[test]
 fn oversize_braces_both_flanks() {
     let braced = screw(table_3_6(), 30.0).braced_by_oversize().unwrap();

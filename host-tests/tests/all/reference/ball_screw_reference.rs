@@ -1,5 +1,6 @@
 //! Ball of a ball screw: stored single balls and pairs, given contacts, and the laws of the model.
 
+use crate::golden::file as golden;
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_ball::{
     Groove, ScrewContact, ScrewMotion, ScrewTrack, motion_from, motion_with_contacts,
@@ -19,12 +20,6 @@ use epas_testkit::measured;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-fn golden(name: &str) -> Value {
-    let path = format!("{}/golden/{name}.json", env!("CARGO_MANIFEST_DIR"));
-    serde_json::from_str(&std::fs::read_to_string(path).unwrap()).unwrap()
-}
-
-/// Hertz constants with the right curvatures, as stored for the two groove radii (mm).
 fn law(side: &str, groove_radius: &str) -> HertzLaw {
     let all = golden("ballscrew");
     let stored = &all["hertz"][format!("{side}_rG{groove_radius}")]["correct"];
@@ -163,7 +158,6 @@ fn friction_sums(motion: &ScrewMotion, nut_speed: f64) -> ([f64; 3], [f64; 3], f
 
 #[test]
 fn stored_single_balls() {
-    let mut worst = 0.0_f64;
     for case in golden("ballscrew")["single_ball"].as_array().unwrap() {
         let radius = number(&case["rG"]).to_string();
         let mu = number(&case["mu"]);
@@ -175,7 +169,6 @@ fn stored_single_balls() {
         let motion = &solved.balls[0];
         // The stored values come from a 48-point rule, which is off by up to 2e-7 of the forces.
         let ratio = motion.orbital_speed / TAU - number(&case["wB_over_wN"]);
-        worst = worst.max(ratio.abs());
         measured::assert_at(
             "single balls of a screw, speed ratio",
             ratio,
@@ -258,7 +251,6 @@ fn stored_single_balls() {
             format_args!("{name}: input {input}, loss {}", motion.power_loss),
         );
     }
-    println!("largest difference of the speed ratio: {worst:e}");
 }
 
 /// The pair in contact: energy with the slip between balls relative to the orbiting frame.
@@ -346,19 +338,11 @@ fn stored_pairs() {
             .unwrap();
         let missing =
             |m: &ElasticMotion| (m.groove_loss() + m.ball_loss - pair_input(m)) / m.ball_loss;
-        println!(
-            "{key}: force {} and {} N, excess of loss {} and {}",
-            solved.contact_force,
-            relative.contact_force,
-            missing(&solved),
-            missing(&relative)
-        );
         measured::assert_at(
             "pairs of a screw, missing power",
             missing(&relative).abs(),
             format_args!("{key}: {}", missing(&relative)),
         );
-        // As measured above.
         assert!(
             missing(&solved) > 0.117 && missing(&solved) < 0.122,
             "{key}: {}",
@@ -373,7 +357,6 @@ fn stored_pairs() {
 
 #[test]
 fn given_contacts_decide_the_orbital_speed() {
-    let mut worst = [0.0_f64; 3];
     for case in golden("ballscrew")["impedance"].as_array().unwrap() {
         let contacts = [
             stored_contacts(&case["contacts1"]),
@@ -382,14 +365,12 @@ fn given_contacts_decide_the_orbital_speed() {
         let train = solve_screw_train(&TRACK, &contacts, 0.1, 0.1, 1.0).unwrap();
         for (ball, key) in [(0, "wB1"), (1, "wB2")] {
             let off = (train.free_speeds[ball] - number(&case[key])).abs();
-            worst[0] = worst[0].max(off);
             measured::assert_at(
                 "given contacts, orbital speed",
                 off,
                 format_args!("{key}: {} stored {}", train.free_speeds[ball], case[key]),
             );
             let iterated = (train.free_speeds[ball] - number(&case[format!("{key}_imp")])).abs();
-            worst[1] = worst[1].max(iterated);
             measured::assert_at(
                 "given contacts, orbital speed by impedances",
                 iterated,
@@ -406,13 +387,7 @@ fn given_contacts_decide_the_orbital_speed() {
             full.contact_force - number(&case["F"]),
             format_args!("{} stored {}", full.contact_force, case["F"]),
         );
-        // With the contacts held the force differs by what the force between the balls moves them.
         let off = (train.contact_forces[0] / number(&case["F"]) - 1.0).abs();
-        worst[2] = worst[2].max(off);
-        println!(
-            "given contacts {} N, elastic {} N, impedance {} N",
-            train.contact_forces[0], case["F"], case["F_imp"]
-        );
         measured::assert_at(
             "given contacts, contact force",
             off,
@@ -420,10 +395,6 @@ fn given_contacts_decide_the_orbital_speed() {
         );
         check_train(&train, 1.0);
     }
-    println!(
-        "speed {:e}, against the impedance iteration {:e}, force {}",
-        worst[0], worst[1], worst[2]
-    );
 }
 
 /// Along the track and in rotation every ball is balanced by the forces of its neighbours; power in = power lost.
@@ -455,7 +426,6 @@ fn check_train(train: &ScrewTrain, nut_speed: f64) {
         let parting =
             (train.balls[j + 1].orbital_speed - train.balls[j].orbital_speed) * nut_speed.signum();
         assert!(parting > -1e-12 * nut_speed.abs() && *force >= 0.0);
-        // One of the two is zero. Measured: 0.0.
         assert!((parting * force).abs() < 1e-15 * nut_speed.abs());
     }
 }
@@ -473,7 +443,6 @@ fn longer_trains_balance_and_reverse() {
         .collect();
     let forward = solve_screw_train(&TRACK, &train, 0.1, 0.1, TAU).unwrap();
     check_train(&forward, TAU);
-    println!("{:?}", forward.contact_forces);
     let backward = solve_screw_train(&TRACK, &train, 0.1, 0.1, -TAU).unwrap();
     check_train(&backward, -TAU);
     // Given contacts do not know the direction, but for the term with the sine of the ball-to-ball angle.
@@ -501,7 +470,6 @@ fn any_start_gives_the_same_motion() {
         [0.55, 0.0, 0.19, 0.0],
     ] {
         let other = motion_from(&TRACK, &contacts, 0.1, TAU, start).unwrap();
-        // One minimum: what is left are roundings of 1.1e-16.
         assert!(
             (first.orbital_speed - other.orbital_speed).abs() < 1e-14,
             "{start:?}: {}",
@@ -555,7 +523,6 @@ fn two_point_contact_sticks_on_one_race() {
         motion.gap,
         motion.orbital_speed / TAU
     );
-    // Half a unit of the last digit.
     assert!(
         (across[0] - across[1]).abs() > 3.3055 && across.iter().sum::<f64>() < 3.3065,
         "{across:?}"
@@ -629,13 +596,11 @@ fn stored_closed_forms() {
             );
         }
         assert_eq!(model.contact_force(&two, &one), 0.0);
-        // Against the numerical pair with the same loads.
         let numerical = pair(radius, 2.0, 0.0, BallSlip::Orbiting)
             .solve(ScrewSupport::Load(2.0 * load))
             .unwrap();
         let off = model.contact_force(&one, &two) / numerical.contact_force - 1.0;
         let loss = one.groove_loss() / numerical_single(radius, load) - 1.0;
-        println!("{key}: force {off:.4}, groove loss {loss:.4} of the numerical model");
         measured::assert_at(
             "closed forms of a screw, contact force",
             off,
@@ -672,10 +637,6 @@ fn closed_speed_and_third_contact_against_the_numerical_model() {
             .contact
             .groove;
         let support = Support::of(load, speed);
-        println!(
-            "{load} N, {speed} rad/s: third {third:?}, ratio {}",
-            solved.balls[0].orbital_speed / speed
-        );
         assert_eq!(third.on_nut(), support == Support::ThirdOnNut);
         let angles = ContactAngles {
             screw: FRAC_PI_4,
@@ -694,7 +655,7 @@ fn closed_speed_and_third_contact_against_the_numerical_model() {
 }
 
 #[test]
-fn hostile_input_converges_or_is_named() {
+fn extreme_input_converges_or_is_named() {
     let contacts = stored_contacts(&golden("ballscrew")["impedance"][3]["contacts1"]);
     assert_eq!(
         motion_with_contacts(&TRACK, &contacts, 0.1, 0.0),
@@ -727,7 +688,6 @@ fn hostile_input_converges_or_is_named() {
     );
     let smooth = motion_with_contacts(&TRACK, &contacts, 0.0, 1.0).unwrap();
     assert_eq!(smooth.power_loss, 0.0);
-    // The limit of no friction is the same problem. Measured: 0.0.
     assert!(
         (smooth.orbital_speed
             - motion_with_contacts(&TRACK, &contacts, 0.3, 1.0)
@@ -772,22 +732,21 @@ fn hostile_input_converges_or_is_named() {
     );
 }
 
-/// A sample of the loads and friction coefficients.
 #[test]
-fn hostile_loads_are_solved() {
-    solve_hostile_loads(&[-1e-2, -1000.0, 1e4], &[0.01, 0.3]);
+fn extreme_loads_are_solved() {
+    solve_extreme_loads(&[-1e-2, -1000.0, 1e4], &[0.01, 0.3]);
 }
 
 #[test]
 #[ignore = "ninety balls"]
-fn hostile_loads_are_solved_whole() {
-    solve_hostile_loads(
+fn extreme_loads_are_solved_whole() {
+    solve_extreme_loads(
         &[-1e-2, -1.0, -100.0, -1000.0, 30.0, 1e4],
         &[0.01, 0.05, 0.1, 0.2, 0.3],
     );
 }
 
-fn solve_hostile_loads(loads: &[f64], frictions: &[f64]) {
+fn solve_extreme_loads(loads: &[f64], frictions: &[f64]) {
     let mut solved = 0;
     let mut refused = Vec::new();
     for &load in loads {
@@ -807,7 +766,7 @@ fn solve_hostile_loads(loads: &[f64], frictions: &[f64]) {
                         let (_, _, input) = friction_sums(ball, 1.0);
                         assert!(ball.power_loss > 0.0);
                         measured::assert(
-                            "hostile balls of a screw, power balance",
+                            "balls under extreme loads of a screw, power balance",
                             input / ball.power_loss - 1.0,
                         );
                     }

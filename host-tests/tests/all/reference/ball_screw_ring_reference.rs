@@ -1,5 +1,6 @@
 //! Balls on a ring in elastic grooves: against rows and single balls, and the laws of the model.
 
+use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::ScrewTrack;
@@ -15,12 +16,10 @@ use std::f64::consts::{PI, TAU};
 const DEGREE: f64 = PI / 180.0;
 const SCREW: BallScrewDesign = BallScrewDesign::LIN;
 
-/// Azimuth between two touching balls.
 fn pitch() -> f64 {
     2.0 * ScrewTrack::from(&SCREW).ball_contact_angle().0.asin()
 }
 
-/// Balls on a short track that they fill but for some part of a ball.
 fn short_ring(balls: usize, room: f64) -> ElasticRing {
     ElasticRing {
         design: SCREW,
@@ -63,7 +62,6 @@ fn one(ring: &ElasticRing, nut_speed: f64, axial_load: f64) -> RingState {
     run(ring, &[sample]).remove(0)
 }
 
-/// Laws that every state keeps, from what it says of its balls.
 fn check(ring: &ElasticRing, state: &RingState) {
     assert!(state.solved(), "{:?}", state.failure);
     measured::assert("ring, residual", state.residual);
@@ -83,7 +81,6 @@ fn check(ring: &ElasticRing, state: &RingState) {
             measured::assert("ring, places in rad", apart.min(length - apart));
         }
         if ball.gap <= 1e-12 && n > 1 {
-            // Touching as above. Of either way: the gap shrinks.
             let overtakes = (ball.speed - next.speed) / ball.speed.abs();
             let wrong = if ball.force > 0.0 {
                 overtakes
@@ -97,7 +94,6 @@ fn check(ring: &ElasticRing, state: &RingState) {
     measured::assert("ring, distances all around", around / length - 1.0);
 }
 
-/// Balls alike do not press, even where they fill the whole track; each is one that is alone.
 #[test]
 fn touching_balls_alike_move_as_one_alone() {
     let mut ring = short_ring(5, 0.0);
@@ -119,7 +115,6 @@ fn touching_balls_alike_move_as_one_alone() {
         integration: Integration::Full,
     };
     let alone = row.solve().unwrap();
-    // Roundings of speeds over a compliance of 1e-3 per newton.
     measured::assert("ring of balls alike, force in N", state.largest_force());
     measured::assert("ring of balls alike, ball torque in N m", state.ball_torque);
     for ball in &state.balls {
@@ -189,7 +184,6 @@ fn touching_balls_are_a_row() {
     }
 }
 
-/// Balls that meet and part on the way: no state is left without an answer, every one keeps the laws, and both things happen.
 #[test]
 fn balls_meet_and_part_without_overlap() {
     for (load, nut_speed, clearance) in [(-50.0, TAU, 0.0), (60.0, -1.0, 1e-6), (-40.0, 3.0, -1e-6)]
@@ -199,7 +193,6 @@ fn balls_meet_and_part_without_overlap() {
         let samples = steady_samples(nut_speed, 7.0 * load, 1.5 * TAU, 90);
         let states = run(&ring, &samples);
         let pressing: Vec<usize> = states.iter().map(RingState::pressing).collect();
-        println!("{load} {nut_speed} {clearance}: {pressing:?}");
         let events: usize = states.iter().map(|state| state.events).sum();
         assert!(pressing.windows(2).any(|pair| pair[0] < pair[1]));
         assert!(pressing.windows(2).any(|pair| pair[0] > pair[1]));
@@ -221,11 +214,9 @@ fn torque_is_odd_under_mirror() {
             ..short_ring(5, 0.1)
         })
     });
-    println!("{pressing:?}");
     assert!(pressing.contains(&true));
 }
 
-/// Whether balls press on the way.
 fn compare_with_mirrored(ring: ElasticRing) -> bool {
     let mut mirrored = ring.clone();
     let length = TAU * ring.turns;
@@ -295,7 +286,6 @@ fn friction_does_not_depend_on_speed() {
     }
 }
 
-/// Loads that grow, pass zero and turn, and a nut that stops and turns: torques follow, and only rest has no answer.
 #[test]
 fn loads_and_ways_change_on_the_way() {
     for clearance in [-2e-6, 1e-6] {
@@ -325,7 +315,6 @@ fn loads_and_ways_change_on_the_way() {
     }
 }
 
-/// How often a ball passes between load and return.
 fn crossings(states: &[RingState]) -> usize {
     let carries = |state: &RingState, ball: usize| state.balls[ball].loads != [0.0; 4];
     let pairs = states.windows(2);
@@ -338,7 +327,6 @@ fn crossings(states: &[RingState]) -> usize {
         .sum()
 }
 
-/// Balls of the return carry nothing and go along; under the load they carry their shares of it.
 #[test]
 fn balls_of_the_return_carry_nothing() {
     let mut ring = short_ring(6, 0.0);
@@ -374,7 +362,6 @@ fn balls_of_the_return_carry_nothing() {
             };
             state.balls.iter().find(near).map(|ball| ball.axial_load)
         };
-        // Balls inside carry by their shares.
         if let (Some(first), Some(last)) = (load(0.9 * pitch()), load(3.6 * pitch())) {
             assert!((last / first - 1.5).abs() < 1e-14, "{first} {last}");
         }
@@ -417,14 +404,12 @@ fn follow_gaps(numbers_of_steps: &[usize]) {
         }
         passed += crossings(&states);
     }
-    println!("{passed} crossings, {worst:e} rad beyond");
     // Measured: 13 a ring.
     assert!(passed > 11 * numbers_of_steps.len(), "{passed}");
     // Measured: 2.8e-3, of gaps of 1e-2 rad, where a ball is on a run-in; 2e-2 where a rate came from a jump.
     assert!(worst < 4.2e-3, "{worst:e}");
 }
 
-/// The force between balls that points outward changes what they carry, and a fixed total of power is still balanced.
 #[test]
 fn outward_force_moves_balls() {
     let mut ring = short_ring(3, 1.0);
@@ -441,7 +426,6 @@ fn outward_force_moves_balls() {
     measured::assert("ring, force that points outward", change);
 }
 
-/// Places of the balls converge with the second order of the step, through meeting and parting.
 #[test]
 fn steps_converge() {
     let mut ring = short_ring(5, 0.1);
@@ -459,7 +443,6 @@ fn steps_converge() {
         pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     };
     let [coarse, middle] = [20, 80].map(off);
-    println!("{coarse:e} {middle:e}");
     measured::assert("ring in 20 steps, places in rad", coarse);
     // A quarter of the step leaves a sixteenth in the second order; half of that is room for events that fall elsewhere in a step.
     assert!(middle < coarse / 8.0);
@@ -479,7 +462,6 @@ fn zero_lead_is_a_bearing() {
         assert!(state.solved());
         for ball in &state.balls {
             let [sl, sr, nl, nr] = ball.loads;
-            // Two contacts carry.
             assert!(sl.min(sr) == 0.0 && nl.min(nr) == 0.0, "{:?}", ball.loads);
         }
         state.torque() / nut_speed
@@ -499,49 +481,42 @@ fn zero_lead_is_a_bearing() {
 fn bad_inputs_are_named() {
     let good = short_ring(3, 0.5);
     let samples = steady_samples(TAU, -150.0, 0.1, 1);
-    let refused = |change: &dyn Fn(&mut ElasticRing)| {
-        let mut ring = good.clone();
-        change(&mut ring);
-        let error = ring.simulate(&samples, |_, _| {}).unwrap_err();
-        error.field()
-    };
-    assert_eq!(refused(&|r| r.friction = f64::NAN), Some("friction"));
-    assert_eq!(refused(&|r| r.balls = 0), Some("balls"));
-    assert_eq!(refused(&|r| r.balls = 4), Some("balls"));
-    assert_eq!(refused(&|r| r.turns = f64::NAN), Some("turns"));
-    assert_eq!(refused(&|r| r.return_length = -1.0), Some("return_length"));
-    assert_eq!(refused(&|r| r.clearance = 1.0), Some("clearance"));
-    assert_eq!(
-        refused(&|r| r.load_shares = vec![-1.0]),
-        Some("load_shares")
+    #[rustfmt::skip]
+    assert_refused(
+        &good,
+        |ring| ring.simulate(&samples, |_, _| {}),
+        &[
+            ("friction", |r, v| r.friction = v, &[]),
+            ("balls", |r, _| r.balls = 0, &[]),
+            ("balls", |r, _| r.balls = 4, &[]),
+            ("turns", |r, v| r.turns = v, &[]),
+            ("return_length", |r, v| r.return_length = v, &[-1.0]),
+            ("clearance", |r, v| r.clearance = v, &[1.0]),
+            ("load_shares", |r, v| r.load_shares = vec![v], &[-1.0]),
+            ("places", |r, v| r.places = vec![v], &[0.0]),
+            ("places", |r, v| r.places = vec![0.0, v, 0.5], &[0.1]),
+            ("screw_deviation", |r, v| r.screw_deviation = GrooveDeviation::sine(1.0, v), &[]),
+            (
+                "nut_deviation",
+                |r, v| {
+                    let values = vec![0.0, v];
+                    r.nut_deviation = GrooveDeviation::Samples { turns: 1.0, values };
+                },
+                &[],
+            ),
+        ],
     );
-    assert_eq!(refused(&|r| r.places = vec![0.0]), Some("places"));
-    assert_eq!(refused(&|r| r.places = vec![0.0, 0.1, 0.5]), Some("places"));
-    assert_eq!(
-        refused(&|r| r.screw_deviation = GrooveDeviation::sine(1.0, f64::NAN)),
-        Some("screw_deviation")
+    assert_refused(
+        &samples,
+        |samples| good.simulate(samples, |_, _| {}),
+        &[
+            ("axial_load", |samples, v| samples[1].axial_load = v, &[]),
+            ("samples", |samples, _| samples[1].time = -1.0, &[]),
+            ("samples", |samples, _| samples.clear(), &[]),
+        ],
     );
-    let values = vec![0.0, f64::NAN];
-    assert_eq!(
-        refused(&|r| r.nut_deviation = GrooveDeviation::Samples {
-            turns: 1.0,
-            values: values.clone()
-        }),
-        Some("nut_deviation")
-    );
-    let mut bad = samples.clone();
-    bad[1].axial_load = f64::INFINITY;
-    let error = good.simulate(&bad, |_, _| {}).unwrap_err();
-    assert_eq!(error.field(), Some("axial_load"));
-    bad = samples;
-    bad[1].time = -1.0;
-    let error = good.simulate(&bad, |_, _| {}).unwrap_err();
-    assert_eq!(error.field(), Some("samples"));
-    let error = good.simulate(&[], |_, _| {}).unwrap_err();
-    assert_eq!(error.field(), Some("samples"));
 }
 
-/// Samples of a wave, many of them, are the wave.
 #[test]
 fn samples_are_lines_between_values() {
     let values: Vec<f64> = (0..64)
@@ -556,7 +531,6 @@ fn samples_are_lines_between_values() {
     }
 }
 
-/// The screw of Figures 3.24 and 3.25 with an amplitude in degrees.
 fn published(degrees: f64) -> ElasticRing {
     ElasticRing {
         balls: 37,
@@ -567,7 +541,6 @@ fn published(degrees: f64) -> ElasticRing {
     }
 }
 
-/// Rings over designs, fits, loads of either sign, deviations of both grooves, returns and changes on the way: every state has an answer.
 #[test]
 #[ignore = "minutes"]
 fn random_rings_have_an_answer_whole() {
@@ -582,11 +555,9 @@ fn random_rings_have_an_answer_whole() {
                 assert!(state.power_error.abs() <= 1e-7 && state.residual <= 1e-8);
             } else {
                 failed += 1;
-                println!("{:?}: {ring:?}", state.failure);
             }
         }
     }
-    println!("{failed} of {states} states without an answer");
     assert!(failed * 1000 <= states, "{failed} of {states}");
 }
 

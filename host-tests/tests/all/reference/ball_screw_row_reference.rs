@@ -1,5 +1,7 @@
 //! Rows of balls in elastic grooves: stored pairs with play and oversize, and the laws of the model.
 
+use crate::golden::file;
+use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::ScrewTrack;
@@ -12,14 +14,6 @@ use epas_testkit::measured;
 use epas_testkit::random::Random;
 use serde_json::Value;
 use std::f64::consts::TAU;
-
-fn golden() -> Value {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/ballscrew_exact.json"
-    ));
-    serde_json::from_str(text).unwrap()
-}
 
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
@@ -48,7 +42,6 @@ fn design(all: &Value, name: &str) -> BallScrewDesign {
     }
 }
 
-/// A stored pair.
 fn stored_row(all: &Value, case: &Value, integration: Integration) -> ElasticRow {
     let side = if case["pair"] == "SRNL" { -1.0 } else { 1.0 };
     let of = |key: &str| numbers::<2>(&case[key]);
@@ -70,11 +63,9 @@ fn stored_row(all: &Value, case: &Value, integration: Integration) -> ElasticRow
     }
 }
 
-/// Largest differences from a stored pair.
 #[derive(Default)]
 struct Off {
     force_newtons: f64,
-    /// Where the stored force is 0.02 N and more.
     force_relative: f64,
     speed: f64,
     load: f64,
@@ -97,7 +88,7 @@ impl Off {
 
 /// Solves all stored pairs. A stored force has a sign; where it is negative, the balls press in the other order.
 fn compare(integration: Integration) -> Off {
-    let all = golden();
+    let all = file("ballscrew_exact");
     let mut off = Off::default();
     for case in all["cases"].as_array().unwrap() {
         let mut row = stored_row(&all, case, integration);
@@ -171,10 +162,9 @@ fn typical(all: &Value) -> ElasticRow {
     }
 }
 
-/// Where pressing is possible in one order, the other one has nothing.
 #[test]
 fn one_order_presses() {
-    let mut row = typical(&golden());
+    let mut row = typical(&file("ballscrew_exact"));
     let one = row.solve().unwrap().contact_forces[0];
     row.balls.reverse();
     let other = row.solve().unwrap().contact_forces[0];
@@ -187,7 +177,7 @@ fn one_order_presses() {
 /// Force, speed and torque by clearance have no jump at zero: steps of 10 nm on both sides of it change them alike, to first order.
 #[test]
 fn continuous_through_zero_clearance() {
-    let all = golden();
+    let all = file("ballscrew_exact");
     let step = 1e-8;
     for reversed in [false, true] {
         let at = |clearance: f64| {
@@ -225,7 +215,7 @@ fn continuous_through_zero_clearance() {
 /// Coulomb friction is in proportion to its coefficient, and loads shift with it: the loss over the coefficient tends to a limit.
 #[test]
 fn no_friction_no_loss() {
-    let mut row = typical(&golden());
+    let mut row = typical(&file("ballscrew_exact"));
     let mut loss = |friction: f64| {
         row.friction = friction;
         row.solve().unwrap().groove_loss() / friction
@@ -242,7 +232,7 @@ fn no_friction_no_loss() {
 /// changes friction by its square.
 #[test]
 fn one_ball_is_that_of_the_pair_model() {
-    let all = golden();
+    let all = file("ballscrew_exact");
     for (load, clearance) in [(50.0, 0.0), (-30.0, -3e-6), (80.0, 3e-6)] {
         let mut row = typical(&all);
         row.clearance = clearance;
@@ -283,10 +273,9 @@ fn one_ball_is_that_of_the_pair_model() {
     }
 }
 
-/// Balls that rub on each other lose more, and the nut puts in what all of them lose.
 #[test]
 fn rubbing_takes_power() {
-    let mut row = typical(&golden());
+    let mut row = typical(&file("ballscrew_exact"));
     if row.solve().unwrap().contact_forces[0] == 0.0 {
         row.balls.reverse();
     }
@@ -310,41 +299,32 @@ fn rubbing_takes_power() {
 
 #[test]
 fn bad_inputs_are_named() {
-    let all = golden();
-    let refused = |change: &dyn Fn(&mut ElasticRow)| {
-        let mut row = typical(&all);
-        change(&mut row);
-        row.solve().unwrap_err()
-    };
-    assert_eq!(
-        refused(&|r| r.friction = f64::NAN).field(),
-        Some("friction")
+    let good = typical(&file("ballscrew_exact"));
+    #[rustfmt::skip]
+    assert_refused(
+        &good,
+        ElasticRow::solve,
+        &[
+            ("friction", |r, v| r.friction = v, &[]),
+            ("clearance", |r, v| r.clearance = v, &[1.0]),
+            ("nut_deviation", |r, v| r.balls[1].nut_deviation = v, &[1.0]),
+            ("balls", |r, _| r.balls.clear(), &[]),
+            ("nut_groove_radius", |r, _| r.design.nut_groove_radius *= 2.0, &[]),
+            ("screw_groove_radius", |r, _| r.design.screw_groove_radius = 0.5 * r.design.ball_radius, &[]),
+        ],
     );
-    assert_eq!(refused(&|r| r.clearance = 1.0).field(), Some("clearance"));
-    assert_eq!(
-        refused(&|r| r.balls[1].nut_deviation = 1.0).field(),
-        Some("nut_deviation")
-    );
-    assert_eq!(refused(&|r| r.balls.clear()).field(), Some("balls"));
-    assert_eq!(
-        refused(&|r| r.design.nut_groove_radius *= 2.0).field(),
-        Some("nut_groove_radius")
-    );
-    assert_eq!(
-        refused(&|r| r.design.screw_groove_radius = 0.5 * r.design.ball_radius).field(),
-        Some("screw_groove_radius")
-    );
-    assert_eq!(refused(&|r| r.nut_speed = 0.0), ReferenceError::Standstill);
-    assert_eq!(
-        refused(&|r| r.balls[0].axial_load = 0.0),
-        ReferenceError::Undriven
-    );
+    let mut still = good.clone();
+    still.nut_speed = 0.0;
+    assert_eq!(still.solve(), Err(ReferenceError::Standstill));
+    let mut unloaded = good;
+    unloaded.balls[0].axial_load = 0.0;
+    assert_eq!(unloaded.solve(), Err(ReferenceError::Undriven));
 }
 
 /// A wider groove of the nut has shorter contacts there and leaves those of the screw: balls rest in both, and power balances.
 #[test]
 fn grooves_have_a_radius_each() {
-    let all = golden();
+    let all = file("ballscrew_exact");
     let row = typical(&all);
     let mut wider = row.clone();
     wider.design.nut_groove_radius *= 1.03;
@@ -378,7 +358,6 @@ fn random_row(random: &mut Random, all: &Value, balls: usize) -> ElasticRow {
     }
 }
 
-/// Complementarity of what was found, from speeds and forces alone.
 fn check(row: &ElasticRow, found: &RowMotion) {
     measured::assert("random rows, residual", found.residual);
     measured::assert("random rows, balance of power", found.power_error);
@@ -399,7 +378,6 @@ fn check(row: &ElasticRow, found: &RowMotion) {
         if let Some(front) = found.pressing.get(place + 1) {
             let overtakes =
                 (ball.motion.orbital_speed - front.motion.orbital_speed) / row.nut_speed;
-            // A force below what balances are off by is none.
             let wrong = if ahead < 1e-5 {
                 overtakes.max(0.0)
             } else {
@@ -415,9 +393,8 @@ fn check(row: &ElasticRow, found: &RowMotion) {
     }
 }
 
-/// The share of random rows that have an answer.
 fn answered(seed: u64, rows: usize, balls: usize) -> f64 {
-    let all = golden();
+    let all = file("ballscrew_exact");
     let mut random = Random(seed);
     let mut solved = 0;
     for _ in 0..rows {
@@ -430,18 +407,15 @@ fn answered(seed: u64, rows: usize, balls: usize) -> f64 {
             Err(error) => println!("{error}: {row:?}"),
         }
     }
-    println!("{solved} of {rows} rows of {balls} balls");
     f64::from(solved) / rows as f64
 }
 
-/// A sample of the rows.
 #[test]
 fn random_rows_have_an_answer() {
     assert_eq!(answered(2, 6, 2), 1.0);
     assert_eq!(answered(3, 1, 8), 1.0);
 }
 
-/// Measured: 499 of 500 pairs, 20 of 20 rows.
 #[test]
 #[ignore = "a minute"]
 fn random_rows_have_an_answer_whole() {
@@ -450,7 +424,6 @@ fn random_rows_have_an_answer_whole() {
     assert!(answered(4, 20, 16) >= 0.95);
 }
 
-/// Over all that the inputs allow, a row has an answer that meets every balance, or a named error. A sample of the rows.
 #[test]
 fn extreme_rows_are_answered_or_named() {
     solve_extreme_rows(2, 1);
@@ -459,12 +432,11 @@ fn extreme_rows_are_answered_or_named() {
 #[test]
 #[ignore = "half a minute"]
 fn extreme_rows_are_answered_or_named_whole() {
-    // Measured: 8 of 16. Loads of 1e5 N and turned grooves leave many without a place.
     solve_extreme_rows(16, 6);
 }
 
 fn solve_extreme_rows(rows: usize, least: usize) {
-    let all = golden();
+    let all = file("ballscrew_exact");
     let mut random = Random(5);
     let mut solved = 0;
     for _ in 0..rows {
@@ -492,6 +464,5 @@ fn solve_extreme_rows(rows: usize, least: usize) {
             }
         }
     }
-    println!("{solved} of {rows} rows beyond all reason");
     assert!(solved >= least, "{solved}");
 }

@@ -10,7 +10,6 @@
 /// A rectangular grid of bristles on an ellipse with the minor semi-axis `axis_ratio` along the path.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brush {
-    /// Columns across the path.
     columns: Vec<Column>,
     /// Traction of a bristle over its bend.
     stiffness: f64,
@@ -19,38 +18,28 @@ pub struct Brush {
     area: f64,
 }
 
-/// Bristles one behind the other along the path.
 #[derive(Clone, Debug, PartialEq)]
 struct Column {
-    /// Place across the path.
     across: f64,
     bristles: Vec<Bristle>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Bristle {
-    /// Place along the path.
     along: f64,
-    /// Largest traction.
     limit: f64,
     bend: [f64; 2],
 }
 
-/// Motion of one body against the other.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Motion {
-    /// Slip across the path.
     pub across: f64,
-    /// Spin about the normal, rad.
     pub spin: f64,
 }
 
-/// Force across the path and moment of a brush.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Load {
-    /// Force across the path.
     pub force: f64,
-    /// Moment about the centre.
     pub moment: f64,
 }
 
@@ -97,39 +86,20 @@ impl Brush {
         }
     }
 
-    /// Moment over spin while every bristle sticks.
     #[must_use]
     pub fn spin_stiffness(&self) -> f64 {
         self.sum(|x, bristle| self.stiffness * (x * x + bristle.along.powi(2)))
     }
 
-    /// Moment of spin alone, everything sliding.
     #[must_use]
     pub fn spin_limit(&self) -> f64 {
         self.sum(|x, bristle| bristle.limit * x.hypot(bristle.along))
     }
 
-    /// Rolls by one cell: every bristle stands where the next one stood, one leaves the contact and a new one enters, unbent.
-    pub fn roll(&mut self, forward: bool) {
-        for column in &mut self.columns {
-            let bends = column.bristles.iter().map(|bristle| bristle.bend);
-            let moved: Vec<_> = if forward {
-                std::iter::once([0.0; 2]).chain(bends).collect()
-            } else {
-                bends.skip(1).chain([[0.0; 2]]).collect()
-            };
-            for (bristle, bend) in column.bristles.iter_mut().zip(moved) {
-                bristle.bend = bend;
-            }
-        }
-    }
-
-    /// Force and moment after a motion.
     pub fn follow(&mut self, motion: Motion) -> Load {
         let stiffness = self.stiffness;
         for column in &mut self.columns {
             for bristle in &mut column.bristles {
-                // Rotation by the spin: (-y, x).
                 bristle.bend[0] += motion.across - motion.spin * bristle.along;
                 bristle.bend[1] += motion.spin * column.across;
                 let traction = stiffness * bristle.bend[0].hypot(bristle.bend[1]);

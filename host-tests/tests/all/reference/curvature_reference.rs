@@ -1,20 +1,12 @@
 //! The reference's curvatures against 65-digit values and against each other.
 
+use crate::golden::cases;
+use crate::refusals::assert_refused;
 use epas_reference::curvature::{Groove, Surface, profile};
-use epas_testkit::measured;
 use proptest::prelude::*;
 use serde_json::Value;
 
 const GROOVES: [Groove; 2] = [Groove::Screw, Groove::Nut];
-
-fn golden() -> Vec<Value> {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/curvature.json"
-    ));
-    let golden: Value = serde_json::from_str(text).unwrap();
-    golden["cases"].as_array().unwrap().clone()
-}
 
 fn surface(case: &Value, groove: Groove) -> Surface {
     let field = |name: &str| case[name].as_f64().unwrap();
@@ -32,8 +24,7 @@ fn surface(case: &Value, groove: Groove) -> Surface {
 /// `A`, down to 1e-3 here. Near the nut's zero of kappa1 the bound is relative to kappa2. Measured: 9.8e-13 and 6.7e-16.
 #[test]
 fn weingarten_map_equals_65_digit_values() {
-    let mut worst = [0.0_f64; 2];
-    for case in golden() {
+    for case in cases("curvature", "cases") {
         for (groove, name) in [(Groove::Screw, "screw"), (Groove::Nut, "nut")] {
             let surface = surface(&case, groove);
             let angle = case["phi"].as_f64().unwrap();
@@ -47,10 +38,8 @@ fn weingarten_map_equals_65_digit_values() {
                 error1 < 1e-12 && error2 < 2e-15,
                 "{name} {case}: {error1:e} {error2:e}"
             );
-            worst = [worst[0].max(error1), worst[1].max(error2)];
         }
     }
-    println!("kappa1 {:.1e}, kappa2 {:.1e}", worst[0], worst[1]);
 }
 
 prop_compose! {
@@ -113,37 +102,6 @@ proptest! {
     }
 }
 
-/// (A1a) with `+sigma_3` returns the second curvature, and (A1m) without `zeta` is right for the screw
-/// only.
-#[test]
-fn appendix_b_as_printed_returns_the_wrong_curvature() {
-    let (groove_radius, offset_h, offset_l) = profile(1.5875, 0.528, std::f64::consts::FRAC_PI_4);
-    let surface = |groove| Surface {
-        groove,
-        pitch_radius: 8.0,
-        lead_angle: 0.4,
-        groove_radius,
-        offset_h,
-        offset_l,
-    };
-    let screw = surface(Groove::Screw);
-    let printed = screw.appendix_b_as_printed(0.7);
-    measured::assert(
-        "Appendix B as printed",
-        printed / screw.principal(0.7).kappa2 - 1.0,
-    );
-    let nut = surface(Groove::Nut);
-    let printed = nut.appendix_b_as_printed(0.7);
-    assert!(
-        printed.is_nan() || (printed / nut.principal(0.7).kappa2 - 1.0).abs() > 1e-3,
-        "{printed}"
-    );
-    measured::assert(
-        "Appendix B as corrected",
-        nut.appendix_b(0.7) / nut.principal(0.7).kappa1 - 1.0,
-    );
-}
-
 /// A catalogue size, mm: 32 x 20 with balls of 6.35.
 fn catalogue_surface(groove: Groove) -> Surface {
     let (groove_radius, offset_h, offset_l) = profile(3.175, 0.528, std::f64::consts::FRAC_PI_4);
@@ -159,63 +117,21 @@ fn catalogue_surface(groove: Groove) -> Surface {
 
 #[test]
 fn bad_surfaces_are_refused_by_name() {
+    const BAD: &[f64] = &[-1.0, 1e12];
     let good = catalogue_surface(Groove::Screw);
     good.check(0.0).unwrap();
-    for bad in [f64::NAN, f64::INFINITY, -1.0, 1e12] {
-        let refused =
-            |surface: Surface, angle: f64| surface.check(angle).unwrap_err().field().unwrap();
-        assert_eq!(
-            refused(
-                Surface {
-                    pitch_radius: bad,
-                    ..good
-                },
-                0.7
-            ),
-            "pitch_radius"
-        );
-        assert_eq!(
-            refused(
-                Surface {
-                    lead_angle: bad,
-                    ..good
-                },
-                0.7
-            ),
-            "lead_angle"
-        );
-        assert_eq!(
-            refused(
-                Surface {
-                    groove_radius: bad,
-                    ..good
-                },
-                0.7
-            ),
-            "groove_radius"
-        );
-        assert_eq!(
-            refused(
-                Surface {
-                    offset_h: bad,
-                    ..good
-                },
-                0.7
-            ),
-            "offset_h"
-        );
-        assert_eq!(
-            refused(
-                Surface {
-                    offset_l: bad,
-                    ..good
-                },
-                0.7
-            ),
-            "offset_l"
-        );
-        assert_eq!(refused(good, bad), "contact_angle");
-    }
+    assert_refused(
+        &(good, 0.7),
+        |(surface, angle)| surface.check(*angle),
+        &[
+            ("pitch_radius", |(s, _), v| s.pitch_radius = v, BAD),
+            ("lead_angle", |(s, _), v| s.lead_angle = v, BAD),
+            ("groove_radius", |(s, _), v| s.groove_radius = v, BAD),
+            ("offset_h", |(s, _), v| s.offset_h = v, BAD),
+            ("offset_l", |(s, _), v| s.offset_l = v, BAD),
+            ("contact_angle", |(_, angle), v| *angle = v, BAD),
+        ],
+    );
     let folded = Surface {
         pitch_radius: 3.0,
         lead_angle: 0.0,

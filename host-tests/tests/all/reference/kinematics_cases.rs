@@ -9,14 +9,10 @@ use epas_testkit::random::Random;
 
 const DEGREE: f64 = PI / 180.0;
 
-/// The stored cases.
 pub fn cases() -> Vec<Value> {
-    let text = include_str!("../../../golden/kinematics.json");
-    let file: Value = serde_json::from_str(text).unwrap();
-    file["cases"].as_array().unwrap().clone()
+    crate::golden::cases("kinematics", "cases")
 }
 
-/// A number of a case.
 pub fn number(value: &Value, path: &[&str]) -> f64 {
     path.iter()
         .fold(value, |value, key| &value[key])
@@ -24,32 +20,31 @@ pub fn number(value: &Value, path: &[&str]) -> f64 {
         .unwrap()
 }
 
-/// Lengths stay in millimetres: the model is homogeneous in length, and every number of the case is
-/// then the one that it was computed from.
-pub fn input(case: &Value) -> KinematicsInput {
-    let geometry = |key| number(case, &["geom", key]);
-    let state = |key| number(case, &["state", key]);
+/// Lengths are millimetres times `unit`. The model is homogeneous in length: with 1 every number of the case is the one that it was
+/// computed from.
+pub fn input(case: &Value, unit: f64) -> KinematicsInput {
+    let length = |group, key| unit * number(case, &[group, key]);
+    let angle = |key| number(case, &["state", key]);
     KinematicsInput {
-        ball_diameter: geometry("D"),
-        pitch_radius: geometry("r_m"),
-        lead_angle: geometry("psi"),
-        groove_radius_screw: geometry("r_i"),
-        groove_radius_nut: geometry("r_o"),
-        contact_angle_screw: state("alpha_i"),
-        contact_angle_nut: state("alpha_o"),
-        pitch_angle: state("beta"),
-        yaw_angle: state("betap"),
-        rolling_radius_screw: state("rp_i"),
-        rolling_radius_nut: state("rp_o"),
-        speed: state("omega"),
-        semi_major_screw: number(case, &["inner", "a"]),
-        semi_minor_screw: number(case, &["inner", "b"]),
-        semi_major_nut: number(case, &["outer", "a"]),
-        semi_minor_nut: number(case, &["outer", "b"]),
+        ball_diameter: length("geom", "D"),
+        pitch_radius: length("geom", "r_m"),
+        lead_angle: number(case, &["geom", "psi"]),
+        groove_radius_screw: length("geom", "r_i"),
+        groove_radius_nut: length("geom", "r_o"),
+        contact_angle_screw: angle("alpha_i"),
+        contact_angle_nut: angle("alpha_o"),
+        pitch_angle: angle("beta"),
+        yaw_angle: angle("betap"),
+        rolling_radius_screw: length("state", "rp_i"),
+        rolling_radius_nut: length("state", "rp_o"),
+        speed: angle("omega"),
+        semi_major_screw: length("inner", "a"),
+        semi_minor_screw: length("inner", "b"),
+        semi_major_nut: length("outer", "a"),
+        semi_minor_nut: length("outer", "b"),
     }
 }
 
-/// Name of a raceway in a case.
 pub const fn side_of(raceway: Raceway) -> &'static str {
     match raceway {
         Raceway::Screw => "inner",
@@ -57,7 +52,6 @@ pub const fn side_of(raceway: Raceway) -> &'static str {
     }
 }
 
-/// A random input.
 pub fn random_input(random: &mut Random) -> KinematicsInput {
     let pitch_radius = random.between(5e-3, 60e-3);
     let ball_diameter = 2.0 * pitch_radius * random.between(0.04, 0.29);

@@ -1,5 +1,6 @@
 //! Shares of the balls in the load: up to 300 N a ball, of both signs, and how many tables they take.
 
+use crate::refusals::assert_refused;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
@@ -92,7 +93,6 @@ fn three_hundred_newtons_a_ball_of_both_signs() {
                     let load = of_a_ball * balls;
                     let what = format!("{name}, {oversize} m, {fault:?}, {load} N");
                     let solution = solve(&case, load, fault).unwrap();
-                    // Measured: 1.0e-11.
                     assert!(solution.residual <= 2e-11, "{what}: {}", solution.residual);
                     let largest = solution
                         .forces
@@ -191,10 +191,6 @@ fn one_table_for_all_loads() {
             ]
             .concat();
             let alone = Served::best_alone(&all, &TOLERANCE).unwrap().unwrap();
-            println!(
-                "{name}, {fault:?}: {:.0} N, {:?} at {:.0} N, {:?}",
-                alone.table.axial_load, alone.worst, alone.worst_at, alone.of_largest
-            );
             assert!(alone.of_largest.groove_torque.abs() < 0.013);
             assert!(alone.of_largest.ball_load < 0.1);
             if fault == Fault::None {
@@ -252,7 +248,6 @@ fn one_table_serves_up_to_one_percent_of_friction() {
     }
 }
 
-/// Each load is served once, by a table that is within the tolerance there; a range ends where no table reaches further.
 #[test]
 fn ranges_follow_each_other() {
     for (name, case) in screws() {
@@ -301,7 +296,6 @@ fn leaning(leans: &[f64]) -> Vec<ShareTable> {
         .collect()
 }
 
-/// Against every way of cutting the loads into ranges.
 #[test]
 fn no_fewer_tables_would_serve() {
     let mut random = Random(12);
@@ -315,7 +309,6 @@ fn no_fewer_tables_would_serve() {
                     .all(|load| table.error_at(load).unwrap().is_within(&TOLERANCE))
             })
         };
-        // Fewest ranges up to each load.
         let mut fewest = vec![0_usize];
         for last in 0..all.len() {
             let best = (0..=last)
@@ -329,7 +322,6 @@ fn no_fewer_tables_would_serve() {
     }
 }
 
-/// Balls that push against the load: no table says that, and the load is said to have none.
 #[test]
 fn balls_that_push_against_the_load() {
     let all = [
@@ -374,21 +366,17 @@ fn loads_rise_by_a_tenth() {
 
 #[test]
 fn bad_input_names_its_field() {
-    let field = |error: ReferenceError| error.field().unwrap().to_owned();
-    for (smallest, largest) in [
-        (0.0, 1.0),
-        (2.0, 1.0),
-        (1.0, f64::NAN),
-        (f64::NAN, 1.0),
-        (1.0, f64::INFINITY),
-    ] {
-        assert_eq!(
-            field(loads_between(smallest, largest).unwrap_err()),
-            "axial_load"
-        );
-    }
+    assert_refused(
+        &(1.0, 2.0),
+        |&(smallest, largest)| loads_between(smallest, largest),
+        &[
+            ("axial_load", |loads, v| loads.0 = v, &[0.0, 3.0]),
+            ("axial_load", |loads, v| loads.1 = v, &[]),
+        ],
+    );
     let case = CaseStudy::table_2_1();
     let nothing = solve(&case, 0.0, Fault::None).unwrap();
+    let field = |error: ReferenceError| error.field().unwrap().to_owned();
     assert_eq!(
         field(ShareTable::new(0.0, &nothing).unwrap_err()),
         "axial_load"
@@ -401,42 +389,31 @@ fn bad_input_names_its_field() {
         shares: vec![1.0; balls],
     };
     let fewest = |loads: &[ShareTable]| ShareTables::fewest(loads, &TOLERANCE);
-    for loads in [
-        [2.0, 1.0],
-        [1.0, 1.0],
-        [-1.0, 2.0],
-        [0.0, 1.0],
-        [f64::NAN, 1.0],
-    ] {
-        let loads = loads.map(|load| even(load, 2));
-        assert_eq!(field(fewest(&loads).unwrap_err()), "axial_load");
-    }
+    #[rustfmt::skip]
+    assert_refused(
+        &[even(1.0, 2), even(2.0, 2)],
+        |loads| fewest(loads),
+        &[
+            ("axial_load", |loads, v| loads[0].axial_load = v, &[2.0, 3.0, -1.0, 0.0]),
+            ("shares", |loads, _| loads[1].shares.push(1.0), &[]),
+        ],
+    );
     let uneven = [even(1.0, 2), even(2.0, 3)];
-    assert_eq!(field(fewest(&uneven).unwrap_err()), "shares");
-    assert_eq!(
-        field(Served::best_alone(&uneven, &TOLERANCE).unwrap_err()),
-        "shares"
-    );
-    assert_eq!(field(uneven[0].error_at(&uneven[1]).unwrap_err()), "shares");
-    assert_eq!(
-        field(uneven[0].range(&uneven, 1.0, &TOLERANCE).unwrap_err()),
-        "shares"
-    );
-    for wrong in [0.0, -0.01, 1.5, f64::NAN] {
-        for tolerance in [
-            ShareError {
-                groove_torque: wrong,
-                ..TOLERANCE
-            },
-            ShareError {
-                ball_load: wrong,
-                ..TOLERANCE
-            },
-        ] {
-            let refused = ShareTables::fewest(&[even(1.0, 2)], &tolerance);
-            assert_eq!(field(refused.unwrap_err()), "tolerance");
-        }
+    for error in [
+        Served::best_alone(&uneven, &TOLERANCE).unwrap_err(),
+        uneven[0].error_at(&uneven[1]).unwrap_err(),
+        uneven[0].range(&uneven, 1.0, &TOLERANCE).unwrap_err(),
+    ] {
+        assert_eq!(field(error), "shares");
     }
+    assert_refused(
+        &TOLERANCE,
+        |tolerance| ShareTables::fewest(&[even(1.0, 2)], tolerance),
+        &[
+            ("tolerance", |t, v| t.groove_torque = v, &[0.0, -0.01, 1.5]),
+            ("tolerance", |t, v| t.ball_load = v, &[0.0, -0.01, 1.5]),
+        ],
+    );
     assert_eq!(fewest(&[]).unwrap(), ShareTables::default());
     assert_eq!(Served::best_alone(&[], &TOLERANCE).unwrap(), None);
 }

@@ -1,5 +1,6 @@
 //! Friction before gross sliding: the exact hysteresis, its elements and the brush against stored cases, each other and the literature.
 
+use crate::golden::file;
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 
@@ -14,14 +15,6 @@ use epas_reference::presliding::tables::{TABLES, Table};
 use serde_json::Value;
 
 use epas_testkit::random::Random;
-
-fn golden() -> Value {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/presliding.json"
-    ));
-    serde_json::from_str(text).unwrap()
-}
 
 /// A path of a stored case: straight strokes, or sines less their values at the start.
 fn path(given: &Value) -> Vec<f64> {
@@ -77,7 +70,6 @@ fn half_digit(stored: f64, digits: i32) -> f64 {
     0.5001 * power + 1e-12
 }
 
-/// Largest difference of two lists.
 fn apart(one: &[f64], other: &[f64]) -> f64 {
     assert_eq!(one.len(), other.len());
     let differences = one
@@ -87,7 +79,6 @@ fn apart(one: &[f64], other: &[f64]) -> f64 {
     differences.fold(0.0, f64::max)
 }
 
-/// A stored case: its path, and the elements that follow it.
 struct Case<'a> {
     stored: &'a Value,
     angle: Vec<f64>,
@@ -123,7 +114,6 @@ impl<'a> Case<'a> {
         }
     }
 
-    /// Compares with the list of that name, to its nine digits.
     fn check(&self, name: &str, found: &[f64]) {
         let samples = self.stored["samples"].as_array().unwrap();
         let stored = self.stored[name].as_array().unwrap();
@@ -143,7 +133,7 @@ impl<'a> Case<'a> {
 /// The stored cases hold nine digits: half of the last one is 5e-10 for torques below one and 5e-9 above.
 #[test]
 fn stored_cases_to_their_last_digit() {
-    let golden = golden();
+    let golden = file("presliding");
     let cases = golden["cases"].as_array().unwrap();
     assert_eq!(cases.len(), 21);
     for case in cases {
@@ -169,7 +159,7 @@ fn stored_cases_to_their_last_digit() {
 
 #[test]
 fn tables_are_the_stored_ones_and_follow_their_backbones() {
-    let golden = golden();
+    let golden = file("presliding");
     let stored = golden["tables"].as_object().unwrap();
     assert_eq!(stored.len(), TABLES.len());
     for table in &TABLES {
@@ -185,7 +175,6 @@ fn tables_are_the_stored_ones_and_follow_their_backbones() {
         // The file's decimals, read to the last bit but one.
         assert!(apart(table.angles, &numbers("theta")) < 2e-15);
         assert!(apart(table.shares, &numbers("weight")) < 1e-16);
-        // Sums of at most ten rounded numbers.
         assert!((table.shares.iter().sum::<f64>() - 1.0).abs() < 1e-15);
         let error = (0..=20_000)
             .map(|step| 10.0 * f64::from(step) / 20_000.0)
@@ -203,7 +192,6 @@ fn tables_are_the_stored_ones_and_follow_their_backbones() {
     }
 }
 
-/// A random path that turns often, on all scales, and at times goes far beyond breakaway.
 fn wander(random: &mut Random, ticks: usize) -> Vec<f64> {
     let (mut angle, mut towards) = (0.0, 0.0);
     let mut angles = vec![0.0];
@@ -297,7 +285,6 @@ fn a_contact_under_constant_load_is_masings() {
     }
 }
 
-/// A sample: 3000 elements.
 #[test]
 fn dense_elements_converge_to_the_closed_form_under_changing_load() {
     compare_dense_elements(false);
@@ -310,7 +297,7 @@ fn dense_elements_converge_to_the_closed_form_under_changing_load_whole() {
 }
 
 fn compare_dense_elements(convergence: bool) {
-    let golden = golden();
+    let golden = file("presliding");
     for case in golden["cases"].as_array().unwrap() {
         let case = Case::new(case);
         let Form::LoadExact { largest_load, .. } = case.form else {
@@ -379,79 +366,6 @@ fn spin_follows_its_backbone_on_narrow_ellipses() {
     }
 }
 
-/// Rolling carries bent bristles out of the contact and unbent ones in: torque falls short of that of a contact at rest, and of Coulomb friction in the end. It matters
-/// where breakaway takes a large part of the contact's length. A sample of the contacts.
-#[test]
-fn rolling_changes_little_before_breakaway() {
-    compare_rolling(&ROLLING[2..3]);
-}
-
-#[test]
-#[ignore = "six contacts"]
-fn rolling_changes_little_before_breakaway_whole() {
-    compare_rolling(&ROLLING);
-}
-
-/// Screw, load, axis ratio, path of rolling at breakaway over the contact's length, largest loss on the way, loss in the end; measured.
-const ROLLING: [(&str, f64, f64, f64, f64); 6] = [
-    ("lin-3.6, 300 N", 0.215, 0.0454, 0.00013, 0.00013),
-    ("lin-3.6, 1 kN", 0.215, 0.0678, 0.00071, 0.00071),
-    ("lin-3.6, 5 kN", 0.215, 0.1159, 0.00435, 0.00435),
-    ("lin-4.1, 300 N", 0.173, 0.1325, 0.00659, 0.00659),
-    ("lin-4.1, 1 kN", 0.173, 0.1979, 0.02116, 0.02116),
-    ("lin-4.1, 5 kN", 0.173, 0.3384, 0.08215, 0.08215),
-];
-
-fn compare_rolling(contacts: &[(&str, f64, f64, f64, f64)]) {
-    for &(name, ratio, rolled, largest, steady) in contacts {
-        let cells = 600;
-        let mut still = Brush::new(ratio, 41, cells, 2.0 / 3.0);
-        let mut rolling = still.clone();
-        let turn = 1.0 / (rolled * f64::from(cells as u32));
-        let motion = Motion {
-            across: turn,
-            spin: 0.0,
-        };
-        let losses: Vec<f64> = (0..(5.0 / turn) as usize)
-            .map(|_| {
-                rolling.roll(true);
-                still.follow(motion).force - rolling.follow(motion).force
-            })
-            .collect();
-        let found = losses.iter().copied().fold(0.0, f64::max);
-        // Measured above, to five decimals: half a unit, and as much for other roundings.
-        assert!((found - largest).abs() < 1e-5, "{name}: {found}");
-        assert!((losses[losses.len() - 1] - steady).abs() < 1e-5, "{name}");
-    }
-}
-
-/// Slip under a spin that slides already: friction across follows the direction of the motion, so it comes late and stays small.
-#[test]
-fn spin_takes_friction_from_slip() {
-    let brush = || Brush::new(0.19, 41, 41, 2.0 / 3.0);
-    let mut both = brush();
-    let mut across = brush();
-    let (mut together, mut alone) = (0.0, 0.0);
-    for _ in 0..2000 {
-        alone = across
-            .follow(Motion {
-                across: 5e-3,
-                spin: 0.0,
-            })
-            .force;
-        together = both
-            .follow(Motion {
-                across: 5e-3,
-                spin: 5e-3,
-            })
-            .force;
-    }
-    // Measured: 1.9e-15, roundings of a sum over 41 x 41 bristles.
-    assert!((alone - 1.0).abs() < 6e-15);
-    // Velocity centre on the edge of the contact. Measured: 0.922.
-    assert!(together < 0.95 && together > 0.9, "{together}");
-}
-
 /// Elements never give out more than was put in, whatever the limits do, and a closed path leaves no trace.
 #[test]
 fn elements_are_passive_and_do_not_drift() {
@@ -483,7 +397,6 @@ fn elements_are_passive_and_do_not_drift() {
         ] {
             let torques: Vec<f64> = (0..400)
                 .map(|cycle| {
-                    // Up to the bias plus the swing, then to and fro by the same angle.
                     let turn = if cycle == 0 {
                         bias + swing
                     } else if cycle % 2 == 1 {

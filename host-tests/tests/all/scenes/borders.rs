@@ -4,8 +4,9 @@ use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SL
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, Faults,
-    FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, LinearInputs, LoadShare, Regime,
+    FrictionBranch, FrictionModel, LinearBearingTrain, LoadShare, Regime,
 };
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 
 use epas_testkit::gears;
 
@@ -17,7 +18,6 @@ fn closed_form(configuration: &ClosedFormScrewConfiguration) -> FrictionModel<Cl
 fn border(mut below: f32, mut beyond: f32, is_beyond: impl Fn(f32) -> bool) -> (f32, f32) {
     assert!(!is_beyond(below) && is_beyond(beyond));
     while below.next_up() < beyond {
-        // Half of the numbers between: positive ones are in the order of their bits.
         let middle = f32::from_bits(u32::midpoint(below.to_bits(), beyond.to_bits()));
         if is_beyond(middle) {
             beyond = middle;
@@ -39,10 +39,7 @@ fn at_the_reversal_speed_a_mechanism_moves() {
         (speed.next_down(), Regime::Standing),
         (-speed.next_down(), Regime::Standing),
     ] {
-        let inputs = Inputs {
-            nut_speed,
-            axial_load: 1000.0,
-        };
+        let inputs = screw_inputs(nut_speed, 1000.0);
         assert_eq!(model.step(inputs).regime, regime, "{nut_speed}");
     }
 
@@ -54,10 +51,7 @@ fn at_the_reversal_speed_a_mechanism_moves() {
         (speed, Regime::Driving),
         (speed.next_down(), Regime::Standing),
     ] {
-        let inputs = Inputs {
-            nut_speed,
-            axial_load: 1000.0,
-        };
+        let inputs = screw_inputs(nut_speed, 1000.0);
         assert_eq!(model.step(inputs).regime, regime, "{nut_speed}");
     }
 
@@ -69,24 +63,16 @@ fn at_the_reversal_speed_a_mechanism_moves() {
         (speed, Regime::Driving),
         (speed.next_down(), Regime::Standing),
     ] {
-        let inputs = LinearInputs {
-            speed,
-            normal_load: 1000.0,
-            side_load: 0.0,
-        };
+        let inputs = linear_inputs(speed, 1000.0, 0.0);
         assert_eq!(model.step(inputs).regime, regime, "{speed}");
     }
 }
 
-/// Under no load a screw drives: its motor turns against friction alone.
 #[test]
 fn without_a_load_a_screw_drives() {
     let mut model = FrictionModel::<gears::CagedScrew>::new(&gears::caged()).unwrap();
     for nut_speed in [50.0, -50.0] {
-        let outputs = model.step(Inputs {
-            nut_speed,
-            axial_load: 0.0,
-        });
+        let outputs = model.step(screw_inputs(nut_speed, 0.0));
         assert_eq!((outputs.regime, outputs.efficiency), (Regime::Driving, 0.0));
         assert!(outputs.friction_torque * nut_speed > 0.0);
     }
@@ -106,10 +92,7 @@ fn back_driving_ends_where_the_efficiency_does() {
             clearance: Clearance::ZERO,
             ..gears::closed_form(FrictionBranch::Rolling)
         };
-        closed_form(&configuration).step(Inputs {
-            nut_speed: -50.0,
-            axial_load: 1000.0,
-        })
+        closed_form(&configuration).step(screw_inputs(-50.0, 1000.0))
     };
     let (turns, holds) = border(1e-6, 0.1, |tangent| {
         lowered(tangent).regime == Regime::Locked
@@ -118,14 +101,12 @@ fn back_driving_ends_where_the_efficiency_does() {
     assert!(turned.regime == Regime::BackDriving && turned.efficiency > 0.0);
     // The regime is that of the full friction; what is put out is less by the passage through standstill, w_s^2 / 2 w^2.
     assert!(held.efficiency < 1e-3);
-    // Roundings of two torques that cancel. Measured: 1.2e-7 of the load's own.
     assert!(
         turned.efficiency - held.efficiency < 3.6e-7,
         "{turned:?} {held:?}"
     );
 }
 
-/// A drive counts as locked from the friction on at which its torque would be a thousand pitch radii times the load.
 #[test]
 fn a_drive_locks_at_a_thousand_pitch_radii() {
     let mut parameters = CATALOGUE[30].parameters();
@@ -141,10 +122,7 @@ fn a_drive_locks_at_a_thousand_pitch_radii() {
             friction,
             ..gears::closed_form(FrictionBranch::Sliding)
         };
-        closed_form(&configuration).step(Inputs {
-            nut_speed: 50.0,
-            axial_load: 1000.0,
-        })
+        closed_form(&configuration).step(screw_inputs(50.0, 1000.0))
     };
     let (moves, locked) = border(1e-3, 0.5, |friction| {
         driven(friction).regime == Regime::Locked
@@ -152,7 +130,6 @@ fn a_drive_locks_at_a_thousand_pitch_radii() {
     assert!((0.0..1e3).contains(&torque(moves)), "{}", torque(moves));
     assert!(!(0.0..1e3).contains(&torque(locked)), "{}", torque(locked));
     assert!(driven(locked).faults.contains(Faults::FRICTION_LIMIT));
-    // Without a load nothing is locked, and the load alone lowers itself.
     let idle = |nut_speed| {
         let configuration = ClosedFormScrewConfiguration {
             design,
@@ -160,10 +137,7 @@ fn a_drive_locks_at_a_thousand_pitch_radii() {
             ..gears::closed_form(FrictionBranch::Sliding)
         };
         closed_form(&configuration)
-            .step(Inputs {
-                nut_speed,
-                axial_load: 0.0,
-            })
+            .step(screw_inputs(nut_speed, 0.0))
             .regime
     };
     assert_eq!(
@@ -180,10 +154,7 @@ fn an_uncaged_screw_is_locked_by_its_own_friction() {
         FrictionModel::<gears::UncagedScrew<{ gears::SCREW_BALLS }>>::new(&configuration).unwrap();
     for step in 0..400_u16 {
         let axial_load = -2.0 * f32::from(step);
-        let outputs = model.step(Inputs {
-            nut_speed: 20.0,
-            axial_load,
-        });
+        let outputs = model.step(screw_inputs(20.0, axial_load));
         let sustains = outputs.friction_torque.abs() < -outputs.load_torque;
         let expected = if outputs.load_torque >= 0.0 {
             Regime::Driving
@@ -196,7 +167,6 @@ fn an_uncaged_screw_is_locked_by_its_own_friction() {
     }
 }
 
-/// Every scene counts its faulted ticks, and a flag that stands already stays.
 #[test]
 fn every_scene_counts_its_faults() {
     let mut screw =
@@ -206,36 +176,21 @@ fn every_scene_counts_its_faults() {
         FrictionModel::<LinearBearingTrain<{ gears::LINEAR_BALLS }>>::new(&gears::linear())
             .unwrap();
     for tick in 1..=3 {
-        let _ = screw.step(Inputs {
-            nut_speed: f32::NAN,
-            axial_load: 1.0,
-        });
-        let _ = bearing.step(LinearInputs {
-            speed: 0.1,
-            normal_load: f32::NAN,
-            side_load: 1.0,
-        });
+        let _ = screw.step(screw_inputs(f32::NAN, 1.0));
+        let _ = bearing.step(linear_inputs(0.1, f32::NAN, 1.0));
         assert_eq!(
             (screw.faulted_ticks(), bearing.faulted_ticks()),
             (tick, tick)
         );
     }
-    let _ = screw.step(Inputs {
-        nut_speed: 1.0,
-        axial_load: 1.0,
-    });
-    let _ = bearing.step(LinearInputs {
-        speed: 0.1,
-        normal_load: 1.0,
-        side_load: 0.0,
-    });
+    let _ = screw.step(screw_inputs(1.0, 1.0));
+    let _ = bearing.step(linear_inputs(0.1, 1.0, 0.0));
     assert_eq!((screw.faulted_ticks(), bearing.faulted_ticks()), (0, 0));
     let mut faults = Faults::LOAD_RANGE;
     faults |= Faults::LOAD_RANGE;
     assert_eq!(faults, Faults::LOAD_RANGE);
 }
 
-/// A share of the load is what it was made of.
 #[test]
 fn a_load_share_gives_its_share() {
     for share in [0.01, 0.97, 1.0, 3.0, 100.0] {
@@ -243,7 +198,6 @@ fn a_load_share_gives_its_share() {
     }
 }
 
-/// A ball that would stand still or run with the track has no speed deviation: at the border the deviation counts.
 #[test]
 fn a_speed_deviation_of_one_counts() {
     let ball = AnalyticLinearBall::new(

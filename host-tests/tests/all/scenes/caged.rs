@@ -1,6 +1,7 @@
 //! What a caged screw promises: certificates of blocks that `epas-design` folds, each of 2,048 states that were not fitted; and laws that
 //! hold for all of them.
 
+use epas_testkit::gears::screw_inputs;
 use std::sync::LazyLock;
 
 use epas_design::{CagedDesign, CagedFold, Failure, Figure, Folded};
@@ -8,7 +9,7 @@ use epas_friction::geometry::{FINE_LEAD_SIZES, STEERING_SIZES};
 use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, Clearance, DISSERTATION_DESIGNS, FrictionModel,
-    Inputs, Limits, Outputs, Regime, defaults,
+    Limits, Outputs, Regime, defaults,
 };
 use epas_reference::promises;
 use epas_testkit::errors::Errors;
@@ -18,7 +19,6 @@ use epas_testkit::folded;
 const FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
 const CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 20e-6];
 
-/// Every `step`-th design to a diameter of 63 mm, with its name.
 fn designs(step: usize) -> impl Iterator<Item = (&'static str, BallScrewParameters)> {
     let sizes = CATALOGUE
         .iter()
@@ -66,13 +66,11 @@ fn certified(folded: &Folded, errors: &mut Errors, line: &str) {
         ..
     } = *torque;
     assert_eq!((flagged, unsolved), (0.0, 0), "{line}");
-    println!("{line}: {largest:.1e} {rms:.1e} {mean:+.1e}, {worst_load} N, {worst_friction}");
     errors.add_figures([largest, rms, mean], states as f64, || {
         format!("{line}, {worst_load} N, {worst_friction}")
     });
 }
 
-/// A block for one friction coefficient, of some of every second design.
 fn folded_steps(taken: impl Fn(usize) -> bool) {
     let mut errors = Errors::of("folded step");
     for (place, (name, parameters)) in designs(2).enumerate().filter(|(place, _)| taken(*place)) {
@@ -136,7 +134,6 @@ fn folded_step_between_nodes_whole() {
     folded_steps_between_nodes(|_| true);
 }
 
-/// Screws of all leads, with preload, without, and with play; loads to 300 N a ball.
 fn screws() -> impl Iterator<Item = CagedFold> {
     let sizes = [10_usize, 15, 22, 30].map(|size| CATALOGUE[size].parameters());
     let steering = [DISSERTATION_DESIGNS[2].parameters];
@@ -154,7 +151,6 @@ fn screws() -> impl Iterator<Item = CagedFold> {
 static SCREWS: LazyLock<Vec<CagedBallScrewConfiguration>> =
     LazyLock::new(|| screws().map(|fold| one(&fold)).collect());
 
-/// A screw without lead.
 fn bearing() -> CagedFold {
     let flat = BallScrewParameters {
         lead: 0.0,
@@ -175,7 +171,6 @@ fn of_lead(gap: f32, lead: f32) -> CagedFold {
     fold(parameters, gap, 0.1)
 }
 
-/// What of all these is stored.
 pub fn folds() -> Vec<CagedFold> {
     let leads = GAPS.map(|gap| LEADS.map(|lead| of_lead(gap, lead)));
     screws()
@@ -184,7 +179,6 @@ pub fn folds() -> Vec<CagedFold> {
         .collect()
 }
 
-/// The block of a fold for one friction coefficient.
 fn one(fold: &CagedFold) -> CagedBallScrewConfiguration {
     CagedBallScrewConfiguration {
         reversal_speed: 1e-6,
@@ -193,10 +187,7 @@ fn one(fold: &CagedFold) -> CagedBallScrewConfiguration {
 }
 
 fn step(model: &mut FrictionModel<CagedBallScrew>, nut_speed: f32, load_per_ball: f32) -> Outputs {
-    model.step(Inputs {
-        nut_speed,
-        axial_load: 37.0 * load_per_ball,
-    })
+    model.step(screw_inputs(nut_speed, 37.0 * load_per_ball))
 }
 
 /// What the motor gives is what the load takes and what friction takes; a load that friction holds does not turn the nut.
@@ -244,7 +235,6 @@ fn without_a_load_friction_is_that_of_the_preload() {
     }
 }
 
-/// Nothing jumps where the load passes through zero or the speed through standstill.
 #[test]
 fn friction_is_continuous() {
     for screw in SCREWS.iter() {
@@ -279,7 +269,6 @@ fn friction_is_continuous() {
     }
 }
 
-/// A screw of zero lead is a bearing: no torque of the load, but friction.
 #[test]
 fn zero_lead_is_a_bearing() {
     let mut model = FrictionModel::new(&one(&bearing())).unwrap();

@@ -8,9 +8,9 @@ use epas_friction::{
 };
 
 use super::step_promises::{remembering, sound};
-use epas_testkit::absurd::{Trial, accepted};
 use epas_testkit::gears::{self, UncagedConfiguration, UncagedScrew};
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{Trial, accepted};
 
 const MOST: usize = 64;
 
@@ -89,7 +89,6 @@ fn screw_of(balls: u16) -> UncagedConfiguration {
     }
 }
 
-/// No balls, or more than the model has room for: the error says how many, and how many there may be.
 #[test]
 fn a_count_beyond_the_capacity_is_refused() {
     let screw = |balls| FrictionModel::<UncagedScrew<MOST>>::new(&screw_of(balls)).map(drop);
@@ -122,7 +121,6 @@ fn a_count_beyond_the_capacity_is_refused() {
     }
 }
 
-/// A model keeps its number of balls: constants and states of another number are refused.
 #[test]
 fn another_count_does_not_fit() {
     let mut model = FrictionModel::<UncagedScrew<MOST>>::new(&screw_of(37)).unwrap();
@@ -143,7 +141,6 @@ fn another_count_does_not_fit() {
     );
 }
 
-/// A list that has not a number for each ball is none that counts.
 #[test]
 fn a_list_of_another_length_does_not_count() {
     let mut press = Press::<MOST>::with_balls(3).unwrap();

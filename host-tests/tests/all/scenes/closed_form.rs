@@ -1,12 +1,13 @@
 //! The ball screw by a closed form in the loop: energy, signs, continuity, bad input.
 
+use crate::refusals::assert_refused;
 use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
-    DISSERTATION_DESIGNS, Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
+    DISSERTATION_DESIGNS, Faults, FrictionBranch, FrictionModel, Limits, Outputs, Regime,
 };
-use epas_reference::efficiency::Screw;
 use epas_testkit::gears::oversize;
+use epas_testkit::gears::screw_inputs;
 use epas_testkit::measured;
 use proptest::prelude::*;
 
@@ -32,73 +33,7 @@ fn model(configuration: &ClosedFormScrewConfiguration) -> FrictionModel<ClosedFo
 }
 
 fn step(model: &mut FrictionModel<ClosedFormScrew>, nut_speed: f32, axial_load: f32) -> Outputs {
-    model.step(Inputs {
-        nut_speed,
-        axial_load,
-    })
-}
-
-/// Far from the reversal the friction torque is the closed-form efficiency's, in both directions and
-/// both branches: `T = F lead/2pi (1/eta - 1)` driving, `F lead/2pi (1 - eta)` back-driving.
-#[test]
-fn torque_is_the_efficiency_of_the_reference() {
-    let designs = DISSERTATION_DESIGNS.map(|design| design.parameters);
-    let sizes = CATALOGUE.map(|size| size.parameters());
-    for parameters in designs.into_iter().chain(sizes) {
-        for branch in [FrictionBranch::Rolling, FrictionBranch::Sliding] {
-            let design = BallScrew::new(parameters).unwrap();
-            let mut model = model(&ClosedFormScrewConfiguration {
-                design,
-                branch,
-                ..configuration()
-            });
-            let lead = f64::from(parameters.lead);
-            let pitch_radius = f64::from(parameters.pitch_radius);
-            let screw = Screw {
-                lead_angle: (lead / (std::f64::consts::TAU * pitch_radius)).atan(),
-                contact_angle: f64::from(parameters.contact_angle),
-                friction: f64::from(0.075_f32),
-                ball_ratio: f64::from(parameters.ball_radius) / pitch_radius,
-                rolling_tangent: 0.0,
-            };
-            let (drive, backdrive) = match branch {
-                FrictionBranch::Rolling => (screw.rolling_screw(), screw.rolling_backdrive()),
-                FrictionBranch::Sliding => (screw.sliding_drive(), screw.sliding_backdrive()),
-            };
-            let arm = lead / std::f64::consts::TAU;
-            for (speed, load) in [(100.0, 900.0), (-100.0, -900.0)] {
-                let outputs = step(&mut model, speed, load);
-                let expected = 900.0 * arm * (1.0 / drive - 1.0);
-                let computed = f64::from(outputs.friction_torque * speed.signum());
-                // A dozen roundings, and 2e-6 of blending at 500 times the reversal speed.
-                assert!(
-                    (computed / expected - 1.0).abs() < 4e-6,
-                    "{parameters:?}: {computed}"
-                );
-                // Some roundings of 6e-8, and a quarter of the blending at most.
-                assert!((f64::from(outputs.efficiency) - drive).abs() < 7e-7);
-                assert_eq!(outputs.regime, Regime::Driving);
-                let outputs = step(&mut model, speed, -load);
-                let expected = 900.0 * arm * (1.0 - backdrive);
-                let computed = f64::from(outputs.friction_torque * speed.signum());
-                assert!(
-                    (computed / expected - 1.0).abs() < 4e-6,
-                    "{parameters:?}: {computed}"
-                );
-                // The blending's 2e-6 of friction over load.
-                assert!(
-                    (f64::from(outputs.efficiency) - backdrive).abs()
-                        < 2.2e-6 * (1.0 - backdrive).max(1.0)
-                );
-                let expected = if backdrive > 0.0 {
-                    Regime::BackDriving
-                } else {
-                    Regime::Locked
-                };
-                assert_eq!(outputs.regime, expected);
-            }
-        }
-    }
+    model.step(screw_inputs(nut_speed, axial_load))
 }
 
 prop_compose! {
@@ -123,7 +58,6 @@ prop_compose! {
 }
 
 proptest! {
-    /// Friction takes power, never gives it, and never more than its limit.
     #[test]
     fn friction_dissipates((configuration, speed, load) in situation()) {
         let outputs = step(&mut model(&configuration), speed, load);
@@ -132,7 +66,6 @@ proptest! {
         prop_assert!(outputs.efficiency <= 1.0);
     }
 
-    /// Turning everything round turns the torques round, to the bit.
     #[test]
     fn odd_under_reversal_of_speed_and_load((configuration, speed, load) in situation()) {
         let mut model = model(&configuration);
@@ -162,7 +95,6 @@ proptest! {
         prop_assert!((f64::from(outputs.efficiency) - expected).abs() < allowed);
     }
 
-    /// More load, more friction: strictly without preload, not less with it.
     #[test]
     fn friction_rises_with_load((configuration, speed, load) in situation()) {
         prop_assume!(speed.abs() > 1.0);
@@ -176,7 +108,6 @@ proptest! {
         }
     }
 
-    /// Through zero speed the torque is continuous: a small step of speed is a small step of torque.
     #[test]
     fn continuous_through_zero_speed((configuration, _, load) in situation()) {
         // A torque limit would cut the full torque, but not the slope at standstill.
@@ -203,10 +134,7 @@ proptest! {
         load_bits in any::<u32>(),
     ) {
         let mut touched = model(&configuration);
-        let wild = Inputs {
-            nut_speed: f32::from_bits(speed_bits),
-            axial_load: f32::from_bits(load_bits),
-        };
+        let wild = screw_inputs(f32::from_bits(speed_bits), f32::from_bits(load_bits));
         let outputs = touched.step(wild);
         prop_assert!(outputs.friction_torque.is_finite() && outputs.load_torque.is_finite());
         prop_assert!((-1e6..=1.0).contains(&outputs.efficiency));
@@ -241,7 +169,6 @@ fn faults_are_named_and_counted() {
     assert_eq!(model.faulted_ticks(), 0);
 }
 
-/// A screw that locks in driving holds the load with the friction limit, flagged, and still lowers it.
 #[test]
 fn a_locked_drive_is_said_and_bounded() {
     // Contact angle 20 degrees, lead angle 60: f R = 0.99 > Sb = 0.34 at f = 0.5.
@@ -263,7 +190,6 @@ fn a_locked_drive_is_said_and_bounded() {
         "locked drive, friction torque in N m",
         driven.friction_torque - 50.0,
     );
-    // That of the torques in the row, of which one is cut.
     let load_torque = driven.load_torque;
     assert_eq!(
         driven.efficiency,
@@ -271,12 +197,10 @@ fn a_locked_drive_is_said_and_bounded() {
     );
     let lowered = step(&mut model, -100.0, 1000.0);
     assert!(lowered.friction_torque < 0.0 && !lowered.faults.any());
-    // Nothing is cut where nothing is put out.
     let still = step(&mut model, 0.0, 1000.0);
     assert!(still.friction_torque == 0.0 && !still.faults.any());
 }
 
-/// A self-locking fine lead: the load does not turn it, the motor has to push it down.
 #[test]
 fn a_self_locking_lead_is_locked_when_back_driven() {
     let mut parameters = CATALOGUE[0].parameters();
@@ -290,7 +214,6 @@ fn a_self_locking_lead_is_locked_when_back_driven() {
     let lowered = step(&mut model, -50.0, 1000.0);
     assert_eq!(lowered.regime, Regime::Locked);
     assert!(lowered.efficiency < 0.0);
-    // The motor's torque has the sign of the motion.
     assert!((lowered.load_torque + lowered.friction_torque) < 0.0);
     assert_eq!(step(&mut model, 50.0, 1000.0).regime, Regime::Driving);
 }
@@ -326,70 +249,23 @@ fn preload_is_that_of_two_hertzian_flanks() {
         let computed = f64::from(step(&mut model, 400.0, load as f32).friction_torque);
         worst = worst.max((computed / expected - 1.0).abs());
     }
-    println!("preload: {worst:.2e}");
     measured::assert_at("preload of two flanks", worst, format_args!("{worst:e}"));
 }
 
 #[test]
 fn every_field_of_the_configuration_is_checked() {
-    let good = configuration();
-    let field = |configuration: ClosedFormScrewConfiguration| {
-        FrictionModel::<ClosedFormScrew>::new(&configuration)
-            .unwrap_err()
-            .field()
-    };
-    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1.0, 1e30] {
-        assert_eq!(
-            field(ClosedFormScrewConfiguration {
-                friction: bad,
-                ..good
-            }),
-            "friction"
-        );
-        assert_eq!(
-            field(ClosedFormScrewConfiguration {
-                rolling_tangent: bad,
-                ..good
-            }),
-            "rolling_tangent"
-        );
-        assert_eq!(
-            field(ClosedFormScrewConfiguration {
-                reversal_speed: bad,
-                ..good
-            }),
-            "reversal_speed"
-        );
-        let limits = |limits| field(ClosedFormScrewConfiguration { limits, ..good });
-        assert_eq!(
-            limits(Limits {
-                nut_speed: bad,
-                ..good.limits
-            }),
-            "nut_speed"
-        );
-        assert_eq!(
-            limits(Limits {
-                axial_load: bad,
-                ..good.limits
-            }),
-            "axial_load"
-        );
-        assert_eq!(
-            limits(Limits {
-                friction_torque: bad,
-                ..good.limits
-            }),
-            "friction_torque"
-        );
-    }
-    for bad in [0.0, 1e-30] {
-        assert_eq!(
-            field(ClosedFormScrewConfiguration {
-                reversal_speed: bad,
-                ..good
-            }),
-            "reversal_speed"
-        );
-    }
+    const BAD: &[f32] = &[-1.0, 1e30];
+    #[rustfmt::skip]
+    assert_refused(
+        &configuration(),
+        FrictionModel::<ClosedFormScrew>::new,
+        &[
+            ("friction", |c, v| c.friction = v, BAD),
+            ("rolling_tangent", |c, v| c.rolling_tangent = v, BAD),
+            ("reversal_speed", |c, v| c.reversal_speed = v, &[-1.0, 1e30, 0.0, 1e-30]),
+            ("nut_speed", |c, v| c.limits.nut_speed = v, BAD),
+            ("axial_load", |c, v| c.limits.axial_load = v, BAD),
+            ("friction_torque", |c, v| c.limits.friction_torque = v, BAD),
+        ],
+    );
 }

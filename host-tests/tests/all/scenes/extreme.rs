@@ -4,14 +4,13 @@ use crate::objects;
 use crate::recorded;
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{ClosedFormScrew, LinearBearingTrain, UncagedBallScrew};
-use epas_testkit::absurd;
-use epas_testkit::absurd::soak;
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes;
+use epas_testkit::random_scenes::soak;
 
 const COMMAND: &str =
     "cargo test --release -p epas-reference --test all scenes::extreme -- --ignored --nocapture";
 
-/// Every scene, from one ball to 64.
 fn all_scenes(seed: u64, models: u64, ticks: u64) -> u64 {
     soak::<ClosedFormScrew>(seed, 2 * models, ticks)
         + soak::<CagedBallScrew<1>>(seed, 2 * models, ticks)
@@ -44,7 +43,6 @@ fn forces_that_rounding_makes_negative_do_not_drive() {
     soak::<UncagedBallScrew<64>>(0x000a_e000_0001_27ac, 1, 100);
 }
 
-/// Objects made of random numbers, most of them likely to be accepted, the rest anything.
 fn random_objects(seed: u64, count: u64) {
     for object in 0..count {
         let seed = seed.wrapping_add(object);
@@ -52,7 +50,7 @@ fn random_objects(seed: u64, count: u64) {
         let numbers = (0..48)
             .map(|_| {
                 if random.one_in(64) {
-                    random.of(&absurd::EDGES)
+                    random.of(&random_scenes::EDGES)
                 } else {
                     random.anything()
                 }
@@ -62,7 +60,6 @@ fn random_objects(seed: u64, count: u64) {
             panic!("seed {seed:#x}: {error}");
         }
     }
-    println!("{count} random objects");
 }
 
 #[test]
@@ -70,7 +67,6 @@ fn random_numbers_are_refused_or_give_finite_objects() {
     random_objects(1, 100_000);
 }
 
-/// The recorded full run.
 #[test]
 #[ignore = "minutes: cargo test --release -p epas-reference --test all scenes::extreme -- --ignored --nocapture"]
 fn a_hundred_million_random_objects() {
@@ -79,7 +75,6 @@ fn a_hundred_million_random_objects() {
     recorded::print("objects made of random numbers", COUNT, COMMAND);
 }
 
-/// The recorded full run.
 #[test]
 #[ignore = "half an hour: cargo test --release -p epas-reference --test all scenes::extreme -- --ignored --nocapture"]
 fn a_thousand_million_random_inputs() {

@@ -1,5 +1,7 @@
 //! The adapters for `embedded-hal`: frames on the bus, wrap-around, faults of bus and sensor, duty cycles.
 
+use crate::refusals::assert_refused;
+use epas_testkit::gears::screw_inputs;
 use std::cell::Cell;
 use std::f32::consts::TAU;
 
@@ -13,7 +15,7 @@ use epas_friction::hal::{
 };
 use epas_friction::{
     BallScrew, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
-    Faults, FrictionBranch, FrictionModel, Inputs, Limits, Outputs, Regime,
+    Faults, FrictionBranch, FrictionModel, Limits, Outputs, Regime,
 };
 
 const READ_ANGLE: u16 = 0xFFFF;
@@ -35,7 +37,6 @@ const CONFIGURATION: EncoderConfiguration = EncoderConfiguration {
     stuck_ticks: 3,
 };
 
-/// One exchanged frame, in a transaction of its own.
 fn frame(command: u16, answer: u16) -> [Spi<u8>; 3] {
     [
         Spi::transaction_start(),
@@ -123,7 +124,6 @@ fn odd_parity_is_surfaced() {
         Err(EncoderError::Parity { frame: broken })
     );
     let speed = encoder.tick(false).unwrap().nut_speed;
-    // Derived: one rounding of 6e-8 on each side. Measured: 0.
     approx::assert_relative_eq!(speed, 100.0 * encoder.resolution(), max_relative = 1.2e-7);
     assert_eq!(
         encoder.tick(false),
@@ -135,7 +135,6 @@ fn odd_parity_is_surfaced() {
     encoder.release().done();
 }
 
-/// The error flag makes the driver read the sensor's errors, by which the sensor clears them.
 #[test]
 fn the_error_flag_is_read_and_cleared() {
     let flagged = sealed(0x404D);
@@ -158,7 +157,6 @@ fn the_error_flag_is_read_and_cleared() {
     };
     assert!(errors.parity() && !errors.framing() && !errors.invalid_command());
     let speed = encoder.tick(false).unwrap().nut_speed;
-    // Derived: one rounding of 6e-8 on each side. Measured: 0.
     approx::assert_relative_eq!(speed, 10.0 * encoder.resolution(), max_relative = 1.2e-7);
     encoder.release().done();
 }
@@ -197,7 +195,6 @@ impl SpiDevice for Line {
     }
 }
 
-/// A sensor that answers each command in the frame after, and a bus that fails when told to.
 #[derive(Debug, Default)]
 struct Sensor {
     angle: Cell<u16>,
@@ -309,7 +306,6 @@ fn beyond_the_largest_speed_no_speed_comes_out() {
     }
 }
 
-/// One wrong angle of sound parity costs two ticks, and neither gives a speed.
 #[test]
 fn one_wild_angle_costs_two_ticks() {
     let sensor = sensor();
@@ -376,7 +372,6 @@ fn an_angle_that_stands_while_the_rotor_turns_is_stuck() {
     assert!(encoder.tick(true).is_ok());
 }
 
-/// Ticks before the rotor is known to turn do not count, whether they gave an angle or not.
 #[test]
 fn a_rotor_that_begins_to_turn_is_not_stuck() {
     let sensor = sensor();
@@ -392,14 +387,12 @@ fn a_rotor_that_begins_to_turn_is_not_stuck() {
             encoder.tick(false).unwrap_err();
             sensor.fails.set(false);
         }
-        // Not one count yet.
         assert_eq!(encoder.tick(true).unwrap().nut_speed, 0.0);
         assert_eq!(encoder.tick(true).unwrap().nut_speed, 0.0);
         if round == 2 {
             assert_eq!(encoder.tick(true), Err(EncoderError::Stuck { ticks: 3 }));
         }
     }
-    // A failed tick of a rotor that turns counts.
     sensor.angle.set(1);
     encoder.tick(true).unwrap();
     encoder.tick(true).unwrap();
@@ -450,32 +443,18 @@ fn smoothing_is_of_first_order() {
 
 #[test]
 fn a_wrong_encoder_configuration_is_named() {
-    type Spoil = fn(&mut EncoderConfiguration, f32);
-    let fields: [(&str, Spoil, &[f32]); 4] = [
-        ("tick", |c, x| c.tick = x, &[0.0, -1e-3, 2.0]),
-        ("gear_ratio", |c, x| c.gear_ratio = x, &[0.0, -0.001, 101.0]),
-        (
-            "largest_nut_speed",
-            |c, x| c.largest_nut_speed = x,
-            &[0.0, -1.0, 1571.0], // a quarter of a turn in 1 ms is 1570.8 rad/s
-        ),
-        (
-            "smoothing_time",
-            |c, x| c.smoothing_time = x,
-            &[-1e-9, 11.0],
-        ),
-    ];
-    for (name, spoil, values) in fields {
-        for &value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY]
-            .iter()
-            .chain(values)
-        {
-            let mut configuration = CONFIGURATION;
-            spoil(&mut configuration, value);
-            let error = MagneticEncoder::new(&sensor(), &configuration).unwrap_err();
-            assert_eq!(error.field(), name, "{value}: {error}");
-        }
-    }
+    #[rustfmt::skip]
+    assert_refused(
+        &CONFIGURATION,
+        |configuration| MagneticEncoder::new(&sensor(), configuration).map(drop),
+        &[
+            ("tick", |c, x| c.tick = x, &[0.0, -1e-3, 2.0]),
+            ("gear_ratio", |c, x| c.gear_ratio = x, &[0.0, -0.001, 101.0]),
+            // A quarter of a turn in 1 ms is 1570.8 rad/s.
+            ("largest_nut_speed", |c, x| c.largest_nut_speed = x, &[0.0, -1.0, 1571.0]),
+            ("smoothing_time", |c, x| c.smoothing_time = x, &[-1e-9, 11.0]),
+        ],
+    );
 }
 
 const STAGE: FeedForwardConfiguration = FeedForwardConfiguration {
@@ -610,7 +589,6 @@ fn every_scale_is_kept() {
         let mut stage = FrictionFeedForward::new(Channel(scale, 0), &configuration).unwrap();
         stage.neutral().unwrap();
         let neutral = stage.apply(&outputs(0.0, Faults::NONE)).unwrap().duty;
-        // Derived: a duty is a whole number.
         assert!((f32::from(neutral) - 0.5 * f32::from(scale)).abs() <= 0.5);
         assert_eq!(
             stage.apply(&outputs(1e9, Faults::NONE)).unwrap().duty,
@@ -701,22 +679,20 @@ fn an_error_of_the_channel_is_surfaced() {
 
 #[test]
 fn a_wrong_stage_configuration_is_named() {
-    type Spoil = fn(&mut FeedForwardConfiguration, f32);
-    let fields: [(&str, Spoil, &[f32]); 3] = [
-        ("full_torque", |c, x| c.full_torque = x, &[0.0, -1.0, 2e6]),
-        ("largest_torque", |c, x| c.largest_torque = x, &[-1.0, 4.1]),
-        ("share", |c, x| c.share = x, &[-0.1, 1.1]),
-    ];
-    for (name, spoil, values) in fields {
-        for &value in [f32::NAN, f32::INFINITY].iter().chain(values) {
-            let mut configuration = STAGE;
-            spoil(&mut configuration, value);
+    assert_refused(
+        &STAGE,
+        |configuration| {
             let mut unused = PwmMock::new(&[]);
-            let error = FrictionFeedForward::new(unused.clone(), &configuration).unwrap_err();
-            assert_eq!(error.field(), name, "{value}: {error}");
+            let stage = FrictionFeedForward::new(unused.clone(), configuration).map(drop);
             unused.done();
-        }
-    }
+            stage
+        },
+        &[
+            ("full_torque", |c, x| c.full_torque = x, &[0.0, -1.0, 2e6]),
+            ("largest_torque", |c, x| c.largest_torque = x, &[-1.0, 4.1]),
+            ("share", |c, x| c.share = x, &[-0.1, 1.1]),
+        ],
+    );
 }
 
 /// Encoder, model and stage as one loop: friction pushes the way the nut turns, and a failed bus leaves
@@ -759,10 +735,7 @@ fn a_failed_bus_leaves_the_bridge_neutral() {
         let nut_speed = encoder
             .tick(true)
             .map_or(f32::NAN, |motion| motion.nut_speed);
-        let outputs = model.step(Inputs {
-            nut_speed,
-            axial_load: 8_000.0,
-        });
+        let outputs = model.step(screw_inputs(nut_speed, 8_000.0));
         let Ok(applied) = stage.apply(&outputs);
         if tick == 0 || tick == 20 {
             assert!(applied.neutral && applied.duty == 4200, "tick {tick}");

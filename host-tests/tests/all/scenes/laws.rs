@@ -7,15 +7,14 @@ use epas_friction::train::Press;
 use epas_friction::{
     BallScrew, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, DeviationMap,
     FrictionModel, GrooveSize, Inputs, LinearBearingConfiguration, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadShares, Regime, UncagedBallScrew,
-    UncagedBallScrewConfiguration,
+    LinearLimits, LoadShares, Regime, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
-use epas_testkit::absurd::{Trial, accepted};
 use epas_testkit::gears::{SCREW_BALLS, UncagedScrew, changed, even};
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{Trial, accepted};
 use proptest::prelude::*;
 
-/// A screw by a closed form without preload whose torque limit does not bind below its lock.
 fn closed_form(seed: u64) -> FrictionModel<ClosedFormScrew> {
     closed_form_configuration(seed).1
 }
@@ -41,7 +40,6 @@ fn closed_form_configuration(
     }
 }
 
-/// A screw without cage, whose grooves do not deviate and whose balls all carry the same load.
 fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> {
     static NONE: DeviationMap = DeviationMap::NONE;
     let mut random = Random(seed);
@@ -65,7 +63,6 @@ fn uncaged(seed: u64, ball_friction: f32) -> FrictionModel<UncagedBallScrew<7>> 
     panic!("no screw without cage of a thousand has a model");
 }
 
-/// A linear bearing without deviations; its limits.
 fn linear(seed: u64, ball_friction: f32) -> (FrictionModel<LinearBearingTrain<5>>, LinearLimits) {
     static NONE: DeviationMap = DeviationMap::NONE;
     let mut random = Random(seed);
@@ -85,10 +82,7 @@ fn linear(seed: u64, ball_friction: f32) -> (FrictionModel<LinearBearingTrain<5>
 }
 
 fn inputs(nut_speed: f32, axial_load: f32) -> Inputs {
-    Inputs {
-        nut_speed,
-        axial_load,
-    }
+    screw_inputs(nut_speed, axial_load)
 }
 
 proptest! {
@@ -181,16 +175,11 @@ proptest! {
         seed: u64, speed in -1.0_f32..1.0, normal in 0.0_f32..0.5, side in -1.0_f32..1.0, more in 1.0_f32..2.0,
     ) {
         let (mut model, limits) = linear(seed, 0.3);
-        let inputs = |speed: f32, more: f32, side: f32| LinearInputs {
-            speed: speed * limits.speed,
-            normal_load: more * normal * limits.load,
-            side_load: more * side * normal * limits.load,
-        };
+        let inputs = |speed: f32, more: f32, side: f32| linear_inputs(speed * limits.speed, more * normal * limits.load, more * side * normal * limits.load);
         let there = model.step(inputs(speed, 1.0, side));
         model.reset();
         let back = model.step(inputs(-speed, 1.0, side));
         prop_assert_eq!(there.friction_force, -back.friction_force);
-        // Mirrored, the diagonals change places.
         model.reset();
         let mirrored = model.step(inputs(speed, 1.0, -side));
         // Three roundings of 2^-24: sums in another order.
@@ -243,7 +232,6 @@ proptest! {
             let other = large.step(inputs(speed, scale * scale * load));
             let faults = one.faults.any() || other.faults.any();
             prop_assert!(faults || alike(one.friction_torque, other.friction_torque), "{one:?} {other:?}");
-            // Half of what the torques may differ by.
             prop_assert!(faults || (one.efficiency - other.efficiency).abs() <= 1e-4 * one.efficiency.abs());
         }
 
@@ -297,7 +285,6 @@ proptest! {
         let outputs = uncaged(seed, 0.1).step(inputs(speed, load));
         prop_assert_eq!(outputs.contacts, 0);
         prop_assert!(outputs.faults.any() || outputs.friction_torque == outputs.groove_torque);
-        // One ball has no neighbour, whatever the grooves do.
         let mut random = Random(seed);
         let (configuration, mut model, _) = accepted::<UncagedBallScrew<1>>(&mut random);
         let limits = configuration.folded.limits;

@@ -1,9 +1,11 @@
 //! A drive without a drawing in the loop: four quadrants, energy, continuity, symmetry, bad input.
 
+use crate::refusals::assert_refused;
 use epas_friction::{
-    Faults, FrictionModel, Inputs, Limits, LoadProportionalConfiguration,
-    LoadProportionalConstants, LoadProportionalScrew, Outputs, Regime,
+    Faults, FrictionModel, Limits, LoadProportionalConfiguration, LoadProportionalConstants,
+    LoadProportionalScrew, Outputs, Regime,
 };
+use epas_testkit::gears::screw_inputs;
 use proptest::prelude::*;
 
 const DRIVE: LoadProportionalConfiguration = LoadProportionalConfiguration {
@@ -22,16 +24,12 @@ const DRIVE: LoadProportionalConfiguration = LoadProportionalConfiguration {
 
 fn step(configuration: &LoadProportionalConfiguration, nut_speed: f32, axial_load: f32) -> Outputs {
     let mut model = FrictionModel::<LoadProportionalScrew>::new(configuration).unwrap();
-    model.step(Inputs {
-        nut_speed,
-        axial_load,
-    })
+    model.step(screw_inputs(nut_speed, axial_load))
 }
 
 /// `T = T_C + eta |tau| + b |w|` against the motion; the efficiency is work out over work in.
 #[test]
 fn each_direction_of_power_has_its_loss() {
-    // The passage is within (0.05/20)^2/2 = 3e-6 of one; the rest are roundings.
     let close = |found: f32, expected: f32| (found / expected - 1.0).abs() < 5e-6;
     for sign in [1.0, -1.0] {
         let driving = step(&DRIVE, sign * 20.0, sign * 500.0);
@@ -83,37 +81,30 @@ proptest! {
 
 #[test]
 fn a_field_out_of_range_and_a_bad_input_are_named() {
-    type Change = fn(&mut LoadProportionalConfiguration);
-    let changes: [(&str, Change); 6] = [
-        ("load_lever", |drive| drive.load_lever = 0.0),
-        ("coulomb_friction", |drive| drive.coulomb_friction = -1e-3),
-        ("viscous_friction", |drive| {
-            drive.viscous_friction = f32::NAN;
-        }),
-        ("driving_loss", |drive| drive.driving_loss = -0.01),
-        ("back_driving_loss", |drive| drive.back_driving_loss = 11.0),
-        ("reversal_speed", |drive| drive.reversal_speed = 0.0),
-    ];
-    for (name, change) in changes {
-        let mut drive = DRIVE;
-        change(&mut drive);
-        let error = LoadProportionalConstants::new(&drive).unwrap_err();
-        assert!(error.to_string().contains(name), "{error}");
-    }
+    #[rustfmt::skip]
+    assert_refused(
+        &DRIVE,
+        LoadProportionalConstants::new,
+        &[
+            ("load_lever", |drive, v| drive.load_lever = v, &[0.0]),
+            ("coulomb_friction", |drive, v| drive.coulomb_friction = v, &[-1e-3]),
+            ("viscous_friction", |drive, v| drive.viscous_friction = v, &[]),
+            ("driving_loss", |drive, v| drive.driving_loss = v, &[-0.01]),
+            ("back_driving_loss", |drive, v| drive.back_driving_loss = v, &[11.0]),
+            ("reversal_speed", |drive, v| drive.reversal_speed = v, &[0.0]),
+        ],
+    );
     let beyond = step(&DRIVE, 20.0, 30_000.0);
     assert_eq!(beyond.faults, Faults::LOAD_RANGE);
     assert_eq!(beyond.load_torque, 0.004 * 20_000.0);
     let none = step(&DRIVE, f32::NAN, 500.0);
     assert_eq!(none.friction_torque, 0.0);
     assert_eq!(none.faults, Faults::SPEED_NOT_FINITE);
-    let cut = step(
-        &LoadProportionalConfiguration {
-            driving_loss: 5.0,
-            ..DRIVE
-        },
-        20.0,
-        15_000.0,
-    );
+    let lossy = LoadProportionalConfiguration {
+        driving_loss: 5.0,
+        ..DRIVE
+    };
+    let cut = step(&lossy, 20.0, 15_000.0);
     assert_eq!(
         (cut.friction_torque, cut.faults),
         (50.0, Faults::FRICTION_LIMIT)

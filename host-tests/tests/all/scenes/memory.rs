@@ -4,6 +4,7 @@
 mod coefficients;
 mod reversal;
 
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::f32::consts::TAU;
 
 use epas_friction::defaults::COEFFICIENT;
@@ -21,8 +22,7 @@ use epas_friction::scene::{
     WithMemoryInputs,
 };
 use epas_friction::{
-    ClosedFormScrew, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain,
-    LinearInputs, Regime,
+    ClosedFormScrew, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, Regime,
 };
 
 use epas_testkit::gears::{
@@ -74,7 +74,6 @@ fn speed_sensor() -> SpeedOverTick {
     SpeedOverTick::new(TICK, 1.0).unwrap()
 }
 
-/// Radians without an end that a test reaches: quarter turns are exact.
 fn angle_sensor() -> WrappedAngle {
     WrappedAngle::new(WrappedAngleParameters {
         lowest: -0.5 * TAU,
@@ -88,7 +87,6 @@ fn fresh<I, R>(scene: I, reading: R) -> WithMemoryInputs<I, R> {
     at(scene, reading, TEMPERATURE)
 }
 
-/// A model of the caged screw that follows an angle, rad.
 fn caged_by_angle() -> Caged<WrappedAngle> {
     let configuration = caged();
     Caged::new(&with_memory(
@@ -101,13 +99,9 @@ fn caged_by_angle() -> Caged<WrappedAngle> {
 }
 
 fn screw(nut_speed: f32, axial_load: f32) -> Inputs {
-    Inputs {
-        nut_speed,
-        axial_load,
-    }
+    screw_inputs(nut_speed, axial_load)
 }
 
-/// Friction after a steady motion in both directions, with memory and without: the same.
 fn slides_as_without<S>(
     configuration: S::Configuration,
     friction: f32,
@@ -137,7 +131,6 @@ fn slides_as_without<S>(
             for tick in 0..600 {
                 let plain: Figures = without.step(inputs).into();
                 let outputs: Figures = with.step(fresh(inputs, way * speed)).into();
-                // Both directions' breakaway and the play lie behind.
                 if tick as f32 * speed * TICK < 4.0 * breakaway {
                     continue;
                 }
@@ -195,7 +188,6 @@ where
                 }
             });
             if tick < 100 {
-                // Both are on their way to full sliding.
                 continue;
             }
             let difference = known[1].friction - known[0].friction;
@@ -215,10 +207,8 @@ fn churned_lubricant_adds_to_the_friction() {
     churns::<UncagedScrew<SCREW_BALLS>>(uncaged(), screw(0.0, 3000.0));
 }
 
-/// Closed forms of a screw.
 const BRANCHES: [FrictionBranch; 2] = [FrictionBranch::Rolling, FrictionBranch::Sliding];
 
-/// What the outputs of all scenes have.
 #[derive(Clone, Copy, Debug)]
 struct Figures {
     friction: f32,
@@ -303,11 +293,7 @@ fn steady_sliding_is_the_scene_without_memory() {
     let mut configuration = linear();
     configuration.reversal_speed = 1e-9;
     let friction = configuration.friction;
-    let load = LinearInputs {
-        speed: 0.0,
-        normal_load: 1500.0,
-        side_load: 200.0,
-    };
+    let load = linear_inputs(0.0, 1500.0, 200.0);
     slides_as_without::<LinearBearingTrain<LINEAR_BALLS>>(
         configuration,
         friction,
@@ -318,7 +304,6 @@ fn steady_sliding_is_the_scene_without_memory() {
     );
 }
 
-/// Below breakaway friction is what the elements make of the angle between the limits of sliding in both directions.
 #[test]
 fn friction_follows_the_angle_as_its_elements_do() {
     let load = 3000.0;
@@ -338,7 +323,6 @@ fn friction_follows_the_angle_as_its_elements_do() {
     let mut random = Random(17);
     let mut angle = 0.0_f32;
     let mut readings = WrappedAngle::FRESH;
-    // Four ticks know both directions' friction at this load.
     for _ in 0..4 {
         angle_sensor().turn(&mut readings, angle);
         model.step(fresh(screw(0.0, load), angle));
@@ -349,7 +333,6 @@ fn friction_follows_the_angle_as_its_elements_do() {
         let turn = angle_sensor().turn(&mut readings, angle).angle();
         let expected = elements.follow(&mut state, turn, &limits);
         let outputs = model.step(fresh(screw(0.0, load), angle));
-        // Friction over its limit, times it: two roundings.
         assert!((outputs.friction_torque - expected).abs() <= 2e-7 * limits.forward);
         let sticks = expected < 0.98 * limits.forward && expected > -0.98 * limits.backward;
         assert!(!sticks || outputs.regime == Regime::Standing);
@@ -357,7 +340,6 @@ fn friction_follows_the_angle_as_its_elements_do() {
     }
 }
 
-/// The speed has no part in it: with the angle at rest friction stays, whatever the speed's noise says.
 #[test]
 fn noise_of_the_speed_changes_nothing() {
     let mut model = caged_by_angle();
@@ -373,7 +355,6 @@ fn noise_of_the_speed_changes_nothing() {
     }
 }
 
-/// What is wrong with an input is flagged in its tick; friction stays finite, and what is sound goes on.
 #[test]
 fn wrong_inputs_are_flagged_and_friction_holds() {
     let mut model = caged_by_angle();
@@ -423,7 +404,6 @@ fn wrong_inputs_are_flagged_and_friction_holds() {
         assert_eq!(outputs.friction_torque, sound.friction_torque, "{inputs:?}");
         assert_eq!(model.faulted_ticks() as usize, 1 + number);
     }
-    // The next reading spans the gap.
     let mut without_gap = caged_by_angle();
     let mut with_gap = caged_by_angle();
     for (tick, reading) in [0.0, 0.3e-3, 0.1e-3, 0.9e-3].into_iter().enumerate() {
@@ -437,13 +417,11 @@ fn wrong_inputs_are_flagged_and_friction_holds() {
             assert!(error < 3e-8, "{error}");
         }
     }
-    // A turn beyond the largest is cut and flagged.
     let outputs = model.step(fresh(screw(0.0, 2000.0), angle + 1.5));
     assert_eq!(outputs.faults, Faults::ANGLE_NOT_VALID);
     assert!(outputs.friction_torque.is_finite());
 }
 
-/// Steps with a fault are counted; a reading between two steps with a fault is flagged, and leaves the count as it is.
 #[test]
 fn faults_between_steps_are_flagged_and_not_counted() {
     let mut model = caged_by_angle();
@@ -458,7 +436,6 @@ fn faults_between_steps_are_flagged_and_not_counted() {
     assert_eq!(model.faulted_ticks(), 0);
 }
 
-/// Loads hold, then fade, then are none: friction is then that of the preload.
 #[test]
 fn an_old_load_fades() {
     let mut model = caged_by_angle();
@@ -572,7 +549,6 @@ fn between_steps_the_memory_goes_on() {
     }
 }
 
-/// Phase of the groove that passes by, in units of 2^-32 of its period.
 fn phase_of(state: &impl std::fmt::Debug) -> u32 {
     let phase = printed_phase(state);
     let (_, units) = phase.split_once("units: ").unwrap();
@@ -604,7 +580,6 @@ fn balls_catch_up_with_a_turn_that_was_missed() {
         let missing = (200..400).contains(&tick);
         step(&mut gap, if missing { 1 << 20 } else { tick * counts });
     }
-    // Once the nut rests all that is left of the turn is made.
     let rest = 1000 * counts;
     for _ in 0..400 {
         step(&mut sound, rest);
@@ -622,7 +597,6 @@ fn balls_catch_up_with_a_turn_that_was_missed() {
     }
 }
 
-/// An angle that is set while turns wait for the next step is that of the last reading.
 #[test]
 fn an_angle_is_set_once() {
     type Model = FrictionModel<WithMemory<UncagedScrew<SCREW_BALLS>, Slip, WrappedAngle>>;
@@ -672,7 +646,6 @@ fn without_a_load_a_nut_that_turns_does_not_stand() {
     }
 }
 
-/// Mirrored motion and load give mirrored friction.
 #[test]
 fn odd_under_reversal_of_motion_and_load() {
     let (mut model, mut mirrored) = (caged_by_angle(), caged_by_angle());
@@ -700,7 +673,6 @@ fn odd_under_reversal_of_motion_and_load() {
     }
 }
 
-/// Constants are swapped: memory stays, balls have the new friction at once, and constants that do not fit are refused.
 #[test]
 fn changes_while_it_runs_keep_the_memory() {
     let configuration = uncaged();
@@ -729,13 +701,11 @@ fn changes_while_it_runs_keep_the_memory() {
         &raw const first
     ));
     assert_eq!(model.state().remembered.elements, kept.remembered.elements);
-    // Elements hold what they had: a larger limit lets them carry as much, and no more. Measured: 0.
     let after = step(&mut model, 0.0);
     assert!(
         (after.friction_torque - before.friction_torque).abs() <= 1.2e-7 * before.friction_torque
     );
     assert!(!after.faults.any());
-    // Elements slide fully again.
     for _ in 0..100 {
         step(&mut model, 20.0);
     }

@@ -6,10 +6,10 @@ use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband, N
 use epas_friction::scene::{Freshness, Sliding, WithMemory, WithMemoryConfiguration};
 use epas_friction::{FrictionModel, Inputs, Outputs, Regime, UncagedOutputs};
 use epas_reference::closed_loop::ClosedLoop;
+use epas_testkit::gears::screw_inputs;
 
 use epas_testkit::gears::{
-    CagedConfiguration, CagedScrew, SCREW_BALLS, UncagedConfiguration, UncagedScrew, caged,
-    changed, uncaged,
+    CagedScrew, SCREW_BALLS, UncagedConfiguration, UncagedScrew, caged, uncaged,
 };
 use epas_testkit::random::Random;
 use epas_testkit::remembering::at;
@@ -23,12 +23,9 @@ const LOAD: f32 = 300.0;
 /// Noise of the speed, rad/s, in standard deviations.
 const SPEED_NOISE: f64 = 0.05;
 
-/// What a rest does to the friction that is put out.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Restlessness {
-    /// Changes of regime.
     changes: usize,
-    /// Ticks whose torque is another than the last one's.
     steps: usize,
     /// Largest difference between two ticks, N m.
     largest: f32,
@@ -52,7 +49,6 @@ impl Restlessness {
     }
 }
 
-/// Regime and friction of a screw's outputs.
 trait Friction {
     fn friction(&self) -> (Regime, f32);
 }
@@ -74,7 +70,6 @@ fn normal(random: &mut Random) -> f64 {
     (0..12).map(|_| random.between(-0.5, 0.5)).sum()
 }
 
-/// A speed of nothing but noise.
 fn speed(random: &mut Random) -> f32 {
     (SPEED_NOISE * normal(random)) as f32
 }
@@ -97,10 +92,8 @@ fn slip(full: f32) -> ProportionalElements<8> {
     ProportionalElements::new(full, &[part]).unwrap()
 }
 
-/// Where the nut has come to rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Rest {
-    /// After it slid.
     Slid,
     /// After it went back by half a breakaway angle.
     WentBack,
@@ -130,10 +123,7 @@ where
         let noise = SPEED_NOISE * TICK / 2.0_f64.sqrt() * normal(random);
         let count = ((0.3 + turn + noise) / ClosedLoop::COUNT).floor() as u32;
         let outputs = model.step(at(
-            Inputs {
-                nut_speed: speed(random),
-                axial_load: LOAD,
-            },
+            screw_inputs(speed(random), LOAD),
             count % 16384,
             TEMPERATURE,
         ));
@@ -158,26 +148,7 @@ where
     Restlessness::of(&outputs)
 }
 
-/// Friction at which the elements are designed, N m: about that of both screws here.
 const FULL: f32 = 0.08;
-
-/// The restlessness of a scene without memory, under speeds.
-fn by_speed<S>(scene: &S::Configuration, mut speed: impl FnMut() -> f32) -> Restlessness
-where
-    S: Sliding<Inputs = Inputs, Outputs: Friction>,
-{
-    let mut model = FrictionModel::<S>::new(scene).unwrap();
-    let outputs: Vec<_> = (0..TICKS)
-        .map(|_| {
-            let outputs = model.step(Inputs {
-                nut_speed: speed(),
-                axial_load: LOAD,
-            });
-            outputs.friction()
-        })
-        .collect();
-    Restlessness::of(&outputs)
-}
 
 fn screw() -> UncagedConfiguration {
     UncagedConfiguration {
@@ -186,44 +157,6 @@ fn screw() -> UncagedConfiguration {
     }
 }
 
-/// Speeds of differences of counts: of an encoder on the nut itself, with the same noise.
-fn counted() -> impl FnMut() -> f32 {
-    let count = ClosedLoop::COUNT * 2.5;
-    let mut random = Random(11);
-    let mut last = 0.0;
-    move || {
-        let noise = SPEED_NOISE * TICK / 2.0_f64.sqrt() * normal(&mut random);
-        let now = (noise / count).floor();
-        let turn = (now - last) * count;
-        last = now;
-        (turn / TICK) as f32
-    }
-}
-
-/// Friction that follows the speed follows its noise too, in every tick: measured 408 changes of regime at a reversal speed of twice the
-/// noise, 3656 with speeds that are differences of counts, and steps of the whole friction.
-#[test]
-fn friction_by_the_speed_chatters() {
-    let mut random = Random(11);
-    let scene = CagedConfiguration {
-        reversal_speed: 0.1,
-        ..caged()
-    };
-    let rest = by_speed::<CagedScrew>(&scene, || speed(&mut random));
-    assert!(rest.changes > 300 && rest.steps == TICKS - 1, "{rest:?}");
-    assert!(rest.largest > 0.07, "{rest:?}");
-    let rest = by_speed::<CagedScrew>(&scene, counted());
-    assert!(rest.changes > 3000 && rest.largest > 0.08, "{rest:?}");
-    let mut random = Random(11);
-    let scene = UncagedConfiguration {
-        folded: changed(screw().folded, |folded| folded.reversal_speed = 0.1),
-        ..screw()
-    };
-    let rest = by_speed::<UncagedScrew<SCREW_BALLS>>(&scene, || speed(&mut random));
-    assert!(rest.changes > 300 && rest.largest > 0.04, "{rest:?}");
-}
-
-/// Both screws, hands off, behind a play of so many counts to either side.
 fn rests(half_width: f32, rest: Rest) -> [Restlessness; 2] {
     let angle = Deadband::new(counts(), half_width * ClosedLoop::COUNT as f32).unwrap();
     [
@@ -232,7 +165,6 @@ fn rests(half_width: f32, rest: Rest) -> [Restlessness; 2] {
     ]
 }
 
-/// Torque of a count: all elements stick.
 fn torque_of_a_count() -> f32 {
     slip(FULL).initial_stiffness() * ClosedLoop::COUNT as f32
 }
@@ -266,18 +198,13 @@ fn without_a_play_friction_follows_the_counts() {
     }
     for screw in rests(0.0, Rest::Slid) {
         assert!(screw.changes > 1000, "{screw:?}");
-        // Measured: 0.9999999, one count.
         assert!(screw.largest <= 1.00001 * torque_of_a_count(), "{screw:?}");
     }
 }
 
-/// Sliding friction at 5 kN, for which the elements are designed, N m.
 fn full_at_5_kn() -> f32 {
     let mut model = FrictionModel::<CagedScrew>::new(&caged()).unwrap();
-    let outputs = model.step(Inputs {
-        nut_speed: 100.0,
-        axial_load: 5e3,
-    });
+    let outputs = model.step(screw_inputs(100.0, 5e3));
     outputs.friction_torque
 }
 
@@ -297,10 +224,7 @@ fn under_5_kn(half_width: f32, counts_of_ticks: impl IntoIterator<Item = i32>) -
     })
     .unwrap();
     let friction = |count: i32| {
-        let inputs = Inputs {
-            nut_speed: 0.0,
-            axial_load: 5e3,
-        };
+        let inputs = screw_inputs(0.0, 5e3);
         let reading = (8000 + count).rem_euclid(16_384) as u32;
         model.step(at(inputs, reading, TEMPERATURE)).friction_torque
     };
@@ -354,7 +278,6 @@ fn a_dead_band_of_a_count_delays_a_reversal_by_a_count() {
         let off = (behind[tick] - without[tick - 1]).abs();
         assert!(off <= bound, "{tick}: {off} {bound}");
     }
-    // What is lost in between is that of a count.
     let late = (back..behind.len()).map(|tick| (behind[tick] - without[tick]).abs());
     let most = late.fold(0.0, f32::max);
     let count = without[back - 1] - without[back];

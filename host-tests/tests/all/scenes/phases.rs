@@ -1,10 +1,11 @@
 //! Where the groove that passes by stands, how far a circuit reaches, and how long its ticks may be.
 
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::f32::consts::TAU;
 
 use epas_friction::{
-    DeviationMap, Error, FrictionModel, Inputs, LinearBearing, LinearBearingConfiguration,
-    LinearBearingParameters, LinearBearingTrain, LinearInputs, UncagedBallScrewConfiguration,
+    DeviationMap, Error, FrictionModel, LinearBearing, LinearBearingConfiguration,
+    LinearBearingParameters, LinearBearingTrain, UncagedBallScrewConfiguration,
 };
 
 use epas_testkit::gears::{
@@ -14,7 +15,6 @@ use epas_testkit::gears::{
 type Linear = LinearBearingTrain<LINEAR_BALLS>;
 type Uncaged = UncagedScrew<SCREW_BALLS>;
 
-/// Torques of balls, which press where the grooves deviate, from an angle of the nut on.
 fn from_angle(angle: f32) -> Vec<f32> {
     let configuration = UncagedBallScrewConfiguration {
         screw_deviation: wave(2, 1, 0.0, gears::BALL_RANGE.law.deviations[0]),
@@ -25,16 +25,12 @@ fn from_angle(angle: f32) -> Vec<f32> {
     };
     let mut model = FrictionModel::<Uncaged>::new(&configuration).unwrap();
     model.set_nut_angle(angle);
-    let inputs = Inputs {
-        nut_speed: 30.0,
-        axial_load: 3000.0,
-    };
+    let inputs = screw_inputs(30.0, 3000.0);
     (0..600)
         .map(|_| model.step(inputs).friction_torque)
         .collect()
 }
 
-/// Forces of a bearing whose rail has one wave, from a place of the carriage on.
 fn from_position(position: f32, (cosine, sine): (f32, f32)) -> Vec<f32> {
     let configuration = LinearBearingConfiguration {
         rail_deviation: wave(1, 1, cosine, sine),
@@ -42,17 +38,12 @@ fn from_position(position: f32, (cosine, sine): (f32, f32)) -> Vec<f32> {
     };
     let mut model = FrictionModel::<Linear>::new(&configuration).unwrap();
     model.set_carriage_position(position);
-    let inputs = LinearInputs {
-        speed: 1.0,
-        normal_load: 3000.0,
-        side_load: 1000.0,
-    };
+    let inputs = linear_inputs(1.0, 3000.0, 1000.0);
     (0..600)
         .map(|_| model.step(inputs).friction_force)
         .collect()
 }
 
-/// Largest difference over the largest number.
 fn difference(one: &[f32], other: &[f32]) -> f32 {
     let largest = one.iter().fold(0.0_f32, |most, one| most.max(one.abs()));
     let pairs = one.iter().zip(other);
@@ -79,11 +70,9 @@ fn a_rail_is_the_same_a_wavelength_on() {
     assert!(difference(&here, &from_position(5.0 * wavelength, sine)) < 2e-7);
     let quarter = from_position(0.25 * wavelength, sine);
     assert!(difference(&quarter, &from_position(0.0, cosine)) < 2e-7);
-    println!("a quarter on: {}", difference(&here, &quarter));
     assert!(difference(&here, &quarter) > 1e-5);
 }
 
-/// The field that is refused, and its range.
 fn range<T>(made: &Result<T, Error>) -> (&'static str, f32, f32) {
     match made {
         Err(Error::OutOfRange { field, allowed, .. }) => (*field, allowed.minimum, allowed.maximum),
@@ -117,7 +106,6 @@ fn a_bearing_is_as_long_and_its_ticks_as_short_as_promised() {
     close(found, "return_length", 250.0 * loaded, false);
     let found = with(&|c| (c.return_length, c.wavelength) = (1.0, 1e-3));
     close(found, "wavelength", (loaded + 1.0) / 1000.0, true);
-    // Balls travel half as far as the carriage, at 3 m/s.
     let found = with(&|c| c.tick = 0.5);
     close(found, "tick", 0.03 * (loaded + 0.05) / (0.5 * 3.0), false);
     let found = with(&|c| (c.loaded_length, c.return_length, c.tick) = (1.0, 1.0, 0.02));
@@ -137,7 +125,6 @@ fn a_screw_is_as_long_and_its_ticks_as_short_as_promised() {
         f64::from(configuration.turns),
         f64::from(TAU) * f64::from(configuration.folded.path_radius),
     );
-    // A short path radius: 1000 turns are 6 m.
     let small = gears::changed(configuration.folded, |folded| {
         (folded.ball_radius, folded.path_radius, folded.speed) = (1e-4, 1e-3, 5e-4);
     });

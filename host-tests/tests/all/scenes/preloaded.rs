@@ -1,5 +1,6 @@
 //! The load that every scene of a screw tells the elements of its memory, and what both flanks carry by it.
 
+use epas_testkit::gears::screw_inputs;
 use std::f32::consts::SQRT_2;
 
 use epas_friction::law::coefficient::DirectionalCoefficient;
@@ -14,7 +15,6 @@ use epas_testkit::gears::{
     loaded_length, uncaged,
 };
 
-/// Axial preload of each flank, N.
 const PRELOAD: f32 = 300.0;
 
 /// Sum of both flanks under an axial load, over that without: they share one Hertzian deflection,
@@ -36,7 +36,6 @@ fn exact_sum(load: f64, preload: f64) -> f64 {
     (2.0 * low - load) / (2.0 * preload)
 }
 
-/// What a scene tells under a load that opposes a forward motion, N.
 fn told<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, axial_load: f32) -> f32 {
     let constants = S::constants(configuration).unwrap();
     let mut state = S::initial_state(&constants);
@@ -44,10 +43,7 @@ fn told<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, axial_loa
         forward: 0.075,
         backward: 0.075,
     };
-    let inputs = Inputs {
-        nut_speed: 1.0,
-        axial_load,
-    };
+    let inputs = screw_inputs(1.0, axial_load);
     S::by_direction(&S::sliding_friction(
         &constants, &mut state, inputs, friction,
     ))
@@ -58,7 +54,6 @@ fn told<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, axial_loa
 fn flanks_share<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, preload: f32) {
     let alone = told::<S>(configuration, 0.0);
     let counted = 2.0 * SQRT_2 * preload;
-    // Measured: 4.2e-5.
     assert!((alone / counted - 1.0).abs() < 1e-4, "{alone} {counted}");
     let elements = PreloadedElements::new(());
     for step in 0..60_u8 {
@@ -66,7 +61,6 @@ fn flanks_share<S: Sliding<Inputs = Inputs>>(configuration: &S::Configuration, p
         for load in [load, -load] {
             let found = f64::from(elements.shared(told::<S>(configuration, load) / alone));
             let exact = exact_sum(load.abs().into(), preload.into());
-            // Measured: 0.83 %.
             assert!(
                 (found / exact - 1.0).abs() < 0.0085,
                 "{load}: {found} {exact}"
@@ -83,7 +77,6 @@ fn a_caged_screw_tells_what_its_flanks_share() {
     }
 }
 
-/// An oversize that presses a contact with less than a thousandth of a newton is no preload.
 #[test]
 fn a_preload_that_is_none_is_none() {
     let closed = closed_form(FrictionBranch::Rolling);

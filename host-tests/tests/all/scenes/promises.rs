@@ -4,63 +4,20 @@ use epas_testkit::errors::Errors;
 use epas_testkit::given;
 use std::path::Path;
 
-use epas_friction::contact::FrictionMap;
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
 };
 use epas_friction::efficiency::EfficiencyGeometry;
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::hertz::HertzContact;
-use epas_friction::{CATALOGUE, DeviationMap, Harmonic, math};
+use epas_friction::{CATALOGUE, DeviationMap, Harmonic};
 use epas_reference::curvature;
 use epas_reference::efficiency::Screw;
-use epas_reference::friction::maps;
 use epas_reference::hertz::Hertz;
 use epas_reference::promises::{self, PROMISES};
 use epas_testkit::random::Random;
 
-/// Error of `found` in units of the last place of the exact value.
-fn ulps(found: f32, exact: f64) -> f64 {
-    let rounded = (exact as f32).abs();
-    let ulp = f64::from(f32::from_bits(rounded.to_bits() + 1)) - f64::from(rounded);
-    (f64::from(found) - exact) / ulp
-}
-
 const INPUTS: u32 = 400_000;
-
-#[test]
-fn scalar_kernels() {
-    let mut random = Random(21);
-    let (mut sqrt, mut cbrt, mut squared, mut both, mut angles) = (
-        Errors::default(),
-        Errors::default(),
-        Errors::default(),
-        Errors::default(),
-        Errors::default(),
-    );
-    for _ in 0..INPUTS {
-        let x = f32::from_bits(random.below(0x7f80_0000) as u32);
-        let exact = f64::from(x);
-        let line = || format!("{x:e}");
-        sqrt.add_case(ulps(math::sqrt(x), exact.sqrt()), line);
-        cbrt.add_case(ulps(math::cbrt(x), exact.cbrt()), line);
-        // Twice the cube root's rounding in f64 is far below an f32's.
-        squared.add_case(ulps(math::cbrt_squared(x), exact.cbrt().powi(2)), line);
-        let (root, square) = math::cbrt_and_squared(x);
-        both.add_case(ulps(root, exact.cbrt()), line);
-        both.add_case(ulps(square, exact.cbrt().powi(2)), line);
-        let angle = std::f32::consts::TAU * (2.0 * random.unit() - 1.0);
-        let (sin, cos) = math::sin_cos(angle);
-        let line = || format!("{angle:e}");
-        angles.add_case(f64::from(sin) - f64::from(angle).sin(), line);
-        angles.add_case(f64::from(cos) - f64::from(angle).cos(), line);
-    }
-    sqrt.assert_promised(promises::of("sqrt"));
-    cbrt.assert_promised(promises::of("cbrt"));
-    squared.assert_promised(promises::of("cbrt_squared"));
-    both.assert_promised(promises::of("cbrt_and_squared"));
-    angles.assert_promised(promises::of("sin_cos"));
-}
 
 #[test]
 fn curvatures() {
@@ -155,7 +112,6 @@ fn efficiencies() {
             let found = f64::from(found.sliding_backdrive_efficiency(friction));
             backdrive.add_case(found - exact.sliding_backdrive(), line);
         }
-        // The reference leaves rolling resistance out.
         let found = f64::from(found.rolling_backdrive_efficiency(friction, 0.0));
         driven.add_case(found - exact.rolling_backdrive(), line);
     }
@@ -165,25 +121,6 @@ fn efficiencies() {
     driven.assert_promised(promises::of("rolling_backdrive_efficiency"));
 }
 
-#[test]
-fn friction_maps() {
-    let mut random = Random(25);
-    let mut errors = Errors::default();
-    for _ in 0..300 {
-        let axis_ratio = random.within(0.05, 1.0);
-        let fast = FrictionMap::new(axis_ratio).unwrap();
-        let exact = maps::FrictionMap::new(axis_ratio.into()).unwrap();
-        for _ in 0..20 {
-            let offset = random.sign() * random.size(1e-2, 1e3);
-            let wanted = exact.at(offset.into()).force;
-            let line = || format!("{axis_ratio} {offset}");
-            errors.add_case(f64::from(fast.force(offset)) - wanted, line);
-        }
-    }
-    errors.assert_promised(promises::of("friction_map"));
-}
-
-/// One wave in a period, between the table's samples as well as on them.
 #[test]
 fn deviations() {
     let mut random = Random(26);

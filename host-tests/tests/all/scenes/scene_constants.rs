@@ -1,5 +1,6 @@
 //! A whole gear folded by the compiler is the gear that a program would set up, to the bit, and runs like it.
 
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::fmt::Debug;
 use std::hint::black_box;
 
@@ -13,9 +14,9 @@ use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
     ClosedFormScrewConstants, DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch,
     FrictionModel, GrooveSize, Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration,
-    LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearInputs, LinearLimits,
-    LoadShare, LoadShares, Material, Outputs, Scene, UncagedBallScrew,
-    UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
+    LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearLimits, LoadShare,
+    LoadShares, Material, Outputs, Scene, UncagedBallScrew, UncagedBallScrewConfiguration,
+    UncagedConstants, UncagedOutputs,
 };
 
 use epas_testkit::gears::{BALL, BALL_NODES, BALL_RANGE, UncagedScrew};
@@ -160,7 +161,6 @@ fn same_bits(folded: &impl Debug, computed: &impl Debug) {
     assert_eq!(folded, computed);
 }
 
-/// Nut or carriage to and fro, over all four quadrants, with a sensor that fails now and then.
 fn manoeuvre() -> impl Iterator<Item = (f32, f32)> {
     (0..4000_i16).map(|tick| {
         let phase = f32::from(tick) * 0.01;
@@ -175,7 +175,6 @@ fn manoeuvre() -> impl Iterator<Item = (f32, f32)> {
     })
 }
 
-/// Constants are the same as at run time, and so is every output of every tick, and the state at the end.
 fn same_gear<S>(
     constants: &'static S::Constants,
     configuration: &S::Configuration,
@@ -206,10 +205,7 @@ fn same_gear<S>(
 }
 
 const fn nut(nut_speed: f32, axial_load: f32) -> Inputs {
-    Inputs {
-        nut_speed,
-        axial_load,
-    }
+    screw_inputs(nut_speed, axial_load)
 }
 
 #[test]
@@ -235,21 +231,17 @@ fn a_folded_ball_screw_without_cage_is_the_one_set_up_at_run_time() {
 
 #[test]
 fn a_folded_linear_bearing_is_the_one_set_up_at_run_time() {
-    same_gear::<LinearBearingTrain<24>>(&CARRIAGE, &linear(), |speed, load| LinearInputs {
-        speed: 0.01 * speed,
-        normal_load: 2_000.0,
-        side_load: 0.1 * load,
+    same_gear::<LinearBearingTrain<24>>(&CARRIAGE, &linear(), |speed, load| {
+        linear_inputs(0.01 * speed, 2_000.0, 0.1 * load)
     });
 }
 
-/// The angle moves the screw's deviations under the balls, whoever owns the constants.
 #[test]
 fn a_model_of_a_reference_takes_the_nut_angle() {
     let mut referring = FrictionModel::<UncagedBallScrew<37>, _>::of(&ONE);
     let mut owning = FrictionModel::<UncagedBallScrew<37>>::of(ONE);
     let at_rest: UncagedOutputs = referring.step(nut(50.0, 3_000.0));
     same_bits(&at_rest, &owning.step(nut(50.0, 3_000.0)));
-    // Half a wave of the screw's deviations.
     referring.set_nut_angle(0.8);
     owning.set_nut_angle(0.8);
     let turned = referring.step(nut(50.0, 3_000.0));
@@ -257,7 +249,6 @@ fn a_model_of_a_reference_takes_the_nut_angle() {
     assert_ne!(Outputs::from(turned), Outputs::from(at_rest));
 }
 
-/// A bad field is an error of the compiler where a constant is asked for, and names itself where it is not.
 #[test]
 fn a_refused_gear_names_its_field() {
     const BAD: Result<UncagedConstants<37>, Error> =
@@ -289,7 +280,6 @@ fn a_refused_gear_names_its_field() {
     assert_eq!(fields, ["tick", "pitch", "speed", "friction"]);
 }
 
-/// What engineers set up one by one.
 #[derive(Debug)]
 #[allow(dead_code)] // Read through `Debug`.
 struct Parts {

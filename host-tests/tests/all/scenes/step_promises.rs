@@ -1,14 +1,12 @@
 //! What a step promises, and what it calls: measured against the float64 reference.
 
-use epas_testkit::designs::{SCREW_TRACK as TRACK, screw};
 use epas_testkit::errors::Errors;
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
 use epas_testkit::remembering::at;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use epas_friction::ball::{
-    AnalyticLinearBall, GrooveFit, LinearBallParameters, PUBLISHED_SLOPE, ScrewRow,
-};
+use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
@@ -18,15 +16,12 @@ use epas_friction::scene::{
 use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
-    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Inputs, Limits,
+    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Limits,
     LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearInputs, LinearLimits, LoadProportionalConfiguration, LoadProportionalScrew, LoadShare,
-    Material,
+    LinearLimits, LoadProportionalConfiguration, LoadProportionalScrew, LoadShare, Material,
 };
 use epas_reference::efficiency::Screw;
-use epas_reference::friction::ball_screw_closed::{ContactAngles, Support, ThreePointModel};
 use epas_reference::friction::chain::solve_chain;
-use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::isotonic::isotonic_by_min_max;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::hertz::{Hertz, contact_modulus};
@@ -78,10 +73,7 @@ fn closed_form_step() {
                     let (sum, blended) = (force.abs(), direction * force);
                     let exact =
                         0.5 * direction * (drive * (sum + blended) + backdrive * (sum - blended));
-                    let found = model.step(Inputs {
-                        nut_speed: speed,
-                        axial_load: load,
-                    });
+                    let found = model.step(screw_inputs(speed, load));
                     errors.add_case(f64::from(found.friction_torque) / exact - 1.0, || {
                         format!("{parameters:?} {branch:?} {speed} {load}")
                     });
@@ -126,10 +118,7 @@ fn load_proportional() {
                     let exact = w / w.hypot(0.5)
                         * (f64::from(coulomb_friction) + loss * torque.abs())
                         + f64::from(viscous_friction) * w;
-                    let found = model.step(Inputs {
-                        nut_speed: speed,
-                        axial_load: load,
-                    });
+                    let found = model.step(screw_inputs(speed, load));
                     let found = f64::from(found.friction_torque);
                     let error = if exact == 0.0 {
                         found
@@ -145,74 +134,6 @@ fn load_proportional() {
     }
     // Seven roundings of 2^-24, which add up at random.
     errors.assert_promised(promises::of("step_load_proportional"));
-}
-
-/// The same screw in float64; contact laws from the reference's own curvatures and elliptic integrals.
-fn model(friction: f64) -> ThreePointModel {
-    let stored: serde_json::Value =
-        serde_json::from_str(include_str!("../../../golden/ballscrew.json")).unwrap();
-    let law = |side: &str| {
-        let stored = &stored["hertz"][format!("{side}_rG3.254")]["correct"];
-        let value = |key: &str| stored[key].as_f64().unwrap() * 1e-3;
-        HertzLaw {
-            ellipse: EllipseLaw {
-                semi_major_constant: value("Ca"),
-                axis_ratio: value("Cb") / value("Ca"),
-            },
-            compliance: value("C"),
-        }
-    };
-    ThreePointModel {
-        track: TRACK,
-        screw: law("S"),
-        nut: law("N"),
-        friction,
-        contact_angle: FRAC_PI_4,
-    }
-}
-
-/// Balls of one screw against the closed form with exact contact integrals.
-#[test]
-fn balls_of_a_screw() {
-    let (mut row_errors, mut ball_errors) = (Errors::default(), Errors::default());
-    for friction in [0.05, 0.12] {
-        let row = ScrewRow::new(&screw(), friction as f32, GrooveFit::Zero).unwrap();
-        let model = model(friction);
-        for load in [
-            -1000.0, -100.0, -10.0, -1.0, -0.1, 0.1, 1.0, 10.0, 100.0, 1000.0_f64,
-        ] {
-            for speed in [1.0, -1.0] {
-                let tick = row.at(speed as f32, load as f32);
-                for (theta, eta) in [-3.0, -1.0, 0.0, 2.0, 3.0_f64]
-                    .into_iter()
-                    .flat_map(|theta| [-3.0, 0.0, 1.0, 3.0_f64].map(|eta| (theta, eta)))
-                {
-                    let (t, e) = (theta.to_radians(), eta.to_radians());
-                    let support = Support::of(load, speed);
-                    let side = if load < 0.0 { 1.0 } else { -1.0 };
-                    let angles = ContactAngles {
-                        screw: FRAC_PI_4 + side * t,
-                        nut: FRAC_PI_4 - side * e,
-                        third: if support == Support::ThirdOnScrew {
-                            FRAC_PI_4 - side * t
-                        } else {
-                            FRAC_PI_4 + side * e
-                        },
-                    };
-                    let exact = model.ball(support, angles, load, speed).unwrap();
-                    let ball = tick.ball(t as f32, e as f32, &LoadShare::MEAN);
-                    let line = || format!("{friction} {load} {speed} {theta} {eta}");
-                    let error = f64::from(ball.groove_torque) / exact.groove_loss() - 1.0;
-                    row_errors.add_case(error, line);
-                    let found = f64::from(ball.speed_deviation + tick.nominal_speed());
-                    let error = found / TRACK.path_radius() - exact.orbital_speed / speed;
-                    ball_errors.add_case(error, line);
-                }
-            }
-        }
-    }
-    row_errors.assert_promised(promises::of("screw_row"));
-    ball_errors.assert_promised(promises::of("screw_ball"));
 }
 
 /// A scene with a memory whose elements slide fully within a tick of the motions here, and whose balls follow every turn: in steady
@@ -246,7 +167,6 @@ pub fn remembering<S: Sliding<Constants: Copy>, L: CoefficientFor<S::Inputs>>(
     .unwrap()
 }
 
-/// Temperature of the law, K.
 const TEMPERATURE: f32 = 313.15;
 
 pub fn sound<I>(scene: I, reading: f32) -> WithMemoryInputs<I, f32> {
@@ -284,7 +204,6 @@ fn train() {
 const BALL_RADIUS: f64 = 0.005;
 const CONFORMITY: f64 = 0.56;
 
-/// The ellipse between ball and straight groove, from the reference's own Hertz theory.
 fn ellipse() -> EllipseLaw {
     let steel = (206e9, 0.3);
     let across = 1.0 / BALL_RADIUS - 1.0 / (2.0 * CONFORMITY * BALL_RADIUS);
@@ -295,7 +214,6 @@ fn ellipse() -> EllipseLaw {
     }
 }
 
-/// The ball of a carriage under 100 N across the row and a share of it to the side.
 fn ball(turn: f64, side: f64) -> LinearBall {
     let contact_angles = [FRAC_PI_4 - turn, FRAC_PI_4 + turn, FRAC_PI_4, FRAC_PI_4];
     LinearBall {
@@ -307,7 +225,6 @@ fn ball(turn: f64, side: f64) -> LinearBall {
     }
 }
 
-/// The force between two balls that a yaw moment loads.
 #[test]
 fn pairs_in_a_linear_bearing() {
     let ellipse = ellipse();
@@ -388,11 +305,11 @@ fn linear_step() {
                 .solve(1.0)
                 .unwrap()
                 .power_loss;
-                let inputs = LinearInputs {
-                    speed: speed as f32,
-                    normal_load: (24.0 * per_ball) as f32,
-                    side_load: (24.0 * per_ball * side) as f32,
-                };
+                let inputs = linear_inputs(
+                    speed as f32,
+                    (24.0 * per_ball) as f32,
+                    (24.0 * per_ball * side) as f32,
+                );
                 let known = sound(inputs, inputs.speed);
                 for (found, errors) in [
                     (model.step(inputs), &mut errors),

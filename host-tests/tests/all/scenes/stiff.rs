@@ -1,14 +1,15 @@
 //! Stiff cases: impedances that differ by powers of ten, full tracks, long runs.
 
 use crate::recorded;
+use epas_friction::FrictionModel;
 use epas_friction::train::{Press, Train};
-use epas_friction::{FrictionModel, Inputs};
 use epas_reference::promises;
-use epas_testkit::absurd::{Trial, sound_train};
 use epas_testkit::errors::Errors;
 use epas_testkit::gears;
+use epas_testkit::gears::screw_inputs;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{Trial, sound_train};
 
 /// Speeds and forces of a row in contact by the max-min formula of isotonic regression, in f64.
 fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {
@@ -44,7 +45,6 @@ fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {
     (speeds, forces)
 }
 
-/// Largest and rms error of a force over the row's largest force, at an impedance ratio.
 fn force_error<const N: usize>(ratio: f32, rows: u32, random: &mut Random) -> (f64, f64) {
     let mut errors = Errors::of(format!("impedance ratio {ratio:e}"));
     for _ in 0..rows {
@@ -80,7 +80,6 @@ fn force_error<const N: usize>(ratio: f32, rows: u32, random: &mut Random) -> (f
     (errors.largest, errors.rms())
 }
 
-/// Rows of random balls, so many for each impedance ratio.
 fn rows_of_light_balls_between_heavy_ones(rows: u32) {
     let mut random = Random(11);
     for ratio in [1.0, 1e2, 1e4, 1e6, 1e9, 1e12] {
@@ -91,7 +90,6 @@ fn rows_of_light_balls_between_heavy_ones(rows: u32) {
     }
 }
 
-/// Fewer rows than in `light_balls_between_heavy_ones_whole`.
 #[test]
 fn light_balls_between_heavy_ones() {
     rows_of_light_balls_between_heavy_ones(60);
@@ -124,7 +122,6 @@ fn full_track<const N: usize>(spare: f32, ticks: u32, random: &mut Random) {
         }
     }
     let after: f64 = train.gaps().map(f64::from).sum();
-    // Gaps are counted in integers; they print as f32.
     measured::assert_at(
         "full track, sum of gaps in m",
         before - after,
@@ -145,13 +142,11 @@ fn tracks_full_and_almost_full_keep_every_ball() {
     full_track::<3>(1e4, 20_000, &mut random);
 }
 
-/// A gear turning to and fro for `ticks`, checked all along.
 fn long_run<const N: usize>(ticks: u64, every: u64) {
     let mut configuration = gears::uncaged();
     configuration.balls = N as u16;
     configuration.turns = 2.5 * N as f32 / 37.0;
     let mut model = FrictionModel::<gears::UncagedScrew<N>>::new(&configuration).unwrap();
-    // A rotation for the sine of speed and load, renewed now and then.
     let turn = 2.0 * std::f64::consts::PI * 1e-4;
     let (step_sin, step_cos) = turn.sin_cos();
     let (mut sin, mut cos) = (0.0, 1.0);
@@ -180,7 +175,6 @@ fn long_run<const N: usize>(ticks: u64, every: u64) {
         contacts as f64 / ticks as f64,
         sum / ticks as f64,
     );
-    // No contact between balls carries more than the whole load, 8 kN.
     assert!(contacts > 0 && worst < 8e3);
 }
 
@@ -232,14 +226,8 @@ fn standstill_is_smooth_at_the_least_reversal_speed() {
         configuration.reversal_speed = width;
         configuration.limits.nut_speed = 1e6;
         let mut model = FrictionModel::<gears::CagedScrew>::new(&configuration).unwrap();
-        let mut friction = |nut_speed: f32| {
-            model
-                .step(Inputs {
-                    nut_speed,
-                    axial_load: 4e3,
-                })
-                .friction_torque
-        };
+        let mut friction =
+            |nut_speed: f32| model.step(screw_inputs(nut_speed, 4e3)).friction_torque;
         let full = friction(1e6);
         let mut last = 0.0;
         let mut speed = 1e-38_f32;

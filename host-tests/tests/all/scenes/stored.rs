@@ -2,6 +2,7 @@
 
 mod refusals;
 
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::f32::consts::TAU;
 use std::fmt::Debug;
 
@@ -25,7 +26,6 @@ use epas_testkit::remembering::{
 type Uncaged = UncagedScrew<SCREW_BALLS>;
 type Linear = LinearBearingTrain<LINEAR_BALLS>;
 
-/// Offsets in a block.
 const VERSION_AT: usize = 4;
 const KIND_AT: usize = 6;
 const BALLS_AT: usize = 8;
@@ -75,18 +75,15 @@ impl Manoeuvre {
     }
 
     fn screw(&self) -> Inputs {
-        Inputs {
-            nut_speed: self.speed,
-            axial_load: self.delivered(),
-        }
+        screw_inputs(self.speed, self.delivered())
     }
 
     fn bearing(&self) -> LinearInputs {
-        LinearInputs {
-            speed: 0.02 * self.speed,
-            normal_load: 2000.0 + 0.2 * self.delivered(),
-            side_load: 0.05 * self.load,
-        }
+        linear_inputs(
+            0.02 * self.speed,
+            2000.0 + 0.2 * self.delivered(),
+            0.05 * self.load,
+        )
     }
 
     fn delivered(&self) -> f32 {
@@ -100,23 +97,19 @@ impl Manoeuvre {
 
 /// A kind of scene with what the tests do to it.
 trait Kept: StoredScene<Outputs: Debug, State: Debug + PartialEq> {
-    /// Whether the state changes only where something has been set.
     const STILL: bool = false;
 
     fn model() -> FrictionModel<Self>
     where
         Self: Sized;
-    /// One tick; every second one of a scene with memory lies between steps.
     fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs
     where
         Self: Sized;
-    /// Sets what may be set while the model runs.
     fn set(_: &mut FrictionModel<Self>)
     where
         Self: Sized,
     {
     }
-    /// Takes a block over as if no time had passed.
     fn import(model: &mut FrictionModel<Self>, block: &[u8]) -> Result<(), Refusal>
     where
         Self: Sized,
@@ -156,7 +149,6 @@ impl Kept for Uncaged {
     }
 }
 
-/// Balls that press.
 impl Kept for UncagedScrew<CROWD> {
     fn model() -> FrictionModel<Self> {
         FrictionModel::new(&crowded()).unwrap()
@@ -238,7 +230,6 @@ impl Kept for LinearBySpeed {
     }
 }
 
-/// A block, every byte of which is written.
 fn export<S: StoredScene>(model: &FrictionModel<S>) -> Vec<u8> {
     let [block, other] = [0xA5, 0x5A].map(|fill| {
         let mut block = vec![fill; FrictionModel::<S>::STATE_BYTES];
@@ -257,7 +248,6 @@ fn sealed(mut block: Vec<u8>) -> Vec<u8> {
     block
 }
 
-/// A model after so many ticks of a manoeuvre.
 fn driven<S: Kept>(seed: u64, ticks: u32) -> (FrictionModel<S>, Manoeuvre) {
     let (mut model, mut manoeuvre) = (S::model(), Manoeuvre::new(seed));
     for tick in 0..ticks {
@@ -299,11 +289,9 @@ fn goes_on<S: Kept>(set: bool) {
         assert_eq!(export(&next), export(&model), "seed {seed}");
     }
     assert!(moved > 3000, "{moved} ticks differ from those before");
-    // A caged screw under its first friction has nothing to keep.
     assert_eq!(known, if S::STILL && !set { 0 } else { 6 });
 }
 
-/// No wave in two turns.
 static TWO_TURNS: DeviationMap = match DeviationMap::from_harmonics(2, &[]) {
     Ok(map) => map,
     Err(_) => panic!("a deviation is too large"),
@@ -326,7 +314,6 @@ fn a_scene_with_memory_goes_on_to_the_bit() {
     goes_on::<LinearBySpeed>(false);
 }
 
-/// A model that has run takes a block over as a fresh one does.
 #[test]
 fn what_a_model_did_before_an_import_does_not_count() {
     fn check<S: Kept>() {
@@ -350,7 +337,6 @@ fn what_a_model_did_before_an_import_does_not_count() {
     check::<LinearBySpeed>();
 }
 
-/// A closed form has no state: its block is that of any other closed form.
 #[test]
 fn closed_forms_are_kept_too() {
     let of = |branch| FrictionModel::<ClosedFormScrew>::new(&closed_form(branch)).unwrap();
@@ -429,7 +415,6 @@ fn a_refusal_says_what_is_wrong() {
     }
 }
 
-/// Every byte of a block counts: flash that is set aside for it is neither too little nor wasted.
 #[test]
 fn blocks_are_as_small_as_said() {
     fn bytes<S: StoredScene>() -> usize {

@@ -9,8 +9,9 @@ use epas_friction::scene::{
 };
 use epas_friction::{
     ClosedFormScrew, FrictionBranch, FrictionModel, Inputs, LinearBearingConfiguration,
-    LinearBearingTrain, LinearInputs,
+    LinearBearingTrain,
 };
+use epas_testkit::gears::{linear_inputs, screw_inputs};
 
 use epas_testkit::gears::{
     CagedConfiguration, CagedScrew, LINEAR_BALLS, caged, closed_form, linear,
@@ -21,10 +22,7 @@ use epas_testkit::remembering::{Slip, TEMPERATURE, at, caged_by_angle, slip, wit
 type Caged = FrictionModel<CagedScrew>;
 type Linear = FrictionModel<LinearBearingTrain<LINEAR_BALLS>>;
 
-const INPUTS: Inputs = Inputs {
-    nut_speed: 5.0,
-    axial_load: 3000.0,
-};
+const INPUTS: Inputs = screw_inputs(5.0, 3000.0);
 
 /// Constants count from the next step on, to the bit as in a model that has had them always: friction coefficient, limits, clearance.
 #[test]
@@ -63,7 +61,6 @@ fn a_swap_turns_nothing() {
         })
         .unwrap();
         let sensor = Deadband::new(counts, half_width).unwrap();
-        // Its friction is the same before and after.
         let whole = with_memory(caged(), slip(0.05), sensor);
         Counted::new(&WithMemoryConfiguration { play, ..whole }).unwrap()
     };
@@ -89,7 +86,6 @@ fn a_swap_turns_nothing() {
     }
 }
 
-/// A closed form has no state: it is the other one at once.
 #[test]
 fn a_closed_form_is_swapped_for_another_one() {
     let of = |branch| FrictionModel::<ClosedFormScrew>::new(&closed_form(branch)).unwrap();
@@ -100,14 +96,9 @@ fn a_closed_form_is_swapped_for_another_one() {
     assert_ne!(model.step(INPUTS), before);
 }
 
-/// Balls of a bearing go on from their places; the friction that was set before counts no more.
 #[test]
 fn a_bearing_takes_the_friction_of_its_new_constants() {
-    let inputs = LinearInputs {
-        speed: 0.5,
-        normal_load: 2000.0,
-        side_load: 300.0,
-    };
+    let inputs = linear_inputs(0.5, 2000.0, 300.0);
     let other = LinearBearingConfiguration {
         friction: 0.15,
         ..linear()

@@ -2,6 +2,7 @@
 //! each other, which jump there.
 
 use epas_testkit::gears;
+use epas_testkit::gears::linear_inputs;
 use epas_testkit::given;
 use epas_testkit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
@@ -42,9 +43,7 @@ struct Case {
     conformity: f64,
     friction: f64,
     ball_friction: f64,
-    /// Load of a ball across the row, N.
     load: f64,
-    /// Deviations of rail and carriage, rad, and their waves on the track.
     rail: (f64, u8),
     carriage: (f64, u8),
 }
@@ -101,20 +100,18 @@ impl Case {
         Model::new(&self.configuration()).unwrap()
     }
 
-    /// Side load of a ball at a ratio; at 1 the weaker diagonal carries nothing.
     fn side(&self, ratio: f64) -> f64 {
         ratio * self.load * self.contact_angle.tan()
     }
 
     fn inputs(&self, ratio: f64, speed: f64) -> LinearInputs {
-        LinearInputs {
-            speed: speed as f32,
-            normal_load: (BALLS as f64 * self.load) as f32,
-            side_load: (BALLS as f64 * self.side(ratio)) as f32,
-        }
+        linear_inputs(
+            speed as f32,
+            (BALLS as f64 * self.load) as f32,
+            (BALLS as f64 * self.side(ratio)) as f32,
+        )
     }
 
-    /// What the next tick puts out at a ratio of the loads; the model stays as it is.
     fn tick(&self, model: &Model, ratio: f64, speed: f64) -> LinearOutputs {
         let mut model = *model;
         let outputs = model.step(self.inputs(ratio, speed));
@@ -123,7 +120,6 @@ impl Case {
         outputs
     }
 
-    /// The exact ball at its deviations of rail and carriage, rad.
     fn ball(&self, [rail, carriage]: [f64; 2], ratio: f64) -> LinearBall {
         let angle = self.contact_angle;
         let contact_angles = [
@@ -159,7 +155,6 @@ impl Case {
         })
     }
 
-    /// Least ratio above `from` at which the model says that it leaves its accuracy.
     fn flagged_from(&self, model: &Model, from: f64, speed: f64) -> f64 {
         let (mut sound, mut flagged) = (from, 1.2 * from.signum());
         assert!(!self.tick(model, sound, speed).faults.any(), "{self:?}");
@@ -216,7 +211,6 @@ fn the_flag_begins_where_two_points_cost_a_tenth_more() {
     }
 }
 
-/// Deviations that are the same everywhere: no ball presses, and every ball is that of the reference.
 fn every_ball_alone_is_flagged_shortly_before_it_jumps(stride: usize) {
     let mut latest = 0.0_f64;
     let mut drawn = 0..;
@@ -291,7 +285,6 @@ fn a_ball_alone_is_flagged_shortly_before_it_jumps_whole() {
     every_ball_alone_is_flagged_shortly_before_it_jumps(1);
 }
 
-/// Speeds of balls that do not press, as far as no flag stands: one groove that deviates, both signs.
 #[test]
 fn speeds_without_a_flag() {
     for (load, name) in [
@@ -324,7 +317,6 @@ fn speeds_without_a_flag() {
     }
 }
 
-/// Deviations of rail and carriage at the model's balls.
 fn deviations(case: &Case, model: &Model, travelled: f64) -> Vec<[f64; 2]> {
     let wave = |(amplitude, order): (f64, u8), at: f64| {
         amplitude * (f64::from(order) * TAU * at / LOADED).cos()
@@ -434,7 +426,6 @@ fn a_row_is_flagged_before_a_ball_jumps() {
             }
             ratio += 0.02;
         }
-        println!("{case:?}: flagged from {border:.3}, a ball jumps at {jump:?}");
         earliest = earliest.max(jump.unwrap() - border);
     }
     assert!(most >= 5, "only {most} balls touch");
@@ -469,7 +460,6 @@ fn groove_friction_follows_two_point_rolling() {
                 );
             }
         }
-        // Measured: 4.8e-6.
         assert!(last < 1.2e-5 * whole);
     }
 }
@@ -478,11 +468,7 @@ fn groove_friction_follows_two_point_rolling() {
 #[test]
 fn the_flag_stands_beside_faults_and_not_without_load() {
     let mut model = CASE.model();
-    let beyond = LinearInputs {
-        speed: 1.0,
-        normal_load: 100.0,
-        side_load: 1e7,
-    };
+    let beyond = linear_inputs(1.0, 100.0, 1e7);
     let outputs = model.step(beyond);
     assert_eq!(outputs.faults, Faults::LOAD_RANGE | Faults::BEYOND_MODEL);
     assert_eq!(model.faulted_ticks(), 1);
@@ -570,7 +556,6 @@ fn the_flag_knows_what_neighbours_save() {
     }
 }
 
-/// Without deviations nothing presses, and the border is that of the heaviest ball of the load table.
 #[test]
 fn shares_of_the_load_move_the_border() {
     let border = |shares: &'static [LoadShare], load: f64| {
@@ -583,6 +568,5 @@ fn shares_of_the_load_move_the_border() {
     };
     let shared = border(&SHARES, 100.0);
     let heavy = border(&[LoadShare::MEAN], 160.0);
-    // Derived: each is found to 1e-5. Measured: 0.
     assert!((shared - heavy).abs() < 2e-5, "{shared} {heavy}");
 }

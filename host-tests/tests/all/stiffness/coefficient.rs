@@ -1,5 +1,6 @@
 //! Friction coefficient by speed, temperature and direction.
 
+use crate::refusals::{assert_refused, assert_refused_at};
 use epas_friction::defaults;
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, OilData, TemperatureFade, Viscosity,
@@ -9,7 +10,6 @@ use epas_reference::promises;
 
 use epas_testkit::errors::Errors;
 
-/// The oil of the tabulated coefficients.
 const OIL: Vogel = Vogel {
     viscosity_40: 0.088,
     viscosity_100: 0.0095,
@@ -59,11 +59,9 @@ fn at_celsius(law: &CoefficientLaw, speed: f64, celsius: f64) -> f64 {
     f64::from(law.at_temperature(kelvin(celsius)).at(speed as f32))
 }
 
-/// Half a unit of the last digit, 5e-4.
 #[test]
 fn the_reference_has_the_tabulated_coefficients() {
     let speeds = [0.1, 1.0, 5.0, 20.0, 100.0, 200.0];
-    let mut largest = 0.0_f64;
     for (celsius, row) in [
         (-20.0, [0.094, 0.064, 0.053, 0.051, 0.050, 0.050]),
         (20.0, [0.116, 0.104, 0.085, 0.066, 0.054, 0.052]),
@@ -72,10 +70,8 @@ fn the_reference_has_the_tabulated_coefficients() {
         for (speed, printed) in speeds.into_iter().zip(row) {
             let error = (full_law(speed, celsius) - printed).abs();
             assert!(error < 5e-4, "{celsius} C, {speed} rad/s: {error}");
-            largest = largest.max(error);
         }
     }
-    println!("largest {largest:.1e}");
     for (celsius, printed) in [(-20.0, 0.20), (20.0, 4.9), (80.0, 73.0)] {
         // Measured: 0.73 %, of figures with two digits.
         let found = film().half_share_speed(OIL.at(celsius)) / ENTRAINMENT;
@@ -135,7 +131,6 @@ fn the_form_with_its_best_speed() {
     let best = (0..=200)
         .map(|step| largest(0.5 + 0.005 * f64::from(step)))
         .fold(f64::MAX, f64::min);
-    println!("{best}");
     assert!((best - 0.057).abs() < 5e-4, "{best}");
 }
 
@@ -203,7 +198,6 @@ fn viscosities_by_two_points() {
             worst(&mineral_oil, &mineral, from, to),
             worst(&synthetic_oil, &synthetic, from, to),
         ];
-        println!("{from} to {to}: {found:.3?}");
         for (found, printed) in found.into_iter().zip(printed) {
             assert!((found - printed).abs() < 5e-3, "{found} for {printed}");
         }
@@ -259,7 +253,6 @@ fn sweeps_are_monotone() {
     }
 }
 
-/// Equal coefficients are that number, bit by bit, whatever comes in.
 #[test]
 fn equal_coefficients_are_constant() {
     for friction in [1e-6_f32, 0.05, 0.1, 0.123_456_79, 1.0] {
@@ -334,7 +327,6 @@ fn default_half_share_speed_is_of_skf_mixture() {
         film.half_share_speed(viscosity) / ENTRAINMENT
     };
     let films = [0.08e-6, 0.15e-6].map(film);
-    println!("half-share speed {speed:.3} rad/s; of a film {films:.2?}");
     assert!(
         (speed - f64::from(law.half_share_speed)).abs() < 5e-3,
         "{speed}"
@@ -403,7 +395,6 @@ fn faulty_inputs() {
     assert!((found / exact - 1.0).abs() < 2.4e-7, "{found} {exact}");
 }
 
-/// The factor of a direction scales its coefficient, and only that.
 #[test]
 fn directions_differ() {
     let law = CoefficientLaw::new(&CoefficientParameters {
@@ -438,7 +429,6 @@ fn the_slope_is_bounded() {
     })
     .unwrap();
     let now = law.at_temperature(293.15);
-    // Measured: 2.9e-6, six ulp.
     assert!((now.half_share_speed() - 5.0).abs() < 8e-6);
     let step = 0.05;
     let slopes = (0..400_u16).map(|n| {
@@ -459,128 +449,67 @@ fn the_slope_is_bounded() {
 
 #[test]
 fn errors_name_the_field() {
-    let good = MINERAL;
-    let field = |parameters| CoefficientLaw::new(&parameters).unwrap_err().field();
-    for bad in [f32::NAN, -1.0, 0.0, 2e5, f32::INFINITY] {
-        assert_eq!(
-            field(CoefficientParameters {
-                boundary: bad,
-                ..good
-            }),
-            "boundary"
-        );
-        assert_eq!(
-            field(CoefficientParameters {
-                full_film: bad,
-                ..good
-            }),
-            "full_film"
-        );
-        assert_eq!(
-            field(CoefficientParameters {
-                half_share_speed: bad,
-                ..good
-            }),
-            "half_share_speed"
-        );
-        assert_eq!(
-            field(CoefficientParameters {
-                reference_temperature: bad,
-                ..good
-            }),
-            "reference_temperature"
-        );
-        assert_eq!(
-            field(CoefficientParameters {
-                forward: bad,
-                ..good
-            }),
-            "forward"
-        );
-        assert_eq!(
-            field(CoefficientParameters {
-                backward: bad,
-                ..good
-            }),
-            "backward"
-        );
-    }
-    assert_eq!(
-        field(CoefficientParameters {
-            churning: -1.0,
-            ..good
-        }),
-        "churning"
+    const BAD: &[f32] = &[-1.0, 0.0, 2e5];
+    #[rustfmt::skip]
+    assert_refused(
+        &MINERAL,
+        CoefficientLaw::new,
+        &[
+            ("boundary", |p, v| p.boundary = v, BAD),
+            ("full_film", |p, v| p.full_film = v, BAD),
+            ("half_share_speed", |p, v| p.half_share_speed = v, BAD),
+            // Degrees Celsius in the place of kelvins.
+            ("reference_temperature", |p, v| p.reference_temperature = v, &[-1.0, 0.0, 2e5, 20.0]),
+            ("forward", |p, v| p.forward = v, BAD),
+            ("backward", |p, v| p.backward = v, BAD),
+        ],
     );
-    // Degrees Celsius in the place of kelvins.
-    assert_eq!(
-        field(CoefficientParameters {
-            reference_temperature: 20.0,
-            ..good
-        }),
-        "reference_temperature"
+    assert_refused_at(
+        &MINERAL,
+        CoefficientLaw::new,
+        &[
+            ("churning", |p, v| p.churning = v, &[-1.0]),
+            // Ten times 0.12 is no coefficient.
+            ("boundary", |p, v| p.forward = v, &[10.0]),
+        ],
     );
-    // Ten times 0.12 is no coefficient.
-    assert_eq!(
-        field(CoefficientParameters {
-            forward: 10.0,
-            ..good
-        }),
-        "boundary"
-    );
+    // Centistokes in the place of m²/s, swapped viscosities, degrees Celsius.
     let oil = OilData {
         kinematic_viscosity_40: 100e-6,
         kinematic_viscosity_100: 11e-6,
         density: 880.0,
         pour_point: 240.0,
     };
-    let field = |data| Viscosity::of_oil(&data).unwrap_err().field();
-    // Centistokes in the place of m²/s, swapped temperatures, degrees Celsius.
-    assert_eq!(
-        field(OilData {
-            kinematic_viscosity_100: 11.0,
-            ..oil
-        }),
-        "kinematic_viscosity_100"
+    #[rustfmt::skip]
+    assert_refused_at(
+        &oil,
+        Viscosity::of_oil,
+        &[
+            ("kinematic_viscosity_100", |p, v| p.kinematic_viscosity_100 = v, &[11.0]),
+            ("kinematic_viscosity_40", |p, v| p.kinematic_viscosity_40 = v, &[11e-6]),
+            ("density", |p, v| p.density = v, &[0.88]),
+            ("pour_point", |p, v| p.pour_point = v, &[-33.0]),
+        ],
     );
-    assert_eq!(
-        field(OilData {
-            kinematic_viscosity_40: 11e-6,
-            ..oil
-        }),
-        "kinematic_viscosity_40"
+    #[rustfmt::skip]
+    assert_refused_at(
+        &((313.15, 0.1), (373.15, 0.01), 230.0),
+        |&(cold, warm, pour)| Viscosity::through(cold, warm, pour),
+        &[
+            ("temperature", |(cold, _, _), v| cold.0 = v, &[40.0, 373.15]),
+            ("viscosity", |(cold, _, _), v| cold.1 = v, &[0.001]),
+            ("viscosity", |(cold, warm, _), v| (*cold, *warm) = ((313.15, v), (323.15, 0.1)), &[1e3]),
+            ("pour_point", |(_, _, pour), v| *pour = v, &[330.0]),
+        ],
     );
-    assert_eq!(
-        field(OilData {
-            density: 0.88,
-            ..oil
-        }),
-        "density"
-    );
-    assert_eq!(
-        field(OilData {
-            pour_point: -33.0,
-            ..oil
-        }),
-        "pour_point"
-    );
-    let through = |cold, warm, pour| Viscosity::through(cold, warm, pour).unwrap_err().field();
-    assert_eq!(through((40.0, 0.1), (100.0, 0.01), 230.0), "temperature");
-    assert_eq!(through((313.15, 0.1), (313.15, 0.01), 230.0), "temperature");
-    assert_eq!(through((313.15, 0.01), (373.15, 0.1), 230.0), "viscosity");
-    assert_eq!(through((313.15, 1e3), (323.15, 0.1), 230.0), "viscosity");
-    assert_eq!(through((313.15, 0.1), (373.15, 0.01), 330.0), "pour_point");
-    assert_eq!(
-        TemperatureFade::new(20.0, 1.0, 1.0).unwrap_err().field(),
-        "fallback_temperature"
-    );
-    assert_eq!(
-        TemperatureFade::new(300.0, -1.0, 1.0).unwrap_err().field(),
-        "hold_time"
-    );
-    assert_eq!(
-        TemperatureFade::new(300.0, 1.0, 0.0).unwrap_err().field(),
-        "fade_time"
+    assert_refused_at(
+        &(300.0, 1.0, 1.0),
+        |&(fallback, hold, fade)| TemperatureFade::new(fallback, hold, fade),
+        &[
+            ("fallback_temperature", |p, v| p.0 = v, &[20.0]),
+            ("hold_time", |p, v| p.1 = v, &[-1.0]),
+            ("fade_time", |p, v| p.2 = v, &[0.0]),
+        ],
     );
 }
 
@@ -614,7 +543,6 @@ fn viscosities_go_through_their_points() {
             }
         }
     }
-    println!("{worst:.2e}");
     // Derived: 10 K from a pole below 512 K, which is rounded to 1.5e-5 K, five times over; twice that for the roundings of the rest.
     assert!(worst < 1.6e-5, "{worst:e}");
 }

@@ -11,8 +11,8 @@ use epas_friction::scene::{
 };
 use epas_friction::{
     ClosedFormScrew, Faults, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain,
-    LinearInputs,
 };
+use epas_testkit::gears::linear_inputs;
 
 use super::{
     BRANCHES, BREAKAWAY, Caged, Slip, TEMPERATURE, angle_sensor, caged_by_angle, fresh, screw,
@@ -25,7 +25,6 @@ use epas_testkit::random::Random;
 
 type Model = FrictionModel<WithMemory<CagedScrew, Slip, SpeedOverTick>>;
 
-/// Friction under a coefficient that follows speed and temperature is that of a screw in which this coefficient is set.
 #[test]
 fn a_coefficient_by_a_law_is_one_that_is_set() {
     let law = CoefficientLaw::new(&CoefficientParameters {
@@ -59,7 +58,6 @@ fn a_coefficient_by_a_law_is_one_that_is_set() {
     }
 }
 
-/// A law whose coefficients are all the same is one coefficient, to the bit.
 #[test]
 fn equal_coefficients_are_one() {
     let scene = caged();
@@ -90,7 +88,6 @@ fn equal_coefficients_are_one() {
     }
 }
 
-/// A law that gives more than the scene takes is refused, at set-up and while it runs.
 #[test]
 fn coefficients_beyond_the_scene_are_refused() {
     let scene = caged();
@@ -191,11 +188,7 @@ fn full_friction_is_what_passes_in_its_direction() {
             outputs.contacts,
         )
     });
-    let load = LinearInputs {
-        speed: 0.0,
-        normal_load: 1500.0,
-        side_load: 200.0,
-    };
+    let load = linear_inputs(0.0, 1500.0, 200.0);
     let full = LinearBearingConfiguration {
         return_length: 0.0405,
         ..linear()
@@ -205,7 +198,6 @@ fn full_friction_is_what_passes_in_its_direction() {
     });
 }
 
-/// One coefficient for both directions.
 fn both_ways(friction: f32) -> DirectionalCoefficient {
     DirectionalCoefficient {
         forward: friction,
@@ -213,7 +205,6 @@ fn both_ways(friction: f32) -> DirectionalCoefficient {
     }
 }
 
-/// Full friction of a fresh screw at 5 rad/s under a load, N.
 fn full_friction<S: Sliding<Inputs = Inputs>>(
     configuration: &S::Configuration,
     load: f32,

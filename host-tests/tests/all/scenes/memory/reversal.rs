@@ -7,11 +7,12 @@ use epas_friction::scene::{
     Motion, ReversalState, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryState,
 };
 use epas_friction::{
-    FrictionModel, LinearBearingConfiguration, LinearBearingTrain, LinearInputs, LinearOutputs,
-    Regime, UncagedOutputs,
+    FrictionModel, LinearBearingConfiguration, LinearBearingTrain, LinearOutputs, Regime,
+    UncagedOutputs,
 };
 use epas_reference::presliding::elements::Elements;
 use epas_reference::presliding::row::{Row, RowMemory, Torque};
+use epas_testkit::gears::linear_inputs;
 
 use super::{BREAKAWAY, OneCoefficient, Slip, TICK, at, caged_by_angle, fresh, screw, slip};
 use epas_testkit::gears::{
@@ -23,7 +24,6 @@ type Memory<S> = WithMemory<S, Slip, SpeedOverTick, OneCoefficient>;
 type Screw = UncagedScrew<CROWD>;
 type Bearing = LinearBearingTrain<LINEAR_BALLS>;
 
-/// A scene with memory beside the reference, which is given what the row of the same state has in friction.
 struct Both<S: Sliding<Constants: Copy, State: Copy>> {
     model: FrictionModel<Memory<S>>,
     constants: S::Constants,
@@ -36,21 +36,16 @@ struct Both<S: Sliding<Constants: Copy, State: Copy>> {
     /// Limit and breakaway of the elements.
     limit: f64,
     breakaway: f64,
-    /// Outputs of the last tick, and those of the row that slides.
     outputs: Option<[S::Outputs; 2]>,
-    /// Friction of the grooves, and between balls.
     parts: fn(&S::Outputs) -> [f32; 2],
 }
 
-/// A tick of both.
 #[derive(Clone, Copy, Debug)]
 struct Seen {
     turn: f64,
-    /// Torque of the scene, its part between balls, and the same of the reference.
     torque: f64,
     ball: f64,
     expected: Torque,
-    /// Sliding friction of the row, in its direction.
     row: Row,
     direction: f64,
     travel: f64,
@@ -92,7 +87,6 @@ where
         }
     }
 
-    /// A step at a speed, which the reading has too.
     fn step(&mut self, load: S::Inputs, speed: f32) -> Seen {
         let Self {
             constants,
@@ -191,7 +185,6 @@ fn bearing_of(tick: f32) -> Both<Bearing> {
     )
 }
 
-/// What was found over many reversals.
 #[derive(Debug, Default)]
 struct Found {
     /// Times at which balls turned round, and those of them at which what pressed was a twentieth of the friction or more.
@@ -206,7 +199,6 @@ struct Found {
 }
 
 impl Found {
-    /// A tick after another.
     fn add(&mut self, last: &Seen, seen: &Seen) {
         let full = seen.row.groove + seen.row.ball;
         let error = (seen.torque - seen.expected.groove - seen.expected.ball).abs();
@@ -228,7 +220,6 @@ impl Found {
     }
 }
 
-/// Half a second in one direction, then to and fro by lot with up to that speed.
 fn to_and_fro<S>(
     mut both: Both<S>,
     load: S::Inputs,
@@ -269,11 +260,7 @@ fn nothing_steps_where_balls_turn_round() {
     }
     let mut bearing = Found::default();
     for _ in 0..60 {
-        let load = LinearInputs {
-            speed: 0.0,
-            normal_load: 100.0 * 50.0_f32.powf(random.unit()),
-            side_load: 20.0,
-        };
+        let load = linear_inputs(0.0, 100.0 * 50.0_f32.powf(random.unit()), 20.0);
         let tick = 5e-5 * 20.0_f32.powf(random.unit());
         to_and_fro(bearing_of(tick), load, 2.0, &mut random, &mut bearing);
     }
@@ -319,15 +306,11 @@ fn a_row_makes_no_energy() {
     let screw_load =
         |random: &mut Random| screw(0.0, random.sign() * 100.0 * 200.0_f32.powf(random.unit()));
     check(screw_of(5e-4), screw_load, 90.0);
-    let bearing_load = |random: &mut Random| LinearInputs {
-        speed: 0.0,
-        normal_load: 100.0 * 50.0_f32.powf(random.unit()),
-        side_load: 20.0,
-    };
+    let bearing_load =
+        |random: &mut Random| linear_inputs(0.0, 100.0 * 50.0_f32.powf(random.unit()), 20.0);
     check(bearing_of(1e-4), bearing_load, 2.0);
 }
 
-/// In steady sliding all outputs are those of the row, to the bit.
 #[test]
 fn steady_sliding_is_the_row_to_the_bit() {
     let mut both = screw_of(5e-4);
@@ -340,7 +323,6 @@ fn steady_sliding_is_the_row_to_the_bit() {
     ] {
         for number in 0..1500 {
             both.step(screw(0.0, load), speed);
-            // After 1.5 rad friction has turned round, and balls with it.
             if number >= 100 {
                 let [outputs, row] = both.outputs.unwrap();
                 assert_eq!(outputs, row, "{speed} rad/s, {load} N, tick {number}");

@@ -9,12 +9,12 @@ use epas_friction::scene::{StoredScene, WithMemory, WithMemoryConfiguration};
 use epas_friction::stored::VERSION;
 use epas_friction::{Faults, FrictionModel, LinearBearingTrain, Refusal, UncagedBallScrew};
 
-use epas_testkit::absurd::{Trial, accepted};
 use epas_testkit::gears::{
     BALL_RANGE, CagedConfiguration, CagedScrew, LINEAR_BALLS, UncagedConfiguration, UncagedScrew,
     caged, changed, linear, linear_of_smaller_balls, uncaged,
 };
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{Trial, accepted};
 use epas_testkit::remembering::{COUNTS, CagedByAngle, UncagedByCounts, slip, with_memory};
 
 use super::{
@@ -22,7 +22,6 @@ use super::{
     VERSION_AT, driven, export, sealed,
 };
 
-/// The reason, and a model that is as it was.
 fn refused<S: Kept>(model: &mut FrictionModel<S>, block: &[u8]) -> Refusal {
     let before = export(model);
     let faulted = model.faulted_ticks();
@@ -145,7 +144,6 @@ fn uncaged_of_seven() -> UncagedConfiguration {
     }
 }
 
-/// Models of all these configurations say that a block is of other constants.
 fn refused_by_all<S: Kept>(block: &[u8], others: &[S::Configuration])
 where
     S::Configuration: Debug,
@@ -160,7 +158,6 @@ where
     }
 }
 
-/// A sensor of the nut's angle whose turn begins at `lowest`, rad.
 fn wrapped(lowest: f32) -> WrappedAngle {
     WrappedAngle::new(WrappedAngleParameters {
         lowest,
@@ -208,7 +205,6 @@ fn blocks_of_other_constants_are_refused() {
     refused_by_all::<Uncaged>(&block, &others);
     let mut slower = uncaged();
     slower.tick = 2e-5;
-    // What balls do may be folded anew: their places mean the same.
     let mut other_law = uncaged();
     other_law.folded = changed(&BALL_RANGE, |folded| folded.law.lift_off = 20.0);
     for same in [slower, other_law] {
@@ -219,7 +215,6 @@ fn blocks_of_other_constants_are_refused() {
     let block = export(&Linear::model());
     let mut others = [linear(), linear(), linear_of_smaller_balls()];
     others[0].wavelength = 0.05;
-    // A track of the same shape.
     others[1].loaded_length *= 2.0;
     others[1].return_length *= 2.0;
     others[1].wavelength *= 2.0;
@@ -342,13 +337,11 @@ fn a_ratio_of_two_coefficients_is_in_range() {
     }
 }
 
-/// A friction coefficient for which these balls were not folded.
 #[test]
 fn a_coefficient_of_other_balls_is_refused() {
     let mut model = Uncaged::model();
     let block = export(&model);
     let (least, largest) = BALL_RANGE.law.friction_range();
-    // The last number before the checksum.
     let at = block.len() - 8;
     let with = |friction: f32| {
         let mut block = block.clone();
@@ -367,14 +360,12 @@ fn a_coefficient_of_other_balls_is_refused() {
     }
 }
 
-/// Numbers that no state has, in a block that is whole.
 #[test]
-fn absurd_numbers_are_refused() {
+fn numbers_out_of_range_are_refused() {
     let field = |refusal| match refusal {
         Refusal::OutOfRange { field } => field,
         other => panic!("{other}"),
     };
-    // Two balls in one place.
     let (mut model, _) = driven::<Linear>(1, 50);
     let mut block = export(&model);
     let first = STATE_AT + 5;
@@ -420,7 +411,6 @@ fn absurd_numbers_are_refused() {
     assert_eq!(field(refused(&mut model, &sealed(beyond))), "inputs");
 }
 
-/// Every model leaves blocks that it takes, and where a block of random numbers is taken the model goes on as sound as ever.
 #[test]
 fn random_blocks_are_refused_or_harmless() {
     fn check<S: Trial + StoredScene>(models: u64) -> (u32, u32)

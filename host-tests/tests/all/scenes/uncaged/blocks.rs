@@ -1,5 +1,6 @@
 //! What a host has folded of a ball screw without cage: the law between its knots, numbers that are no law, and blocks that are none.
 
+use crate::refusals::assert_refused;
 use epas_friction::Error;
 use epas_friction::ball::pressed::{BallKnot, BallLaw, BallNumbers, KNOTS, NeighbourNumbers};
 use epas_friction::scene::FoldedBall;
@@ -7,7 +8,6 @@ use epas_friction::scene::FoldedBall;
 use epas_testkit::gears::{BALL, BALL_NODES, BALL_RANGE};
 use epas_testkit::random::Random;
 
-/// All numbers of a ball under a load.
 fn all(numbers: &BallNumbers) -> Vec<f32> {
     let BallNumbers {
         free,
@@ -110,10 +110,9 @@ fn one_ball_is_as_all_under_its_load() {
     check(&BALL_RANGE.law);
 }
 
-/// Every number that is no law is refused by its name, wherever it stands; what is at the border is taken.
+/// Numbers outside the law's ranges are refused by name, wherever they stand; at the border they are taken.
 #[test]
-fn numbers_that_are_no_law_are_refused_by_name() {
-    type Change = fn(&mut BallLaw<BALL_NODES>, f32);
+fn numbers_out_of_range_are_refused_by_name() {
     fn knot(law: &mut BallLaw<BALL_NODES>) -> &mut BallKnot {
         &mut law.nodes[1].branches[1][7]
     }
@@ -123,99 +122,45 @@ fn numbers_that_are_no_law_are_refused_by_name() {
     fn neighbours(law: &mut BallLaw<BALL_NODES>) -> &mut NeighbourNumbers {
         &mut law.nodes[0].neighbours[1][3].numbers
     }
-    let refused: [(&str, Change, &[f32]); 20] = [
-        ("deviations", |law, x| law.deviations[0] = x, &[9e-7, 1.01]),
-        ("deviations", |law, x| law.deviations[1] = x, &[0.0, -0.1]),
-        ("lift_off", |law, x| law.lift_off = x, &[-1e-6, 1.1e7]),
-        (
-            "friction",
-            |law, x| law.nodes[0].friction = x,
-            &[9e-7, 0.51],
-        ),
-        ("friction", |law, x| law.nodes[2].friction = x, &[0.0, 0.51]),
-        ("free", |law, x| numbers(law).free[0] = x, &[1.01, -1.01]),
-        ("free", |law, x| numbers(law).free = [x; 6], &[0.17, -0.17]),
-        (
-            "impedance",
-            |law, x| numbers(law).impedance[0] = x,
-            &[0.0, -1.0, 1.1e3],
-        ),
-        (
-            "impedance",
-            |law, x| numbers(law).impedance = [1.0, x, -x],
-            &[0.5, -0.5, 600.0],
-        ),
-        (
-            "torque",
-            |law, x| numbers(law).torque[5] = x,
-            &[1.01, -1.01],
-        ),
-        ("slope", |law, x| numbers(law).slope = x, &[1.01, -1.01]),
-        ("work", |law, x| numbers(law).work = x, &[-0.01, 4.01]),
-        (
-            "push",
-            |law, x| neighbours(law).nodes[1].push[2] = x,
-            &[1.1e3, -1.1e3],
-        ),
-        (
-            "rubbed_impedance",
-            |law, x| neighbours(law).nodes[2].impedance[0] = x,
-            &[1.1e3],
-        ),
-        (
-            "rubbed_torque",
-            |law, x| neighbours(law).nodes[0].torque[1] = x,
-            &[-1.1e3],
-        ),
-        ("outward", |law, x| neighbours(law).outward[2] = x, &[1.1e3]),
-        (
-            "outward_torque",
-            |law, x| neighbours(law).outward_torque = x,
-            &[-1.1e3],
-        ),
-        (
-            "load",
-            |law, x| law.nodes[1].neighbours[0][2].load = x,
-            &[9e-7, 1.1e7],
-        ),
-        ("load", |law, x| knot(law).load = x, &[9e-7, 1.1e7]),
-        (
-            "per_width",
-            |law, x| knot(law).per_width *= x,
-            &[0.0, 0.999, 1.001, -1.0],
-        ),
-    ];
-    assert_eq!(BALL_RANGE.law.checked(), Ok(()));
-    for (field, change, values) in refused {
-        for value in values
-            .iter()
-            .copied()
-            .chain([f32::NAN, f32::INFINITY, f32::NEG_INFINITY])
-        {
-            let mut law = BALL_RANGE.law;
-            change(&mut law, value);
-            let error = law.checked().expect_err(field);
-            assert_eq!(error.field(), field, "{value}");
-        }
-    }
-    // Loads that fall; a node too near the one before.
-    let mut law = BALL_RANGE.law;
-    law.nodes[2].branches[0][4].load = law.nodes[2].branches[0][2].load;
-    assert_eq!(law.checked().unwrap_err().field(), "load");
-    let mut law = BALL_RANGE.law;
-    law.nodes[1].friction = 1.009 * law.nodes[0].friction;
-    assert_eq!(law.checked().unwrap_err().field(), "friction");
-    // At the borders.
-    let taken: [Change; 5] = [
-        |law, _| law.deviations = [1e-6, 1.0],
-        |law, _| law.lift_off = 1e7,
-        |law, _| numbers(law).free = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
-        |law, _| neighbours(law).nodes[2].push = [-1e3, 1e3, 0.0],
-        |law, _| numbers(law).slope = -1.0,
+    #[rustfmt::skip]
+    assert_refused(
+        &BALL_RANGE.law,
+        BallLaw::checked,
+        &[
+            ("deviations", |law, x| law.deviations[0] = x, &[9e-7, 1.01]),
+            ("deviations", |law, x| law.deviations[1] = x, &[0.0, -0.1]),
+            ("lift_off", |law, x| law.lift_off = x, &[-1e-6, 1.1e7]),
+            ("friction", |law, x| law.nodes[0].friction = x, &[9e-7, 0.51]),
+            ("friction", |law, x| law.nodes[2].friction = x, &[0.0, 0.51]),
+            ("free", |law, x| numbers(law).free[0] = x, &[1.01, -1.01]),
+            ("free", |law, x| numbers(law).free = [x; 6], &[0.17, -0.17]),
+            ("impedance", |law, x| numbers(law).impedance[0] = x, &[0.0, -1.0, 1.1e3]),
+            ("impedance", |law, x| numbers(law).impedance = [1.0, x, -x], &[0.5, -0.5, 600.0]),
+            ("torque", |law, x| numbers(law).torque[5] = x, &[1.01, -1.01]),
+            ("slope", |law, x| numbers(law).slope = x, &[1.01, -1.01]),
+            ("work", |law, x| numbers(law).work = x, &[-0.01, 4.01]),
+            ("push", |law, x| neighbours(law).nodes[1].push[2] = x, &[1.1e3, -1.1e3]),
+            ("rubbed_impedance", |law, x| neighbours(law).nodes[2].impedance[0] = x, &[1.1e3]),
+            ("rubbed_torque", |law, x| neighbours(law).nodes[0].torque[1] = x, &[-1.1e3]),
+            ("outward", |law, x| neighbours(law).outward[2] = x, &[1.1e3]),
+            ("outward_torque", |law, x| neighbours(law).outward_torque = x, &[-1.1e3]),
+            ("load", |law, x| law.nodes[1].neighbours[0][2].load = x, &[9e-7, 1.1e7]),
+            ("load", |law, x| knot(law).load = x, &[9e-7, 1.1e7]),
+            ("per_width", |law, x| knot(law).per_width *= x, &[0.0, 0.999, 1.001, -1.0]),
+            ("load", |law, _| law.nodes[2].branches[0][4].load = law.nodes[2].branches[0][2].load, &[]),
+            ("friction", |law, _| law.nodes[1].friction = 1.009 * law.nodes[0].friction, &[]),
+        ],
+    );
+    let taken: [fn(&mut BallLaw<BALL_NODES>); 5] = [
+        |law| law.deviations = [1e-6, 1.0],
+        |law| law.lift_off = 1e7,
+        |law| numbers(law).free = [1.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+        |law| neighbours(law).nodes[2].push = [-1e3, 1e3, 0.0],
+        |law| numbers(law).slope = -1.0,
     ];
     for change in taken {
         let mut law = BALL_RANGE.law;
-        change(&mut law, 0.0);
+        change(&mut law);
         assert_eq!(law.checked(), Ok(()));
     }
 }
@@ -233,7 +178,6 @@ fn refusal<const NODES: usize>(words: &[u32]) -> &'static str {
         .field()
 }
 
-/// A block gives back what was folded, to the bit, and says from which inputs.
 #[test]
 fn a_block_gives_back_what_was_folded() {
     let mut preloaded = BALL;
@@ -245,20 +189,17 @@ fn a_block_gives_back_what_was_folded() {
     let words = block(&BALL_RANGE);
     assert_eq!(FoldedBall::read(&words), Ok(BALL_RANGE));
     assert_eq!(words[4..6], [0x89AB_CDEF, 0x0123_4567]);
-    // More room than a block needs is left as it is.
     let mut roomy = vec![7; words.len() + 3];
     BALL_RANGE.write(0x0123_4567_89AB_CDEF, &mut roomy).unwrap();
     assert_eq!(roomy[..words.len()], words);
     assert_eq!(roomy[words.len()..], [7; 3]);
     assert_eq!(FoldedBall::read(&roomy), Ok(BALL_RANGE));
-    // And no room is refused.
     let mut short = vec![7; words.len() - 1];
     let refused = BALL_RANGE.write(0, &mut short).unwrap_err();
     assert_eq!(refused.field(), "words");
     assert!(short.iter().all(|&word| word == 7));
 }
 
-/// Every bit counts: of each word one, and of the header all.
 #[test]
 fn every_flipped_bit_is_found() {
     let words = block(&BALL);
@@ -279,12 +220,10 @@ fn every_flipped_bit_is_found() {
     }
 }
 
-/// Blocks of another version, of another number of coefficients, of another scene, and parts of a block are refused by name.
 #[test]
 fn other_blocks_are_refused_by_name() {
     let (one, range) = (block(&BALL), block(&BALL_RANGE));
     assert_eq!(refusal::<1>(&range), "nodes");
-    // A block of one is too short to be one of a range.
     assert_eq!(refusal::<BALL_NODES>(&one), "words");
     let mut long = one.clone();
     long.resize(FoldedBall::<BALL_NODES>::WORDS, 0);

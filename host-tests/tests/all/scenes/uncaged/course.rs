@@ -7,6 +7,7 @@ use epas_friction::law::coefficient::{
 use epas_friction::{Clearance, Inputs, UncagedBallScrew};
 use epas_reference::friction::ball_screw_ring::{RingState, steady_samples};
 use epas_reference::promises;
+use epas_testkit::gears::screw_inputs;
 
 use super::exact::{BALLS, Beside, PLAIN, TICK, screw};
 use crate::scenes::step_promises::{BETWEEN, remembering, sound};
@@ -17,10 +18,7 @@ const SPEED: f32 = 20.0;
 const TICKS: usize = 80;
 
 fn inputs() -> Inputs {
-    Inputs {
-        nut_speed: SPEED,
-        axial_load: -110.0 * BALLS as f32,
-    }
+    screw_inputs(SPEED, -110.0 * BALLS as f32)
 }
 
 /// The exact ring from the start on, by so many steps a tick: a state for each tick.

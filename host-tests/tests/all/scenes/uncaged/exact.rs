@@ -20,10 +20,8 @@ use epas_testkit::folded;
 use epas_testkit::gears::wave;
 use epas_testkit::given;
 
-/// Balls of a screw.
 pub const BALLS: usize = 16;
 
-/// Time of a tick, s: 1 kHz.
 pub const TICK: f32 = 1e-3;
 
 /// Largest deviations of screw and nut, rad.
@@ -35,7 +33,6 @@ const TOUCHING: f64 = 1e-9;
 /// Share of a ball's load below which the largest force of a state is taken as that share.
 const SMALL: f64 = 1e-2;
 
-/// The screw whose balls are folded: Lin 2019, Table 3.6.
 pub fn design() -> BallScrew {
     BallScrew::new(DISSERTATION_DESIGNS[1].parameters).unwrap()
 }
@@ -74,7 +71,6 @@ pub fn oversize() -> Clearance {
     Clearance::of_preload(&design(), 15.0).unwrap()
 }
 
-/// What of all these is stored.
 pub fn folds() -> [UncagedFold; 3] {
     [
         fold(Clearance::ZERO, None),
@@ -86,7 +82,6 @@ pub fn folds() -> [UncagedFold; 3] {
 /// Balls without play and preload, for a friction coefficient of 0.1.
 pub static PLAIN: LazyLock<FoldedBall> = LazyLock::new(|| folded::uncaged(&folds()[0]));
 
-/// The same with [`oversize`].
 pub static PRELOADED: LazyLock<FoldedBall> = LazyLock::new(|| folded::uncaged(&folds()[1]));
 
 /// Balls without play and preload, for friction coefficients of 0.075 to 0.15.
@@ -134,7 +129,6 @@ fn along(map: &DeviationMap, from: f64) -> GrooveDeviation {
     GrooveDeviation::Samples { turns, values }
 }
 
-/// A model that is stepped beside the exact ring.
 pub struct Beside<const NODES: usize> {
     configuration: UncagedBallScrewConfiguration<NODES>,
     clearance: Clearance,
@@ -143,19 +137,14 @@ pub struct Beside<const NODES: usize> {
     nut_angle: f64,
 }
 
-/// What a tick and the exact ring say.
 pub struct Pair {
-    /// Friction torque of the crate, N m, and whether its tick is flagged.
     pub torque: f64,
     pub flagged: bool,
-    /// Forces from ball to ball, N.
     pub forces: Vec<f64>,
     /// Whether two balls meet within this tick: until then the exact ones press on no other, and the crate's with a part of the force.
     pub meeting: bool,
     pub exact: RingState,
-    /// Exact forces, in the order of the crate's balls.
     pub exact_forces: Vec<f64>,
-    /// Mean load of a ball, N.
     load: f64,
 }
 
@@ -175,13 +164,11 @@ impl<const NODES: usize> Beside<NODES> {
         self.friction = friction;
     }
 
-    /// A tick of the crate alone.
     pub fn run(&mut self, inputs: Inputs) {
         let _ = self.model.step(inputs);
         self.nut_angle += f64::from(inputs.nut_speed) * f64::from(TICK);
     }
 
-    /// A tick, and the exact ring where this tick began.
     pub fn step(&mut self, inputs: Inputs) -> Pair {
         let train = &self.model.state().circuit.train;
         let gaps: Vec<f64> = train.gaps().map(f64::from).collect();
@@ -238,7 +225,6 @@ impl<const NODES: usize> Beside<NODES> {
         }
     }
 
-    /// The exact ring at its start: balls at equal distances.
     pub fn started(&self) -> ElasticRing {
         let design = exact_design();
         let UncagedBallScrewConfiguration {
@@ -302,12 +288,10 @@ impl<const NODES: usize> Beside<NODES> {
 }
 
 impl Pair {
-    /// Relative error of the torque.
     pub fn torque_error(&self) -> f64 {
         self.torque / self.exact.torque() - 1.0
     }
 
-    /// Errors of all forces over the largest one.
     pub fn force_errors(&self) -> impl Iterator<Item = f64> + '_ {
         let largest = self.exact.largest_force().max(SMALL * self.load);
         let pairs = self.forces.iter().zip(&self.exact_forces);
@@ -315,10 +299,8 @@ impl Pair {
     }
 }
 
-/// Errors of many ticks.
 #[derive(Default)]
 pub struct Found {
-    /// Of all ticks, and of those in which no balls meet.
     pub torque: Errors,
     pub torque_apart: Errors,
     pub forces: Errors,

@@ -1,5 +1,6 @@
 //! Laws of a screw without cage, tick by tick: balances of the balls, where the torque comes from, mirrors, and what is no matter.
 
+use epas_testkit::gears::screw_inputs;
 use std::f64::consts::TAU;
 
 use epas_friction::ball::pressed::{
@@ -19,10 +20,7 @@ const TICK: f32 = 1e-3;
 type Model = FrictionModel<UncagedBallScrew<SCREW_BALLS>>;
 
 fn inputs(nut_speed: f32, axial_load: f32) -> Inputs {
-    Inputs {
-        nut_speed,
-        axial_load,
-    }
+    screw_inputs(nut_speed, axial_load)
 }
 
 /// Two turns that 37 balls fill, with waves on screw and nut.
@@ -34,13 +32,10 @@ fn configuration(ball_friction: f32) -> UncagedBallScrewConfiguration {
     }
 }
 
-/// What a tick made of its balls.
 struct Tick {
     outputs: UncagedOutputs,
-    /// Axial load of a ball, N, and the branch of the law.
     load: f32,
     branch: usize,
-    /// Numbers of all balls, and what each does on its own.
     numbers: BallNumbers,
     free: Vec<FreeMotion>,
     /// What neighbours change, the chord, friction coefficient times load, N, and deviations over the largest.
@@ -119,7 +114,6 @@ fn tick(
     }
 }
 
-/// Ticks of a screw that turns to and fro under a load that changes its sign.
 fn ticks(ball_friction: f32, mut check: impl FnMut(&Tick, f32)) {
     let configuration = configuration(ball_friction);
     let mut model = Model::new(&configuration).unwrap();
@@ -139,7 +133,6 @@ fn ticks(ball_friction: f32, mut check: impl FnMut(&Tick, f32)) {
 }
 
 impl Tick {
-    /// Forces of both neighbours of a ball, N, and the friction that they have on it over `mu W`.
     fn neighbours_of(&self, ball: usize) -> ([f64; 2], f64) {
         let behind = self.forces[(ball + SCREW_BALLS - 1) % SCREW_BALLS];
         let ahead = self.forces[ball];
@@ -388,7 +381,6 @@ fn which_ball_is_the_first_is_no_matter() {
     }
 }
 
-/// Grooves that do not deviate press no ball, from the first tick on.
 #[test]
 fn without_deviation_no_ball_presses() {
     let configuration = UncagedBallScrewConfiguration {
@@ -404,7 +396,6 @@ fn without_deviation_no_ball_presses() {
             assert_eq!((outputs.contacts, outputs.ball_torque), (0, 0.0));
             assert!(outputs.groove_torque * speed > 0.0);
             assert_eq!(outputs.friction_torque, outputs.groove_torque);
-            // The first tick is as good as any other.
             assert_eq!(*first.get_or_insert(outputs), outputs);
         }
     }

@@ -1,5 +1,6 @@
 //! Screws without cage while they run: reversal, return, loads of the balls, angle, regime, inputs that are none.
 
+use epas_testkit::gears::screw_inputs;
 use std::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use epas_friction::{
@@ -14,16 +15,12 @@ const TICK: f32 = 1e-3;
 
 pub type Model = FrictionModel<UncagedBallScrew<SCREW_BALLS>>;
 
-/// Two waves a turn on the screw, as a share of the largest.
 pub fn configuration(share: f32) -> UncagedBallScrewConfiguration {
     gears::full(screw_wave(share), TICK)
 }
 
 pub fn inputs(nut_speed: f32, axial_load: f32) -> Inputs {
-    Inputs {
-        nut_speed,
-        axial_load,
-    }
+    screw_inputs(nut_speed, axial_load)
 }
 
 #[test]
@@ -35,7 +32,6 @@ fn reversal_turns_friction_and_releases_the_balls() {
     }
     let before = step(&mut model, 6.0);
     assert!(before.contacts > 10 && before.friction_torque > 0.0);
-    // At rest nothing rubs; the train stays where it is.
     let positions: Vec<_> = model.state().circuit.train.positions().collect();
     for _ in 0..1000 {
         let rest = step(&mut model, 0.0);
@@ -67,7 +63,6 @@ fn near_standstill_a_share_of_the_friction_is_left() {
             // Backward the load opposes the motion, which is another branch of the law.
             let full = if way > 0.0 { full } else { -blended(-10.0) };
             let error = way * blended(way * speed) / full - share;
-            // A reciprocal root and two products.
             assert!(error.abs() < 3e-7, "{speed} {way}: {error}");
         }
     }
@@ -93,9 +88,6 @@ fn a_return_without_load_takes_its_share_of_the_balls() {
     // Two thirds of the balls carry what all carry under 1.5 times the load; but a ball on the run-in loses less than in proportion to its load: with
     // the power of 7/6, 1/2 - 1/(2 + 1/6) = 0.038 of a ball on each, of 24.7.
     let ratio = sum / (f64::from(whole.groove_torque) / 1.5);
-    println!(
-        "groove torque with return over two thirds: {ratio:.5}, largest force {largest_force} N"
-    );
     assert!((ratio - 1.0 + 2.0 * 0.0385 / 24.67).abs() < 1e-3, "{ratio}");
     // Balls in the return have no speed of their own: none presses with more than its impedance. Derived: that is 1e-6 N for a
     // speed as large as that of all.
@@ -115,7 +107,6 @@ fn a_zone_that_was_empty_is_loaded_again() {
     let friction: Vec<f32> = (0..60_000)
         .map(|_| model.step(inputs(20.0, 3000.0)).groove_torque)
         .collect();
-    // One ball of four is loaded, for two thirds of the time.
     for minute in friction.chunks(20_000) {
         let loaded = minute.iter().filter(|torque| **torque > 0.0).count();
         assert!((10_000..20_000).contains(&loaded), "{loaded}");
@@ -149,7 +140,7 @@ fn shares_of_the_load_go_to_their_balls() {
 }
 
 #[test]
-fn absurd_inputs_are_flagged_and_leave_no_trace() {
+fn invalid_inputs_are_flagged_and_leave_no_trace() {
     let sound = inputs(4.0, 900.0);
     let mut model = Model::new(&configuration(1.0)).unwrap();
     let mut untouched = Model::new(&configuration(1.0)).unwrap();
@@ -210,7 +201,6 @@ fn absurd_inputs_are_flagged_and_leave_no_trace() {
     assert!(output.groove_torque > 0.01);
 }
 
-/// A quarter of a turn of a deviation with two waves a turn turns its sign.
 #[test]
 fn the_nut_angle_moves_the_screw_under_the_balls() {
     let mut there = Model::new(&configuration(0.9)).unwrap();

@@ -1,6 +1,6 @@
 //! Screws without cage: loads of their own by the sign of the load, what is set, what is beyond the folded law, and what is refused.
 
-use epas_friction::scene::FoldedBall;
+use crate::refusals::assert_refused;
 use epas_friction::{
     Faults, FrictionModel, LoadShare, LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
@@ -91,7 +91,6 @@ fn what_is_set_counts_in_the_next_tick() {
             assert_eq!(found, other.step(inputs(50.0, 3000.0)), "{tick}");
             let before = always.step(inputs(50.0, 3000.0));
             let grown = found.groove_torque / before.groove_torque;
-            // In proportion but for how the contacts turn.
             let expected = second / first;
             assert!((0.8 * expected..1.2 * expected).contains(&grown), "{grown}");
             assert!(!found.faults.any());
@@ -178,44 +177,52 @@ fn beyond_the_model_is_flagged_in_its_tick() {
 
 #[test]
 fn bad_configurations_are_refused_by_name() {
-    type Changed<'a> = &'a dyn Fn(&mut UncagedBallScrewConfiguration);
+    const BAD: &[f32] = &[-1.0, 1e30];
     let good = configuration(0.9);
-    let with = |change: Changed<'_>| {
-        let mut bad = good;
-        change(&mut bad);
-        Model::new(&bad).map(|_| ()).unwrap_err().field()
-    };
-    let folded = |change: &dyn Fn(&mut FoldedBall)| with(&|c| c.folded = changed(c.folded, change));
-    for value in [f32::NAN, f32::INFINITY, -1.0, 1e30] {
-        assert_eq!(with(&|c| c.ball_friction = value), "ball_friction");
-        assert_eq!(with(&|c| c.turns = value), "turns");
-        assert_eq!(with(&|c| c.return_length = value), "return_length");
-        assert_eq!(with(&|c| c.tick = value), "tick");
-        assert_eq!(folded(&|f| f.friction = value), "friction");
-        assert_eq!(folded(&|f| f.lead = value), "lead");
-        assert_eq!(folded(&|f| f.ball_radius = value), "ball_radius");
-        assert_eq!(folded(&|f| f.path_radius = value), "path_radius");
-        assert_eq!(folded(&|f| f.speed = value), "speed");
-        assert_eq!(folded(&|f| f.reversal_speed = value), "reversal_speed");
-        assert_eq!(folded(&|f| f.limits.nut_speed = value), "nut_speed");
-        assert_eq!(folded(&|f| f.law.lift_off = value), "lift_off");
-    }
-    // A speed that no ball has against the nut, a friction coefficient that is not the block's.
-    assert_eq!(folded(&|f| f.speed = 1.01 * f.path_radius), "speed");
-    assert_eq!(folded(&|f| f.friction *= 1.01), "friction");
-    // Balls may move by 3 % of the track in a tick.
-    assert_eq!(with(&|c| c.tick = 0.05), "tick");
-    let none = LoadShares::same(&[]);
-    assert_eq!(with(&|c| c.load_shares = none), "load_shares");
-    let longer = &[LoadShare::MEAN; 2];
-    assert_eq!(with(&|c| c.load_shares.negative = longer), "load_shares");
-    // Grooves that deviate by more than was folded.
-    let wide = screw_wave(1.01);
-    assert_eq!(with(&|c| c.screw_deviation = wide), "screw_deviation");
-    let wide = gears::wave(1, 1, 0.0, 1.01 * BALL.law.deviations[1]);
-    assert_eq!(with(&|c| c.nut_deviation = wide), "nut_deviation");
-    // 37 balls do not go into one turn.
-    assert_eq!(with(&|c| c.turns = 1.0), "pitch");
+    #[rustfmt::skip]
+    assert_refused(
+        &good,
+        Model::new,
+        &[
+            ("ball_friction", |c, v| c.ball_friction = v, BAD),
+            ("turns", |c, v| c.turns = v, BAD),
+            ("return_length", |c, v| c.return_length = v, BAD),
+            // Balls may move by 3 % of the track in a tick.
+            ("tick", |c, v| c.tick = v, &[-1.0, 1e30, 0.05, 0.0, -0.0, 1e-45, 1e9]),
+            ("load_shares", |c, _| c.load_shares = LoadShares::same(&[]), &[]),
+            ("load_shares", |c, _| c.load_shares.negative = &[LoadShare::MEAN; 2], &[]),
+            ("screw_deviation", |c, _| c.screw_deviation = screw_wave(1.01), &[]),
+            (
+                "nut_deviation",
+                |c, _| c.nut_deviation = gears::wave(1, 1, 0.0, 1.01 * BALL.law.deviations[1]),
+                &[],
+            ),
+            ("pitch", |c, _| c.turns = 1.0, &[]),
+        ],
+    );
+    assert_refused(
+        good.folded,
+        |folded| {
+            Model::new(&UncagedBallScrewConfiguration {
+                folded: changed(folded, |_| ()),
+                ..good
+            })
+        },
+        &[
+            ("friction", |f, v| f.friction = v, BAD),
+            // A friction coefficient that is not the block's.
+            ("friction", |f, _| f.friction *= 1.01, &[]),
+            ("lead", |f, v| f.lead = v, BAD),
+            ("ball_radius", |f, v| f.ball_radius = v, BAD),
+            ("path_radius", |f, v| f.path_radius = v, BAD),
+            ("speed", |f, v| f.speed = v, BAD),
+            // A speed that no ball has against the nut.
+            ("speed", |f, _| f.speed = 1.01 * f.path_radius, &[]),
+            ("reversal_speed", |f, v| f.reversal_speed = v, BAD),
+            ("nut_speed", |f, v| f.limits.nut_speed = v, BAD),
+            ("lift_off", |f, v| f.law.lift_off = v, BAD),
+        ],
+    );
 }
 
 /// At a node a range of coefficients is the block of that one, to the bit but for the last node, whose share of the way is 1: roundings of 18

@@ -1,10 +1,9 @@
 //! Loads of the balls at the borders of the loaded part: they add up to the axial load at every angle, beside the exact ring of balls.
 
+use epas_testkit::gears::screw_inputs;
 use std::f64::consts::TAU;
 
-use epas_friction::{
-    FrictionModel, Inputs, LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration,
-};
+use epas_friction::{FrictionModel, LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration};
 use epas_reference::friction::ball_screw_ring::{
     ElasticRing, GrooveDeviation, RingState, steady_samples,
 };
@@ -26,14 +25,12 @@ const LOAD: f64 = 50.0 * LOADED;
 /// Room of the balls over their pitch.
 const ROOM: f64 = 0.02;
 
-/// Path radius, m, and azimuth between two touching balls, rad.
 fn path() -> (f64, f64) {
     let design = exact_design();
     let path = design.pitch_radius.hypot(design.lead / TAU);
     (path, 2.0 * (design.ball_radius / path).asin())
 }
 
-/// Turns of the loaded part, and length of the return, m.
 fn lengths() -> (f64, f64) {
     let (path, pitch) = path();
     let distance = (1.0 + ROOM) * pitch;
@@ -62,10 +59,7 @@ fn torques(
         tick: 1e-3,
     };
     let mut model = FrictionModel::<UncagedBallScrew<BALLS>>::new(&configuration).unwrap();
-    let inputs = Inputs {
-        nut_speed: nut_speed as f32,
-        axial_load: LOAD as f32,
-    };
+    let inputs = screw_inputs(nut_speed as f32, LOAD as f32);
     (0..ticks)
         .map(|_| {
             let outputs = model.step(inputs);
@@ -100,7 +94,6 @@ fn exact(clearance: Clearance, states: usize, [screw, nut]: [f32; 2]) -> Vec<Rin
         .unwrap()
 }
 
-/// Largest less least, over the mean.
 fn ripple(torques: &[f64]) -> f64 {
     let (least, most) = torques
         .iter()
@@ -121,7 +114,6 @@ fn borders_of_the_load_make_no_ripple() {
                 .windows(2)
                 .map(|pair| (pair[1] / pair[0] - 1.0).abs())
                 .fold(0.0, f64::max);
-            println!("{name}, {nut_speed} rad/s: ripple {found:.5}, largest step {step:.5}");
             assert!(found < 5e-3 && step < 1e-3, "{name}: {found} {step}");
         }
     }

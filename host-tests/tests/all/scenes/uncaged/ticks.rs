@@ -2,8 +2,9 @@
 //! each tick against the exact ring of balls at the same places.
 
 use epas_friction::scene::FoldedBall;
-use epas_friction::{Clearance, Inputs, LoadShares, UncagedBallScrewConfiguration};
+use epas_friction::{Clearance, LoadShares, UncagedBallScrewConfiguration};
 use epas_reference::promises;
+use epas_testkit::gears::screw_inputs;
 
 use super::exact::{BALLS, Beside, Found, PLAIN, PRELOADED, RANGE, TICK, oversize, screw, uneven};
 use epas_testkit::errors::Errors;
@@ -20,13 +21,10 @@ const EVENTS: [&str; 4] = [
 /// Ticks of an event that may be compared, the first of which is that in which it happens.
 const COMPARED: u32 = 30;
 
-/// Every so many of them are, by default; all in the tests whose names end in `_whole`.
 const SAMPLE: u32 = 6;
 
-/// Turn of the nut from one event to the next, rad.
 const TURN: f32 = 1.0;
 
-/// A screw in a case: its speed, rad/s, and its load, N a ball.
 #[derive(Clone, Copy)]
 struct Case<const NODES: usize> {
     screw: UncagedBallScrewConfiguration<NODES>,
@@ -50,11 +48,8 @@ impl<const NODES: usize> Case<NODES> {
         let Self { speed, load, .. } = *self;
         let mut beside = Beside::new(self.screw, self.clearance);
         beside.set_friction(self.friction);
-        let inputs = |direction: f32, load: f32| Inputs {
-            nut_speed: direction * speed,
-            axial_load: load * BALLS as f32,
-        };
-        // Until each event, and from it on.
+        let inputs =
+            |direction: f32, load: f32| screw_inputs(direction * speed, load * BALLS as f32);
         let events = [
             (inputs(1.0, load), inputs(1.0, load)),
             (inputs(1.0, load), inputs(-1.0, load)),
@@ -84,7 +79,7 @@ impl<const NODES: usize> Case<NODES> {
     }
 }
 
-/// All ticks of some cases. In each event by itself the ticks are held to what is accepted of all: none is a weak hour of the model.
+/// All ticks of some cases. In each event by itself the ticks are held to what is accepted of all: none is worse than the whole.
 ///
 /// Where two balls meet within a tick the crate lets them press with the part of their force that the tick has left, and the exact ring, which
 /// stands where the tick begins, not at all: these ticks count by themselves, and their share is printed.
@@ -103,7 +98,6 @@ fn all_events<const NODES: usize>(name: &str, cases: &[Case<NODES>], stride: u32
     }
     all.print(name);
     assert!(all.meeting < all.ticks / 3 && all.flagged < all.ticks / 3);
-    // Of each event the largest figures.
     let worst = |errors: fn(&Found) -> &Errors| -> [f64; 3] {
         by_event.iter().map(errors).fold([0.0; 3], |most, errors| {
             let figures = [errors.largest, errors.rms(), errors.mean().abs()];
@@ -123,10 +117,10 @@ fn all_events<const NODES: usize>(name: &str, cases: &[Case<NODES>], stride: u32
         println!("{name}: {what} [{largest:.2e}, {rms:.2e}, {mean:.2e}]");
     }
     for (what, figures) in figures {
-        let row = measured::of(&format!("{name}: {what}"));
-        let held = figures.iter().zip(row.accepted);
-        let held = held.clone().all(|(found, accepted)| *found <= accepted);
-        assert!(held, "{name}: {what} {figures:?}, {:?}", row.accepted);
+        let accepted = measured::of(&format!("{name}: {what}")).accepted();
+        let mut both = figures.iter().zip(&accepted);
+        let held = both.all(|(found, accepted)| found <= accepted);
+        assert!(held, "{name}: {what} {figures:?}, {accepted:?}");
     }
     all
 }
@@ -139,7 +133,6 @@ const QUADRANTS: [(f32, f32); 4] = [
     (-30.0, -140.0),
 ];
 
-/// The quadrants with this friction between balls, and with so much of the load.
 fn cases(
     folded: &'static FoldedBall,
     ball_friction: f32,
@@ -189,7 +182,6 @@ fn ticks_with_preload(stride: u32) {
         .assert_promised(promises::of("step_uncaged"));
 }
 
-/// Between the nodes, which stand at equal distances in octaves: halfway, where the error is largest, and near the ends.
 fn ticks_between_nodes(stride: u32) {
     let range: &'static FoldedBall<3> = &RANGE;
     let [low, middle, high] = range.law.frictions();

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 use std::sync::LazyLock;
 
+use super::gears::{linear_inputs, screw_inputs};
 use super::random::Random;
 use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw};
 use epas_friction::ball::pressed::{
@@ -148,7 +149,7 @@ fn groove(random: &mut Random) -> GrooveSize {
     })
 }
 
-/// What a drawing may say, from the likely to the absurd.
+/// What a drawing may say, from the likely to the extreme.
 pub fn screw_parameters(random: &mut Random) -> BallScrewParameters {
     if random.one_in(2) {
         return random.of(&CATALOGUE).parameters();
@@ -170,7 +171,6 @@ pub fn screw_parameters(random: &mut Random) -> BallScrewParameters {
     }
 }
 
-/// From the largest oversize to the most play.
 fn clearance(random: &mut Random, design: &BallScrew) -> Clearance {
     let gap = match random.below(4) {
         0 | 1 => 0.0,
@@ -211,12 +211,20 @@ pub trait Trial: Scene<Configuration: Debug> + Sized {
     fn name() -> String;
     /// A random configuration, which may be refused.
     fn configuration(random: &mut Random) -> Self::Configuration;
+    /// Full scales of three sensors; 0 for one that the scene has not.
+    fn full_scales(configuration: &Self::Configuration) -> [f32; 3];
     /// Three sensor signals of the next tick, sound or not.
     fn sensors(
         random: &mut Random,
         configuration: &Self::Configuration,
         last: [f32; 3],
-    ) -> [f32; 3];
+    ) -> [f32; 3] {
+        let full_scales = Self::full_scales(configuration);
+        std::array::from_fn(|sensor| match full_scales[sensor] {
+            0.0 => 0.0,
+            full_scale => random.signal(full_scale, last[sensor]),
+        })
+    }
     /// The inputs of these signals.
     fn inputs(sensors: [f32; 3]) -> Self::Inputs;
     /// The tick by its outputs alone.
@@ -308,23 +316,16 @@ impl Trial for ClosedFormScrew {
         }
     }
 
-    fn sensors(
-        random: &mut Random,
-        configuration: &ClosedFormScrewConfiguration,
-        last: [f32; 3],
-    ) -> [f32; 3] {
+    fn full_scales(configuration: &ClosedFormScrewConfiguration) -> [f32; 3] {
         [
-            random.signal(configuration.limits.nut_speed, last[0]),
-            random.signal(configuration.limits.axial_load, last[1]),
+            configuration.limits.nut_speed,
+            configuration.limits.axial_load,
             0.0,
         ]
     }
 
     fn inputs([nut_speed, axial_load, _]: [f32; 3]) -> Inputs {
-        Inputs {
-            nut_speed,
-            axial_load,
-        }
+        screw_inputs(nut_speed, axial_load)
     }
 
     fn check(
@@ -350,7 +351,6 @@ impl Trial for ClosedFormScrew {
     }
 }
 
-/// A curve of random numbers, from the likely to the absurd.
 fn curve(random: &mut Random) -> LoadCurve {
     let mut start = random.within(0.0, 140.0);
     let steepest = random.size(1e-6, 1e9);
@@ -399,14 +399,10 @@ impl<const N: usize> Trial for CagedBallScrew<N> {
         }
     }
 
-    fn sensors(
-        random: &mut Random,
-        configuration: &CagedBallScrewConfiguration<N>,
-        last: [f32; 3],
-    ) -> [f32; 3] {
+    fn full_scales(configuration: &CagedBallScrewConfiguration<N>) -> [f32; 3] {
         [
-            random.signal(configuration.limits.nut_speed, last[0]),
-            random.signal(configuration.limits.axial_load, last[1]),
+            configuration.limits.nut_speed,
+            configuration.limits.axial_load,
             0.0,
         ]
     }
@@ -454,7 +450,6 @@ fn screw_outputs(
     }
 }
 
-/// What both trains put out, without their units.
 struct TrainNumbers {
     friction: f32,
     groove: f32,
@@ -518,7 +513,6 @@ impl TrainNumbers {
         Ok(())
     }
 
-    /// Bits, with the torque of the load, which a bearing does not have.
     fn bits(&self, load_torque: f32, regime: Regime, faults: Faults) -> Vec<u32> {
         vec![
             self.friction.to_bits(),
@@ -563,7 +557,6 @@ pub fn sound_train<const N: usize>(train: &Train<N>) -> Result<(), String> {
     Ok(())
 }
 
-/// Numbers of a ball, from the likely to the absurd.
 fn ball_numbers(random: &mut Random) -> BallNumbers {
     let mut powers = |size: f32| {
         let size = random.of(&[0.0, 1e-3, 0.1, 0.16]) * size;
@@ -585,7 +578,6 @@ fn ball_numbers(random: &mut Random) -> BallNumbers {
     }
 }
 
-/// What neighbours change in a ball, from the likely to the absurd.
 fn neighbour_numbers(random: &mut Random) -> NeighbourNumbers {
     let mut line = |sizes: &[f32]| -> [f32; 3] {
         let size = random.of(sizes);
@@ -602,7 +594,6 @@ fn neighbour_numbers(random: &mut Random) -> NeighbourNumbers {
     }
 }
 
-/// Knots whose loads rise, at times to no more than the last one's.
 fn knots<T: Copy, const K: usize>(
     random: &mut Random,
     numbers: fn(&mut Random) -> T,
@@ -621,7 +612,6 @@ fn knots<T: Copy, const K: usize>(
     })
 }
 
-/// What a host may have folded, from the likely to the absurd.
 fn folded_ball<const NODES: usize>(random: &mut Random) -> FoldedBall<NODES> {
     let mut friction = random.size(1e-6, 0.1);
     let nodes = std::array::from_fn(|_| {
@@ -695,7 +685,6 @@ where
     fn configuration(random: &mut Random) -> UncagedBallScrewConfiguration<NODES> {
         let folded = &FoldedBall::<NODES>::all()[random.below(LOT)];
         let limits = folded.limits;
-        // Turns that hold the balls, from a nearly full track to a nearly empty one.
         let pitch = 2.0 * (folded.ball_radius / folded.path_radius).asin();
         let full = N as f32 * pitch / std::f32::consts::TAU;
         let turns = (full * random.of(&[0.3, 0.999, 1.001, 1.05, 1.5, 5.0])).clamp(0.1, 100.0);
@@ -724,23 +713,16 @@ where
         }
     }
 
-    fn sensors(
-        random: &mut Random,
-        configuration: &UncagedBallScrewConfiguration<NODES>,
-        last: [f32; 3],
-    ) -> [f32; 3] {
+    fn full_scales(configuration: &UncagedBallScrewConfiguration<NODES>) -> [f32; 3] {
         [
-            random.signal(configuration.folded.limits.nut_speed, last[0]),
-            random.signal(configuration.folded.limits.axial_load, last[1]),
+            configuration.folded.limits.nut_speed,
+            configuration.folded.limits.axial_load,
             0.0,
         ]
     }
 
     fn inputs([nut_speed, axial_load, _]: [f32; 3]) -> Inputs {
-        Inputs {
-            nut_speed,
-            axial_load,
-        }
+        screw_inputs(nut_speed, axial_load)
     }
 
     fn check(
@@ -832,25 +814,13 @@ impl<const N: usize> Trial for LinearBearingTrain<N> {
         }
     }
 
-    fn sensors(
-        random: &mut Random,
-        configuration: &LinearBearingConfiguration,
-        last: [f32; 3],
-    ) -> [f32; 3] {
+    fn full_scales(configuration: &LinearBearingConfiguration) -> [f32; 3] {
         let LinearLimits { speed, load, .. } = configuration.limits;
-        [
-            random.signal(speed, last[0]),
-            random.signal(load, last[1]),
-            random.signal(load, last[2]),
-        ]
+        [speed, load, load]
     }
 
     fn inputs([speed, normal_load, side_load]: [f32; 3]) -> LinearInputs {
-        LinearInputs {
-            speed,
-            normal_load,
-            side_load,
-        }
+        linear_inputs(speed, normal_load, side_load)
     }
 
     fn check(
