@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::error::ErrorKind;
+
 use crate::answer::Calibration;
 use crate::controller::Controller;
 use crate::experiment;
@@ -20,6 +22,7 @@ use crate::without_design;
 use crate::without_design::controller::SeenController;
 use epas_design::files::{Design, DesignSource, text};
 use epas_page::aside::say;
+use epas_page::document::print_line;
 use epas_page::failure::Failure;
 use epas_page::files::refuse_shared;
 use epas_traces::mdf4::{self, Mapping};
@@ -64,16 +67,11 @@ pub struct Arguments {
     /// Rated torque of the motor, N m, where the trace has its torque in percent of it
     #[arg(long, value_name = "TORQUE", value_parser = rated_torque)]
     rated_torque: Option<f64>,
-    /// Parameters to estimate, by name [default: what the trace can tell]
-    #[arg(
-        long,
-        value_name = "NAME,...",
-        requires = "design",
-        value_delimiter = ','
-    )]
+    /// With --design: parameters of the screw to estimate, by the names of the answer [default: what the trace can tell]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     estimate: Option<Vec<String>>,
-    /// Parameters to set
-    #[arg(long, value_name = "NAME=VALUE,...", requires = "design", value_delimiter = ',', value_parser = setting)]
+    /// With --design: parameters of the screw to set instead, as friction=0.1; without one all that the trace tells is estimated
+    #[arg(long, value_name = "NAME=VALUE,...", value_delimiter = ',', value_parser = setting)]
     fix: Vec<(String, f64)>,
     /// Tell which manoeuvre would tell this parameter best, without a trace
     #[arg(
@@ -144,6 +142,7 @@ fn setting(text: &str) -> Result<(String, f64), String> {
 
 /// Calibrates a trace, or the traces of a folder.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    arguments.with_a_design();
     let file = arguments.design.as_ref().and_then(DesignSource::file);
     refuse_shared([
         file,
@@ -196,11 +195,25 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 impl Arguments {
+    /// Ends the program where parameters of a screw are named without its design.
+    fn with_a_design(&self) {
+        let of_design = [
+            ("--estimate", self.estimate.is_some()),
+            ("--fix", !self.fix.is_empty()),
+        ];
+        let needless = of_design.iter().find(|(_, given)| *given);
+        if let (Some((name, _)), None) = (needless, &self.design) {
+            let word = format!(
+                "{name} names parameters of a screw: give its design (--design NAME|FILE.toml); without one a drive's inertia, friction and losses are all estimated, and none is set\n"
+            );
+            clap::Error::raw(ErrorKind::MissingRequiredArgument, word).exit();
+        }
+    }
+
     /// Refuses options that a folder, or that one trace, has no use for.
     fn fits(&self, folder: bool) -> Result<(), Failure> {
         let of_one_trace = [
             ("--design-out", self.outputs.design_out.is_some()),
-            ("--constants", self.outputs.constants.is_some()),
             ("--validate", self.validate.is_some()),
             ("--controller", self.controller.is_some()),
         ];
@@ -335,11 +348,17 @@ fn whole_folder(
         let document = page::of_runs(&steady, &name);
         epas_page::folder::mark(&output)?;
         document.write(&output)?;
-        return if arguments.outputs.json {
-            print_json(&steady.answer)
-        } else {
-            document.print(&output)
-        };
+        let wrote = arguments.outputs.write_drive(&steady.drive, &name)?;
+        if arguments.outputs.json {
+            return print_json(&steady.answer);
+        }
+        document.print(&output)?;
+        return wrote.iter().try_for_each(|line| print_line(line));
+    }
+    if arguments.outputs.constants.is_some() {
+        return Err(Failure::Data(
+            "--constants is for one trace, or without a design for a folder of runs at one speed each; of traces with reversals give the one that stands for the others".into(),
+        ));
     }
     let mut settings = format!(
         "{} {:?} {:?} {:?} {:?}",

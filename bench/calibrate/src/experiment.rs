@@ -221,24 +221,24 @@ fn print(out: &mut impl Write, name: &str, reach: &Reach, all: &[Said]) -> Resul
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::problem::Evaluation;
-    use crate::fit::toys::{Toy, free, positive};
+    use crate::fit::problem::{Evaluation, Model};
+    use crate::fit::toys::{free, positive};
     use epas_design::files::DesignSource;
 
     /// 400 rows of `level temperature^warmth + gain load`, under a temperature and a load.
     fn said_of(wanted: &str, manoeuvre: Manoeuvre, signals: fn(f64) -> [f64; 2]) -> Said {
         let signals = move || (0..400).map(move |row| signals(0.1 * f64::from(row)));
-        let problem = Toy {
+        let problem = Model {
             nonlinear: vec![positive("warmth", 0.5, 0.01, 5.0)],
             linear: ["level", "gain"].map(free).into(),
             target: signals().map(|[warm, load]| warm.sqrt() + load).collect(),
-            model: move |q: &[f64]| Evaluation {
+            model: Box::new(move |q| Evaluation {
                 fixed: vec![0.0; 400],
                 columns: vec![
                     signals().map(|[warm, _]| warm.powf(q[0])).collect(),
                     signals().map(|[_, load]| load).collect(),
                 ],
-            },
+            }),
         };
         Said::of(wanted, manoeuvre, &problem).unwrap()
     }

@@ -10,6 +10,7 @@ use crate::bristle::{bristle, stribeck};
 use crate::estimator::stretches::of_position;
 use crate::fit::problem::{Parameter, Scale};
 use crate::mechanism::Step;
+use crate::trace::channels::range;
 
 /// How friction of sliding follows the speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -174,6 +175,17 @@ impl Law {
 }
 
 impl Scales {
+    /// Those of positions and speeds.
+    pub fn of((position, speed): (&[f64], &[f64]), resolution: f64, tick: f64) -> Self {
+        let ((low, high), (slow, fast)) = (range(position), range(speed));
+        Self {
+            speed: fast.max(-slow).max(f64::MIN_POSITIVE),
+            travel: (high - low).max(f64::MIN_POSITIVE),
+            resolution,
+            tick,
+        }
+    }
+
     /// Shortest travel to full sliding that a sensor sees.
     fn shortest(&self) -> f64 {
         (2.0 * self.resolution).max(1e-7 * self.travel)

@@ -8,8 +8,8 @@
 //! | [`truth`] | what a synthetic trace was made with |
 
 pub mod picture;
-pub mod shown;
-pub mod truth;
+pub(crate) mod shown;
+pub(crate) mod truth;
 
 use std::f64::consts::TAU;
 

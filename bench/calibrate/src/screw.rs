@@ -14,17 +14,17 @@
 
 pub mod choice;
 mod compared;
-pub mod evidence;
+pub(crate) mod evidence;
 pub mod exact;
 #[cfg(test)]
 mod faults_tests;
 pub mod friction;
 #[cfg(test)]
 mod hostile_tests;
-pub mod problem;
-pub mod quantities;
-pub mod stages;
-pub mod telling;
+pub(crate) mod problem;
+pub(crate) mod quantities;
+pub(crate) mod stages;
+pub(crate) mod telling;
 #[cfg(test)]
 mod tests;
 
@@ -147,9 +147,8 @@ pub fn calibrate(
         .chain(trace.told())
         .collect();
     if !request.without_models {
-        let table = compared::models(&prepared, &told, request.unseen.as_ref());
-        (answer.models, answer.winner) = (table.models, table.winner);
-        answer.cannot_tell.extend(table.left_out);
+        let scores = compared::models(&prepared, &told, request.unseen.as_ref());
+        answer.compare(scores.into_iter());
     }
     Ok(ScrewCalibration {
         answer,
@@ -252,13 +251,6 @@ fn first_look<'a>(
     let prepared = Prepared::new(trace, &left_out, first.screw);
     let (window, values) = prepared.first_way((first, at_turns), grid)?;
     let (values, outliers) = prepared.first_fit(window, (&values, &first.choice), grid)?;
-    if let Some(late) = prepared.late(window, (&values, &first.choice), grid) {
-        return Err(Failure::Data(format!(
-            "the torque fits the motion and the load best {:.0} ms {}: shift the channels to one clock",
-            1e3 * trace.step * late.unsigned_abs() as f64,
-            if late > 0 { "earlier" } else { "later" }
-        )));
-    }
     if !outliers.is_empty() {
         sentences.push(format!(
             "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",

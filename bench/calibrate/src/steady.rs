@@ -13,7 +13,8 @@ use crate::estimator::terms::Term;
 use crate::folder::list;
 use crate::page::shown::digits;
 use crate::trace::{Coordinate, Trace};
-use crate::without_design;
+use crate::without_design::drive::Drive;
+use crate::without_design::{self, largest};
 use epas_page::failure::Failure;
 
 /// Fewest runs that are one measurement.
@@ -48,6 +49,8 @@ pub struct Steady {
     pub answer: Calibration,
     /// The runs, by speed.
     pub runs: Vec<Run>,
+    /// What firmware takes of them.
+    pub drive: Drive,
 }
 
 /// Traces of a folder among which a run at one speed is looked for.
@@ -181,10 +184,19 @@ pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
     if loaded && !has(Term::Driving) && !has(Term::BackDriving) && !has(Term::Loss) {
         answer.cannot_tell.push(without_design::OF_ONE_SIZE.into());
     }
+    let speeds: Vec<f64> = speeds.into_iter().flatten().collect();
+    let loads = traces.iter().filter_map(|trace| trace.load.as_deref());
+    let drive = Drive {
+        coordinate,
+        estimates: answer.parameters.clone(),
+        reversal_speed: None,
+        largest: [largest(&speeds), loads.map(largest).fold(0.0, f64::max)],
+    };
     Ok(Some(Steady {
         coordinate,
         answer,
         runs,
+        drive,
     }))
 }
 
@@ -232,6 +244,7 @@ mod tests {
     use super::*;
     use crate::fit::toys::noise;
     use crate::trace::{Origins, Repairs};
+    use crate::without_design::drive::Numbers;
 
     const TRUTH: [(&str, f64); 3] = [
         ("coulomb_friction", 0.1),
@@ -299,6 +312,13 @@ mod tests {
         let risen = told(&runs(0.05)).unwrap().unwrap();
         let rise = risen.answer.parameter("stribeck_friction").unwrap();
         assert!((rise.value - 0.05).abs() < 0.01, "{rise:?}");
+        // Their constants need no inertia, and say that a dip is left out.
+        let [plain, risen] = [&found, &risen].map(|found| found.drive.numbers().unwrap());
+        assert_eq!((plain.inertia, plain.offset.is_some()), (None, true));
+        let said = |numbers: &Numbers| numbers.notes.iter().any(|note| note.contains("near rest"));
+        assert!(said(&risen) && !said(&plain));
+        let text = crate::outputs::drive::text(&risen, "runs").unwrap();
+        assert!(text.contains("which this scene does not have"), "{text}");
         assert!(told(&runs(0.0)[..1]).unwrap().is_none());
     }
 

@@ -3,18 +3,16 @@
 //! | module | what |
 //! |---|---|
 //! | [`models`] | models of friction on a trace, fitted and scored |
-//! | [`slide`] | a trace with a law of friction, turns among its rows, as a separable problem |
-//! | [`resistance`] | the same as what opposes a motion |
+//! | [`slide`] | a trace with a law of friction, turns among its rows, as a separable problem, and as what opposes a motion |
 //! | [`drive`] | what firmware takes of it |
 //! | [`closed_loop`] | the motion that a controller makes of a model |
 //! | [`controller`] | the controller that is seen in a trace |
 
-pub mod closed_loop;
-pub mod controller;
-pub mod drive;
-pub mod models;
-pub mod resistance;
-pub mod slide;
+pub(crate) mod closed_loop;
+pub(crate) mod controller;
+pub(crate) mod drive;
+pub(crate) mod models;
+pub(crate) mod slide;
 
 use std::borrow::Cow;
 
@@ -27,7 +25,6 @@ use crate::estimator::terms::Term;
 use crate::estimator::words::diagnose;
 use crate::folder::answered::Answered;
 use crate::folder::population::HALF_INTERVAL;
-use crate::models::rank;
 use crate::page::picture::{Correlations, Picture};
 use crate::page::shown::digits;
 use crate::trace::known::KnownEffort;
@@ -89,20 +86,36 @@ pub fn calibrate(
         let unseen = other
             .as_ref()
             .map(|other| (other, other_controller.as_ref()));
-        let (models, untold) = models::scores((&prepared, own.as_ref()), unseen, &beside);
-        answer.models = models;
-        answer.cannot_tell.extend(untold);
-        answer.winner = rank(&mut answer.models);
+        let scores = models::scores((&prepared, own.as_ref()), unseen, &beside);
+        answer.compare(scores.into_iter());
     }
     answer
         .cannot_tell
         .extend(own.as_ref().and_then(SeenController::doubt));
     Ok(Told {
         picture: picture(&record, trace, &found),
-        drive: Drive::of(&prepared, &beside, &answer.parameters),
+        drive: drive(&prepared, &beside, &answer.parameters),
         controller: own,
         answer,
     })
+}
+
+/// What firmware takes of it.
+fn drive(prepared: &Prepared<'_>, beside: &Beside, told: &[Estimate]) -> Drive {
+    let slides = told.iter().any(|one| one.name == "coulomb_friction");
+    let reversal = slides.then(|| models::reversal_speed(prepared, beside).ok().flatten());
+    let load = prepared.trace.load.as_deref().unwrap_or_default();
+    Drive {
+        coordinate: prepared.trace.coordinate,
+        estimates: told.to_vec(),
+        reversal_speed: reversal.flatten(),
+        largest: [&prepared.motion.speed, load].map(largest),
+    }
+}
+
+/// Largest size.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
 }
 
 /// One trace of many, and what it adds to the others: numbers of the drive itself, without the gain of a load's channel and the friction at

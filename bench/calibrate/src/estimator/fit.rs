@@ -181,6 +181,37 @@ fn total(pieces: &[Piece], count: usize) -> (DMatrix<f64>, DVector<f64>) {
     sums
 }
 
+/// What solves for the coefficients of columns that make some rows.
+pub fn solver(columns: &[Vec<f64>]) -> Option<impl Fn(&[f64]) -> DVector<f64> + use<'_>> {
+    let sizes: Vec<f64> = columns
+        .iter()
+        .map(|column| dot(column, column).sqrt())
+        .collect();
+    let count = columns.len();
+    let normal = DMatrix::from_fn(count, count, |i, j| {
+        dot(&columns[i], &columns[j]) / (sizes[i] * sizes[j])
+    });
+    let inverse = normal.try_inverse()?;
+    Some(move |rows: &[f64]| {
+        let right = DVector::from_fn(count, |k, _| dot(&columns[k], rows) / sizes[k]);
+        let mut found = &inverse * right;
+        for (value, size) in found.iter_mut().zip(&sizes) {
+            *value /= size;
+        }
+        found
+    })
+}
+
+/// Sum of products.
+pub fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
+
+/// Root mean square.
+pub fn rms(values: &[f64]) -> f64 {
+    (dot(values, values) / values.len().max(1) as f64).sqrt()
+}
+
 /// What a jackknife says.
 struct Jackknife {
     half_widths: Vec<f64>,

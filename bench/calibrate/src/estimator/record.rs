@@ -137,6 +137,15 @@ impl Record {
         }
     }
 
+    /// Position as the kernels smooth it, rad or m.
+    pub fn places(&self) -> &[f64] {
+        if self.speed_alone {
+            &self.path
+        } else {
+            &self.motion
+        }
+    }
+
     /// Number of samples.
     pub fn len(&self) -> usize {
         self.effort.len()
@@ -250,19 +259,22 @@ const SMOOTHED: f64 = 12e-3;
 impl Smoothed {
     /// That of a trace, behind a kernel of 12 ms to each side, four samples at least.
     pub fn of(trace: &Trace) -> Self {
-        let record = Record::of(trace, &[]);
         let half = ((SMOOTHED / trace.step).round() as usize).max(4);
         let kernel = Kernel::new(half, trace.step);
-        let places = if record.speed_alone {
-            &record.path
-        } else {
-            &record.motion
+        Self::by(&Record::of(trace, &[]), &kernel, 1)
+    }
+
+    /// That of a record behind a kernel, at every so many of its samples.
+    pub fn by(record: &Record, kernel: &Kernel, stride: usize) -> Self {
+        let along = |order: usize, signal: &[f64]| {
+            let samples = (0..record.len()).step_by(stride);
+            samples.map(|k| kernel.at(order, signal, k)).collect()
         };
         Self {
-            position: kernel.along(0, places),
-            speed: kernel.along(record.order(1), &record.motion),
-            acceleration: kernel.along(record.order(2), &record.motion),
-            noise: [1, 2].map(|k| record.noise_in(&kernel, k)),
+            position: along(0, record.places()),
+            speed: along(record.order(1), &record.motion),
+            acceleration: along(record.order(2), &record.motion),
+            noise: [1, 2].map(|k| record.noise_in(kernel, k)),
         }
     }
 }

@@ -29,6 +29,8 @@ pub enum Term {
     Gain,
     /// Loss of both directions of power of a unit of load: `s |F|`.
     Loss,
+    /// Zero error of the load: 1 where it opposes the motion, -1 where it assists.
+    LoadZero,
     /// Lag of a measured speed, s: the rate of the acceleration. Its coefficient is `J D`, that of the acceleration `J + b D`.
     Lag,
     /// Sine of so many rad of the position, 1/rad or 1/m.
@@ -57,6 +59,7 @@ impl Term {
             Self::BackDriving => "back_driving_loss",
             Self::Gain => "load_gain",
             Self::Loss => "load_loss",
+            Self::LoadZero => "load_zero",
             Self::Lag => "speed_lag",
             Self::Sine(_) => "sine_of_position",
             Self::Cosine(_) => "cosine_of_position",
@@ -130,6 +133,7 @@ impl Block {
                 let both = loss(true).into_iter().zip(loss(false));
                 both.map(|(one, other)| one + other).collect()
             }
+            Term::LoadZero => signed(load.map_or_else(Vec::new, |load| rows.signs(load))),
             Term::Sine(wave) => of_path(&|x| (wave * x).sin()),
             Term::Cosine(wave) => of_path(&|x| (wave * x).cos()),
             Term::Asymmetry => signed(derivative(1)),
@@ -179,6 +183,7 @@ impl Block {
                 Term::BackDriving => direction * assisting,
                 Term::Gain => load,
                 Term::Loss => direction * (opposing + assisting),
+                Term::LoadZero => (direction * load).signum(),
                 Term::Asymmetry => speed.abs(),
                 Term::Stribeck(of) => direction * (-speed.abs() / of).exp(),
                 Term::Inertia | Term::Lag | Term::Sine(_) | Term::Cosine(_) => 0.0,

@@ -178,7 +178,7 @@ fn rms(values: &[f64]) -> f64 {
 }
 
 /// Traces that are wrong in one way, and a part of the word on it; those of a load keep it, the others have none.
-const WRONG: [(&str, bool, Spoil); 11] = [
+const WRONG: [(&str, bool, Spoil); 16] = [
     ("turn the sign of motor_torque", false, |trace| {
         trace
             .effort
@@ -242,6 +242,27 @@ const WRONG: [(&str, bool, Spoil); 11] = [
     ("later than the motion", false, |trace| {
         let late = (0.01 / trace.step) as usize;
         trace.effort.rotate_right(late);
+    }),
+    ("comes 40 ms later than the other", false, |trace| {
+        let late = (0.04 / trace.step) as usize;
+        trace.effort.rotate_right(late);
+    }),
+    ("motor_torque comes 10 ms later", true, |trace| {
+        let late = (0.01 / trace.step) as usize;
+        trace.effort.rotate_right(late);
+    }),
+    ("load_torque comes 20 ms later", true, |trace| {
+        let late = (0.02 / trace.step) as usize;
+        trace.load.as_mut().unwrap().rotate_right(late);
+    }),
+    ("without a load: set its zero", true, |trace| {
+        let load = trace.load.as_mut().unwrap();
+        let off = 0.1 * rms(load);
+        load.iter_mut().for_each(|load| *load += off);
+    }),
+    ("is the load in kN?", true, |trace| {
+        // A lever of 1 mm, and the load in kN.
+        trace.load_is_effort = false;
     }),
     ("nothing in the trace explains", false, |trace| {
         let noise = crate::fit::toys::noise(7, trace.effort.len(), 0.0);

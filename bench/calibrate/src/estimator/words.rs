@@ -10,7 +10,9 @@ use rustfft::FftPlanner;
 use rustfft::num_complex::Complex;
 
 use super::choice::{Estimate, Wanted, estimate};
+use super::fit::{Block, dot, solver};
 use super::record::Record;
+use super::rows::Rows;
 use super::terms::Term;
 use crate::page::shown::digits;
 use crate::trace::channels::{median, range, resolution};
@@ -70,7 +72,14 @@ fn of_signs(record: &Record, found: &Estimate, names: &Names<'_>) -> Option<Stri
 /// # Errors
 /// Why the trace is refused.
 pub fn wrong(record: &Record, trace: &Trace) -> Result<Option<String>, String> {
-    let found = screened(record, &Names::of(trace))?;
+    let names = Names::of(trace);
+    let found = screened(record, &names)?;
+    if let Some(word) = found
+        .as_ref()
+        .and_then(|found| apart(record, found, &names))
+    {
+        return Err(word);
+    }
     Ok(found
         .and_then(|found| late(record, &found, &[]))
         .map(|(_, word)| word))
@@ -91,6 +100,12 @@ fn with_more(record: &Record, found: Estimate, names: &Names<'_>) -> Result<Diag
         }
     }
     let more = wave.map_or_else(Vec::new, |wave| vec![Term::Sine(wave), Term::Cosine(wave)]);
+    if moves
+        && !record.speed_alone
+        && let Some(word) = apart(record, &found, names)
+    {
+        return Err(word);
+    }
     if let Some((better, word)) = late(record, &found, &more) {
         found = better;
         words.push(word);
@@ -102,6 +117,7 @@ fn with_more(record: &Record, found: Estimate, names: &Names<'_>) -> Result<Diag
             words.push(word);
         }
     }
+    words.extend(zero(record, &found, &more, names));
     words.extend(doubts(&found, names));
     if found.fit.relative > NOTHING {
         let word = format!(
@@ -251,8 +267,20 @@ fn exchanged(record: &Record, found: Option<&Estimate>, names: &Names<'_>) -> Op
     })
 }
 
+/// Largest travel of a drive over its angle, m/rad: a rack of a pinion of 0.4 m, a lead of 1.3 m.
+const LONGEST: f64 = 0.2;
+
 /// Sign, unit or ratio of the load, by how much of it the effort carries: `((1 + driving_loss) + (1 - back_driving_loss))/2`.
 fn load(found: &Estimate, names: &Names<'_>) -> Option<String> {
+    if let Some((gain, half)) = found.of(Term::Gain)
+        && gain.abs() - half > LONGEST
+    {
+        let Names { load, effort, .. } = names;
+        return Some(format!(
+            "a newton of {load} takes {} N m of {effort}, as on a lever of that many metres: is the load in kN? Then its name is {load}_kN; or is the torque in mN m ({effort}_mNm)?",
+            digits(gain, 3)
+        ));
+    }
     let ((driving, half), (back, _)) = (found.of(Term::Driving)?, found.of(Term::BackDriving)?);
     let carried = 1.0 + 0.5 * (driving - back);
     let sure = half < 0.2 * carried.abs().max(0.1);
@@ -501,6 +529,70 @@ fn explained(places: &[f64], residual: &[f64], mean: f64, wave: f64) -> f64 {
     (cc * sr * sr - 2.0 * sc * sr * cr + ss * cr * cr) / determinant
 }
 
+/// Longest shift of a channel that is sought, s; from so many ticks and this much less left with it, a trace is refused, but not where effort and
+/// motion alone are apart by less than this time, which is in the fit.
+const LATEST: f64 = 0.1;
+const LATE: (isize, f64) = (3, 1.3);
+const IN_THE_FIT: f64 = 0.02;
+
+/// One channel that comes later or earlier than all others: the effort, or the load.
+fn apart(record: &Record, found: &Estimate, names: &Names<'_>) -> Option<String> {
+    let rows = found.rows.first()?.as_ref()?;
+    let block = Block::of(record, rows, &found.terms);
+    let own = record.load.as_deref().filter(|_| record.load_is_effort);
+    let load = own.map_or_else(|| vec![0.0; rows.len()], |load| rows.sums(0, load));
+    let effort = rows.sums(0, &record.effort);
+    let of_effort = shift(rows, &block.columns, (&record.effort, 1.0), &load);
+    let of_load = own.and_then(|own| shift(rows, &block.columns, (own, -1.0), &effort));
+    let told = [(of_effort, names.effort, 1.0), (of_load, names.load, -1.0)];
+    let told = told.into_iter().filter_map(|(found, name, sign)| {
+        let (by, left) = found?;
+        Some((by, left, name, sign))
+    });
+    let (by, _, name, _) = told.min_by(|one, other| one.1.total_cmp(&other.1))?;
+    let time = record.tick * by as f64;
+    let in_the_fit = own.is_none() && time.abs() < IN_THE_FIT;
+    (!in_the_fit).then(|| {
+        format!(
+            "{name} comes {:.0} ms {} than the other channels, which it fits best there: shift the channels to one clock",
+            1e3 * time.abs(),
+            if by > 0 { "later" } else { "earlier" }
+        )
+    })
+}
+
+/// By how many samples a channel, times its sign, less `rest` comes later than what the columns explain, where that leaves far less; and what it leaves.
+fn shift(
+    rows: &Rows,
+    columns: &[Vec<f64>],
+    (channel, sign): (&[f64], f64),
+    rest: &[f64],
+) -> Option<(isize, f64)> {
+    let solver = solver(columns)?;
+    let left = |by: isize| -> f64 {
+        let mut target = rows.later(by, channel);
+        for (target, rest) in target.iter_mut().zip(rest) {
+            *target = sign * (*target - rest);
+        }
+        for (column, value) in columns.iter().zip(&solver(&target)) {
+            for (target, entry) in target.iter_mut().zip(column) {
+                *target -= value * entry;
+            }
+        }
+        dot(&target, &target).sqrt()
+    };
+    let least = |shifts: &mut dyn Iterator<Item = isize>| {
+        let tried = shifts.map(|by| (by, left(by)));
+        tried.min_by(|one, other| one.1.total_cmp(&other.1))
+    };
+    // Behind the kernel a channel changes little within half of it.
+    let step = (rows.kernel.half() / 2).max(1) as isize;
+    let most = (LATEST / rows.kernel.tick()).ceil() as isize / step;
+    let (near, _) = least(&mut (-most..=most).map(|k| k * step))?;
+    let (by, less) = least(&mut (near - step..=near + step))?;
+    (by.abs() >= LATE.0 && LATE.1 * less < left(0)).then_some((by, less))
+}
+
 /// The lag of a measured speed, or of effort and position against each other.
 fn late(record: &Record, found: &Estimate, more: &[Term]) -> Option<(Estimate, String)> {
     let milliseconds =
@@ -536,6 +628,23 @@ fn late(record: &Record, found: &Estimate, more: &[Term]) -> Option<(Estimate, S
         milliseconds((lag.abs(), half))
     );
     Some((better, word))
+}
+
+/// Zero error of a load's channel: it moves the sign of the load's power, so that losses step by `-c (driving_loss + back_driving_loss)/2` where the measured
+/// load changes from assisting to opposing. As an effort that is always there it is one with the offset.
+fn zero(record: &Record, found: &Estimate, more: &[Term], names: &Names<'_>) -> Option<String> {
+    found.of(Term::Driving).and(found.of(Term::BackDriving))?;
+    let other = surely(record, found, more, (Term::LoadZero, found.settling))?;
+    let (step, half) = other.of(Term::LoadZero)?;
+    let ((driving, _), (back, _)) = (other.of(Term::Driving)?, other.of(Term::BackDriving)?);
+    let [zero, half] = [step, half].map(|of| -2.0 * of / (driving + back));
+    Some(format!(
+        "{} reads {} +- {} {} without a load: set its zero; the offset holds it",
+        names.load,
+        digits(zero, 2),
+        digits(half.abs(), 2),
+        names.unit
+    ))
 }
 
 /// Residual with a viscous friction that differs by direction over that without, below which it is named.

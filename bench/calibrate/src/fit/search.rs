@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
 use super::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable, inner, outer};
+use crate::estimator::fit::{dot, rms};
 use epas_page::failure::Failure;
 
 /// Shift of the outer coordinate.
@@ -57,7 +58,7 @@ impl Found {
 
     /// Root of the mean square of what is left.
     pub fn residual_rms(&self) -> f64 {
-        (self.cost() / self.residual.len().max(1) as f64).sqrt()
+        rms(&self.residual)
     }
 }
 
@@ -115,15 +116,7 @@ pub fn at_bound(parameter: &Parameter, value: f64) -> bool {
 
 /// The model's slopes at a fit, by the inner coordinates of the nonlinear parameters, and then by the linear ones.
 pub fn slopes(problem: &dyn Separable, nonlinear: &[f64], linear: &[f64]) -> Vec<Vec<f64>> {
-    let model = |values: &[f64]| -> Vec<f64> {
-        let Evaluation { mut fixed, columns } = problem.evaluate(values);
-        for (column, value) in columns.iter().zip(linear) {
-            for (sum, entry) in fixed.iter_mut().zip(column) {
-                *sum += value * entry;
-            }
-        }
-        fixed
-    };
+    let model = |values: &[f64]| problem.evaluate(values).sum(linear);
     let slope = |k: usize| -> Vec<f64> {
         let ([below, above], step) = Axis::of(&problem.nonlinear()[k]).beside(nonlinear[k]);
         let [below, above] = [below, above].map(|value| {
@@ -300,8 +293,6 @@ fn within_bounds(
     parameters: &[LinearParameter],
 ) -> Vec<f64> {
     let count = columns.len();
-    let dot =
-        |one: &[f64], other: &[f64]| -> f64 { one.iter().zip(other).map(|(a, b)| a * b).sum() };
     let sizes: Vec<f64> = columns
         .iter()
         .map(|column| dot(column, column).sqrt())

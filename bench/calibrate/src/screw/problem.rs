@@ -24,7 +24,6 @@ use crate::estimator::kernel::Kernel;
 use crate::estimator::record::{QUARTER, Record};
 use crate::estimator::rows::Rows;
 use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Separable};
-use crate::models::Beside;
 use crate::trace::Trace;
 use epas_page::failure::Failure;
 
@@ -293,14 +292,10 @@ impl<'a> ScrewProblem<'a> {
     }
 
     /// What stands beside the friction, for other models of it.
-    pub fn beside(&self, values: &Values) -> Beside {
+    pub fn beside(&self, values: &Values) -> Evaluation {
         let mut fixed = vec![0.0; self.target.len()];
-        Beside {
-            target: self.target.clone(),
-            columns: self.add_terms(&mut fixed, values),
-            fixed,
-            linear: self.linear.clone(),
-        }
+        let columns = self.add_terms(&mut fixed, values);
+        Evaluation { fixed, columns }
     }
 
     /// Adds what is not estimated; the columns of what is.
@@ -434,11 +429,7 @@ impl Samples {
                 window.fill(*own);
             }
         }
-        let angles = if record.speed_alone {
-            &record.path
-        } else {
-            &record.motion
-        };
+        let angles = record.places();
         let wave = |of: fn(f64) -> f64, order: f64| -> Vec<f64> {
             angles.iter().map(|angle| of(order * angle)).collect()
         };
@@ -519,10 +510,6 @@ impl Separable for ScrewProblem<'_> {
 
     fn target(&self) -> &[f64] {
         &self.target
-    }
-
-    fn row_step(&self) -> f64 {
-        self.record.tick
     }
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {

@@ -16,7 +16,7 @@ use super::exact::Grid;
 use super::friction::Screw;
 use super::problem::{Choice, Passage, ScrewProblem};
 use super::quantities::{QUANTITIES, Quantity, Values, assumed_deviation};
-use crate::estimator::fit::{Block, Fit, fit as least_squares};
+use crate::estimator::fit::{Block, Fit, fit as least_squares, solver};
 use crate::estimator::record::{QUARTER, Record};
 use crate::estimator::rows::Rows;
 use crate::fit::problem::{Scale, Separable, inner};
@@ -37,10 +37,6 @@ const WAY: f64 = 4.0;
 /// Residual, in robust deviations, from which on a row is left out, and the share of the rows that may be.
 const OUTLIER: f64 = 6.0;
 const OUTLIERS: f64 = 0.02;
-
-/// Longest shift of the effort that is sought, s; from so many ticks and this much less left with it, a trace is refused.
-const LATEST: f64 = 0.03;
-const LATE: (isize, f64) = (3, 1.3);
 
 /// Factors of the first guess of the speed law from which a fit starts.
 const STARTS: [f64; 3] = [1.0, 0.2, 5.0];
@@ -265,43 +261,6 @@ impl<'a> Prepared<'a> {
             .collect();
         let exceptions = (beyond.len() as f64) < OUTLIERS * rows.len() as f64;
         Ok((values, if exceptions { beyond } else { Vec::new() }))
-    }
-
-    /// By how many samples the effort comes later than everything else, where another shift leaves far less of it.
-    ///
-    /// The estimator's own test is a lag of the motion, which a load of the right time hides.
-    pub fn late(
-        &self,
-        window: Window,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Option<isize> {
-        let problem = self.sliding(window, (values, choice), grid)?;
-        let here = linearised(&problem, values)?;
-        let solver = solver(&here.columns)?;
-        let model = problem.model(values);
-        let most = (LATEST / self.record.tick).round() as isize;
-        let left = |shift: isize| -> f64 {
-            let last = self.record.len() as isize - 1;
-            let shifted: Vec<f64> = (0..=last)
-                .map(|sample| self.record.effort[(sample + shift).clamp(0, last) as usize])
-                .collect();
-            let mut rows = problem.rows().sums(0, &shifted);
-            for (row, model) in rows.iter_mut().zip(&model) {
-                *row -= model;
-            }
-            let found = solver(&rows);
-            for (column, value) in here.columns.iter().zip(found.iter()) {
-                for (row, slope) in rows.iter_mut().zip(column) {
-                    *row -= value * slope;
-                }
-            }
-            rows.iter().map(|row| row * row).sum::<f64>().sqrt()
-        };
-        let shifts = (-most..=most).map(|shift| (shift, left(shift)));
-        let (best, least) = shifts.min_by(|one, other| one.1.total_cmp(&other.1))?;
-        let refused = best.abs() >= LATE.0 && LATE.1 * least < left(0);
-        refused.then_some(best)
     }
 
     /// The first stage from values near its answer.
@@ -576,29 +535,6 @@ pub fn linearised(problem: &ScrewProblem<'_>, values: &Values) -> Option<Lineari
     };
     let fit = least_squares(&[block], &|coefficients| coefficients.to_vec());
     Some(Linearised { columns, fit })
-}
-
-/// What solves for the changes of the parameters that make some change of the rows.
-fn solver(columns: &[Vec<f64>]) -> Option<impl Fn(&[f64]) -> DVector<f64> + use<'_>> {
-    let sizes: Vec<f64> = columns
-        .iter()
-        .map(|column| column.iter().map(|x| x * x).sum::<f64>().sqrt())
-        .collect();
-    let dot =
-        |one: &[f64], other: &[f64]| -> f64 { one.iter().zip(other).map(|(a, b)| a * b).sum() };
-    let count = columns.len();
-    let normal = DMatrix::from_fn(count, count, |i, j| {
-        dot(&columns[i], &columns[j]) / (sizes[i] * sizes[j])
-    });
-    let inverse = normal.try_inverse()?;
-    Some(move |rows: &[f64]| {
-        let right = DVector::from_fn(count, |k, _| dot(&columns[k], rows) / sizes[k]);
-        let mut found = &inverse * right;
-        for (value, size) in found.iter_mut().zip(&sizes) {
-            *value /= size;
-        }
-        found
-    })
 }
 
 /// Condition of the slopes, each scaled to 1, and the direction that they see least.

@@ -2,12 +2,12 @@
 
 use std::collections::VecDeque;
 
+use crate::estimator::fit::rms;
 use crate::mechanism::Mechanism;
 use crate::trace::Trace;
 use crate::trace::known::KnownEffort;
 use crate::without_design::controller::SeenController;
-use crate::without_design::resistance::SlideResistance;
-use crate::without_design::slide::size;
+use crate::without_design::slide::SlideResistance;
 
 /// Steps of the mechanism in a tick: a quarter of a millisecond at 1 kHz.
 const STEPS: usize = 4;
@@ -60,7 +60,7 @@ impl Lag {
 impl Loop<'_> {
     /// Runs the loop with a mechanism of this inertia and resistance; the effort acts with a delay, s, of which half a tick is the
     /// controller's hold.
-    pub fn run(&self, inertia: f64, resistance: SlideResistance, delay: f64) -> Course {
+    pub fn run(&self, inertia: f64, resistance: SlideResistance<'_>, delay: f64) -> Course {
         let trace = self.trace;
         let tick = trace.step;
         let start = trace.position.first().copied().unwrap_or(0.0);
@@ -112,7 +112,7 @@ impl Loop<'_> {
                 mechanism.advance(acting, step);
             }
         }
-        course.relative_error = distance(&trace.effort, &course.effort) / size(&trace.effort);
+        course.relative_error = distance(&trace.effort, &course.effort) / rms(&trace.effort);
         course.position_error = distance(&trace.position, &course.position);
         course
     }
@@ -123,16 +123,12 @@ impl Course {
     pub fn error_after(&self, trace: &Trace, share: f64) -> f64 {
         let start = (trace.len() as f64 * share.clamp(0.0, 1.0)) as usize;
         let [measured, found] = [&trace.effort, &self.effort].map(|effort| &effort[start..]);
-        distance(measured, found) / size(measured)
+        distance(measured, found) / rms(measured)
     }
 }
 
 /// Root mean square of a difference.
-pub fn distance(one: &[f64], other: &[f64]) -> f64 {
-    let squares: f64 = one
-        .iter()
-        .zip(other)
-        .map(|(one, other)| (one - other).powi(2))
-        .sum();
-    (squares / one.len() as f64).sqrt()
+fn distance(one: &[f64], other: &[f64]) -> f64 {
+    let pairs = one.iter().zip(other);
+    rms(&pairs.map(|(one, other)| one - other).collect::<Vec<_>>())
 }

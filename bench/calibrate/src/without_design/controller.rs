@@ -1,12 +1,12 @@
 //! A controller as a trace shows it: where it has its speed from, and what of the effort is not its own.
 
 use crate::controller::Controller;
+use crate::estimator::fit::rms;
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::Record;
 use crate::trace::Trace;
 use crate::trace::channels::median;
 use crate::trace::known::KnownEffort;
-use crate::without_design::slide::size;
 
 /// Where a controller has its speed from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -134,13 +134,13 @@ impl SeenController {
                 beyond + within(trace, sample)
             })
             .collect();
-        let residual = size(rest);
+        let residual = rms(rest);
         Self {
             controller,
             source,
             added,
             residual,
-            share: residual / size(&trace.effort).max(f64::MIN_POSITIVE),
+            share: residual / rms(&trace.effort).max(f64::MIN_POSITIVE),
         }
     }
 
