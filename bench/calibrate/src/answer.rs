@@ -37,6 +37,16 @@ impl Estimate {
         }
     }
 
+    /// A parameter that was estimated.
+    pub fn told(name: impl Into<String>, unit: &'static str, value: f64, half: f64) -> Self {
+        Self {
+            low: value - half,
+            high: value + half,
+            fixed: false,
+            ..Self::fixed(name, unit, value)
+        }
+    }
+
     /// Half of the interval.
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high - self.low)
@@ -46,13 +56,10 @@ impl Estimate {
 impl From<&Interval> for Estimate {
     fn from(interval: &Interval) -> Self {
         Self {
-            name: interval.name.into(),
-            unit: interval.unit,
-            value: interval.value,
             low: interval.low,
             high: interval.high,
-            fixed: false,
             at_bound: interval.at_bound,
+            ..Self::told(interval.name, interval.unit, interval.value, 0.0)
         }
     }
 }
@@ -108,7 +115,7 @@ pub struct ModelScore {
 }
 
 /// What a trace says.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Calibration {
     /// Parameters, in the order in which they are told.
     #[serde(serialize_with = "by_name")]
@@ -167,13 +174,8 @@ mod tests {
         let calibration = Calibration {
             parameters: vec![
                 Estimate {
-                    name: "mass".into(),
-                    unit: "kg",
-                    value: 95.0,
-                    low: 94.0,
                     high: f64::INFINITY,
-                    fixed: false,
-                    at_bound: false,
+                    ..Estimate::told("mass", "kg", 95.0, 1.0)
                 },
                 Estimate::fixed("friction", "", 0.1),
             ],
@@ -181,8 +183,7 @@ mod tests {
             relative_error: 0.04,
             effective_rows: 100.0,
             cannot_tell: vec!["No load.".into()],
-            models: Vec::new(),
-            winner: None,
+            ..Calibration::default()
         };
         let text = serde_json::to_string(&calibration).unwrap();
         let start = r#"{"parameters":{"mass":{"value":95.0,"low":94.0,"high":null,"fixed":false,"unit":"kg"},"friction":{"value":0.1,"low":0.1,"high":0.1,"fixed":true,"unit":""}},"residual_rms":1.5,"#;

@@ -16,11 +16,7 @@ pub mod choice;
 mod compared;
 pub(crate) mod evidence;
 pub mod exact;
-#[cfg(test)]
-mod faults_tests;
 pub mod friction;
-#[cfg(test)]
-mod hostile_tests;
 pub(crate) mod problem;
 pub(crate) mod quantities;
 pub(crate) mod stages;
@@ -38,6 +34,7 @@ use self::problem::Choice;
 use self::quantities::{QUANTITIES, Values};
 use self::stages::{AT_TURNS, Prepared, Sliding, Window};
 use crate::answer::{Calibration, Estimate};
+use crate::estimator::fit::rms;
 use crate::estimator::record::{Record, Smoothed};
 use crate::estimator::words::wrong;
 use crate::fit::autocorrelation::effective_rows;
@@ -389,15 +386,11 @@ fn answer(
             Estimate::from,
         )
     });
-    let square = |rows: &[f64]| rows.iter().map(|x| x * x).sum::<f64>();
-    let left = square(residual);
     Calibration {
         parameters: parameters.collect(),
-        residual_rms: (left / residual.len().max(1) as f64).sqrt(),
-        relative_error: (left / square(measured).max(f64::MIN_POSITIVE)).sqrt(),
+        residual_rms: rms(residual),
+        relative_error: rms(residual) / rms(measured).max(f64::MIN_POSITIVE),
         effective_rows: uncertainty.effective_rows,
-        cannot_tell: Vec::new(),
-        models: Vec::new(),
-        winner: None,
+        ..Calibration::default()
     }
 }

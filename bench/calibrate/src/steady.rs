@@ -130,15 +130,7 @@ pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
             100.0 * left
         )));
     }
-    let mut answer = Calibration {
-        parameters: without_design::estimates(&found, coordinate),
-        residual_rms: found.fit.residual_rms,
-        relative_error: found.fit.relative,
-        effective_rows: found.fit.pieces.iter().copied().fold(0.0, f64::max),
-        cannot_tell: Vec::new(),
-        models: Vec::new(),
-        winner: None,
-    };
+    let mut answer = without_design::of_estimate(&found, coordinate, Vec::new());
     let has = |term: Term| found.of(term).is_some();
     if !has(Term::Offset) {
         answer.cannot_tell.push(
@@ -243,7 +235,6 @@ fn dip(records: &[Record], speeds: &[Option<f64>], plain: &Estimate) -> Option<E
 mod tests {
     use super::*;
     use crate::fit::toys::noise;
-    use crate::trace::{Origins, Repairs};
     use crate::without_design::drive::Numbers;
 
     const TRUTH: [(&str, f64); 3] = [
@@ -263,25 +254,14 @@ mod tests {
         let at = |sample: usize| speed * tick * sample as f64;
         Trace {
             name: format!("run {speed}"),
-            coordinate: Coordinate::Rotation,
-            start: 0.0,
             step: tick,
             position: (0..count).map(at).collect(),
-            resolution: 0.0,
             position_summed: true,
             speed: Some(rough.iter().map(|rough| speed + 0.01 * rough).collect()),
             effort: (0..count)
                 .map(|k| mean + 5e-3 * at(k).sin() + 2e-3 * rough[k])
                 .collect(),
-            reference_position: None,
-            load: None,
-            load_is_effort: false,
-            known: None,
-            temperature: None,
-            left_out: Vec::new(),
-            origins: Origins::default(),
-            repairs: Repairs::default(),
-            ignored: Vec::new(),
+            ..Trace::default()
         }
     }
 

@@ -24,8 +24,9 @@ use epas_traces::units::Part;
 use self::known::KnownEffort;
 
 /// What position, speed and effort are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Coordinate {
+    #[default]
     /// Angle of the nut, rad, and torque on it, N m.
     Rotation,
     /// Travel of the carriage, m, and force on it, N.
@@ -76,7 +77,7 @@ impl Origins {
 }
 
 /// A trace on one sample clock, in SI units. All lists are as long as `effort`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
     /// Name, for headings: the file's without its ending.
     pub name: String,

@@ -248,17 +248,11 @@ fn loads(terms: &[Term]) -> Vec<Term> {
 }
 
 /// Parameters with their intervals.
-pub fn estimates(found: &choice::Estimate, coordinate: Coordinate) -> Vec<Estimate> {
+fn estimates(found: &choice::Estimate, coordinate: Coordinate) -> Vec<Estimate> {
     let told = found.terms.iter().zip(&found.values);
     told.zip(&found.half_widths)
-        .map(|((term, value), half)| Estimate {
-            name: term.name(coordinate).into(),
-            unit: term.unit(coordinate),
-            value: *value,
-            low: value - half,
-            high: value + half,
-            fixed: false,
-            at_bound: false,
+        .map(|((term, value), half)| {
+            Estimate::told(term.name(coordinate), term.unit(coordinate), *value, *half)
         })
         .collect()
 }
@@ -272,14 +266,22 @@ fn answer(
     let mut cannot_tell = words;
     cannot_tell.extend(trace.told());
     cannot_tell.extend(untold(record, trace, found));
+    of_estimate(found, trace.coordinate, cannot_tell)
+}
+
+/// The numbers of an estimate as an answer.
+pub fn of_estimate(
+    found: &choice::Estimate,
+    coordinate: Coordinate,
+    cannot_tell: Vec<String>,
+) -> Calibration {
     Calibration {
-        parameters: estimates(found, trace.coordinate),
+        parameters: estimates(found, coordinate),
         residual_rms: found.fit.residual_rms,
         relative_error: found.fit.relative,
-        effective_rows: found.fit.pieces.iter().copied().fold(0.0, f64::max),
+        effective_rows: largest(&found.fit.pieces),
         cannot_tell,
-        models: Vec::new(),
-        winner: None,
+        ..Calibration::default()
     }
 }
 

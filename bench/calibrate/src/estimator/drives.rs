@@ -6,8 +6,8 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
+use crate::trace::Trace;
 use crate::trace::channels::resolution;
-use crate::trace::{Coordinate, Origins, Repairs, Trace};
 
 /// What is true of a drive.
 #[derive(Clone, Copy, Debug)]
@@ -173,8 +173,6 @@ impl Drive {
         };
         let trace = Trace {
             name: "drive".into(),
-            coordinate: Coordinate::Rotation,
-            start: 0.0,
             step: tick,
             resolution: if lag.is_some() {
                 0.0
@@ -185,15 +183,9 @@ impl Drive {
             position_summed: lag.is_some(),
             speed: speeds,
             effort: efforts,
-            reference_position: None,
             load: Some(loads),
             load_is_effort: true,
-            known: None,
-            temperature: None,
-            repairs: Repairs::default(),
-            left_out: Vec::new(),
-            origins: Origins::default(),
-            ignored: Vec::new(),
+            ..Trace::default()
         };
         (trace, stood)
     }

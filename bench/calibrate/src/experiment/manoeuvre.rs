@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use crate::trace::{Coordinate, Origins, Repairs, Trace};
+use crate::trace::Trace;
 use epas_design::files::Design;
 
 /// A manoeuvre; its [`Manoeuvre::words`] say how it is driven.
@@ -139,23 +139,12 @@ impl Manoeuvre {
         };
         Trace {
             name: self.words()[0].into(),
-            coordinate: Coordinate::Rotation,
-            start: 0.0,
             step,
             effort: vec![0.0; rows],
             position: of(&|time| self.position(time, reach)),
-            resolution: 0.0,
-            position_summed: false,
-            speed: None,
-            reference_position: None,
             load: Some(of(&|time| self.load(time, reach))),
-            load_is_effort: false,
-            known: None,
             temperature: Some(of(&|time| cold + rise * time)),
-            repairs: Repairs::default(),
-            left_out: Vec::new(),
-            origins: Origins::default(),
-            ignored: Vec::new(),
+            ..Trace::default()
         }
     }
 
