@@ -5,12 +5,11 @@ use serde::ser::{SerializeMap, Serializer};
 use crate::fit::uncertainty::Interval;
 
 /// A parameter's value with its interval.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Estimate {
-    /// Name, as in a design file.
+    /// Name, as in a design file; in JSON the key.
+    #[serde(skip)]
     pub name: String,
-    /// Unit; empty for a pure number.
-    pub unit: &'static str,
     /// Value.
     pub value: f64,
     /// Low end of the 95 % interval; the value where it is fixed, not finite where nothing bounds it.
@@ -20,7 +19,10 @@ pub struct Estimate {
     /// Whether it was set instead of estimated.
     pub fixed: bool,
     /// Whether it ended at a bound of what is allowed: then it is no estimate, and is written nowhere.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub at_bound: bool,
+    /// Unit; empty for a pure number.
+    pub unit: &'static str,
 }
 
 impl Estimate {
@@ -62,24 +64,6 @@ impl From<&Interval> for Estimate {
             ..Self::told(interval.name, interval.unit, interval.value, 0.0)
         }
     }
-}
-
-/// What one parameter's entry holds; its name is the key.
-#[derive(serde::Serialize)]
-struct Entry {
-    value: f64,
-    low: f64,
-    high: f64,
-    fixed: bool,
-    #[serde(skip_serializing_if = "is_false")]
-    at_bound: bool,
-    unit: &'static str,
-}
-
-// As serde calls it.
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_false(value: &bool) -> bool {
-    !value
 }
 
 /// How a model of friction does on the trace.
@@ -152,15 +136,7 @@ impl Calibration {
 fn by_name<S: Serializer>(estimates: &[Estimate], serializer: S) -> Result<S::Ok, S::Error> {
     let mut map = serializer.serialize_map(Some(estimates.len()))?;
     for estimate in estimates {
-        let entry = Entry {
-            value: estimate.value,
-            low: estimate.low,
-            high: estimate.high,
-            fixed: estimate.fixed,
-            at_bound: estimate.at_bound,
-            unit: estimate.unit,
-        };
-        map.serialize_entry(&estimate.name, &entry)?;
+        map.serialize_entry(&estimate.name, estimate)?;
     }
     map.end()
 }

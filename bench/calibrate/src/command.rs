@@ -102,23 +102,19 @@ pub struct Arguments {
     folder: FolderArguments,
 }
 
-/// A ratio of a gear.
+fn within(text: &str, name: &str, range: std::ops::RangeInclusive<f64>) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value| range.contains(value));
+    value.ok_or_else(|| format!("{name} is {} to {}", range.start(), range.end()))
+}
+
 fn ratio(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (0.01..=1000.0).contains(&value) => Ok(value),
-        _ => Err("a ratio is 0.01 to 1000".into()),
-    }
+    within(text, "a ratio", 0.01..=1000.0)
 }
 
-/// A rated torque, N m.
 fn rated_torque(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (1e-6..=1e6).contains(&value) => Ok(value),
-        _ => Err("a rated torque is 1e-6 to 1e6 N m".into()),
-    }
+    within(text, "a rated torque in N m", 1e-6..=1e6)
 }
 
-/// The name of a parameter.
 fn parameter(text: &str) -> Result<String, String> {
     if names().any(|name| name == text) {
         return Ok(text.into());
@@ -127,7 +123,6 @@ fn parameter(text: &str) -> Result<String, String> {
     Err(format!("allowed: {}", known.join(", ")))
 }
 
-/// A parameter's name with its value.
 fn setting(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
     let number: f64 = value
@@ -293,7 +288,6 @@ fn with_design(
     })
 }
 
-/// A trace without a design.
 fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Result<(), Failure> {
     let truth = truth::of(trace);
     let frame = arguments.frame(None);
@@ -327,7 +321,6 @@ fn tell(seen: &SeenController, coordinate: Coordinate) {
     ));
 }
 
-/// Every trace of a folder.
 fn whole_folder(
     arguments: &Arguments,
     traces: &Path,
@@ -381,7 +374,6 @@ fn whole_folder(
     folder::run(&folder, |path| one(arguments, design, mapping, path))
 }
 
-/// A trace of a folder.
 fn read(
     arguments: &Arguments,
     design: Option<&Design>,

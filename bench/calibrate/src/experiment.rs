@@ -37,7 +37,6 @@ const WINDOW: Window = Window { half: 17, way: 0.0 };
 /// Tick of the manoeuvres, s.
 const STEP: f64 = 1e-3;
 
-/// What one manoeuvre says.
 struct Said {
     manoeuvre: Manoeuvre,
     names: Vec<&'static str>,
@@ -162,7 +161,6 @@ fn said(
     Said::of(name, manoeuvre, &problem)
 }
 
-/// Prints the manoeuvres, the best first.
 pub fn tell(design: &Design, name: &str) -> Result<(), Failure> {
     let reach = Reach::of(design);
     print(

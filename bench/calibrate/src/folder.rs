@@ -140,7 +140,6 @@ impl Together {
         Ok(together)
     }
 
-    /// Traces that told something.
     fn told(&self) -> impl Iterator<Item = (&str, &Told)> {
         let all = self.traces.iter();
         all.filter_map(|stored| Some((&*stored.trace, stored.ended.as_ref().ok()?)))
@@ -180,7 +179,6 @@ impl Together {
         Some(Failure::Data(format!("no trace tells anything; {word}")))
     }
 
-    /// One JSON object.
     fn json(&self) -> Value {
         let answer = |stored: &Stored| match &stored.ended {
             Ok(told) => told.answer.clone(),
@@ -199,7 +197,6 @@ impl Together {
     }
 }
 
-/// What is called for every trace.
 type Fit<'a> = &'a (dyn Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync);
 
 /// What the traces tell together, fitted or merged.

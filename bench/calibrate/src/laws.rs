@@ -39,16 +39,11 @@ pub enum Passage {
     Elements,
 }
 
-/// A law of friction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Law {
-    /// Name.
     pub name: &'static str,
-    /// How sliding follows the speed.
     pub level: Level,
-    /// How friction reverses.
     pub passage: Passage,
-    /// What it costs.
     pub cost: Cost,
 }
 
@@ -74,18 +69,14 @@ pub struct Scales {
     pub tick: f64,
 }
 
-/// Share of friction at rest.
 const SHARE_AT_REST: &str = "friction_share_at_rest";
 /// Speed at which half of the difference is gone, or Stribeck's.
 const HALF_SHARE_SPEED: &str = "half_share_speed";
-/// Travel to full sliding.
 pub const BREAKAWAY: &str = "breakaway";
-/// Speed of a reversal.
 const REVERSAL_SPEED: &str = "reversal_speed";
 /// Damping of a bristle over its stiffness, s.
 const BRISTLE_TIME: &str = "bristle_time";
 
-/// Number of the crate's elements.
 const ELEMENTS: usize = 8;
 
 impl Law {
@@ -175,7 +166,6 @@ impl Law {
 }
 
 impl Scales {
-    /// Those of positions and speeds.
     pub fn of((position, speed): (&[f64], &[f64]), resolution: f64, tick: f64) -> Self {
         let ((low, high), (slow, fast)) = (range(position), range(speed));
         Self {
@@ -203,7 +193,6 @@ pub struct Friction {
     bristle_time: f64,
     /// Time over which a bristle's speed is told, s: after a turn just before a sample there would be none.
     shortest_time: f64,
-    /// Friction of a bristle.
     held: f64,
     elements: ProportionalElements<ELEMENTS>,
     state: MemoryState<ELEMENTS>,

@@ -15,9 +15,7 @@ use epas_page::failure::Failure;
 /// Share of the rows that is fitted where no other trace scores.
 pub const FITTED: f64 = 2.0 / 3.0;
 
-/// Name of the scene without memory.
 pub const WITHOUT_MEMORY: &str = "this crate, without memory";
-/// Name of the scene with memory.
 pub const WITH_MEMORY: &str = "this crate, with memory";
 
 const fn law(name: &'static str, level: Level, passage: Passage, cost: Cost) -> Law {
@@ -29,7 +27,6 @@ const fn law(name: &'static str, level: Level, passage: Passage, cost: Cost) -> 
     }
 }
 
-/// Laws of the literature.
 pub const LITERATURE: [Law; 4] = {
     use Cost::{Counted, Estimated};
     use Level::{Constant, Stribeck};
@@ -59,13 +56,10 @@ pub const OWN: [Law; 2] = {
 
 /// A model on the trace that is fitted, and on another that is not.
 pub struct Entry<'a> {
-    /// Name.
     pub name: &'a str,
-    /// What it costs.
     pub cost: Cost,
     /// On the fitted trace.
     pub fitted: &'a dyn Separable,
-    /// On another one.
     pub unseen: Option<&'a dyn Separable>,
 }
 

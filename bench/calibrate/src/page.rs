@@ -179,7 +179,6 @@ fn parameters(estimates: &[Estimate], truth: &Truth) -> Table {
     table
 }
 
-/// Models of friction beside each other.
 fn models(calibration: &Calibration) -> Vec<Block> {
     let best = match &calibration.winner {
         Some(name) => format!("Best on what was not fitted: {name}."),
@@ -325,7 +324,6 @@ fn residual(picture: &Picture, words: &Words) -> Vec<Block> {
     blocks
 }
 
-/// Pairs of finite numbers.
 fn rows(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
     let rows = x.iter().copied().zip(y.iter().copied());
     rows.filter(|(x, y)| x.is_finite() && y.is_finite())
@@ -364,7 +362,6 @@ fn correlations(correlations: &Correlations) -> Table {
     table
 }
 
-/// Which manoeuvre identifies what.
 fn manoeuvres() -> Table {
     let row = |manoeuvre: Manoeuvre| {
         let [name, how, identifies] = manoeuvre.words();

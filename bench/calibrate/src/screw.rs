@@ -39,7 +39,7 @@ use crate::estimator::record::{Record, Smoothed};
 use crate::estimator::words::wrong;
 use crate::fit::autocorrelation::effective_rows;
 use crate::fit::problem::Separable as _;
-use crate::fit::uncertainty::{Interval, Uncertainty, correlation};
+use crate::fit::uncertainty::{Interval, Uncertainty};
 use crate::trace::{Coordinate, Trace};
 use crate::without_design::placed;
 use epas_design::files::Design;
@@ -87,7 +87,6 @@ pub struct ScrewCalibration {
     pub residual: Vec<f64>,
 }
 
-/// What is told of the parameters.
 struct Told {
     values: Values,
     choice: Choice,
@@ -181,7 +180,6 @@ fn comparable(trace: &Trace, unseen: Option<&Trace>) -> Result<(), Failure> {
     }
 }
 
-/// Both stages.
 fn told<'a>(
     trace: &'a Trace,
     start: &Start,
@@ -366,7 +364,6 @@ fn uncertainty(told: &Told, residual: &[f64]) -> Uncertainty {
     let covariance = nalgebra::DMatrix::from_fn(all.len(), all.len(), entry);
     Uncertainty {
         intervals: order.iter().map(|k| all[*k].clone()).collect(),
-        correlation: correlation(&covariance),
         covariance,
         effective_rows: effective_rows(residual),
     }

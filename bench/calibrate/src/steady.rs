@@ -17,7 +17,6 @@ use crate::without_design::drive::Drive;
 use crate::without_design::{self, largest};
 use epas_page::failure::Failure;
 
-/// Fewest runs that are one measurement.
 const FEWEST: usize = 3;
 
 /// Share of the efforts that is left from which on nothing is explained, and from which on it is said.
@@ -27,29 +26,21 @@ const MUCH: f64 = 0.1;
 /// Residual with friction that changes towards rest over that without it, from which on it is told.
 const TAKES: f64 = 0.9;
 
-/// A run at one speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// Name of its trace.
     pub name: String,
     /// Speed, rad/s or m/s.
     pub speed: f64,
     /// Mean effort without the load's, N m or N.
     pub effort: f64,
-    /// What the numbers say to it.
     pub model: f64,
 }
 
-/// What runs tell together.
 #[derive(Clone, Debug)]
 pub struct Steady {
-    /// What position, speed and effort are.
     pub coordinate: Coordinate,
-    /// The answer.
     pub answer: Calibration,
-    /// The runs, by speed.
     pub runs: Vec<Run>,
-    /// What firmware takes of them.
     pub drive: Drive,
 }
 

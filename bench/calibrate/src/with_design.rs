@@ -1,7 +1,6 @@
 //! Calibration of a trace of a screw whose design is known: the answer, what its page draws, its sums.
 
 use crate::answer::Calibration;
-use crate::estimator::record::Smoothed;
 use crate::folder::answered::Answered;
 use crate::page::picture::Picture;
 use crate::screw::friction::Screw;
@@ -51,10 +50,9 @@ pub fn summed(
     Ok((found.answer, answered))
 }
 
-/// What the page draws.
 fn picture(trace: &Trace, found: &ScrewCalibration) -> Picture {
-    let motion = Smoothed::of(trace);
     let measured = (found.measured.clone(), &*found.residual);
     let sure = &found.uncertainty;
-    Picture::of(trace, &motion, &found.samples, measured, sure)
+    let names = sure.intervals.iter().map(|of| of.name.into()).collect();
+    Picture::of(trace, &found.samples, measured, (names, &sure.covariance))
 }

@@ -25,7 +25,7 @@ use crate::estimator::terms::Term;
 use crate::estimator::words::diagnose;
 use crate::folder::answered::Answered;
 use crate::folder::population::HALF_INTERVAL;
-use crate::page::picture::{Correlations, Picture};
+use crate::page::picture::Picture;
 use crate::page::shown::digits;
 use crate::trace::known::KnownEffort;
 use crate::trace::{Coordinate, Trace};
@@ -100,7 +100,6 @@ pub fn calibrate(
     })
 }
 
-/// What firmware takes of it.
 fn drive(prepared: &Prepared<'_>, beside: &Beside, told: &[Estimate]) -> Drive {
     let slides = told.iter().any(|one| one.name == "coulomb_friction");
     let reversal = slides.then(|| models::reversal_speed(prepared, beside).ok().flatten());
@@ -247,7 +246,6 @@ fn loads(terms: &[Term]) -> Vec<Term> {
         .collect()
 }
 
-/// Parameters with their intervals.
 fn estimates(found: &choice::Estimate, coordinate: Coordinate) -> Vec<Estimate> {
     let told = found.terms.iter().zip(&found.values);
     told.zip(&found.half_widths)
@@ -336,39 +334,12 @@ fn untold(record: &Record, trace: &Trace, found: &choice::Estimate) -> Vec<Strin
 fn picture(record: &Record, trace: &Trace, found: &choice::Estimate) -> Picture {
     let rows = found.rows.first().and_then(Option::as_ref);
     let centres = rows.map_or(&[][..], |rows| &rows.centres);
-    let measured = rows.map_or_else(Vec::new, |rows| {
-        Block::of(record, rows, &found.terms).target
-    });
-    let model = measured.iter().zip(&found.fit.residual);
-    let at = |signal: &[f64]| -> Vec<f64> { centres.iter().map(|k| signal[*k]).collect() };
-    let speed = rows.map_or_else(Vec::new, |rows| rows.sums(record.order(1), &record.motion));
-    let covariance = &found.fit.covariance;
-    let correlation =
-        |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-    let count = found.terms.len();
-    let names = found.terms.iter();
-    Picture {
-        name: trace.name.clone(),
-        coordinate: trace.coordinate,
-        time: centres
-            .iter()
-            .map(|sample| trace.start + trace.step * *sample as f64)
-            .collect(),
-        model: model
-            .map(|(measured, residual)| measured - residual)
-            .collect(),
-        measured,
-        position: at(&trace.position),
-        speed,
-        load: trace.load.as_deref().map(&at),
-        temperature: trace.temperature.as_deref().map(&at),
-        correlations: Correlations {
-            names: names
-                .map(|term| term.name(trace.coordinate).to_string())
-                .collect(),
-            rows: (0..count)
-                .map(|i| (0..count).map(|j| correlation(i, j)).collect())
-                .collect(),
-        },
-    }
+    let target = |rows| Block::of(record, rows, &found.terms).target;
+    let measured = rows.map_or_else(Vec::new, target);
+    let names = found
+        .terms
+        .iter()
+        .map(|term| term.name(trace.coordinate).into());
+    let errors = (names.collect(), &found.fit.covariance);
+    Picture::of(trace, centres, (measured, &found.fit.residual), errors)
 }

@@ -33,7 +33,6 @@ const NOISY: f64 = 0.05;
 /// Way, s, and in lags, that rows of a measured speed keep from a turn; the longest.
 const SPARE: [f64; 3] = [0.03, 3.5, 0.25];
 
-/// Rows a parameter needs.
 const ROWS: usize = 3;
 
 /// What is wanted beside what a record tells by itself.
@@ -48,12 +47,10 @@ pub struct Wanted {
     pub kernel: Option<(f64, f64)>,
 }
 
-/// What records tell.
 #[derive(Clone, Debug)]
 pub struct Estimate {
     /// Terms.
     pub terms: Vec<Term>,
-    /// Their values.
     pub values: Vec<f64>,
     /// Half of each 95 % interval.
     pub half_widths: Vec<f64>,
@@ -68,14 +65,12 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Value and half-width of a term.
     pub fn of(&self, term: Term) -> Option<(f64, f64)> {
         let place = self.terms.iter().position(|one| *one == term)?;
         Some((self.values[place], self.half_widths[place]))
     }
 }
 
-/// Settings of one fit.
 #[derive(Clone, Copy)]
 struct Tried {
     length: f64,

@@ -3,7 +3,6 @@
 use super::kernel::Kernel;
 use super::record::{QUARTER, Record};
 
-/// Rows in a half-width.
 const ROWS: usize = 3;
 
 /// Half-widths in a piece of a stretch.

@@ -8,7 +8,6 @@ use super::record::Record;
 use super::rows::Rows;
 use crate::trace::Coordinate;
 
-/// A term of the equation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Term {
     /// Inertia or mass: `a`.
@@ -23,7 +22,6 @@ pub enum Term {
     OneSpeed,
     /// Loss in proportion to the load where it opposes the motion: `s |tau|`.
     Driving,
-    /// The same where it assists.
     BackDriving,
     /// Effort of a unit of load: `F`.
     Gain,
@@ -35,7 +33,6 @@ pub enum Term {
     Lag,
     /// Sine of so many rad of the position, 1/rad or 1/m.
     Sine(f64),
-    /// Cosine of it.
     Cosine(f64),
     /// Viscous friction that differs by direction: `|w|`.
     Asymmetry,
@@ -44,7 +41,6 @@ pub enum Term {
 }
 
 impl Term {
-    /// Its name.
     pub const fn name(self, coordinate: Coordinate) -> &'static str {
         match self {
             Self::Inertia => match coordinate {
@@ -68,7 +64,6 @@ impl Term {
         }
     }
 
-    /// Its unit.
     pub const fn unit(self, coordinate: Coordinate) -> &'static str {
         let [rotation, translation] = match self {
             Self::Inertia => ["kg m^2", "kg"],

@@ -22,7 +22,6 @@ use crate::trace::{Coordinate, Trace};
 const NOTHING: f64 = 0.9;
 const DOUBTED: f64 = 0.5;
 
-/// Bits of numbers that run over.
 const BITS: [i32; 4] = [8, 10, 12, 16];
 
 /// Largest travel of a drive over its angle, m/rad: a rack of a pinion of 0.4 m, a lead of 1.3 m.
@@ -49,9 +48,7 @@ const STRIBECK: [f64; 3] = [0.02, 0.05, 0.12];
 /// What a trace tells with all that was found in it.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
-    /// The numbers.
     pub estimate: Estimate,
-    /// Sentences on what was found.
     pub words: Vec<String>,
     /// The ripple over the position, or the load that follows it: its wave number, 1/rad or 1/m.
     pub wave: Option<f64>,
@@ -98,7 +95,6 @@ struct Look<'a> {
     more: Vec<Term>,
 }
 
-/// A number with its interval.
 fn about((value, half): (f64, f64)) -> String {
     format!("{} +- {}", digits(value, 3), digits(half, 2))
 }
@@ -499,7 +495,6 @@ impl<'a> Look<'a> {
         ))
     }
 
-    /// Viscous friction that differs by direction.
     fn asymmetry(&self, found: &Estimate) -> Option<String> {
         found.of(Term::Offset)?;
         let other = self.surely(found, Term::Asymmetry, found.settling)?;

@@ -65,7 +65,6 @@ fn triangle(turns: f64) -> f64 {
 }
 
 impl Manoeuvre {
-    /// All of them.
     pub const ALL: [Self; 7] = [
         Self::Weave,
         Self::Parking,

@@ -20,7 +20,6 @@ pub fn correlation_time(rows: &[f64]) -> f64 {
     time.clamp(1.0, rows.len() as f64 / 2.0)
 }
 
-/// Rows that count as independent.
 pub fn effective_rows(rows: &[f64]) -> f64 {
     rows.len() as f64 / correlation_time(rows)
 }

@@ -77,7 +77,6 @@ pub trait Separable: Sync {
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation;
 }
 
-/// A problem made of a closure.
 pub(crate) struct Model<'a> {
     pub nonlinear: Vec<Parameter>,
     pub linear: Vec<LinearParameter>,
@@ -103,7 +102,6 @@ impl Separable for Model<'_> {
     }
 }
 
-/// Some rows of a problem.
 pub(crate) fn part(whole: &dyn Separable, rows: Range<usize>) -> Model<'_> {
     Model {
         nonlinear: whole.nonlinear().to_vec(),
@@ -120,7 +118,6 @@ pub(crate) fn part(whole: &dyn Separable, rows: Range<usize>) -> Model<'_> {
     }
 }
 
-/// Target less model at every row.
 pub(crate) fn residual(problem: &dyn Separable, nonlinear: &[f64], linear: &[f64]) -> Vec<f64> {
     let model = problem.evaluate(nonlinear).sum(linear).into_iter();
     let rows = problem.target().iter().zip(model);

@@ -172,7 +172,6 @@ fn check(problem: &dyn Separable) -> Result<(), Failure> {
     }
 }
 
-/// Coordinates of one parameter.
 struct Axis<'a> {
     parameter: &'a Parameter,
     low: f64,

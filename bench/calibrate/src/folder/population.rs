@@ -73,7 +73,6 @@ pub struct Outlier {
     pub deviations: f64,
 }
 
-/// One parameter of one trace.
 struct Told {
     place: f64,
     variance: f64,

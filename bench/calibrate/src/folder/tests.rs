@@ -13,7 +13,6 @@ use super::answered::merged as merged_texts;
 use super::*;
 use crate::answer::Estimate;
 
-/// Standard error of the offset.
 const OFFSET_ERROR: f64 = 1e-3;
 
 /// What a trace of one positive and one free parameter gave: values, standard errors of the inner coordinates, correlation.
@@ -70,7 +69,6 @@ fn traces(count: u64) -> TempDir {
     folder
 }
 
-/// A part, or what is merged.
 fn arguments(part: &str, outputs: &[TempDir]) -> FolderArguments {
     FolderArguments {
         part: part.parse().ok(),

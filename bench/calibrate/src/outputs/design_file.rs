@@ -38,10 +38,8 @@ fn has(keys: &str, name: &str) -> bool {
 /// What a comment of this program starts with.
 const MARK: &str = "calibrated: ";
 
-/// A design file that was made.
 #[derive(Debug)]
 pub struct Written {
-    /// Its text.
     pub text: String,
     /// The design that it is read as.
     pub design: Design,

@@ -48,7 +48,6 @@ pub const DRIVE: LoadProportionalConstants =
     Ok(text)
 }
 
-/// The scene's configuration.
 fn configuration(numbers: &Numbers) -> LoadProportionalConfiguration {
     let [driving_loss, back_driving_loss] = numbers.losses.map(|loss| loss as f32);
     let [nut_speed, axial_load, friction_torque] = numbers.limits.map(|limit| limit as f32);

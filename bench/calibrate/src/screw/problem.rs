@@ -27,17 +27,13 @@ use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Separable};
 use crate::trace::Trace;
 use epas_page::failure::Failure;
 
-/// What is estimated.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// Nonlinear quantities, with start and bounds.
     pub nonlinear: Vec<(Parameter, &'static Quantity)>,
-    /// Linear ones.
     pub linear: Vec<&'static Quantity>,
 }
 
 impl Choice {
-    /// The same without a quantity.
     #[must_use]
     pub fn without(&self, name: &str) -> Self {
         let mut choice = self.clone();
@@ -46,7 +42,6 @@ impl Choice {
         choice
     }
 
-    /// The same from these values.
     #[must_use]
     pub fn from(&self, values: &Values) -> Self {
         let mut choice = self.clone();
@@ -62,7 +57,6 @@ impl Choice {
 pub enum Passage {
     /// It does not: every row has one direction, in which the balls slide.
     Sliding,
-    /// By the memory of the crate.
     Remembered,
 }
 
@@ -184,7 +178,6 @@ impl<'a> ScrewProblem<'a> {
         }
     }
 
-    /// The rows.
     pub const fn rows(&self) -> &Rows {
         &self.rows
     }
@@ -278,7 +271,6 @@ impl<'a> ScrewProblem<'a> {
         Ok(samples.direction.iter().enumerate().map(at).collect())
     }
 
-    /// Rows of the whole model.
     pub fn model(&self, values: &Values) -> Vec<f64> {
         let mut sum = self.friction(values);
         for term in &self.terms {

@@ -27,7 +27,6 @@ use epas_page::failure::Failure;
 
 /// Half-widths of the kernel that are tried, s.
 const HALF_WIDTHS: [f64; 5] = [8.5e-3, 17e-3, 34e-3, 68e-3, 136e-3];
-/// Least half-width, samples.
 const LEAST_HALF: usize = 4;
 
 /// Way after a turn over the breakaway angle: friction that was full the other way is full again after twice the angle, and under the
@@ -60,29 +59,22 @@ const REST: f64 = 0.3;
 /// Fewest turns that tell what comes before sliding.
 const FEWEST_TURNS: usize = 8;
 
-/// Quantities of the second stage.
 pub const AT_TURNS: [&str; 2] = ["breakaway_angle", "backlash"];
 
-/// A trace, ready to be fitted.
 pub struct Prepared<'a> {
-    /// The trace.
     pub trace: &'a Trace,
     /// The same as the estimator takes it.
     pub record: Record,
-    /// The screw.
     pub screw: Screw,
 }
 
 /// A kernel's half-width, samples, and the way after a turn, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// Half-width.
     pub half: usize,
-    /// Way.
     pub way: f64,
 }
 
-/// Rows that tell a problem, linearised.
 pub struct Linearised {
     /// Slopes by the inner coordinates, nonlinear quantities first.
     pub columns: Vec<Vec<f64>>,
@@ -90,11 +82,8 @@ pub struct Linearised {
     pub fit: Fit,
 }
 
-/// What the first stage tells.
 pub struct Sliding {
-    /// Values of everything.
     pub values: Values,
-    /// Intervals of what was estimated.
     pub intervals: Vec<Interval>,
     /// Covariance of their inner coordinates, without the model's errors.
     pub covariance: DMatrix<f64>,
@@ -105,7 +94,6 @@ pub struct Sliding {
 }
 
 impl<'a> Prepared<'a> {
-    /// A trace without these samples.
     pub fn new(trace: &'a Trace, left_out: &[Range<usize>], screw: Screw) -> Self {
         Self {
             trace,
@@ -118,7 +106,6 @@ impl<'a> Prepared<'a> {
         ((seconds / self.record.tick).round() as usize).max(LEAST_HALF)
     }
 
-    /// Rows of one direction.
     fn rows(&self, window: Window) -> Option<Rows> {
         let longest = self.record.len() / 4;
         let rows = (window.half < longest)
@@ -127,7 +114,6 @@ impl<'a> Prepared<'a> {
         (!rows.is_empty()).then_some(rows)
     }
 
-    /// The first stage's problem.
     fn sliding(
         &self,
         window: Window,
@@ -172,7 +158,6 @@ impl<'a> Prepared<'a> {
         ))
     }
 
-    /// The window with the narrowest intervals.
     pub fn best_window(
         &self,
         first: Window,
@@ -498,7 +483,6 @@ fn nonlinear(choice: &Choice, values: &Values) -> Vec<f64> {
         .collect()
 }
 
-/// Values of its linear ones.
 fn linear(choice: &Choice, values: &Values) -> Vec<f64> {
     choice.linear.iter().map(|of| of.value(values)).collect()
 }

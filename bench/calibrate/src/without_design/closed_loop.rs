@@ -12,14 +12,12 @@ use crate::without_design::slide::SlideResistance;
 /// Steps of the mechanism in a tick: a quarter of a millisecond at 1 kHz.
 const STEPS: usize = 4;
 
-/// A mechanism in its loop.
 #[derive(Clone, Debug)]
 pub struct Loop<'a> {
     /// The trace: its reference positions, loads, and where it starts.
     pub trace: &'a Trace,
     /// Speed at its start, rad/s or m/s.
     pub speed: f64,
-    /// The controller.
     pub controller: &'a SeenController,
 }
 
@@ -44,7 +42,6 @@ struct Lag {
 }
 
 impl Lag {
-    /// Mean effort over a step.
     fn mean(&mut self, wanted: f64, step: f64) -> f64 {
         // Below a hundredth of a step the lag is lost in its mean.
         if self.time < 0.01 * step {
@@ -127,7 +124,6 @@ impl Course {
     }
 }
 
-/// Root mean square of a difference.
 fn distance(one: &[f64], other: &[f64]) -> f64 {
     let pairs = one.iter().zip(other);
     rms(&pairs.map(|(one, other)| one - other).collect::<Vec<_>>())

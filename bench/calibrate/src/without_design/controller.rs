@@ -11,9 +11,7 @@ use crate::trace::known::KnownEffort;
 /// Where a controller has its speed from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpeedSource {
-    /// A sensor of the speed.
     Sensor,
-    /// Difference of the last two positions.
     OneTick,
     /// Difference over the last two ticks.
     TwoTicks,
@@ -22,7 +20,6 @@ pub enum SpeedSource {
 }
 
 impl SpeedSource {
-    /// All of them.
     pub const ALL: [Self; 4] = [Self::Sensor, Self::OneTick, Self::TwoTicks, Self::FourTicks];
 
     /// Ticks of the difference; none of a sensor.
@@ -35,7 +32,6 @@ impl SpeedSource {
         }
     }
 
-    /// What it is, in words.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Sensor => "a sensor of the speed",
@@ -49,7 +45,6 @@ impl SpeedSource {
 /// A controller as the trace shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenController {
-    /// Its gains.
     pub controller: Controller,
     /// Where it has its speed from: what explains the measured effort best.
     pub source: SpeedSource,

@@ -11,9 +11,7 @@ const ROOM: f64 = 2.0;
 /// Numbers of a drive without a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
-    /// What position, speed and effort are.
     pub coordinate: Coordinate,
-    /// What was told.
     pub estimates: Vec<Estimate>,
     /// Speed over which friction reverses, where the trace tells it, rad/s.
     pub reversal_speed: Option<f64>,

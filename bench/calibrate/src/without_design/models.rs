@@ -19,7 +19,6 @@ pub const LOAD_PROPORTIONAL: Law = Law {
     cost: Cost::Counted(&["step_load_proportional"]),
 };
 
-/// The crate's law with memory.
 const OURS: Law = OWN[1];
 
 /// A trace on which models are compared, with its controller.
@@ -63,7 +62,6 @@ pub fn scores(
 }
 
 impl Beside {
-    /// The load and a wave alone.
     fn plain(&self) -> Self {
         Self {
             wave: self.wave,
@@ -85,7 +83,6 @@ fn wave(prepared: &Prepared<'_>, beside: &Beside) -> Option<f64> {
     (share > SHARE).then_some(wave)
 }
 
-/// The loop closed with a fit.
 fn course(
     (prepared, controller): Compared<'_>,
     slide: &Slide<'_>,

@@ -27,7 +27,6 @@ const NOISE: f64 = 0.05;
 const LENGTHS: [f64; 6] = [6e-3, 8.5e-3, 12e-3, 17e-3, 24e-3, 34e-3];
 const FEWEST: usize = 4;
 
-/// What stands beside the law.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Beside {
     /// Whether the viscous friction differs by direction, and the effort has a delay.
@@ -54,9 +53,7 @@ pub struct Prepared<'a> {
     tick: f64,
     /// Half way between the farthest places, rad or m.
     middle: f64,
-    /// Kernel over these samples.
     kernel: Kernel,
-    /// Rows, as numbers of these samples.
     centres: Vec<usize>,
     target: Vec<f64>,
     known: Option<Delayed>,
@@ -160,7 +157,6 @@ struct Instant {
     speed: f64,
     acceleration: f64,
     load: f64,
-    /// Friction of unit level.
     friction: f64,
     /// Wave number of a wave over the position.
     wave: f64,
