@@ -2,12 +2,10 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`autocorrelation`] | how far rows repeat each other |
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
 //! | [`search`] | the fit: linear parameters eliminated, Levenberg-Marquardt for the others |
-//! | [`uncertainty`] | intervals and covariance |
+//! | [`uncertainty`] | intervals and covariance, how far rows repeat each other |
 
-pub(crate) mod autocorrelation;
 pub mod problem;
 pub mod search;
 #[cfg(test)]

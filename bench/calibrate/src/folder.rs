@@ -85,9 +85,6 @@ pub struct Folder<'a> {
 /// Fits every trace with `fit`, one on each core at a time, writes and prints what they tell together.
 ///
 /// `fit` gives the calibration of a trace, and what it adds to the population.
-///
-/// # Errors
-/// Folders and files that cannot be read or written; no trace that tells anything.
 pub fn run(
     folder: &Folder<'_>,
     fit: impl Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync,

@@ -134,9 +134,6 @@ impl Law {
     }
 
     /// The law at these parameters, at rest before it ever moved.
-    ///
-    /// # Errors
-    /// [`Error`] naming a parameter that the crate refuses.
     pub fn friction(&self, scales: &Scales, values: &[f64]) -> Result<Friction, Error> {
         let mut values = values.iter().copied();
         let mut next = |has: bool, without: f64| {

@@ -64,9 +64,6 @@ pub struct Entry<'a> {
 }
 
 /// Fits a model, and scores it on what was not fitted.
-///
-/// # Errors
-/// Why there is no fit.
 pub fn score(entry: &Entry<'_>) -> Result<(ModelScore, Found), Failure> {
     let count = entry.fitted.target().len();
     let border = (FITTED * count as f64) as usize;

@@ -14,7 +14,7 @@ pub(crate) mod truth;
 use std::f64::consts::TAU;
 
 use crate::answer::{Calibration, Estimate, ModelScore};
-use crate::experiment::manoeuvre::Manoeuvre;
+use crate::experiment::manoeuvre::{MANOEUVRES, Manoeuvre};
 use crate::page::picture::{Correlations, Picture};
 use crate::page::shown::{chart, digits, number, table};
 use crate::page::truth::Truth;
@@ -363,16 +363,15 @@ fn correlations(correlations: &Correlations) -> Table {
 }
 
 fn manoeuvres() -> Table {
-    let row = |manoeuvre: Manoeuvre| {
-        let [name, how, identifies] = manoeuvre.words();
-        let identifies = identifies.replace(' ', ", ");
-        vec![name.into(), how.into(), identifies.into()]
+    let row = |of: Manoeuvre| {
+        let identifies = of.identifies.replace(' ', ", ");
+        vec![of.name.into(), of.how.into(), identifies.into()]
     };
     table(
         "manoeuvres",
         "What each manoeuvre identifies: a parameter stands with the two whose 95 % intervals are narrowest on a rack-assist gear",
         "manoeuvre | how | identifies",
-        Manoeuvre::ALL.into_iter().map(row),
+        MANOEUVRES.into_iter().map(row),
     )
 }
 

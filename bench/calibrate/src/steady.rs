@@ -49,9 +49,6 @@ const LOOKED_AT: usize = 16;
 
 /// What the traces of a folder tell together, read by `read`, where some of them are runs at one speed; `None` where none of the first
 /// sixteen is.
-///
-/// # Errors
-/// A folder that cannot be read, and runs from which nothing can be told.
 pub fn of_folder(
     folder: &Path,
     read: impl Fn(&Path) -> Result<Trace, Failure>,
@@ -90,9 +87,6 @@ fn steady(records: &[Record]) -> bool {
 }
 
 /// What traces tell together, where some of them are runs at one speed; `None` where they are not.
-///
-/// # Errors
-/// Traces of two coordinates, and runs from which nothing can be told.
 pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
     let records = records(traces);
     if !steady(&records) {

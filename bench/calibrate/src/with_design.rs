@@ -20,9 +20,6 @@ pub struct Told {
 }
 
 /// Calibrates a trace of a screw, with models of friction beside each other.
-///
-/// # Errors
-/// A trace or a request from which nothing can be told.
 pub fn told(trace: &Trace, design: &Design, request: &Request) -> Result<Told, Failure> {
     let found = calibrate(trace, design, request)?;
     Ok(Told {
@@ -33,9 +30,6 @@ pub fn told(trace: &Trace, design: &Design, request: &Request) -> Result<Told, F
 }
 
 /// One trace of many, with its sums about a reference that is the same for all.
-///
-/// # Errors
-/// A trace or a request from which nothing can be told.
 pub fn summed(
     trace: &Trace,
     design: &Design,

@@ -27,7 +27,7 @@ use crate::folder::answered::Answered;
 use crate::folder::population::HALF_INTERVAL;
 use crate::page::picture::Picture;
 use crate::page::shown::digits;
-use crate::trace::known::KnownEffort;
+use crate::trace::KnownEffort;
 use crate::trace::{Coordinate, Trace};
 use crate::without_design::controller::SeenController;
 use crate::without_design::drive::Drive;
@@ -48,9 +48,6 @@ pub struct Told {
 
 /// Fits what a trace can tell without a design: a mass or an inertia with friction, losses in proportion to a load where one is measured,
 /// and models of friction beside each other, scored on another trace or on the last third of this one.
-///
-/// # Errors
-/// A trace from which nothing can be told, with the cause.
 pub fn calibrate(
     trace: &Trace,
     unseen: Option<&Trace>,
@@ -119,9 +116,6 @@ pub fn largest(values: &[f64]) -> f64 {
 
 /// One trace of many, and what it adds to the others: numbers of the drive itself, without the gain of a load's channel and the friction at
 /// one speed.
-///
-/// # Errors
-/// A trace from which nothing can be told, with the cause.
 pub fn plain(trace: &Trace) -> Result<(Calibration, Answered), Failure> {
     let trace = &*placed(trace);
     let record = record(trace);

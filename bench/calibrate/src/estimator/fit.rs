@@ -266,6 +266,6 @@ fn jackknife(
 }
 
 /// Student's quantile of a 95 % interval, for 1 degree of freedom or more.
-fn quantile(freedom: f64) -> f64 {
+pub fn quantile(freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(f64::INFINITY, |t| t.inverse_cdf(UPPER))
 }

@@ -55,9 +55,6 @@ pub struct Diagnosis {
 }
 
 /// What a record tells, and what is in it beside the equation.
-///
-/// # Errors
-/// Why the trace is refused: what is wrong with it.
 pub fn diagnose(record: &Record, trace: &Trace) -> Result<Diagnosis, String> {
     let mut look = Look::at(record, trace);
     let Some(found) = look.screened()? else {
@@ -67,9 +64,6 @@ pub fn diagnose(record: &Record, trace: &Trace) -> Result<Diagnosis, String> {
 }
 
 /// What is wrong with a trace whose friction has another equation, and how late a channel is.
-///
-/// # Errors
-/// Why the trace is refused.
 pub fn wrong(record: &Record, trace: &Trace) -> Result<Option<String>, String> {
     let look = Look::at(record, trace);
     let Some(found) = look.screened()? else {

@@ -63,17 +63,11 @@ impl Found {
 }
 
 /// Fits a problem from its start.
-///
-/// # Errors
-/// Fewer rows than parameters, bounds that hold no start, a model that is not finite there.
 pub fn fit(problem: &dyn Separable) -> Result<Found, Failure> {
     descend(problem, TOLERANCE)
 }
 
 /// The same until another step changes little: enough to see which valley a start lies in.
-///
-/// # Errors
-/// Those of [`fit`].
 pub fn fit_roughly(problem: &dyn Separable) -> Result<Found, Failure> {
     descend(problem, ROUGH)
 }
@@ -130,20 +124,6 @@ pub fn slopes(problem: &dyn Separable, nonlinear: &[f64], linear: &[f64]) -> Vec
     let mut all: Vec<Vec<f64>> = (0..nonlinear.len()).into_par_iter().map(slope).collect();
     all.extend(problem.evaluate(nonlinear).columns);
     all
-}
-
-/// The same at the nonlinear parameters' starts, as a matrix; and the best linear parameters there.
-///
-/// # Errors
-/// As [`fit`].
-pub fn slopes_at_start(problem: &dyn Separable) -> Result<(DMatrix<f64>, Vec<f64>), Failure> {
-    check(problem)?;
-    let start: Vec<f64> = problem.nonlinear().iter().map(|of| of.start).collect();
-    let (linear, _) = projected(problem, &start);
-    let columns = slopes(problem, &start, &linear);
-    let all = columns.iter().flatten().copied();
-    let matrix = DMatrix::from_iterator(problem.target().len(), columns.len(), all);
-    Ok((matrix, linear))
 }
 
 fn check(problem: &dyn Separable) -> Result<(), Failure> {
@@ -271,7 +251,7 @@ impl Point {
 }
 
 /// Best linear parameters, and what they leave of the target.
-fn projected(problem: &dyn Separable, nonlinear: &[f64]) -> (Vec<f64>, DVector<f64>) {
+pub(crate) fn projected(problem: &dyn Separable, nonlinear: &[f64]) -> (Vec<f64>, DVector<f64>) {
     let Evaluation { fixed, columns } = problem.evaluate(nonlinear);
     let target = problem.target().iter().zip(&fixed);
     let mut left: DVector<f64> =

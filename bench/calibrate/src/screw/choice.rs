@@ -83,9 +83,6 @@ pub struct Start {
 
 impl Start {
     /// From a design, for a trace.
-    ///
-    /// # Errors
-    /// A trace that cannot tell anything.
     pub fn of(design: &Design, evidence: &Evidence, wanted: &Wanted) -> Result<Self, Failure> {
         let (mut screw, mut values) = begin(design, evidence, wanted)?;
         for (name, value) in &wanted.fix {
@@ -142,9 +139,6 @@ fn unknown(name: &str) -> Failure {
 }
 
 /// Whether a request names what there is.
-///
-/// # Errors
-/// A name that is unknown or stands twice, a value that is no number.
 pub fn check_names(wanted: &Wanted) -> Result<(), Failure> {
     for name in wanted.estimate.iter().flatten() {
         if !known(name) && name != HARMONICS {

@@ -50,7 +50,7 @@ pub fn models(
     let side = |prepared| -> Side<'_> {
         let rows = Prepared::rows_over_turns(prepared, told.window, true);
         Side {
-            problem: prepared.remembered(rows, (&told.values, &told.choice), &told.grid),
+            problem: prepared.remembered(rows, told.known()),
             prepared,
             told,
         }

@@ -198,9 +198,6 @@ fn friction_place(friction: f64, logarithm: f64) -> f64 {
 
 impl Grid {
     /// That of a design under axial loads up to a largest one, N.
-    ///
-    /// # Errors
-    /// What the reference refuses of the design.
     pub fn of(
         caged: &CagedDesign,
         largest_load: f64,
@@ -244,9 +241,6 @@ impl Grid {
     }
 
     /// The law of a design with another friction coefficient, fit or rolling resistance, for friction coefficients between two.
-    ///
-    /// # Errors
-    /// What the reference refuses of it, or a balance that it does not find.
     pub fn law(
         &self,
         caged: &CagedDesign,

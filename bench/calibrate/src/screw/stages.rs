@@ -7,15 +7,12 @@
 //! `sqrt(h^2 + (2 |q(L) - q(2L)|)^2 + (2 |q(m) - q(2m)|)^2)`.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::choice::Start;
-use super::exact::Grid;
 use super::friction::Screw;
-use super::problem::{Choice, Passage, ScrewProblem};
-use super::quantities::{QUANTITIES, Quantity, Values, assumed_deviation};
+use super::problem::{Choice, Known, Passage, ScrewProblem};
+use super::quantities::{QUANTITIES, Values, assumed_deviation};
 use crate::estimator::fit::{Block, Fit, fit as least_squares, solver};
 use crate::estimator::record::{QUARTER, Record};
 use crate::estimator::rows::Rows;
@@ -114,23 +111,10 @@ impl<'a> Prepared<'a> {
         (!rows.is_empty()).then_some(rows)
     }
 
-    fn sliding(
-        &self,
-        window: Window,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Option<ScrewProblem<'_>> {
-        let measured = (self.trace, &self.record, self.rows(window)?);
-        let enough = 3 * (choice.nonlinear.len() + choice.linear.len());
-        (measured.2.len() > enough).then(|| {
-            ScrewProblem::new(
-                &self.screw,
-                measured,
-                Passage::Sliding,
-                (values, choice),
-                grid,
-            )
-        })
+    fn sliding(&self, window: Window, at: Known<'_>) -> Option<ScrewProblem<'_>> {
+        let rows = self.rows(window)?;
+        let enough = 3 * (at.choice.nonlinear.len() + at.choice.linear.len());
+        (rows.len() > enough).then(|| ScrewProblem::new(self, rows, Passage::Sliding, at))
     }
 
     /// The window of the first fit: the shortest kernel whose rows cover half as much as those of any; a shorter way where the strokes are
@@ -158,21 +142,16 @@ impl<'a> Prepared<'a> {
         ))
     }
 
-    pub fn best_window(
-        &self,
-        first: Window,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Window {
-        let at = |half: f64| {
+    pub fn best_window(&self, first: Window, at: Known<'_>) -> Window {
+        let fitted = |half: f64| {
             let window = Window {
                 half: self.half(half),
                 ..first
             };
-            let problem = self.sliding(window, (values, choice), grid)?;
-            Some((window, linearised(&problem, values)?.fit))
+            let problem = self.sliding(window, at)?;
+            Some((window, linearised(&problem, at.values)?.fit))
         };
-        let tried: Vec<_> = HALF_WIDTHS.into_iter().filter_map(at).collect();
+        let tried: Vec<_> = HALF_WIDTHS.into_iter().filter_map(fitted).collect();
         let score = |place: usize| -> f64 {
             let (_, fit) = &tried[place];
             let other = tried.get(place + 1).unwrap_or(&tried[place.max(1) - 1]);
@@ -187,15 +166,10 @@ impl<'a> Prepared<'a> {
     }
 
     /// Values of a first look, and the way after a turn by the breakaway angle that it finds, on rows after a way by its first guess.
-    pub fn first_way(
-        &self,
-        (start, at_turns): (&Start, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Result<(Window, Values), Failure> {
-        let guess = start.values.breakaway_angle.max(self.trace.resolution);
+    pub fn first_way(&self, at: Known<'_>, at_turns: &Choice) -> Result<(Window, Values), Failure> {
+        let guess = at.values.breakaway_angle.max(self.trace.resolution);
         let window = self.first_window(guess)?;
-        let problem = self.sliding(window, (&start.values, &start.choice), grid);
-        let problem = problem.ok_or_else(few)?;
+        let problem = self.sliding(window, at).ok_or_else(few)?;
         let found = fit_roughly(&problem)?;
         let values = problem.values(&found.nonlinear, &found.linear);
         let mut asked = at_turns.nonlinear.iter();
@@ -203,7 +177,12 @@ impl<'a> Prepared<'a> {
             return Ok((window, values));
         }
         let rows = self.rows_over_turns(window, false);
-        let Ok((problem, found)) = self.turn_fit(rows, (&values, at_turns), grid) else {
+        let turns = Known {
+            values: &values,
+            choice: at_turns,
+            ..at
+        };
+        let Ok((problem, found)) = self.turn_fit(rows, turns) else {
             return Ok((window, values));
         };
         let breakaway = problem
@@ -216,17 +195,16 @@ impl<'a> Prepared<'a> {
     pub fn first_fit(
         &self,
         window: Window,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
+        at: Known<'_>,
     ) -> Result<(Values, Vec<Range<usize>>), Failure> {
         let mut best: Option<(Found, Values, Rows)> = None;
-        let speed = choice.nonlinear.iter();
+        let speed = at.choice.nonlinear.iter();
         let speed = speed.filter(|(of, _)| of.name == "half_share_speed");
         let starts = if speed.count() > 0 { 3 } else { 1 };
         for factor in &STARTS[..starts] {
-            let mut values = *values;
+            let mut values = *at.values;
             values.half_share_speed *= factor;
-            let problem = self.sliding(window, (&values, choice), grid);
+            let problem = self.sliding(window, at.with(&values));
             let problem = problem.ok_or_else(few)?;
             let found = fit_roughly(&problem)?;
             let better = |best: &(Found, Values, Rows)| found.cost() < best.0.cost();
@@ -252,15 +230,14 @@ impl<'a> Prepared<'a> {
     pub fn slid(
         &self,
         window: Window,
-        (values, choice): (&Values, &Choice),
+        at: Known<'_>,
         set: &[(String, f64)],
-        grid: &Arc<Grid>,
     ) -> Result<Sliding, Failure> {
-        let problem = self.sliding(window, (values, choice), grid);
-        let problem = problem.ok_or_else(few)?;
+        let problem = self.sliding(window, at).ok_or_else(few)?;
         let found = fit(&problem)?;
         let values = problem.values(&found.nonlinear, &found.linear);
-        if choice.nonlinear.is_empty() && choice.linear.is_empty() {
+        let at = at.with(&values);
+        if at.choice.nonlinear.is_empty() && at.choice.linear.is_empty() {
             return Ok(Sliding {
                 values,
                 intervals: Vec::new(),
@@ -270,7 +247,7 @@ impl<'a> Prepared<'a> {
             });
         }
         let other = |window: Window| {
-            let problem = self.sliding(window, (&values, choice), grid)?;
+            let problem = self.sliding(window, at)?;
             Some(linearised(&problem, &values)?.fit.values)
         };
         let here = linearised(&problem, &values).ok_or_else(few)?;
@@ -282,7 +259,7 @@ impl<'a> Prepared<'a> {
             way: 2.0 * window.way,
             ..window
         });
-        let model = model_errors(&problem, &here, &values, (choice, set));
+        let model = model_errors(&problem, &here, at, set);
         let mut intervals = intervals(&problem, &found);
         let mut covariance = here.fit.covariance.clone();
         let deviation = |k: usize| here.fit.covariance[(k, k)].max(f64::MIN_POSITIVE).sqrt();
@@ -371,42 +348,25 @@ impl<'a> Prepared<'a> {
     }
 
     /// A problem with the memory stepped along the whole trace.
-    pub fn remembered(
-        &self,
-        rows: Rows,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> ScrewProblem<'_> {
-        let measured = (self.trace, &self.record, rows);
-        ScrewProblem::new(
-            &self.screw,
-            measured,
-            Passage::Remembered,
-            (values, choice),
-            grid,
-        )
+    pub fn remembered(&self, rows: Rows, at: Known<'_>) -> ScrewProblem<'_> {
+        ScrewProblem::new(self, rows, Passage::Remembered, at)
     }
 
     /// A fit over turns, from the breakaway angle near the first guess that leaves least.
-    fn turn_fit(
-        &self,
-        rows: Rows,
-        (values, at_turns): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Result<(ScrewProblem<'_>, Found), Failure> {
-        let problem = self.remembered(rows.clone(), (values, at_turns), grid);
-        let at = |factor: f64| {
-            let mut values = *values;
+    fn turn_fit(&self, rows: Rows, at: Known<'_>) -> Result<(ScrewProblem<'_>, Found), Failure> {
+        let problem = self.remembered(rows.clone(), at);
+        let tried = |factor: f64| {
+            let mut values = *at.values;
             values.breakaway_angle *= factor;
-            let values = problem.values(&nonlinear(at_turns, &values), &[]);
+            let values = problem.values(&problem.coordinates(&values).0, &[]);
             let rows = problem.model(&values).into_iter().zip(problem.target());
             let cost: f64 = rows.map(|(model, target)| (model - target).powi(2)).sum();
             (cost, values)
         };
-        let starts = BREAKAWAYS.into_iter().map(at);
+        let starts = BREAKAWAYS.into_iter().map(tried);
         let best = starts.min_by(|one, other| one.0.total_cmp(&other.0));
-        let start = best.map_or(*values, |(_, start)| start);
-        let problem = self.remembered(rows, (&start, at_turns), grid);
+        let start = best.map_or(*at.values, |(_, start)| start);
+        let problem = self.remembered(rows, at.with(&start));
         let found = fit(&problem)?;
         Ok((problem, found))
     }
@@ -416,34 +376,35 @@ impl<'a> Prepared<'a> {
         &self,
         window: Window,
         sliding: &Sliding,
-        (at_turns, choice): (&Choice, &Choice),
-        grid: &Arc<Grid>,
+        at_turns: &Choice,
+        at: Known<'_>,
     ) -> Result<Option<Vec<Interval>>, Failure> {
-        let at = |half: usize| {
+        let over = |half: usize| {
             let rows = self.rows_over_turns(Window { half, ..window }, false);
             let mut turns = rows.stretches.clone();
             turns.dedup();
             (turns.len() >= FEWEST_TURNS).then_some(rows)
         };
-        let Some(rows) = at(window.half) else {
+        let Some(rows) = over(window.half) else {
             return Ok(None);
         };
-        let (problem, found) = self.turn_fit(rows.clone(), (&sliding.values, at_turns), grid)?;
+        let turns = Known {
+            choice: at_turns,
+            ..at
+        };
+        let (problem, found) = self.turn_fit(rows.clone(), turns)?;
         let values = problem.values(&found.nonlinear, &found.linear);
         let Some(here) = linearised(&problem, &values) else {
             return Ok(None);
         };
-        let longer = at(2 * window.half).and_then(|rows| {
-            let problem = self.remembered(rows, (&values, at_turns), grid);
+        let longer = over(2 * window.half).and_then(|rows| {
+            let problem = self.remembered(rows, turns.with(&values));
             Some(linearised(&problem, &values)?.fit.values)
         });
         // What an error of the first stage makes of the second.
-        let whole = self.remembered(rows, (&values, choice), grid);
-        let others = slopes(
-            &whole,
-            &nonlinear(choice, &values),
-            &linear(choice, &values),
-        );
+        let whole = self.remembered(rows, at.with(&values));
+        let (nonlinear, linear) = whole.coordinates(&values);
+        let others = slopes(&whole, &nonlinear, &linear);
         let pull = solver(&here.columns).filter(|_| !others.is_empty());
         let pull = pull.map(|solver| {
             let moved: Vec<DVector<f64>> = others.iter().map(|rows| solver(rows)).collect();
@@ -474,24 +435,9 @@ fn few() -> Failure {
     Failure::Data("too few rows of one direction for what is estimated: measure longer, or with longer strokes".into())
 }
 
-/// Values of the nonlinear quantities of a choice.
-fn nonlinear(choice: &Choice, values: &Values) -> Vec<f64> {
-    choice
-        .nonlinear
-        .iter()
-        .map(|(_, of)| of.value(values))
-        .collect()
-}
-
-fn linear(choice: &Choice, values: &Values) -> Vec<f64> {
-    choice.linear.iter().map(|of| of.value(values)).collect()
-}
-
 /// A problem linearised at values. `None` where a slope is no number.
 pub fn linearised(problem: &ScrewProblem<'_>, values: &Values) -> Option<Linearised> {
-    let at = |name: &str| Quantity::named(name).map_or(0.0, |of| of.value(values));
-    let nonlinear: Vec<f64> = problem.nonlinear().iter().map(|of| at(of.name)).collect();
-    let linear: Vec<f64> = problem.linear().iter().map(|of| at(of.name)).collect();
+    let (nonlinear, linear) = problem.coordinates(values);
     let columns = slopes(problem, &nonlinear, &linear);
     if columns.is_empty() || columns.iter().flatten().any(|slope| !slope.is_finite()) {
         return None;
@@ -549,9 +495,10 @@ fn condition(columns: &[Vec<f64>]) -> (f64, Vec<f64>) {
 fn model_errors(
     problem: &ScrewProblem<'_>,
     here: &Linearised,
-    values: &Values,
-    (choice, set): (&Choice, &[(String, f64)]),
+    at: Known<'_>,
+    set: &[(String, f64)],
 ) -> Vec<f64> {
+    let values = at.values;
     let count = here.columns.len();
     let Some(solver) = solver(&here.columns) else {
         return vec![0.0; count];
@@ -567,18 +514,18 @@ fn model_errors(
         add(&off);
     }
     let known = |name: &str| {
-        choice.nonlinear.iter().any(|(of, _)| of.name == name)
+        at.choice.nonlinear.iter().any(|(of, _)| of.name == name)
             || set.iter().any(|(set, _)| set == name)
     };
     for of in QUANTITIES.iter().filter(|of| !known(of.name)) {
         let Some(deviation) = assumed_deviation(of.name) else {
             continue;
         };
-        let at = |side: f64| {
+        let beside = |side: f64| {
             let value = of.value(values) + side * ASSUMED_STEP * deviation;
             problem.model(&of.with(value, values))
         };
-        let rows = at(1.0).into_iter().zip(at(-1.0));
+        let rows = beside(1.0).into_iter().zip(beside(-1.0));
         let off: Vec<f64> = rows
             .map(|(above, below)| (above - below) / (2.0 * ASSUMED_STEP))
             .collect();

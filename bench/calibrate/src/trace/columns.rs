@@ -25,8 +25,8 @@ use epas_traces::source::Source;
 use epas_traces::table::{self, Column, Request, Table};
 use epas_traces::units::{self, Dimension, Part, Quantity};
 
+use crate::trace::KnownEffort;
 use crate::trace::free_load;
-use crate::trace::known::KnownEffort;
 use crate::trace::{Coordinate, Origins, Repairs, Trace};
 
 /// Temperatures that a screw can have, K.
@@ -152,9 +152,6 @@ impl Frame {
 }
 
 /// Reads a trace from a file: a table, or a measurement file with the channels of a mapping or those that have a column's name.
-///
-/// # Errors
-/// A file that cannot be read, or what is wrong with it.
 pub fn read(
     source: &Source<'_>,
     frame: Option<&Frame>,
@@ -172,9 +169,6 @@ pub fn read(
 }
 
 /// Reads a trace from a measurement file.
-///
-/// # Errors
-/// What is wrong with it.
 pub fn measured(
     input: impl Read,
     name: &str,
@@ -212,9 +206,6 @@ pub fn measured(
 }
 
 /// Reads a trace from a table.
-///
-/// # Errors
-/// What is wrong with it, with the line where there is one.
 pub fn from_reader(
     input: impl Read + Seek,
     name: &str,

@@ -4,8 +4,8 @@ use std::collections::VecDeque;
 
 use crate::estimator::fit::rms;
 use crate::mechanism::Mechanism;
+use crate::trace::KnownEffort;
 use crate::trace::Trace;
-use crate::trace::known::KnownEffort;
 use crate::without_design::controller::SeenController;
 use crate::without_design::slide::SlideResistance;
 

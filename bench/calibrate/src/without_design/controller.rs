@@ -4,9 +4,9 @@ use crate::controller::Controller;
 use crate::estimator::fit::rms;
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::Record;
+use crate::trace::KnownEffort;
 use crate::trace::Trace;
 use crate::trace::channels::median;
-use crate::trace::known::KnownEffort;
 
 /// Where a controller has its speed from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -44,9 +44,6 @@ pub struct Numbers {
 
 impl Drive {
     /// What the scene is set up with.
-    ///
-    /// # Errors
-    /// What the trace does not tell, or tells as something that the scene cannot have.
     pub fn numbers(&self) -> Result<Numbers, Failure> {
         if self.coordinate != Coordinate::Rotation {
             return Err(Failure::Data(

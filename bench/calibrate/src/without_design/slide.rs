@@ -16,8 +16,8 @@ use crate::estimator::terms::Term;
 use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
 use crate::laws::{Friction, Law, Scales};
 use crate::mechanism::{Resistance, Step};
+use crate::trace::KnownEffort;
 use crate::trace::channels::range;
-use crate::trace::known::KnownEffort;
 use crate::trace::{Coordinate, Trace};
 
 /// Noise of the acceleration over its own root mean square that is let pass.
@@ -367,9 +367,6 @@ impl<'a> Slide<'a> {
     }
 
     /// What opposes the motion at a fit's parameters.
-    ///
-    /// # Errors
-    /// [`epas_friction::Error`] naming a parameter that the crate refuses.
     pub fn resistance(
         &self,
         nonlinear: &[f64],
