@@ -5,12 +5,11 @@ use serde::ser::{SerializeMap, Serializer};
 use crate::fit::uncertainty::Interval;
 
 /// A parameter's value with its interval.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct Estimate {
-    /// Name, as in a design file.
+    /// Name, as in a design file; in JSON the key.
+    #[serde(skip)]
     pub name: String,
-    /// Unit; empty for a pure number.
-    pub unit: &'static str,
     /// Value.
     pub value: f64,
     /// Low end of the 95 % interval; the value where it is fixed, not finite where nothing bounds it.
@@ -20,7 +19,10 @@ pub struct Estimate {
     /// Whether it was set instead of estimated.
     pub fixed: bool,
     /// Whether it ended at a bound of what is allowed: then it is no estimate, and is written nowhere.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub at_bound: bool,
+    /// Unit; empty for a pure number.
+    pub unit: &'static str,
 }
 
 impl Estimate {
@@ -37,6 +39,16 @@ impl Estimate {
         }
     }
 
+    /// A parameter that was estimated.
+    pub fn told(name: impl Into<String>, unit: &'static str, value: f64, half: f64) -> Self {
+        Self {
+            low: value - half,
+            high: value + half,
+            fixed: false,
+            ..Self::fixed(name, unit, value)
+        }
+    }
+
     /// Half of the interval.
     pub fn half_width(&self) -> f64 {
         0.5 * (self.high - self.low)
@@ -46,33 +58,12 @@ impl Estimate {
 impl From<&Interval> for Estimate {
     fn from(interval: &Interval) -> Self {
         Self {
-            name: interval.name.into(),
-            unit: interval.unit,
-            value: interval.value,
             low: interval.low,
             high: interval.high,
-            fixed: false,
             at_bound: interval.at_bound,
+            ..Self::told(interval.name, interval.unit, interval.value, 0.0)
         }
     }
-}
-
-/// What one parameter's entry holds; its name is the key.
-#[derive(serde::Serialize)]
-struct Entry {
-    value: f64,
-    low: f64,
-    high: f64,
-    fixed: bool,
-    #[serde(skip_serializing_if = "is_false")]
-    at_bound: bool,
-    unit: &'static str,
-}
-
-// As serde calls it.
-#[allow(clippy::trivially_copy_pass_by_ref)]
-fn is_false(value: &bool) -> bool {
-    !value
 }
 
 /// How a model of friction does on the trace.
@@ -108,7 +99,7 @@ pub struct ModelScore {
 }
 
 /// What a trace says.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 pub struct Calibration {
     /// Parameters, in the order in which they are told.
     #[serde(serialize_with = "by_name")]
@@ -145,15 +136,7 @@ impl Calibration {
 fn by_name<S: Serializer>(estimates: &[Estimate], serializer: S) -> Result<S::Ok, S::Error> {
     let mut map = serializer.serialize_map(Some(estimates.len()))?;
     for estimate in estimates {
-        let entry = Entry {
-            value: estimate.value,
-            low: estimate.low,
-            high: estimate.high,
-            fixed: estimate.fixed,
-            at_bound: estimate.at_bound,
-            unit: estimate.unit,
-        };
-        map.serialize_entry(&estimate.name, &entry)?;
+        map.serialize_entry(&estimate.name, estimate)?;
     }
     map.end()
 }
@@ -167,13 +150,8 @@ mod tests {
         let calibration = Calibration {
             parameters: vec![
                 Estimate {
-                    name: "mass".into(),
-                    unit: "kg",
-                    value: 95.0,
-                    low: 94.0,
                     high: f64::INFINITY,
-                    fixed: false,
-                    at_bound: false,
+                    ..Estimate::told("mass", "kg", 95.0, 1.0)
                 },
                 Estimate::fixed("friction", "", 0.1),
             ],
@@ -181,8 +159,7 @@ mod tests {
             relative_error: 0.04,
             effective_rows: 100.0,
             cannot_tell: vec!["No load.".into()],
-            models: Vec::new(),
-            winner: None,
+            ..Calibration::default()
         };
         let text = serde_json::to_string(&calibration).unwrap();
         let start = r#"{"parameters":{"mass":{"value":95.0,"low":94.0,"high":null,"fixed":false,"unit":"kg"},"friction":{"value":0.1,"low":0.1,"high":0.1,"fixed":true,"unit":""}},"residual_rms":1.5,"#;

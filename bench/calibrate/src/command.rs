@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::error::ErrorKind;
+
 use crate::answer::Calibration;
 use crate::controller::Controller;
 use crate::experiment;
@@ -20,6 +22,7 @@ use crate::without_design;
 use crate::without_design::controller::SeenController;
 use epas_design::files::{Design, DesignSource, text};
 use epas_page::aside::say;
+use epas_page::document::print_line;
 use epas_page::failure::Failure;
 use epas_page::files::refuse_shared;
 use epas_traces::mdf4::{self, Mapping};
@@ -64,16 +67,11 @@ pub struct Arguments {
     /// Rated torque of the motor, N m, where the trace has its torque in percent of it
     #[arg(long, value_name = "TORQUE", value_parser = rated_torque)]
     rated_torque: Option<f64>,
-    /// Parameters to estimate, by name [default: what the trace can tell]
-    #[arg(
-        long,
-        value_name = "NAME,...",
-        requires = "design",
-        value_delimiter = ','
-    )]
+    /// With --design: parameters of the screw to estimate, by the names of the answer [default: what the trace can tell]
+    #[arg(long, value_name = "NAME,...", value_delimiter = ',')]
     estimate: Option<Vec<String>>,
-    /// Parameters to set
-    #[arg(long, value_name = "NAME=VALUE,...", requires = "design", value_delimiter = ',', value_parser = setting)]
+    /// With --design: parameters of the screw to set instead, as friction=0.1; without one all that the trace tells is estimated
+    #[arg(long, value_name = "NAME=VALUE,...", value_delimiter = ',', value_parser = setting)]
     fix: Vec<(String, f64)>,
     /// Tell which manoeuvre would tell this parameter best, without a trace
     #[arg(
@@ -104,23 +102,19 @@ pub struct Arguments {
     folder: FolderArguments,
 }
 
-/// A ratio of a gear.
+fn within(text: &str, name: &str, range: std::ops::RangeInclusive<f64>) -> Result<f64, String> {
+    let value = text.parse().ok().filter(|value| range.contains(value));
+    value.ok_or_else(|| format!("{name} is {} to {}", range.start(), range.end()))
+}
+
 fn ratio(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (0.01..=1000.0).contains(&value) => Ok(value),
-        _ => Err("a ratio is 0.01 to 1000".into()),
-    }
+    within(text, "a ratio", 0.01..=1000.0)
 }
 
-/// A rated torque, N m.
 fn rated_torque(text: &str) -> Result<f64, String> {
-    match text.parse::<f64>() {
-        Ok(value) if (1e-6..=1e6).contains(&value) => Ok(value),
-        _ => Err("a rated torque is 1e-6 to 1e6 N m".into()),
-    }
+    within(text, "a rated torque in N m", 1e-6..=1e6)
 }
 
-/// The name of a parameter.
 fn parameter(text: &str) -> Result<String, String> {
     if names().any(|name| name == text) {
         return Ok(text.into());
@@ -129,7 +123,6 @@ fn parameter(text: &str) -> Result<String, String> {
     Err(format!("allowed: {}", known.join(", ")))
 }
 
-/// A parameter's name with its value.
 fn setting(text: &str) -> Result<(String, f64), String> {
     let (name, value) = text.split_once('=').ok_or("expected NAME=VALUE")?;
     let number: f64 = value
@@ -144,6 +137,7 @@ fn setting(text: &str) -> Result<(String, f64), String> {
 
 /// Calibrates a trace, or the traces of a folder.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
+    arguments.with_a_design();
     let file = arguments.design.as_ref().and_then(DesignSource::file);
     refuse_shared([
         file,
@@ -196,11 +190,25 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 impl Arguments {
+    /// Ends the program where parameters of a screw are named without its design.
+    fn with_a_design(&self) {
+        let of_design = [
+            ("--estimate", self.estimate.is_some()),
+            ("--fix", !self.fix.is_empty()),
+        ];
+        let needless = of_design.iter().find(|(_, given)| *given);
+        if let (Some((name, _)), None) = (needless, &self.design) {
+            let word = format!(
+                "{name} names parameters of a screw: give its design (--design NAME|FILE.toml); without one a drive's inertia, friction and losses are all estimated, and none is set\n"
+            );
+            clap::Error::raw(ErrorKind::MissingRequiredArgument, word).exit();
+        }
+    }
+
     /// Refuses options that a folder, or that one trace, has no use for.
     fn fits(&self, folder: bool) -> Result<(), Failure> {
         let of_one_trace = [
             ("--design-out", self.outputs.design_out.is_some()),
-            ("--constants", self.outputs.constants.is_some()),
             ("--validate", self.validate.is_some()),
             ("--controller", self.controller.is_some()),
         ];
@@ -280,7 +288,6 @@ fn with_design(
     })
 }
 
-/// A trace without a design.
 fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Result<(), Failure> {
     let truth = truth::of(trace);
     let frame = arguments.frame(None);
@@ -314,7 +321,6 @@ fn tell(seen: &SeenController, coordinate: Coordinate) {
     ));
 }
 
-/// Every trace of a folder.
 fn whole_folder(
     arguments: &Arguments,
     traces: &Path,
@@ -335,11 +341,17 @@ fn whole_folder(
         let document = page::of_runs(&steady, &name);
         epas_page::folder::mark(&output)?;
         document.write(&output)?;
-        return if arguments.outputs.json {
-            print_json(&steady.answer)
-        } else {
-            document.print(&output)
-        };
+        let wrote = arguments.outputs.write_drive(&steady.drive, &name)?;
+        if arguments.outputs.json {
+            return print_json(&steady.answer);
+        }
+        document.print(&output)?;
+        return wrote.iter().try_for_each(|line| print_line(line));
+    }
+    if arguments.outputs.constants.is_some() {
+        return Err(Failure::Data(
+            "--constants is for one trace, or without a design for a folder of runs at one speed each; of traces with reversals give the one that stands for the others".into(),
+        ));
     }
     let mut settings = format!(
         "{} {:?} {:?} {:?} {:?}",
@@ -362,7 +374,6 @@ fn whole_folder(
     folder::run(&folder, |path| one(arguments, design, mapping, path))
 }
 
-/// A trace of a folder.
 fn read(
     arguments: &Arguments,
     design: Option<&Design>,

@@ -15,40 +15,37 @@ impl FromStr for Controller {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (mut position, mut speed) = (None, None);
+        let mut gains = [None; 2];
         for part in text.split(',') {
             let (name, value) = part
                 .split_once('=')
                 .ok_or_else(|| format!("{part}: expected gain_position=P,gain_speed=V"))?;
-            let value: f64 = value
-                .trim()
-                .parse()
-                .map_err(|_| format!("{}: {value} is no number", name.trim()))?;
-            if !(value.is_finite() && value > 0.0) {
-                return Err(format!(
-                    "{} = {value} is out of range; allowed: above 0",
-                    name.trim()
-                ));
-            }
-            let place = match name.trim() {
-                "gain_position" => &mut position,
-                "gain_speed" => &mut speed,
-                other => {
-                    return Err(format!(
-                        "{other} is no gain of the controller; it has gain_position and gain_speed"
-                    ));
-                }
-            };
-            if place.replace(value).is_some() {
-                return Err(format!("{} is given twice", name.trim()));
+            let (name, value) = (name.trim(), value.trim());
+            let place = NAMES
+                .iter()
+                .position(|known| *known == name)
+                .ok_or_else(|| {
+                    format!(
+                        "{name} is no gain of the controller; it has gain_position and gain_speed"
+                    )
+                })?;
+            let number = value.parse().ok().filter(|number: &f64| number.is_finite());
+            let number = number
+                .filter(|number| *number > 0.0)
+                .ok_or_else(|| format!("{name} = {value} is out of range; allowed: above 0"))?;
+            if gains[place].replace(number).is_some() {
+                return Err(format!("{name} is given twice"));
             }
         }
+        let of = |place: usize| gains[place].ok_or(format!("{} is missing", NAMES[place]));
         Ok(Self {
-            gain_position: position.ok_or("gain_position is missing")?,
-            gain_speed: speed.ok_or("gain_speed is missing")?,
+            gain_position: of(0)?,
+            gain_speed: of(1)?,
         })
     }
 }
+
+const NAMES: [&str; 2] = ["gain_position", "gain_speed"];
 
 impl Controller {
     /// Effort it asks for, N or N m.
@@ -73,7 +70,7 @@ mod tests {
             ("gain_position=-1,gain_speed=1", "gain_position"),
             ("gain_position=1,gain_position=1", "twice"),
             ("gain=1,gain_speed=1", "gain is no gain"),
-            ("gain_position=x,gain_speed=1", "no number"),
+            ("gain_position=x,gain_speed=1", "above 0"),
         ] {
             let error = text.parse::<Controller>().unwrap_err();
             assert!(error.contains(word), "{text}: {error}");

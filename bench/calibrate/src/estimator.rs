@@ -22,14 +22,14 @@
 //! | [`words`] | what is wrong with a trace, or in it and not in the equation |
 //! | [`choice`] | length of the kernel and way after a turn |
 
-pub mod choice;
-pub mod fit;
+pub(crate) mod choice;
+pub(crate) mod fit;
 pub mod kernel;
 pub mod record;
 pub mod rows;
-pub mod stretches;
-pub mod terms;
-pub mod words;
+pub(crate) mod stretches;
+pub(crate) mod terms;
+pub(crate) mod words;
 
 #[cfg(test)]
 mod drives;

@@ -10,13 +10,15 @@ use std::io::{self, Write};
 
 use nalgebra::DMatrix;
 
+use crate::estimator::fit::dot;
 use crate::estimator::record::Smoothed;
-use crate::experiment::manoeuvre::{Manoeuvre, Reach};
+use crate::experiment::manoeuvre::{MANOEUVRES, Manoeuvre, Reach};
 use crate::fit::problem::{Scale, Separable, inner, outer};
-use crate::fit::search::slopes_at_start;
+use crate::fit::search::{projected, slopes};
 use crate::screw::choice::{Start, Wanted};
 use crate::screw::evidence::Evidence;
 use crate::screw::exact::Spacing;
+use crate::screw::problem::Known;
 use crate::screw::stages::{Prepared, Window};
 use epas_design::files::Design;
 use epas_page::failure::Failure;
@@ -37,7 +39,6 @@ const WINDOW: Window = Window { half: 17, way: 0.0 };
 /// Tick of the manoeuvres, s.
 const STEP: f64 = 1e-3;
 
-/// What one manoeuvre says.
 struct Said {
     manoeuvre: Manoeuvre,
     names: Vec<&'static str>,
@@ -54,7 +55,9 @@ struct Said {
 impl Said {
     /// What a manoeuvre's problem says of the wanted parameter; all manoeuvres have the same parameters.
     fn of(wanted: &str, manoeuvre: Manoeuvre, problem: &dyn Separable) -> Result<Self, Failure> {
-        let (jacobian, linear) = slopes_at_start(problem)?;
+        let start: Vec<f64> = problem.nonlinear().iter().map(|of| of.start).collect();
+        let (linear, _) = projected(problem, &start);
+        let slopes = slopes(problem, &start, &linear);
         let nonlinear = problem.nonlinear().iter();
         let nonlinear = nonlinear.map(|own| (own.name, own.scale, [own.low, own.high], own.start));
         let linear = problem.linear().iter().zip(linear);
@@ -63,7 +66,8 @@ impl Said {
         let all: Vec<_> = nonlinear.chain(linear).collect();
         let place = all.iter().position(|(name, ..)| *name == wanted);
         let place = place.ok_or_else(|| Failure::Data(format!("{wanted}: no such parameter")))?;
-        let rows = jacobian.tr_mul(&jacobian) / (NOISE * NOISE);
+        let information = |i: usize, j: usize| dot(&slopes[i], &slopes[j]) / (NOISE * NOISE);
+        let rows = DMatrix::from_fn(all.len(), all.len(), information);
         let mut own = rows.clone();
         for (k, (_, scale, [low, high], _)) in all.iter().enumerate() {
             let range = inner(*scale, *high) - inner(*scale, *low);
@@ -119,7 +123,8 @@ impl Said {
 
     /// The other manoeuvre that helps most, and the half width with both.
     fn companion(&self, all: &[Self]) -> Option<(Manoeuvre, f64)> {
-        let others = all.iter().filter(|other| other.manoeuvre != self.manoeuvre);
+        let own = self.manoeuvre.name;
+        let others = all.iter().filter(|other| other.manoeuvre.name != own);
         let both =
             others.map(|other| (other.manoeuvre, self.half_width(&(&self.own + &other.rows))));
         both.min_by(|a, b| a.1.total_cmp(&b.1))
@@ -158,11 +163,10 @@ fn said(
     let grid = screw.grid(&values, Spacing::FINE)?;
     let prepared = Prepared::new(trace, &[], screw);
     let rows = prepared.rows_over_turns(WINDOW, true);
-    let problem = prepared.remembered(rows, (&values, &choice), &grid);
+    let problem = prepared.remembered(rows, Known::of(&values, &choice, &grid));
     Said::of(name, manoeuvre, &problem)
 }
 
-/// Prints the manoeuvres, the best first.
 pub fn tell(design: &Design, name: &str) -> Result<(), Failure> {
     let reach = Reach::of(design);
     print(
@@ -180,7 +184,7 @@ fn ranked(design: &Design, name: &str, reach: &Reach) -> Result<Vec<Said>, Failu
         estimate: Some(others.chain([name]).map(String::from).collect()),
         ..Wanted::default()
     };
-    let all = Manoeuvre::ALL.into_iter();
+    let all = MANOEUVRES.into_iter();
     let said = all.map(|manoeuvre| said(design, (name, &wanted), manoeuvre, reach));
     let mut said = said.collect::<Result<Vec<_>, _>>()?;
     said.sort_by(|a, b| a.half_width(&a.own).total_cmp(&b.half_width(&b.own)));
@@ -195,8 +199,13 @@ fn print(out: &mut impl Write, name: &str, reach: &Reach, all: &[Said]) -> Resul
     )?;
     for one in all {
         let (manoeuvre, value, [low, high]) = (one.manoeuvre, one.value, one.interval());
-        let [title, how, _] = manoeuvre.words();
-        writeln!(out, "\n{title} ({:.0} s): {how}", manoeuvre.duration())?;
+        let Manoeuvre {
+            name,
+            how,
+            duration,
+            ..
+        } = manoeuvre;
+        writeln!(out, "\n{name} ({duration:.0} s): {how}")?;
         writeln!(
             out,
             "  {value:.4e} would be told as {low:.4e} to {high:.4e}"
@@ -208,7 +217,7 @@ fn print(out: &mut impl Write, name: &str, reach: &Reach, all: &[Said]) -> Resul
             )?;
         }
         if let Some((other, width)) = one.companion(all) {
-            let [other, ..] = other.words();
+            let other = other.name;
             writeln!(
                 out,
                 "  with {other} as well: half of the interval {width:.3}"
@@ -221,24 +230,24 @@ fn print(out: &mut impl Write, name: &str, reach: &Reach, all: &[Said]) -> Resul
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fit::problem::Evaluation;
-    use crate::fit::toys::{Toy, free, positive};
+    use crate::fit::problem::{Evaluation, Model};
+    use crate::fit::toys::{free, positive};
     use epas_design::files::DesignSource;
 
     /// 400 rows of `level temperature^warmth + gain load`, under a temperature and a load.
     fn said_of(wanted: &str, manoeuvre: Manoeuvre, signals: fn(f64) -> [f64; 2]) -> Said {
         let signals = move || (0..400).map(move |row| signals(0.1 * f64::from(row)));
-        let problem = Toy {
+        let problem = Model {
             nonlinear: vec![positive("warmth", 0.5, 0.01, 5.0)],
             linear: ["level", "gain"].map(free).into(),
             target: signals().map(|[warm, load]| warm.sqrt() + load).collect(),
-            model: move |q: &[f64]| Evaluation {
+            model: Box::new(move |q| Evaluation {
                 fixed: vec![0.0; 400],
                 columns: vec![
                     signals().map(|[warm, _]| warm.powf(q[0])).collect(),
                     signals().map(|[_, load]| load).collect(),
                 ],
-            },
+            }),
         };
         Said::of(wanted, manoeuvre, &problem).unwrap()
     }
@@ -249,11 +258,9 @@ mod tests {
     fn what_is_not_told_and_what_helps() {
         let of = |wanted: &str| {
             [
-                said_of(wanted, Manoeuvre::Parking, |at| [1.0, at.sin()]),
-                said_of(wanted, Manoeuvre::WholeTurns, |at| {
-                    [1.0, 1.0 + 0.01 * at.sin()]
-                }),
-                said_of(wanted, Manoeuvre::WarmUp, |at| [1.0 + at, at.sin()]),
+                said_of(wanted, MANOEUVRES[1], |at| [1.0, at.sin()]),
+                said_of(wanted, MANOEUVRES[6], |at| [1.0, 1.0 + 0.01 * at.sin()]),
+                said_of(wanted, MANOEUVRES[4], |at| [1.0 + at, at.sin()]),
             ]
         };
         let warmth = of("warmth");
@@ -261,7 +268,7 @@ mod tests {
         for cold in &warmth[..2] {
             assert!((cold.half_width(&cold.own) - even).abs() < 1e-6 * even);
             let (companion, both) = cold.companion(&warmth).unwrap();
-            assert!(companion == Manoeuvre::WarmUp && both < 0.05 * even);
+            assert!(companion.name == "warm-up" && both < 0.05 * even);
         }
         assert!(warmth[2].half_width(&warmth[2].own) < 0.05 * even);
         let (name, correlation) = of("level")[1].hidden_by().unwrap();
@@ -273,9 +280,8 @@ mod tests {
         let design = "lin-4.1".parse::<DesignSource>().unwrap().load().unwrap();
         let reach = Reach::of(&design);
         let found = ranked(&design, "breakaway_angle", &reach).unwrap();
-        let order: Vec<Manoeuvre> = found.iter().map(|entry| entry.manoeuvre).collect();
-        assert_eq!(order[0], Manoeuvre::MicroReversals);
-        assert_eq!(*order.last().unwrap(), Manoeuvre::SpinDown);
+        let names = [&found[0], &found[6]].map(|entry| entry.manoeuvre.name);
+        assert_eq!(names, ["micro reversals", "spin-down"]);
         let mut text = Vec::new();
         print(&mut text, "breakaway_angle", &reach, &found).unwrap();
         let text = String::from_utf8(text).unwrap();

@@ -2,18 +2,14 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`autocorrelation`] | how far rows repeat each other |
 //! | [`problem`] | what is fitted: parameters that enter linearly, and the few others |
 //! | [`search`] | the fit: linear parameters eliminated, Levenberg-Marquardt for the others |
-//! | [`part`] | a part of a problem's rows |
-//! | [`uncertainty`] | intervals and covariance |
+//! | [`uncertainty`] | intervals and covariance, how far rows repeat each other |
 
-pub mod autocorrelation;
-pub mod part;
 pub mod problem;
 pub mod search;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
 pub(crate) mod toys;
-pub mod uncertainty;
+pub(crate) mod uncertainty;

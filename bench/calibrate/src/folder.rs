@@ -85,9 +85,6 @@ pub struct Folder<'a> {
 /// Fits every trace with `fit`, one on each core at a time, writes and prints what they tell together.
 ///
 /// `fit` gives the calibration of a trace, and what it adds to the population.
-///
-/// # Errors
-/// Folders and files that cannot be read or written; no trace that tells anything.
 pub fn run(
     folder: &Folder<'_>,
     fit: impl Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync,
@@ -140,7 +137,6 @@ impl Together {
         Ok(together)
     }
 
-    /// Traces that told something.
     fn told(&self) -> impl Iterator<Item = (&str, &Told)> {
         let all = self.traces.iter();
         all.filter_map(|stored| Some((&*stored.trace, stored.ended.as_ref().ok()?)))
@@ -180,7 +176,6 @@ impl Together {
         Some(Failure::Data(format!("no trace tells anything; {word}")))
     }
 
-    /// One JSON object.
     fn json(&self) -> Value {
         let answer = |stored: &Stored| match &stored.ended {
             Ok(told) => told.answer.clone(),
@@ -199,7 +194,6 @@ impl Together {
     }
 }
 
-/// What is called for every trace.
 type Fit<'a> = &'a (dyn Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync);
 
 /// What the traces tell together, fitted or merged.

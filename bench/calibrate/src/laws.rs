@@ -10,6 +10,7 @@ use crate::bristle::{bristle, stribeck};
 use crate::estimator::stretches::of_position;
 use crate::fit::problem::{Parameter, Scale};
 use crate::mechanism::Step;
+use crate::trace::channels::range;
 
 /// How friction of sliding follows the speed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,16 +39,11 @@ pub enum Passage {
     Elements,
 }
 
-/// A law of friction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Law {
-    /// Name.
     pub name: &'static str,
-    /// How sliding follows the speed.
     pub level: Level,
-    /// How friction reverses.
     pub passage: Passage,
-    /// What it costs.
     pub cost: Cost,
 }
 
@@ -73,18 +69,14 @@ pub struct Scales {
     pub tick: f64,
 }
 
-/// Share of friction at rest.
 const SHARE_AT_REST: &str = "friction_share_at_rest";
 /// Speed at which half of the difference is gone, or Stribeck's.
 const HALF_SHARE_SPEED: &str = "half_share_speed";
-/// Travel to full sliding.
 pub const BREAKAWAY: &str = "breakaway";
-/// Speed of a reversal.
 const REVERSAL_SPEED: &str = "reversal_speed";
 /// Damping of a bristle over its stiffness, s.
 const BRISTLE_TIME: &str = "bristle_time";
 
-/// Number of the crate's elements.
 const ELEMENTS: usize = 8;
 
 impl Law {
@@ -142,9 +134,6 @@ impl Law {
     }
 
     /// The law at these parameters, at rest before it ever moved.
-    ///
-    /// # Errors
-    /// [`Error`] naming a parameter that the crate refuses.
     pub fn friction(&self, scales: &Scales, values: &[f64]) -> Result<Friction, Error> {
         let mut values = values.iter().copied();
         let mut next = |has: bool, without: f64| {
@@ -174,6 +163,16 @@ impl Law {
 }
 
 impl Scales {
+    pub fn of((position, speed): (&[f64], &[f64]), resolution: f64, tick: f64) -> Self {
+        let ((low, high), (slow, fast)) = (range(position), range(speed));
+        Self {
+            speed: fast.max(-slow).max(f64::MIN_POSITIVE),
+            travel: (high - low).max(f64::MIN_POSITIVE),
+            resolution,
+            tick,
+        }
+    }
+
     /// Shortest travel to full sliding that a sensor sees.
     fn shortest(&self) -> f64 {
         (2.0 * self.resolution).max(1e-7 * self.travel)
@@ -191,7 +190,6 @@ pub struct Friction {
     bristle_time: f64,
     /// Time over which a bristle's speed is told, s: after a turn just before a sample there would be none.
     shortest_time: f64,
-    /// Friction of a bristle.
     held: f64,
     elements: ProportionalElements<ELEMENTS>,
     state: MemoryState<ELEMENTS>,

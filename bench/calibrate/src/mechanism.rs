@@ -157,70 +157,74 @@ mod tests {
         }
     }
 
-    fn slider(stiffness: f64, limit: f64, drag: f64) -> Mechanism<Slider> {
-        Mechanism {
+    /// Moved so many times for a time, s, under an effort, from a speed.
+    fn moved(
+        [stiffness, limit, drag]: [f64; 3],
+        (times, time): (usize, f64),
+        (speed, effort): (f64, f64),
+    ) -> [f64; 2] {
+        let resistance = Slider {
+            stiffness,
+            limit,
+            drag,
+            held: 0.0,
+        };
+        let mut body = Mechanism {
             inertia: 2.0,
             position: 0.0,
-            speed: 0.0,
-            resistance: Slider {
-                stiffness,
-                limit,
-                drag,
-                held: 0.0,
-            },
+            speed,
+            resistance,
+        };
+        for _ in 0..times {
+            body.advance(effort, time);
         }
+        [body.position, body.speed]
     }
 
     #[test]
-    fn below_its_limit_a_stiff_mechanism_comes_to_rest_on_its_spring() {
-        // A spring of 1e9 N/m is far beyond what an explicit step of 1 ms stands: sqrt(k/m) h = 22.
-        let mut stiff = slider(1e9, 10.0, 0.0);
-        for _ in 0..1000 {
-            stiff.advance(9.0, 1e-3);
+    fn a_mechanism_moves_and_rests_as_newton_says() {
+        for (slider, steps, push, wanted, within) in [
+            // On a spring of 1e9 N/m, far beyond what an explicit step of 1 ms stands: sqrt(k/m) h = 22.
+            (
+                [1e9, 10.0, 0.0],
+                (1000, 1e-3),
+                (0.0, 9.0),
+                [9e-9, 0.0],
+                [1e-14, 1e-12],
+            ),
+            // (14 - 10)/2 for one second; sliding sets in after 1e-8 m, within the first step. Euler's backward rule counts the speed at the
+            // end of a step: half a step too much, 1 mm.
+            (
+                [1e9, 10.0, 0.0],
+                (1000, 1e-3),
+                (0.0, 14.0),
+                [1.001, 2.0],
+                [1e-4, 1e-4],
+            ),
+            // Drag sets the last speed.
+            (
+                [1e6, 10.0, 4.0],
+                (20_000, 1e-3),
+                (0.0, 18.0),
+                [39.0, 2.0],
+                [1.0, 1e-9],
+            ),
+            // It stops where friction has taken its energy: m v^2/2 = 10 N times the displacement, less half of that of the spring,
+            // 1e-5 m. The step damps the swing on the spring that is left.
+            (
+                [1e6, 10.0, 0.0],
+                (100_000, 1e-4),
+                (0.1, 0.0),
+                [1e-3, 0.0],
+                [2e-5, 1e-9],
+            ),
+        ] {
+            let found = moved(slider, steps, push);
+            let off = [0, 1].map(|k| (found[k] - wanted[k]).abs());
+            assert!(
+                off[0] < within[0] && off[1] < within[1],
+                "{found:?} for {wanted:?}"
+            );
         }
-        assert!((stiff.position - 9e-9).abs() < 1e-14, "{}", stiff.position);
-        assert!(stiff.speed.abs() < 1e-12, "{}", stiff.speed);
-    }
-
-    #[test]
-    fn beyond_its_limit_it_moves_as_newton_says() {
-        let mut moving = slider(1e9, 10.0, 0.0);
-        for _ in 0..1000 {
-            moving.advance(14.0, 1e-3);
-        }
-        // (14 - 10)/2 for one second; sliding sets in after 1e-8 m, within the first step.
-        assert!((moving.speed - 2.0).abs() < 1e-4, "{}", moving.speed);
-        // Euler's backward rule counts the speed at the end of a step: half a step too much, 1 mm.
-        assert!(
-            (moving.position - 1.001).abs() < 1e-4,
-            "{}",
-            moving.position
-        );
-    }
-
-    #[test]
-    fn drag_sets_the_last_speed() {
-        let mut dragged = slider(1e6, 10.0, 4.0);
-        for _ in 0..20_000 {
-            dragged.advance(18.0, 1e-3);
-        }
-        assert!((dragged.speed - 2.0).abs() < 1e-9, "{}", dragged.speed);
-    }
-
-    #[test]
-    fn a_push_is_stopped_and_its_energy_is_gone() {
-        let mut pushed = slider(1e6, 10.0, 0.0);
-        pushed.speed = 0.1;
-        for _ in 0..100_000 {
-            pushed.advance(0.0, 1e-4);
-        }
-        // It stops where friction has taken its energy: m v^2/2 = 10 N times the displacement, less half of that of the spring, 1e-5 m.
-        assert!(
-            (pushed.position - 0.001).abs() < 2e-5,
-            "{}",
-            pushed.position
-        );
-        // The step damps the swing on the spring that is left.
-        assert!(pushed.speed.abs() < 1e-9, "{}", pushed.speed);
     }
 }

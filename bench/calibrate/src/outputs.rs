@@ -7,9 +7,9 @@
 //! | [`constants`] | the same as Rust constants |
 //! | [`drive`] | Rust constants of a drive without a drawing |
 
-pub mod constants;
-pub mod design_file;
-pub mod drive;
+pub(crate) mod constants;
+pub(crate) mod design_file;
+pub(crate) mod drive;
 pub mod firmware;
 
 use std::path::{Path, PathBuf};
@@ -100,6 +100,17 @@ impl OutputArguments {
         }
     }
 
+    /// Writes the constants of a drive, where they are asked for; what is to be told of it.
+    pub fn write_drive(&self, drive: &Drive, trace: &str) -> Result<Vec<String>, Failure> {
+        let Some(path) = &self.constants else {
+            return Ok(Vec::new());
+        };
+        let numbers = drive.numbers()?;
+        files::write(path, &drive::text(&numbers, trace)?, self.existing())?;
+        let wrote = format!("wrote {}", path.display());
+        Ok([wrote].into_iter().chain(numbers.notes).collect())
+    }
+
     /// Folder of the page of a trace.
     pub fn folder(&self, trace: &str) -> PathBuf {
         self.output.clone().unwrap_or_else(|| {
@@ -117,22 +128,18 @@ impl OutputArguments {
             design,
             ..
         } = outcome;
-        let drive = match (outcome.drive, &self.constants) {
-            (Some(drive), Some(path)) => Some((path, drive::text(drive, &picture.name)?)),
-            _ => None,
+        let mut told = match outcome.drive {
+            Some(drive) => self.write_drive(drive, &picture.name)?,
+            None => Vec::new(),
         };
         let folder = self.folder(&picture.name);
         let document = page::document(calibration, picture, outcome.truth, design.is_some());
         folder::mark(&folder)?;
         document.write(&folder)?;
-        let mut told = Vec::new();
         let mut write = |path: &Path, text: &str| {
             told.push(format!("wrote {}", path.display()));
             files::write(path, text, self.existing())
         };
-        if let Some((path, text)) = drive {
-            write(path, &text)?;
-        }
         let mut left = Vec::new();
         if let (Some(text), true) = (design, self.files().next().is_some()) {
             let told = (calibration, outcome.screw);

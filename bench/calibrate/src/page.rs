@@ -8,13 +8,13 @@
 //! | [`truth`] | what a synthetic trace was made with |
 
 pub mod picture;
-pub mod shown;
-pub mod truth;
+pub(crate) mod shown;
+pub(crate) mod truth;
 
 use std::f64::consts::TAU;
 
 use crate::answer::{Calibration, Estimate, ModelScore};
-use crate::experiment::manoeuvre::Manoeuvre;
+use crate::experiment::manoeuvre::{MANOEUVRES, Manoeuvre};
 use crate::page::picture::{Correlations, Picture};
 use crate::page::shown::{chart, digits, number, table};
 use crate::page::truth::Truth;
@@ -179,7 +179,6 @@ fn parameters(estimates: &[Estimate], truth: &Truth) -> Table {
     table
 }
 
-/// Models of friction beside each other.
 fn models(calibration: &Calibration) -> Vec<Block> {
     let best = match &calibration.winner {
         Some(name) => format!("Best on what was not fitted: {name}."),
@@ -325,7 +324,6 @@ fn residual(picture: &Picture, words: &Words) -> Vec<Block> {
     blocks
 }
 
-/// Pairs of finite numbers.
 fn rows(x: &[f64], y: &[f64]) -> Vec<(f64, f64)> {
     let rows = x.iter().copied().zip(y.iter().copied());
     rows.filter(|(x, y)| x.is_finite() && y.is_finite())
@@ -364,18 +362,16 @@ fn correlations(correlations: &Correlations) -> Table {
     table
 }
 
-/// Which manoeuvre identifies what.
 fn manoeuvres() -> Table {
-    let row = |manoeuvre: Manoeuvre| {
-        let [name, how, identifies] = manoeuvre.words();
-        let identifies = identifies.replace(' ', ", ");
-        vec![name.into(), how.into(), identifies.into()]
+    let row = |of: Manoeuvre| {
+        let identifies = of.identifies.replace(' ', ", ");
+        vec![of.name.into(), of.how.into(), identifies.into()]
     };
     table(
         "manoeuvres",
         "What each manoeuvre identifies: a parameter stands with the two whose 95 % intervals are narrowest on a rack-assist gear",
         "manoeuvre | how | identifies",
-        Manoeuvre::ALL.into_iter().map(row),
+        MANOEUVRES.into_iter().map(row),
     )
 }
 

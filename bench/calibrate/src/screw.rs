@@ -14,17 +14,13 @@
 
 pub mod choice;
 mod compared;
-pub mod evidence;
+pub(crate) mod evidence;
 pub mod exact;
-#[cfg(test)]
-mod faults_tests;
 pub mod friction;
-#[cfg(test)]
-mod hostile_tests;
-pub mod problem;
-pub mod quantities;
-pub mod stages;
-pub mod telling;
+pub(crate) mod problem;
+pub(crate) mod quantities;
+pub(crate) mod stages;
+pub(crate) mod telling;
 #[cfg(test)]
 mod tests;
 
@@ -34,15 +30,15 @@ use self::choice::{Start, Wanted};
 use self::evidence::Evidence;
 use self::exact::{Grid, Spacing};
 use self::friction::Screw;
-use self::problem::Choice;
+use self::problem::{Choice, Known};
 use self::quantities::{QUANTITIES, Values};
 use self::stages::{AT_TURNS, Prepared, Sliding, Window};
 use crate::answer::{Calibration, Estimate};
+use crate::estimator::fit::rms;
 use crate::estimator::record::{Record, Smoothed};
 use crate::estimator::words::wrong;
-use crate::fit::autocorrelation::effective_rows;
 use crate::fit::problem::Separable as _;
-use crate::fit::uncertainty::{Interval, Uncertainty, correlation};
+use crate::fit::uncertainty::{Interval, Uncertainty, effective_rows};
 use crate::trace::{Coordinate, Trace};
 use crate::without_design::placed;
 use epas_design::files::Design;
@@ -63,9 +59,6 @@ pub struct Request {
 
 impl Request {
     /// Fails where a name is unknown or stands where it cannot, before anything is fitted.
-    ///
-    /// # Errors
-    /// The name.
     pub fn check(&self) -> Result<(), Failure> {
         choice::check_names(&self.wanted)
     }
@@ -90,7 +83,6 @@ pub struct ScrewCalibration {
     pub residual: Vec<f64>,
 }
 
-/// What is told of the parameters.
 struct Told {
     values: Values,
     choice: Choice,
@@ -102,9 +94,6 @@ struct Told {
 }
 
 /// Calibrates a trace of a screw.
-///
-/// # Errors
-/// A trace or a request from which nothing can be told.
 pub fn calibrate(
     trace: &Trace,
     design: &Design,
@@ -123,8 +112,7 @@ pub fn calibrate(
     screw.largest_load = loads.fold(screw.largest_load, |most, load| most.max(load.abs()));
     let (prepared, told) = told(trace, &start, &evidence, request)?;
     let rows = prepared.rows_over_turns(told.window, true);
-    let choice = &told.choice;
-    let whole = prepared.remembered(rows, (&told.values, choice), &told.grid);
+    let whole = prepared.remembered(rows, told.known());
     let measured = whole.target().to_vec();
     let model = whole.model(&told.values);
     let residual: Vec<f64> = measured.iter().zip(model).map(|(a, b)| a - b).collect();
@@ -147,9 +135,8 @@ pub fn calibrate(
         .chain(trace.told())
         .collect();
     if !request.without_models {
-        let table = compared::models(&prepared, &told, request.unseen.as_ref());
-        (answer.models, answer.winner) = (table.models, table.winner);
-        answer.cannot_tell.extend(table.left_out);
+        let scores = compared::models(&prepared, &told, request.unseen.as_ref());
+        answer.compare(scores.into_iter());
     }
     Ok(ScrewCalibration {
         answer,
@@ -185,7 +172,6 @@ fn comparable(trace: &Trace, unseen: Option<&Trace>) -> Result<(), Failure> {
     }
 }
 
-/// Both stages.
 fn told<'a>(
     trace: &'a Trace,
     start: &Start,
@@ -208,12 +194,12 @@ fn told<'a>(
     let set = &request.wanted.fix;
     let mut choice = first.choice;
     let mut kept = Vec::new();
-    let mut sliding = prepared.slid(window, (&values, &choice), set, &coarse)?;
+    let mut sliding = prepared.slid(window, Known::of(&values, &choice, &coarse), set)?;
     while let Some(untold) = telling::untold(&sliding, &start.values, evidence, &kept) {
         let less = choice.without(untold.name);
         let value = telling::value_of(untold.name, &start.values);
         let without = telling::with(untold.name, value, &sliding.values);
-        let next = prepared.slid(window, (&without, &less), set, &coarse)?;
+        let next = prepared.slid(window, Known::of(&without, &less, &coarse), set)?;
         if next.residual_rms > GROWTH * sliding.residual_rms {
             // The trace does object to that value.
             kept.push(untold.name);
@@ -223,7 +209,7 @@ fn told<'a>(
         }
     }
     let grid = start.screw.grid(&sliding.values, Spacing::FINE)?;
-    let sliding = prepared.slid(window, (&sliding.values, &choice), set, &grid)?;
+    let sliding = prepared.slid(window, Known::of(&sliding.values, &choice, &grid), set)?;
     let bounds = sliding.intervals.iter().filter(|of| of.at_bound);
     sentences.extend(bounds.map(|of| telling::at_bound(of, evidence)));
     let mut told = Told {
@@ -250,15 +236,9 @@ fn first_look<'a>(
 ) -> Result<(Prepared<'a>, Window, Values), Failure> {
     let mut left_out = Record::of(trace, &[]).rests();
     let prepared = Prepared::new(trace, &left_out, first.screw);
-    let (window, values) = prepared.first_way((first, at_turns), grid)?;
-    let (values, outliers) = prepared.first_fit(window, (&values, &first.choice), grid)?;
-    if let Some(late) = prepared.late(window, (&values, &first.choice), grid) {
-        return Err(Failure::Data(format!(
-            "the torque fits the motion and the load best {:.0} ms {}: shift the channels to one clock",
-            1e3 * trace.step * late.unsigned_abs() as f64,
-            if late > 0 { "earlier" } else { "later" }
-        )));
-    }
+    let start = Known::of(&first.values, &first.choice, grid);
+    let (window, values) = prepared.first_way(start, at_turns)?;
+    let (values, outliers) = prepared.first_fit(window, start.with(&values))?;
     if !outliers.is_empty() {
         sentences.push(format!(
             "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",
@@ -267,11 +247,15 @@ fn first_look<'a>(
         left_out.extend(outliers);
     }
     let prepared = Prepared::new(trace, &left_out, first.screw);
-    let window = prepared.best_window(window, (&values, &first.choice), grid);
+    let window = prepared.best_window(window, start.with(&values));
     Ok((prepared, window, values))
 }
 
 impl Told {
+    fn known(&self) -> Known<'_> {
+        Known::of(&self.values, &self.choice, &self.grid)
+    }
+
     /// Adds what the rows over turns tell; what they do not is set to the design's.
     fn turn(
         &mut self,
@@ -279,8 +263,7 @@ impl Told {
         at_turns: Choice,
         design: &Values,
     ) -> Result<(), Failure> {
-        let choices = (&at_turns, &self.choice);
-        let turned = prepared.turned(self.window, &self.sliding, choices, &self.grid)?;
+        let turned = prepared.turned(self.window, &self.sliding, &at_turns, self.known())?;
         let step = prepared.trace.resolution;
         for of in turned.into_iter().flatten() {
             let design = telling::value_of(of.name, design);
@@ -377,7 +360,6 @@ fn uncertainty(told: &Told, residual: &[f64]) -> Uncertainty {
     let covariance = nalgebra::DMatrix::from_fn(all.len(), all.len(), entry);
     Uncertainty {
         intervals: order.iter().map(|k| all[*k].clone()).collect(),
-        correlation: correlation(&covariance),
         covariance,
         effective_rows: effective_rows(residual),
     }
@@ -397,15 +379,11 @@ fn answer(
             Estimate::from,
         )
     });
-    let square = |rows: &[f64]| rows.iter().map(|x| x * x).sum::<f64>();
-    let left = square(residual);
     Calibration {
         parameters: parameters.collect(),
-        residual_rms: (left / residual.len().max(1) as f64).sqrt(),
-        relative_error: (left / square(measured).max(f64::MIN_POSITIVE)).sqrt(),
+        residual_rms: rms(residual),
+        relative_error: rms(residual) / rms(measured).max(f64::MIN_POSITIVE),
         effective_rows: uncertainty.effective_rows,
-        cannot_tell: Vec::new(),
-        models: Vec::new(),
-        winner: None,
+        ..Calibration::default()
     }
 }

@@ -13,10 +13,10 @@ use crate::estimator::terms::Term;
 use crate::folder::list;
 use crate::page::shown::digits;
 use crate::trace::{Coordinate, Trace};
-use crate::without_design;
+use crate::without_design::drive::Drive;
+use crate::without_design::{self, largest};
 use epas_page::failure::Failure;
 
-/// Fewest runs that are one measurement.
 const FEWEST: usize = 3;
 
 /// Share of the efforts that is left from which on nothing is explained, and from which on it is said.
@@ -26,28 +26,22 @@ const MUCH: f64 = 0.1;
 /// Residual with friction that changes towards rest over that without it, from which on it is told.
 const TAKES: f64 = 0.9;
 
-/// A run at one speed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// Name of its trace.
     pub name: String,
     /// Speed, rad/s or m/s.
     pub speed: f64,
     /// Mean effort without the load's, N m or N.
     pub effort: f64,
-    /// What the numbers say to it.
     pub model: f64,
 }
 
-/// What runs tell together.
 #[derive(Clone, Debug)]
 pub struct Steady {
-    /// What position, speed and effort are.
     pub coordinate: Coordinate,
-    /// The answer.
     pub answer: Calibration,
-    /// The runs, by speed.
     pub runs: Vec<Run>,
+    pub drive: Drive,
 }
 
 /// Traces of a folder among which a run at one speed is looked for.
@@ -55,9 +49,6 @@ const LOOKED_AT: usize = 16;
 
 /// What the traces of a folder tell together, read by `read`, where some of them are runs at one speed; `None` where none of the first
 /// sixteen is.
-///
-/// # Errors
-/// A folder that cannot be read, and runs from which nothing can be told.
 pub fn of_folder(
     folder: &Path,
     read: impl Fn(&Path) -> Result<Trace, Failure>,
@@ -96,9 +87,6 @@ fn steady(records: &[Record]) -> bool {
 }
 
 /// What traces tell together, where some of them are runs at one speed; `None` where they are not.
-///
-/// # Errors
-/// Traces of two coordinates, and runs from which nothing can be told.
 pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
     let records = records(traces);
     if !steady(&records) {
@@ -127,15 +115,7 @@ pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
             100.0 * left
         )));
     }
-    let mut answer = Calibration {
-        parameters: without_design::estimates(&found, coordinate),
-        residual_rms: found.fit.residual_rms,
-        relative_error: found.fit.relative,
-        effective_rows: found.fit.pieces.iter().copied().fold(0.0, f64::max),
-        cannot_tell: Vec::new(),
-        models: Vec::new(),
-        winner: None,
-    };
+    let mut answer = without_design::of_estimate(&found, coordinate, Vec::new());
     let has = |term: Term| found.of(term).is_some();
     if !has(Term::Offset) {
         answer.cannot_tell.push(
@@ -181,10 +161,19 @@ pub fn told(traces: &[Trace]) -> Result<Option<Steady>, Failure> {
     if loaded && !has(Term::Driving) && !has(Term::BackDriving) && !has(Term::Loss) {
         answer.cannot_tell.push(without_design::OF_ONE_SIZE.into());
     }
+    let speeds: Vec<f64> = speeds.into_iter().flatten().collect();
+    let loads = traces.iter().filter_map(|trace| trace.load.as_deref());
+    let drive = Drive {
+        coordinate,
+        estimates: answer.parameters.clone(),
+        reversal_speed: None,
+        largest: [largest(&speeds), loads.map(largest).fold(0.0, f64::max)],
+    };
     Ok(Some(Steady {
         coordinate,
         answer,
         runs,
+        drive,
     }))
 }
 
@@ -231,7 +220,7 @@ fn dip(records: &[Record], speeds: &[Option<f64>], plain: &Estimate) -> Option<E
 mod tests {
     use super::*;
     use crate::fit::toys::noise;
-    use crate::trace::{Origins, Repairs};
+    use crate::without_design::drive::Numbers;
 
     const TRUTH: [(&str, f64); 3] = [
         ("coulomb_friction", 0.1),
@@ -250,25 +239,14 @@ mod tests {
         let at = |sample: usize| speed * tick * sample as f64;
         Trace {
             name: format!("run {speed}"),
-            coordinate: Coordinate::Rotation,
-            start: 0.0,
             step: tick,
             position: (0..count).map(at).collect(),
-            resolution: 0.0,
             position_summed: true,
             speed: Some(rough.iter().map(|rough| speed + 0.01 * rough).collect()),
             effort: (0..count)
                 .map(|k| mean + 5e-3 * at(k).sin() + 2e-3 * rough[k])
                 .collect(),
-            reference_position: None,
-            load: None,
-            load_is_effort: false,
-            known: None,
-            temperature: None,
-            left_out: Vec::new(),
-            origins: Origins::default(),
-            repairs: Repairs::default(),
-            ignored: Vec::new(),
+            ..Trace::default()
         }
     }
 
@@ -299,6 +277,13 @@ mod tests {
         let risen = told(&runs(0.05)).unwrap().unwrap();
         let rise = risen.answer.parameter("stribeck_friction").unwrap();
         assert!((rise.value - 0.05).abs() < 0.01, "{rise:?}");
+        // Their constants need no inertia, and say that a dip is left out.
+        let [plain, risen] = [&found, &risen].map(|found| found.drive.numbers().unwrap());
+        assert_eq!((plain.inertia, plain.offset.is_some()), (None, true));
+        let said = |numbers: &Numbers| numbers.notes.iter().any(|note| note.contains("near rest"));
+        assert!(said(&risen) && !said(&plain));
+        let text = crate::outputs::drive::text(&risen, "runs").unwrap();
+        assert!(text.contains("which this scene does not have"), "{text}");
         assert!(told(&runs(0.0)[..1]).unwrap().is_none());
     }
 

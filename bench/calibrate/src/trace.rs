@@ -4,11 +4,9 @@
 //! |---|---|
 //! | [`columns`] | reads a trace: its columns referred to one coordinate |
 //! | [`free_load`] | a load that never leaves its noise |
-//! | [`known`] | an effort beside the motor's that is known |
 
 pub mod columns;
 pub mod free_load;
-pub mod known;
 // Tables of cases, a line each.
 #[cfg(test)]
 #[rustfmt::skip]
@@ -21,11 +19,10 @@ pub use epas_traces::channels;
 use epas_traces::marks::LeftOut;
 use epas_traces::units::Part;
 
-use self::known::KnownEffort;
-
 /// What position, speed and effort are.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Coordinate {
+    #[default]
     /// Angle of the nut, rad, and torque on it, N m.
     Rotation,
     /// Travel of the carriage, m, and force on it, N.
@@ -76,7 +73,7 @@ impl Origins {
 }
 
 /// A trace on one sample clock, in SI units. All lists are as long as `effort`.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Trace {
     /// Name, for headings: the file's without its ending.
     pub name: String,
@@ -163,5 +160,28 @@ impl Trace {
     /// Whether there is none.
     pub fn is_empty(&self) -> bool {
         self.effort.is_empty()
+    }
+}
+
+/// An effort that is known and that the controller did not command: a pulse, a weight on a cord, another drive. It acts in the direction of positive
+/// motion. Some recorders add it to the motor's effort, because it is made at the controller's output; others do not: whichever explains the motion
+/// better.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KnownEffort {
+    /// At every sample, N m or N, in the direction of positive motion.
+    pub values: Vec<f64>,
+    /// Whether the motor's effort holds it already.
+    pub in_effort: bool,
+}
+
+impl KnownEffort {
+    /// What acts beside the motor's effort.
+    pub fn beside(&self) -> Option<&[f64]> {
+        (!self.in_effort).then_some(self.values.as_slice())
+    }
+
+    /// What the motor's effort holds beside the controller's.
+    pub fn within(&self) -> Option<&[f64]> {
+        self.in_effort.then_some(self.values.as_slice())
     }
 }

@@ -1,7 +1,6 @@
 //! Calibration of a trace of a screw whose design is known: the answer, what its page draws, its sums.
 
 use crate::answer::Calibration;
-use crate::estimator::record::Smoothed;
 use crate::folder::answered::Answered;
 use crate::page::picture::Picture;
 use crate::screw::friction::Screw;
@@ -21,9 +20,6 @@ pub struct Told {
 }
 
 /// Calibrates a trace of a screw, with models of friction beside each other.
-///
-/// # Errors
-/// A trace or a request from which nothing can be told.
 pub fn told(trace: &Trace, design: &Design, request: &Request) -> Result<Told, Failure> {
     let found = calibrate(trace, design, request)?;
     Ok(Told {
@@ -34,9 +30,6 @@ pub fn told(trace: &Trace, design: &Design, request: &Request) -> Result<Told, F
 }
 
 /// One trace of many, with its sums about a reference that is the same for all.
-///
-/// # Errors
-/// A trace or a request from which nothing can be told.
 pub fn summed(
     trace: &Trace,
     design: &Design,
@@ -51,10 +44,9 @@ pub fn summed(
     Ok((found.answer, answered))
 }
 
-/// What the page draws.
 fn picture(trace: &Trace, found: &ScrewCalibration) -> Picture {
-    let motion = Smoothed::of(trace);
     let measured = (found.measured.clone(), &*found.residual);
     let sure = &found.uncertainty;
-    Picture::of(trace, &motion, &found.samples, measured, sure)
+    let names = sure.intervals.iter().map(|of| of.name.into()).collect();
+    Picture::of(trace, &found.samples, measured, (names, &sure.covariance))
 }

@@ -3,18 +3,16 @@
 //! | module | what |
 //! |---|---|
 //! | [`models`] | models of friction on a trace, fitted and scored |
-//! | [`slide`] | a trace with a law of friction, turns among its rows, as a separable problem |
-//! | [`resistance`] | the same as what opposes a motion |
+//! | [`slide`] | a trace with a law of friction, turns among its rows, as a separable problem, and as what opposes a motion |
 //! | [`drive`] | what firmware takes of it |
 //! | [`closed_loop`] | the motion that a controller makes of a model |
 //! | [`controller`] | the controller that is seen in a trace |
 
-pub mod closed_loop;
-pub mod controller;
-pub mod drive;
-pub mod models;
-pub mod resistance;
-pub mod slide;
+pub(crate) mod closed_loop;
+pub(crate) mod controller;
+pub(crate) mod drive;
+pub(crate) mod models;
+pub(crate) mod slide;
 
 use std::borrow::Cow;
 
@@ -27,10 +25,9 @@ use crate::estimator::terms::Term;
 use crate::estimator::words::diagnose;
 use crate::folder::answered::Answered;
 use crate::folder::population::HALF_INTERVAL;
-use crate::models::rank;
-use crate::page::picture::{Correlations, Picture};
+use crate::page::picture::Picture;
 use crate::page::shown::digits;
-use crate::trace::known::KnownEffort;
+use crate::trace::KnownEffort;
 use crate::trace::{Coordinate, Trace};
 use crate::without_design::controller::SeenController;
 use crate::without_design::drive::Drive;
@@ -51,9 +48,6 @@ pub struct Told {
 
 /// Fits what a trace can tell without a design: a mass or an inertia with friction, losses in proportion to a load where one is measured,
 /// and models of friction beside each other, scored on another trace or on the last third of this one.
-///
-/// # Errors
-/// A trace from which nothing can be told, with the cause.
 pub fn calibrate(
     trace: &Trace,
     unseen: Option<&Trace>,
@@ -89,27 +83,39 @@ pub fn calibrate(
         let unseen = other
             .as_ref()
             .map(|other| (other, other_controller.as_ref()));
-        let (models, untold) = models::scores((&prepared, own.as_ref()), unseen, &beside);
-        answer.models = models;
-        answer.cannot_tell.extend(untold);
-        answer.winner = rank(&mut answer.models);
+        let scores = models::scores((&prepared, own.as_ref()), unseen, &beside);
+        answer.compare(scores.into_iter());
     }
     answer
         .cannot_tell
         .extend(own.as_ref().and_then(SeenController::doubt));
     Ok(Told {
         picture: picture(&record, trace, &found),
-        drive: Drive::of(&prepared, &beside, &answer.parameters),
+        drive: drive(&prepared, &beside, &answer.parameters),
         controller: own,
         answer,
     })
 }
 
+fn drive(prepared: &Prepared<'_>, beside: &Beside, told: &[Estimate]) -> Drive {
+    let slides = told.iter().any(|one| one.name == "coulomb_friction");
+    let reversal = slides.then(|| models::reversal_speed(prepared, beside).ok().flatten());
+    let load = prepared.trace.load.as_deref().unwrap_or_default();
+    Drive {
+        coordinate: prepared.trace.coordinate,
+        estimates: told.to_vec(),
+        reversal_speed: reversal.flatten(),
+        largest: [&prepared.motion.speed, load].map(largest),
+    }
+}
+
+/// Largest size.
+pub fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
 /// One trace of many, and what it adds to the others: numbers of the drive itself, without the gain of a load's channel and the friction at
 /// one speed.
-///
-/// # Errors
-/// A trace from which nothing can be told, with the cause.
 pub fn plain(trace: &Trace) -> Result<(Calibration, Answered), Failure> {
     let trace = &*placed(trace);
     let record = record(trace);
@@ -234,18 +240,11 @@ fn loads(terms: &[Term]) -> Vec<Term> {
         .collect()
 }
 
-/// Parameters with their intervals.
-pub fn estimates(found: &choice::Estimate, coordinate: Coordinate) -> Vec<Estimate> {
+fn estimates(found: &choice::Estimate, coordinate: Coordinate) -> Vec<Estimate> {
     let told = found.terms.iter().zip(&found.values);
     told.zip(&found.half_widths)
-        .map(|((term, value), half)| Estimate {
-            name: term.name(coordinate).into(),
-            unit: term.unit(coordinate),
-            value: *value,
-            low: value - half,
-            high: value + half,
-            fixed: false,
-            at_bound: false,
+        .map(|((term, value), half)| {
+            Estimate::told(term.name(coordinate), term.unit(coordinate), *value, *half)
         })
         .collect()
 }
@@ -259,14 +258,22 @@ fn answer(
     let mut cannot_tell = words;
     cannot_tell.extend(trace.told());
     cannot_tell.extend(untold(record, trace, found));
+    of_estimate(found, trace.coordinate, cannot_tell)
+}
+
+/// The numbers of an estimate as an answer.
+pub fn of_estimate(
+    found: &choice::Estimate,
+    coordinate: Coordinate,
+    cannot_tell: Vec<String>,
+) -> Calibration {
     Calibration {
-        parameters: estimates(found, trace.coordinate),
+        parameters: estimates(found, coordinate),
         residual_rms: found.fit.residual_rms,
         relative_error: found.fit.relative,
-        effective_rows: found.fit.pieces.iter().copied().fold(0.0, f64::max),
+        effective_rows: largest(&found.fit.pieces),
         cannot_tell,
-        models: Vec::new(),
-        winner: None,
+        ..Calibration::default()
     }
 }
 
@@ -321,39 +328,12 @@ fn untold(record: &Record, trace: &Trace, found: &choice::Estimate) -> Vec<Strin
 fn picture(record: &Record, trace: &Trace, found: &choice::Estimate) -> Picture {
     let rows = found.rows.first().and_then(Option::as_ref);
     let centres = rows.map_or(&[][..], |rows| &rows.centres);
-    let measured = rows.map_or_else(Vec::new, |rows| {
-        Block::of(record, rows, &found.terms).target
-    });
-    let model = measured.iter().zip(&found.fit.residual);
-    let at = |signal: &[f64]| -> Vec<f64> { centres.iter().map(|k| signal[*k]).collect() };
-    let speed = rows.map_or_else(Vec::new, |rows| rows.sums(record.order(1), &record.motion));
-    let covariance = &found.fit.covariance;
-    let correlation =
-        |i: usize, j: usize| covariance[(i, j)] / (covariance[(i, i)] * covariance[(j, j)]).sqrt();
-    let count = found.terms.len();
-    let names = found.terms.iter();
-    Picture {
-        name: trace.name.clone(),
-        coordinate: trace.coordinate,
-        time: centres
-            .iter()
-            .map(|sample| trace.start + trace.step * *sample as f64)
-            .collect(),
-        model: model
-            .map(|(measured, residual)| measured - residual)
-            .collect(),
-        measured,
-        position: at(&trace.position),
-        speed,
-        load: trace.load.as_deref().map(&at),
-        temperature: trace.temperature.as_deref().map(&at),
-        correlations: Correlations {
-            names: names
-                .map(|term| term.name(trace.coordinate).to_string())
-                .collect(),
-            rows: (0..count)
-                .map(|i| (0..count).map(|j| correlation(i, j)).collect())
-                .collect(),
-        },
-    }
+    let target = |rows| Block::of(record, rows, &found.terms).target;
+    let measured = rows.map_or_else(Vec::new, target);
+    let names = found
+        .terms
+        .iter()
+        .map(|term| term.name(trace.coordinate).into());
+    let errors = (names.collect(), &found.fit.covariance);
+    Picture::of(trace, centres, (measured, &found.fit.residual), errors)
 }

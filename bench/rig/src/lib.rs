@@ -8,6 +8,9 @@
 //! the rolling resistance and the friction coefficient of the tick. Sensors add noise and count the angle. A [`Trace`] has the measured columns
 //! beside the truth. Same seed, same trace, on every machine that rounds sines alike.
 
+// For tests and programs of this workspace: a failure names the parameter.
+#![allow(clippy::missing_errors_doc)]
+
 pub mod course;
 mod friction;
 pub mod parameters;
@@ -89,9 +92,6 @@ pub struct Rig {
 
 impl Rig {
     /// Solves the balls of the screw: some hundred, in parallel.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming a parameter out of range.
     pub fn new(parameters: Parameters, sensors: Sensors) -> Result<Self, ReferenceError> {
         within("torque_noise", sensors.torque_noise, 0.0, 10.0)?;
         within("load_noise", sensors.load_noise, 0.0, 1e6)?;
@@ -111,9 +111,6 @@ impl Rig {
     }
 
     /// Runs a course.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming what is wrong with the course, or `load` where it is beyond the screw's largest.
     pub fn run(&self, course: &Course, seed: u64) -> Result<Trace, ReferenceError> {
         let mut trace = course.driven(seed)?;
         self.drive(course.tick, &mut trace)?;
@@ -185,13 +182,11 @@ impl Rig {
 
 impl Trace {
     /// Number of samples.
-    #[must_use]
     pub fn len(&self) -> usize {
         self.time.len()
     }
 
     /// Whether there is none.
-    #[must_use]
     pub fn is_empty(&self) -> bool {
         self.time.is_empty()
     }
@@ -206,9 +201,6 @@ impl Trace {
 
     /// Writes the measured columns as comma-separated values: `time,nut_position,motor_torque,axial_load,temperature`, in s, rad,
     /// N m, N and K.
-    ///
-    /// # Errors
-    /// Whatever the output refuses.
     pub fn write_csv(&self, out: impl Write) -> Result<(), csv::Error> {
         let mut table = csv::Writer::from_writer(out);
         let names = "time,nut_position,motor_torque,axial_load,temperature";

@@ -46,7 +46,6 @@ impl Screw {
     };
 
     /// Torque of the load over the load, m.
-    #[must_use]
     pub fn reduced_lead(&self) -> f64 {
         self.design.lead / TAU
     }
@@ -55,9 +54,6 @@ impl Screw {
     ///
     /// Two contacts of a diagonal share twice the oversize; each carries its part of the preload,
     /// `axial_preload/(balls sin b cos a)`.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming a number that describes no contact.
     pub fn clearance(&self) -> Result<f64, ReferenceError> {
         within("axial_preload", self.axial_preload, 0.0, 1e5)?;
         let deflection = self.design.contact(Groove::Screw)?.deflection
@@ -66,7 +62,6 @@ impl Screw {
     }
 
     /// Force of a contact under an axial load of a flank, N.
-    #[must_use]
     pub fn contact_force(&self, flank_load: f64) -> f64 {
         let slope = self.design.contact_angle.sin() * self.design.lead_angle().cos();
         flank_load / (self.balls * slope)
@@ -86,7 +81,6 @@ impl Screw {
 
     /// Sum of the axial forces of both flanks, N, under a load: they share one Hertzian deflection,
     /// `F1^(2/3) + F2^(2/3) = 2 P^(2/3)`, `F1 - F2 = load`, until one is lost.
-    #[must_use]
     pub fn flank_sum(&self, load: f64) -> f64 {
         let (load, preload) = (load.abs(), self.axial_preload);
         if load >= 2.0 * std::f64::consts::SQRT_2 * preload {
@@ -243,7 +237,6 @@ impl Parameters {
     }
     /// Parameters by the names of `calibrate`, in SI units; the preload is the force of a contact. Of physics that a calibration has no name
     /// for there is nothing.
-    #[must_use]
     pub fn named(&self) -> Vec<(String, f64)> {
         let [forward, backward] = self.directions;
         let mut named = vec![("friction", self.boundary)];
@@ -284,7 +277,6 @@ impl Parameters {
     }
 
     /// The same as lines of text above a trace's headings, which a reader of traces skips.
-    #[must_use]
     pub fn header(&self) -> String {
         let line = |(name, value): (String, f64)| format!("# truth: {name} = {value}\n");
         self.named().into_iter().map(line).collect()

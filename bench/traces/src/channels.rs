@@ -9,9 +9,6 @@ const MOST: usize = 200_000;
 const LARGEST_TURN: f64 = 0.4;
 
 /// Joins the turns of an angle, rad, that starts again after a full turn. An angle that goes beyond one turn is left alone.
-///
-/// # Errors
-/// Where it moves so far between two samples that its direction cannot be told.
 pub fn unwrap(angle: &mut [f64]) -> Result<(), String> {
     let (low, high) = range(angle);
     let jumps = angle
@@ -102,7 +99,6 @@ fn step_of(gaps: &[f64], candidate: f64) -> Option<f64> {
     const LARGEST: f64 = 10.0;
     /// Distance from a multiple that counts as none; random distances keep it in a fifth of all cases.
     const NEAR: f64 = 0.1;
-    /// Least share of multiples.
     const SHARE: f64 = 0.95;
     let (mut looked, mut near, mut sum, mut multiples) = (0usize, 0usize, 0.0, 0.0);
     for gap in gaps {

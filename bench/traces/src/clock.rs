@@ -26,7 +26,6 @@ const MOST_SHARED: f64 = 0.1;
 const SLOWEST: f64 = 0.2;
 /// Shortest tick, s.
 const FASTEST: f64 = 1e-7;
-/// Fewest samples.
 const FEWEST: usize = 100;
 /// Share of ticks near their median from which samples come from a raster.
 const RASTER: f64 = 0.9;
@@ -46,7 +45,6 @@ pub struct Clock {
     pub free_running: usize,
     /// Ticks in gaps between samples.
     pub filled: Vec<Range<usize>>,
-    /// Times of the samples.
     times: Vec<f64>,
     /// The sample before each tick; none where every sample is on its tick.
     places: Vec<usize>,
@@ -54,9 +52,6 @@ pub struct Clock {
 
 impl Clock {
     /// The clock of samples at these times, which rise, of which so many stood twice and were dropped.
-    ///
-    /// # Errors
-    /// Too few samples, no even tick, gaps that are too long or too many.
     pub fn of(times: Vec<f64>, repeated: usize) -> Result<Self, String> {
         let samples = times.len();
         if samples < FEWEST {
@@ -173,9 +168,6 @@ impl Clock {
 }
 
 /// Refuses samples that stand twice too often, and a gap in samples that come from a raster; those of a solver may stand anywhere.
-///
-/// # Errors
-/// How many, or where.
 pub fn check_raster(times: &[f64], repeated: usize) -> Result<(), String> {
     few_repeated(times.len(), repeated)?;
     let median = median_tick(times, STRETCH / 2);
@@ -287,7 +279,6 @@ fn check_gaps(times: &[f64], median: f64) -> Result<(), String> {
 /// Mean tick of a clock that runs free: its distances vary, each by itself. Where samples come evenly and only their times
 /// jitter, a distance that is too long is followed by one too short, and neighbours correlate by -0.5.
 fn free_tick(times: &[f64]) -> Option<f64> {
-    /// Half way between those two.
     const FREE: f64 = -0.25;
     /// Largest deviation of the distances, over their mean, whose gaps a cubic bridges.
     const MOST_SPREAD: f64 = 0.5;

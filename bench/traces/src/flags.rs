@@ -154,7 +154,6 @@ pub fn every_set() -> &'static [(u16, String)] {
     &EVERY
 }
 
-/// Names of the flags of bits.
 fn of_bits(bits: u16) -> String {
     let names = FLAGS
         .iter()

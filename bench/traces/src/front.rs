@@ -7,11 +7,8 @@ use csv::ByteRecord;
 
 use crate::units::{Quantity, Unit, cut, heading, written};
 
-/// Bytes within which the headings stand.
 const LONGEST: usize = 1 << 16;
-/// Lines above the headings.
 const MOST_LINES: usize = 200;
-/// What separates columns.
 const SEPARATORS: [u8; 3] = [b',', b';', b'\t'];
 
 /// A table whose reading starts at its headings.
@@ -22,9 +19,7 @@ pub struct Table<R> {
     rest: R,
     /// Whether `start` holds the whole text, which was UTF-16.
     decoded: bool,
-    /// What separates its columns.
     pub separator: u8,
-    /// Lines above the headings.
     pub lines: u64,
 }
 
@@ -138,9 +133,6 @@ fn text(bytes: &[u8]) -> String {
 }
 
 /// The units of a row below the headings, for the columns at these places; none where the row holds numbers.
-///
-/// # Errors
-/// A unit that is not known, or another one than the heading's.
 pub fn units(
     record: &ByteRecord,
     columns: &[(usize, &str, Quantity, Unit)],

@@ -7,9 +7,6 @@ use crate::units::{Part, Quantity};
 
 /// Fills empty cells by straight lines between the column's own samples, and holds its first and last one; rows in which the motion itself
 /// is empty are left out. Where several of a column's own samples in a row are missing, they are marked.
-///
-/// # Errors
-/// A column with too few samples, or with a long gap.
 pub fn fill(table: &mut Table) -> Result<(), String> {
     let parts = [Part::Nut, Part::Motor, Part::Carriage, Part::Plain];
     let positions = parts.map(Quantity::Position);

@@ -5,9 +5,6 @@ use csv::StringRecord;
 use crate::units::cut;
 
 /// Refuses columns that are not separated by what separates them in tables that are read.
-///
-/// # Errors
-/// What separates them, and what to do.
 pub fn separated(header: &StringRecord) -> Result<(), String> {
     let joined: Vec<&str> = header.iter().collect();
     let separator = [(';', "semicolons"), ('\t', "tabs"), ('|', "bars")]
@@ -38,7 +35,6 @@ pub fn missing(column: &str, header: &StringRecord) -> String {
     )
 }
 
-/// Why a text is no number.
 pub fn no_number(text: &[u8]) -> &'static str {
     let only = |letters: &[u8]| {
         text.iter()

@@ -20,9 +20,9 @@
 pub mod channels;
 pub mod clock;
 pub mod flags;
-pub mod front;
+pub(crate) mod front;
 mod gaps;
-pub mod headings;
+pub(crate) mod headings;
 pub mod marks;
 pub mod mdf4;
 pub mod source;

@@ -115,9 +115,6 @@ impl LeftOut {
 }
 
 /// Marks what is not to be believed in every measured column.
-///
-/// # Errors
-/// A column with too many such samples, or a position that jumps; with column and row.
 pub fn mark(table: &mut Table) -> Result<(), String> {
     if table.times.len() < WINDOW {
         return Ok(());
@@ -146,9 +143,6 @@ pub fn mark(table: &mut Table) -> Result<(), String> {
 }
 
 /// Leaves samples of a column out.
-///
-/// # Errors
-/// Too many of them.
 pub fn leave_out(
     table: &mut Table,
     place: usize,
@@ -488,7 +482,6 @@ impl Channel {
     }
 }
 
-/// The quiet share of some distances.
 fn quiet(off: &[f64]) -> f64 {
     let mut sizes = off.to_vec();
     let place = (QUIET * sizes.len() as f64) as usize;

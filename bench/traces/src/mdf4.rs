@@ -18,16 +18,16 @@
 //! without looking at its size, takes counts as they stand, drops a record that goes over the end of a data block, and knows no
 //! data group of several channel groups; so it is given blocks that were measured before, and the way through the data is ours.
 
-pub mod blocks;
-pub mod chain;
-pub mod choice;
-pub mod columns;
-pub mod file;
+pub(crate) mod blocks;
+pub(crate) mod chain;
+pub(crate) mod choice;
+pub(crate) mod columns;
+pub(crate) mod file;
 pub mod mapping;
-pub mod raster;
-pub mod records;
-pub mod samples;
-pub mod table;
+pub(crate) mod raster;
+pub(crate) mod records;
+pub(crate) mod samples;
+pub(crate) mod table;
 #[cfg(test)]
 mod tests;
 pub mod write;

@@ -35,7 +35,6 @@ pub struct Column {
     pub values: Vec<f64>,
     /// Samples that are not believed, in order.
     pub left_out: Vec<usize>,
-    /// Where it stands in a line.
     place: usize,
 }
 
@@ -54,7 +53,6 @@ pub struct Table {
     pub notes: Vec<String>,
     /// Samples that are not to be believed.
     pub left_out: Vec<LeftOut>,
-    /// The file's row of every sample.
     rows: Vec<u32>,
 }
 
@@ -105,9 +103,6 @@ impl Table {
 }
 
 /// Reads a table from a CSV file.
-///
-/// # Errors
-/// What is wrong, with the line.
 pub fn read(input: impl Read + Seek, request: Request<'_>) -> Result<Table, String> {
     let input = front::Table::new(input);
     let (separator, above) = (input.separator, input.lines);
@@ -144,9 +139,6 @@ pub fn read(input: impl Read + Seek, request: Request<'_>) -> Result<Table, Stri
 }
 
 /// The table of a measurement file, with the checks of [`read`].
-///
-/// # Errors
-/// Too many samples.
 pub fn of_measurement(found: mdf4::Table, request: Request<'_>) -> Result<Table, String> {
     // A sample at the time of the one before is dropped, as of a CSV file.
     let mut kept: Vec<usize> = (0..found.times.len()).collect();
@@ -201,7 +193,6 @@ impl Table {
     }
 }
 
-/// What the CSV reader found.
 fn message(error: &csv::Error) -> String {
     match error.kind() {
         ErrorKind::UnequalLengths {
@@ -314,7 +305,6 @@ impl Growing {
         Ok(true)
     }
 
-    /// Adds a line.
     fn add(&mut self, record: &ByteRecord) -> Result<(), String> {
         if self.columns.iter().all(|column| column.values.is_empty()) {
             if self.takes_units(record)? {

@@ -180,7 +180,6 @@ const TEMPERATURE: &[Unit] = &[
     },
 ];
 
-/// Every name without a unit.
 const NAMES: &[(&str, Quantity)] = &[
     ("time", Quantity::Time),
     ("timestamps", Quantity::Time),
@@ -244,9 +243,6 @@ impl Quantity {
 
 /// What a column's name says; `None` where it is none of the names. Its unit may stand behind it, or in brackets; capitals,
 /// spaces and hyphens count as their plain letters and underscores.
-///
-/// # Errors
-/// A name that goes on with what is no unit of its quantity.
 pub fn heading(heading: &str) -> Result<Option<(Quantity, Unit)>, String> {
     let (name, bracketed) = brackets(heading);
     let plain: String = name
@@ -275,9 +271,6 @@ pub fn heading(heading: &str) -> Result<Option<(Quantity, Unit)>, String> {
 }
 
 /// What the name of a channel says, letter by letter; `None` where it is none of the names.
-///
-/// # Errors
-/// A name that goes on with what is no unit of its quantity.
 pub fn channel(name: &str) -> Result<Option<(Quantity, Unit)>, String> {
     match split(name, |own, stem| own == stem) {
         None => Ok(None),
@@ -300,9 +293,6 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 }
 
 /// The unit that a text stands for, in the ways that units are written.
-///
-/// # Errors
-/// The units that the quantity accepts.
 pub fn written(quantity: Quantity, text: &str) -> Result<Unit, String> {
     let plain = plain(text);
     let units = quantity
@@ -367,7 +357,6 @@ fn split(
     all.max_by_key(|(_, stem, _)| stem.len())
 }
 
-/// The unit that ends a name.
 fn known(
     name: &str,
     quantity: Quantity,

@@ -1,10 +1,11 @@
 //! What a record tells, with the kernel's length and the way after a turn that tell it best.
 
-use super::fit::{Block, Fit, fit};
+use super::fit::{Block, Fit, dot, fit, rms};
+use super::kernel::Kernel;
 use super::record::Record;
 use super::rows::Rows;
 use super::terms::Term;
-use crate::trace::channels::moments;
+use crate::trace::channels::{median, moments};
 
 /// Shortest and longest half-width of the kernel, s, its fewest samples, and the ratio of neighbours.
 const LENGTHS: [f64; 2] = [6e-3, 0.14];
@@ -32,7 +33,6 @@ const NOISY: f64 = 0.05;
 /// Way, s, and in lags, that rows of a measured speed keep from a turn; the longest.
 const SPARE: [f64; 3] = [0.03, 3.5, 0.25];
 
-/// Rows a parameter needs.
 const ROWS: usize = 3;
 
 /// What is wanted beside what a record tells by itself.
@@ -47,12 +47,10 @@ pub struct Wanted {
     pub kernel: Option<(f64, f64)>,
 }
 
-/// What records tell.
 #[derive(Clone, Debug)]
 pub struct Estimate {
     /// Terms.
     pub terms: Vec<Term>,
-    /// Their values.
     pub values: Vec<f64>,
     /// Half of each 95 % interval.
     pub half_widths: Vec<f64>,
@@ -67,14 +65,12 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// Value and half-width of a term.
     pub fn of(&self, term: Term) -> Option<(f64, f64)> {
         let place = self.terms.iter().position(|one| *one == term)?;
         Some((self.values[place], self.half_widths[place]))
     }
 }
 
-/// Settings of one fit.
 #[derive(Clone, Copy)]
 struct Tried {
     length: f64,
@@ -85,58 +81,49 @@ struct Tried {
 
 /// What records tell together: rows of each, or one row of a run at one speed. `None` where they tell nothing.
 pub fn estimate(records: &[Record], wanted: &Wanted) -> Option<Estimate> {
-    let spare = if records.iter().any(|record| record.speed_alone) {
-        SPARE[0]
-    } else {
-        0.0
-    };
-    with_spare(records, wanted, spare)
+    let speeds = records.iter().any(|record| record.speed_alone);
+    with_spare(
+        &Set::of(records),
+        wanted,
+        if speeds { SPARE[0] } else { 0.0 },
+    )
 }
 
-fn with_spare(records: &[Record], wanted: &Wanted, spare: f64) -> Option<Estimate> {
-    let runs = Runs::of(records);
-    let stroke = runs.stroke(records);
+fn with_spare(set: &Set<'_>, wanted: &Wanted, spare: f64) -> Option<Estimate> {
+    let tried = |length: f64, settling: f64, last: bool| Tried {
+        length,
+        settling,
+        spare,
+        last,
+    };
     if let Some((length, settling)) = wanted.kernel {
-        return at_kernel(records, &runs, wanted, [length, settling, spare]);
+        return at_kernel(set, wanted, tried(length, settling, true));
     }
-    let lengths = lengths(records);
-    let first = |index: usize| Tried {
-        length: lengths[index],
-        settling: WAYS[FIRST_WAY] * stroke,
-        spare,
-        last: index + 1 == lengths.len(),
-    };
-    let by_length: Vec<Estimate> = (0..lengths.len())
-        .filter_map(|index| one(records, &runs, wanted, first(index)))
-        .collect();
-    // A kernel of twice the length is two places further.
-    let (best, of_length) = best(by_length, 2)?;
-    let tried = |way: f64| Tried {
-        length: best.length,
-        settling: way * stroke,
-        spare,
-        last: true,
-    };
-    let by_way: Vec<Estimate> = if stroke > 0.0 {
-        WAYS.iter()
-            .filter_map(|way| one(records, &runs, wanted, tried(*way)))
-            .filter(|estimate| estimate.terms == best.terms)
-            .collect()
-    } else {
-        Vec::new()
-    };
-    let (mut best, of_way) = self::best(by_way, 1).unwrap_or_else(|| {
-        let none = vec![0.0; best.values.len()];
-        (best, none)
+    let (lengths, stroke) = (set.lengths(), set.stroke());
+    let by_length = lengths.iter().enumerate().filter_map(|(k, length)| {
+        let last = k + 1 == lengths.len();
+        set.fitted(wanted, tried(*length, WAYS[FIRST_WAY] * stroke, last))
     });
+    // A kernel of twice the length is two places further.
+    let (mut best, of_length) = best(by_length.collect(), 2)?;
+    let mut of_way = vec![0.0; best.values.len()];
+    if stroke > 0.0 {
+        let by_way = WAYS
+            .iter()
+            .filter_map(|way| set.fitted(wanted, tried(best.length, way * stroke, true)))
+            .filter(|estimate| estimate.terms == best.terms);
+        if let Some(found) = self::best(by_way.collect(), 1) {
+            (best, of_way) = found;
+        }
+    }
     if spare > 0.0
         && let Some((lag, _)) = best.of(Term::Lag)
         && 3.0 * lag > 1.2 * spare
         && spare < SPARE[2]
     {
-        return with_spare(records, wanted, (SPARE[1] * lag).min(SPARE[2]));
+        return with_spare(set, wanted, (SPARE[1] * lag).min(SPARE[2]));
     }
-    let apart = apart(records, wanted, &best);
+    let apart = apart(set.records, wanted, &best);
     for (k, half) in best.half_widths.iter_mut().enumerate() {
         *half = half.hypot(of_length[k]).hypot(of_way[k]).hypot(apart[k]);
     }
@@ -187,22 +174,14 @@ fn apart(records: &[Record], wanted: &Wanted, best: &Estimate) -> Vec<f64> {
 }
 
 /// The fit with one kernel, and twice what one of twice the length says otherwise in its intervals.
-fn at_kernel(
-    records: &[Record],
-    runs: &Runs,
-    wanted: &Wanted,
-    [length, settling, spare]: [f64; 3],
-) -> Option<Estimate> {
-    let tried = |length: f64| Tried {
-        length,
-        settling,
-        spare,
-        last: true,
+fn at_kernel(set: &Set<'_>, wanted: &Wanted, tried: Tried) -> Option<Estimate> {
+    let mut found = set.fitted(wanted, tried)?;
+    let longer = Tried {
+        length: 2.0 * tried.length,
+        ..tried
     };
-    let mut found = one(records, runs, wanted, tried(length))?;
-    if let Some(other) = one(records, runs, wanted, tried(2.0 * length))
-        && other.terms == found.terms
-    {
+    let other = set.fitted(wanted, longer);
+    if let Some(other) = other.filter(|other| other.terms == found.terms) {
         let values = found.values.iter().zip(&other.values);
         for (half, (value, other)) in found.half_widths.iter_mut().zip(values) {
             *half = half.hypot(2.0 * (value - other));
@@ -211,109 +190,153 @@ fn at_kernel(
     Some(found)
 }
 
-/// Half-widths of the kernel that are tried, s.
-fn lengths(records: &[Record]) -> Vec<f64> {
-    let tick = records.iter().map(|record| record.tick).fold(0.0, f64::max);
-    let shortest = LENGTHS[0].max(FEWEST as f64 * tick);
-    let longest = LENGTHS[1].max(4.0 * shortest);
-    std::iter::successors(Some(shortest), |length| Some(length * RATIO))
-        .take_while(|length| *length <= longest)
-        .collect()
+/// Records, and which of them are runs at one speed, each one row: all that are, where there are several. One alone is told by its own rows.
+struct Set<'a> {
+    records: &'a [Record],
+    runs: Vec<bool>,
 }
 
-/// Which records are runs at one speed, each one row.
-struct Runs(Vec<bool>);
-
-impl Runs {
-    /// All that are, where there are several records: one alone is told by its own rows.
-    fn of(records: &[Record]) -> Self {
+impl<'a> Set<'a> {
+    fn of(records: &'a [Record]) -> Self {
         let several = records.len() > 1;
-        let runs = records.iter();
-        Self(
-            runs.map(|record| several && record.one_speed().is_some())
-                .collect(),
-        )
+        let run = |record: &Record| several && record.one_speed().is_some();
+        Self {
+            records,
+            runs: records.iter().map(run).collect(),
+        }
     }
 
-    /// Median of the strokes between turns of the others, rad or m; 0 where there are none.
-    fn stroke(&self, records: &[Record]) -> f64 {
-        let others = records.iter().zip(&self.0).filter(|(_, run)| !**run);
-        let mut strokes: Vec<f64> = others
-            .filter_map(|(record, _)| Rows::of(record, 8, 0.0, 0))
-            .map(|rows| rows.stroke)
-            .collect();
-        strokes.sort_by(f64::total_cmp);
-        strokes.get(strokes.len() / 2).copied().unwrap_or(0.0)
+    /// Half-widths of the kernel that are tried, s.
+    fn lengths(&self) -> Vec<f64> {
+        let ticks = self.records.iter().map(|record| record.tick);
+        let shortest = LENGTHS[0].max(FEWEST as f64 * ticks.fold(0.0, f64::max));
+        let longest = LENGTHS[1].max(4.0 * shortest);
+        std::iter::successors(Some(shortest), |length| Some(length * RATIO))
+            .take_while(|length| *length <= longest)
+            .collect()
     }
-}
 
-/// One fit, without the systematic share.
-fn one(records: &[Record], runs: &Runs, wanted: &Wanted, tried: Tried) -> Option<Estimate> {
-    let samples = |time: f64, record: &Record| (time / record.tick).round() as usize;
-    let rows: Vec<Option<Rows>> = records
-        .iter()
-        .zip(&runs.0)
-        .map(|(record, run)| {
-            let half = samples(tried.length, record).max(FEWEST);
-            let spare = samples(tried.spare, record);
-            let rows = (!run).then(|| Rows::of(record, half, tried.settling, spare));
+    /// Median of the strokes between turns, rad or m; 0 where there are none.
+    fn stroke(&self) -> f64 {
+        let others = self
+            .records
+            .iter()
+            .zip(&self.runs)
+            .filter(|(_, run)| !**run);
+        let rows = others.filter_map(|(record, _)| Rows::of(record, 8, 0.0, 0));
+        median(rows.map(|rows| rows.stroke).collect())
+    }
+
+    fn rows(&self, tried: Tried) -> Vec<Option<Rows>> {
+        let rows = |(record, run): (&Record, &bool)| {
+            let samples = |time: f64| (time / record.tick).round() as usize;
+            let half = samples(tried.length).max(FEWEST);
+            let rows = (!run).then(|| Rows::of(record, half, tried.settling, samples(tried.spare)));
             rows.flatten().filter(|rows| rows.len() >= ROWS)
-        })
-        .collect();
-    let terms = terms(records, runs, &rows, wanted)?;
-    let blocks: Vec<Block> = records
-        .iter()
-        .zip(runs.0.iter().zip(&rows))
-        .filter_map(|(record, (run, rows))| match rows {
-            Some(rows) => Some(Block::of(record, rows, &terms)),
-            // As many rows as a kernel would make of it.
+        };
+        self.records.iter().zip(&self.runs).map(rows).collect()
+    }
+
+    /// Rows with these terms; a run counts as many as a kernel of this length would make of it.
+    fn blocks(&self, rows: &[Option<Rows>], terms: &[Term], length: f64) -> Vec<Block> {
+        let block = |((record, run), rows): ((&Record, &bool), &Option<Rows>)| match rows {
+            Some(rows) => Some(Block::of(record, rows, terms)),
             None if *run => {
                 let seconds = record.len() as f64 * record.tick;
-                Block::of_run(
-                    record,
-                    &terms,
-                    (ROWS as f64 * seconds / tried.length).max(1.0),
-                )
+                let weight = (ROWS as f64 * seconds / length).max(1.0);
+                Block::of_run(record, terms, weight)
             }
             None => None,
+        };
+        let runs = self.records.iter().zip(&self.runs);
+        runs.zip(rows).filter_map(block).collect()
+    }
+
+    /// One fit, without the systematic share.
+    fn fitted(&self, wanted: &Wanted, tried: Tried) -> Option<Estimate> {
+        let rows = self.rows(tried);
+        let terms = self.terms(&rows, wanted)?;
+        let blocks = self.blocks(&rows, &terms, tried.length);
+        let count: usize = blocks.iter().map(|block| block.target.len()).sum();
+        let enough = if self.runs.contains(&true) {
+            terms.len() + 1
+        } else {
+            ROWS * terms.len()
+        };
+        let groups = blocks.iter().map(|block| {
+            let mut numbers = block.pieces.clone();
+            numbers.dedup();
+            numbers.len()
+        });
+        if count < enough || groups.sum::<usize>() <= terms.len() || terms.is_empty() {
+            return None;
+        }
+        let late = terms.iter().position(|term| *term == Term::Lag);
+        if let Some(place) = late.filter(|_| !tried.last)
+            && noisy(self.records, &rows, &blocks, place)
+        {
+            return None;
+        }
+        let fit = fit(&blocks, &|coefficients| meaning(&terms, coefficients));
+        let mut numbers = fit.values.iter().chain(&fit.half_widths);
+        numbers.all(|x| x.is_finite()).then(|| Estimate {
+            values: fit.values.clone(),
+            half_widths: fit.half_widths.clone(),
+            terms,
+            fit,
+            length: tried.length,
+            settling: tried.settling,
+            rows,
         })
-        .collect();
-    let count: usize = blocks.iter().map(|block| block.target.len()).sum();
-    let enough = if runs.0.contains(&true) {
-        terms.len() + 1
-    } else {
-        ROWS * terms.len()
-    };
-    let mut groups: usize = 0;
-    for block in &blocks {
-        let mut numbers = block.pieces.clone();
-        numbers.dedup();
-        groups += numbers.len();
     }
-    if count < enough || groups <= terms.len() || terms.is_empty() {
-        return None;
+
+    /// The terms that records tell: those whose columns stand over the sensor's noise and differ from one another.
+    fn terms(&self, rows: &[Option<Rows>], wanted: &Wanted) -> Option<Vec<Term>> {
+        use Term::{
+            BackDriving, Coulomb, Driving, Gain, Inertia, Lag, Loss, Offset, OneSpeed, Viscous,
+        };
+        let basic = [Inertia, Viscous, Coulomb, Driving, BackDriving];
+        let blocks = self.blocks(rows, &basic, f64::INFINITY);
+        if blocks.is_empty() {
+            return None;
+        }
+        let column = |place: usize| -> Vec<f64> {
+            let of = blocks.iter().flat_map(|block| &block.columns[place]);
+            of.copied().collect()
+        };
+        let told = |place: usize| {
+            let noise = blocks.iter().map(|block| block.noise[(place, place)]);
+            let noise = (noise.sum::<f64>() / blocks.len() as f64).sqrt();
+            rms(&column(place)) > (OVER_NOISE * noise).max(1e-12)
+        };
+        let mut terms = Vec::new();
+        let (mean, spread) = moments(column(1).into_iter().map(f64::abs));
+        let one_speed = spread < ONE * mean || !told(1);
+        if !one_speed {
+            terms.extend(told(0).then_some(Inertia));
+            terms.push(Viscous);
+        }
+        let (mean, _) = moments(column(2).into_iter());
+        terms.extend((mean.abs() < ONE_WAY).then_some(Offset));
+        terms.push(if one_speed { OneSpeed } else { Coulomb });
+        if self.records.iter().all(|record| record.load.is_some()) {
+            let [driving, back_driving] = [column(3), column(4)];
+            let sizes = driving.iter().zip(&back_driving);
+            let (mean, spread) = moments(sizes.map(|(one, other)| one.abs() + other.abs()));
+            let changes = spread >= ONE * mean && mean > 0.0;
+            let own = self.records.iter().all(|record| record.load_is_effort);
+            let there = |column: &[f64]| own && changes && rms(column) > ONE * mean;
+            terms.extend(there(&driving).then_some(Driving));
+            terms.extend(there(&back_driving).then_some(BackDriving));
+            terms.extend((!own).then_some(Gain));
+            terms.extend((!own && changes).then_some(Loss));
+        }
+        terms.extend(&wanted.more);
+        let late = wanted.lag || self.records.iter().any(|record| record.speed_alone);
+        let late = late && terms.contains(&Inertia) && terms.contains(&Viscous);
+        terms.extend(late.then_some(Lag));
+        Some(terms)
     }
-    if !tried.last && terms.contains(&Term::Lag) && noisy(records, &rows, &blocks, &terms) {
-        return None;
-    }
-    let fit = fit(&blocks, &|coefficients| meaning(&terms, coefficients));
-    if !fit
-        .values
-        .iter()
-        .chain(&fit.half_widths)
-        .all(|x| x.is_finite())
-    {
-        return None;
-    }
-    Some(Estimate {
-        values: fit.values.clone(),
-        half_widths: fit.half_widths.clone(),
-        terms,
-        fit,
-        length: tried.length,
-        settling: tried.settling,
-        rows,
-    })
 }
 
 /// Inertia and lag from the coefficients `J + b D` and `J D` of `(J s + b)(1 + D s)`: the smaller root.
@@ -360,130 +383,18 @@ fn best(mut tried: Vec<Estimate>, step: usize) -> Option<(Estimate, Vec<f64>)> {
     Some((tried.swap_remove(index), share))
 }
 
-/// Root mean square over all rows.
-fn size(columns: &[Vec<f64>]) -> f64 {
-    let count: usize = columns.iter().map(Vec::len).sum();
-    let squares: f64 = columns.iter().flatten().map(|x| x * x).sum();
-    (squares / count.max(1) as f64).sqrt()
-}
-
-/// The terms that records tell: those whose columns stand over the sensor's noise and differ from one another.
-fn terms(
-    records: &[Record],
-    runs: &Runs,
-    rows: &[Option<Rows>],
-    wanted: &Wanted,
-) -> Option<Vec<Term>> {
-    let basic = [
-        Term::Inertia,
-        Term::Viscous,
-        Term::Coulomb,
-        Term::Driving,
-        Term::BackDriving,
-    ];
-    let blocks: Vec<Block> = records
-        .iter()
-        .zip(runs.0.iter().zip(rows))
-        .filter_map(|(record, (run, rows))| match rows {
-            Some(rows) => Some(Block::of(record, rows, &basic)),
-            None if *run => Block::of_run(record, &basic, 1.0),
-            None => None,
-        })
-        .collect();
-    if blocks.is_empty() {
-        return None;
-    }
-    let column = |place: usize| -> Vec<Vec<f64>> {
-        blocks
-            .iter()
-            .map(|block| block.columns[place].clone())
-            .collect()
-    };
-    let noise = |place: usize| -> f64 {
-        let of = blocks.iter().map(|block| block.noise[(place, place)]);
-        (of.sum::<f64>() / blocks.len() as f64).sqrt()
-    };
-    let told = |place: usize| size(&column(place)) > (OVER_NOISE * noise(place)).max(1e-12);
-    let mut terms = Vec::new();
-    let speeds = column(1);
-    let (mean, spread) = moments(speeds.iter().flatten().map(|speed| speed.abs()));
-    let one_speed = spread < ONE * mean || !told(1);
-    if !one_speed {
-        if told(0) {
-            terms.push(Term::Inertia);
-        }
-        terms.push(Term::Viscous);
-    }
-    let directions = column(2);
-    let (mean, _) = moments(directions.iter().flatten().copied());
-    if mean.abs() < ONE_WAY {
-        terms.push(Term::Offset);
-    }
-    terms.push(if one_speed {
-        Term::OneSpeed
-    } else {
-        Term::Coulomb
-    });
-    if records.iter().all(|record| record.load.is_some()) {
-        let sizes = column(3).into_iter().zip(column(4));
-        let sizes: Vec<f64> = sizes
-            .flat_map(|(one, other)| {
-                let both = one.into_iter().zip(other);
-                both.map(|(one, other)| one.abs() + other.abs())
-                    .collect::<Vec<_>>()
-            })
-            .collect();
-        let (mean, spread) = moments(sizes.iter().copied());
-        let changes = spread >= ONE * mean && mean > 0.0;
-        let own = records.iter().all(|record| record.load_is_effort);
-        let quadrant = |place: usize| size(&column(place)) > ONE * mean;
-        if own && changes {
-            let quadrants = [
-                (Term::Driving, quadrant(3)),
-                (Term::BackDriving, quadrant(4)),
-            ];
-            terms.extend(
-                quadrants
-                    .iter()
-                    .filter(|(_, there)| *there)
-                    .map(|(term, _)| *term),
-            );
-        } else if !own {
-            terms.push(Term::Gain);
-            if changes {
-                terms.push(Term::Loss);
-            }
+/// Whether the rate of the acceleration, the column at `place`, is more noise than motion: what a kernel longer by a square root of two says
+/// otherwise, over what it says beyond the other columns.
+fn noisy(records: &[Record], rows: &[Option<Rows>], blocks: &[Block], place: usize) -> bool {
+    let mut noise = 0.0;
+    for (record, rows) in records.iter().zip(rows) {
+        let Some(rows) = rows else { continue };
+        let longer = Kernel::new((RATIO * rows.kernel.half() as f64) as usize, record.tick);
+        for centre in &rows.centres {
+            let at = |kernel: &Kernel| kernel.at(record.order(3), &record.motion, *centre);
+            noise += (at(&rows.kernel) - at(&longer)).powi(2);
         }
     }
-    terms.extend(&wanted.more);
-    let late = wanted.lag || records.iter().any(|record| record.speed_alone);
-    if late && terms.contains(&Term::Inertia) && terms.contains(&Term::Viscous) {
-        terms.push(Term::Lag);
-    }
-    Some(terms)
-}
-
-/// Whether the rate of the acceleration is more noise than motion: what a kernel longer by a square root of two says otherwise, over what it
-/// says beyond the other columns.
-fn noisy(records: &[Record], rows: &[Option<Rows>], blocks: &[Block], terms: &[Term]) -> bool {
-    let Some(place) = terms.iter().position(|term| *term == Term::Lag) else {
-        return false;
-    };
-    let placed = records.iter().zip(rows).filter_map(|(record, rows)| {
-        let rows = rows.as_ref()?;
-        let half = (RATIO * rows.kernel.half() as f64) as usize;
-        let kernel = super::kernel::Kernel::new(half, record.tick);
-        let order = record.order(3);
-        let sums = |kernel: &super::kernel::Kernel| -> Vec<f64> {
-            let at = |centre: &usize| kernel.at(order, &record.motion, *centre);
-            rows.centres.iter().map(at).collect()
-        };
-        Some((sums(&rows.kernel), sums(&kernel)))
-    });
-    let noise: f64 = placed
-        .flat_map(|(one, other)| one.into_iter().zip(other))
-        .map(|(one, other)| (one - other).powi(2))
-        .sum();
     let alone: Vec<Block> = blocks
         .iter()
         .map(|block| {
@@ -493,7 +404,6 @@ fn noisy(records: &[Record], rows: &[Option<Rows>], blocks: &[Block], terms: &[T
             block
         })
         .collect();
-    let own = fit(&alone, &<[f64]>::to_vec);
-    let own: f64 = own.residual.iter().map(|r| r * r).sum();
-    noise > NOISY * own
+    let own = fit(&alone, &<[f64]>::to_vec).residual;
+    noise > NOISY * dot(&own, &own)
 }

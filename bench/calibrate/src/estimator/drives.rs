@@ -6,10 +6,9 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::{Distribution, StandardNormal};
 use rand_pcg::Pcg64Mcg;
 
+use crate::trace::Trace;
 use crate::trace::channels::resolution;
-use crate::trace::{Coordinate, Origins, Repairs, Trace};
 
-/// What is true of a drive.
 #[derive(Clone, Copy, Debug)]
 pub struct Drive {
     /// kg m^2, N m s/rad, N m, N m.
@@ -24,7 +23,6 @@ pub struct Drive {
     phase: f64,
     /// Noise of effort and load, N m.
     pub noise: [f64; 2],
-    /// Samples a second.
     pub rate: usize,
     /// Whether it rests between moves.
     pub rests: bool,
@@ -39,7 +37,6 @@ pub struct Drive {
 }
 
 impl Drive {
-    /// One that is drawn.
     pub fn drawn(seed: u64) -> Self {
         let mut random = Pcg64Mcg::seed_from_u64(1000 + seed);
         let mut between = |low: f64, high: f64| random.random_range(low..high);
@@ -173,8 +170,6 @@ impl Drive {
         };
         let trace = Trace {
             name: "drive".into(),
-            coordinate: Coordinate::Rotation,
-            start: 0.0,
             step: tick,
             resolution: if lag.is_some() {
                 0.0
@@ -185,15 +180,9 @@ impl Drive {
             position_summed: lag.is_some(),
             speed: speeds,
             effort: efforts,
-            reference_position: None,
             load: Some(loads),
             load_is_effort: true,
-            known: None,
-            temperature: None,
-            repairs: Repairs::default(),
-            left_out: Vec::new(),
-            origins: Origins::default(),
-            ignored: Vec::new(),
+            ..Trace::default()
         };
         (trace, stood)
     }

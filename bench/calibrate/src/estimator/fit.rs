@@ -12,16 +12,13 @@ const STRETCHES: f64 = 8.0;
 /// Least singular value over the largest that counts.
 const RANK: f64 = 1e-12;
 
-/// Rows of one record.
 #[derive(Clone, Debug, Default)]
 pub struct Block {
     /// Columns in the order of the names, each of one length.
     pub columns: Vec<Vec<f64>>,
-    /// What they explain.
     pub target: Vec<f64>,
     /// Covariance of the sensor's noise in the columns of a row.
     pub noise: DMatrix<f64>,
-    /// Number of each row's stretch.
     pub stretches: Vec<usize>,
     /// Number of each row's piece; neighbours differ by 1.
     pub pieces: Vec<usize>,
@@ -30,12 +27,9 @@ pub struct Block {
 /// What the values mean: those of the fit from the linear coefficients.
 pub type Meaning<'a> = &'a dyn Fn(&[f64]) -> Vec<f64>;
 
-/// A fit.
 #[derive(Clone, Debug)]
 pub struct Fit {
-    /// Linear coefficients.
     pub coefficients: Vec<f64>,
-    /// Values, from the coefficients.
     pub values: Vec<f64>,
     /// Half of each 95 % interval.
     pub half_widths: Vec<f64>,
@@ -43,9 +37,7 @@ pub struct Fit {
     pub covariance: DMatrix<f64>,
     /// Effective number of pieces that tell each coefficient.
     pub pieces: Vec<f64>,
-    /// What is left of each row.
     pub residual: Vec<f64>,
-    /// Its root mean square.
     pub residual_rms: f64,
     /// That over the standard deviation of the target.
     pub relative: f64,
@@ -58,7 +50,6 @@ struct Piece {
     right: DVector<f64>,
 }
 
-/// The coefficients of normal equations.
 fn solved(normal: &DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
     if let Some(factor) = normal.clone().cholesky() {
         return factor.solve(right);
@@ -181,7 +172,35 @@ fn total(pieces: &[Piece], count: usize) -> (DMatrix<f64>, DVector<f64>) {
     sums
 }
 
-/// What a jackknife says.
+/// What solves for the coefficients of columns that make some rows.
+pub fn solver(columns: &[Vec<f64>]) -> Option<impl Fn(&[f64]) -> DVector<f64> + use<'_>> {
+    let sizes: Vec<f64> = columns
+        .iter()
+        .map(|column| dot(column, column).sqrt())
+        .collect();
+    let count = columns.len();
+    let normal = DMatrix::from_fn(count, count, |i, j| {
+        dot(&columns[i], &columns[j]) / (sizes[i] * sizes[j])
+    });
+    let inverse = normal.try_inverse()?;
+    Some(move |rows: &[f64]| {
+        let right = DVector::from_fn(count, |k, _| dot(&columns[k], rows) / sizes[k]);
+        let mut found = &inverse * right;
+        for (value, size) in found.iter_mut().zip(&sizes) {
+            *value /= size;
+        }
+        found
+    })
+}
+
+pub fn dot(one: &[f64], other: &[f64]) -> f64 {
+    one.iter().zip(other).map(|(a, b)| a * b).sum()
+}
+
+pub fn rms(values: &[f64]) -> f64 {
+    (dot(values, values) / values.len().max(1) as f64).sqrt()
+}
+
 struct Jackknife {
     half_widths: Vec<f64>,
     pieces: Vec<f64>,
@@ -247,6 +266,6 @@ fn jackknife(
 }
 
 /// Student's quantile of a 95 % interval, for 1 degree of freedom or more.
-fn quantile(freedom: f64) -> f64 {
+pub fn quantile(freedom: f64) -> f64 {
     StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(f64::INFINITY, |t| t.inverse_cdf(UPPER))
 }

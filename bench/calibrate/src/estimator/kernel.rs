@@ -8,6 +8,7 @@
 #[derive(Clone, Debug)]
 pub struct Kernel {
     half: usize,
+    tick: f64,
     weights: [Vec<f64>; 4],
 }
 
@@ -61,8 +62,14 @@ impl Kernel {
         scale(&mut third, 1.0 / jerk);
         Self {
             half,
+            tick,
             weights: [phi, first, second, third],
         }
+    }
+
+    /// Tick, s.
+    pub const fn tick(&self) -> f64 {
+        self.tick
     }
 
     /// Samples to each side.

@@ -57,35 +57,6 @@ pub struct Record {
 impl Record {
     /// That of a trace, with more samples left out.
     pub fn of(trace: &Trace, more: &[Range<usize>]) -> Self {
-        let tick = trace.step;
-        let speed = trace.speed.as_ref().filter(|_| trace.position_summed);
-        let measured = speed.unwrap_or(&trace.position);
-        let step = if speed.is_some() {
-            resolution(measured)
-        } else {
-            trace.resolution
-        };
-        let noise = if step > 0.0 {
-            step / 12_f64.sqrt()
-        } else {
-            white_noise(measured)
-        };
-        let (least, motion, counted) = if speed.is_some() {
-            let largest = measured.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
-            let least = (STEPS * step).max(STANDS * largest);
-            let least = if step > 0.0 {
-                least
-            } else {
-                least.max(DEVIATIONS_OF_SPEED * noise)
-            };
-            let smoothed = Kernel::new(3, tick).along(0, measured);
-            (least, measured.clone(), smoothed)
-        } else if step > 0.0 {
-            let motion = between_counts(measured);
-            (STEPS * step, motion, measured.clone())
-        } else {
-            (DEVIATIONS * noise, measured.clone(), measured.clone())
-        };
         let mut bad = vec![0; trace.len() + 1];
         for range in trace.left_out.iter().chain(more) {
             bad[range.start.min(trace.len())..range.end.min(trace.len())].fill(1);
@@ -94,46 +65,83 @@ impl Record {
         for bad in &mut bad {
             before += std::mem::replace(bad, before);
         }
-        Self {
+        let record = Self {
             name: trace.name.clone(),
-            tick,
-            speed_alone: speed.is_some(),
-            motion,
+            tick: trace.step,
+            speed_alone: false,
+            motion: Vec::new(),
             path: trace.position.clone(),
             effort: trace.acting().into_owned(),
             load: trace.load.clone(),
             load_is_effort: trace.load_is_effort,
+            noise: 0.0,
+            least: 0.0,
+            counted: Vec::new(),
+            left_out: bad,
+        };
+        match trace.speed.as_ref().filter(|_| trace.position_summed) {
+            Some(speed) => record.with_speed(speed),
+            None => record.with_position(&trace.position, trace.resolution),
+        }
+    }
+
+    /// With this position, of a sensor with this step.
+    fn with_position(self, position: &[f64], step: f64) -> Self {
+        let (motion, noise, least) = if step > 0.0 {
+            (between_counts(position), step / 12_f64.sqrt(), STEPS * step)
+        } else {
+            let noise = white_noise(position);
+            (position.to_vec(), noise, DEVIATIONS * noise)
+        };
+        Self {
+            motion,
+            path: position.to_vec(),
+            counted: position.to_vec(),
             noise,
             least,
-            counted,
-            left_out: bad,
+            ..self
+        }
+    }
+
+    /// With this speed in the place of a position.
+    fn with_speed(self, speed: &[f64]) -> Self {
+        let step = resolution(speed);
+        let largest = speed.iter().fold(0.0_f64, |most, w| most.max(w.abs()));
+        let least = (STEPS * step).max(STANDS * largest);
+        let (noise, least) = if step > 0.0 {
+            (step / 12_f64.sqrt(), least)
+        } else {
+            let noise = white_noise(speed);
+            (noise, least.max(DEVIATIONS_OF_SPEED * noise))
+        };
+        Self {
+            speed_alone: true,
+            motion: speed.to_vec(),
+            counted: Kernel::new(3, self.tick).along(0, speed),
+            noise,
+            least,
+            ..self
         }
     }
 
     /// The same with position and effort exchanged.
     #[must_use]
     pub fn exchanged(&self) -> Self {
-        let step = resolution(&self.effort);
-        let noise = white_noise(&self.effort);
-        let (motion, least, noise) = if step > 0.0 {
-            (
-                between_counts(&self.effort),
-                STEPS * step,
-                step / 12_f64.sqrt(),
-            )
-        } else {
-            (self.effort.clone(), DEVIATIONS * noise, noise)
-        };
-        Self {
+        let other = Self {
             speed_alone: false,
-            motion,
-            path: self.effort.clone(),
-            counted: self.effort.clone(),
             effort: self.path.clone(),
-            noise,
-            least,
             load: None,
             ..self.clone()
+        };
+        other.with_position(&self.effort, resolution(&self.effort))
+    }
+
+    /// Position as the kernels smooth it, rad or m.
+    pub fn places(&self) -> &[f64] {
+        if self.speed_alone {
+            &self.path
+        } else {
+            &self.motion
         }
     }
 
@@ -250,19 +258,22 @@ const SMOOTHED: f64 = 12e-3;
 impl Smoothed {
     /// That of a trace, behind a kernel of 12 ms to each side, four samples at least.
     pub fn of(trace: &Trace) -> Self {
-        let record = Record::of(trace, &[]);
         let half = ((SMOOTHED / trace.step).round() as usize).max(4);
         let kernel = Kernel::new(half, trace.step);
-        let places = if record.speed_alone {
-            &record.path
-        } else {
-            &record.motion
+        Self::by(&Record::of(trace, &[]), &kernel, 1)
+    }
+
+    /// That of a record behind a kernel, at every so many of its samples.
+    pub fn by(record: &Record, kernel: &Kernel, stride: usize) -> Self {
+        let along = |order: usize, signal: &[f64]| {
+            let samples = (0..record.len()).step_by(stride);
+            samples.map(|k| kernel.at(order, signal, k)).collect()
         };
         Self {
-            position: kernel.along(0, places),
-            speed: kernel.along(record.order(1), &record.motion),
-            acceleration: kernel.along(record.order(2), &record.motion),
-            noise: [1, 2].map(|k| record.noise_in(&kernel, k)),
+            position: along(0, record.places()),
+            speed: along(record.order(1), &record.motion),
+            acceleration: along(record.order(2), &record.motion),
+            noise: [1, 2].map(|k| record.noise_in(kernel, k)),
         }
     }
 }

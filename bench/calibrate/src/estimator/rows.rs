@@ -3,7 +3,6 @@
 use super::kernel::Kernel;
 use super::record::{QUARTER, Record};
 
-/// Rows in a half-width.
 const ROWS: usize = 3;
 
 /// Half-widths in a piece of a stretch.
@@ -99,10 +98,28 @@ impl Rows {
             .collect()
     }
 
+    /// A signal in every row, so many samples later; what is beyond an end of it counts as the end.
+    pub fn later(&self, by: isize, signal: &[f64]) -> Vec<f64> {
+        let at = |centre: &usize| {
+            let centre = centre.saturating_add_signed(by);
+            self.kernel.at(0, signal, centre)
+        };
+        self.centres.iter().map(at).collect()
+    }
+
+    fn smooth(&self, load: &[f64]) -> Vec<f64> {
+        Kernel::new((self.kernel.half() / QUARTER).max(3), 1.0).along(0, load)
+    }
+
+    /// The sign of a load in every row, which is that of a short mean.
+    pub fn signs(&self, load: &[f64]) -> Vec<f64> {
+        let signs: Vec<f64> = self.smooth(load).iter().map(|load| load.signum()).collect();
+        self.sums(0, &signs)
+    }
+
     /// The positive and the negative part of a load in every row; its sign is that of a short mean.
     pub fn parts(&self, load: &[f64]) -> [Vec<f64>; 2] {
-        let short = Kernel::new((self.kernel.half() / QUARTER).max(3), 1.0);
-        let smooth = short.along(0, load);
+        let smooth = self.smooth(load);
         [1.0, -1.0].map(|sign| {
             let part: Vec<f64> = smooth.iter().map(|load| (sign * load).max(0.0)).collect();
             self.sums(0, &part)

@@ -3,9 +3,7 @@
 /// A stretch of one direction, in samples: from the first that is a step beyond the turn to the last a step before the next one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// First sample.
     pub first: usize,
-    /// Last sample, after the first.
     pub last: usize,
     /// 1 or -1.
     pub direction: f64,

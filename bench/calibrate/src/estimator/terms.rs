@@ -8,7 +8,6 @@ use super::record::Record;
 use super::rows::Rows;
 use crate::trace::Coordinate;
 
-/// A term of the equation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Term {
     /// Inertia or mass: `a`.
@@ -23,17 +22,17 @@ pub enum Term {
     OneSpeed,
     /// Loss in proportion to the load where it opposes the motion: `s |tau|`.
     Driving,
-    /// The same where it assists.
     BackDriving,
     /// Effort of a unit of load: `F`.
     Gain,
     /// Loss of both directions of power of a unit of load: `s |F|`.
     Loss,
+    /// Zero error of the load: 1 where it opposes the motion, -1 where it assists.
+    LoadZero,
     /// Lag of a measured speed, s: the rate of the acceleration. Its coefficient is `J D`, that of the acceleration `J + b D`.
     Lag,
     /// Sine of so many rad of the position, 1/rad or 1/m.
     Sine(f64),
-    /// Cosine of it.
     Cosine(f64),
     /// Viscous friction that differs by direction: `|w|`.
     Asymmetry,
@@ -42,7 +41,6 @@ pub enum Term {
 }
 
 impl Term {
-    /// Its name.
     pub const fn name(self, coordinate: Coordinate) -> &'static str {
         match self {
             Self::Inertia => match coordinate {
@@ -57,6 +55,7 @@ impl Term {
             Self::BackDriving => "back_driving_loss",
             Self::Gain => "load_gain",
             Self::Loss => "load_loss",
+            Self::LoadZero => "load_zero",
             Self::Lag => "speed_lag",
             Self::Sine(_) => "sine_of_position",
             Self::Cosine(_) => "cosine_of_position",
@@ -65,7 +64,6 @@ impl Term {
         }
     }
 
-    /// Its unit.
     pub const fn unit(self, coordinate: Coordinate) -> &'static str {
         let [rotation, translation] = match self {
             Self::Inertia => ["kg m^2", "kg"],
@@ -130,6 +128,7 @@ impl Block {
                 let both = loss(true).into_iter().zip(loss(false));
                 both.map(|(one, other)| one + other).collect()
             }
+            Term::LoadZero => signed(load.map_or_else(Vec::new, |load| rows.signs(load))),
             Term::Sine(wave) => of_path(&|x| (wave * x).sin()),
             Term::Cosine(wave) => of_path(&|x| (wave * x).cos()),
             Term::Asymmetry => signed(derivative(1)),
@@ -179,6 +178,7 @@ impl Block {
                 Term::BackDriving => direction * assisting,
                 Term::Gain => load,
                 Term::Loss => direction * (opposing + assisting),
+                Term::LoadZero => (direction * load).signum(),
                 Term::Asymmetry => speed.abs(),
                 Term::Stribeck(of) => direction * (-speed.abs() / of).exp(),
                 Term::Inertia | Term::Lag | Term::Sine(_) | Term::Cosine(_) => 0.0,

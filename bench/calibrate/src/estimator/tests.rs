@@ -6,10 +6,12 @@ use rayon::prelude::*;
 
 use super::choice::{Estimate, Wanted, estimate};
 use super::drives::Drive;
+use super::fit::rms;
 use super::record::Record;
 use super::terms::Term;
 use super::words::{Diagnosis, diagnose};
 use crate::trace::Trace;
+use crate::without_design::largest;
 
 const TERMS: [Term; 6] = [
     Term::Inertia,
@@ -173,79 +175,76 @@ fn told(trace: &Trace) -> Result<Diagnosis, String> {
 
 type Spoil = fn(&mut Trace);
 
-fn rms(values: &[f64]) -> f64 {
-    (values.iter().map(|x| x * x).sum::<f64>() / values.len() as f64).sqrt()
+fn each(values: &mut [f64], of: impl Fn(f64) -> f64) {
+    values.iter_mut().for_each(|value| *value = of(*value));
+}
+
+/// Adds a wave of the position, of a part of the largest effort.
+fn wave(trace: &mut Trace, part: f64, of: impl Fn(f64) -> f64) {
+    let most = largest(&trace.effort);
+    for (effort, place) in trace.effort.iter_mut().zip(&trace.position) {
+        *effort += part * most * of(*place);
+    }
 }
 
 /// Traces that are wrong in one way, and a part of the word on it; those of a load keep it, the others have none.
-const WRONG: [(&str, bool, Spoil); 11] = [
+const WRONG: [(&str, bool, Spoil); 16] = [
     ("turn the sign of motor_torque", false, |trace| {
-        trace
-            .effort
-            .iter_mut()
-            .for_each(|effort| *effort = -*effort);
+        each(&mut trace.effort, |effort| -effort);
     }),
     ("turn the sign of load_torque", true, |trace| {
-        let load = trace.load.as_mut().unwrap();
-        for load in load {
-            *load = -*load;
-        }
+        each(trace.load.as_mut().unwrap(), |load| -load);
     }),
     ("motor_torque is in mN m", true, |trace| {
-        trace.effort.iter_mut().for_each(|effort| *effort *= 1e3);
+        each(&mut trace.effort, |effort| 1e3 * effort);
     }),
     ("the ratio of a gear", true, |trace| {
-        trace.effort.iter_mut().for_each(|effort| *effort /= 2.5);
+        each(&mut trace.effort, |effort| effort / 2.5);
     }),
     ("are exchanged", false, |trace| {
         std::mem::swap(&mut trace.position, &mut trace.effort);
         trace.resolution = 0.0;
     }),
     ("read without its sign", false, |trace| {
-        let wrap = |effort: &mut f64| *effort = (*effort / 1e-3).round().rem_euclid(65536.0) * 1e-3;
-        trace.effort.iter_mut().for_each(wrap);
+        let wrap = |effort: f64| (effort / 1e-3).round().rem_euclid(65536.0) * 1e-3;
+        each(&mut trace.effort, wrap);
     }),
     ("ran over its range", false, |trace| {
         let step = 1.2 * rms(&trace.effort) / 512.0;
-        let wrap = |effort: &mut f64| {
-            *effort = (((*effort / step).round() + 512.0).rem_euclid(1024.0) - 512.0) * step;
-        };
-        trace.effort.iter_mut().for_each(wrap);
+        each(&mut trace.effort, |effort| {
+            (((effort / step).round() + 512.0).rem_euclid(1024.0) - 512.0) * step
+        });
     }),
     ("a load that follows the position", false, |trace| {
-        let most = trace
-            .effort
-            .iter()
-            .fold(0.0_f64, |most, x| most.max(x.abs()));
-        let add = trace.position.iter().map(|x| 2.0 * most * (0.05 * x).sin());
-        trace
-            .effort
-            .iter_mut()
-            .zip(add)
-            .for_each(|(effort, add)| *effort += add);
+        wave(trace, 2.0, |x| (0.05 * x).sin());
     }),
     ("18.00 a turn", false, |trace| {
-        let most = trace
-            .effort
-            .iter()
-            .fold(0.0_f64, |most, x| most.max(x.abs()));
-        let add = trace
-            .position
-            .iter()
-            .map(|x| 0.2 * most * (18.0 * x + 0.4).sin());
-        trace
-            .effort
-            .iter_mut()
-            .zip(add)
-            .for_each(|(effort, add)| *effort += add);
+        wave(trace, 0.2, |x| (18.0 * x + 0.4).sin());
     }),
     ("later than the motion", false, |trace| {
-        let late = (0.01 / trace.step) as usize;
-        trace.effort.rotate_right(late);
+        trace.effort.rotate_right((0.01 / trace.step) as usize);
+    }),
+    ("comes 40 ms later than the other", false, |trace| {
+        trace.effort.rotate_right((0.04 / trace.step) as usize);
+    }),
+    ("motor_torque comes 10 ms later", true, |trace| {
+        trace.effort.rotate_right((0.01 / trace.step) as usize);
+    }),
+    ("load_torque comes 20 ms later", true, |trace| {
+        let load = trace.load.as_mut().unwrap();
+        load.rotate_right((0.02 / trace.step) as usize);
+    }),
+    ("without a load: set its zero", true, |trace| {
+        let load = trace.load.as_mut().unwrap();
+        let off = 0.1 * rms(load);
+        each(load, |load| load + off);
+    }),
+    ("is the load in kN?", true, |trace| {
+        // A lever of 1 mm, and the load in kN.
+        trace.load_is_effort = false;
     }),
     ("nothing in the trace explains", false, |trace| {
-        let noise = crate::fit::toys::noise(7, trace.effort.len(), 0.0);
-        trace.effort = noise;
+        trace.effort = crate::fit::toys::noise(7, trace.effort.len(), 0.0);
     }),
 ];
 

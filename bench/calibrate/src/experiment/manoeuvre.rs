@@ -3,19 +3,22 @@
 use std::f64::consts::TAU;
 use std::fmt;
 
-use crate::trace::{Coordinate, Origins, Repairs, Trace};
+use crate::trace::Trace;
 use epas_design::files::Design;
 
-/// A manoeuvre; its [`Manoeuvre::words`] say how it is driven.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Manoeuvre {
-    Weave,
-    Parking,
-    MicroReversals,
-    LoadSteps,
-    WarmUp,
-    SpinDown,
-    WholeTurns,
+/// A manoeuvre.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Manoeuvre {
+    pub name: &'static str,
+    /// How it is driven.
+    pub how: &'static str,
+    /// The parameters that it identifies: of `calibrate --wanted` for the built-in `lin-4.1` one of the two narrowest intervals is its; for
+    /// spin-down and whole turns, what they still identify without a load and at one speed.
+    pub identifies: &'static str,
+    /// Duration, s.
+    pub duration: f64,
+    /// Angle, rad, and axial load, N, at a time.
+    motion: fn(f64, &Reach) -> (f64, f64),
 }
 
 /// What the rig or the vehicle can do.
@@ -64,155 +67,120 @@ fn triangle(turns: f64) -> f64 {
     (ROUND * (TAU * turns).sin()).asin() / ROUND.asin()
 }
 
+fn wave(frequency: f64, t: f64) -> f64 {
+    (TAU * frequency * t).sin()
+}
+
+/// A sweep over nearly all of the way, with the largest speed.
+fn sweep(t: f64, reach: &Reach) -> f64 {
+    let frequency = (reach.speed / (TAU * reach.angle)).min(0.5);
+    reach.angle * (0.8 * wave(frequency, t) + 0.2 * wave(0.44 * frequency, t))
+}
+
+/// All of them.
+pub(crate) const MANOEUVRES: [Manoeuvre; 7] = [
+    Manoeuvre {
+        name: "weave",
+        how: "reversals of up to 0.6 rad at 0.2 to 1.5 Hz, the load follows the angle",
+        identifies: "breakaway_angle gain",
+        duration: 20.0,
+        motion: |t, reach| {
+            let size = 0.6f64.min(0.5 * reach.angle);
+            let angle = 0.6 * wave(0.2, t) + 0.3 * wave(0.7, t) + 0.1 * wave(1.5, t);
+            let load = 0.3 * wave(0.2, t) + 0.1 * wave(0.9, t);
+            (size * angle, reach.load * load)
+        },
+    },
+    Manoeuvre {
+        name: "parking",
+        how: "fast sweeps from lock to lock under up to the largest load",
+        identifies: "friction full_film_ratio half_share_speed preload drag offset direction_asymmetry",
+        duration: 20.0,
+        motion: |t, reach| {
+            let angle = sweep(t, reach);
+            let load = 0.8 * angle / reach.angle + 0.2 * wave(0.3, t);
+            (angle, reach.load * load)
+        },
+    },
+    Manoeuvre {
+        name: "micro reversals",
+        how: "reversals at rest by 0.5 to 4 times the pre-sliding travel, 0.8 times a second",
+        identifies: "breakaway_angle backlash offset",
+        duration: 20.0,
+        motion: |t, reach| {
+            let angle = (0.5 + 3.5 * t / 20.0) * triangle(0.8 * t) + 20.0 * wave(0.05, t);
+            (reach.travel * angle, 0.3 * reach.load * wave(0.11, t))
+        },
+    },
+    Manoeuvre {
+        name: "load steps",
+        how: "even turning to and fro, the load stepped through 0, half and all of both signs",
+        identifies: "preload gain direction_asymmetry inertia",
+        duration: 20.0,
+        motion: |t, reach| {
+            let frequency = (0.2 * reach.speed / (4.0 * reach.angle)).max(0.1);
+            let size = (0.2 * reach.speed / (4.0 * frequency)).min(reach.angle);
+            // 0 before, 1 behind, smooth over 0.1 s.
+            let step = |at: f64| 0.5 * (1.0 + ((t - at) / 0.05).tanh());
+            let load = 0.5 * step(4.0) + 0.5 * step(7.0) - 1.5 * step(11.0) - 0.5 * step(14.0)
+                + step(17.0);
+            (size * triangle(frequency * t), reach.load * load)
+        },
+    },
+    Manoeuvre {
+        name: WARM_UP,
+        how: "one sweep again and again under half of the load while the screw warms up",
+        identifies: "friction full_film_ratio half_share_speed viscosity_pole drag inertia",
+        duration: 60.0,
+        motion: |t, reach| (sweep(t, reach), 0.5 * reach.load),
+    },
+    Manoeuvre {
+        name: "spin-down",
+        how: "the unloaded nut is let go at its largest speed and stops of itself",
+        identifies: "drag",
+        duration: 5.0,
+        // Speed falls as (1 - t/T)^2 until the nut stands.
+        motion: |t, reach| {
+            let part = (1.0 - t / 5.0).max(0.0);
+            (reach.speed * 5.0 / 3.0 * (1.0 - part.powi(3)), 0.0)
+        },
+    },
+    Manoeuvre {
+        name: "whole turns at constant load",
+        how: "whole turns there and back at low speed under half of the load",
+        identifies: "harmonics",
+        duration: 20.0,
+        motion: |t, reach| {
+            let turns = (reach.angle / TAU).floor().max(1.0);
+            (turns * TAU * triangle(t / 20.0), 0.5 * reach.load)
+        },
+    },
+];
+
+/// The one in which the temperature rises.
+const WARM_UP: &str = "warm-up";
+
 impl Manoeuvre {
-    /// All of them.
-    pub const ALL: [Self; 7] = [
-        Self::Weave,
-        Self::Parking,
-        Self::MicroReversals,
-        Self::LoadSteps,
-        Self::WarmUp,
-        Self::SpinDown,
-        Self::WholeTurns,
-    ];
-
-    /// Name, how to drive it, and the parameters that it identifies: of `calibrate --wanted` for the built-in `lin-4.1` one of the two
-    /// narrowest intervals is its; for spin-down and whole turns, what they still identify without a load and at one speed.
-    pub const fn words(self) -> [&'static str; 3] {
-        match self {
-            Self::Weave => [
-                "weave",
-                "reversals of up to 0.6 rad at 0.2 to 1.5 Hz, the load follows the angle",
-                "breakaway_angle gain",
-            ],
-            Self::Parking => [
-                "parking",
-                "fast sweeps from lock to lock under up to the largest load",
-                "friction full_film_ratio half_share_speed preload drag offset direction_asymmetry",
-            ],
-            Self::MicroReversals => [
-                "micro reversals",
-                "reversals at rest by 0.5 to 4 times the pre-sliding travel, 0.8 times a second",
-                "breakaway_angle backlash offset",
-            ],
-            Self::LoadSteps => [
-                "load steps",
-                "even turning to and fro, the load stepped through 0, half and all of both signs",
-                "preload gain direction_asymmetry inertia",
-            ],
-            Self::WarmUp => [
-                "warm-up",
-                "one sweep again and again under half of the load while the screw warms up",
-                "friction full_film_ratio half_share_speed viscosity_pole drag inertia",
-            ],
-            Self::SpinDown => [
-                "spin-down",
-                "the unloaded nut is let go at its largest speed and stops of itself",
-                "drag",
-            ],
-            Self::WholeTurns => [
-                "whole turns at constant load",
-                "whole turns there and back at low speed under half of the load",
-                "harmonics",
-            ],
-        }
-    }
-
-    /// Duration, s.
-    pub const fn duration(self) -> f64 {
-        match self {
-            Self::WarmUp => 60.0,
-            Self::SpinDown => 5.0,
-            _ => 20.0,
-        }
-    }
-
     /// Its trace with a tick, s, without the effort.
-    pub fn trace(self, step: f64, reach: &Reach) -> Trace {
-        let rows = (self.duration() / step).round() as usize;
-        let of = |at: &dyn Fn(f64) -> f64| (0..rows).map(|row| at(row as f64 * step)).collect();
+    pub fn trace(&self, step: f64, reach: &Reach) -> Trace {
+        let rows = (self.duration / step).round() as usize;
+        let time = |row: usize| row as f64 * step;
         let [cold, warm] = reach.temperature;
-        let rise = if self == Self::WarmUp {
-            (warm - cold) / self.duration()
+        let rise = if self.name == WARM_UP {
+            (warm - cold) / self.duration
         } else {
             0.0
         };
+        let moved = (0..rows).map(|row| (self.motion)(time(row), reach));
+        let (position, load) = moved.unzip();
         Trace {
-            name: self.words()[0].into(),
-            coordinate: Coordinate::Rotation,
-            start: 0.0,
+            name: self.name.into(),
             step,
             effort: vec![0.0; rows],
-            position: of(&|time| self.position(time, reach)),
-            resolution: 0.0,
-            position_summed: false,
-            speed: None,
-            reference_position: None,
-            load: Some(of(&|time| self.load(time, reach))),
-            load_is_effort: false,
-            known: None,
-            temperature: Some(of(&|time| cold + rise * time)),
-            repairs: Repairs::default(),
-            left_out: Vec::new(),
-            origins: Origins::default(),
-            ignored: Vec::new(),
-        }
-    }
-
-    /// Angle at a time, rad.
-    fn position(self, t: f64, reach: &Reach) -> f64 {
-        let Reach {
-            angle,
-            speed,
-            travel,
-            ..
-        } = *reach;
-        // A sweep of this amplitude and frequency has the largest speed `size 2 pi f`.
-        let sweep = |size: f64, frequency: f64| size * (TAU * frequency * t).sin();
-        match self {
-            Self::Weave => {
-                let size = 0.6f64.min(0.5 * angle);
-                sweep(0.6 * size, 0.2) + sweep(0.3 * size, 0.7) + sweep(0.1 * size, 1.5)
-            }
-            Self::Parking | Self::WarmUp => {
-                let frequency = (speed / (TAU * angle)).min(0.5);
-                sweep(0.8 * angle, frequency) + sweep(0.2 * angle, 0.44 * frequency)
-            }
-            Self::MicroReversals => {
-                (0.5 + 3.5 * t / self.duration()) * travel * triangle(0.8 * t)
-                    + sweep(20.0 * travel, 0.05)
-            }
-            Self::LoadSteps => {
-                let frequency = (0.2 * speed / (4.0 * angle)).max(0.1);
-                (0.2 * speed / (4.0 * frequency)).min(angle) * triangle(frequency * t)
-            }
-            // Speed falls as (1 - t/T)^2 until the nut stands.
-            Self::SpinDown => {
-                let part = (1.0 - t / self.duration()).max(0.0);
-                speed * self.duration() / 3.0 * (1.0 - part.powi(3))
-            }
-            Self::WholeTurns => {
-                (angle / TAU).floor().max(1.0) * TAU * triangle(t / self.duration())
-            }
-        }
-    }
-
-    /// Axial load at a time, N.
-    fn load(self, t: f64, reach: &Reach) -> f64 {
-        let most = reach.load;
-        let wave = |frequency: f64| (TAU * frequency * t).sin();
-        match self {
-            Self::Weave => most * (0.3 * wave(0.2) + 0.1 * wave(0.9)),
-            Self::Parking => most * (0.8 * self.position(t, reach) / reach.angle + 0.2 * wave(0.3)),
-            Self::MicroReversals => 0.3 * most * wave(0.11),
-            Self::LoadSteps => {
-                // 0 before, 1 behind, smooth over 0.1 s.
-                let step = |at: f64| 0.5 * (1.0 + ((t - at) / 0.05).tanh());
-                most * (0.5 * step(4.0) + 0.5 * step(7.0) - 1.5 * step(11.0) - 0.5 * step(14.0)
-                    + step(17.0))
-            }
-            Self::WarmUp | Self::WholeTurns => 0.5 * most,
-            Self::SpinDown => 0.0,
+            position,
+            load: Some(load),
+            temperature: Some((0..rows).map(|row| cold + rise * time(row)).collect()),
+            ..Trace::default()
         }
     }
 }
@@ -230,7 +198,7 @@ mod tests {
             temperature: [293.0, 318.0],
             travel: 2e-3,
         };
-        for manoeuvre in Manoeuvre::ALL {
+        for manoeuvre in MANOEUVRES {
             let trace = manoeuvre.trace(1e-3, &reach);
             let most = |list: &mut dyn Iterator<Item = f64>| list.map(f64::abs).fold(0.0, f64::max);
             let steps = trace
@@ -242,7 +210,7 @@ mod tests {
             let load = most(&mut trace.load.into_iter().flatten());
             assert!(load <= reach.load * 1.001, "{manoeuvre:?} {load}");
             let angle = most(&mut trace.position.into_iter());
-            assert!(manoeuvre == Manoeuvre::SpinDown || angle <= reach.angle + 1e-9);
+            assert!(manoeuvre.name == "spin-down" || angle <= reach.angle + 1e-9);
         }
     }
 }

@@ -1,5 +1,7 @@
 //! What is fitted: a sum of columns, each times a parameter, and a part that has none, over parameters that enter otherwise.
 
+use std::ops::Range;
+
 /// How a parameter is stepped and bounded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scale {
@@ -48,6 +50,18 @@ pub struct Evaluation {
     pub columns: Vec<Vec<f64>>,
 }
 
+impl Evaluation {
+    /// The whole model at these linear parameters.
+    pub fn sum(mut self, linear: &[f64]) -> Vec<f64> {
+        for (column, value) in self.columns.iter().zip(linear) {
+            for (sum, entry) in self.fixed.iter_mut().zip(column) {
+                *sum += value * entry;
+            }
+        }
+        self.fixed
+    }
+}
+
 /// A least-squares problem whose linear parameters are eliminated: `target = fixed(q) + sum p_k column_k(q) + residual`.
 pub trait Separable: Sync {
     /// Parameters `q` that do not enter linearly.
@@ -59,11 +73,55 @@ pub trait Separable: Sync {
     /// What was measured, at every row.
     fn target(&self) -> &[f64];
 
-    /// Time between rows, s.
-    fn row_step(&self) -> f64;
-
     /// The model at these values of `q`.
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation;
+}
+
+pub(crate) struct Model<'a> {
+    pub nonlinear: Vec<Parameter>,
+    pub linear: Vec<LinearParameter>,
+    pub target: Vec<f64>,
+    pub model: Box<dyn Fn(&[f64]) -> Evaluation + Sync + 'a>,
+}
+
+impl Separable for Model<'_> {
+    fn nonlinear(&self) -> &[Parameter] {
+        &self.nonlinear
+    }
+
+    fn linear(&self) -> &[LinearParameter] {
+        &self.linear
+    }
+
+    fn target(&self) -> &[f64] {
+        &self.target
+    }
+
+    fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
+        (self.model)(nonlinear)
+    }
+}
+
+pub(crate) fn part(whole: &dyn Separable, rows: Range<usize>) -> Model<'_> {
+    Model {
+        nonlinear: whole.nonlinear().to_vec(),
+        linear: whole.linear().to_vec(),
+        target: whole.target()[rows.clone()].to_vec(),
+        model: Box::new(move |nonlinear| {
+            let Evaluation { fixed, columns } = whole.evaluate(nonlinear);
+            let cut = |all: &Vec<f64>| all[rows.clone()].to_vec();
+            Evaluation {
+                fixed: cut(&fixed),
+                columns: columns.iter().map(cut).collect(),
+            }
+        }),
+    }
+}
+
+pub(crate) fn residual(problem: &dyn Separable, nonlinear: &[f64], linear: &[f64]) -> Vec<f64> {
+    let model = problem.evaluate(nonlinear).sum(linear).into_iter();
+    let rows = problem.target().iter().zip(model);
+    rows.map(|(target, model)| target - model).collect()
 }
 
 /// The inner coordinate of a value, in which a parameter is stepped.
@@ -79,13 +137,5 @@ pub fn outer(scale: Scale, coordinate: f64) -> f64 {
     match scale {
         Scale::Linear => coordinate,
         Scale::Logarithmic => coordinate.exp(),
-    }
-}
-
-/// Slope of the inner coordinate by the value.
-pub fn inner_slope(scale: Scale, value: f64) -> f64 {
-    match scale {
-        Scale::Linear => 1.0,
-        Scale::Logarithmic => 1.0 / value,
     }
 }

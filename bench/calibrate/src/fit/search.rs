@@ -12,6 +12,7 @@ use nalgebra::{DMatrix, DVector, Dyn};
 use rayon::prelude::*;
 
 use super::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable, inner, outer};
+use crate::estimator::fit::{dot, rms};
 use epas_page::failure::Failure;
 
 /// Shift of the outer coordinate.
@@ -57,22 +58,16 @@ impl Found {
 
     /// Root of the mean square of what is left.
     pub fn residual_rms(&self) -> f64 {
-        (self.cost() / self.residual.len().max(1) as f64).sqrt()
+        rms(&self.residual)
     }
 }
 
 /// Fits a problem from its start.
-///
-/// # Errors
-/// Fewer rows than parameters, bounds that hold no start, a model that is not finite there.
 pub fn fit(problem: &dyn Separable) -> Result<Found, Failure> {
     descend(problem, TOLERANCE)
 }
 
 /// The same until another step changes little: enough to see which valley a start lies in.
-///
-/// # Errors
-/// Those of [`fit`].
 pub fn fit_roughly(problem: &dyn Separable) -> Result<Found, Failure> {
     descend(problem, ROUGH)
 }
@@ -115,15 +110,7 @@ pub fn at_bound(parameter: &Parameter, value: f64) -> bool {
 
 /// The model's slopes at a fit, by the inner coordinates of the nonlinear parameters, and then by the linear ones.
 pub fn slopes(problem: &dyn Separable, nonlinear: &[f64], linear: &[f64]) -> Vec<Vec<f64>> {
-    let model = |values: &[f64]| -> Vec<f64> {
-        let Evaluation { mut fixed, columns } = problem.evaluate(values);
-        for (column, value) in columns.iter().zip(linear) {
-            for (sum, entry) in fixed.iter_mut().zip(column) {
-                *sum += value * entry;
-            }
-        }
-        fixed
-    };
+    let model = |values: &[f64]| problem.evaluate(values).sum(linear);
     let slope = |k: usize| -> Vec<f64> {
         let ([below, above], step) = Axis::of(&problem.nonlinear()[k]).beside(nonlinear[k]);
         let [below, above] = [below, above].map(|value| {
@@ -137,20 +124,6 @@ pub fn slopes(problem: &dyn Separable, nonlinear: &[f64], linear: &[f64]) -> Vec
     let mut all: Vec<Vec<f64>> = (0..nonlinear.len()).into_par_iter().map(slope).collect();
     all.extend(problem.evaluate(nonlinear).columns);
     all
-}
-
-/// The same at the nonlinear parameters' starts, as a matrix; and the best linear parameters there.
-///
-/// # Errors
-/// As [`fit`].
-pub fn slopes_at_start(problem: &dyn Separable) -> Result<(DMatrix<f64>, Vec<f64>), Failure> {
-    check(problem)?;
-    let start: Vec<f64> = problem.nonlinear().iter().map(|of| of.start).collect();
-    let (linear, _) = projected(problem, &start);
-    let columns = slopes(problem, &start, &linear);
-    let all = columns.iter().flatten().copied();
-    let matrix = DMatrix::from_iterator(problem.target().len(), columns.len(), all);
-    Ok((matrix, linear))
 }
 
 fn check(problem: &dyn Separable) -> Result<(), Failure> {
@@ -179,7 +152,6 @@ fn check(problem: &dyn Separable) -> Result<(), Failure> {
     }
 }
 
-/// Coordinates of one parameter.
 struct Axis<'a> {
     parameter: &'a Parameter,
     low: f64,
@@ -279,7 +251,7 @@ impl Point {
 }
 
 /// Best linear parameters, and what they leave of the target.
-fn projected(problem: &dyn Separable, nonlinear: &[f64]) -> (Vec<f64>, DVector<f64>) {
+pub(crate) fn projected(problem: &dyn Separable, nonlinear: &[f64]) -> (Vec<f64>, DVector<f64>) {
     let Evaluation { fixed, columns } = problem.evaluate(nonlinear);
     let target = problem.target().iter().zip(&fixed);
     let mut left: DVector<f64> =
@@ -300,8 +272,6 @@ fn within_bounds(
     parameters: &[LinearParameter],
 ) -> Vec<f64> {
     let count = columns.len();
-    let dot =
-        |one: &[f64], other: &[f64]| -> f64 { one.iter().zip(other).map(|(a, b)| a * b).sum() };
     let sizes: Vec<f64> = columns
         .iter()
         .map(|column| dot(column, column).sqrt())

@@ -1,8 +1,8 @@
 //! Fits whose answer is known.
 
-use super::problem::{LinearParameter, Separable};
+use super::problem::Separable;
 use super::search::fit;
-use super::toys::{STRIBECK, Toy, noise, stribeck_toy};
+use super::toys::{STRIBECK, noise, stribeck_toy};
 use super::uncertainty::uncertainty;
 
 /// Without noise the truth comes back from a first guess that is off by a factor of three: to the differences' step squared, 1e-4, over the
@@ -21,22 +21,8 @@ fn a_curve_without_noise_is_found() {
 /// A linear parameter whose best value is beyond its bound stays at the bound, and the others are best beside it.
 #[test]
 fn a_bound_of_a_linear_parameter_is_kept() {
-    let Toy {
-        nonlinear,
-        linear,
-        target,
-        model,
-    } = stribeck_toy(&noise(1, 1500, 0.0), 0.1);
-    let offset = LinearParameter {
-        low: 0.0,
-        ..linear[2].clone()
-    };
-    let toy = Toy {
-        nonlinear,
-        linear: vec![linear[0].clone(), linear[1].clone(), offset],
-        target,
-        model,
-    };
+    let mut toy = stribeck_toy(&noise(1, 1500, 0.0), 0.1);
+    toy.linear[2].low = 0.0;
     let found = fit(&toy).unwrap();
     assert_eq!(found.linear[2], 0.0);
     let columns = toy.evaluate(&found.nonlinear).columns;

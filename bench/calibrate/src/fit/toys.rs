@@ -4,37 +4,7 @@ use rand::{RngExt, SeedableRng};
 use rand_distr::StandardNormal;
 use rand_pcg::Pcg64;
 
-use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
-
-/// A problem made of a closure.
-pub struct Toy<F> {
-    pub nonlinear: Vec<Parameter>,
-    pub linear: Vec<LinearParameter>,
-    pub target: Vec<f64>,
-    pub model: F,
-}
-
-impl<F: Fn(&[f64]) -> Evaluation + Sync> Separable for Toy<F> {
-    fn nonlinear(&self) -> &[Parameter] {
-        &self.nonlinear
-    }
-
-    fn linear(&self) -> &[LinearParameter] {
-        &self.linear
-    }
-
-    fn target(&self) -> &[f64] {
-        &self.target
-    }
-
-    fn row_step(&self) -> f64 {
-        0.01
-    }
-
-    fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
-        (self.model)(nonlinear)
-    }
-}
+use crate::fit::problem::{Evaluation, LinearParameter, Model, Parameter, Scale};
 
 pub fn positive(name: &'static str, start: f64, low: f64, high: f64) -> Parameter {
     Parameter {
@@ -71,17 +41,6 @@ pub fn noise(seed: u64, rows: usize, memory: f64) -> Vec<f64> {
         .collect()
 }
 
-/// A sum of columns and a fixed part.
-pub fn total(evaluation: &Evaluation, linear: &[f64]) -> Vec<f64> {
-    let mut sum = evaluation.fixed.clone();
-    for (column, value) in evaluation.columns.iter().zip(linear) {
-        sum.iter_mut()
-            .zip(column)
-            .for_each(|(sum, x)| *sum += value * x);
-    }
-    sum
-}
-
 /// Speeds, 1/s, of a Stribeck curve's test: two sines.
 pub fn speeds(rows: usize) -> Vec<f64> {
     (0..rows)
@@ -112,10 +71,10 @@ pub fn stribeck(speeds: &[f64], q: &[f64]) -> Evaluation {
 pub const STRIBECK: ([f64; 2], [f64; 3]) = ([3.0, 0.8], [2.0, 0.15, -0.1]);
 
 /// A Stribeck problem with noise.
-pub fn stribeck_toy(noise: &[f64], size: f64) -> Toy<impl Fn(&[f64]) -> Evaluation + Sync + use<>> {
+pub fn stribeck_toy(noise: &[f64], size: f64) -> Model<'static> {
     let speeds = speeds(noise.len());
-    let clean = total(&stribeck(&speeds, &STRIBECK.0), &STRIBECK.1);
-    Toy {
+    let clean = stribeck(&speeds, &STRIBECK.0).sum(&STRIBECK.1);
+    Model {
         nonlinear: vec![
             positive("static", 1.0, 0.1, 20.0),
             positive("stribeck_speed", 2.0, 0.02, 20.0),
@@ -126,6 +85,6 @@ pub fn stribeck_toy(noise: &[f64], size: f64) -> Toy<impl Fn(&[f64]) -> Evaluati
             .zip(noise)
             .map(|(value, noise)| value + size * noise)
             .collect(),
-        model: move |q: &[f64]| stribeck(&speeds, q),
+        model: Box::new(move |q: &[f64]| stribeck(&speeds, q)),
     }
 }

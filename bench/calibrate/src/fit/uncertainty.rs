@@ -2,7 +2,6 @@
 
 use nalgebra::DMatrix;
 
-use super::autocorrelation::effective_rows;
 use super::problem::{Scale, Separable, inner, outer};
 use super::search::{Found, at_bound, slopes};
 use crate::estimator::fit::{Block, fit as least_squares};
@@ -13,16 +12,12 @@ pub const QUANTILE: f64 = 1.959_964;
 /// Rows of a piece, where rows stand at a third of their kernel's half-width: eight half-widths.
 const PIECE: usize = 24;
 
-/// One parameter with its interval.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interval {
-    /// Name.
     pub name: &'static str,
-    /// Unit.
     pub unit: &'static str,
     /// Scale of its inner coordinate.
     pub scale: Scale,
-    /// Best value.
     pub value: f64,
     /// Low end of the 95 % interval, not below the low bound.
     pub low: f64,
@@ -34,7 +29,6 @@ pub struct Interval {
     pub model_error: f64,
     /// Half width of the interval in the inner coordinate, whatever the bounds.
     pub half_width: f64,
-    /// Bounds.
     pub bounds: [f64; 2],
     /// Whether the value is at a bound.
     pub at_bound: bool,
@@ -43,13 +37,9 @@ pub struct Interval {
 /// How sure a fit is. Lists and matrices have the nonlinear parameters before the linear ones.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty {
-    /// Parameters with their intervals.
     pub intervals: Vec<Interval>,
     /// Covariance of the inner coordinates.
     pub covariance: DMatrix<f64>,
-    /// Correlations, -1 to 1.
-    pub correlation: DMatrix<f64>,
-    /// Rows that count as independent.
     pub effective_rows: f64,
 }
 
@@ -127,13 +117,11 @@ pub fn uncertainty(problem: &dyn Separable, found: &Found) -> Uncertainty {
     }
     Uncertainty {
         intervals,
-        correlation: correlation(&fit.covariance),
         covariance: fit.covariance,
         effective_rows: effective_rows(&found.residual),
     }
 }
 
-/// Correlations of a covariance.
 pub fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
     DMatrix::from_fn(covariance.nrows(), covariance.ncols(), |i, j| {
         let size = (covariance[(i, i)] * covariance[(j, j)]).sqrt();
@@ -143,4 +131,28 @@ pub fn correlation(covariance: &DMatrix<f64>) -> DMatrix<f64> {
             (covariance[(i, j)] / size).clamp(-1.0, 1.0)
         }
     })
+}
+
+/// The window of a summed correlation: so many correlation times (Sokal 1997).
+const WINDOW: f64 = 5.0;
+
+/// Rows that count as one: 1 + 2 x the sum of the correlations, over the shortest window that holds five of them; at least 1.
+fn correlation_time(rows: &[f64]) -> f64 {
+    let power: f64 = rows.iter().map(|x| x * x).sum();
+    if !(power > 0.0) {
+        return 1.0;
+    }
+    let mut time = 1.0;
+    for lag in 1..rows.len() / 2 {
+        let product: f64 = rows.iter().skip(lag).zip(rows).map(|(a, b)| a * b).sum();
+        time += 2.0 * product / power;
+        if lag as f64 >= WINDOW * time {
+            break;
+        }
+    }
+    time.clamp(1.0, rows.len() as f64 / 2.0)
+}
+
+pub fn effective_rows(rows: &[f64]) -> f64 {
+    rows.len() as f64 / correlation_time(rows)
 }

@@ -95,7 +95,6 @@ impl Answered {
         self.covariance[k * (self.names.len() + 1)]
     }
 
-    /// Inverse of the covariance.
     pub(super) fn information(&self) -> Option<DMatrix<f64>> {
         let count = self.names.len();
         let covariance = DMatrix::from_row_slice(count, count, &self.covariance);

@@ -6,7 +6,6 @@ use crate::page::shown::{chart, number, perhaps, table};
 use epas_page::document::{Block, Cell, Document, Figure, Section, Table};
 use epas_page::plot::{Axis, Mark, Series};
 
-/// The page: population, outliers, every trace.
 pub fn document(together: &Together) -> Document {
     let told = together.told().count();
     let refused = together.traces.len() - told;

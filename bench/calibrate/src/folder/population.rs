@@ -10,9 +10,9 @@
 use nalgebra::{DMatrix, DVector};
 use roots::{SimpleConvergency, find_root_brent};
 use serde::Serialize;
-use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::answered::Answered;
+use crate::estimator::fit::quantile;
 
 /// Half of a 95 % interval over its standard deviation.
 pub const HALF_INTERVAL: f64 = 1.96;
@@ -73,7 +73,6 @@ pub struct Outlier {
     pub deviations: f64,
 }
 
-/// One parameter of one trace.
 struct Told {
     place: f64,
     variance: f64,
@@ -95,11 +94,6 @@ fn names<'a>(all: &[&'a Answered]) -> Vec<(&'a str, bool)> {
 
 fn outer(logarithmic: bool, place: f64) -> f64 {
     if logarithmic { place.exp() } else { place }
-}
-
-/// Half of Student's 95 % interval.
-fn student(freedom: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, freedom).map_or(f64::INFINITY, |law| law.inverse_cdf(0.975))
 }
 
 /// Mean and spread of every parameter that a trace tells.
@@ -166,8 +160,8 @@ fn population(name: &str, logarithmic: bool, told: &[Told]) -> Population {
         [-half, half].map(|away| outer(logarithmic, mean + away))
     };
     // One trace alone has its own error only.
-    let quantile = if traces > 1 {
-        student(freedom)
+    let wide = if traces > 1 {
+        quantile(freedom)
     } else {
         HALF_INTERVAL
     };
@@ -175,9 +169,10 @@ fn population(name: &str, logarithmic: bool, told: &[Told]) -> Population {
         name: name.into(),
         traces: traces as u64,
         mean: outer(logarithmic, mean),
-        mean_interval: around(quantile / weight.sqrt()),
+        mean_interval: around(wide / weight.sqrt()),
         spread: (traces > 1).then(|| spread.sqrt()),
-        next: (traces > 2).then(|| around(student(freedom - 1.0) * (spread + 1.0 / weight).sqrt())),
+        next: (traces > 2)
+            .then(|| around(quantile(freedom - 1.0) * (spread + 1.0 / weight).sqrt())),
     }
 }
 

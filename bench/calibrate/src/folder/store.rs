@@ -36,7 +36,6 @@ impl Key {
     }
 }
 
-/// What one trace told.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Told {
     /// The object that `calibrate --json` prints of it.
@@ -45,12 +44,9 @@ pub struct Told {
     pub answered: Answered,
 }
 
-/// What is kept of one trace.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Stored {
-    /// Name of the trace's file.
     pub trace: String,
-    /// Its file and the settings.
     pub key: Key,
     /// What it told, or why it was refused.
     pub ended: Result<Told, String>,
@@ -66,7 +62,6 @@ impl Told {
     }
 }
 
-/// The place of a trace's answer.
 pub fn place(output: &Path, trace: &str) -> PathBuf {
     output.join("traces").join(format!("{trace}.json"))
 }
@@ -77,7 +72,6 @@ pub fn kept(output: &Path, trace: &str, key: &Key) -> Option<Stored> {
     (stored.trace == trace && stored.key == *key).then_some(stored)
 }
 
-/// Reads one answer.
 pub fn read(path: &Path) -> Result<Stored, Failure> {
     let text = fs::read_to_string(path).map_err(|error| Failure::file("read", path, &error))?;
     serde_json::from_str(&text).map_err(|error| Failure::file("read", path, &error))
@@ -122,7 +116,6 @@ pub fn list(folder: &Path, endings: &[&str]) -> Result<Vec<PathBuf>, Failure> {
     Ok(paths)
 }
 
-/// Name of a file.
 pub fn name(path: &Path) -> String {
     path.file_name()
         .unwrap_or_default()

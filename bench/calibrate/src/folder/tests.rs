@@ -13,7 +13,6 @@ use super::answered::merged as merged_texts;
 use super::*;
 use crate::answer::Estimate;
 
-/// Standard error of the offset.
 const OFFSET_ERROR: f64 = 1e-3;
 
 /// What a trace of one positive and one free parameter gave: values, standard errors of the inner coordinates, correlation.
@@ -39,12 +38,7 @@ fn fit(trace: &Path) -> Result<(Calibration, Answered), Failure> {
     let [friction, error, offset] = words.collect::<Vec<f64>>()[..] else {
         return Err(Failure::Data("the speed is constant".into()));
     };
-    let estimate = |name: &str, value: f64, error: f64| Estimate {
-        low: value - 1.96 * error,
-        high: value + 1.96 * error,
-        fixed: false,
-        ..Estimate::fixed(name, "", value)
-    };
+    let estimate = |name, value, error: f64| Estimate::told(name, "", value, 1.96 * error);
     let calibration = Calibration {
         parameters: vec![
             estimate("friction", friction, friction * error),
@@ -54,9 +48,7 @@ fn fit(trace: &Path) -> Result<(Calibration, Answered), Failure> {
         residual_rms: 0.1,
         relative_error: 0.05,
         effective_rows: 7.3,
-        cannot_tell: Vec::new(),
-        models: Vec::new(),
-        winner: None,
+        ..Calibration::default()
     };
     let answered = told([friction, offset], [error, OFFSET_ERROR], 0.3);
     Ok((calibration, answered))
@@ -77,7 +69,6 @@ fn traces(count: u64) -> TempDir {
     folder
 }
 
-/// A part, or what is merged.
 fn arguments(part: &str, outputs: &[TempDir]) -> FolderArguments {
     FolderArguments {
         part: part.parse().ok(),

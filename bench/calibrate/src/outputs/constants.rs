@@ -95,7 +95,6 @@ fn screw(folded: &Folded) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// The friction coefficient.
 fn coefficient(numbers: &Numbers, friction: f32) -> String {
     let Some(law) = &numbers.law else {
         return numbers.reference.map_or_else(String::new, |_| {

@@ -38,10 +38,8 @@ fn has(keys: &str, name: &str) -> bool {
 /// What a comment of this program starts with.
 const MARK: &str = "calibrated: ";
 
-/// A design file that was made.
 #[derive(Debug)]
 pub struct Written {
-    /// Its text.
     pub text: String,
     /// The design that it is read as.
     pub design: Design,
@@ -55,9 +53,6 @@ pub struct Written {
 ///
 /// Everything else stays as it was: other keys, their order, comments, blank lines. A second calibration replaces the
 /// comments of the first one.
-///
-/// # Errors
-/// What is wrong with the text, or which calibrated number is out of the range of a design.
 pub fn written(
     text: &str,
     (calibration, screw): (&Calibration, Option<&Screw>),

@@ -105,24 +105,16 @@ fn calibrated(design: &Design) -> (Screw, Values) {
         reference_load: or(told.reference_load, 0.0),
         largest_load: or(told.largest_load, 0.0),
     };
-    let values = Values {
-        friction: caged.friction.into(),
-        full_film_ratio: or(told.full_film_ratio, 1.0),
-        half_share_speed: or(told.half_share_speed, 1.0),
-        viscosity_pole: or(told.viscosity_pole, defaults::VISCOSITY.pole()),
-        direction_asymmetry: or(told.direction_asymmetry, 0.0),
-        hysteresis_loss: caged.rolling_resistance.hysteresis_loss.into(),
-        lubricant_drag: caged.rolling_resistance.lubricant_drag.into(),
-        preload: 0.0,
-        breakaway_angle: or(told.breakaway_angle, 1.0),
-        backlash: or(told.backlash, 0.0),
-        inertia: 0.0,
-        drag: 0.0,
-        churning: 0.0,
-        rolling_drag: 0.0,
-        offset: 0.0,
-        gain: 1.0,
-        harmonics: [0.0; 4],
-    };
+    let mut values = Values::of(caged);
+    for (value, told) in [
+        (&mut values.full_film_ratio, told.full_film_ratio),
+        (&mut values.half_share_speed, told.half_share_speed),
+        (&mut values.viscosity_pole, told.viscosity_pole),
+        (&mut values.direction_asymmetry, told.direction_asymmetry),
+        (&mut values.breakaway_angle, told.breakaway_angle),
+        (&mut values.backlash, told.backlash),
+    ] {
+        *value = told.map_or(*value, f64::from);
+    }
     (screw, values)
 }

@@ -1,7 +1,9 @@
 //! What the page of a calibration draws, as plain data.
 
+use nalgebra::DMatrix;
+
 use crate::estimator::record::Smoothed;
-use crate::fit::uncertainty::Uncertainty;
+use crate::fit::uncertainty::correlation;
 use crate::trace::{Coordinate, Trace};
 
 /// A fitted trace, row by row. All lists are as long as `time`.
@@ -39,18 +41,20 @@ pub struct Correlations {
 }
 
 impl Picture {
-    /// A fit with a row at each of these samples of a trace: what was measured there, and what the model leaves of it.
+    /// A fit with a row at each of these samples of a trace: what was measured there, and what the model leaves of it; names of its parameters with
+    /// the covariance of their errors.
     pub fn of(
         trace: &Trace,
-        motion: &Smoothed,
         samples: &[usize],
         (measured, residual): (Vec<f64>, &[f64]),
-        sure: &Uncertainty,
+        (names, covariance): (Vec<String>, &DMatrix<f64>),
     ) -> Self {
+        let motion = Smoothed::of(trace);
         let at = |signal: &[f64]| samples.iter().map(|sample| signal[*sample]).collect();
         let time = |sample: &usize| trace.start + trace.step * *sample as f64;
         let left = measured.iter().zip(residual);
-        let correlations = sure.correlation.row_iter();
+        let correlation = correlation(covariance);
+        let rows = correlation.row_iter();
         Self {
             name: trace.name.clone(),
             coordinate: trace.coordinate,
@@ -62,10 +66,8 @@ impl Picture {
             load: trace.load.as_deref().map(at),
             temperature: trace.temperature.as_deref().map(at),
             correlations: Correlations {
-                names: sure.intervals.iter().map(|own| own.name.into()).collect(),
-                rows: correlations
-                    .map(|row| row.iter().copied().collect())
-                    .collect(),
+                names,
+                rows: rows.map(|row| row.iter().copied().collect()).collect(),
             },
         }
     }

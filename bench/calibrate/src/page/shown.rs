@@ -48,7 +48,6 @@ pub fn number(value: f64) -> Cell {
     Cell::Number(value, digits(value, 4))
 }
 
-/// A number, or nothing.
 pub fn perhaps(value: Option<f64>) -> Cell {
     value.map_or("".into(), number)
 }
@@ -68,7 +67,6 @@ pub fn table(
     }
 }
 
-/// A chart.
 pub fn chart(title: &str, x: Axis, y: Axis, series: Vec<Series>) -> Panel {
     Panel::Chart(Chart {
         title: title.into(),

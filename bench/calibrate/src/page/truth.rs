@@ -10,7 +10,6 @@ use epas_page::files::standard;
 /// Start of a line above a trace's headings that says a parameter: `# truth: friction = 0.115`.
 const MARK: &str = "# truth: ";
 
-/// Bytes within which such lines stand.
 const LONGEST: u64 = 1 << 16;
 
 /// Parameters by their names, in SI units.

@@ -3,7 +3,6 @@
 //! By default it is what the trace can tell: each quantity has a condition on what the trace excites. A request names quantities
 //! itself, or sets some of them.
 
-use epas_design::CagedDesign;
 use epas_design::breakaway::{Breakaway, BreakawayConfiguration, ScrewContacts};
 use epas_friction::Clearance;
 use epas_friction::defaults;
@@ -84,9 +83,6 @@ pub struct Start {
 
 impl Start {
     /// From a design, for a trace.
-    ///
-    /// # Errors
-    /// A trace that cannot tell anything.
     pub fn of(design: &Design, evidence: &Evidence, wanted: &Wanted) -> Result<Self, Failure> {
         let (mut screw, mut values) = begin(design, evidence, wanted)?;
         for (name, value) in &wanted.fix {
@@ -143,9 +139,6 @@ fn unknown(name: &str) -> Failure {
 }
 
 /// Whether a request names what there is.
-///
-/// # Errors
-/// A name that is unknown or stands twice, a value that is no number.
 pub fn check_names(wanted: &Wanted) -> Result<(), Failure> {
     for name in wanted.estimate.iter().flatten() {
         if !known(name) && name != HARMONICS {
@@ -205,7 +198,14 @@ fn begin(
     } else {
         FIRST_PRELOAD * evidence.largest_load() / screw.axial_per_contact()
     };
-    let mut values = designed(&caged, set("preload").unwrap_or(preload));
+    let coefficient = &defaults::COEFFICIENT;
+    let mut values = Values {
+        full_film_ratio: f64::from(coefficient.full_film / coefficient.boundary),
+        half_share_speed: half_share_speed(&caged.design).into(),
+        viscosity_pole: coefficient.viscosity.pole().into(),
+        preload: set("preload").unwrap_or(preload),
+        ..Values::of(&caged)
+    };
     if !preloaded {
         screw.reference_load = 0.5 * evidence.largest_load();
     }
@@ -217,30 +217,6 @@ fn begin(
     }
     values.breakaway_angle = screw.designed_breakaway(&values)?;
     Ok((screw, values))
-}
-
-/// Values of a design, with a preload; what a design does not know is that of a mechanism without.
-fn designed(caged: &CagedDesign, preload: f64) -> Values {
-    let coefficient = &defaults::COEFFICIENT;
-    Values {
-        friction: caged.friction.into(),
-        full_film_ratio: f64::from(coefficient.full_film / coefficient.boundary),
-        half_share_speed: half_share_speed(&caged.design).into(),
-        viscosity_pole: coefficient.viscosity.pole().into(),
-        direction_asymmetry: 0.0,
-        hysteresis_loss: caged.rolling_resistance.hysteresis_loss.into(),
-        lubricant_drag: caged.rolling_resistance.lubricant_drag.into(),
-        preload,
-        breakaway_angle: 1e-3,
-        backlash: 0.0,
-        inertia: 0.0,
-        drag: 0.0,
-        churning: 0.0,
-        rolling_drag: 0.0,
-        offset: 0.0,
-        gain: 1.0,
-        harmonics: [0.0; 4],
-    }
 }
 
 fn varies(evidence: &Evidence) -> bool {

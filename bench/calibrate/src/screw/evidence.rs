@@ -4,14 +4,12 @@ use crate::estimator::record::Smoothed;
 use crate::estimator::stretches::of_position;
 use crate::trace::Trace;
 
-/// What a trace excites.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Evidence {
     /// Samples of motion forward and backward over all.
     pub directions: [f64; 2],
     /// Speed that a tenth of the moving samples stay below, and the one that a tenth exceed, rad/s.
     pub speeds: [f64; 2],
-    /// Turns of the motion's direction.
     pub reversals: usize,
     /// Distance between the outermost angles, rad.
     pub range: f64,
@@ -27,7 +25,6 @@ pub struct Evidence {
 const MOVES: f64 = 4.0;
 
 impl Evidence {
-    /// What a trace excites.
     pub fn of(trace: &Trace, motion: &Smoothed) -> Self {
         let [speed_noise, acceleration_noise] = motion.noise;
         let samples = motion.speed.len().max(1) as f64;

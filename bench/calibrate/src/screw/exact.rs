@@ -32,13 +32,10 @@ pub struct Spacing {
     friction: f64,
     /// The same with play, where regimes move faster with the coefficient.
     friction_with_play: f64,
-    /// Ratio of neighbouring oversizes.
     gap: f64,
-    /// Loads in an octave.
     in_an_octave: f64,
     /// Loads in an octave around the lift-off of a preload.
     at_lift_off: f64,
-    /// Nodes of the contact integrals.
     integration: Integration,
 }
 
@@ -72,7 +69,6 @@ impl Spacing {
         ..Self::FINE
     };
 
-    /// Ratio of neighbouring friction coefficients.
     const fn friction_ratio(&self, play: bool) -> f64 {
         if play {
             self.friction_with_play
@@ -124,7 +120,6 @@ const BEYOND: f64 = 4.0;
 const HYSTERESIS: f64 = 0.1;
 const DRAG: f64 = 1.0;
 
-/// Points of a cubic.
 const POINTS: usize = 4;
 
 /// What of a ball's torque is told apart.
@@ -132,9 +127,7 @@ const POINTS: usize = 4;
 enum Part {
     /// With the rolling resistance of the design.
     Whole,
-    /// Of the hysteresis.
     Hysteresis,
-    /// Of the lubricant's drag.
     Drag,
 }
 
@@ -154,7 +147,6 @@ pub struct Grid {
     rolling: RollingResistance,
     balls: f64,
     spacing: Spacing,
-    /// Ratio of neighbouring friction coefficients.
     ratio: f64,
     /// Gap of the node 0, m.
     gap: f64,
@@ -206,9 +198,6 @@ fn friction_place(friction: f64, logarithm: f64) -> f64 {
 
 impl Grid {
     /// That of a design under axial loads up to a largest one, N.
-    ///
-    /// # Errors
-    /// What the reference refuses of the design.
     pub fn of(
         caged: &CagedDesign,
         largest_load: f64,
@@ -252,9 +241,6 @@ impl Grid {
     }
 
     /// The law of a design with another friction coefficient, fit or rolling resistance, for friction coefficients between two.
-    ///
-    /// # Errors
-    /// What the reference refuses of it, or a balance that it does not find.
     pub fn law(
         &self,
         caged: &CagedDesign,

@@ -63,9 +63,6 @@ pub struct Reference {
 
 impl Screw {
     /// The design with the values' friction, fit and rolling resistance.
-    ///
-    /// # Errors
-    /// [`Error`] naming a value out of range.
     pub fn scene(&self, values: &Values) -> Result<CagedDesign, Error> {
         let design = self.caged.design;
         CagedDesign {
@@ -102,9 +99,6 @@ impl Screw {
     }
 
     /// A viscosity with the values' pole.
-    ///
-    /// # Errors
-    /// [`Error`] naming `viscosity` for a pole too close to the reference temperature or too far from it.
     pub fn viscosity(&self, values: &Values) -> Result<Viscosity, Error> {
         let [cold, warm] = self.viscosities(values);
         Viscosity::through(cold, warm, COLDEST)
@@ -124,18 +118,12 @@ impl Screw {
     }
 
     /// The exact ball, solved for what a fit asks for, from these values on.
-    ///
-    /// # Errors
-    /// A value out of range.
     pub fn grid(&self, values: &Values, spacing: Spacing) -> Result<Arc<Grid>, Failure> {
         let largest = self.largest_load.max(self.reference_load);
         Ok(Grid::of(&self.scene(values)?, largest, spacing)?)
     }
 
     /// Gross sliding at the reference load.
-    ///
-    /// # Errors
-    /// A value out of range.
     pub fn reference(&self, values: &Values) -> Result<Reference, Failure> {
         let friction = values.friction as f32;
         let grid = self.grid(values, Spacing::WRITTEN)?;
@@ -164,9 +152,6 @@ impl Screw {
     }
 
     /// Elements in constant shares of the friction.
-    ///
-    /// # Errors
-    /// [`Error`] naming what is out of range.
     pub fn proportional(
         &self,
         values: &Values,
@@ -181,9 +166,6 @@ impl Screw {
     }
 
     /// Elements that come into contact with the load.
-    ///
-    /// # Errors
-    /// [`Error`] naming what is out of range.
     pub fn load_exact(
         &self,
         values: &Values,
@@ -197,9 +179,6 @@ impl Screw {
     }
 
     /// Elements that come into contact with the load that both flanks share.
-    ///
-    /// # Errors
-    /// [`Error`] naming what is out of range.
     pub fn preloaded(
         &self,
         values: &Values,
@@ -221,9 +200,6 @@ impl Screw {
     }
 
     /// The law of these values: for all friction coefficients that they take.
-    ///
-    /// # Errors
-    /// A value out of range.
     pub fn law(&self, values: &Values, grid: &Grid) -> Result<ExactLaw, Failure> {
         let (least, largest) = CoefficientLaw::new(&self.coefficient(values))?.extremes();
         let own = values.friction as f32;
@@ -232,9 +208,6 @@ impl Screw {
     }
 
     /// Friction torque at every sample, N m, by the exact ball.
-    ///
-    /// # Errors
-    /// A value out of range.
     pub fn friction(
         &self,
         values: &Values,

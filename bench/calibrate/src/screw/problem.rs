@@ -18,27 +18,22 @@ use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, Rol
 use nalgebra::DMatrix;
 
 use super::exact::Grid;
-use super::friction::{Course, Screw};
+use super::friction::Course;
 use super::quantities::{Factor, Kind, QUANTITIES, Quantity, Values};
+use super::stages::Prepared;
 use crate::estimator::kernel::Kernel;
-use crate::estimator::record::{QUARTER, Record};
+use crate::estimator::record::QUARTER;
 use crate::estimator::rows::Rows;
 use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Separable};
-use crate::models::Beside;
-use crate::trace::Trace;
 use epas_page::failure::Failure;
 
-/// What is estimated.
 #[derive(Clone, Debug)]
 pub struct Choice {
-    /// Nonlinear quantities, with start and bounds.
     pub nonlinear: Vec<(Parameter, &'static Quantity)>,
-    /// Linear ones.
     pub linear: Vec<&'static Quantity>,
 }
 
 impl Choice {
-    /// The same without a quantity.
     #[must_use]
     pub fn without(&self, name: &str) -> Self {
         let mut choice = self.clone();
@@ -47,7 +42,6 @@ impl Choice {
         choice
     }
 
-    /// The same from these values.
     #[must_use]
     pub fn from(&self, values: &Values) -> Self {
         let mut choice = self.clone();
@@ -63,7 +57,6 @@ impl Choice {
 pub enum Passage {
     /// It does not: every row has one direction, in which the balls slide.
     Sliding,
-    /// By the memory of the crate.
     Remembered,
 }
 
@@ -88,11 +81,32 @@ struct Term {
     still: Vec<f64>,
 }
 
+/// Values, which of them are estimated, and the exact ball.
+#[derive(Clone, Copy)]
+pub struct Known<'a> {
+    pub values: &'a Values,
+    pub choice: &'a Choice,
+    pub grid: &'a Arc<Grid>,
+}
+
+impl<'a> Known<'a> {
+    pub fn of(values: &'a Values, choice: &'a Choice, grid: &'a Arc<Grid>) -> Self {
+        Self {
+            values,
+            choice,
+            grid,
+        }
+    }
+
+    /// The same with other values.
+    pub fn with(self, values: &'a Values) -> Self {
+        Self { values, ..self }
+    }
+}
+
 /// A trace of a screw, with what is estimated and what is not.
 pub struct ScrewProblem<'a> {
-    screw: Screw,
-    trace: &'a Trace,
-    record: &'a Record,
+    prepared: &'a Prepared<'a>,
     rows: Rows,
     samples: Samples,
     course: Option<Course>,
@@ -107,39 +121,30 @@ pub struct ScrewProblem<'a> {
 
 impl<'a> ScrewProblem<'a> {
     /// Rows of a trace, with values of what is not estimated.
-    pub fn new(
-        screw: &Screw,
-        (trace, record, rows): (&'a Trace, &'a Record, Rows),
-        passage: Passage,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Self {
-        let samples = Samples::of((trace, record), &rows, passage, screw);
+    pub fn new(prepared: &'a Prepared<'_>, rows: Rows, passage: Passage, at: Known<'_>) -> Self {
+        let samples = Samples::of(prepared, &rows, passage);
         let course = (passage == Passage::Remembered).then(|| Course {
-            angle: path(trace, record, &rows.kernel),
+            angle: path(prepared, &rows.kernel),
             speed: samples.speed.clone(),
             load: samples.load.clone(),
             temperature: samples.temperature.clone(),
         });
-        let choice = choice.from(values);
-        let (parameters, nonlinear): (Vec<Parameter>, Vec<_>) =
-            choice.nonlinear.into_iter().unzip();
+        let choice = at.choice.from(at.values);
+        let (parameters, nonlinear) = choice.nonlinear.into_iter().unzip();
         let mut problem = Self {
-            screw: *screw,
-            trace,
-            record,
+            prepared,
             samples,
             course,
-            grid: Arc::clone(grid),
-            values: *values,
+            grid: Arc::clone(at.grid),
+            values: *at.values,
             nonlinear,
             parameters,
             terms: Vec::new(),
             linear: Vec::new(),
-            target: rows.sums(0, &record.effort),
+            target: rows.sums(0, &prepared.record.effort),
             rows,
         };
-        problem.add_linear(values, &choice.linear);
+        problem.add_linear(at.values, &at.choice.linear);
         problem
     }
 
@@ -185,7 +190,6 @@ impl<'a> ScrewProblem<'a> {
         }
     }
 
-    /// The rows.
     pub const fn rows(&self) -> &Rows {
         &self.rows
     }
@@ -201,8 +205,8 @@ impl<'a> ScrewProblem<'a> {
         let free = self.terms.iter().filter(|term| term.estimated);
         let orders: Vec<Option<usize>> = free
             .map(|term| match term.factor {
-                Factor::Acceleration => Some(self.record.order(2)),
-                Factor::Speed => Some(self.record.order(1)),
+                Factor::Acceleration => Some(self.prepared.record.order(2)),
+                Factor::Speed => Some(self.prepared.record.order(1)),
                 _ => None,
             })
             .collect();
@@ -214,7 +218,7 @@ impl<'a> ScrewProblem<'a> {
             };
             let weights = self.rows.kernel.weights(one).iter();
             let products = weights.zip(self.rows.kernel.weights(other));
-            self.record.noise.powi(2) * products.map(|(a, b)| a * b).sum::<f64>()
+            self.prepared.record.noise.powi(2) * products.map(|(a, b)| a * b).sum::<f64>()
         })
     }
 
@@ -251,20 +255,29 @@ impl<'a> ScrewProblem<'a> {
         values
     }
 
+    /// What is estimated of these values, nonlinear and linear.
+    pub fn coordinates(&self, values: &Values) -> (Vec<f64>, Vec<f64>) {
+        let free = self.terms.iter().filter(|term| term.estimated);
+        (
+            self.nonlinear.iter().map(|of| of.value(values)).collect(),
+            free.map(|term| term.of.value(values)).collect(),
+        )
+    }
+
     /// Friction in every row, N m; no numbers where the exact ball refuses the values.
     pub fn friction(&self, values: &Values) -> Vec<f64> {
         let friction = match &self.course {
-            Some(course) => self.screw.friction(values, course, &self.grid),
+            Some(course) => self.prepared.screw.friction(values, course, &self.grid),
             None => self.sliding(values),
         };
-        let friction = friction.unwrap_or_else(|_| vec![f64::NAN; self.record.len()]);
+        let friction = friction.unwrap_or_else(|_| vec![f64::NAN; self.prepared.record.len()]);
         self.rows.sums(0, &friction)
     }
 
     /// Friction of gross sliding at every sample within a row, in the row's direction.
     fn sliding(&self, values: &Values) -> Result<Vec<f64>, Failure> {
-        let law = self.screw.law(values, &self.grid)?;
-        let coefficient = CoefficientLaw::new(&self.screw.coefficient(values))?;
+        let law = self.prepared.screw.law(values, &self.grid)?;
+        let coefficient = CoefficientLaw::new(&self.prepared.screw.coefficient(values))?;
         let samples = &self.samples;
         let at = |(sample, direction): (usize, &f64)| {
             if *direction == 0.0 {
@@ -279,7 +292,6 @@ impl<'a> ScrewProblem<'a> {
         Ok(samples.direction.iter().enumerate().map(at).collect())
     }
 
-    /// Rows of the whole model.
     pub fn model(&self, values: &Values) -> Vec<f64> {
         let mut sum = self.friction(values);
         for term in &self.terms {
@@ -293,14 +305,10 @@ impl<'a> ScrewProblem<'a> {
     }
 
     /// What stands beside the friction, for other models of it.
-    pub fn beside(&self, values: &Values) -> Beside {
+    pub fn beside(&self, values: &Values) -> Evaluation {
         let mut fixed = vec![0.0; self.target.len()];
-        Beside {
-            target: self.target.clone(),
-            columns: self.add_terms(&mut fixed, values),
-            fixed,
-            linear: self.linear.clone(),
-        }
+        let columns = self.add_terms(&mut fixed, values);
+        Evaluation { fixed, columns }
     }
 
     /// Adds what is not estimated; the columns of what is.
@@ -327,15 +335,15 @@ impl<'a> ScrewProblem<'a> {
 
     /// What a factor is in every row.
     fn column(&self, factor: Factor, values: &Values) -> Vec<f64> {
-        let Self { rows, record, .. } = self;
+        let (rows, record) = (&self.rows, &self.prepared.record);
         let motion = |derivative| rows.sums(record.order(derivative), &record.motion);
         let signal = match factor {
             Factor::Acceleration => return motion(2),
             Factor::Speed => return motion(1),
             Factor::One => return vec![1.0; rows.len()],
-            Factor::Load => match &self.trace.load {
+            Factor::Load => match &self.prepared.trace.load {
                 Some(load) => {
-                    let reduced_lead = f64::from(self.screw.caged.design.lead()) / TAU;
+                    let reduced_lead = f64::from(self.prepared.screw.caged.design.lead()) / TAU;
                     load.iter().map(|load| reduced_lead * load).collect()
                 }
                 None => return vec![0.0; rows.len()],
@@ -349,8 +357,9 @@ impl<'a> ScrewProblem<'a> {
 
     /// A wave over the turn times the sum of both flanks' loads over that at the reference load.
     fn wave(&self, place: usize, values: &Values) -> Vec<f64> {
-        let preload = self.screw.axial_preload(values);
-        let reference = flank_sum(preload, self.screw.reference_load).max(f64::MIN_POSITIVE);
+        let preload = self.prepared.screw.axial_preload(values);
+        let reference =
+            flank_sum(preload, self.prepared.screw.reference_load).max(f64::MIN_POSITIVE);
         let wave = &self.samples.waves[place];
         match &self.samples.load {
             Some(load) => {
@@ -365,7 +374,7 @@ impl<'a> ScrewProblem<'a> {
 
     /// Viscosity times speed at every sample, Pa.
     fn viscous(&self, values: &Values) -> Vec<f64> {
-        let viscosity = self.screw.viscosity(values);
+        let viscosity = self.prepared.screw.viscosity(values);
         let at = |temperature: f64| {
             let oil = viscosity.as_ref();
             oil.map_or(0.0, |oil| f64::from(oil.at(temperature as f32)))
@@ -382,17 +391,17 @@ impl<'a> ScrewProblem<'a> {
             design,
             loaded_balls,
             ..
-        } = &self.screw.caged;
+        } = &self.prepared.screw.caged;
         let law = RollingDrag::of(design, *loaded_balls, defaults::FLOODING).and_then(|drag| {
             CoefficientLaw::new(&CoefficientParameters {
                 drag,
-                ..self.screw.coefficient(values)
+                ..self.prepared.screw.coefficient(values)
             })
         });
         let Ok(law) = law else {
-            return vec![0.0; self.record.len()];
+            return vec![0.0; self.prepared.record.len()];
         };
-        let lift_off = 8_f64.sqrt() * self.screw.axial_preload(values);
+        let lift_off = 8_f64.sqrt() * self.prepared.screw.axial_preload(values);
         let Samples {
             speed,
             load,
@@ -415,12 +424,8 @@ fn add(sum: &mut [f64], value: f64, column: &[f64]) {
 }
 
 impl Samples {
-    fn of(
-        (trace, record): (&Trace, &Record),
-        rows: &Rows,
-        passage: Passage,
-        screw: &Screw,
-    ) -> Self {
+    fn of(prepared: &Prepared<'_>, rows: &Rows, passage: Passage) -> Self {
+        let (trace, record) = (prepared.trace, &prepared.record);
         let kernel = &rows.kernel;
         // Noise of a load would cut what elements hold before they slide; under sliding it is the sign that must not flicker.
         let load_kernel = match passage {
@@ -434,11 +439,7 @@ impl Samples {
                 window.fill(*own);
             }
         }
-        let angles = if record.speed_alone {
-            &record.path
-        } else {
-            &record.motion
-        };
+        let angles = record.places();
         let wave = |of: fn(f64) -> f64, order: f64| -> Vec<f64> {
             angles.iter().map(|angle| of(order * angle)).collect()
         };
@@ -448,7 +449,7 @@ impl Samples {
             load: trace.load.as_ref().map(|load| load_kernel.along(0, load)),
             temperature: match &trace.temperature {
                 Some(temperature) => temperature.clone(),
-                None => vec![screw.reference_temperature; record.len()],
+                None => vec![prepared.screw.reference_temperature; record.len()],
             },
             direction,
             waves: [
@@ -463,7 +464,8 @@ impl Samples {
 
 /// Positions that a memory follows: a counted one on straight lines between the instants at which its count changes, with each turn at the
 /// middle of its outermost count; one with noise smoothed by the kernel.
-fn path(trace: &Trace, record: &Record, kernel: &Kernel) -> Vec<f64> {
+fn path(prepared: &Prepared<'_>, kernel: &Kernel) -> Vec<f64> {
+    let (trace, record) = (prepared.trace, &prepared.record);
     let position = &trace.position;
     if trace.position_summed || trace.resolution == 0.0 {
         return kernel.along(0, position);
@@ -519,10 +521,6 @@ impl Separable for ScrewProblem<'_> {
 
     fn target(&self) -> &[f64] {
         &self.target
-    }
-
-    fn row_step(&self) -> f64 {
-        self.record.tick
     }
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {

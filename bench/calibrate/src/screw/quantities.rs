@@ -1,5 +1,8 @@
 //! Everything of a screw that a trace may tell: names, units, bounds.
 
+use epas_design::CagedDesign;
+use epas_friction::defaults;
+
 use crate::fit::problem::Scale;
 
 /// Values of everything that the model of a screw on a rig has, estimated or not.
@@ -41,42 +44,55 @@ pub struct Values {
     pub harmonics: [f64; 4],
 }
 
+impl Values {
+    /// Those of a design; what a design does not know is that of a mechanism without.
+    pub fn of(caged: &CagedDesign) -> Self {
+        Self {
+            friction: caged.friction.into(),
+            full_film_ratio: 1.0,
+            half_share_speed: 1.0,
+            viscosity_pole: defaults::VISCOSITY.pole().into(),
+            direction_asymmetry: 0.0,
+            hysteresis_loss: caged.rolling_resistance.hysteresis_loss.into(),
+            lubricant_drag: caged.rolling_resistance.lubricant_drag.into(),
+            preload: 0.0,
+            breakaway_angle: 1.0,
+            backlash: 0.0,
+            inertia: 0.0,
+            drag: 0.0,
+            churning: 0.0,
+            rolling_drag: 0.0,
+            offset: 0.0,
+            gain: 1.0,
+            harmonics: [0.0; 4],
+        }
+    }
+}
+
 /// A quantity that a trace may tell.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity {
-    /// Name.
     pub name: &'static str,
-    /// Unit.
     pub unit: &'static str,
-    /// How it enters.
     pub kind: Kind,
-    /// Its place.
     pub of: fn(&mut Values) -> &mut f64,
 }
 
-/// How a quantity enters the torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Kind {
-    /// Not linearly; how it is stepped.
     Nonlinear(Scale),
     /// As what multiplies a factor; its least value.
     Linear(Factor, f64),
 }
 
-/// What a linear quantity multiplies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Factor {
-    /// Acceleration.
     Acceleration,
-    /// Speed.
     Speed,
-    /// Speed times viscosity.
     Viscosity,
     /// Lubricant drag of rolling contacts under the default grease.
     RollingDrag,
-    /// One.
     One,
-    /// Torque of the load without friction.
     Load,
     /// Sum of both flanks' loads over that at the reference load, times cosine and sine of one angle, then of two.
     Wave(usize),
@@ -148,12 +164,10 @@ const fn quantity(
 }
 
 impl Quantity {
-    /// The one of a name.
     pub fn named(name: &str) -> Option<&'static Self> {
         QUANTITIES.iter().find(|quantity| quantity.name == name)
     }
 
-    /// Its value.
     pub fn value(&self, values: &Values) -> f64 {
         let mut values = *values;
         *(self.of)(&mut values)
@@ -195,10 +209,9 @@ pub fn assumed_deviation(name: &str) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
-    use epas_friction::defaults;
     use epas_friction::law::coefficient::{OilData, Viscosity};
 
-    use super::POLE_DEVIATION;
+    use super::{POLE_DEVIATION, defaults};
 
     /// Oils of viscosity indices 0, 50 and 100 with 8.86 mm²/s at 100 degrees Celsius (the worked example of ASTM D2270 has 119.94 and
     /// 69.48 mm²/s at 40 degrees for 0 and 100, from which 94.71 follows for 50), and synthetic ones of about 140 and 150: within two

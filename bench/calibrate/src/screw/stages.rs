@@ -7,16 +7,13 @@
 //! `sqrt(h^2 + (2 |q(L) - q(2L)|)^2 + (2 |q(m) - q(2m)|)^2)`.
 
 use std::ops::Range;
-use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector};
 
-use super::choice::Start;
-use super::exact::Grid;
 use super::friction::Screw;
-use super::problem::{Choice, Passage, ScrewProblem};
-use super::quantities::{QUANTITIES, Quantity, Values, assumed_deviation};
-use crate::estimator::fit::{Block, Fit, fit as least_squares};
+use super::problem::{Choice, Known, Passage, ScrewProblem};
+use super::quantities::{QUANTITIES, Values, assumed_deviation};
+use crate::estimator::fit::{Block, Fit, fit as least_squares, solver};
 use crate::estimator::record::{QUARTER, Record};
 use crate::estimator::rows::Rows;
 use crate::fit::problem::{Scale, Separable, inner};
@@ -27,7 +24,6 @@ use epas_page::failure::Failure;
 
 /// Half-widths of the kernel that are tried, s.
 const HALF_WIDTHS: [f64; 5] = [8.5e-3, 17e-3, 34e-3, 68e-3, 136e-3];
-/// Least half-width, samples.
 const LEAST_HALF: usize = 4;
 
 /// Way after a turn over the breakaway angle: friction that was full the other way is full again after twice the angle, and under the
@@ -37,10 +33,6 @@ const WAY: f64 = 4.0;
 /// Residual, in robust deviations, from which on a row is left out, and the share of the rows that may be.
 const OUTLIER: f64 = 6.0;
 const OUTLIERS: f64 = 0.02;
-
-/// Longest shift of the effort that is sought, s; from so many ticks and this much less left with it, a trace is refused.
-const LATEST: f64 = 0.03;
-const LATE: (isize, f64) = (3, 1.3);
 
 /// Factors of the first guess of the speed law from which a fit starts.
 const STARTS: [f64; 3] = [1.0, 0.2, 5.0];
@@ -64,29 +56,22 @@ const REST: f64 = 0.3;
 /// Fewest turns that tell what comes before sliding.
 const FEWEST_TURNS: usize = 8;
 
-/// Quantities of the second stage.
 pub const AT_TURNS: [&str; 2] = ["breakaway_angle", "backlash"];
 
-/// A trace, ready to be fitted.
 pub struct Prepared<'a> {
-    /// The trace.
     pub trace: &'a Trace,
     /// The same as the estimator takes it.
     pub record: Record,
-    /// The screw.
     pub screw: Screw,
 }
 
 /// A kernel's half-width, samples, and the way after a turn, rad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Window {
-    /// Half-width.
     pub half: usize,
-    /// Way.
     pub way: f64,
 }
 
-/// Rows that tell a problem, linearised.
 pub struct Linearised {
     /// Slopes by the inner coordinates, nonlinear quantities first.
     pub columns: Vec<Vec<f64>>,
@@ -94,11 +79,8 @@ pub struct Linearised {
     pub fit: Fit,
 }
 
-/// What the first stage tells.
 pub struct Sliding {
-    /// Values of everything.
     pub values: Values,
-    /// Intervals of what was estimated.
     pub intervals: Vec<Interval>,
     /// Covariance of their inner coordinates, without the model's errors.
     pub covariance: DMatrix<f64>,
@@ -109,7 +91,6 @@ pub struct Sliding {
 }
 
 impl<'a> Prepared<'a> {
-    /// A trace without these samples.
     pub fn new(trace: &'a Trace, left_out: &[Range<usize>], screw: Screw) -> Self {
         Self {
             trace,
@@ -122,7 +103,6 @@ impl<'a> Prepared<'a> {
         ((seconds / self.record.tick).round() as usize).max(LEAST_HALF)
     }
 
-    /// Rows of one direction.
     fn rows(&self, window: Window) -> Option<Rows> {
         let longest = self.record.len() / 4;
         let rows = (window.half < longest)
@@ -131,24 +111,10 @@ impl<'a> Prepared<'a> {
         (!rows.is_empty()).then_some(rows)
     }
 
-    /// The first stage's problem.
-    fn sliding(
-        &self,
-        window: Window,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Option<ScrewProblem<'_>> {
-        let measured = (self.trace, &self.record, self.rows(window)?);
-        let enough = 3 * (choice.nonlinear.len() + choice.linear.len());
-        (measured.2.len() > enough).then(|| {
-            ScrewProblem::new(
-                &self.screw,
-                measured,
-                Passage::Sliding,
-                (values, choice),
-                grid,
-            )
-        })
+    fn sliding(&self, window: Window, at: Known<'_>) -> Option<ScrewProblem<'_>> {
+        let rows = self.rows(window)?;
+        let enough = 3 * (at.choice.nonlinear.len() + at.choice.linear.len());
+        (rows.len() > enough).then(|| ScrewProblem::new(self, rows, Passage::Sliding, at))
     }
 
     /// The window of the first fit: the shortest kernel whose rows cover half as much as those of any; a shorter way where the strokes are
@@ -176,22 +142,16 @@ impl<'a> Prepared<'a> {
         ))
     }
 
-    /// The window with the narrowest intervals.
-    pub fn best_window(
-        &self,
-        first: Window,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Window {
-        let at = |half: f64| {
+    pub fn best_window(&self, first: Window, at: Known<'_>) -> Window {
+        let fitted = |half: f64| {
             let window = Window {
                 half: self.half(half),
                 ..first
             };
-            let problem = self.sliding(window, (values, choice), grid)?;
-            Some((window, linearised(&problem, values)?.fit))
+            let problem = self.sliding(window, at)?;
+            Some((window, linearised(&problem, at.values)?.fit))
         };
-        let tried: Vec<_> = HALF_WIDTHS.into_iter().filter_map(at).collect();
+        let tried: Vec<_> = HALF_WIDTHS.into_iter().filter_map(fitted).collect();
         let score = |place: usize| -> f64 {
             let (_, fit) = &tried[place];
             let other = tried.get(place + 1).unwrap_or(&tried[place.max(1) - 1]);
@@ -206,15 +166,10 @@ impl<'a> Prepared<'a> {
     }
 
     /// Values of a first look, and the way after a turn by the breakaway angle that it finds, on rows after a way by its first guess.
-    pub fn first_way(
-        &self,
-        (start, at_turns): (&Start, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Result<(Window, Values), Failure> {
-        let guess = start.values.breakaway_angle.max(self.trace.resolution);
+    pub fn first_way(&self, at: Known<'_>, at_turns: &Choice) -> Result<(Window, Values), Failure> {
+        let guess = at.values.breakaway_angle.max(self.trace.resolution);
         let window = self.first_window(guess)?;
-        let problem = self.sliding(window, (&start.values, &start.choice), grid);
-        let problem = problem.ok_or_else(few)?;
+        let problem = self.sliding(window, at).ok_or_else(few)?;
         let found = fit_roughly(&problem)?;
         let values = problem.values(&found.nonlinear, &found.linear);
         let mut asked = at_turns.nonlinear.iter();
@@ -222,7 +177,12 @@ impl<'a> Prepared<'a> {
             return Ok((window, values));
         }
         let rows = self.rows_over_turns(window, false);
-        let Ok((problem, found)) = self.turn_fit(rows, (&values, at_turns), grid) else {
+        let turns = Known {
+            values: &values,
+            choice: at_turns,
+            ..at
+        };
+        let Ok((problem, found)) = self.turn_fit(rows, turns) else {
             return Ok((window, values));
         };
         let breakaway = problem
@@ -235,17 +195,16 @@ impl<'a> Prepared<'a> {
     pub fn first_fit(
         &self,
         window: Window,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
+        at: Known<'_>,
     ) -> Result<(Values, Vec<Range<usize>>), Failure> {
         let mut best: Option<(Found, Values, Rows)> = None;
-        let speed = choice.nonlinear.iter();
+        let speed = at.choice.nonlinear.iter();
         let speed = speed.filter(|(of, _)| of.name == "half_share_speed");
         let starts = if speed.count() > 0 { 3 } else { 1 };
         for factor in &STARTS[..starts] {
-            let mut values = *values;
+            let mut values = *at.values;
             values.half_share_speed *= factor;
-            let problem = self.sliding(window, (&values, choice), grid);
+            let problem = self.sliding(window, at.with(&values));
             let problem = problem.ok_or_else(few)?;
             let found = fit_roughly(&problem)?;
             let better = |best: &(Found, Values, Rows)| found.cost() < best.0.cost();
@@ -267,56 +226,18 @@ impl<'a> Prepared<'a> {
         Ok((values, if exceptions { beyond } else { Vec::new() }))
     }
 
-    /// By how many samples the effort comes later than everything else, where another shift leaves far less of it.
-    ///
-    /// The estimator's own test is a lag of the motion, which a load of the right time hides.
-    pub fn late(
-        &self,
-        window: Window,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Option<isize> {
-        let problem = self.sliding(window, (values, choice), grid)?;
-        let here = linearised(&problem, values)?;
-        let solver = solver(&here.columns)?;
-        let model = problem.model(values);
-        let most = (LATEST / self.record.tick).round() as isize;
-        let left = |shift: isize| -> f64 {
-            let last = self.record.len() as isize - 1;
-            let shifted: Vec<f64> = (0..=last)
-                .map(|sample| self.record.effort[(sample + shift).clamp(0, last) as usize])
-                .collect();
-            let mut rows = problem.rows().sums(0, &shifted);
-            for (row, model) in rows.iter_mut().zip(&model) {
-                *row -= model;
-            }
-            let found = solver(&rows);
-            for (column, value) in here.columns.iter().zip(found.iter()) {
-                for (row, slope) in rows.iter_mut().zip(column) {
-                    *row -= value * slope;
-                }
-            }
-            rows.iter().map(|row| row * row).sum::<f64>().sqrt()
-        };
-        let shifts = (-most..=most).map(|shift| (shift, left(shift)));
-        let (best, least) = shifts.min_by(|one, other| one.1.total_cmp(&other.1))?;
-        let refused = best.abs() >= LATE.0 && LATE.1 * least < left(0);
-        refused.then_some(best)
-    }
-
     /// The first stage from values near its answer.
     pub fn slid(
         &self,
         window: Window,
-        (values, choice): (&Values, &Choice),
+        at: Known<'_>,
         set: &[(String, f64)],
-        grid: &Arc<Grid>,
     ) -> Result<Sliding, Failure> {
-        let problem = self.sliding(window, (values, choice), grid);
-        let problem = problem.ok_or_else(few)?;
+        let problem = self.sliding(window, at).ok_or_else(few)?;
         let found = fit(&problem)?;
         let values = problem.values(&found.nonlinear, &found.linear);
-        if choice.nonlinear.is_empty() && choice.linear.is_empty() {
+        let at = at.with(&values);
+        if at.choice.nonlinear.is_empty() && at.choice.linear.is_empty() {
             return Ok(Sliding {
                 values,
                 intervals: Vec::new(),
@@ -326,7 +247,7 @@ impl<'a> Prepared<'a> {
             });
         }
         let other = |window: Window| {
-            let problem = self.sliding(window, (&values, choice), grid)?;
+            let problem = self.sliding(window, at)?;
             Some(linearised(&problem, &values)?.fit.values)
         };
         let here = linearised(&problem, &values).ok_or_else(few)?;
@@ -338,7 +259,7 @@ impl<'a> Prepared<'a> {
             way: 2.0 * window.way,
             ..window
         });
-        let model = model_errors(&problem, &here, &values, (choice, set));
+        let model = model_errors(&problem, &here, at, set);
         let mut intervals = intervals(&problem, &found);
         let mut covariance = here.fit.covariance.clone();
         let deviation = |k: usize| here.fit.covariance[(k, k)].max(f64::MIN_POSITIVE).sqrt();
@@ -427,42 +348,25 @@ impl<'a> Prepared<'a> {
     }
 
     /// A problem with the memory stepped along the whole trace.
-    pub fn remembered(
-        &self,
-        rows: Rows,
-        (values, choice): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> ScrewProblem<'_> {
-        let measured = (self.trace, &self.record, rows);
-        ScrewProblem::new(
-            &self.screw,
-            measured,
-            Passage::Remembered,
-            (values, choice),
-            grid,
-        )
+    pub fn remembered(&self, rows: Rows, at: Known<'_>) -> ScrewProblem<'_> {
+        ScrewProblem::new(self, rows, Passage::Remembered, at)
     }
 
     /// A fit over turns, from the breakaway angle near the first guess that leaves least.
-    fn turn_fit(
-        &self,
-        rows: Rows,
-        (values, at_turns): (&Values, &Choice),
-        grid: &Arc<Grid>,
-    ) -> Result<(ScrewProblem<'_>, Found), Failure> {
-        let problem = self.remembered(rows.clone(), (values, at_turns), grid);
-        let at = |factor: f64| {
-            let mut values = *values;
+    fn turn_fit(&self, rows: Rows, at: Known<'_>) -> Result<(ScrewProblem<'_>, Found), Failure> {
+        let problem = self.remembered(rows.clone(), at);
+        let tried = |factor: f64| {
+            let mut values = *at.values;
             values.breakaway_angle *= factor;
-            let values = problem.values(&nonlinear(at_turns, &values), &[]);
+            let values = problem.values(&problem.coordinates(&values).0, &[]);
             let rows = problem.model(&values).into_iter().zip(problem.target());
             let cost: f64 = rows.map(|(model, target)| (model - target).powi(2)).sum();
             (cost, values)
         };
-        let starts = BREAKAWAYS.into_iter().map(at);
+        let starts = BREAKAWAYS.into_iter().map(tried);
         let best = starts.min_by(|one, other| one.0.total_cmp(&other.0));
-        let start = best.map_or(*values, |(_, start)| start);
-        let problem = self.remembered(rows, (&start, at_turns), grid);
+        let start = best.map_or(*at.values, |(_, start)| start);
+        let problem = self.remembered(rows, at.with(&start));
         let found = fit(&problem)?;
         Ok((problem, found))
     }
@@ -472,34 +376,35 @@ impl<'a> Prepared<'a> {
         &self,
         window: Window,
         sliding: &Sliding,
-        (at_turns, choice): (&Choice, &Choice),
-        grid: &Arc<Grid>,
+        at_turns: &Choice,
+        at: Known<'_>,
     ) -> Result<Option<Vec<Interval>>, Failure> {
-        let at = |half: usize| {
+        let over = |half: usize| {
             let rows = self.rows_over_turns(Window { half, ..window }, false);
             let mut turns = rows.stretches.clone();
             turns.dedup();
             (turns.len() >= FEWEST_TURNS).then_some(rows)
         };
-        let Some(rows) = at(window.half) else {
+        let Some(rows) = over(window.half) else {
             return Ok(None);
         };
-        let (problem, found) = self.turn_fit(rows.clone(), (&sliding.values, at_turns), grid)?;
+        let turns = Known {
+            choice: at_turns,
+            ..at
+        };
+        let (problem, found) = self.turn_fit(rows.clone(), turns)?;
         let values = problem.values(&found.nonlinear, &found.linear);
         let Some(here) = linearised(&problem, &values) else {
             return Ok(None);
         };
-        let longer = at(2 * window.half).and_then(|rows| {
-            let problem = self.remembered(rows, (&values, at_turns), grid);
+        let longer = over(2 * window.half).and_then(|rows| {
+            let problem = self.remembered(rows, turns.with(&values));
             Some(linearised(&problem, &values)?.fit.values)
         });
         // What an error of the first stage makes of the second.
-        let whole = self.remembered(rows, (&values, choice), grid);
-        let others = slopes(
-            &whole,
-            &nonlinear(choice, &values),
-            &linear(choice, &values),
-        );
+        let whole = self.remembered(rows, at.with(&values));
+        let (nonlinear, linear) = whole.coordinates(&values);
+        let others = slopes(&whole, &nonlinear, &linear);
         let pull = solver(&here.columns).filter(|_| !others.is_empty());
         let pull = pull.map(|solver| {
             let moved: Vec<DVector<f64>> = others.iter().map(|rows| solver(rows)).collect();
@@ -530,25 +435,9 @@ fn few() -> Failure {
     Failure::Data("too few rows of one direction for what is estimated: measure longer, or with longer strokes".into())
 }
 
-/// Values of the nonlinear quantities of a choice.
-fn nonlinear(choice: &Choice, values: &Values) -> Vec<f64> {
-    choice
-        .nonlinear
-        .iter()
-        .map(|(_, of)| of.value(values))
-        .collect()
-}
-
-/// Values of its linear ones.
-fn linear(choice: &Choice, values: &Values) -> Vec<f64> {
-    choice.linear.iter().map(|of| of.value(values)).collect()
-}
-
 /// A problem linearised at values. `None` where a slope is no number.
 pub fn linearised(problem: &ScrewProblem<'_>, values: &Values) -> Option<Linearised> {
-    let at = |name: &str| Quantity::named(name).map_or(0.0, |of| of.value(values));
-    let nonlinear: Vec<f64> = problem.nonlinear().iter().map(|of| at(of.name)).collect();
-    let linear: Vec<f64> = problem.linear().iter().map(|of| at(of.name)).collect();
+    let (nonlinear, linear) = problem.coordinates(values);
     let columns = slopes(problem, &nonlinear, &linear);
     if columns.is_empty() || columns.iter().flatten().any(|slope| !slope.is_finite()) {
         return None;
@@ -576,29 +465,6 @@ pub fn linearised(problem: &ScrewProblem<'_>, values: &Values) -> Option<Lineari
     };
     let fit = least_squares(&[block], &|coefficients| coefficients.to_vec());
     Some(Linearised { columns, fit })
-}
-
-/// What solves for the changes of the parameters that make some change of the rows.
-fn solver(columns: &[Vec<f64>]) -> Option<impl Fn(&[f64]) -> DVector<f64> + use<'_>> {
-    let sizes: Vec<f64> = columns
-        .iter()
-        .map(|column| column.iter().map(|x| x * x).sum::<f64>().sqrt())
-        .collect();
-    let dot =
-        |one: &[f64], other: &[f64]| -> f64 { one.iter().zip(other).map(|(a, b)| a * b).sum() };
-    let count = columns.len();
-    let normal = DMatrix::from_fn(count, count, |i, j| {
-        dot(&columns[i], &columns[j]) / (sizes[i] * sizes[j])
-    });
-    let inverse = normal.try_inverse()?;
-    Some(move |rows: &[f64]| {
-        let right = DVector::from_fn(count, |k, _| dot(&columns[k], rows) / sizes[k]);
-        let mut found = &inverse * right;
-        for (value, size) in found.iter_mut().zip(&sizes) {
-            *value /= size;
-        }
-        found
-    })
 }
 
 /// Condition of the slopes, each scaled to 1, and the direction that they see least.
@@ -629,9 +495,10 @@ fn condition(columns: &[Vec<f64>]) -> (f64, Vec<f64>) {
 fn model_errors(
     problem: &ScrewProblem<'_>,
     here: &Linearised,
-    values: &Values,
-    (choice, set): (&Choice, &[(String, f64)]),
+    at: Known<'_>,
+    set: &[(String, f64)],
 ) -> Vec<f64> {
+    let values = at.values;
     let count = here.columns.len();
     let Some(solver) = solver(&here.columns) else {
         return vec![0.0; count];
@@ -647,18 +514,18 @@ fn model_errors(
         add(&off);
     }
     let known = |name: &str| {
-        choice.nonlinear.iter().any(|(of, _)| of.name == name)
+        at.choice.nonlinear.iter().any(|(of, _)| of.name == name)
             || set.iter().any(|(set, _)| set == name)
     };
     for of in QUANTITIES.iter().filter(|of| !known(of.name)) {
         let Some(deviation) = assumed_deviation(of.name) else {
             continue;
         };
-        let at = |side: f64| {
+        let beside = |side: f64| {
             let value = of.value(values) + side * ASSUMED_STEP * deviation;
             problem.model(&of.with(value, values))
         };
-        let rows = at(1.0).into_iter().zip(at(-1.0));
+        let rows = beside(1.0).into_iter().zip(beside(-1.0));
         let off: Vec<f64> = rows
             .map(|(above, below)| (above - below) / (2.0 * ASSUMED_STEP))
             .collect();

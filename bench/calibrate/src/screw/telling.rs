@@ -21,7 +21,6 @@ const ROLLING: [&str; 2] = ["hysteresis_loss", "lubricant_drag"];
 
 /// What is set because the trace does not tell it.
 pub struct Untold {
-    /// Its name.
     pub name: &'static str,
     /// Why, what would tell it, and what it is set to.
     pub sentence: String,

@@ -25,8 +25,8 @@ use epas_traces::source::Source;
 use epas_traces::table::{self, Column, Request, Table};
 use epas_traces::units::{self, Dimension, Part, Quantity};
 
+use crate::trace::KnownEffort;
 use crate::trace::free_load;
-use crate::trace::known::KnownEffort;
 use crate::trace::{Coordinate, Origins, Repairs, Trace};
 
 /// Temperatures that a screw can have, K.
@@ -102,10 +102,10 @@ impl Frame {
 
     /// What the motor's effort is multiplied by to act on the trace's coordinate.
     fn effort_gain(&self, torque: bool) -> f64 {
-        match self.lead {
-            _ if torque => self.ratio.unwrap_or(1.0),
-            Some(lead) => lead / TAU,
-            None => 1.0,
+        if torque {
+            self.ratio.unwrap_or(1.0)
+        } else {
+            self.lead.map_or(1.0, |lead| lead / TAU)
         }
     }
 
@@ -152,9 +152,6 @@ impl Frame {
 }
 
 /// Reads a trace from a file: a table, or a measurement file with the channels of a mapping or those that have a column's name.
-///
-/// # Errors
-/// A file that cannot be read, or what is wrong with it.
 pub fn read(
     source: &Source<'_>,
     frame: Option<&Frame>,
@@ -172,9 +169,6 @@ pub fn read(
 }
 
 /// Reads a trace from a measurement file.
-///
-/// # Errors
-/// What is wrong with it.
 pub fn measured(
     input: impl Read,
     name: &str,
@@ -183,23 +177,20 @@ pub fn measured(
 ) -> Result<Trace, Failure> {
     let mut wanted: Vec<mdf4::Wanted> = Vec::new();
     for name in units::names() {
-        let new = |quantity: &Quantity| wanted.iter().all(|own| own.quantity != *quantity);
         // Of several names of a quantity the first, which messages use.
-        if let Some(quantity) = units::quantity(name).filter(new)
-            && quantity != Quantity::Time
-        {
-            wanted.push(mdf4::Wanted {
-                name,
-                quantity,
-                refuses: None,
-            });
-        }
+        let new = |of: &Quantity| wanted.iter().all(|own| own.quantity != *of);
+        let quantity = units::quantity(name).filter(new);
+        wanted.extend(
+            quantity
+                .filter(|of| *of != Quantity::Time)
+                .map(|quantity| mdf4::Wanted {
+                    name,
+                    quantity,
+                    refuses: None,
+                }),
+        );
     }
-    let master: Vec<Quantity> = PARTS
-        .map(Quantity::Position)
-        .into_iter()
-        .chain(PARTS.map(Quantity::Speed))
-        .collect();
+    let master = [PARTS.map(Quantity::Position), PARTS.map(Quantity::Speed)].concat();
     let request = mdf4::Request {
         wanted: &wanted,
         master: &master,
@@ -215,9 +206,6 @@ pub fn measured(
 }
 
 /// Reads a trace from a table.
-///
-/// # Errors
-/// What is wrong with it, with the line where there is one.
 pub fn from_reader(
     input: impl Read + Seek,
     name: &str,
@@ -424,63 +412,68 @@ fn angle_of(mut column: Column, factor: f64, angle: bool) -> Result<Vec<f64>, St
     Ok(scaled(&column.values, factor))
 }
 
+/// The column of one of two quantities, and whether it is the first.
+fn either(
+    table: &mut Table,
+    quantities: [Quantity; 2],
+    what: &str,
+) -> Result<Option<(Column, bool)>, String> {
+    match quantities.map(|quantity| table.take(quantity)) {
+        [Some(one), Some(other)] => Err(format!(
+            "columns {} and {}: give the {what} once",
+            one.name, other.name
+        )),
+        [Some(one), None] => Ok(Some((one, true))),
+        [None, other] => Ok(other.map(|other| (other, false))),
+    }
+}
+
 /// The effort, and whether it is a torque.
 fn effort(table: &mut Table) -> Result<(Column, bool), String> {
-    match (
-        table.take(Quantity::MotorTorque),
-        table.take(Quantity::MotorForce),
-    ) {
-        (Some(torque), None) => Ok((torque, true)),
-        (None, Some(force)) => Ok((force, false)),
-        (Some(torque), Some(force)) => Err(format!(
-            "columns {} and {}: give the effort once",
-            torque.name, force.name
-        )),
-        (None, None) => Err(absent(
-            "column motor_torque or motor_force is missing",
-            table,
-        )),
-    }
+    let found = either(
+        table,
+        [Quantity::MotorTorque, Quantity::MotorForce],
+        "effort",
+    )?;
+    found.ok_or_else(|| absent("column motor_torque or motor_force is missing", table))
 }
 
 /// The load's column, and whether it is in the effort's own unit. With a design, a torque about the nut's axis is the axial load over the
 /// lead.
 fn load(table: &mut Table, torque: bool, frame: &Frame) -> Result<(Option<Column>, bool), String> {
-    let force = table.take(Quantity::Load);
-    let moment = table.take(Quantity::LoadTorque);
-    match (force, moment, frame.lead) {
-        (Some(force), Some(moment), _) => Err(format!(
-            "columns {} and {}: give the load once",
-            force.name, moment.name
-        )),
-        (_, Some(mut moment), Some(lead)) => {
-            moment.values = scaled(&moment.values, TAU / lead);
-            Ok((Some(moment), false))
+    let found = either(table, [Quantity::LoadTorque, Quantity::Load], "load")?;
+    let mut column = match found {
+        Some((column, true)) => column,
+        force => {
+            let force = force.map(|(force, _)| force);
+            return Ok((force, frame.lead.is_none() && !torque));
         }
-        (_, Some(moment), None) if !torque => Err(format!(
+    };
+    match frame.lead {
+        Some(lead) => {
+            column.values = scaled(&column.values, TAU / lead);
+            Ok((Some(column), false))
+        }
+        None if torque => Ok((Some(column), true)),
+        None => Err(format!(
             "column {} and a motor_force: give the load as axial_load",
-            moment.name
+            column.name
         )),
-        (_, Some(moment), None) => Ok((Some(moment), true)),
-        (force, None, lead) => Ok((force, lead.is_none() && !torque)),
     }
 }
 
 /// The column of an effort that is known, of the motor's kind.
 fn known(table: &mut Table, torque: bool) -> Result<Option<Column>, String> {
-    let force = table.take(Quantity::KnownForce);
-    let moment = table.take(Quantity::KnownTorque);
-    let (own, other, kind) = if torque {
-        (moment, force, "torque")
-    } else {
-        (force, moment, "force")
-    };
-    match other {
-        Some(other) => Err(format!(
-            "column {} and a motor_{kind}: give what is known as known_{kind}",
-            other.name
-        )),
-        None => Ok(own),
+    let kinds = [Quantity::KnownTorque, Quantity::KnownForce];
+    match either(table, kinds, "known effort")? {
+        Some((other, of_torque)) if of_torque != torque => {
+            let kind = if torque { "torque" } else { "force" };
+            Err(format!(
+                "column {} and a motor_{kind}: give what is known as known_{kind}",
+                other.name
+            ))
+        }
+        own => Ok(own.map(|(own, _)| own)),
     }
 }
 
@@ -533,14 +526,16 @@ fn check_temperature(column: &Column, table: &Table) -> Result<(), String> {
 
 /// Position from speed: the sum of trapezoids.
 fn sum_up(speed: &[f64], step: f64) -> Vec<f64> {
-    let mut position = 0.0;
-    let mut last = speed.first().map_or(0.0, |first| -first);
-    let sum = |speed: &f64| {
-        position += 0.5 * (last + speed) * step;
-        last = *speed;
-        position
-    };
-    speed.iter().map(sum).collect()
+    let steps = speed
+        .windows(2)
+        .map(|pair| 0.5 * (pair[0] + pair[1]) * step);
+    let places = std::iter::once(0.0).chain(steps).take(speed.len());
+    places
+        .scan(0.0, |place, step| {
+            *place += step;
+            Some(*place)
+        })
+        .collect()
 }
 
 /// Shifts an angle by whole turns of its sensor to where another one starts.

@@ -7,7 +7,6 @@ use crate::trace::channels::moments;
 
 /// Length of a block, s, and fewest samples of one.
 const BLOCK: (f64, usize) = (0.5, 64);
-/// Fewest blocks.
 const FEWEST: usize = 8;
 /// Deviation of the blocks' means over that of the samples: noise of one independent sample in a sixteenth of a block has this.
 const MEANS: f64 = 0.25;

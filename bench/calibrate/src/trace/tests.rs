@@ -32,7 +32,6 @@ fn table(header: &str, times: impl IntoIterator<Item = f64>, line: impl Fn(f64) 
     std::iter::once(format!("{header}\n")).chain(lines).collect()
 }
 
-/// Times a millisecond apart.
 fn ticks(samples: usize) -> impl Iterator<Item = f64> {
     (0..samples).map(|sample| 1e-3 * sample as f64)
 }
@@ -421,7 +420,6 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
     }
 }
 
-/// Seeds of the fuzz target.
 const SEEDS: [&str; 4] = [
     include_str!("../../../fuzz/corpus/calibration/nut"),
     include_str!("../../../fuzz/corpus/calibration/carriage"),

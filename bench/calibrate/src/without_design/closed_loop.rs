@@ -2,24 +2,22 @@
 
 use std::collections::VecDeque;
 
+use crate::estimator::fit::rms;
 use crate::mechanism::Mechanism;
+use crate::trace::KnownEffort;
 use crate::trace::Trace;
-use crate::trace::known::KnownEffort;
 use crate::without_design::controller::SeenController;
-use crate::without_design::resistance::SlideResistance;
-use crate::without_design::slide::size;
+use crate::without_design::slide::SlideResistance;
 
 /// Steps of the mechanism in a tick: a quarter of a millisecond at 1 kHz.
 const STEPS: usize = 4;
 
-/// A mechanism in its loop.
 #[derive(Clone, Debug)]
 pub struct Loop<'a> {
     /// The trace: its reference positions, loads, and where it starts.
     pub trace: &'a Trace,
     /// Speed at its start, rad/s or m/s.
     pub speed: f64,
-    /// The controller.
     pub controller: &'a SeenController,
 }
 
@@ -44,7 +42,6 @@ struct Lag {
 }
 
 impl Lag {
-    /// Mean effort over a step.
     fn mean(&mut self, wanted: f64, step: f64) -> f64 {
         // Below a hundredth of a step the lag is lost in its mean.
         if self.time < 0.01 * step {
@@ -60,7 +57,7 @@ impl Lag {
 impl Loop<'_> {
     /// Runs the loop with a mechanism of this inertia and resistance; the effort acts with a delay, s, of which half a tick is the
     /// controller's hold.
-    pub fn run(&self, inertia: f64, resistance: SlideResistance, delay: f64) -> Course {
+    pub fn run(&self, inertia: f64, resistance: SlideResistance<'_>, delay: f64) -> Course {
         let trace = self.trace;
         let tick = trace.step;
         let start = trace.position.first().copied().unwrap_or(0.0);
@@ -112,7 +109,7 @@ impl Loop<'_> {
                 mechanism.advance(acting, step);
             }
         }
-        course.relative_error = distance(&trace.effort, &course.effort) / size(&trace.effort);
+        course.relative_error = distance(&trace.effort, &course.effort) / rms(&trace.effort);
         course.position_error = distance(&trace.position, &course.position);
         course
     }
@@ -123,16 +120,11 @@ impl Course {
     pub fn error_after(&self, trace: &Trace, share: f64) -> f64 {
         let start = (trace.len() as f64 * share.clamp(0.0, 1.0)) as usize;
         let [measured, found] = [&trace.effort, &self.effort].map(|effort| &effort[start..]);
-        distance(measured, found) / size(measured)
+        distance(measured, found) / rms(measured)
     }
 }
 
-/// Root mean square of a difference.
-pub fn distance(one: &[f64], other: &[f64]) -> f64 {
-    let squares: f64 = one
-        .iter()
-        .zip(other)
-        .map(|(one, other)| (one - other).powi(2))
-        .sum();
-    (squares / one.len() as f64).sqrt()
+fn distance(one: &[f64], other: &[f64]) -> f64 {
+    let pairs = one.iter().zip(other);
+    rms(&pairs.map(|(one, other)| one - other).collect::<Vec<_>>())
 }

@@ -1,19 +1,17 @@
 //! A controller as a trace shows it: where it has its speed from, and what of the effort is not its own.
 
 use crate::controller::Controller;
+use crate::estimator::fit::rms;
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::Record;
+use crate::trace::KnownEffort;
 use crate::trace::Trace;
 use crate::trace::channels::median;
-use crate::trace::known::KnownEffort;
-use crate::without_design::slide::size;
 
 /// Where a controller has its speed from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpeedSource {
-    /// A sensor of the speed.
     Sensor,
-    /// Difference of the last two positions.
     OneTick,
     /// Difference over the last two ticks.
     TwoTicks,
@@ -22,7 +20,6 @@ pub enum SpeedSource {
 }
 
 impl SpeedSource {
-    /// All of them.
     pub const ALL: [Self; 4] = [Self::Sensor, Self::OneTick, Self::TwoTicks, Self::FourTicks];
 
     /// Ticks of the difference; none of a sensor.
@@ -35,7 +32,6 @@ impl SpeedSource {
         }
     }
 
-    /// What it is, in words.
     pub const fn words(self) -> &'static str {
         match self {
             Self::Sensor => "a sensor of the speed",
@@ -49,7 +45,6 @@ impl SpeedSource {
 /// A controller as the trace shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenController {
-    /// Its gains.
     pub controller: Controller,
     /// Where it has its speed from: what explains the measured effort best.
     pub source: SpeedSource,
@@ -134,13 +129,13 @@ impl SeenController {
                 beyond + within(trace, sample)
             })
             .collect();
-        let residual = size(rest);
+        let residual = rms(rest);
         Self {
             controller,
             source,
             added,
             residual,
-            share: residual / size(&trace.effort).max(f64::MIN_POSITIVE),
+            share: residual / rms(&trace.effort).max(f64::MIN_POSITIVE),
         }
     }
 

@@ -5,7 +5,7 @@ use crate::estimator::words::strongest_wave;
 use crate::fit::problem::Separable;
 use crate::fit::search::{Found, at_bound, fit};
 use crate::laws::{Cost, Law, Level, Passage};
-use crate::models::{self, Entry, FITTED, LITERATURE, OWN, left_out};
+use crate::models::{self, Entry, FITTED, LITERATURE, OWN};
 use crate::without_design::closed_loop::{Course, Loop};
 use crate::without_design::controller::SeenController;
 use crate::without_design::slide::{Beside, Prepared, Slide};
@@ -19,30 +19,24 @@ pub const LOAD_PROPORTIONAL: Law = Law {
     cost: Cost::Counted(&["step_load_proportional"]),
 };
 
-/// The crate's law with memory.
 const OURS: Law = OWN[1];
 
 /// A trace on which models are compared, with its controller.
 pub type Compared<'a> = (&'a Prepared<'a>, Option<&'a SeenController>);
 
-/// Models beside each other, and what is said of those that could not be fitted.
+/// Models beside each other, each with its name.
 pub fn scores(
     fitted: Compared<'_>,
     unseen: Option<Compared<'_>>,
     beside: &Beside,
-) -> (Vec<ModelScore>, Vec<String>) {
-    let plain = Beside {
-        wave: beside.wave,
-        load: beside.load.clone(),
-        ..Beside::default()
-    };
+) -> Vec<(String, Result<ModelScore, Failure>)> {
+    let plain = beside.plain();
     let shown = Beside {
         wave: beside.wave.or_else(|| wave(fitted.0, beside)),
         ..beside.clone()
     };
     let still = Beside {
         position: false,
-        wave: beside.wave,
         ..beside.clone()
     };
     let first = LITERATURE[0];
@@ -51,24 +45,30 @@ pub fn scores(
         models.push((LOAD_PROPORTIONAL, &plain, LOAD_PROPORTIONAL.name.into()));
     }
     for law in LITERATURE.into_iter().chain(OWN) {
-        let name = match law.passage {
-            Passage::AtOnce if law.level == Level::Constant => {
-                format!("{}, with the drive's other terms", law.name)
-            }
-            _ => law.name.into(),
+        let others = if law == first {
+            ", with the drive's other terms"
+        } else {
+            ""
         };
-        models.push((law, &shown, name));
+        models.push((law, &shown, format!("{}{others}", law.name)));
     }
     let name = format!("{}, without terms of the position", OURS.name);
     models.push((OURS, &still, name));
-    let (mut scores, mut untold) = (Vec::new(), Vec::new());
-    for (law, beside, name) in models {
-        match score(fitted, unseen, law, beside, &name) {
-            Ok(score) => scores.push(score),
-            Err(why) => untold.push(left_out(&name, &why)),
+    let score = |(law, beside, name): (Law, &Beside, String)| {
+        let scored = score(fitted, unseen, law, beside, &name);
+        (name, scored)
+    };
+    models.into_iter().map(score).collect()
+}
+
+impl Beside {
+    fn plain(&self) -> Self {
+        Self {
+            wave: self.wave,
+            load: self.load.clone(),
+            ..Self::default()
         }
     }
-    (scores, untold)
 }
 
 /// Share of the residual of the crate's law with memory that a wave of the position takes to be in the models.
@@ -76,14 +76,13 @@ const SHARE: f64 = 0.05;
 
 /// The wave number of a wave over the position that the crate's law with memory leaves, 1/rad or 1/m.
 fn wave(prepared: &Prepared<'_>, beside: &Beside) -> Option<f64> {
-    let slide = Slide::new(prepared, OURS, beside.clone());
+    let slide = Slide::new(prepared, OURS, beside);
     let left = fit(&slide).ok()?.residual;
     let places = prepared.places();
     let (wave, share) = strongest_wave(&places, &left)?;
     (share > SHARE).then_some(wave)
 }
 
-/// The loop closed with a fit.
 fn course(
     (prepared, controller): Compared<'_>,
     slide: &Slide<'_>,
@@ -113,8 +112,8 @@ fn score(
     beside: &Beside,
     name: &str,
 ) -> Result<ModelScore, Failure> {
-    let slide = Slide::new(fitted.0, law, beside.clone());
-    let other = unseen.map(|other| (other, Slide::new(other.0, law, beside.clone())));
+    let slide = Slide::new(fitted.0, law, beside);
+    let other = unseen.map(|other| (other, Slide::new(other.0, law, beside)));
     let (mut score, found) = models::score(&Entry {
         name,
         cost: law.cost,
@@ -137,12 +136,7 @@ fn score(
 
 /// The speed over which friction reverses, rad/s or m/s, by the whole trace; `None` where it is sharper than the trace shows.
 pub fn reversal_speed(prepared: &Prepared<'_>, beside: &Beside) -> Result<Option<f64>, Failure> {
-    let plain = Beside {
-        wave: beside.wave,
-        load: beside.load.clone(),
-        ..Beside::default()
-    };
-    let slide = Slide::new(prepared, LOAD_PROPORTIONAL, plain);
+    let slide = Slide::new(prepared, LOAD_PROPORTIONAL, &beside.plain());
     let found = fit(&slide)?;
     let speed = slide.nonlinear().iter().zip(&found.nonlinear).next();
     Ok(speed

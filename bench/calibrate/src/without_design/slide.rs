@@ -4,17 +4,21 @@
 //! effort = J a + b_f max(w, 0) + b_b min(w, 0) + offset + k x + tau + wave(x) + (T_C + c x + loss |tau|) T(x, w; law)
 //! ```
 //!
-//! `T` is a law's friction of unit level, `x` counts from the middle of the way; the effort acts with a delay. Every term passes the kernel of the estimator.
+//! `T` is a law's friction of unit level, `x` counts from the middle of the way; the effort acts with a delay. Every term passes the kernel of the
+//! estimator. [`SlideResistance`] is the same sum at an instant, as what opposes a motion.
 
+use std::ops::Range;
+
+use crate::estimator::fit::rms;
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::{Record, Smoothed};
 use crate::estimator::terms::Term;
 use crate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
-use crate::laws::{Law, Scales};
+use crate::laws::{Friction, Law, Scales};
+use crate::mechanism::{Resistance, Step};
+use crate::trace::KnownEffort;
 use crate::trace::channels::range;
-use crate::trace::known::KnownEffort;
 use crate::trace::{Coordinate, Trace};
-use crate::without_design::resistance::{Numbers, SlideResistance};
 
 /// Noise of the acceleration over its own root mean square that is let pass.
 const NOISE: f64 = 0.05;
@@ -23,7 +27,6 @@ const NOISE: f64 = 0.05;
 const LENGTHS: [f64; 6] = [6e-3, 8.5e-3, 12e-3, 17e-3, 24e-3, 34e-3];
 const FEWEST: usize = 4;
 
-/// What stands beside the law.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Beside {
     /// Whether the viscous friction differs by direction, and the effort has a delay.
@@ -42,19 +45,15 @@ const ROWS: usize = 6_000;
 
 /// A trace with its smoothed motion, at every so many of its samples, and its rows.
 pub struct Prepared<'a> {
-    /// The trace.
     pub trace: &'a Trace,
-    /// Its motion.
     pub motion: Smoothed,
-    /// Its load, smoothed.
+    /// Its load, smoothed; 0 without one.
     load: Vec<f64>,
     /// Time between these samples, s.
     tick: f64,
     /// Half way between the farthest places, rad or m.
     middle: f64,
-    /// Kernel over these samples.
     kernel: Kernel,
-    /// Rows, as numbers of these samples.
     centres: Vec<usize>,
     target: Vec<f64>,
     known: Option<Delayed>,
@@ -80,10 +79,9 @@ impl<'a> Prepared<'a> {
         let of = |length: f64| ((length / trace.step).round() as usize).max(FEWEST);
         let sharp = |half: &usize| {
             let kernel = Kernel::new(*half, trace.step);
-            let order = record.order(2);
             let at = (0..record.len()).step_by(*half);
-            let sizes: Vec<f64> = at.map(|k| kernel.at(order, &record.motion, k)).collect();
-            record.noise_in(&kernel, 2) <= NOISE * size(&sizes)
+            let sizes = at.map(|k| kernel.at(record.order(2), &record.motion, k));
+            record.noise_in(&kernel, 2) <= NOISE * rms(&sizes.collect::<Vec<_>>())
         };
         let half = LENGTHS.map(of).into_iter().find(sharp);
         let half = half.unwrap_or_else(|| of(LENGTHS[LENGTHS.len() - 1]));
@@ -92,26 +90,11 @@ impl<'a> Prepared<'a> {
         let short = ((half + 1) / stride).max(2) - 1;
         let half = (short + 1) * stride - 1;
         let whole = Kernel::new(half, trace.step);
-        let samples = || (0..trace.len()).step_by(stride);
-        let smooth = |order: usize, signal: &[f64]| -> Vec<f64> {
-            samples().map(|k| whole.at(order, signal, k)).collect()
-        };
-        let places = if record.speed_alone {
-            &record.path
-        } else {
-            &record.motion
-        };
-        let motion = Smoothed {
-            position: smooth(0, places),
-            speed: smooth(record.order(1), &record.motion),
-            acceleration: smooth(record.order(2), &record.motion),
-            noise: [1, 2].map(|k| record.noise_in(&whole, k)),
-        };
+        let motion = Smoothed::by(record, &whole, stride);
         let tick = stride as f64 * trace.step;
         let count = motion.speed.len();
-        let hop = count.div_ceil(ROWS);
         let centres: Vec<usize> = (0..count)
-            .step_by(hop)
+            .step_by(count.div_ceil(ROWS))
             .filter(|centre| {
                 let middle = centre * stride;
                 middle >= half && record.sound(middle - half, middle + half)
@@ -127,11 +110,12 @@ impl<'a> Prepared<'a> {
             rate: rows(1, known),
         });
         let (low, high) = range(&trace.position);
+        let load = trace.load.as_deref();
+        let samples = (0..trace.len()).step_by(stride);
         Self {
-            load: trace
-                .load
-                .as_deref()
-                .map_or_else(Vec::new, |load| smooth(0, load)),
+            load: samples
+                .map(|k| load.map_or(0.0, |load| whole.at(0, load, k)))
+                .collect(),
             target: rows(0, &trace.effort),
             known,
             kernel: Kernel::new(short, tick),
@@ -145,173 +129,260 @@ impl<'a> Prepared<'a> {
 
     /// Positions of the rows, rad or m.
     pub fn places(&self) -> Vec<f64> {
-        self.picked(&self.motion.position)
-    }
-
-    fn picked(&self, signal: &[f64]) -> Vec<f64> {
-        self.centres.iter().map(|centre| signal[*centre]).collect()
-    }
-
-    fn rate(&self, signal: &[f64]) -> Vec<f64> {
-        let at = |centre: &usize| self.kernel.at(1, signal, *centre);
+        let at = |centre: &usize| self.motion.position[*centre];
         self.centres.iter().map(at).collect()
     }
 
-    /// A signal that is smooth already.
-    fn smooth(&self, signal: &[f64]) -> Delayed {
+    /// A signal in every row: as it is where it is smooth already, else behind the kernel.
+    fn column(&self, signal: &[f64], smooth: bool) -> Delayed {
+        let rows = |of: &dyn Fn(usize) -> f64| self.centres.iter().map(|k| of(*k)).collect();
         Delayed {
-            value: self.picked(signal),
-            rate: self.rate(signal),
+            value: rows(&|centre| {
+                if smooth {
+                    signal[centre]
+                } else {
+                    self.kernel.at(0, signal, centre)
+                }
+            }),
+            rate: rows(&|centre| self.kernel.at(1, signal, centre)),
         }
     }
+}
 
-    /// A signal with corners, behind the kernel.
-    fn filtered(&self, signal: &[f64]) -> Delayed {
-        let at = |centre: &usize| self.kernel.at(0, signal, *centre);
-        Delayed {
-            value: self.centres.iter().map(at).collect(),
-            rate: self.rate(signal),
-        }
-    }
+/// What the terms depend on.
+struct Instant {
+    position: f64,
+    /// Position from the middle of the way.
+    place: f64,
+    speed: f64,
+    acceleration: f64,
+    load: f64,
+    friction: f64,
+    /// Wave number of a wave over the position.
+    wave: f64,
+}
 
-    fn scales(&self) -> Scales {
-        let (low, high) = range(&self.motion.position);
-        let speed = self.motion.speed.iter();
-        let speed = speed.fold(0.0_f64, |most, speed| most.max(speed.abs()));
-        Scales {
-            speed: speed.max(f64::MIN_POSITIVE),
-            travel: (high - low).max(f64::MIN_POSITIVE),
-            resolution: self.trace.resolution,
-            tick: self.tick,
-        }
-    }
+/// A term of the sum: its parameter, and what that multiplies.
+struct Addend {
+    parameter: LinearParameter,
+    of: fn(&Instant) -> f64,
+    /// Whether that is smooth where motion and load are.
+    smooth: bool,
+    /// Whether it follows the law.
+    rubs: bool,
 }
 
 /// A model of a trace by a law.
 pub struct Slide<'a> {
     prepared: &'a Prepared<'a>,
     law: Law,
-    beside: Beside,
     scales: Scales,
+    wave: f64,
+    /// Effort of a unit of load that has no parameter.
+    own_load: f64,
     nonlinear: Vec<Parameter>,
     linear: Vec<LinearParameter>,
-    /// What the law does not change.
+    addends: Vec<Addend>,
+    /// Which of them make the level of the friction without a load.
+    level: Range<usize>,
+    /// Columns that the law does not change, the first ones.
     steady: Vec<Delayed>,
-    /// A load that is given.
-    fixed: Option<Delayed>,
+    fixed: Delayed,
 }
 
 const DELAY: &str = "effort_delay";
 const FORWARD: &str = "viscous_friction_forward";
+const BACKWARD: &str = "viscous_friction_backward";
 const STIFFNESS: &str = "position_stiffness";
 const SLOPE: &str = "friction_slope";
-const BACKWARD: &str = "viscous_friction_backward";
+
+/// Terms of the sum, those that follow the law last.
+fn addends(coordinate: Coordinate, beside: &Beside) -> Vec<Addend> {
+    let named = |name, unit, low, of, smooth, rubs| Addend {
+        parameter: LinearParameter {
+            name,
+            unit,
+            low,
+            high: f64::INFINITY,
+        },
+        of,
+        smooth,
+        rubs,
+    };
+    let of = |term: Term, low, of: fn(&Instant) -> f64, smooth, rubs| {
+        named(
+            term.name(coordinate),
+            term.unit(coordinate),
+            low,
+            of,
+            smooth,
+            rubs,
+        )
+    };
+    const FREE: f64 = f64::NEG_INFINITY;
+    let over_position = match coordinate {
+        Coordinate::Rotation => "N m/rad",
+        Coordinate::Translation => "N/m",
+    };
+    let mut all = vec![of(Term::Inertia, 0.0, |at| at.acceleration, true, false)];
+    if beside.rich {
+        let unit = Term::Viscous.unit(coordinate);
+        all.push(named(
+            FORWARD,
+            unit,
+            FREE,
+            |at| at.speed.max(0.0),
+            false,
+            false,
+        ));
+        all.push(named(
+            BACKWARD,
+            unit,
+            FREE,
+            |at| at.speed.min(0.0),
+            false,
+            false,
+        ));
+    } else {
+        all.push(of(Term::Viscous, FREE, |at| at.speed, true, false));
+    }
+    all.push(of(Term::Offset, FREE, |_| 1.0, true, false));
+    if beside.position {
+        all.push(named(
+            STIFFNESS,
+            over_position,
+            FREE,
+            |at| at.place,
+            true,
+            false,
+        ));
+    }
+    if let Some(wave) = beside.wave {
+        let [sine, cosine] = [Term::Sine(wave), Term::Cosine(wave)];
+        all.push(of(
+            sine,
+            FREE,
+            |at| (at.wave * at.position).sin(),
+            false,
+            false,
+        ));
+        all.push(of(
+            cosine,
+            FREE,
+            |at| (at.wave * at.position).cos(),
+            false,
+            false,
+        ));
+    }
+    if beside.load.contains(&Term::Gain) {
+        all.push(of(Term::Gain, FREE, |at| at.load, true, false));
+    }
+    all.push(of(Term::Coulomb, 0.0, |at| at.friction, false, true));
+    if beside.position {
+        all.push(named(
+            SLOPE,
+            over_position,
+            FREE,
+            |at| at.place * at.friction,
+            false,
+            true,
+        ));
+    }
+    for term in &beside.load {
+        let lost: fn(&Instant) -> f64 = match term {
+            Term::Driving => |at| (at.load * at.friction).max(0.0) * at.friction.signum(),
+            Term::BackDriving => |at| (-at.load * at.friction).max(0.0) * at.friction.signum(),
+            Term::Loss => |at| at.load.abs() * at.friction,
+            _ => continue,
+        };
+        all.push(of(*term, 0.0, lost, false, true));
+    }
+    all
+}
 
 impl<'a> Slide<'a> {
     /// The model of a trace by a law.
-    pub fn new(prepared: &'a Prepared<'a>, law: Law, beside: Beside) -> Self {
-        let scales = prepared.scales();
-        let coordinate = prepared.trace.coordinate;
-        let units = match coordinate {
+    pub fn new(prepared: &'a Prepared<'a>, law: Law, beside: &Beside) -> Self {
+        let (motion, trace) = (&prepared.motion, prepared.trace);
+        let scales = Scales::of(
+            (&motion.position, &motion.speed),
+            trace.resolution,
+            prepared.tick,
+        );
+        let units = match trace.coordinate {
             Coordinate::Rotation => ["rad", "rad/s"],
             Coordinate::Translation => ["m", "m/s"],
         };
         let mut nonlinear = law.parameters(&scales, units);
         if beside.rich {
-            let tick = prepared.trace.step;
             nonlinear.push(Parameter {
                 name: DELAY,
                 unit: "s",
-                start: 0.5 * tick,
-                low: -5.0 * tick,
-                high: 5.0 * tick,
+                start: 0.5 * trace.step,
+                low: -5.0 * trace.step,
+                high: 5.0 * trace.step,
                 scale: Scale::Linear,
             });
         }
-        Self {
+        let addends = addends(trace.coordinate, beside);
+        let first = addends.iter().filter(|of| !of.rubs).count();
+        let given = trace.load_is_effort && !beside.load.contains(&Term::Gain);
+        let fixed = prepared.column(&prepared.load, true);
+        let mut slide = Self {
             prepared,
             law,
             scales,
+            wave: beside.wave.unwrap_or(0.0),
+            own_load: f64::from(u8::from(given)),
             nonlinear,
-            linear: linear(coordinate, &beside),
-            steady: steady(prepared, &beside),
-            fixed: fixed(prepared, &beside),
-            beside,
-        }
+            linear: addends.iter().map(|of| of.parameter.clone()).collect(),
+            level: first..first + 1 + usize::from(beside.position),
+            addends,
+            steady: Vec::new(),
+            fixed,
+        };
+        let still = vec![0.0; motion.position.len()];
+        slide.steady = slide.columns(0..first, &still);
+        slide
     }
 
-    /// Rows of the friction and of the load's losses.
-    fn frictional(&self, nonlinear: &[f64], delay: f64) -> Vec<Vec<f64>> {
-        let motion = &self.prepared.motion;
-        let friction = match self.law.friction(&self.scales, nonlinear) {
-            Ok(law) => law.along(&motion.position, &motion.speed, self.scales.tick),
-            Err(_) => vec![0.0; motion.position.len()],
+    /// Columns of some terms with a friction of unit level at every sample.
+    fn columns(&self, which: Range<usize>, friction: &[f64]) -> Vec<Delayed> {
+        let Prepared { motion, load, .. } = self.prepared;
+        let instant = |k: usize| Instant {
+            position: motion.position[k],
+            place: motion.position[k] - self.prepared.middle,
+            speed: motion.speed[k],
+            acceleration: motion.acceleration[k],
+            load: load[k],
+            friction: friction[k],
+            wave: self.wave,
         };
-        let row = |signal: &[f64]| self.prepared.filtered(signal).at(delay);
-        let mut columns = vec![row(&friction)];
-        if self.beside.position {
-            let middle = self.prepared.middle;
-            let places = motion.position.iter().zip(&friction);
-            let sloped: Vec<f64> = places
-                .map(|(x, friction)| (x - middle) * friction)
-                .collect();
-            columns.push(row(&sloped));
-        }
-        for term in &self.beside.load {
-            let counts: fn(f64) -> bool = match term {
-                Term::Driving => |power| power > 0.0,
-                Term::BackDriving => |power| power < 0.0,
-                Term::Loss => |_| true,
-                _ => continue,
-            };
-            let lost = self.prepared.load.iter().zip(&friction);
-            let lost = lost.map(|(load, friction)| {
-                if counts(load * friction) {
-                    load.abs() * friction
-                } else {
-                    0.0
-                }
-            });
-            columns.push(row(&lost.collect::<Vec<_>>()));
-        }
-        columns
+        let column = |addend: &Addend| {
+            let signal = (0..friction.len()).map(|k| (addend.of)(&instant(k)));
+            self.prepared
+                .column(&signal.collect::<Vec<_>>(), addend.smooth)
+        };
+        self.addends[which].iter().map(column).collect()
     }
 
     /// What opposes the motion at a fit's parameters.
-    ///
-    /// # Errors
-    /// [`epas_friction::Error`] naming a parameter that the crate refuses.
     pub fn resistance(
         &self,
         nonlinear: &[f64],
         linear: &[f64],
-    ) -> Result<SlideResistance, epas_friction::Error> {
-        let coordinate = self.prepared.trace.coordinate;
-        let value = |name: &str| -> f64 {
-            let named = self.linear.iter().zip(linear);
-            named
-                .filter(|(parameter, _)| parameter.name == name)
-                .map(|(_, value)| *value)
-                .sum()
+    ) -> Result<SlideResistance<'_>, epas_friction::Error> {
+        // A drag that pushes would have no end.
+        let value = |(parameter, value): (&LinearParameter, &f64)| {
+            let drags = parameter.name.starts_with("viscous_friction");
+            if drags { value.max(0.0) } else { *value }
         };
-        let of = |term: Term| value(term.name(coordinate));
-        let (both, alike) = (of(Term::Viscous), of(Term::Loss));
-        let own = self.prepared.trace.load_is_effort && !self.beside.load.contains(&Term::Gain);
-        Ok(SlideResistance::new(
-            self.law.friction(&self.scales, nonlinear)?,
-            Numbers {
-                level: of(Term::Coulomb),
-                drag: [value(FORWARD) + both, value(BACKWARD) + both],
-                offset: of(Term::Offset),
-                middle: self.prepared.middle,
-                stiffness: value(STIFFNESS),
-                slope: value(SLOPE),
-                wave: [of(Term::Sine(0.0)), of(Term::Cosine(0.0))],
-                wavenumber: self.beside.wave.unwrap_or(0.0),
-                gain: if own { 1.0 } else { of(Term::Gain) },
-                losses: [of(Term::Driving) + alike, of(Term::BackDriving) + alike],
-            },
-        ))
+        Ok(SlideResistance {
+            slide: self,
+            friction: self.law.friction(&self.scales, nonlinear)?,
+            linear: self.linear.iter().zip(linear).map(value).collect(),
+            load: 0.0,
+        })
     }
 
     /// Delay of the effort at a fit's parameters, s.
@@ -322,88 +393,6 @@ impl<'a> Slide<'a> {
             .map(|(_, value)| *value)
             .sum()
     }
-}
-
-/// Columns that the law does not change, in the order of [`linear`].
-fn steady(prepared: &Prepared<'_>, beside: &Beside) -> Vec<Delayed> {
-    let Smoothed {
-        position,
-        speed,
-        acceleration,
-        ..
-    } = &prepared.motion;
-    let of = |signal: &[f64], of: &dyn Fn(f64) -> f64| -> Vec<f64> {
-        signal.iter().map(|x| of(*x)).collect()
-    };
-    let mut columns = vec![prepared.smooth(acceleration)];
-    if beside.rich {
-        columns.push(prepared.filtered(&of(speed, &|w| w.max(0.0))));
-        columns.push(prepared.filtered(&of(speed, &|w| w.min(0.0))));
-    } else {
-        columns.push(prepared.smooth(speed));
-    }
-    columns.push(prepared.smooth(&vec![1.0; speed.len()]));
-    if beside.position {
-        columns.push(prepared.smooth(&of(position, &|x| x - prepared.middle)));
-    }
-    if let Some(wave) = beside.wave {
-        columns.push(prepared.filtered(&of(position, &|x| (wave * x).sin())));
-        columns.push(prepared.filtered(&of(position, &|x| (wave * x).cos())));
-    }
-    if beside.load.contains(&Term::Gain) {
-        columns.push(prepared.smooth(&prepared.load));
-    }
-    columns
-}
-
-/// The load where its effort has no parameter.
-fn fixed(prepared: &Prepared<'_>, beside: &Beside) -> Option<Delayed> {
-    let given = prepared.trace.load_is_effort && !prepared.load.is_empty();
-    (given && !beside.load.contains(&Term::Gain)).then(|| prepared.smooth(&prepared.load))
-}
-
-fn linear(coordinate: Coordinate, beside: &Beside) -> Vec<LinearParameter> {
-    let of = |term: Term, low: f64| LinearParameter {
-        name: term.name(coordinate),
-        unit: term.unit(coordinate),
-        low,
-        high: f64::INFINITY,
-    };
-    let free = |term: Term| of(term, f64::NEG_INFINITY);
-    let mut linear = vec![of(Term::Inertia, 0.0)];
-    if beside.rich {
-        linear.extend([FORWARD, BACKWARD].map(|name| LinearParameter {
-            name,
-            ..free(Term::Viscous)
-        }));
-    } else {
-        linear.push(free(Term::Viscous));
-    }
-    linear.push(free(Term::Offset));
-    let over_position = |name| LinearParameter {
-        name,
-        unit: match coordinate {
-            Coordinate::Rotation => "N m/rad",
-            Coordinate::Translation => "N/m",
-        },
-        ..free(Term::Offset)
-    };
-    if beside.position {
-        linear.push(over_position(STIFFNESS));
-    }
-    if let Some(wave) = beside.wave {
-        linear.extend([Term::Sine(wave), Term::Cosine(wave)].map(free));
-    }
-    if beside.load.contains(&Term::Gain) {
-        linear.push(free(Term::Gain));
-    }
-    linear.push(of(Term::Coulomb, 0.0));
-    if beside.position {
-        linear.push(over_position(SLOPE));
-    }
-    let losses = beside.load.iter().filter(|term| **term != Term::Gain);
-    linear.extend(losses.map(|term| of(*term, 0.0)));
-    linear
 }
 
 impl Separable for Slide<'_> {
@@ -419,29 +408,80 @@ impl Separable for Slide<'_> {
         &self.prepared.target
     }
 
-    fn row_step(&self) -> f64 {
-        let hop = self.prepared.motion.speed.len().div_ceil(ROWS);
-        hop as f64 * self.scales.tick
-    }
-
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
         let delay = self.delay(nonlinear);
-        let mut fixed = vec![0.0; self.prepared.target.len()];
-        for (known, sign) in [(&self.fixed, 1.0), (&self.prepared.known, -1.0)] {
-            if let Some(known) = known {
-                for (sum, value) in fixed.iter_mut().zip(known.at(delay)) {
-                    *sum += sign * value;
-                }
+        let motion = &self.prepared.motion;
+        let mut fixed: Vec<f64> = self.fixed.at(delay);
+        for value in &mut fixed {
+            *value *= self.own_load;
+        }
+        if let Some(known) = &self.prepared.known {
+            for (sum, value) in fixed.iter_mut().zip(known.at(delay)) {
+                *sum -= value;
             }
         }
-        let mut columns: Vec<Vec<f64>> = self.steady.iter().map(|of| of.at(delay)).collect();
-        columns.extend(self.frictional(nonlinear, delay));
-        Evaluation { fixed, columns }
+        let friction = match self.law.friction(&self.scales, nonlinear) {
+            Ok(law) => law.along(&motion.position, &motion.speed, self.scales.tick),
+            Err(_) => vec![0.0; motion.position.len()],
+        };
+        let rubbing = self.columns(self.level.start..self.addends.len(), &friction);
+        let columns = self.steady.iter().chain(&rubbing);
+        Evaluation {
+            fixed,
+            columns: columns.map(|of| of.at(delay)).collect(),
+        }
     }
 }
 
-/// Root mean square of values.
-pub fn size(values: &[f64]) -> f64 {
-    let squares: f64 = values.iter().map(|value| value.powi(2)).sum();
-    (squares / values.len().max(1) as f64).sqrt()
+/// What opposes the motion of a slide.
+#[derive(Clone)]
+pub struct SlideResistance<'a> {
+    slide: &'a Slide<'a>,
+    friction: Friction,
+    linear: Vec<f64>,
+    /// Load, N or N m.
+    pub load: f64,
+}
+
+impl SlideResistance<'_> {
+    fn with(&self, friction: f64, step: &Step) -> f64 {
+        let slide = self.slide;
+        let at = Instant {
+            position: step.position,
+            place: step.position - slide.prepared.middle,
+            speed: step.end_speed,
+            acceleration: 0.0,
+            load: self.load,
+            friction,
+            wave: slide.wave,
+        };
+        let (mut sum, mut level) = (slide.own_load * self.load, 0.0);
+        let terms = slide.addends.iter().zip(&self.linear);
+        for (k, (addend, value)) in terms.enumerate() {
+            let part = value * (addend.of)(&at);
+            if slide.level.contains(&k) {
+                level += part;
+            } else {
+                sum += part;
+            }
+        }
+        // Where its slope takes the level below zero, there is none.
+        if level * friction > 0.0 {
+            sum + level
+        } else {
+            sum
+        }
+    }
+}
+
+impl Resistance for SlideResistance<'_> {
+    fn against(&self, step: &Step) -> f64 {
+        let mut friction = self.friction;
+        self.with(friction.follow(step), step)
+    }
+
+    fn follow(&mut self, step: &Step) -> f64 {
+        let friction = self.friction.follow(step);
+        self.with(friction, step)
+    }
 }

@@ -6,9 +6,6 @@ use mdf4_rs::blocks::{BlockParse, TextBlock};
 pub const HEADER: usize = 24;
 
 /// The bytes of a block of one of these kinds, with its kind. The block lies in the file, and its links in the block.
-///
-/// # Errors
-/// A block that is another one, or is not all there.
 pub fn any<'a>(
     file: &'a [u8],
     address: u64,
@@ -45,24 +42,16 @@ pub fn any<'a>(
     Ok((kind, block))
 }
 
-/// A block of one kind.
-///
-/// # Errors
-/// A block that is another one, or is not all there.
 pub fn one<'a>(file: &'a [u8], address: u64, kind: &'static str) -> Result<&'a [u8], String> {
     any(file, address, &[kind]).map(|(_, block)| block)
 }
 
 /// A block as the crate reads it.
-///
-/// # Errors
-/// A block that is another one, or is not all there.
 pub fn parsed<'a, B: BlockParse<'a>>(file: &'a [u8], address: u64) -> Result<B, String> {
     let block = one(file, address, B::ID)?;
     B::from_bytes(block).map_err(|error| format!("the file is damaged at byte {address}: {error}"))
 }
 
-/// Links of a block.
 pub fn links(block: &[u8]) -> impl Iterator<Item = u64> {
     let count = number(block, 16).unwrap_or(0);
     (0..count).map_while(|link| number(block, HEADER + 8 * usize::try_from(link).ok()?))
@@ -75,9 +64,6 @@ pub fn number(block: &[u8], place: usize) -> Option<u64> {
 }
 
 /// A text; empty where there is none. Of metadata in XML, its text.
-///
-/// # Errors
-/// A text that is not all there.
 pub fn text(file: &[u8], address: u64) -> Result<String, String> {
     if address == 0 {
         return Ok(String::new());

@@ -12,9 +12,6 @@ const LARGEST_BLOCK: u64 = 1 << 28;
 const LARGEST_GROUP: u64 = 1 << 32;
 
 /// Gives every data block of a data group to `visit`, in order, until it wants no more.
-///
-/// # Errors
-/// What is damaged, or of a kind that is not read.
 pub fn visit(
     file: &[u8],
     address: u64,
@@ -78,7 +75,6 @@ fn leaf(
     visit(data)
 }
 
-/// The bytes of a compressed block.
 fn inflate(block: &[u8]) -> Result<Vec<u8>, String> {
     let broken = || "the file is damaged: a compressed block does not inflate".to_string();
     let head = block.get(HEADER..HEADER + 8).ok_or_else(broken)?;

@@ -6,23 +6,15 @@ use super::mapping::{Entry, Mapping};
 use super::samples;
 use crate::units::{self, Quantity, Unit, cut, written};
 
-/// A channel that is a column.
 #[derive(Clone, Copy, Debug)]
 pub struct Chosen<'a> {
-    /// What it holds.
     pub quantity: Quantity,
-    /// Number of its group.
     pub group: usize,
-    /// The channel.
     pub channel: &'a Channel,
-    /// Unit of its values.
     pub unit: Unit,
 }
 
 /// Finds the channels of all wanted quantities that a file has.
-///
-/// # Errors
-/// A channel of the mapping that is not there; a name that several groups have; a unit that is not accepted.
 pub fn choose<'a>(
     file: &'a File,
     mapping: Option<&Mapping>,

@@ -28,16 +28,11 @@ pub struct Request<'a> {
     pub mapping: Option<&'a Mapping>,
 }
 
-/// A column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// Name of its channel.
     pub name: String,
-    /// What it holds.
     pub quantity: Quantity,
-    /// Unit in the file.
     pub unit: Unit,
-    /// Values, SI.
     pub values: Vec<f64>,
 }
 

@@ -9,14 +9,11 @@ use super::blocks::{links, one, parsed, text};
 /// Most channels and groups of a file.
 const MOST: usize = 200_000;
 
-/// A measurement file.
 #[derive(Debug)]
 pub struct File {
     /// All bytes.
     pub bytes: Vec<u8>,
-    /// Groups with their channels.
     pub groups: Vec<Group>,
-    /// Where the groups' records stand.
     pub data: Vec<DataGroup>,
 }
 
@@ -31,39 +28,27 @@ pub struct DataGroup {
     pub records: Vec<Record>,
 }
 
-/// What a record is.
 #[derive(Clone, Copy, Debug)]
 pub struct Record {
-    /// Number of the group.
     pub record_id: u64,
     /// Whether records say their length themselves.
     pub variable: bool,
-    /// Bytes of values.
     pub data_bytes: u32,
-    /// Bytes of invalidation bits behind them.
     pub invalid_bytes: u32,
 }
 
-/// Channels that were sampled together.
 #[derive(Clone, Debug)]
 pub struct Group {
-    /// Name; may be empty.
     pub name: String,
     /// Name of its source; may be empty.
     pub source: String,
-    /// Which data group.
     pub data: usize,
-    /// Number in front of its records.
     pub record_id: u64,
-    /// Samples.
     pub cycles: u64,
-    /// Bytes of values in a record.
     pub data_bytes: u32,
-    /// Its channels, the master among them.
     pub channels: Vec<Channel>,
 }
 
-/// A channel.
 #[derive(Clone, Debug)]
 pub struct Channel {
     /// Name, without what a recorder has added behind a backslash.
@@ -75,12 +60,10 @@ pub struct Channel {
 }
 
 impl Group {
-    /// The channel of the group's time.
     pub fn master(&self) -> Option<&Channel> {
         self.channels.iter().find(|channel| channel.is_master())
     }
 
-    /// How messages name it.
     pub fn shown(&self, index: usize) -> String {
         if self.name.is_empty() {
             format!("number {index}")
@@ -98,10 +81,6 @@ impl Channel {
 }
 
 impl File {
-    /// Reads everything but the samples.
-    ///
-    /// # Errors
-    /// What is no measurement file of version 4, was not closed by its recorder, or is damaged.
     pub fn of(bytes: Vec<u8>) -> Result<Self, String> {
         identify(&bytes)?;
         let header: HeaderBlock = {
@@ -206,7 +185,6 @@ fn identify(bytes: &[u8]) -> Result<(), String> {
     ))
 }
 
-/// The channels of a group.
 fn channels(bytes: &[u8], first: u64, seen: &mut Seen) -> Result<Vec<Channel>, String> {
     let mut channels = Vec::new();
     let mut next = first;
@@ -224,7 +202,6 @@ fn channels(bytes: &[u8], first: u64, seen: &mut Seen) -> Result<Vec<Channel>, S
     Ok(channels)
 }
 
-/// Name of a source.
 fn source(bytes: &[u8], address: u64) -> Result<String, String> {
     if address == 0 {
         return Ok(String::new());

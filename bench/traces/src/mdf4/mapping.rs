@@ -40,18 +40,12 @@ pub struct Mapping {
 
 impl Mapping {
     /// Reads a mapping file, or standard input.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or what is wrong with it.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         Self::of(&read_text(path, LARGEST)?)
             .map_err(|message| Failure::Data(format!("{}: {message}", path.display())))
     }
 
     /// Reads a mapping.
-    ///
-    /// # Errors
-    /// What is wrong with it.
     pub fn of(text: &str) -> Result<Self, String> {
         let table: toml::Table = text
             .parse()

@@ -19,25 +19,16 @@ const LONGEST_GAP: f64 = 11.0;
 /// Least share of the master's samples that every channel covers.
 const LEAST_COVERED: f64 = 0.9;
 
-/// A channel with its own raster.
 #[derive(Clone, Debug)]
 pub struct Track {
-    /// Name of the channel.
     pub name: String,
-    /// What it holds.
     pub quantity: Quantity,
-    /// Unit in the file.
     pub unit: Unit,
-    /// Number of its group.
     pub group: usize,
-    /// Its samples, SI.
     pub samples: Samples,
 }
 
 /// Puts all channels on the raster of one group.
-///
-/// # Errors
-/// Too many invalid samples, a channel that covers too little or has gaps.
 pub fn align(times: &Times, tracks: &[Track], master: usize) -> Result<Table, String> {
     let own = times
         .get(&master)
@@ -168,7 +159,6 @@ fn covered(
     Ok(covered)
 }
 
-/// A channel between its samples.
 struct Curve {
     times: Vec<f64>,
     values: Vec<f64>,
@@ -221,7 +211,6 @@ impl Curve {
         })
     }
 
-    /// Where it may be asked for.
     fn span(&self) -> [f64; 2] {
         let [first, last] =
             [self.times.first(), self.times.last()].map(|time| time.copied().unwrap_or_default());

@@ -22,9 +22,6 @@ enum Form {
 }
 
 /// Gives every record of a channel group to `visit`, its number of the group in front where there is one.
-///
-/// # Errors
-/// What is damaged; fewer records than the group counts.
 pub fn visit(
     file: &[u8],
     data: &DataGroup,

@@ -11,7 +11,6 @@ use super::records;
 /// Flags of a channel: all of its samples are invalid, or a bit of the record says which.
 const ALL_INVALID: u32 = 1;
 
-/// Samples of a channel.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Samples {
     /// Values, in the unit of the file.
@@ -21,7 +20,6 @@ pub struct Samples {
 }
 
 impl Samples {
-    /// Number of invalid ones.
     pub fn invalid(&self) -> usize {
         self.valid.iter().filter(|valid| !**valid).count()
     }
@@ -46,9 +44,6 @@ struct Reader {
 }
 
 /// Reads channels of one group, in the order of their numbers.
-///
-/// # Errors
-/// A channel that holds no numbers, or what is damaged.
 pub fn read(file: &File, group: &Group, channels: &[&Channel]) -> Result<Vec<Samples>, String> {
     let mut readers = channels
         .iter()
@@ -206,9 +201,6 @@ fn conversion(file: &[u8], address: u64) -> Result<Option<ConversionBlock>, Stri
 }
 
 /// Unit of a channel: its own, else that of its conversion; empty where there is none.
-///
-/// # Errors
-/// A text that is not all there.
 pub fn unit(file: &File, channel: &Channel) -> Result<String, String> {
     let own = text(&file.bytes, channel.block.unit_addr)?;
     if !own.is_empty() || channel.block.conversion_addr == 0 {

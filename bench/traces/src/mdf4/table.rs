@@ -13,9 +13,6 @@ use crate::units::{Quantity, Unit, cut, written};
 const MOST_IGNORED: usize = 50;
 
 /// Reads a table.
-///
-/// # Errors
-/// What is wrong with the file, the channel or its unit.
 pub fn read(mut input: impl Read, request: &Request<'_>) -> Result<Table, String> {
     let mut bytes = Vec::new();
     input
@@ -25,9 +22,6 @@ pub fn read(mut input: impl Read, request: &Request<'_>) -> Result<Table, String
 }
 
 /// Reads a table from the bytes of a file.
-///
-/// # Errors
-/// What is wrong with the file, the channel or its unit.
 pub fn of(bytes: Vec<u8>, request: &Request<'_>) -> Result<Table, String> {
     let file = File::of(bytes)?;
     let chosen = choose(&file, request.mapping, request.wanted)?;
@@ -49,7 +43,6 @@ pub fn of(bytes: Vec<u8>, request: &Request<'_>) -> Result<Table, String> {
     Ok(Table { ignored, ..aligned })
 }
 
-/// Which channel is missing.
 fn absent(file: &File, request: &Request<'_>) -> String {
     let names: Vec<_> = request
         .wanted

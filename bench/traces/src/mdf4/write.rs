@@ -34,7 +34,6 @@ pub struct Described {
     pub kind: Kind,
 }
 
-/// A file that is written.
 struct Backend<'a, W>(&'a mut W, u64);
 
 impl<W: Write + Seek> MdfWrite for Backend<'_, W> {
@@ -59,9 +58,6 @@ impl<W: Write + Seek> MdfWrite for Backend<'_, W> {
 }
 
 /// Writes a table whose rows are the texts of a CSV file: the same values, to the last bit.
-///
-/// # Errors
-/// What cannot be written; a text that is no value of its column.
 pub fn write<W: Write + Seek>(
     target: &mut W,
     group: &str,
@@ -107,7 +103,6 @@ fn history<W: MdfWrite>(writer: &mut MdfWriter<W>) -> Result<(), Error> {
     writer.update_block_link("hd_block", 32, "history")
 }
 
-/// The group and its channels.
 fn head<W: MdfWrite>(
     writer: &mut MdfWriter<W>,
     group: &str,

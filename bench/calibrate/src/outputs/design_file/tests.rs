@@ -19,12 +19,7 @@ nut_speed = 300 # of the motor
 ";
 
 fn estimate(name: &str, value: f64) -> Estimate {
-    Estimate {
-        low: 0.9 * value,
-        high: 1.1 * value,
-        fixed: false,
-        ..Estimate::fixed(name, "", value)
-    }
+    Estimate::told(name, "", value, 0.1 * value)
 }
 
 fn calibration(parameters: Vec<Estimate>) -> Calibration {
@@ -33,9 +28,7 @@ fn calibration(parameters: Vec<Estimate>) -> Calibration {
         residual_rms: 1.0,
         relative_error: 0.1,
         effective_rows: 100.0,
-        cannot_tell: Vec::new(),
-        models: Vec::new(),
-        winner: None,
+        ..Calibration::default()
     }
 }
 

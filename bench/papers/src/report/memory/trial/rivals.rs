@@ -263,10 +263,6 @@ impl Separable for Fitted<'_> {
         &self.target
     }
 
-    fn row_step(&self) -> f64 {
-        self.gear.record.tick
-    }
-
     fn evaluate(&self, values: &[f64]) -> Evaluation {
         let torque = self.rival.torque(self.gear, values, &self.course);
         Evaluation {
