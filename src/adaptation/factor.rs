@@ -1,5 +1,8 @@
 //! A covariance as `U D U'`: unit upper triangular times diagonal.
 
+use crate::error::Range;
+use crate::stored::{Port, Refusal, Stored};
+
 /// Covariance of `N` numbers, in units of their deviations: `P = U D U'` with `U` upper triangular, ones on its diagonal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -125,5 +128,25 @@ impl<const N: usize> Factor<N> {
             }
         }
         variances
+    }
+}
+
+impl<const N: usize> Stored for Factor<N> {
+    const BYTES: usize = 4 * (N + N * (N - 1) / 2);
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        // No variance exceeds that of the set-up, but for rounding.
+        let variance = Range::new(LEAST, 1.01);
+        port.numbers("diagonal", &mut self.diagonal, variance)?;
+        for (index, column) in self.columns.iter_mut().enumerate() {
+            for above in column.iter_mut().take(index) {
+                port.number("above", above, Range::new(-1e6, 1e6))?;
+            }
+        }
+        if self.variances().iter().all(|&entry| entry <= 1.01) {
+            Ok(())
+        } else {
+            Err(Refusal::OutOfRange { field: "variance" })
+        }
     }
 }

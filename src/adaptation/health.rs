@@ -1,7 +1,8 @@
 //! Slow drift of the level.
 
-use super::configuration::{HealthConfiguration, average_times};
-use crate::error::{Error, attempt, in_range};
+use super::constants::{HealthConfiguration, average_times};
+use crate::error::{Error, Range, attempt, in_range};
+use crate::stored::{Port, Refusal, Stored};
 
 /// Slow drift of the friction level, against the value at commissioning.
 ///
@@ -107,5 +108,18 @@ impl HealthState {
             commissioned: level,
             ..Self::NEW
         };
+    }
+}
+
+impl Stored for HealthState {
+    const BYTES: usize = 3 * 4 + 2;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        let level = Range::new(-0.9, 9.0);
+        port.number("average", &mut self.average, level)?;
+        port.number("commissioned", &mut self.commissioned, level)?;
+        port.number("drift", &mut self.health.drift, Range::new(-0.99, 99.0))?;
+        port.flag("fallen", &mut self.health.fallen)?;
+        port.flag("risen", &mut self.health.risen)
     }
 }

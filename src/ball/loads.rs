@@ -94,9 +94,8 @@ impl LoadShare {
 ///
 /// They are weights: what a ball carries is its share over the sum of those of all loaded balls, so that all loads add up to the axial load.
 ///
-/// Where the load changes its sign, the shares jump from one table to the other. Friction does not jump where it vanishes
-/// with the load. Between grooves that are preloaded it does not vanish, and jumps by as much as the sums of
-/// `share^(4/3)` over both tables differ.
+/// Where the load changes its sign, the shares jump from one table to the other; with a preload friction jumps by as much as the sums of `share^(4/3)`
+/// over both tables differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadShares {

@@ -4,7 +4,7 @@
 use core::f32::consts::FRAC_PI_4;
 
 use super::ball_screw::BallScrew;
-use super::ball_screw_parameters::BallScrewParameters;
+use super::ball_screw::BallScrewParameters;
 use super::profile::GrooveSize;
 use crate::error::Error;
 use crate::material::Material;

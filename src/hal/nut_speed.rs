@@ -2,7 +2,7 @@
 
 use core::f32::consts::{FRAC_PI_2, TAU};
 
-use super::configuration::EncoderConfiguration;
+use super::encoder::EncoderConfiguration;
 use crate::error::{Error, in_range};
 
 /// Counts in a turn.

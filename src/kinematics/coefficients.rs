@@ -1,8 +1,8 @@
 //! Constants of one contact, and what follows from them.
 
-use super::direction::Direction;
+use super::ball::{ContactSlip, sane_speed};
+use super::path::Direction;
 use super::path::{GroovePath, Path};
-use super::slip::{ContactSlip, sane_speed};
 use crate::geometry::Groove;
 use crate::math;
 

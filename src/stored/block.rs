@@ -1,8 +1,8 @@
 //! The block around a state: what it is of, and whether it is whole.
 
-use super::checksum::{Fingerprint, crc32};
+use super::Refusal;
 use super::port::{Port, Reader, Stored, Writer};
-use super::refusal::Refusal;
+use super::{Fingerprint, crc32};
 
 /// Version of the layout: counts up with every change of what a state's bytes mean.
 pub const VERSION: u16 = 3;

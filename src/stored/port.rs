@@ -2,7 +2,7 @@
 
 use core::mem::take;
 
-use super::refusal::Refusal;
+use super::Refusal;
 use crate::error::Range;
 
 /// Where numbers are written to or read from: which of both, the description of a state does not know.

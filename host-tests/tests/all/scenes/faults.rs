@@ -2,10 +2,10 @@
 
 use crate::recorded;
 use epas_friction::ball::pressed::BallNode;
-use epas_friction::scene::{CheckedInputs, FoldedBall, SceneOutputs};
+use epas_friction::scene::FoldedBall;
 use epas_friction::{
-    BallScrew, Clearance, ClosedFormScrew, DeviationMap, Error, Faults, FrictionBranch,
-    FrictionModel, Inputs, LinearBearing, LinearBearingTrain, LinearInputs, Outputs, Scene,
+    BallScrew, Clearance, ClosedFormScrew, DeviationMap, Faults, FrictionBranch, FrictionModel,
+    Inputs, LinearBearing, LinearBearingTrain, LinearInputs,
 };
 use epas_reference::promises::PROMISES;
 use epas_testkit::absurd::{EDGES, Trial, sound_train};
@@ -541,66 +541,5 @@ fn a_reversal_every_tick_is_even() {
     for (before, now) in start.iter().zip(even.state().circuit.train.positions()) {
         let moved = now.wrapping_sub(*before).cast_signed();
         assert!(moved.unsigned_abs() <= 2, "{moved} units");
-    }
-}
-
-/// A mechanism whose friction is whatever comes in.
-#[derive(Clone, Copy)]
-struct Anything;
-
-impl Scene for Anything {
-    type Configuration = ();
-    type Constants = ();
-    type State = ();
-    type Inputs = f32;
-    type ValidInputs = f32;
-    type Outputs = Outputs;
-
-    fn constants(&(): &()) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn initial_state(&(): &()) {}
-
-    fn take_over(&(): &(), (): &mut ()) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn check_inputs(&(): &(), inputs: f32) -> CheckedInputs<f32> {
-        CheckedInputs {
-            inputs: Some(inputs),
-            faults: Faults::NONE,
-        }
-    }
-
-    fn outputs(&(): &(), (): &mut (), friction_torque: f32) -> Outputs {
-        Outputs {
-            friction_torque,
-            ..Outputs::SAFE
-        }
-    }
-
-    fn largest_friction(&(): &()) -> f32 {
-        2.0
-    }
-}
-
-/// Whatever a scene computes, what is put out is a number within its limit, flagged and counted where it is cut.
-#[test]
-fn friction_that_is_no_number_is_none() {
-    let mut model = FrictionModel::<Anything>::new(&()).unwrap();
-    for (found, put_out, cut) in [
-        (1.5, 1.5, false),
-        (-2.0, -2.0, false),
-        (f32::NAN, 0.0, true),
-        (-f32::NAN, 0.0, true),
-        (f32::INFINITY, 2.0, true),
-        (-2.1, -2.0, true),
-    ] {
-        let outputs = model.step(found);
-        assert_eq!(outputs.friction_torque, put_out, "{found}");
-        assert_eq!(outputs.faults == Faults::FRICTION_LIMIT, cut, "{found}");
-        assert_eq!(outputs.faults.any(), cut, "{found}");
-        assert_eq!(model.faulted_ticks() > 0, cut, "{found}");
     }
 }
