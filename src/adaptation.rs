@@ -216,7 +216,6 @@ impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
         Ok(())
     }
 
-    /// The block around states of these constants.
     #[inline(never)]
     fn block(&self) -> Block {
         let mut fingerprint = Fingerprint::NONE;

@@ -67,7 +67,7 @@ impl<S: Scene> FrictionModel<S> {
 
 impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// A model of constants that are folded already, or of a reference to them. Set-up only: it makes the first state, at once.
-    #[inline(always)]
+    #[inline]
     pub fn of(constants: C) -> Self {
         let state = S::initial_state(constants.borrow());
         Self {

@@ -154,7 +154,6 @@ impl AdaptationConfiguration {
 /// Ticks from one upkeep to the next: four looks with their corrections, two ticks each, and the upkeep.
 pub(super) const UPKEEP: u8 = 9;
 
-/// Ticks from one forgetting to the next.
 const ROUND: f32 = 45.0;
 
 /// Most that a regressor may be, times its deviation over the noise: such a reading leaves 1e-10 of a variance, ten times the
@@ -264,7 +263,6 @@ impl AdaptationConstants {
         })
     }
 
-    /// Why a tick does not count.
     #[inline(always)]
     pub(super) fn gate(&self, inputs: &AdaptationInputs) -> AdaptationFlags {
         let AdaptationInputs {
@@ -348,7 +346,6 @@ const fn checked(configuration: &AdaptationConfiguration) -> Result<(), Error> {
     Ok(())
 }
 
-/// Deviations at set-up of the five numbers.
 const fn deviations(configuration: &AdaptationConfiguration) -> [f32; ESTIMATES] {
     [
         configuration.level_deviation,

@@ -28,7 +28,6 @@ pub(super) struct Projection<const N: usize> {
 }
 
 impl<const N: usize> Projection<N> {
-    /// Nothing was read.
     pub(super) const NONE: Self = Self {
         along: [[0.0; 2]; N],
         variance: 0.0,
@@ -36,7 +35,6 @@ impl<const N: usize> Projection<N> {
 }
 
 impl<const N: usize> Factor<N> {
-    /// Independent numbers with this variance.
     pub(super) const fn independent(variance: f32) -> Self {
         Self {
             columns: [[0.0; N]; N],

@@ -26,18 +26,15 @@ pub struct Health {
     pub risen: bool,
 }
 
-/// Thresholds, checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct HealthConstants {
-    /// Share of a new level in the average.
     pub(super) share: f32,
     pub(super) fall: f32,
     pub(super) rise: f32,
     pub(super) hysteresis: f32,
 }
 
-/// The slow average of the level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct HealthState {
@@ -76,7 +73,6 @@ impl HealthConstants {
 }
 
 impl HealthState {
-    /// Commissioned at the model's own level.
     pub(super) const NEW: Self = Self {
         average: 0.0,
         commissioned: 0.0,

@@ -19,7 +19,6 @@ const FURTHEST: f32 = 16.0;
 pub struct AdaptationState {
     pub(super) estimates: [f32; ESTIMATES],
     pub(super) covariance: Factor<ESTIMATES>,
-    /// Filtered torque and regressors.
     pub(super) observed: f32,
     pub(super) regressors: [f32; ESTIMATES],
     /// What the last tick has seen: the error over the noise, and the projection of the covariance on the reading.
@@ -30,7 +29,6 @@ pub struct AdaptationState {
     /// Ticks since the last upkeep, and which variance the next one renews.
     pub(super) tick: u8,
     pub(super) next: u8,
-    /// An estimate is at its bound.
     pub(super) at_bound: bool,
     pub(super) health: HealthState,
 }
@@ -58,7 +56,6 @@ impl AdaptationState {
         }
     }
 
-    /// Takes in a tick that counts.
     #[inline(always)]
     pub(super) fn learn(
         &mut self,

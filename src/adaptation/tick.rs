@@ -47,7 +47,6 @@ pub struct Estimates {
     pub load_error: f32,
 }
 
-/// How many there are.
 pub(super) const ESTIMATES: usize = 5;
 
 impl Estimates {

@@ -41,7 +41,6 @@ pub struct LoadCurve {
 }
 
 impl LoadCurve {
-    /// The curve's value.
     #[inline(always)]
     const fn at(&self, log2: f32) -> f32 {
         // Begins are not negative: their bits rise with them, and integers are compared in half the cycles.
@@ -127,7 +126,6 @@ impl FrictionInterval {
         }
     }
 
-    /// The node below it.
     #[inline(always)]
     pub(crate) const fn node(&self) -> usize {
         self.node as usize

@@ -118,7 +118,6 @@ impl LoadShares {
         }
     }
 
-    /// The table of loads of this sign.
     #[inline(always)]
     pub(crate) const fn of(&self, negative: bool) -> &'static [LoadShare] {
         if negative {
@@ -128,7 +127,6 @@ impl LoadShares {
         }
     }
 
-    /// Whether every ball carries the mean load.
     pub(crate) const fn are_even(&self) -> bool {
         let [(a, b), (c, d)] = [
             LoadShare::extremes(self.positive),
@@ -137,7 +135,6 @@ impl LoadShares {
         a.share == 1.0 && b.share == 1.0 && c.share == 1.0 && d.share == 1.0
     }
 
-    /// The tables, checked.
     pub(crate) const fn checked(self) -> Result<Self, Error> {
         let entries = self.positive.len() as f32;
         attempt!(in_range("load_shares", entries, 1.0, 256.0));

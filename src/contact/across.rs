@@ -4,7 +4,6 @@ use crate::error::{Error, attempt, in_range};
 use crate::math::constant;
 use crate::math::elliptic::{incomplete, narrow_integral};
 
-/// Cells of the table.
 const CELLS: usize = 10;
 
 /// Keeps a contact that neither slips nor spins from a division by zero, m.
@@ -41,7 +40,6 @@ pub(crate) struct AcrossTable {
     nodes: [[f32; 4]; CELLS + 1],
 }
 
-/// One contact that slips across the track only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Across {
     /// Power loss over `mu F`, m per unit of nut speed.
@@ -139,7 +137,7 @@ impl AcrossTable {
 }
 
 /// Value and slope of the cubic with given values and slopes at 0 and 1.
-#[inline(always)]
+#[inline]
 const fn cubic(x: f32, [here, slope]: [f32; 2], [there, slope_there]: [f32; 2]) -> (f32, f32) {
     let rise = there - here;
     let third = (slope - rise) + (slope_there - rise);

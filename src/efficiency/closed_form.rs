@@ -162,7 +162,6 @@ impl EfficiencyGeometry {
         }
     }
 
-    /// The loss without rolling resistance.
     #[cold]
     #[inline(never)]
     const fn sliding_while_rolling(&self, friction: f32) -> f32 {

@@ -243,7 +243,6 @@ const fn place(name: &str) -> Option<(usize, usize)> {
     None
 }
 
-/// Whether two texts are equal, in a constant.
 const fn same(one: &str, other: &str) -> bool {
     let (one, other) = (one.as_bytes(), other.as_bytes());
     if one.len() != other.len() {

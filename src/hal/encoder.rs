@@ -66,7 +66,6 @@ pub struct NutMotion {
 pub struct MagneticEncoder<SPI> {
     spi: SPI,
     speed: NutSpeed,
-    /// The sensor's next answer is its diagnostics.
     asked: bool,
 }
 
@@ -171,7 +170,6 @@ fn checked<E>(frame: u16) -> Result<u16, EncoderError<E>> {
 
 /// Error flag `EF` of an answer: something was wrong with the command that it answers.
 pub(super) const ERROR_FLAG: u16 = 1 << 14;
-/// The data of an answer.
 pub(super) const DATA: u16 = ERROR_FLAG - 1;
 /// Reads the angle with the sensor's compensation of its own delay (ANGLECOM, 0x3FFF).
 pub(super) const READ_ANGLE: u16 = read(0x3FFF);
@@ -190,7 +188,6 @@ const fn read(address: u16) -> u16 {
     }
 }
 
-/// Whether an even number of bits is set.
 #[inline]
 pub(super) const fn even(frame: u16) -> bool {
     frame.count_ones() & 1 == 0
@@ -264,7 +261,6 @@ impl Diagnostics {
         self.0
     }
 
-    /// Whether an angle read beside it is one.
     #[inline]
     pub(super) const fn angle_is_valid(self) -> bool {
         self.ready() && !self.overflow()

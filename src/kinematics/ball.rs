@@ -179,7 +179,7 @@ impl ContactKinematics {
 impl ContactKinematics {
     /// Forms in place all constants that depend on contact angles and ellipses, except the entrainment speeds at screw
     /// and nut: it returns their squares.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     const fn fold(&mut self, screw: &Direction, nut: &Direction) -> (f32, f32) {
         // w and omega_R with one division: G_i / (G_i + G_o) = A_i b_o / (A_i b_o + A_o b_i).

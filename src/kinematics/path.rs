@@ -134,7 +134,6 @@ const BALL_DIAMETER: Range = Range::new(
 /// the semi-major axis may have.
 #[doc(hidden)]
 pub const LARGEST_ELLIPSE: f32 = 0.3;
-/// Constants of one groove.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct GroovePath {
@@ -331,7 +330,7 @@ impl Direction {
 
 impl Path {
     /// Resolves one contact.
-    #[inline(always)]
+    #[inline]
     pub fn direction(
         &self,
         groove_path: &GroovePath,
@@ -353,7 +352,7 @@ impl Path {
         self.resolved(sin_cos, groove_path, contact, groove)
     }
 
-    #[inline(always)]
+    #[inline]
     const fn resolved(
         &self,
         (sine, cosine): (f32, f32),

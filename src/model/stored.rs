@@ -87,7 +87,6 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         Ok(())
     }
 
-    /// The block around states of these constants.
     #[inline(never)]
     fn block(&self) -> Block {
         let mut fingerprint = Fingerprint::NONE;

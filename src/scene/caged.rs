@@ -4,7 +4,7 @@ mod block;
 mod built_in;
 
 use super::contract::{
-    ChangingFriction, CheckedInputs, Inputs, Limits, Regime, Reversal, ReversalState, Scene,
+    ChangingFriction, CheckedInputs, Inputs, Limits, Reversal, ReversalState, Scene,
     SceneOutputs as _,
 };
 use super::faults::Faults;
@@ -40,7 +40,6 @@ pub struct CagedConstants<const NODES: usize = 1> {
     law: LoadLaw<NODES>,
     /// Logarithms of the nodes' friction coefficients.
     node_octaves: [f32; NODES],
-    /// The configuration's friction coefficient.
     friction: FrictionInterval,
     /// 1 over the number of loaded balls; lift-off load of all balls, N.
     per_ball: f32,
@@ -158,16 +157,9 @@ impl<const NODES: usize> CagedConstants<NODES> {
         })
     }
 
-    /// Where a friction coefficient lies.
     #[inline(always)]
     const fn interval(&self, friction: f32) -> FrictionInterval {
         self.law.interval(friction, &self.node_octaves)
-    }
-
-    /// Load of all balls, lift-off counted, N: `|F_a|` and the load at which the preload's unloaded side lifts off.
-    #[inline(always)]
-    const fn total_load(&self, axial_load: f32) -> f32 {
-        axial_load.abs() + self.lift_off
     }
 }
 
@@ -206,25 +198,19 @@ impl<const NODES: usize> Scene for CagedBallScrew<NODES> {
         else {
             return Outputs::safe(faults);
         };
-        let ReversalState {
-            factor,
-            direction,
-            standing,
-            ..
-        } = constants.reversal.at(nut_speed);
-        let total_load = constants.total_load(axial_load);
-        let load_per_ball = total_load * constants.per_ball;
-        let assists = direction * axial_load < 0.0;
-        let (torque_over_load, beyond) =
-            constants
-                .law
-                .torque_over_load(load_per_ball, assists, state.friction);
+        let reversal = constants.reversal.at(nut_speed);
+        let total_load = axial_load.abs() + constants.lift_off;
+        let (torque_over_load, beyond) = constants.law.torque_over_load(
+            total_load * constants.per_ball,
+            reversal.direction * axial_load < 0.0,
+            state.friction,
+        );
         let sliding = total_load * torque_over_load;
-        let load_torque = axial_load * constants.reduced_lead;
         Outputs::new(
-            factor * sliding,
-            load_torque,
-            Regime::under(standing, direction * load_torque, sliding),
+            reversal.factor * sliding,
+            sliding,
+            axial_load * constants.reduced_lead,
+            &reversal,
             faults.with(beyond, Faults::BEYOND_MODEL),
             constants.limits.friction_torque,
         )
@@ -252,7 +238,7 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
     ) -> CagedFriction {
         let DirectionalCoefficient { forward, backward } = friction;
         let law = &constants.law;
-        let load = constants.total_load(inputs.axial_load);
+        let load = inputs.axial_load.abs() + constants.lift_off;
         let per_ball = load * constants.per_ball;
         let (mut interval, mut holds) = (constants.interval(forward), law.holds(forward));
         let (over_load, beyond) = law.torque_over_load(per_ball, inputs.axial_load < 0.0, interval);
@@ -285,18 +271,11 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
         drag: f32,
         faults: Faults,
     ) -> Outputs {
-        let ReversalState {
-            factor,
-            direction,
-            standing,
-            ..
-        } = reversal;
-        let load_torque = inputs.axial_load * constants.reduced_lead;
-        let sliding = friction.of(direction);
         Outputs::new(
-            factor * friction.of(factor) + drag,
-            load_torque,
-            Regime::under(standing, direction * load_torque, sliding),
+            reversal.factor * friction.of(reversal.factor) + drag,
+            friction.of(reversal.direction),
+            inputs.axial_load * constants.reduced_lead,
+            &reversal,
             friction.faults | faults,
             constants.limits.friction_torque,
         )

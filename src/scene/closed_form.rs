@@ -74,7 +74,6 @@ pub struct ClosedFormScrewConstants {
     half_backdrive: f32,
     /// Torque per axial load without friction, `lead / 2 pi`, m.
     reduced_lead: f32,
-    /// Whether no torque drives a load.
     drive_locked: bool,
     /// Sum of both flanks' axial loads under the load between them.
     flanks: PreloadSum,
@@ -129,21 +128,20 @@ impl ClosedFormScrewConstants {
         })
     }
 
-    /// Whether no torque drives this load.
-    #[inline(always)]
+    #[inline]
     fn locks(&self, opposing_load: f32) -> bool {
         self.drive_locked && opposing_load > 0.0
     }
 
     /// Size of the friction torque, N m, from the flanks' sum of loads and their difference, N, positive where it
     /// opposes the motion: `[c_d (S + F) + c_b (S - F)] / 2`.
-    #[inline(always)]
+    #[inline]
     fn friction_torque(&self, sum: f32, difference: f32) -> f32 {
         self.half_drive * (sum + difference) + self.half_backdrive * (sum - difference)
     }
 
     /// Outputs with this friction torque, where sliding in the direction of motion has `sliding`. A locked drive holds with the largest torque.
-    #[inline(always)]
+    #[inline]
     fn outputs(
         &self,
         load: f32,
@@ -152,21 +150,23 @@ impl ClosedFormScrewConstants {
         reversal: &ReversalState,
         faults: Faults,
     ) -> Outputs {
-        let load_torque = load * self.reduced_lead;
         let locked = self.locks(reversal.direction * load);
-        let opposing_torque = reversal.direction * load_torque;
-        let regime = if locked && !reversal.standing {
-            Regime::Locked
-        } else {
-            Regime::under(reversal.standing, opposing_torque, sliding)
-        };
-        Outputs::new(
+        let outputs = Outputs::new(
             friction_torque,
-            load_torque,
-            regime,
+            sliding,
+            load * self.reduced_lead,
+            reversal,
             faults.with(locked && friction_torque != 0.0, Faults::FRICTION_LIMIT),
             self.limits.friction_torque,
-        )
+        );
+        if locked && !reversal.standing {
+            Outputs {
+                regime: Regime::Locked,
+                ..outputs
+            }
+        } else {
+            outputs
+        }
     }
 }
 
@@ -213,7 +213,7 @@ impl Scene for ClosedFormScrew {
     /// w_s²)` at the speed `w`, the flanks' sum `S` and difference `F`: `c_d |F|` driving and `c_b |F|` back-driving
     /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
     /// load together, and never of the sign that would make friction a source of power.
-    #[inline(always)]
+    #[inline]
     fn step(
         constants: &ClosedFormScrewConstants,
         _: &mut ClosedFormScrewState,
@@ -250,12 +250,12 @@ impl Sliding for ClosedFormScrew {
 
     type Friction = CagedFriction;
 
-    #[inline(always)]
+    #[inline]
     fn check_inputs(constants: &ClosedFormScrewConstants, inputs: Inputs) -> CheckedInputs<Inputs> {
         constants.limits.check_inputs(inputs)
     }
 
-    #[inline(always)]
+    #[inline]
     fn sliding_friction(
         constants: &ClosedFormScrewConstants,
         _: &mut ClosedFormScrewState,
@@ -279,12 +279,12 @@ impl Sliding for ClosedFormScrew {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn by_direction(sliding: &CagedFriction) -> SlidingFriction {
         sliding.by_direction()
     }
 
-    #[inline(always)]
+    #[inline]
     fn outputs_at(
         constants: &ClosedFormScrewConstants,
         inputs: Inputs,
@@ -298,7 +298,7 @@ impl Sliding for ClosedFormScrew {
         constants.outputs(inputs.axial_load, sliding, torque + drag, &reversal, faults)
     }
 
-    #[inline(always)]
+    #[inline]
     fn limited_travel(_: &ClosedFormScrewConstants, turn: f32, measured: f32) -> (f32, f32) {
         (turn, measured)
     }

@@ -195,22 +195,6 @@ pub enum Regime {
     Locked,
 }
 
-impl Regime {
-    /// Under a load whose torque against the motion is `opposing`, with friction of this size, N m.
-    #[inline(always)]
-    pub(super) fn under(standing: bool, opposing: f32, friction: f32) -> Self {
-        if standing {
-            Self::Standing
-        } else if opposing >= 0.0 {
-            Self::Driving
-        } else if friction < -opposing {
-            Self::BackDriving
-        } else {
-            Self::Locked
-        }
-    }
-}
-
 /// Where friction is between its two directions in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -225,6 +209,16 @@ pub struct ReversalState {
     pub direction: f32,
     /// Whether the mechanism stands: friction is between its two directions.
     pub standing: bool,
+}
+
+impl ReversalState {
+    /// Sliding forward.
+    pub(super) const FORWARD: Self = Self {
+        factor: 1.0,
+        carried: 1.0,
+        direction: 1.0,
+        standing: false,
+    };
 }
 
 /// Inputs of a scene that moves under loads.

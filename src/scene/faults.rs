@@ -81,7 +81,6 @@ impl Faults {
         self.0
     }
 
-    /// The set with these bits.
     pub(super) const fn of_bits(bits: u16) -> Self {
         Self(bits)
     }

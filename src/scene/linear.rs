@@ -5,7 +5,7 @@ mod step;
 
 use super::circuit::{Circuit, CircuitState};
 use super::contract::{
-    ChangingFriction, CheckedInputs, Regime, Reversal, ReversalState, Scene, SceneOutputs as _,
+    ChangingFriction, CheckedInputs, Reversal, ReversalState, Scene, SceneOutputs as _,
 };
 use super::faults::{Faults, bounded};
 use super::outputs::LinearOutputs;
@@ -168,22 +168,19 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     ) -> LinearOutputs {
         let row = sliding.row.outputs_at(
             reversal,
+            0.0,
             drag,
             faults.with(sliding.beyond_model, Faults::BEYOND_MODEL),
             constants.limits.friction_force,
         );
         LinearOutputs {
-            friction_force: row.friction,
+            friction_force: row.whole.friction_torque,
             groove_force: row.groove,
             ball_force: row.ball,
             contacts: row.contacts,
             largest_contact_force: row.largest_contact_force,
-            regime: if reversal.standing {
-                Regime::Standing
-            } else {
-                Regime::Driving
-            },
-            faults: row.faults,
+            regime: row.whole.regime,
+            faults: row.whole.faults,
         }
     }
 

@@ -1,7 +1,7 @@
 //! A drive without a drawing: Coulomb and viscous friction, and a loss in proportion to the transmitted load.
 
 use super::contract::{
-    CheckedInputs, Inputs, Limits, Regime, Reversal, ReversalState, Scene, SceneOutputs as _,
+    CheckedInputs, Inputs, Limits, Reversal, ReversalState, Scene, SceneOutputs as _,
 };
 use super::outputs::Outputs;
 use crate::error::{Error, attempt, in_range};
@@ -132,7 +132,7 @@ impl Scene for LoadProportionalScrew {
         Ok(())
     }
 
-    #[inline(always)]
+    #[inline]
     fn step(
         constants: &LoadProportionalConstants,
         _: &mut LoadProportionalState,
@@ -146,25 +146,23 @@ impl Scene for LoadProportionalScrew {
         else {
             return Outputs::safe(faults);
         };
+        let reversal = constants.reversal.at(nut_speed);
         let ReversalState {
-            factor,
-            direction,
-            standing,
-            ..
-        } = constants.reversal.at(nut_speed);
+            factor, direction, ..
+        } = reversal;
         let load_torque = constants.load_lever * axial_load;
-        let opposing_torque = direction * load_torque;
-        let loss = if opposing_torque < 0.0 {
+        let loss = if direction * load_torque < 0.0 {
             constants.back_driving_loss
         } else {
             constants.driving_loss
         };
-        let sliding = constants.coulomb_friction + loss * opposing_torque.abs();
+        let sliding = constants.coulomb_friction + loss * load_torque.abs();
         let viscous = constants.viscous_friction * nut_speed;
         Outputs::new(
             factor * sliding + viscous,
+            sliding + direction * viscous,
             load_torque,
-            Regime::under(standing, opposing_torque, sliding + direction * viscous),
+            &reversal,
             faults,
             constants.limits.friction_torque,
         )

@@ -82,7 +82,6 @@ pub struct WithMemoryConstants<C, E, A, L = CoefficientLaw> {
     play: Play,
     coefficient: L,
     temperature: TemperatureFade,
-    /// Factor of a load by its age.
     load: Fade,
 }
 

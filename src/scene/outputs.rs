@@ -1,7 +1,7 @@
 //! What scenes return: torques of a ball screw and forces of a bearing, in types of their own that nothing converts
 //! one into the other.
 
-use super::contract::{Regime, SceneOutputs};
+use super::contract::{Regime, ReversalState, SceneOutputs};
 use super::faults::Faults;
 
 /// Least efficiency of an output: friction of a preload over a load near zero would make that of back-driving minus infinity.
@@ -150,34 +150,38 @@ impl SceneOutputs for LinearOutputs {
     }
 }
 
-/// Friction within plus and minus `largest`, flagged where that cuts it; 0 in the place of NaN, which no scene is known to make.
-#[inline(always)]
-pub(super) fn limited(friction: f32, largest: f32, faults: Faults) -> (f32, Faults) {
-    if friction.abs() <= largest {
-        return (friction, faults);
-    }
-    let cut = if friction.is_nan() {
-        0.0
-    } else {
-        largest.copysign(friction)
-    };
-    (cut, faults | Faults::FRICTION_LIMIT)
-}
-
 impl Outputs {
-    /// Outputs with friction within plus and minus `largest`, N m, and the efficiency of the two torques.
+    /// Outputs of a mechanism at a reversal state: `friction`, N m, within plus and minus `largest` and flagged where that cuts it, 0 in the place of
+    /// NaN; the regime from the friction `sliding` in the direction of motion, not negative; the efficiency of the two torques.
     #[inline(always)]
     pub(super) fn new(
-        friction_torque: f32,
+        friction: f32,
+        sliding: f32,
         load_torque: f32,
-        regime: Regime,
+        reversal: &ReversalState,
         faults: Faults,
         largest: f32,
     ) -> Self {
-        let (friction_torque, faults) = limited(friction_torque, largest, faults);
+        let (friction_torque, faults) = if friction.abs() <= largest {
+            (friction, faults)
+        } else if friction.is_nan() {
+            (0.0, faults | Faults::FRICTION_LIMIT)
+        } else {
+            (largest.copysign(friction), faults | Faults::FRICTION_LIMIT)
+        };
+        let opposing = reversal.direction * load_torque;
+        let regime = if reversal.standing {
+            Regime::Standing
+        } else if opposing >= 0.0 {
+            Regime::Driving
+        } else if sliding < -opposing {
+            Regime::BackDriving
+        } else {
+            Regime::Locked
+        };
         // Signs, because the product of two small torques would vanish.
         let alike = friction_torque.is_sign_negative() == load_torque.is_sign_negative();
-        let efficiency = if load_torque == 0.0 || matches!(regime, Regime::Standing) {
+        let efficiency = if load_torque == 0.0 || reversal.standing {
             0.0
         } else if alike {
             load_torque / (load_torque + friction_torque)
@@ -209,7 +213,19 @@ impl From<UncagedOutputs> for Outputs {
             faults,
             ..
         } = outputs;
-        Self::new(friction_torque, load_torque, regime, faults, f32::MAX)
+        let reversal = ReversalState {
+            standing: matches!(regime, Regime::Standing),
+            ..ReversalState::FORWARD
+        };
+        let all = Self::new(
+            friction_torque,
+            0.0,
+            load_torque,
+            &reversal,
+            faults,
+            f32::MAX,
+        );
+        Self { regime, ..all }
     }
 }
 
@@ -275,11 +291,10 @@ mod tests {
             (-2.1, -2.0, true),
         ] {
             let faults = Faults::LOAD_RANGE.with(cut, Faults::FRICTION_LIMIT);
-            assert_eq!(
-                limited(friction, 2.0, Faults::LOAD_RANGE),
-                (output, faults),
-                "{friction}"
-            );
+            let reversal = &ReversalState::FORWARD;
+            let found = Outputs::new(friction, 1.0, 0.0, reversal, Faults::LOAD_RANGE, 2.0);
+            assert_eq!(found.friction_torque, output, "{friction}");
+            assert_eq!(found.faults, faults, "{friction}");
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::contract::{CheckedInputs, Motion, ReversalState, Scene};
 use super::faults::Faults;
-use super::outputs::limited;
+use super::outputs::Outputs;
 use crate::error::Range;
 use crate::law::SlidingLimits;
 use crate::law::coefficient::DirectionalCoefficient;
@@ -102,7 +102,6 @@ pub struct CagedFriction {
 }
 
 impl CagedFriction {
-    /// Friction torque in the direction of a sign.
     #[inline(always)]
     pub(super) const fn of(&self, direction: f32) -> f32 {
         if direction < 0.0 {
@@ -153,27 +152,23 @@ pub(super) struct TrainFriction {
     pub(super) direction: f32,
     /// Load, preload counted, N.
     pub(super) load: f32,
-    /// Pairs of balls that press on each other.
     pub(super) contacts: u8,
     /// Largest force between two balls, N.
     pub(super) largest_contact_force: f32,
 }
 
-/// Outputs of a row of balls.
 pub(super) struct RowOutputs {
-    /// Friction within its limit, and its parts of the grooves and between balls, with their sign.
-    pub(super) friction: f32,
+    /// Friction of the whole row, N m or N, with load torque, regime and faults.
+    pub(super) whole: Outputs,
+    /// Its parts of the grooves and between balls, with their sign.
     pub(super) groove: f32,
     pub(super) ball: f32,
-    /// Pairs of balls that press on each other.
     pub(super) contacts: u8,
     /// Largest force between two balls, N.
     pub(super) largest_contact_force: f32,
-    pub(super) faults: Faults,
 }
 
 impl TrainFriction {
-    /// Limits of both directions.
     #[inline(always)]
     pub(super) fn friction(&self) -> SlidingFriction {
         let [forward, backward] = self.fading;
@@ -203,15 +198,17 @@ impl TrainFriction {
         }
     }
 
-    /// Outputs of the row at a reversal state: friction with the sign of the factor, a drag added, within plus and minus `largest`.
+    /// Outputs of the row at a reversal state: friction with the sign of the factor, a drag added, within plus and minus `largest`; see [`Outputs::new`].
     #[inline(always)]
     pub(super) fn outputs_at(
         &self,
         reversal: ReversalState,
+        load_torque: f32,
         drag: f32,
         faults: Faults,
         largest: f32,
     ) -> RowOutputs {
+        let sliding = self.of(reversal.direction);
         let ReversalState {
             factor, carried, ..
         } = reversal;
@@ -219,9 +216,15 @@ impl TrainFriction {
         let presses = factor * self.direction >= 0.0 && carried > 0.0;
         let factor = factor * (1.0 + of_direction(self.fading, factor));
         let (groove, ball) = (factor * groove, factor * ball);
-        let (friction, faults) = limited(groove + ball + drag, largest, faults);
         RowOutputs {
-            friction,
+            whole: Outputs::new(
+                groove + ball + drag,
+                sliding,
+                load_torque,
+                &reversal,
+                faults,
+                largest,
+            ),
             groove,
             ball,
             contacts: if presses { self.contacts } else { 0 },
@@ -230,7 +233,6 @@ impl TrainFriction {
             } else {
                 0.0
             },
-            faults,
         }
     }
 

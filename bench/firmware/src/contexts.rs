@@ -35,10 +35,9 @@ use crate::gears::{GEAR_33X20, GEAR_33X20_RANGE};
 use crate::peers::{LuGre, Stribeck};
 use crate::remembering::{self, Carriage, Gear, GearByLaw};
 use crate::scenes::{
-    BALLS, CAGED_BY_LAW, CAGED_WITH_MEMORY, CagedByLaw, CagedLawConstants, CagedMemory, ROW,
-    SCREW_DEVIATION, TICK, UNCAGED, closed_form_configuration, linear_configuration,
-    load_proportional_configuration, uncaged_configuration, uncaged_range_configuration,
-    uncaged_shares_configuration,
+    BALLS, CAGED_BY_LAW, CAGED_WITH_MEMORY, CARRIAGE, CLOSED_FORM, CagedByLaw, CagedLawConstants,
+    CagedMemory, LOAD_PROPORTIONAL, ROW, SCREW_DEVIATION, TICK, UNCAGED, UNCAGED_RANGE,
+    UNCAGED_SCREW, UNCAGED_SHARES,
 };
 
 /// Everything that is set up once.
@@ -172,8 +171,8 @@ impl Contexts {
             at_temperature: coefficient.at_temperature(300.0),
             adaptation: Adaptation::new(&black_box(adaptation_configuration()))?,
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
-            closed_form: FrictionModel::new(&black_box(closed_form_configuration()?))?,
-            load_proportional: FrictionModel::new(&black_box(load_proportional_configuration()))?,
+            closed_form: FrictionModel::new(&black_box(CLOSED_FORM))?,
+            load_proportional: FrictionModel::new(&black_box(LOAD_PROPORTIONAL))?,
             caged: FrictionModel::of(black_box(GEAR_33X20)),
             caged_range: between_nodes(FrictionModel::of(black_box(GEAR_33X20_RANGE)))?,
             caged_set: FrictionModel::of(black_box(&GEAR_33X20_RANGE)),
@@ -187,16 +186,16 @@ impl Contexts {
             screw_row,
             press: Press::new(),
             train: Train::evenly_spaced(0.2248, 0.00594, BALLS)?,
-            uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
-            uncaged_shares: FrictionModel::new(&black_box(uncaged_shares_configuration()?))?,
+            uncaged: FrictionModel::new(&black_box(UNCAGED_SCREW))?,
+            uncaged_shares: FrictionModel::new(&black_box(UNCAGED_SHARES))?,
             uncaged_range: {
-                let mut model = FrictionModel::new(&black_box(uncaged_range_configuration()?))?;
+                let mut model = FrictionModel::new(&black_box(UNCAGED_RANGE))?;
                 model.set_friction(0.09)?;
                 model
             },
-            set: FrictionModel::new(&black_box(uncaged_range_configuration()?))?,
+            set: FrictionModel::new(&black_box(UNCAGED_RANGE))?,
             uncaged_started: FrictionModel::of(black_box(&UNCAGED)),
-            pressing: pressing(FrictionModel::new(&black_box(uncaged_configuration()?))?),
+            pressing: pressing(FrictionModel::new(&black_box(UNCAGED_SCREW))?),
             gear: FrictionModel::new(&black_box(remembering::gear_configuration()?))?,
             gear_count: 0,
             gear_pressing: remembering::pressing(FrictionModel::new(&black_box(
@@ -208,7 +207,7 @@ impl Contexts {
             carriage_memory: FrictionModel::new(
                 &black_box(remembering::carriage_configuration()?),
             )?,
-            carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
+            carriage: FrictionModel::new(&black_box(CARRIAGE))?,
             proportional: elements(&SLIP_8.elements)?,
             proportional_state: ProportionalElements::VIRGIN,
             load_exact: LoadExactElements::new(black_box(0.04), 2e-3, 4.0)?,

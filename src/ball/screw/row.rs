@@ -59,7 +59,6 @@ pub struct ScrewRow {
     contact_angle: f32,
     /// Normal force of a contact over the axial load, `1/(sin beta cos alpha)`.
     normal: f32,
-    /// Whether play leaves a ball two contacts.
     play: bool,
     /// Whether a ball in two contacts sticks to the screw, or else to the nut.
     sticks_to_screw: bool,
@@ -306,7 +305,6 @@ pub enum GrooveFit {
 /// about a millionth to friction, and its ellipse, a hundredth of the main contact's, has not vanished.
 const LEAST_LOAD: f32 = 1e-6;
 
-/// Both grooves with the preload between them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Contacts {
@@ -323,7 +321,6 @@ pub(super) struct Contacts {
 /// Loads of a ball's contacts, N, and friction of the loaded pair.
 #[derive(Clone, Copy)]
 pub(super) struct Loads {
-    /// Each contact of the loaded diagonal.
     pub(super) main: f32,
     /// The contact of the other diagonal towards which friction across the track pushes the ball.
     pub(super) third: f32,
@@ -331,7 +328,6 @@ pub(super) struct Loads {
     pub(super) fourth: f32,
     /// The main contact with the screw, over `mu` times its load.
     pub(super) screw: Across,
-    /// The main contact with the nut.
     pub(super) nut: Across,
 }
 

@@ -225,7 +225,6 @@ impl CoefficientLaw {
 /// Largest speed that churns, rad/s: that of a scene's limits. It keeps the torque finite.
 const LARGEST_SPEED: f32 = 1e6;
 
-/// Coefficients of one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Sides {
@@ -263,7 +262,6 @@ impl Sides {
         })
     }
 
-    /// The lesser one and the larger one.
     pub(super) const fn ends(&self) -> (f32, f32) {
         let boundary = self.full_film + self.difference;
         if self.difference < 0.0 {
@@ -273,7 +271,7 @@ impl Sides {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     const fn at(&self, share: f32) -> f32 {
         self.full_film + self.difference * share
     }
@@ -284,7 +282,7 @@ impl CoefficientAtTemperature {
     ///
     /// NaN counts as standstill, infinity as a full film. Monotone in the speed's size, also in f32. Cost: one division, 43 modelled
     /// cycles; 70 with [`CoefficientLaw::at_temperature`](super::CoefficientLaw::at_temperature) in the same tick.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub const fn at(&self, speed: f32) -> f32 {
         let sides = if speed < 0.0 {
@@ -296,7 +294,7 @@ impl CoefficientAtTemperature {
     }
 
     /// Friction coefficients that either direction would have at a speed of this size.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub const fn both(&self, speed: f32) -> DirectionalCoefficient {
         let share = self.share(speed);
@@ -360,7 +358,7 @@ impl CoefficientAtTemperature {
     }
 
     /// What is left of the difference at a speed: 1 at standstill, one half at the half-share speed.
-    #[inline(always)]
+    #[inline]
     const fn share(&self, speed: f32) -> f32 {
         let half = self.half_share_speed;
         let sum = half + speed.abs();
@@ -369,7 +367,7 @@ impl CoefficientAtTemperature {
 }
 
 /// A speed within 1e6 rad/s; NaN gives 0.
-#[inline(always)]
+#[inline]
 const fn within_speeds(speed: f32) -> f32 {
     if speed >= LARGEST_SPEED {
         LARGEST_SPEED

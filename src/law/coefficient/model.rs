@@ -19,7 +19,7 @@ pub struct DirectionalCoefficient {
 impl DirectionalCoefficient {
     /// Coefficient of a direction, given by its sign, and of the opposite direction; 0 and NaN count as forward. No
     /// arithmetic.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub const fn of(&self, direction: f32) -> (f32, f32) {
         if direction < 0.0 {
@@ -30,7 +30,7 @@ impl DirectionalCoefficient {
     }
 
     /// Both coefficients, cut to `largest`; NaN becomes that.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub const fn within(self, largest: f32) -> Self {
         Self {
@@ -49,7 +49,7 @@ impl DirectionalCoefficient {
 
     /// Both coefficients over the one of a direction, given by its sign, forward first: 1 and a ratio, 1e-6 to 1e6. Cost: one
     /// division.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub const fn over_own(&self, direction: f32) -> [f32; 2] {
         let (own, opposite) = self.of(direction);
@@ -110,12 +110,12 @@ impl CoefficientModel for OneCoefficient {
         (self.friction, self.friction)
     }
 
-    #[inline(always)]
+    #[inline]
     fn at_temperature(&self, _: f32) -> Self {
         *self
     }
 
-    #[inline(always)]
+    #[inline]
     fn both(at: &Self, _: f32) -> DirectionalCoefficient {
         DirectionalCoefficient {
             forward: at.friction,
@@ -123,12 +123,12 @@ impl CoefficientModel for OneCoefficient {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn drag_torque(_: &Self, _: f32, _: f32, _: f32) -> f32 {
         0.0
     }
 
-    #[inline(always)]
+    #[inline]
     fn holds_drag(_: &Self, _: f32) -> bool {
         true
     }
@@ -141,22 +141,22 @@ impl CoefficientModel for CoefficientLaw {
         Self::extremes(self)
     }
 
-    #[inline(always)]
+    #[inline]
     fn at_temperature(&self, temperature: f32) -> CoefficientAtTemperature {
         Self::at_temperature(self, temperature)
     }
 
-    #[inline(always)]
+    #[inline]
     fn both(at: &CoefficientAtTemperature, speed: f32) -> DirectionalCoefficient {
         at.both(speed)
     }
 
-    #[inline(always)]
+    #[inline]
     fn drag_torque(at: &CoefficientAtTemperature, speed: f32, load: f32, lift_off: f32) -> f32 {
         at.drag_torque(speed, load, lift_off)
     }
 
-    #[inline(always)]
+    #[inline]
     fn holds_drag(at: &CoefficientAtTemperature, speed: f32) -> bool {
         at.holds_drag(speed)
     }

@@ -93,7 +93,6 @@ impl<E: Hysteresis> Hysteresis for PreloadedElements<E> {
     }
 }
 
-/// Kind of elements in a fingerprint.
 const PRELOADED: u32 = 5;
 
 impl<E: Fingerprinted> Fingerprinted for PreloadedElements<E> {
@@ -182,7 +181,6 @@ impl<A: Hysteresis, B: Hysteresis> Hysteresis for ParallelElements<A, B> {
     }
 }
 
-/// Kind of elements in a fingerprint.
 const PARALLEL: u32 = 4;
 
 impl<A: Stored, B: Stored> Stored for ParallelElementsState<A, B> {

@@ -262,7 +262,6 @@ const fn legendre(degree: usize, x: f64) -> (f64, f64) {
     (value, slope)
 }
 
-/// Kind of elements in a fingerprint.
 const LOAD_EXACT: u32 = 2;
 
 impl<const N: usize> Fingerprinted for LoadExactElements<N> {

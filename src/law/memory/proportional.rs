@@ -224,7 +224,6 @@ impl<const N: usize> Hysteresis for ProportionalElements<N> {
     }
 }
 
-/// Kind of elements in a fingerprint.
 const PROPORTIONAL: u32 = 1;
 
 impl<const N: usize> Fingerprinted for ProportionalElements<N> {

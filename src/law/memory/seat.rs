@@ -139,7 +139,6 @@ impl Hysteresis for SeatElement {
     }
 }
 
-/// Kind of elements in a fingerprint.
 const SEAT: u32 = 3;
 
 impl Stored for SeatState {

@@ -64,7 +64,7 @@ impl Play {
     }
 
     /// Half its width, rad (m).
-    #[inline(always)]
+    #[inline]
     pub(crate) const fn half_width(&self) -> f32 {
         self.half_width
     }
@@ -112,12 +112,10 @@ impl Stored for PlayState {
 }
 
 impl Play {
-    /// Whether a state is one of this play.
     pub(crate) fn holds(&self, state: &PlayState) -> bool {
         state.position.abs() <= self.half_width && [-1.0, 0.0, 1.0].contains(&state.direction)
     }
 
-    /// Its width.
     pub(crate) fn fingerprint(&self, fingerprint: &mut Fingerprint) {
         fingerprint.number(self.half_width);
     }
@@ -196,7 +194,6 @@ impl<A: NutAngle> NutAngle for Deadband<A> {
     }
 }
 
-/// Kind of sensor in a fingerprint.
 const STEADY: u32 = 4;
 
 impl<S: Stored> Stored for DeadbandReading<S> {

@@ -50,7 +50,7 @@ impl Turn {
     }
 
     /// A turn as it is, cut to `largest`.
-    #[inline(always)]
+    #[inline]
     pub(super) fn within(turn: f32, largest: f32) -> Self {
         if turn > largest {
             Self::Limited(largest)
@@ -162,7 +162,7 @@ impl CountSensor {
     }
 
     /// Counts from `last` to `now`, the shorter way.
-    #[inline(always)]
+    #[inline]
     const fn counts(&self, last: u32, now: u32) -> i32 {
         let forward = now.wrapping_sub(last);
         if self.period == 0 {
@@ -205,7 +205,6 @@ impl NutAngle for CountSensor {
     }
 }
 
-/// Kind of sensor in a fingerprint.
 const COUNTS: u32 = 1;
 
 impl Stored for CountReading {
@@ -282,7 +281,7 @@ impl WrappedAngle {
         })
     }
 
-    #[inline(always)]
+    #[inline]
     fn difference(&self, last: f32, now: f32) -> f32 {
         let turn = now - last;
         if turn > self.half {
@@ -321,7 +320,6 @@ impl NutAngle for WrappedAngle {
     }
 }
 
-/// Kind of sensor in a fingerprint.
 const ANGLE: u32 = 2;
 
 impl Stored for AngleReading {
@@ -384,7 +382,6 @@ impl NutAngle for SpeedOverTick {
     }
 }
 
-/// Kind of sensor in a fingerprint.
 const SPEED: u32 = 3;
 
 impl Fingerprinted for SpeedOverTick {

@@ -138,7 +138,6 @@ const NO_NODE: FrictionNode = FrictionNode {
     shift: [0.0; 2],
 };
 
-/// The curve that begins at a word.
 const fn curve(words: &[u32], at: usize) -> LoadCurve {
     let mut curve = NO_CURVE;
     curve.starts = floats(words, at);

@@ -17,7 +17,6 @@ const SMALLEST_FORCE: f32 = 2e-6;
 pub struct LinearFriction {
     /// Its parts. `load`: the normal load that would put the same sum of forces on both diagonals, N.
     pub(super) row: TrainFriction,
-    /// Whether some ball may roll on two points.
     pub(super) beyond_model: bool,
 }
 

@@ -43,7 +43,6 @@ pub(super) fn checked<S: Sliding, L: CoefficientModel>(law: L) -> Result<L, Erro
     Ok(law)
 }
 
-/// No friction.
 const NONE: SlidingLimits = SlidingLimits {
     forward: 0.0,
     backward: 0.0,
@@ -51,7 +50,6 @@ const NONE: SlidingLimits = SlidingLimits {
 };
 
 impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> SceneMemory<S, E, A, L> {
-    /// Before the first tick.
     pub(super) fn nothing(coefficient: L, temperature: f32) -> Self {
         Self {
             elements: E::VIRGIN,

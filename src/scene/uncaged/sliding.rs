@@ -4,7 +4,7 @@ use super::{UncagedBallScrew, UncagedConstants, UncagedFriction, UncagedState};
 use crate::error::Range;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
-use crate::scene::contract::{CheckedInputs, Inputs, Regime, ReversalState};
+use crate::scene::contract::{CheckedInputs, Inputs, ReversalState};
 use crate::scene::faults::{Faults, bounded};
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::sliding::{Sliding, SlidingFriction};
@@ -56,24 +56,22 @@ impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> 
         drag: f32,
         faults: Faults,
     ) -> UncagedOutputs {
-        let load_torque = inputs.axial_load * constants.reduced_lead;
-        let opposing_torque = reversal.direction * load_torque;
-        let in_motion = sliding.row.of(reversal.direction);
         let row = sliding.row.outputs_at(
             reversal,
+            inputs.axial_load * constants.reduced_lead,
             drag,
             sliding.faults | faults,
             constants.limits.friction_torque,
         );
         UncagedOutputs {
-            friction_torque: row.friction,
+            friction_torque: row.whole.friction_torque,
             groove_torque: row.groove,
             ball_torque: row.ball,
-            load_torque,
+            load_torque: row.whole.load_torque,
             contacts: row.contacts,
             largest_contact_force: row.largest_contact_force,
-            regime: Regime::under(reversal.standing, opposing_torque, in_motion),
-            faults: row.faults,
+            regime: row.whole.regime,
+            faults: row.whole.faults,
         }
     }
 
