@@ -16,27 +16,19 @@
 //! | `offset` | zero of the torque sensor or of the motor's current | 1 |
 //! | `load_error` | gain of the load channel: 1 % of 2 kN on a lead of 7 mm is 22 mN m, more than a third of the friction | load torque that was taken off |
 //!
-//! The lubricant's drag `T_drag` of a scene with memory is beside the friction of the contacts: no level scales it, so it is handed over beside
-//! and taken off both sides.
-//!
-//! Five and no more, because one trace in the vehicle tells no others apart: breakaway angle, speed dependence and rolling resistance
-//! stay as they were identified on the rig. A number whose deviation at set-up is 0 stays where it starts.
+//! No level scales the drag `T_drag` of a scene with memory: it is handed over separately and taken off both sides. Five numbers and no more: one
+//! trace in the vehicle identifies no others. A number whose deviation at set-up is 0 stays where it starts.
 //!
 //! # How it works
 //!
-//! 1. **Gate.** A tick counts only where the screw slides, fast enough and with enough friction, its inputs are finite and within
-//!    their limits, no flag of the step is set (a stale load or temperature is one), and the motor is not saturated.
-//!    All else leaves every number as it is, and says why ([`AdaptationFlags`]).
-//! 2. **Filter.** Observed torque and all five regressors pass the same one-pole filter in the same ticks, so that the equation holds for
+//! 1. **Gate.** A tick counts only where the screw slides, fast enough and with enough friction, inputs are finite and within
+//!    their limits, no flag of the step is set and the motor is not saturated; else nothing changes ([`AdaptationFlags`]).
+//! 2. **Filter.** Observed torque and regressors pass the same one-pole filter in the same ticks, so that the equation holds for
 //!    the filtered ones exactly.
-//! 3. **Prediction**, in one tick, and **correction**, in the next, after which the estimates move with the next prediction: half of the readings are used,
-//!    and no tick takes long. By the `U D U'` form
-//!    of the covariance (Bierman 1977): no difference of positive numbers is taken, so that it stays symmetric and positive definite in f32
-//!    whatever comes. An error beyond four of its deviations (noise and covariance) counts as noise that is as much larger: a knock moves
-//!    little. The numbers stay within their bounds.
-//! 4. **Forgetting**, every ninth tick: old data lose weight, and one of the five
-//!    variances gets back what it lost, as if its number had been read off with its deviation of the set-up (Kulhavy and Zarrop 1993). So no
-//!    variance ever exceeds that of the set-up: without excitation nothing winds up, and a number that the motion does not tell stays.
+//! 3. **Prediction** in one tick and **correction** in the next, by the `U D U'` form of the covariance (Bierman 1977), which stays positive
+//!    definite in f32. An error beyond four deviations counts as noise that is as much larger. The numbers stay within their bounds.
+//! 4. **Forgetting**, every ninth tick: one of the five variances gets back what it lost, as if its number had been read with its deviation of the
+//!    set-up (Kulhavy and Zarrop 1993). No variance exceeds that of the set-up: without excitation nothing winds up.
 //!
 //! # Use
 //!
@@ -68,28 +60,27 @@
 //!
 //! A second, far slower average of the level against its value at commissioning ([`Adaptation::commission`]): see [`Health`].
 
-mod configuration;
 mod constants;
-mod estimates;
 mod factor;
-mod flags;
 mod health;
-mod inputs;
 mod state;
-mod stored;
+mod tick;
 
 use core::borrow::Borrow;
 
 use crate::error::Error;
 use crate::law::FrictionLevel;
+use crate::stored::{
+    Block, Fingerprint, Fingerprinted as _, Label, OVERHEAD, Refusal, Stored as _,
+};
 
-pub use configuration::{AdaptationConfiguration, HealthConfiguration};
-pub use constants::AdaptationConstants;
-pub use estimates::Estimates;
-pub use flags::AdaptationFlags;
+pub use constants::{AdaptationConfiguration, AdaptationConstants, HealthConfiguration};
 pub use health::Health;
-pub use inputs::AdaptationInputs;
 pub use state::AdaptationState;
+pub use tick::{AdaptationFlags, AdaptationInputs, Estimates};
+
+/// Number of the kind in a block; those of scenes are below.
+const KIND: u16 = 0x1000;
 
 /// Friction level, drag and sensor errors, estimated while the model runs; see the [module](self).
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,5 +180,51 @@ impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
     /// The state, for diagnosis.
     pub const fn state(&self) -> &AdaptationState {
         &self.state
+    }
+
+    /// Bytes of a block that holds the state: see [`stored`](crate::stored) for its layout.
+    pub const STATE_BYTES: usize = OVERHEAD + AdaptationState::BYTES;
+
+    /// Writes the state as a block to the begin of `bytes` and gives its length, [`STATE_BYTES`](Adaptation::STATE_BYTES): when the
+    /// ignition goes off, outside the interrupt.
+    ///
+    /// The block has the estimates, their covariance and the slow average with its commissioning; not the constants, nor the filter.
+    ///
+    /// # Errors
+    /// [`Refusal::Length`] where `bytes` are too short.
+    pub fn export(&self, bytes: &mut [u8]) -> Result<usize, Refusal> {
+        let mut state = self.state;
+        self.block().seal(&mut state, bytes)
+    }
+
+    /// Takes over the state of a block that an adaptation with the same noise, deviations and forgetting exported: when the ignition goes on.
+    ///
+    /// A block is refused for what [`stored`](crate::stored) says, and where an estimate is outside the bounds of these constants. On
+    /// a refusal the adaptation is as it was.
+    ///
+    /// # Errors
+    /// The [`Refusal`].
+    pub fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
+        let mut state = self.state;
+        self.block().open(&mut state, block)?;
+        let constants = self.constants.borrow();
+        if !constants.allows(&state.estimates) {
+            return Err(Refusal::OutOfRange { field: "estimates" });
+        }
+        state.at_bound = constants.binds(&state.estimates);
+        self.state = state;
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn block(&self) -> Block {
+        let mut fingerprint = Fingerprint::NONE;
+        self.constants.borrow().fingerprint(&mut fingerprint);
+        let label = Label {
+            kind: KIND,
+            balls: 0,
+            fingerprint,
+        };
+        Block::new(label, AdaptationState::BYTES)
     }
 }

@@ -19,7 +19,6 @@
 
 mod across;
 mod along;
-mod integrals;
 mod rolling;
 
 pub use across::slip_and_spin;

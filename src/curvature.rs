@@ -1,7 +1,6 @@
 //! Principal curvatures of a gothic-arch groove at a contact point.
 //!
-//! [`GothicArch`] runs at the set-up of every scene of a ball screw. The other forms are called directly; no scene links
-//! them.
+//! [`GothicArch`] runs at set-up ([`hertz`](crate::hertz), rolling resistance). The other forms are called directly; no scene links them.
 //!
 //! | form | needs | error of the first curvature on the 31 catalogue sizes, contact angles 0 to 70 degrees |
 //! |---|---|---|
@@ -15,16 +14,12 @@
 //! length goes in, its inverse comes out. Source: Bertolino, De Martin, Mauro, Sorli 2023
 //! (Machines 11(2):261).
 
-mod circular;
 pub(crate) mod fitted;
 mod gothic_arch;
 mod literature;
-mod shape_operator;
 
-pub use circular::CircularGrooveCurvature;
 #[doc(hidden)]
 pub use fitted::CHEBYSHEV;
 pub use fitted::{DEFAULT_FIT_RANGE, FittedCurvature};
-pub use gothic_arch::GothicArch;
-pub use literature::LiteratureCurvature;
-pub use shape_operator::{PrincipalCurvatures, RelativeCurvatures};
+pub use gothic_arch::{GothicArch, PrincipalCurvatures, RelativeCurvatures};
+pub use literature::{CircularGrooveCurvature, LiteratureCurvature};

@@ -125,14 +125,10 @@ pub const STEERING_GREASE_DENSITY: f32 = 833.0;
 /// speeds and two temperatures should fit it.
 ///
 /// Cold grease makes a film at lower speeds, which lowers the coefficient, and resists rolling more, which raises the drag. Without a load
-/// the sum rises from 20 to -40 degrees by 1.3 at 1 rad/s of the nut, 3.6 at 5 and 10 at 20; under 5 kN it falls at 1 rad/s, by 0.42, and under 14 kN at 0.7 rad/s by 0.29, the
-/// least, because friction under load goes with the square of the coefficient. Figures above 5 rad/s at -40 degrees are upper bounds: the drag is that of contacts which lubricant
-/// keeps supplied. Measured gears rise two- to threefold, by report. The report's section "Measured and computed" has the figure.
-///
-/// Starvation does not explain that difference: with SKF's factor for grease on the film (see [`RollingDrag`]), 0.76 at -40 degrees and 1 rad/s,
-/// the coefficient there is 0.059 in place of 0.056. A traction of the film that rises in the cold would: 0.10 at -40 degrees gives as much
-/// friction as at 20. Limiting shear stress does depend on the temperature (Wikström and Höglund 1994, J. Tribol. 116:612, measured from -20 to 110
-/// degrees at 5.8 to 7 GPa), but for greases of this kind and pressures of a screw no figures were found, so `full_film` is one number.
+/// the sum rises from 20 to -40 degrees by 1.3 at 1 rad/s of the nut, 3.6 at 5 and 10 at 20; under 5 kN it falls at 1 rad/s, by 0.42. Above 5 rad/s at -40
+/// degrees the drag is an upper bound: that of contacts which lubricant keeps supplied. Measured gears rise two- to threefold, by report: a traction of the
+/// film of 0.10 at -40 degrees would explain it (limiting shear stress depends on the temperature: Wikström and Höglund 1994, J. Tribol. 116:612), but for
+/// greases of this kind no figures were found.
 pub const COEFFICIENT: CoefficientParameters = CoefficientParameters {
     boundary: 0.12,
     full_film: 0.05,

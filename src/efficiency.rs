@@ -5,19 +5,13 @@
 //!
 //! There are two answers, both after Lin, Velinsky, Ravani 1994:
 //!
-//! - **rolling**, eq. (3): the ball rolls; only the contact at the screw slips, across the groove.
-//!   Integrating the ball's equations of motion from a rolling start with Coulomb friction leads to
-//!   this state and to this efficiency within 1e-7. **Use it for the friction of a gear in service.**
-//! - **sliding**, eq. (14) and (17): both main contacts slide along the path. It is the steady
-//!   solution that the paper solves for, but the ball would have to spin at millions of revolutions
-//!   per minute, it exists only above a lead angle of some degrees, and it is unstable nearly
-//!   everywhere. **Use it as the pessimistic bound**: for the worst case of a design, for the margin
-//!   against self-locking, never as the expected value.
+//! - **rolling**, eq. (3): the ball rolls; only the contact at the screw slips, across the groove. **Use it for the friction of a gear in service.**
+//! - **sliding**, eq. (14) and (17): both main contacts slide along the path. The ball would have to spin at millions of revolutions per minute, and
+//!   the state is unstable nearly everywhere. **Use it as the pessimistic bound**, for the margin against self-locking.
 //!
 //! At the paper's own case (lead angle 10 degrees, contact angle 45 degrees, friction 0.075) the first
 //! gives 0.980, the second 0.860.
 
 mod closed_form;
-mod torque;
 
 pub use closed_form::{Drive, EfficiencyGeometry};

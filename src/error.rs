@@ -28,7 +28,7 @@ impl Range {
     /// `value`, or the error that names `field`.
     ///
     /// # Errors
-    /// [`Error`] where `value` is no number within the range.
+    /// [`Error`] where `value` is NaN or outside the range.
     pub const fn checked(self, field: &'static str, value: f32) -> Result<f32, Error> {
         in_range(field, value, self.minimum, self.maximum)
     }
@@ -168,7 +168,7 @@ impl fmt::Display for Error {
 
 impl core::error::Error for Error {}
 
-/// `value`, or the error that names `field` where it is not a number within `minimum..=maximum`.
+/// `value`, or the error that names `field` where it is NaN or outside `minimum..=maximum`.
 pub(crate) const fn in_range(
     field: &'static str,
     value: f32,

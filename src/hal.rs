@@ -28,13 +28,11 @@
 //! }
 //! ```
 
-mod configuration;
 mod encoder;
 mod feed_forward;
-mod frame;
 mod nut_speed;
 
-pub use configuration::EncoderConfiguration;
-pub use encoder::{EncoderError, MagneticEncoder, NutMotion};
+pub use encoder::{
+    Diagnostics, EncoderConfiguration, EncoderError, MagneticEncoder, NutMotion, SensorErrors,
+};
 pub use feed_forward::{AppliedDuty, FaultReaction, FeedForwardConfiguration, FrictionFeedForward};
-pub use frame::{Diagnostics, SensorErrors};

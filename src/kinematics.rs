@@ -37,14 +37,10 @@
 
 mod ball;
 mod coefficients;
-mod direction;
-mod parameters;
 pub(crate) mod path;
-mod slip;
 
-pub use ball::ContactKinematics;
+pub use ball::{BallKinematics, ContactKinematics, ContactSlip};
 pub use coefficients::{ContactCoefficients, SlipRatios, SlipVector};
-pub use parameters::{EllipticContact, KinematicsParameters};
+pub use path::{EllipticContact, KinematicsParameters};
 #[doc(hidden)]
 pub use path::{FOURTH_POWER, LARGEST_ELLIPSE};
-pub use slip::{BallKinematics, ContactSlip};

@@ -18,7 +18,6 @@
 //! deviation maps, load shares.
 
 mod caged;
-mod caged_friction;
 pub(crate) mod circuit;
 mod closed_form;
 mod contract;
@@ -27,8 +26,6 @@ pub(crate) mod linear;
 mod load_proportional;
 mod memory;
 mod outputs;
-mod reversal;
-mod row;
 mod sliding;
 mod stored;
 mod uncaged;
@@ -38,7 +35,6 @@ pub use caged::{
     BUILT_IN_NODES, CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, CagedState,
     built_in,
 };
-pub use caged_friction::CagedFriction;
 #[doc(hidden)]
 pub use circuit::deviation::SINES;
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
@@ -46,7 +42,10 @@ pub use closed_form::{
     ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, ClosedFormScrewState,
     FrictionBranch,
 };
-pub use contract::{ChangingFriction, CheckedInputs, Inputs, Limits, Regime, Scene, SceneOutputs};
+pub use contract::{
+    ChangingFriction, CheckedInputs, Inputs, Limits, Motion, Regime, ReversalState, Scene,
+    SceneOutputs,
+};
 pub use faults::Faults;
 pub use linear::{
     LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFriction, LinearInputs,
@@ -61,8 +60,7 @@ pub use memory::{
     WithMemoryConstants, WithMemoryInputs, WithMemoryState,
 };
 pub use outputs::{LinearOutputs, Outputs, UncagedOutputs};
-pub use reversal::{Motion, ReversalState};
-pub use sliding::{Sliding, SlidingFriction};
+pub use sliding::{CagedFriction, Sliding, SlidingFriction};
 pub use stored::StoredScene;
 pub use uncaged::{
     CatalogueBall, FoldedBall, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants,

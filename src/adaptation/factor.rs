@@ -1,5 +1,8 @@
 //! A covariance as `U D U'`: unit upper triangular times diagonal.
 
+use crate::error::Range;
+use crate::stored::{Port, Refusal, Stored};
+
 /// Covariance of `N` numbers, in units of their deviations: `P = U D U'` with `U` upper triangular, ones on its diagonal.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -25,7 +28,6 @@ pub(super) struct Projection<const N: usize> {
 }
 
 impl<const N: usize> Projection<N> {
-    /// Nothing was read.
     pub(super) const NONE: Self = Self {
         along: [[0.0; 2]; N],
         variance: 0.0,
@@ -33,7 +35,6 @@ impl<const N: usize> Projection<N> {
 }
 
 impl<const N: usize> Factor<N> {
-    /// Independent numbers with this variance.
     pub(super) const fn independent(variance: f32) -> Self {
         Self {
             columns: [[0.0; N]; N],
@@ -125,5 +126,25 @@ impl<const N: usize> Factor<N> {
             }
         }
         variances
+    }
+}
+
+impl<const N: usize> Stored for Factor<N> {
+    const BYTES: usize = 4 * (N + N * (N - 1) / 2);
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        // No variance exceeds that of the set-up, but for rounding.
+        let variance = Range::new(LEAST, 1.01);
+        port.numbers("diagonal", &mut self.diagonal, variance)?;
+        for (index, column) in self.columns.iter_mut().enumerate() {
+            for above in column.iter_mut().take(index) {
+                port.number("above", above, Range::new(-1e6, 1e6))?;
+            }
+        }
+        if self.variances().iter().all(|&entry| entry <= 1.01) {
+            Ok(())
+        } else {
+            Err(Refusal::OutOfRange { field: "variance" })
+        }
     }
 }

@@ -1,7 +1,8 @@
 //! Slow drift of the level.
 
-use super::configuration::{HealthConfiguration, average_times};
-use crate::error::{Error, attempt, in_range};
+use super::constants::{HealthConfiguration, average_times};
+use crate::error::{Error, Range, attempt, in_range};
+use crate::stored::{Port, Refusal, Stored};
 
 /// Slow drift of the friction level, against the value at commissioning.
 ///
@@ -25,18 +26,15 @@ pub struct Health {
     pub risen: bool,
 }
 
-/// Thresholds, checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct HealthConstants {
-    /// Share of a new level in the average.
     pub(super) share: f32,
     pub(super) fall: f32,
     pub(super) rise: f32,
     pub(super) hysteresis: f32,
 }
 
-/// The slow average of the level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct HealthState {
@@ -75,7 +73,6 @@ impl HealthConstants {
 }
 
 impl HealthState {
-    /// Commissioned at the model's own level.
     pub(super) const NEW: Self = Self {
         average: 0.0,
         commissioned: 0.0,
@@ -107,5 +104,18 @@ impl HealthState {
             commissioned: level,
             ..Self::NEW
         };
+    }
+}
+
+impl Stored for HealthState {
+    const BYTES: usize = 3 * 4 + 2;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        let level = Range::new(-0.9, 9.0);
+        port.number("average", &mut self.average, level)?;
+        port.number("commissioned", &mut self.commissioned, level)?;
+        port.number("drift", &mut self.health.drift, Range::new(-0.99, 99.0))?;
+        port.flag("fallen", &mut self.health.fallen)?;
+        port.flag("risen", &mut self.health.risen)
     }
 }

@@ -1,12 +1,14 @@
 //! What a tick of the adaptation changes.
 
 use super::constants::{AdaptationConstants, UPKEEP};
-use super::estimates::{ESTIMATES, Estimates};
 use super::factor::{Factor, Projection};
-use super::flags::AdaptationFlags;
 use super::health::{Health, HealthState};
-use super::inputs::AdaptationInputs;
+use super::tick::AdaptationFlags;
+use super::tick::AdaptationInputs;
+use super::tick::{ESTIMATES, Estimates};
+use crate::error::Range;
 use crate::math;
+use crate::stored::{Port, Refusal, Stored};
 
 /// An error counts with at most so many of its deviations, squared: four, which normal noise passes once in 16,000 readings.
 const FURTHEST: f32 = 16.0;
@@ -17,7 +19,6 @@ const FURTHEST: f32 = 16.0;
 pub struct AdaptationState {
     pub(super) estimates: [f32; ESTIMATES],
     pub(super) covariance: Factor<ESTIMATES>,
-    /// Filtered torque and regressors.
     pub(super) observed: f32,
     pub(super) regressors: [f32; ESTIMATES],
     /// What the last tick has seen: the error over the noise, and the projection of the covariance on the reading.
@@ -28,7 +29,6 @@ pub struct AdaptationState {
     /// Ticks since the last upkeep, and which variance the next one renews.
     pub(super) tick: u8,
     pub(super) next: u8,
-    /// An estimate is at its bound.
     pub(super) at_bound: bool,
     pub(super) health: HealthState,
 }
@@ -56,7 +56,6 @@ impl AdaptationState {
         }
     }
 
-    /// Takes in a tick that counts.
     #[inline(always)]
     pub(super) fn learn(
         &mut self,
@@ -204,5 +203,24 @@ impl AdaptationState {
             *entry = deviation * math::sqrt(*entry);
         }
         Estimates::of(&deviations)
+    }
+}
+
+/// The filter begins anew, and a reading that was only looked at is left out: what they hold is of milliseconds.
+impl Stored for AdaptationState {
+    const BYTES: usize = 4 * ESTIMATES + Factor::<ESTIMATES>::BYTES + 2 + HealthState::BYTES;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.numbers("estimates", &mut self.estimates, Range::new(-1e4, 1e4))?;
+        self.covariance.exchange(port)?;
+        port.count("tick", &mut self.tick, UPKEEP - 1)?;
+        port.count("next", &mut self.next, ESTIMATES as u8 - 1)?;
+        self.health.exchange(port)?;
+        self.observed = 0.0;
+        self.regressors = [0.0; ESTIMATES];
+        self.error = 0.0;
+        self.seen = Projection::NONE;
+        self.moves = [0.0; ESTIMATES];
+        Ok(())
     }
 }

@@ -20,10 +20,8 @@ const CONTACT_FORCE: Range = Range::new(1e-3, 1e6);
 
 /// Radial gap of every contact at a centred ball in a screw without load, m: play above zero, oversize below.
 ///
-/// The one number that says how balls fit between the grooves, in every scene of a ball screw. With `r_b` the ball radius
-/// of the design, balls have the radius `r_b - gap`, and each of the four contacts of a centred ball has this gap along its
-/// normal; a diagonal of two contacts has the play `2 gap`. An oversized ball presses on all four contacts:
-/// [`Clearance::preload`].
+/// With `r_b` the ball radius of the design, balls have the radius `r_b - gap`: each of the four contacts of a centred ball has this gap along its
+/// normal. An oversized ball presses on all four contacts: [`Clearance::preload`].
 ///
 /// Not to be taken for [`BallScrew::clearance`], which is the radius of a groove less that of the ball.
 ///

@@ -1,16 +1,164 @@
 //! The law of one ball, solved on a host and folded into constants: friction torque over its load.
 //!
-//! The control interrupt evaluates it: one logarithm, one search among eight parts, one cubic. Nothing is solved and nothing settles.
-
-mod curve;
-mod friction;
+//! The control interrupt evaluates it: one logarithm, one search among eight parts, one cubic.
 
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
 
-pub use curve::{LoadCurve, PARTS, octaves};
-pub use friction::FrictionInterval;
-pub(crate) use friction::{holds, node_octaves};
+/// Parts of a [`LoadCurve`].
+pub const PARTS: usize = 8;
+
+/// Change of a friction coefficient, over it, below which it counts as the same: rounding.
+const SAME_FRICTION: f32 = 1e-3;
+
+/// Exponent's bias and mantissa's bits of an `f32`.
+const BIAS: u32 = 127;
+const MANTISSA: u32 = 23;
+
+/// Coefficients of `log2(1 + m)` by the powers 1 to 4 of `m`: value and slope are continuous where the exponent changes (they add up to 1, and
+/// the slope at 0 is twice that at 1); of the two that this leaves free the error is least.
+const LOGARITHM: [f32; 4] = [1.438_308_4, -0.674_842_3, 0.315_605_3, -0.079_071_4];
+
+/// `log2(x) + 127` of a positive number, within 1.3e-4: the biased exponent and a polynomial of the mantissa. Value and slope are continuous.
+/// 0 gives 0.
+#[inline(always)]
+#[must_use]
+pub const fn log2_biased(number: f32) -> f32 {
+    let bits = number.to_bits();
+    let mantissa = f32::from_bits(bits & ((1 << MANTISSA) - 1) | (BIAS << MANTISSA)) - 1.0;
+    let [a, b, c, d] = LOGARITHM;
+    (bits >> MANTISSA) as f32 + mantissa * (a + mantissa * (b + mantissa * (c + mantissa * d)))
+}
+
+/// A function of [`log2_biased`] of a load: a cubic in each part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadCurve {
+    /// Where each part begins, `log2_biased`, rising; unused parts begin at `f32::MAX`. The first begins where the curve does.
+    pub starts: [f32; PARTS],
+    /// Coefficients of the powers 0 to 3 of the distance from the part's begin.
+    pub cubics: [[f32; 4]; PARTS],
+}
+
+impl LoadCurve {
+    #[inline(always)]
+    const fn at(&self, log2: f32) -> f32 {
+        // Begins are not negative: their bits rise with them, and integers are compared in half the cycles.
+        let bits = log2.to_bits().cast_signed();
+        let mut part = 0;
+        let mut step = PARTS / 2;
+        while step > 0 {
+            // The remainder proves to the compiler that the index is in the array.
+            if bits >= self.starts[(part + step) % PARTS].to_bits().cast_signed() {
+                part += step;
+            }
+            step /= 2;
+        }
+        let [a, b, c, d] = self.cubics[part % PARTS];
+        let along = log2 - self.starts[part % PARTS];
+        a + along * (b + along * (c + along * d))
+    }
+
+    const fn checked(self) -> Result<Self, Error> {
+        let mut part = 0;
+        while part < PARTS {
+            let least = if part == 0 {
+                0.0
+            } else {
+                self.starts[part - 1]
+            };
+            attempt!(in_range("starts", self.starts[part], least, f32::MAX));
+            let [a, b, c, d] = self.cubics[part];
+            attempt!(in_range("cubics", a, 0.0, 1e9));
+            attempt!(in_range("cubics", b, -1e9, 1e9));
+            attempt!(in_range("cubics", c, -1e9, 1e9));
+            attempt!(in_range("cubics", d, -1e9, 1e9));
+            part += 1;
+        }
+        Ok(self)
+    }
+}
+
+/// A friction coefficient, and the nodes of a law between which it lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct FrictionInterval {
+    friction: f32,
+    /// The node below it, and its fraction of the distance to the next node by logarithms, 0 to 1.
+    node: u32,
+    fraction: f32,
+}
+
+impl FrictionInterval {
+    /// The friction coefficient.
+    #[must_use]
+    pub const fn friction(&self) -> f32 {
+        self.friction
+    }
+
+    /// The interval that holds a friction coefficient, among nodes with these coefficients, rising, and their logarithms.
+    #[inline(always)]
+    pub(crate) const fn among<const NODES: usize>(
+        frictions: &[f32; NODES],
+        octaves_of: &[f32; NODES],
+        friction: f32,
+    ) -> Self {
+        let mut node = 0;
+        let mut number = 1;
+        while number + 1 < NODES {
+            if friction > frictions[number] {
+                node = number;
+            }
+            number += 1;
+        }
+        let fraction = if NODES == 1 || friction <= frictions[0] {
+            0.0
+        } else if friction < frictions[NODES - 1] {
+            let [low, high] = [octaves_of[node % NODES], octaves_of[(node + 1) % NODES]];
+            (log2_biased(friction) - low) / (high - low)
+        } else {
+            1.0
+        };
+        Self {
+            friction,
+            node: node as u32,
+            fraction,
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) const fn node(&self) -> usize {
+        self.node as usize
+    }
+
+    /// Its fraction of the distance to the next node.
+    #[inline(always)]
+    pub(crate) const fn fraction(&self) -> f32 {
+        self.fraction
+    }
+
+    /// The same interval for another friction coefficient, until [`LoadLaw::interval`] has found its own.
+    pub(crate) const fn with_friction(self, friction: f32) -> Self {
+        Self { friction, ..self }
+    }
+}
+
+/// Whether a friction coefficient is within the least and the largest of some, but for rounding.
+#[inline(always)]
+pub(crate) const fn holds((least, largest): (f32, f32), friction: f32) -> bool {
+    friction >= (1.0 - SAME_FRICTION) * least && friction <= (1.0 + SAME_FRICTION) * largest
+}
+
+/// [`log2_biased`] of friction coefficients.
+pub(crate) const fn node_octaves<const NODES: usize>(frictions: &[f32; NODES]) -> [f32; NODES] {
+    let mut all = [0.0; NODES];
+    let mut number = 0;
+    while number < NODES {
+        all[number] = log2_biased(frictions[number]);
+        number += 1;
+    }
+    all
+}
 
 /// The curves for one friction coefficient.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,12 +176,12 @@ pub struct FrictionNode {
 /// Friction torque of one ball over its load, for `NODES` friction coefficients: what `epas-design` folds and a scene evaluates.
 ///
 /// ```text
-/// T = mu W [(1 - t) c_k(x - t d w) + t c_(k+1)(x + (1 - t) d w)],    W = |F| + F_0,    x = octaves of W
+/// T = mu W [(1 - t) c_k(x - t d w) + t c_(k+1)(x + (1 - t) d w)],    W = |F| + F_0,    x = log2(W) + 127
 /// ```
 ///
 /// with the axial load `F` of the ball, the lift-off load `F_0` of its preload, the curves `c` of the two nodes around the friction coefficient
-/// `mu`, its fraction `t` of the distance between them (0 to 1, by octaves), and the shift `d` that aligns the loads at which a contact begins to carry. Lift-off of a preload does not depend on friction: `w` rises from
-/// 0 there to 1 an octave above it; without a preload it is 1.
+/// `mu`, its fraction `t` of the distance between them (0 to 1, by logarithms), and the shift `d` that aligns the loads at which a contact begins to
+/// carry. Lift-off of a preload does not depend on friction: `w` rises from 0 there to 1 an octave above it; without a preload it is 1.
 /// Below the least load the torque is in proportion to `W`.
 ///
 /// Accuracy: that of the block's certificate. Cost: part of a step of [`CagedBallScrew`](crate::CagedBallScrew).
@@ -42,11 +190,11 @@ pub struct FrictionNode {
 pub struct LoadLaw<const NODES: usize> {
     /// Nodes by rising friction coefficient.
     pub nodes: [FrictionNode; NODES],
-    /// Least and largest [`octaves`] of `W`.
+    /// Least and largest [`log2_biased`] of `W`.
     pub ends: [f32; 2],
     /// Axial load of one ball at which the preload's unloaded side lifts off, N, 0 to 1e7; 0 without a preload.
     pub lift_off: f32,
-    /// Octaves of `W` from which on loads are shifted between nodes: those of lift-off, 1 to 254; 1 without a preload.
+    /// [`log2_biased`] of the `W` from which on loads are shifted between nodes: that of lift-off, 1 to 254; 1 without a preload.
     pub shifted_from: f32,
 }
 
@@ -89,13 +237,12 @@ impl<const NODES: usize> LoadLaw<NODES> {
         (self.nodes[0].friction, self.nodes[NODES - 1].friction)
     }
 
-    /// Whether a friction coefficient is one of those that the law is folded for.
+    /// Whether the law is folded for a friction coefficient.
     #[inline(always)]
     pub(crate) const fn holds(&self, friction: f32) -> bool {
         holds(self.friction_range(), friction)
     }
 
-    /// Friction coefficients of the nodes.
     const fn frictions(&self) -> [f32; NODES] {
         let mut all = [0.0; NODES];
         let mut number = 0;
@@ -106,7 +253,7 @@ impl<const NODES: usize> LoadLaw<NODES> {
         all
     }
 
-    /// The [`octaves`] of the nodes' friction coefficients, for [`Self::interval`].
+    /// [`log2_biased`] of the nodes' friction coefficients, for [`Self::interval`].
     pub(crate) const fn node_octaves(&self) -> [f32; NODES] {
         node_octaves(&self.frictions())
     }
@@ -121,34 +268,41 @@ impl<const NODES: usize> LoadLaw<NODES> {
         FrictionInterval::among(&self.frictions(), node_octaves, friction)
     }
 
-    /// Friction torque of a ball over its load `W`, m, whose octaves these are, within the ends; `branch` 0 under a load that opposes the
-    /// motion, 1 under one that assists it. Never negative.
+    /// Friction torque of a ball over its load `W`, N, under an axial load that opposes or assists the motion, m, not negative; and whether `W`
+    /// is above the law's largest, at which the law then stays.
     #[inline(always)]
     pub(crate) const fn torque_over_load(
         &self,
-        octaves: f32,
-        branch: usize,
+        load: f32,
+        assists: bool,
         interval: FrictionInterval,
-    ) -> f32 {
+    ) -> (f32, bool) {
+        let [least, most] = self.ends;
+        let log2 = log2_biased(load);
+        let beyond = log2 > most;
+        let log2 = if beyond { most } else { log2 };
+        let log2 = if log2 > least { log2 } else { least };
+        let branch = assists as usize;
         let below = &self.nodes[interval.node as usize % NODES];
         let value = if NODES == 1 {
-            below.curves[branch & 1].at(octaves)
+            below.curves[branch].at(log2)
         } else {
             let above = &self.nodes[(interval.node as usize + 1) % NODES];
-            let shift = below.shift[branch & 1] * shifted_part(octaves - self.shifted_from);
-            let low = below.curves[branch & 1].at(octaves - interval.fraction * shift);
-            let high = above.curves[branch & 1].at(octaves + (1.0 - interval.fraction) * shift);
+            let shift = below.shift[branch] * shifted_part(log2 - self.shifted_from);
+            let low = below.curves[branch].at(log2 - interval.fraction * shift);
+            let high = above.curves[branch].at(log2 + (1.0 - interval.fraction) * shift);
             low + interval.fraction * (high - low)
         };
-        if value > 0.0 {
+        let torque = if value > 0.0 {
             interval.friction * value
         } else {
             0.0
-        }
+        };
+        (torque, beyond)
     }
 }
 
-/// Part of the shift so many octaves above the load from which on there is one.
+/// Part of the shift so many octaves above the load from which on there is one: `w` of [`LoadLaw`].
 #[inline(always)]
 #[must_use]
 pub const fn shifted_part(above: f32) -> f32 {
@@ -163,8 +317,46 @@ pub const fn shifted_part(above: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::curve::tests::curve;
     use super::*;
+
+    /// Within 1.4e-4 of the logarithm, from the least to the largest normal number.
+    #[test]
+    fn log2_biased_is_the_logarithm() {
+        for step in 0..25_300_u16 {
+            let exponent = -126.0 + 0.01 * f64::from(step);
+            let number = libm::exp2(exponent) as f32;
+            let found = f64::from(log2_biased(number)) - 127.0;
+            assert!((found - exponent).abs() < 1.4e-4, "{exponent}: {found}");
+        }
+    }
+
+    /// A curve of four parts with these values at their begins, which rises by half a unit an octave.
+    fn curve(of: [f32; 4]) -> LoadCurve {
+        let mut starts = [f32::MAX; PARTS];
+        let mut cubics = [[0.0; 4]; PARTS];
+        for (part, value) in of.iter().enumerate() {
+            starts[part] = 120.0 + 2.0 * part as f32;
+            cubics[part] = [*value, 0.5, 0.0, 0.0];
+        }
+        LoadCurve { starts, cubics }
+    }
+
+    /// Each load meets the part in which it lies, its begin included.
+    #[test]
+    fn a_load_meets_its_part() {
+        let curve = curve([1.0, 2.0, 3.0, 4.0]).checked().unwrap();
+        for (at, expected) in [
+            (120.0, 1.0),
+            (121.0, 1.5),
+            (122.0, 2.0),
+            (123.5, 2.75),
+            (124.0, 3.0),
+            (126.0, 4.0),
+            (140.0, 11.0),
+        ] {
+            assert_eq!(curve.at(at), expected, "{at}");
+        }
+    }
 
     fn law() -> LoadLaw<2> {
         let node = |friction, value| FrictionNode {
@@ -184,9 +376,10 @@ mod tests {
     #[test]
     fn friction_coefficients_lie_between_nodes() {
         let law = law().checked().unwrap();
+        let least_load = 0.5_f32.powi(7);
         let over = |friction: f32| {
             let interval = law.interval(friction, &law.node_octaves());
-            law.torque_over_load(120.0, 0, interval) / friction
+            law.torque_over_load(least_load, false, interval).0 / friction
         };
         assert_eq!(over(0.05), 1.0);
         assert_eq!(over(0.1), 2.0);
@@ -196,6 +389,17 @@ mod tests {
         assert!(middle > 1.4 && middle < 1.6, "{middle}");
         assert!(law.holds(0.05) && law.holds(0.1) && law.holds(0.071));
         assert!(!law.holds(0.0499) && !law.holds(0.1002));
+    }
+
+    /// Beyond either end the law stays at it, and says so at the upper one.
+    #[test]
+    fn law_stays_at_its_ends() {
+        let law = law().checked().unwrap();
+        let interval = law.interval(0.05, &law.node_octaves());
+        let at = |load| law.torque_over_load(load, true, interval);
+        assert_eq!(at(0.0), at(0.5_f32.powi(7)));
+        assert!(!at(2.0).1);
+        assert_eq!(at(2.1), (at(2.0).0, true));
     }
 
     #[test]

@@ -154,7 +154,7 @@ impl AnalyticLinearBall {
     /// TL.
     ///
     /// Only differences of the angles count: they may be given as such or as deviations from the nominal
-    /// one; where one is not a number, or infinite, the deviation is 0. A diagonal counts with the mean
+    /// one; where one is NaN or infinite, the deviation is 0. A diagonal counts with the mean
     /// of its two forces; a sum up to zero, above 1e7 N, or NaN is no load. With no load at all the
     /// deviation is 0 and the compliance that of 3e-14 N. Powers are within 2.7e-5.
     #[inline]

@@ -94,9 +94,8 @@ impl LoadShare {
 ///
 /// They are weights: what a ball carries is its share over the sum of those of all loaded balls, so that all loads add up to the axial load.
 ///
-/// Where the load changes its sign, the shares jump from one table to the other. Friction does not jump where it vanishes
-/// with the load. Between grooves that are preloaded it does not vanish, and jumps by as much as the sums of
-/// `share^(4/3)` over both tables differ.
+/// Where the load changes its sign, the shares jump from one table to the other; with a preload friction jumps by as much as the sums of `share^(4/3)`
+/// over both tables differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadShares {
@@ -119,7 +118,6 @@ impl LoadShares {
         }
     }
 
-    /// The table of loads of this sign.
     #[inline(always)]
     pub(crate) const fn of(&self, negative: bool) -> &'static [LoadShare] {
         if negative {
@@ -129,7 +127,6 @@ impl LoadShares {
         }
     }
 
-    /// Whether every ball carries the mean load.
     pub(crate) const fn are_even(&self) -> bool {
         let [(a, b), (c, d)] = [
             LoadShare::extremes(self.positive),
@@ -138,7 +135,6 @@ impl LoadShares {
         a.share == 1.0 && b.share == 1.0 && c.share == 1.0 && d.share == 1.0
     }
 
-    /// The tables, checked.
     pub(crate) const fn checked(self) -> Result<Self, Error> {
         let entries = self.positive.len() as f32;
         attempt!(in_range("load_shares", entries, 1.0, 256.0));

@@ -45,7 +45,6 @@ pub(crate) const fn preload_counted(load: f32, lift_off: f32) -> f32 {
     load.abs() + lift_off
 }
 
-/// A preload, with what both forces follow from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Preload {

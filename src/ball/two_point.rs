@@ -51,7 +51,6 @@ pub(crate) struct GrooveFriction {
 /// What moves the border of two-point rolling beside the loads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BorderParameters {
-    /// Sine and cosine of the contact angle.
     pub(crate) angle: (f32, f32),
     /// Friction coefficient of ball and groove.
     pub(crate) friction: f32,
@@ -63,14 +62,12 @@ pub(crate) struct BorderParameters {
     pub(crate) bottom: (f32, f32),
     /// Least and largest deviation of the top groove, rad.
     pub(crate) top: (f32, f32),
-    /// Lightest and heaviest load of a ball.
     pub(crate) shares: (LoadShare, LoadShare),
 }
 
 /// What a ball under the mean load loses in its grooves, N: power over the speed of the carriage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct GrooveLoss {
-    /// Friction force.
     pub(crate) friction: f32,
     /// By how much two-point rolling costs more than four-point rolling, at the least favourable deviations; below zero
     /// it costs less.

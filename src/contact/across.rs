@@ -1,11 +1,9 @@
 //! Friction of a contact that slips across the track by a given speed, as a table over its size.
 
-use super::integrals::{checked_axis_ratio, fifth_integral};
-use crate::error::{Error, attempt};
+use crate::error::{Error, attempt, in_range};
 use crate::math::constant;
-use crate::math::elliptic::incomplete;
+use crate::math::elliptic::{incomplete, narrow_integral};
 
-/// Cells of the table.
 const CELLS: usize = 10;
 
 /// Keeps a contact that neither slips nor spins from a division by zero, m.
@@ -22,8 +20,7 @@ const LEAST_SLIP: f32 = 1e-30;
 /// D = (r + c v) F(t)    dD/d ln r = r (F + (1 - t) F')    dD/dv = c (F - t F')      c = 1/sqrt(k)
 /// ```
 ///
-/// and the compliance alike. Cubics between eleven places, with values and slopes there by the exact integrals of
-/// `contact/integrals.rs`.
+/// and the compliance alike. Cubics between eleven places, with values and slopes there by the exact integrals.
 ///
 /// Input: axis ratio 0.02 to 0.95 at set-up.
 ///
@@ -43,7 +40,6 @@ pub(crate) struct AcrossTable {
     nodes: [[f32; 4]; CELLS + 1],
 }
 
-/// One contact that slips across the track only.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Across {
     /// Power loss over `mu F`, m per unit of nut speed.
@@ -141,7 +137,7 @@ impl AcrossTable {
 }
 
 /// Value and slope of the cubic with given values and slopes at 0 and 1.
-#[inline(always)]
+#[inline]
 const fn cubic(x: f32, [here, slope]: [f32; 2], [there, slope_there]: [f32; 2]) -> (f32, f32) {
     let rise = there - here;
     let third = (slope - rise) + (slope_there - rise);
@@ -202,6 +198,36 @@ const fn spinning(k: f32, slip: f32) -> [f32; 4] {
         compliance,
         compliance - 2.0 * compliance * (bend * inverse),
     ]
+}
+
+/// Smallest axis ratio, that of a conformity of about 0.5005.
+const SMALLEST_AXIS_RATIO: f32 = 0.02;
+
+/// Largest axis ratio; beyond it differences of the elliptic integrals lose too many digits.
+const LARGEST_AXIS_RATIO: f32 = 0.95;
+
+/// An axis ratio that the integrals are good for.
+pub(super) const fn checked_axis_ratio(axis_ratio: f32) -> Result<f32, Error> {
+    in_range(
+        "axis_ratio",
+        axis_ratio,
+        SMALLEST_AXIS_RATIO,
+        LARGEST_AXIS_RATIO,
+    )
+}
+
+/// `C5` at `lambda = root²` from `C1` and `C2`: by parts where `lambda` is below `k²`,
+/// and beyond by quadrature, where the difference by parts would leave nothing of it.
+pub(super) const fn fifth_integral(k: f32, lambda: f32, root: f32, first: f32, second: f32) -> f32 {
+    let square = k * k;
+    if lambda < square {
+        let (long, short) = (1.0 + lambda, square + lambda);
+        let weight = 2.0 * lambda * root / constant::sqrt(long * short);
+        let fourth = (second - first) / ((1.0 - k) * (1.0 + k));
+        (second - fourth - weight / short) / (3.0 * square)
+    } else {
+        narrow_integral(square, root)
+    }
 }
 
 #[cfg(test)]

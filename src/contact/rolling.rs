@@ -12,11 +12,8 @@ use crate::ranges;
 
 /// Losses of a contact that rolls without slip.
 ///
-/// Hysteresis: of the elastic energy that a contact takes up in front of its centre, it gives back a little less
-/// behind. Drag: a lubricant is pumped into the contact's inlet against its own viscosity.
-///
-/// Both are small beside the friction of a ball screw's contacts, which slip and spin: hysteresis is about one per cent
-/// of it. Where a contact neither slips nor spins, only these two are left.
+/// Hysteresis of the material, and drag of the lubricant that is pumped into the contact's inlet. Beside the friction of a ball screw's contacts, which
+/// slip and spin, hysteresis is about one per cent.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RollingResistance {

@@ -122,8 +122,7 @@ const fn solve(mut rows: Rows) -> [f32; NODES] {
     solution
 }
 
-/// Brings the columns to length one; their scales.
-#[inline(always)]
+#[inline]
 const fn scale_columns(rows: &mut Rows) -> [f32; NODES] {
     let mut column_scale = [0.0; NODES];
     let mut column = 0;
@@ -151,7 +150,7 @@ const fn scale_columns(rows: &mut Rows) -> [f32; NODES] {
 }
 
 /// Forward elimination: what lies left of the diagonal counts as zero from then on.
-#[inline(always)]
+#[inline]
 const fn eliminate(rows: &mut Rows) {
     let mut pivot = 0;
     while pivot < NODES {
@@ -189,8 +188,7 @@ const fn eliminate(rows: &mut Rows) {
     }
 }
 
-/// The solution of the triangular system.
-#[inline(always)]
+#[inline]
 const fn substitute_back(rows: &Rows) -> [f32; NODES] {
     let mut solution = [0.0; NODES];
     let mut solved = 0;

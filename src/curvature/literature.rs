@@ -1,6 +1,7 @@
-//! The formula of catalogues and of ISO 3408-5: a ball bearing's, without lead.
+//! First curvature by the formula of the catalogues, and that of a circular groove.
 
-use crate::geometry::{BallScrew, ContactAngle, Groove};
+use super::gothic_arch::GothicArch;
+use crate::geometry::{BallScrew, ContactAngle, Groove, HelixPath};
 
 /// Literature formula for the first principal curvature:
 /// `kappa1 = zeta cos(beta) / (r_m - zeta r_b cos(beta))`, `zeta` = +1 screw, -1 nut
@@ -37,5 +38,63 @@ impl LiteratureCurvature {
     #[must_use]
     pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         contact_angle.cos / (self.signed_pitch_radius - self.ball_radius * contact_angle.cos)
+    }
+}
+
+/// First principal curvature of a circular groove (`H = L = 0`):
+/// `kappa1 = cos(beta) cos²(alpha) / (zeta r_m - r_s cos(beta) cos²(alpha))`
+/// (Bertolino et al. 2023, eq. (25), (26)).
+///
+/// Exact for a circular groove. For a gothic arch the error is at most 9.5e-3 on the 31 catalogue
+/// sizes (contact angles 0 to 70 degrees, mean 4.3e-3), up to 0.34 at lead and contact angles of
+/// 80 degrees.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CircularGrooveCurvature {
+    /// `zeta / kappa`, the path's radius of curvature with the groove's sign, m.
+    signed_path_radius: f32,
+    groove_radius: f32,
+}
+
+impl CircularGrooveCurvature {
+    /// Constants of one groove from its path and its groove radius `r_s`, m.
+    #[inline]
+    #[must_use]
+    pub const fn new(groove: Groove, path: &HelixPath, groove_radius: f32) -> Self {
+        Self {
+            signed_path_radius: groove.sign() / path.curvature,
+            groove_radius,
+        }
+    }
+
+    /// Constants of one groove of a validated design; a constant can take them.
+    #[must_use]
+    pub const fn of(design: &BallScrew, groove: Groove) -> Self {
+        Self::new(groove, design.path(), design.profile(groove).groove_radius)
+    }
+
+    /// First principal curvature, 1/m. Cost: one division, 2 other operations.
+    ///
+    /// Dividing numerator and denominator of the printed form by `cos²(alpha)` leaves exactly the
+    /// operations of the literature formula: the lead costs nothing in the loop.
+    #[inline]
+    #[must_use]
+    pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
+        contact_angle.cos / (self.signed_path_radius - self.groove_radius * contact_angle.cos)
+    }
+
+    /// Second principal curvature, 1/m: `-1 / r_s`, exact for a circular groove and within 2.6e-5 of
+    /// the gothic arch on the 31 catalogue sizes. A constant: fold it at set-up.
+    #[inline]
+    #[must_use]
+    pub const fn second(&self) -> f32 {
+        -1.0 / self.groove_radius
+    }
+}
+
+impl From<&GothicArch> for CircularGrooveCurvature {
+    /// The same groove with its offsets left out.
+    fn from(arch: &GothicArch) -> Self {
+        Self::new(arch.groove(), &arch.path(), arch.groove_radius())
     }
 }

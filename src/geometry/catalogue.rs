@@ -4,7 +4,7 @@
 use core::f32::consts::FRAC_PI_4;
 
 use super::ball_screw::BallScrew;
-use super::ball_screw_parameters::BallScrewParameters;
+use super::ball_screw::BallScrewParameters;
 use super::profile::GrooveSize;
 use crate::error::Error;
 use crate::material::Material;
@@ -243,7 +243,6 @@ const fn place(name: &str) -> Option<(usize, usize)> {
     None
 }
 
-/// Whether two texts are equal, in a constant.
 const fn same(one: &str, other: &str) -> bool {
     let (one, other) = (one.as_bytes(), other.as_bytes());
     if one.len() != other.len() {

@@ -1,8 +1,8 @@
 //! A linear ball bearing with four-point contact.
 
-use super::angle::ContactAngle;
-use super::limits::{BALL_RADIUS, LARGEST_CONTACT_ANGLE};
+use super::profile::ContactAngle;
 use super::profile::GrooveSize;
+use super::profile::{BALL_RADIUS, LARGEST_CONTACT_ANGLE};
 use crate::error::{Error, attempt, in_range};
 use crate::material::Material;
 

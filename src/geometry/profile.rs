@@ -1,11 +1,68 @@
 //! The helix that ball centres follow, and the section of a gothic-arch groove normal to it.
 
+use crate::error::{Error, Range, attempt, in_range};
+use crate::math::constant;
 use core::f32::consts::{FRAC_PI_2, TAU};
 
-use super::angle::ContactAngle;
-use super::limits::{LARGEST_CONFORMITY, SMALLEST_CONFORMITY};
-use crate::error::{Error, attempt, in_range};
-use crate::math::constant;
+/// Radius of the cylinder on which the balls of a ball screw or a ball bearing run, m: 1e-3 to 0.5.
+pub const PITCH_RADIUS: Range = Range::new(1e-3, 0.5);
+
+/// Lead of a ball screw, m: 0 to 0.2; 0 is a ball bearing.
+pub const LEAD: Range = Range::new(0.0, 0.2);
+
+/// Ball radius, m: 1e-4 to 0.05. In a ball screw it also stays below 0.9 of the pitch radius.
+pub const BALL_RADIUS: Range = Range::new(1e-4, 0.05);
+
+/// Smallest accepted conformity `groove_radius / (2 ball_radius)`. At 0.5 ball and groove coincide and
+/// the contact is no ellipse; catalogues have 0.505 to 0.58.
+pub const SMALLEST_CONFORMITY: f32 = 0.5005;
+
+/// Largest accepted conformity; at 1 the groove radius is the ball's diameter.
+pub const LARGEST_CONFORMITY: f32 = 1.0;
+
+/// Largest accepted nominal contact angle, rad (89 degrees).
+pub const LARGEST_CONTACT_ANGLE: f32 = 1.5533;
+
+/// Smallest `A = 1 + zeta kappa (H - r_s cos(beta))` of a groove, a pure number: at 0 its surface folds, and its curvatures
+/// have an error of `6e-8 / A`.
+pub const SMALLEST_AREA: f32 = 1e-4;
+
+/// Angle between the contact normal and the plane normal to the axis, through its cosine and sine.
+///
+/// The curvature formulas need only these two numbers. In the loop a changed contact angle costs one
+/// [`sin_cos`](constant::sin_cos), by our own kernel whatever backend serves the rest; an unchanged one costs nothing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ContactAngle {
+    /// Cosine of the contact angle, 0 to 1.
+    pub cos: f32,
+    /// Sine of the contact angle, 0 to 1.
+    pub sin: f32,
+}
+
+impl ContactAngle {
+    /// Cosine and sine of `angle`, rad, useful range 0 to pi/2.
+    #[inline]
+    #[must_use]
+    pub const fn new(angle: f32) -> Self {
+        let (sin, cos) = constant::sin_cos(angle);
+        Self { cos, sin }
+    }
+
+    /// As [`ContactAngle::new`] with the range 0 to pi/2 checked.
+    ///
+    /// # Errors
+    /// [`Error`] naming `contact_angle`.
+    pub const fn checked(angle: f32) -> Result<Self, Error> {
+        let largest = core::f32::consts::FRAC_PI_2;
+        Ok(Self::new(attempt!(in_range(
+            "contact_angle",
+            angle,
+            0.0,
+            largest
+        ))))
+    }
+}
 
 /// Which of the two grooves a ball runs between.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

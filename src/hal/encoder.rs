@@ -1,13 +1,8 @@
 //! Nut speed from a magnetic angle sensor on the rotor.
 
-use embedded_hal::spi::SpiDevice;
-
-use super::configuration::EncoderConfiguration;
-use super::frame::{
-    DATA, Diagnostics, ERROR_FLAG, READ_ANGLE, READ_DIAGNOSTICS, READ_ERRORS, SensorErrors, even,
-};
 use super::nut_speed::{NoSpeed, NutSpeed};
 use crate::error::Error;
+use embedded_hal::spi::SpiDevice;
 
 /// Why a tick has no speed.
 #[non_exhaustive]
@@ -52,22 +47,18 @@ pub struct NutMotion {
 /// The nut's speed from an AS5047P-class magnetic encoder (14 bits a turn, 16-bit frames, SPI mode 1)
 /// on the rotor: `nut_speed = (angle - last_angle) / (gear_ratio tick)`, the shorter way round.
 ///
-/// A tick exchanges two frames, each its own transaction: one asks for the angle and receives the
-/// sensor's diagnostics that the tick before asked for, the other receives the angle and asks for the
-/// diagnostics. So every tick sees the sensor's health, and a bus stuck low, which would read as angle
-/// 0 with sound parity, is found at the next tick at the latest. Start and recovery take one frame
-/// more, an error flag two.
+/// A tick exchanges two frames, each its own transaction: one asks for the angle and receives the diagnostics asked for before, the other receives the
+/// angle and asks for the diagnostics: a bus stuck low, which reads as angle 0 with sound parity, is found at the next tick. Start and recovery take
+/// one frame more, an error flag two.
 ///
 /// **Resolution.** The speed from one difference comes in steps of [`MagneticEncoder::resolution`],
 /// `2 pi / 2^14 / tick / gear_ratio`: 0.38 rad/s at 1 ms, 7.7 rad/s at 50 us, both with gear ratio 1.
 /// Smoothing with a time constant of `n` ticks makes the ripple about `n` times finer and the speed
 /// `n` ticks late. Let the reversal speed of the model be more than this ripple.
 ///
-/// **Wrap-around.** A difference tells up to half a turn. The largest speed believed is at most a
-/// quarter of a turn in a tick; beyond it, up to three times as fast at least, a tick is
-/// [`EncoderError::TooFast`] and never a wrong speed. After failed ticks the difference spans them, as
-/// long as the rotor cannot have gone more than a quarter of a turn; then one tick is
-/// [`EncoderError::NoEarlierReading`].
+/// **Wrap-around.** The largest speed is at most a quarter of a turn in a tick; beyond it, up to three times as fast at least, a tick is
+/// [`EncoderError::TooFast`] and never a wrong speed. After failed ticks the difference spans them, as long as the rotor cannot have gone more than a
+/// quarter of a turn; then one tick is [`EncoderError::NoEarlierReading`].
 ///
 /// A failed tick changes nothing but the count of ticks since the last angle; after
 /// [`EncoderError::TooFast`] the new angle is taken as the base, so that one bad angle costs two ticks.
@@ -75,7 +66,6 @@ pub struct NutMotion {
 pub struct MagneticEncoder<SPI> {
     spi: SPI,
     speed: NutSpeed,
-    /// The sensor's next answer is its diagnostics.
     asked: bool,
 }
 
@@ -175,5 +165,159 @@ fn checked<E>(frame: u16) -> Result<u16, EncoderError<E>> {
         Ok(frame)
     } else {
         Err(EncoderError::Parity { frame })
+    }
+}
+
+/// Error flag `EF` of an answer: something was wrong with the command that it answers.
+pub(super) const ERROR_FLAG: u16 = 1 << 14;
+pub(super) const DATA: u16 = ERROR_FLAG - 1;
+/// Reads the angle with the sensor's compensation of its own delay (ANGLECOM, 0x3FFF).
+pub(super) const READ_ANGLE: u16 = read(0x3FFF);
+/// Reads the diagnostics (DIAAGC, 0x3FFC).
+pub(super) const READ_DIAGNOSTICS: u16 = read(0x3FFC);
+/// Reads the errors of the interface (ERRFL, 0x0001); the sensor clears them by it.
+pub(super) const READ_ERRORS: u16 = read(0x0001);
+
+/// The command that reads a register, with its parity.
+const fn read(address: u16) -> u16 {
+    let command = 1 << 14 | address;
+    if even(command) {
+        command
+    } else {
+        1 << 15 | command
+    }
+}
+
+#[inline]
+pub(super) const fn even(frame: u16) -> bool {
+    frame.count_ones() & 1 == 0
+}
+
+/// What the sensor says of its interface (ERRFL).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct SensorErrors(pub(super) u16);
+
+impl SensorErrors {
+    /// The sensor saw a frame of another length than 16 bits.
+    #[must_use]
+    pub const fn framing(self) -> bool {
+        self.0 & 1 != 0
+    }
+
+    /// The sensor was sent the address of no register.
+    #[must_use]
+    pub const fn invalid_command(self) -> bool {
+        self.0 & 1 << 1 != 0
+    }
+
+    /// The sensor saw wrong parity in a command.
+    #[must_use]
+    pub const fn parity(self) -> bool {
+        self.0 & 1 << 2 != 0
+    }
+
+    /// The register as read. More than its three lowest bits: the line to the controller is stuck
+    /// high.
+    #[must_use]
+    pub const fn bits(self) -> u16 {
+        self.0
+    }
+}
+
+/// What the sensor says of its magnet and its own work (DIAAGC).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Diagnostics(pub(super) u16);
+
+impl Diagnostics {
+    /// The sensor has finished its start-up. A bus stuck low reads as never finished.
+    #[must_use]
+    pub const fn ready(self) -> bool {
+        self.0 & 1 << 8 != 0
+    }
+
+    /// The angle is wrong: the sensor's arithmetic overflowed.
+    #[must_use]
+    pub const fn overflow(self) -> bool {
+        self.0 & 1 << 9 != 0
+    }
+
+    /// The magnet is too close or too strong; the angle is still measured.
+    #[must_use]
+    pub const fn magnet_too_strong(self) -> bool {
+        self.0 & 1 << 10 != 0
+    }
+
+    /// The magnet is too far or too weak; the angle is still measured, with more noise.
+    #[must_use]
+    pub const fn magnet_too_weak(self) -> bool {
+        self.0 & 1 << 11 != 0
+    }
+
+    /// The register as read.
+    #[must_use]
+    pub const fn bits(self) -> u16 {
+        self.0
+    }
+
+    #[inline]
+    pub(super) const fn angle_is_valid(self) -> bool {
+        self.ready() && !self.overflow()
+    }
+}
+
+/// How a rotor's angle becomes the nut's speed; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct EncoderConfiguration {
+    /// Time between two calls of [`MagneticEncoder::tick`](super::MagneticEncoder::tick), s, 1e-6 to 1.
+    pub tick: f32,
+    /// Turns of the rotor in one turn of the nut, of magnitude 0.01 to 100: 1 on the nut itself, the
+    /// ratio of the pulleys with a belt between. Negative where the sensor counts down while the nut
+    /// turns forward.
+    pub gear_ratio: f32,
+    /// Largest nut speed, rad/s: 1e-3 up to a quarter of a turn of the rotor in one
+    /// tick, `pi / (2 gear_ratio tick)`.
+    pub largest_nut_speed: f32,
+    /// Time constant of the first-order smoothing of the speed, s, 0 (none) to 10.
+    pub smoothing_time: f32,
+    /// Number of ticks without a change of the angle, while the rotor is known to turn, after which
+    /// the sensor counts as stuck; 0 counts as 1 would.
+    pub stuck_ticks: u32,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The commands as the data sheet's rule gives them by hand.
+    #[test]
+    fn commands_carry_even_parity() {
+        assert_eq!(READ_ANGLE, 0xFFFF);
+        assert_eq!(READ_DIAGNOSTICS, 0xFFFC);
+        assert_eq!(READ_ERRORS, 0x4001);
+    }
+
+    /// Each error and each finding has its bit, as the data sheet numbers them, and none reads as another.
+    #[test]
+    fn every_bit_is_its_own() {
+        for bit in 0..16 {
+            let errors = SensorErrors(1 << bit);
+            assert_eq!(
+                [errors.framing(), errors.invalid_command(), errors.parity()],
+                [bit == 0, bit == 1, bit == 2]
+            );
+            let found = Diagnostics(1 << bit);
+            assert_eq!(
+                [
+                    found.ready(),
+                    found.overflow(),
+                    found.magnet_too_strong(),
+                    found.magnet_too_weak()
+                ],
+                [bit == 8, bit == 9, bit == 10, bit == 11]
+            );
+        }
     }
 }

@@ -15,7 +15,7 @@ pub enum FaultReaction {
     #[default]
     NeutralOnAnyFault,
     /// A value at its limit ([`Faults::SPEED_RANGE`], [`Faults::LOAD_RANGE`],
-    /// [`Faults::FRICTION_LIMIT`]) is still put out, so that the torque does not drop where it is largest;
+    /// [`Faults::FRICTION_LIMIT`]) is still output, so that the torque does not drop where it is largest;
     /// any other fault: neutral.
     LimitedValuesPass,
 }
@@ -27,9 +27,9 @@ pub struct FeedForwardConfiguration {
     /// Torque about the nut's axis at full duty, N m, 1e-6 to 1e6. With a belt: the
     /// motor's torque times the gear ratio.
     pub full_torque: f32,
-    /// Largest torque that is put out, N m, 0 up to `full_torque`: the authority of the compensation.
+    /// Largest output torque, N m, 0 up to `full_torque`: the authority of the compensation.
     pub largest_torque: f32,
-    /// Share of the friction torque that is put out, 0 to 1. Less than 1 leaves some friction to the
+    /// Output share of the friction torque, 0 to 1. Less than 1 leaves some friction to the
     /// driver and keeps an estimate that is too large from turning the wheel by itself.
     /// With a model that has a memory the largest share follows from its margin:
     /// [`FrictionFeedForward::with_memory`].
@@ -38,7 +38,7 @@ pub struct FeedForwardConfiguration {
     pub reaction: FaultReaction,
 }
 
-/// What was put out.
+/// The output.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AppliedDuty {
@@ -46,7 +46,7 @@ pub struct AppliedDuty {
     pub duty: u16,
     /// The torque was cut to [`FeedForwardConfiguration::largest_torque`].
     pub saturated: bool,
-    /// The outputs were faulty or no numbers: neutral duty in their place.
+    /// The outputs were faulty or NaN: neutral duty in their place.
     pub neutral: bool,
 }
 
@@ -55,8 +55,8 @@ pub struct AppliedDuty {
 /// `duty = round((1 + share torque / full_torque) max_duty / 2)`.
 ///
 /// One channel without a direction pin: the reference input of a motor driver, or an H bridge in
-/// locked antiphase. The torque saturates at `largest_torque`; faulty outputs and a torque that is no
-/// number give the neutral duty, which is also what [`FrictionFeedForward::neutral`] gives for a
+/// locked antiphase. The torque saturates at `largest_torque`; faulty outputs and a torque that is NaN
+/// give the neutral duty, which is also what [`FrictionFeedForward::neutral`] gives for a
 /// controller that stops. Cost: three multiplications, no division.
 #[derive(Debug)]
 pub struct FrictionFeedForward<PWM> {

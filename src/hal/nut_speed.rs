@@ -2,16 +2,14 @@
 
 use core::f32::consts::{FRAC_PI_2, TAU};
 
-use super::configuration::EncoderConfiguration;
+use super::encoder::EncoderConfiguration;
 use crate::error::{Error, in_range};
 
-/// Counts in a turn.
 const COUNTS: f32 = 16384.0;
 
 /// Longest gap, in ticks, over which a difference may be taken.
 const LONGEST_GAP: f32 = 1000.0;
 
-/// Why no speed came of an angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum NoSpeed {
     /// No earlier angle is near enough in time.
@@ -36,7 +34,6 @@ pub(super) struct NutSpeed {
     gain: f32,
     stuck_ticks: u32,
     last: Option<u16>,
-    /// Ticks since the last angle.
     gap: u32,
     /// Ticks of a rotor that is known to turn since the angle has changed.
     unchanged: u32,
@@ -83,7 +80,6 @@ impl NutSpeed {
         })
     }
 
-    /// A tick without an angle.
     #[inline]
     pub(super) fn miss(&mut self, turning: bool) {
         self.gap = self.gap.saturating_add(1);

@@ -1,8 +1,8 @@
 //! Constants of one contact, and what follows from them.
 
-use super::direction::Direction;
+use super::ball::{ContactSlip, sane_speed};
+use super::path::Direction;
 use super::path::{GroovePath, Path};
-use super::slip::{ContactSlip, sane_speed};
 use crate::geometry::Groove;
 use crate::math;
 
@@ -14,7 +14,7 @@ pub(super) struct Rotation {
 }
 
 impl Rotation {
-    #[inline(always)]
+    #[inline]
     pub(super) const fn new(path: &Path, spin_speed: f32) -> Self {
         Self {
             binormal: spin_speed * path.axis_binormal,
@@ -95,7 +95,7 @@ impl ContactCoefficients {
     ///
     /// All but the entrainment speed: it returns that one's square, because loop and set-up differ in the
     /// square root.
-    #[inline(always)]
+    #[inline]
     #[must_use]
     pub(super) const fn fold(
         &mut self,

@@ -1,10 +1,128 @@
-//! What the set-up fixes: helix, axis of rotation and grooves, checked once.
+//! What is given of a ball between its grooves: parameters, path of its centre, direction of rolling.
 
-use super::parameters::{EllipticContact, KinematicsParameters};
 use crate::error::{Error, Range, attempt, in_range};
-use crate::math::constant;
+use crate::geometry::{BallScrew, Groove};
+use crate::hertz::HertzContact;
+use crate::math::{self, constant};
 use crate::ranges;
 use core::f32::consts::FRAC_PI_2;
+
+/// Geometry and state of one ball with a contact on the screw and one on the nut.
+///
+/// The fields are the symbols of Alberdi et al., section 2, in SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct KinematicsParameters {
+    /// Diameter of the ball (`D`), m; 2e-5 to 2.
+    pub ball_diameter: f32,
+    /// Radius of the helix of ball centres (`r_m`), m; 1e-4 to 10.
+    pub pitch_radius: f32,
+    /// Lead angle of that helix (`psi`), rad; -1.2 to 1.2. Positive for a right-hand thread, 0 for a
+    /// ball bearing.
+    pub lead_angle: f32,
+    /// Radius of the groove's profile on the screw (`r_i`), m; 0.5 to 2 ball diameters.
+    pub groove_radius_screw: f32,
+    /// Radius of the groove's profile on the nut (`r_o`), m; 0.5 to 2 ball diameters.
+    pub groove_radius_nut: f32,
+    /// Contact angle on the screw (`alpha_i`), rad, from the radial direction; -pi/2 to pi/2.
+    /// Positive where the screw pushes the ball along its axis (the paper's case).
+    pub contact_angle_screw: f32,
+    /// Contact angle on the nut (`alpha_o`), rad; -pi/2 to pi/2.
+    pub contact_angle_nut: f32,
+    /// Pitch angle of the ball's axis of rotation (`beta`), rad; -pi/2 to pi/2.
+    pub pitch_angle: f32,
+    /// Yaw angle of the ball's axis of rotation (`beta'`), rad; -0.5 to 0.5. Customary: 0.
+    pub yaw_angle: f32,
+    /// Distance from the ball's centre at which rolling slip vanishes at the screw (`r'_i`), m; 0.5
+    /// to 2 ball radii. Customary: the ball's radius.
+    pub rolling_radius_screw: f32,
+    /// The same at the nut (`r'_o`), m; 0.5 to 2 ball radii.
+    pub rolling_radius_nut: f32,
+    /// Semi-major axis of the contact ellipse on the screw (`a_H`), m; 0 to 0.3 ball radii.
+    pub semi_major_screw: f32,
+    /// Semi-minor axis of the contact ellipse on the screw (`b_H`), m; 0 to the semi-major axis.
+    pub semi_minor_screw: f32,
+    /// Semi-major axis of the contact ellipse on the nut, m; 0 to 0.3 ball radii.
+    pub semi_major_nut: f32,
+    /// Semi-minor axis of the contact ellipse on the nut, m; 0 to the semi-major axis.
+    pub semi_minor_nut: f32,
+}
+
+impl KinematicsParameters {
+    /// Those of a validated design whose balls carry the contact forces `load_screw` and `load_nut`, N, 0 to 1e7, at its
+    /// nominal contact angle. For set-up; a constant can take them.
+    ///
+    /// Ellipses are those of [`HertzContact`] under these forces. The ball's rotation is the customary one: pitch angle
+    /// equal to the contact angle, no yaw, rolling radii equal to the
+    /// ball's radius. Any field may be changed afterwards.
+    ///
+    /// ```
+    /// use epas_friction::CATALOGUE;
+    /// use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
+    /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
+    /// let kinematics = ContactKinematics::new(&KinematicsParameters::of(&design, 100.0, 100.0)?)?;
+    /// let ball = kinematics.tick(104.72); // 1000 revolutions a minute
+    /// assert!((ball.orbital_speed / 104.72 - 0.43).abs() < 0.01);
+    /// # Ok::<(), epas_friction::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error`] naming `load_screw` or `load_nut`. A load whose ellipse is too large for the ball, or a lead that is too
+    /// steep, is refused by [`ContactKinematics::new`](super::ContactKinematics::new).
+    pub const fn of(design: &BallScrew, load_screw: f32, load_nut: f32) -> Result<Self, Error> {
+        let load_screw = attempt!(ranges::LOAD.checked("load_screw", load_screw));
+        let load_nut = attempt!(ranges::LOAD.checked("load_nut", load_nut));
+        let screw = HertzContact::of(design, Groove::Screw);
+        let nut = HertzContact::of(design, Groove::Nut);
+        let (root_screw, root_nut) = (constant::cbrt(load_screw), constant::cbrt(load_nut));
+        let contact_angle = design.parameters().contact_angle;
+        Ok(Self {
+            ball_diameter: 2.0 * design.ball_radius(),
+            pitch_radius: design.pitch_radius(),
+            lead_angle: design.lead_angle(),
+            groove_radius_screw: design.profile(Groove::Screw).groove_radius,
+            groove_radius_nut: design.profile(Groove::Nut).groove_radius,
+            contact_angle_screw: contact_angle,
+            contact_angle_nut: contact_angle,
+            pitch_angle: contact_angle,
+            yaw_angle: 0.0,
+            rolling_radius_screw: design.ball_radius(),
+            rolling_radius_nut: design.ball_radius(),
+            semi_major_screw: screw.semi_major_coefficient() * root_screw,
+            semi_minor_screw: screw.semi_minor_coefficient() * root_screw,
+            semi_major_nut: nut.semi_major_coefficient() * root_nut,
+            semi_minor_nut: nut.semi_minor_coefficient() * root_nut,
+        })
+    }
+
+    pub(super) const fn screw(&self) -> EllipticContact {
+        EllipticContact {
+            contact_angle: self.contact_angle_screw,
+            semi_major: self.semi_major_screw,
+            semi_minor: self.semi_minor_screw,
+        }
+    }
+
+    pub(super) const fn nut(&self) -> EllipticContact {
+        EllipticContact {
+            contact_angle: self.contact_angle_nut,
+            semi_major: self.semi_major_nut,
+            semi_minor: self.semi_minor_nut,
+        }
+    }
+}
+
+/// What load changes at one contact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct EllipticContact {
+    /// Contact angle, rad; -pi/2 to pi/2.
+    pub contact_angle: f32,
+    /// Semi-major axis of the contact ellipse, m; 0 to 0.3 ball radii.
+    pub semi_major: f32,
+    /// Semi-minor axis of the contact ellipse, m; 0 to the semi-major axis.
+    pub semi_minor: f32,
+}
 
 /// Diameter of a ball, m.
 const BALL_DIAMETER: Range = Range::new(
@@ -16,7 +134,6 @@ const BALL_DIAMETER: Range = Range::new(
 /// the semi-major axis may have.
 #[doc(hidden)]
 pub const LARGEST_ELLIPSE: f32 = 0.3;
-/// Constants of one groove.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct GroovePath {
@@ -174,5 +291,167 @@ impl Path {
         contact.semi_major <= self.largest_ellipse
             && contact.semi_minor <= contact.semi_major
             && contact.semi_minor >= 0.0
+    }
+}
+
+/// Least `b_k`, the speed of the ball's surface at the contact in units of `omega_R r'_k`. Below it
+/// (an axis of rotation within 15° of the contact normal) the ball drills more than it rolls, and
+/// spin speed loses digits as `1 / b_k`.
+pub(super) const LEAST_GRIP: f32 = 0.25;
+/// Least part of `q = r_m / cos psi` that `A_k` may keep.
+const LEAST_REACH: f32 = 0.1;
+
+/// A contact angle, resolved against path and axis of rotation.
+pub(super) struct Direction {
+    pub sine: f32,
+    pub cosine: f32,
+    /// `A_k / r'_k`.
+    pub reach: f32,
+    /// `b_k`.
+    pub grip: f32,
+    /// Semi-axes of the ellipse, m.
+    pub semi_major: f32,
+    pub semi_minor: f32,
+}
+
+impl Direction {
+    /// True where the ball's surface moves fast enough at the contact to roll there.
+    #[inline]
+    pub const fn grips(&self) -> bool {
+        self.grip >= LEAST_GRIP
+    }
+
+    /// True where the ball's path does not fold past the axis.
+    #[inline]
+    pub const fn reaches(&self, groove_path: &GroovePath) -> bool {
+        self.reach >= LEAST_REACH * groove_path.path_over_rolling
+    }
+}
+
+impl Path {
+    /// Resolves one contact.
+    #[inline]
+    pub fn direction(
+        &self,
+        groove_path: &GroovePath,
+        contact: EllipticContact,
+        groove: Groove,
+    ) -> Direction {
+        let sin_cos = math::sin_cos(contact.contact_angle);
+        self.resolved(sin_cos, groove_path, contact, groove)
+    }
+
+    /// The same for set-up, by the kernel that a constant can take.
+    pub const fn constant_direction(
+        &self,
+        groove_path: &GroovePath,
+        contact: EllipticContact,
+        groove: Groove,
+    ) -> Direction {
+        let sin_cos = constant::sin_cos(contact.contact_angle);
+        self.resolved(sin_cos, groove_path, contact, groove)
+    }
+
+    #[inline]
+    const fn resolved(
+        &self,
+        (sine, cosine): (f32, f32),
+        groove_path: &GroovePath,
+        contact: EllipticContact,
+        groove: Groove,
+    ) -> Direction {
+        Direction {
+            sine,
+            cosine,
+            reach: groove_path.path_over_rolling - groove.sign() * self.cos_lead * cosine,
+            grip: self.axis_binormal * cosine + self.axis_normal * sine,
+            semi_major: contact.semi_major,
+            semi_minor: contact.semi_minor,
+        }
+    }
+
+    /// Directions of both contacts, or the field that keeps the ball from rolling.
+    pub const fn checked_directions(
+        &self,
+        parameters: &KinematicsParameters,
+    ) -> Result<(Direction, Direction), Error> {
+        let screw = self.constant_direction(&self.screw, parameters.screw(), Groove::Screw);
+        let nut = self.constant_direction(&self.nut, parameters.nut(), Groove::Nut);
+        attempt!(self.check(&screw, &self.screw, Groove::Screw, parameters));
+        attempt!(self.check(&nut, &self.nut, Groove::Nut, parameters));
+        Ok((screw, nut))
+    }
+
+    const fn check(
+        &self,
+        direction: &Direction,
+        groove_path: &GroovePath,
+        groove: Groove,
+        parameters: &KinematicsParameters,
+    ) -> Result<(), Error> {
+        let (angle_field, angle, radius_field) = match groove {
+            Groove::Screw => (
+                "contact_angle_screw",
+                parameters.contact_angle_screw,
+                "rolling_radius_screw",
+            ),
+            Groove::Nut => (
+                "contact_angle_nut",
+                parameters.contact_angle_nut,
+                "rolling_radius_nut",
+            ),
+        };
+        if !direction.grips() {
+            return Err(Error::OutOfRange {
+                field: angle_field,
+                value: angle,
+                allowed: Range::new(
+                    self.last_grip(parameters.pitch_angle, -FRAC_PI_2),
+                    self.last_grip(parameters.pitch_angle, FRAC_PI_2),
+                ),
+            });
+        }
+        if !direction.reaches(groove_path) {
+            // A >= 0.1 q, that is r' cos(alpha) cos^2(psi) <= 0.9 r_m, with q = r_m / cos(psi).
+            let limit =
+                (1.0 - LEAST_REACH) * self.radius / (self.cos_lead * direction.cosine.abs());
+            return Err(Error::folded(
+                radius_field,
+                groove_path.rolling_radius,
+                0.25 * parameters.ball_diameter,
+                limit,
+            ));
+        }
+        Ok(())
+    }
+
+    /// The contact angle, rad, next to `bound` at which the ball still grips.
+    ///
+    /// `b = h cos(alpha) + sin(beta) sin(alpha)` is a cosine about the pitch angle, which yaw narrows but
+    /// leaves above 0.87 there: halving the way from it to the bound finds the one place where the grip ends,
+    /// by the numbers that a check of the angle would form.
+    const fn last_grip(&self, pitch_angle: f32, bound: f32) -> f32 {
+        const HALVINGS: u32 = 24;
+        if self.grip_at(bound) >= LEAST_GRIP {
+            return bound;
+        }
+        let (mut inside, mut outside) = (pitch_angle, bound);
+        let mut halving = 0;
+        while halving < HALVINGS {
+            let middle = 0.5 * (inside + outside);
+            if self.grip_at(middle) >= LEAST_GRIP {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+            halving += 1;
+        }
+        inside
+    }
+
+    /// `b` at a contact angle, rad.
+    const fn grip_at(&self, contact_angle: f32) -> f32 {
+        let (sine, cosine) = constant::sin_cos(contact_angle);
+        self.axis_binormal * cosine + self.axis_normal * sine
     }
 }

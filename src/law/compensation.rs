@@ -6,7 +6,7 @@
 //! things keep the loop of motor, delay, encoder and true friction quiet, however short or long the delay is (it
 //! damps: a spring that answers late pushes with the speed that the nut had):
 //!
-//! 1. **Less friction than there is.** `g q <= 0.95`, `g` the share that is put out, `q` the model's sliding friction over
+//! 1. **Less friction than there is.** `g q <= 0.95`, `g` the output share, `q` the model's sliding friction over
 //!    the true one. At 1 nothing stops the nut once it moves.
 //! 2. **Less stiffness than there is.** `g q b <= 0.97`, `b` the true breakaway angle over the model's: initial stiffness is 1.5 times
 //!    friction over breakaway angle.
@@ -56,7 +56,7 @@ pub struct CompensationMargin {
 }
 
 impl CompensationMargin {
-    /// Largest share of the friction that may be put out: the least of the three bounds above.
+    /// Largest output share of the friction: the least of the three bounds above.
     ///
     /// `min(0.95, 0.97/b, 0.8/(4 - 8 (p - 0.04) - 3.2/b))/q`.
     ///

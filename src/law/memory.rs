@@ -24,20 +24,17 @@
 //! Turn is an angle, rad, and friction a torque, N m, of a screw; of a linear bearing they are a path, m, and a force, N.
 
 pub mod backbone;
+mod composed;
 mod load_exact;
-mod parallel;
-mod preloaded;
 mod proportional;
 mod seat;
 mod state;
-mod stored;
 
 pub use backbone::{
     Backbone, BackboneElement, SLIP_4, SLIP_6, SLIP_8, SLIP_10, SPIN_4, SPIN_6, SPIN_8, SPIN_10,
 };
+pub use composed::{ParallelElements, ParallelElementsState, PreloadedElements};
 pub use load_exact::LoadExactElements;
-pub use parallel::{ParallelElements, ParallelElementsState};
-pub use preloaded::PreloadedElements;
 pub use proportional::{Part, ProportionalElements};
 pub use seat::{SeatElement, SeatState};
 pub use state::MemoryState;

@@ -14,17 +14,11 @@
 //! | [`Deadband`] | a sensor's reading | the turn beyond the sensor's noise |
 //! | [`Play`] | turns | the turns behind a backlash |
 
-mod angle;
-mod counts;
-mod deadband;
 mod play;
-mod speed;
-mod stored;
-mod turn;
+mod sensors;
 
-pub use angle::{AngleReading, WrappedAngle, WrappedAngleParameters};
-pub use counts::{CountReading, CountSensor, CountSensorParameters};
-pub use deadband::{Deadband, DeadbandReading};
-pub use play::{Moved, Play, PlayState};
-pub use speed::SpeedOverTick;
-pub use turn::{LARGEST_TURN, NutAngle, Turn};
+pub use play::{Deadband, DeadbandReading, Moved, Play, PlayState};
+pub use sensors::{
+    AngleReading, CountReading, CountSensor, CountSensorParameters, LARGEST_TURN, NutAngle,
+    SpeedOverTick, Turn, WrappedAngle, WrappedAngleParameters,
+};

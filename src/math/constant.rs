@@ -39,7 +39,7 @@ const SEED: u32 = 0x5f37_59df;
 /// its square differs from the significand is exact in integers, and says whether that unit is to be added, taken away,
 /// or neither. The bound of one unit was found with every significand, odd and even exponents
 /// (`host-tests/tests/all/formulas/math_sweeps.rs` compares every one of them with the exact root).
-#[inline(always)]
+#[inline]
 const fn normal_root(x: f32) -> f32 {
     const SIGNIFICAND_BITS: u32 = 23;
     const BIAS: i32 = 127;

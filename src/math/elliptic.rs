@@ -7,7 +7,6 @@ use super::constant;
 /// Steps of the arithmetic-geometric mean: each squares the relative difference of the two means.
 const MEAN_STEPS: u8 = 5;
 
-/// Steps of Newton's method for the arcsine.
 const ARC_SINE_STEPS: u8 = 6;
 
 /// Steps of Carlson's duplication: each divides the spread of the arguments by four.

@@ -51,7 +51,6 @@ pub const fn cbrt_and_squared(x: f32) -> (f32, f32) {
 /// Bits of 2^-125: of a smaller number the cube in `normal_root` would be subnormal.
 const SMALLEST_CUBE: u32 = 0x0100_0000;
 
-/// Cube root of any number.
 #[inline]
 const fn root(x: f32) -> Root {
     const SPAN: u32 = f32::INFINITY.to_bits() - SMALLEST_CUBE;
@@ -88,7 +87,7 @@ pub const OFFSET: f32 = 0.744_889_5;
 /// 4. Newton's step from `near` by `near³ - x = (near - short)(near² + near short + short²) + short³ - x`.
 ///    It leaves 3e-11; the remainder, `near - short` less the step, is below 2^-7 of the root and so are
 ///    its roundings.
-#[inline(always)]
+#[inline]
 const fn normal_root(x: f32) -> Root {
     // In an order that leaves few operations waiting for the one before.
     let magnitude = x.abs();
@@ -202,7 +201,7 @@ const TURN: [f32; STEPS + STEPS / 4] = {
 };
 
 /// The nearest multiple of pi/32 (the last six bits of its negative) and what it leaves of an angle.
-#[inline(always)]
+#[inline]
 const fn reduced(x: f32) -> (u32, f32) {
     let (count, remainder) = reduced_from_near(x);
     // False for NaN too.
@@ -234,7 +233,7 @@ pub const QUARTER_PARTS: [f32; 4] = [
 /// pi/32 is taken away in three parts, the first two of so few bits (5 and 20) that their products and
 /// differences are exact where a sine or cosine vanishes, up to the sixteenth quarter of a turn: the remainder keeps
 /// full relative precision there, however small it is.
-#[inline(always)]
+#[inline]
 const fn reduced_from_near(x: f32) -> (u32, f32) {
     // Adding it rounds to the nearest integer, and leaves that integer in the low bits, counted from
     // -LARGEST_MULTIPLE.

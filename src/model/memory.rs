@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::law::motion::NutAngle;
 use crate::law::{Elements, FrictionLevel};
 use crate::scene::{
-    CoefficientFor, Faults, Inputs, LinearBearingTrain, LinearConstants, LinearInputs, Sliding,
+    CoefficientFor, Inputs, LinearBearingTrain, LinearConstants, LinearInputs, Sliding,
     UncagedBallScrew, UncagedConstants, WithMemory, WithMemoryConstants,
 };
 
@@ -29,8 +29,7 @@ where
     #[inline]
     pub fn between(&mut self, reading: A::Reading) -> S::Outputs {
         let constants = self.constants.borrow();
-        let outputs = constants.between::<S>(&mut self.state.remembered, reading);
-        Self::limited(constants, outputs, Faults::NONE)
+        constants.between::<S>(&mut self.state.remembered, reading)
     }
 
     /// Sets the law of the friction coefficient: from the next step on friction follows it. [`FrictionModel::reset`] brings

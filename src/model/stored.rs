@@ -26,33 +26,20 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// A caged ball screw's block has 24 bytes, with a memory of eight elements 116.
     ///
     /// ```
-    /// # mod gear { // a law in proportion to the load, for a short example
-    /// #     use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw, PARTS};
-    /// #     use epas_friction::{CagedBallScrewConfiguration, CagedConstants, Limits};
-    /// #     const fn node(friction: f32) -> FrictionNode {
-    /// #         let mut starts = [f32::MAX; PARTS];
-    /// #         starts[0] = 120.0;
-    /// #         let curve = LoadCurve { starts, cubics: [[2e-3, 0.0, 0.0, 0.0]; PARTS] };
-    /// #         FrictionNode { friction, curves: [curve; 2], shift: [0.0; 2] }
-    /// #     }
-    /// #     pub static GEAR_33X20_RANGE: CagedConstants<2> = match CagedConstants::new(&CagedBallScrewConfiguration {
-    /// #         law: LoadLaw { nodes: [node(0.05), node(0.15)], ends: [120.0, 136.0], lift_off: 0.0, shifted_from: 1.0 },
-    /// #         friction: 0.05, lead: 0.02, loaded_balls: 36, reversal_speed: 0.5,
-    /// #         limits: Limits { nut_speed: 100.0, axial_load: 20_000.0, friction_torque: 20.0 },
-    /// #     }) {
-    /// #         Ok(constants) => constants,
-    /// #         Err(_) => panic!("a field is out of range"),
-    /// #     };
-    /// # }
-    /// # use epas_friction::{CagedBallScrew, CagedConstants, FrictionModel, Inputs};
-    /// # use gear::GEAR_33X20_RANGE;
-    /// type Screw = FrictionModel<CagedBallScrew<2>, &'static CagedConstants<2>>;
+    /// use epas_friction::scene::{BUILT_IN_NODES, CagedBallScrew, CagedConstants, built_in};
+    /// use epas_friction::{FrictionModel, Inputs};
+    ///
+    /// static GEAR: CagedConstants<BUILT_IN_NODES> = match CagedConstants::new(&built_in("25x5x3.175").unwrap()) {
+    ///     Ok(constants) => constants,
+    ///     Err(_) => panic!("a field is out of range"),
+    /// };
+    /// type Screw = FrictionModel<CagedBallScrew<BUILT_IN_NODES>, &'static CagedConstants<BUILT_IN_NODES>>;
     ///
     /// // What the non-volatile memory keeps.
     /// let mut kept = [0xFF; Screw::STATE_BYTES];
     ///
     /// // Ignition on: whatever is wrong with the block, the model runs on from its first state.
-    /// let mut model = Screw::of(&GEAR_33X20_RANGE);
+    /// let mut model = Screw::of(&GEAR);
     /// if let Err(refusal) = model.import(&kept) {
     ///     println!("friction starts anew: {refusal}"); // a diagnostic message
     /// }
@@ -63,7 +50,7 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// model.export(&mut kept).expect("the block is large enough");
     ///
     /// // Ignition on: the friction that was set is there again.
-    /// let mut next = Screw::of(&GEAR_33X20_RANGE);
+    /// let mut next = Screw::of(&GEAR);
     /// assert_eq!(next.import(&kept), Ok(()));
     /// # let inputs = Inputs { nut_speed: 40.0, axial_load: 3_000.0 };
     /// # assert_eq!(model.step(inputs), next.step(inputs));
@@ -100,10 +87,9 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         Ok(())
     }
 
-    /// The block around states of these constants.
     #[inline(never)]
     fn block(&self) -> Block {
-        let mut fingerprint = Fingerprint::default();
+        let mut fingerprint = Fingerprint::NONE;
         S::fingerprint(self.constants.borrow(), &mut fingerprint);
         let balls = S::balls(&self.state);
         let label = Label {

@@ -2,21 +2,21 @@
 
 mod block;
 mod built_in;
-mod configuration;
-mod stored;
 
-use super::caged_friction::CagedFriction;
-use super::contract::{ChangingFriction, CheckedInputs, Inputs, Limits, Regime, Scene};
+use super::contract::{
+    ChangingFriction, CheckedInputs, Inputs, Limits, Reversal, ReversalState, Scene,
+    SceneOutputs as _,
+};
 use super::faults::Faults;
 use super::outputs::Outputs;
-use super::reversal::{Reversal, ReversalState};
-use super::sliding::{Sliding, SlidingFriction};
-use crate::ball::folded::{FrictionInterval, LoadLaw, octaves};
+use super::sliding::{CagedFriction, Sliding, SlidingFriction};
+use super::stored::StoredScene;
+use crate::ball::folded::{FrictionInterval, LoadLaw};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
+use crate::stored::{Fingerprint, Port, Refusal, Stored};
 pub use built_in::{BUILT_IN_NODES, built_in};
-pub use configuration::CagedBallScrewConfiguration;
 
 /// A ball screw whose balls do not touch (caged, or with spacer balls), by the folded law of one ball, for `NODES` friction coefficients.
 ///
@@ -28,7 +28,7 @@ pub use configuration::CagedBallScrewConfiguration;
 /// A load above the block's largest is computed with the law's end and flagged [`Faults::BEYOND_MODEL`], as is a friction coefficient
 /// beyond its nodes.
 ///
-/// The arithmetic of a step: `ball/folded.rs` (`LoadLaw::torque_over_load`) and `ball/folded/curve.rs`.
+/// The arithmetic of a step: [`Scene::step`] below, and `LoadLaw::torque_over_load` in `ball/folded.rs`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedBallScrew<const NODES: usize = 1>;
@@ -38,9 +38,8 @@ pub struct CagedBallScrew<const NODES: usize = 1>;
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedConstants<const NODES: usize = 1> {
     law: LoadLaw<NODES>,
-    /// Octaves of the nodes' friction coefficients.
+    /// Logarithms of the nodes' friction coefficients.
     node_octaves: [f32; NODES],
-    /// The configuration's friction coefficient.
     friction: FrictionInterval,
     /// 1 over the number of loaded balls; lift-off load of all balls, N.
     per_ball: f32,
@@ -58,14 +57,61 @@ pub struct CagedState {
     friction: FrictionInterval,
 }
 
-/// A load in the law.
-#[derive(Clone, Copy)]
-struct Loaded {
-    /// Octaves of a ball's load, lift-off counted, within the law's ends.
-    octaves: f32,
-    /// Load of all balls, lift-off counted, N.
-    whole: f32,
-    beyond: bool,
+/// What the engineer sets for a caged screw; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CagedBallScrewConfiguration<const NODES: usize = 1> {
+    /// Law of one ball.
+    pub law: LoadLaw<NODES>,
+    /// Friction coefficient of ball and groove before [`FrictionModel::set_friction`](crate::FrictionModel::set_friction), within the
+    /// law's nodes.
+    pub friction: f32,
+    /// Advance of the nut per turn, m, 0 to 0.2.
+    pub lead: f32,
+    /// Number of balls that carry load, 1 to 1000.
+    pub loaded_balls: u16,
+    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has 71 % of its full value.
+    pub reversal_speed: f32,
+    /// Limits of inputs and outputs.
+    pub limits: Limits,
+}
+
+impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
+    /// The same for the node whose friction coefficient is nearest to one: a fifth of the constants and as exact as a fold for that coefficient alone.
+    /// For constants too; without a number, the least node.
+    #[must_use]
+    pub const fn nearest(&self, friction: f32) -> CagedBallScrewConfiguration {
+        const { assert!(NODES > 0) };
+        let mut nearest = self.law.nodes[0];
+        let mut number = 1;
+        while number < NODES {
+            let node = self.law.nodes[number];
+            if (node.friction - friction).abs() < (nearest.friction - friction).abs() {
+                nearest = node;
+            }
+            number += 1;
+        }
+        nearest.shift = [0.0; 2];
+        let LoadLaw {
+            ends,
+            lift_off,
+            shifted_from,
+            ..
+        } = self.law;
+        CagedBallScrewConfiguration {
+            law: LoadLaw {
+                nodes: [nearest],
+                ends,
+                lift_off,
+                shifted_from,
+            },
+            friction: nearest.friction,
+            lead: self.lead,
+            loaded_balls: self.loaded_balls,
+            reversal_speed: self.reversal_speed,
+            limits: self.limits,
+        }
+    }
 }
 
 impl<const NODES: usize> CagedConstants<NODES> {
@@ -111,55 +157,9 @@ impl<const NODES: usize> CagedConstants<NODES> {
         })
     }
 
-    /// Where a friction coefficient lies.
     #[inline(always)]
     const fn interval(&self, friction: f32) -> FrictionInterval {
         self.law.interval(friction, &self.node_octaves)
-    }
-
-    /// Where a load lies.
-    #[inline(always)]
-    fn loaded(&self, axial_load: f32) -> Loaded {
-        let [least, most] = self.law.ends;
-        let whole = axial_load.abs() + self.lift_off;
-        let octaves = octaves(whole * self.per_ball);
-        let beyond = octaves > most;
-        let octaves = if beyond { most } else { octaves };
-        Loaded {
-            octaves: if octaves > least { octaves } else { least },
-            whole,
-            beyond,
-        }
-    }
-
-    /// Friction torque of all balls, N m, not negative; where `opposing` is below 0 the load assists the motion, else it opposes it.
-    #[inline(always)]
-    fn torque(&self, loaded: &Loaded, opposing: f32, interval: FrictionInterval) -> f32 {
-        let branch = usize::from(opposing < 0.0);
-        let per_load = self.law.torque_over_load(loaded.octaves, branch, interval);
-        loaded.whole * per_load
-    }
-
-    /// Outputs from two sliding frictions: that in the direction of motion, which decides the regime, and that in the direction in which
-    /// friction acts, times the factor that a reversal leaves of it.
-    #[inline(always)]
-    fn put_out(
-        &self,
-        axial_load: f32,
-        [sliding, reversing]: [f32; 2],
-        reversal: ReversalState,
-        faults: Faults,
-    ) -> Outputs {
-        let load_torque = axial_load * self.reduced_lead;
-        let opposing = reversal.direction * load_torque;
-        Outputs {
-            friction_torque: reversal.factor * reversing,
-            load_torque,
-            // Filled in where friction is limited.
-            efficiency: 0.0,
-            regime: Regime::under(reversal.standing, opposing, sliding),
-            faults,
-        }
     }
 }
 
@@ -168,7 +168,6 @@ impl<const NODES: usize> Scene for CagedBallScrew<NODES> {
     type Constants = CagedConstants<NODES>;
     type State = CagedState;
     type Inputs = Inputs;
-    type ValidInputs = Inputs;
     type Outputs = Outputs;
 
     fn constants(
@@ -190,27 +189,31 @@ impl<const NODES: usize> Scene for CagedBallScrew<NODES> {
     }
 
     #[inline(always)]
-    fn check_inputs(constants: &CagedConstants<NODES>, inputs: Inputs) -> CheckedInputs<Inputs> {
-        constants.limits.check_inputs(inputs)
-    }
-
-    #[inline(always)]
-    fn outputs(
-        constants: &CagedConstants<NODES>,
-        state: &mut CagedState,
-        inputs: Inputs,
-    ) -> Outputs {
-        let reversal = constants.reversal.at(inputs.nut_speed);
-        let loaded = constants.loaded(inputs.axial_load);
-        let opposing = reversal.direction * inputs.axial_load;
-        let sliding = constants.torque(&loaded, opposing, state.friction);
-        let faults = Faults::NONE.with(loaded.beyond, Faults::BEYOND_MODEL);
-        constants.put_out(inputs.axial_load, [sliding, sliding], reversal, faults)
-    }
-
-    #[inline(always)]
-    fn largest_friction(constants: &CagedConstants<NODES>) -> f32 {
-        constants.limits.friction_torque
+    fn step(constants: &CagedConstants<NODES>, state: &mut CagedState, inputs: Inputs) -> Outputs {
+        let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
+        let Some(Inputs {
+            nut_speed,
+            axial_load,
+        }) = inputs
+        else {
+            return Outputs::safe(faults);
+        };
+        let reversal = constants.reversal.at(nut_speed);
+        let total_load = axial_load.abs() + constants.lift_off;
+        let (torque_over_load, beyond) = constants.law.torque_over_load(
+            total_load * constants.per_ball,
+            reversal.direction * axial_load < 0.0,
+            state.friction,
+        );
+        let sliding = total_load * torque_over_load;
+        Outputs::new(
+            reversal.factor * sliding,
+            sliding,
+            axial_load * constants.reduced_lead,
+            &reversal,
+            faults.with(beyond, Faults::BEYOND_MODEL),
+            constants.limits.friction_torque,
+        )
     }
 }
 
@@ -222,6 +225,11 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
     type Friction = CagedFriction;
 
     #[inline(always)]
+    fn check_inputs(constants: &CagedConstants<NODES>, inputs: Inputs) -> CheckedInputs<Inputs> {
+        constants.limits.check_inputs(inputs)
+    }
+
+    #[inline(always)]
     fn sliding_friction(
         constants: &CagedConstants<NODES>,
         _: &mut CagedState,
@@ -230,13 +238,21 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
     ) -> CagedFriction {
         let DirectionalCoefficient { forward, backward } = friction;
         let law = &constants.law;
-        let loaded = constants.loaded(inputs.axial_load);
-        let beyond = loaded.beyond || !law.holds(forward) || !law.holds(backward);
-        let load = inputs.axial_load;
+        let load = inputs.axial_load.abs() + constants.lift_off;
+        let per_ball = load * constants.per_ball;
+        let (mut interval, mut holds) = (constants.interval(forward), law.holds(forward));
+        let (over_load, beyond) = law.torque_over_load(per_ball, inputs.axial_load < 0.0, interval);
+        if backward != forward {
+            holds &= law.holds(backward);
+            interval = constants.interval(backward);
+        }
+        let (over_load_backward, _) =
+            law.torque_over_load(per_ball, inputs.axial_load > 0.0, interval);
+        let beyond = beyond || !holds;
         CagedFriction {
-            forward: constants.torque(&loaded, load, constants.interval(forward)),
-            backward: constants.torque(&loaded, -load, constants.interval(backward)),
-            load: loaded.whole,
+            forward: load * over_load,
+            backward: load * over_load_backward,
+            load,
             faults: Faults::NONE.with(beyond, Faults::BEYOND_MODEL),
         }
     }
@@ -250,11 +266,19 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
     fn outputs_at(
         constants: &CagedConstants<NODES>,
         inputs: Inputs,
-        sliding: &CagedFriction,
+        friction: &CagedFriction,
         reversal: ReversalState,
+        drag: f32,
+        faults: Faults,
     ) -> Outputs {
-        let torques = [sliding.of(reversal.direction), sliding.of(reversal.factor)];
-        constants.put_out(inputs.axial_load, torques, reversal, sliding.faults)
+        Outputs::new(
+            reversal.factor * friction.of(reversal.factor) + drag,
+            friction.of(reversal.direction),
+            inputs.axial_load * constants.reduced_lead,
+            &reversal,
+            friction.faults | faults,
+            constants.limits.friction_torque,
+        )
     }
 
     #[inline(always)]
@@ -272,6 +296,38 @@ impl<const NODES: usize> ChangingFriction for CagedBallScrew<NODES> {
         let (least, largest) = constants.law.friction_range();
         let friction = in_range("friction", friction, least, largest)?;
         state.friction = constants.interval(friction);
+        Ok(())
+    }
+}
+
+impl<const NODES: usize> StoredScene for CagedBallScrew<NODES> {
+    const KIND: u16 = 4;
+
+    /// The friction coefficient has a meaning of its own; only its range has to fit, which [`Self::complete`] sees to.
+    fn fingerprint(constants: &CagedConstants<NODES>, fingerprint: &mut Fingerprint) {
+        fingerprint.number(constants.reduced_lead);
+    }
+
+    fn complete(constants: &CagedConstants<NODES>, state: &mut CagedState) -> Result<(), Refusal> {
+        let friction = state.friction.friction();
+        if constants.law.holds(friction) {
+            state.friction = constants.interval(friction);
+            Ok(())
+        } else {
+            Err(Refusal::OutOfRange { field: "friction" })
+        }
+    }
+
+    fn forget_readings(_: &mut CagedState) {}
+}
+
+impl Stored for CagedState {
+    const BYTES: usize = 4;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        let mut friction = self.friction.friction();
+        port.number("friction", &mut friction, ranges::FRICTION_OF_A_ROW)?;
+        self.friction = self.friction.with_friction(friction);
         Ok(())
     }
 }

@@ -1,26 +1,22 @@
-//! The trait that every mechanism implements, and what scenes have in common: inputs, limits, regimes.
+//! The trait that every mechanism implements, and what scenes have in common: inputs, limits, reversal, regimes.
 
-use super::faults::{Faults, bounded};
-use super::reversal::Motion;
+use super::faults::Faults;
 use crate::error::{Error, attempt, in_range};
+use crate::math;
 
 /// A mechanism with its configuration, its constants, its state and its outputs.
 ///
-/// Constants are folded once and never change; the state is small and is all that a tick changes. A scene gives its
-/// checks ([`Scene::check_inputs`]) and its physics ([`Scene::outputs`]) as plain functions; faults are handled in
-/// one place, [`FrictionModel::step`](crate::FrictionModel::step).
+/// Constants are folded once and never change; the state is small and is all that a step changes.
 pub trait Scene {
     /// Set-up parameters.
     type Configuration;
     /// Constants that follow from the configuration.
     type Constants;
-    /// State that a tick changes.
+    /// State that a step changes.
     type State;
-    /// Inputs of a tick.
+    /// Inputs of a step.
     type Inputs;
-    /// Inputs within their limits.
-    type ValidInputs;
-    /// Outputs of a tick.
+    /// Outputs of a step.
     type Outputs: SceneOutputs;
 
     /// Checks the configuration and folds the constants.
@@ -29,7 +25,7 @@ pub trait Scene {
     /// [`Error`] naming the field out of range.
     fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error>;
 
-    /// The state before the first tick.
+    /// The state before the first step.
     fn initial_state(constants: &Self::Constants) -> Self::State;
 
     /// Continues a state that other constants left under these: balls and memory stay.
@@ -38,21 +34,13 @@ pub trait Scene {
     /// [`Error`] naming what does not fit to the state, which then is as it was.
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error>;
 
-    /// The inputs within their limits, with what was wrong with them.
-    fn check_inputs(
-        constants: &Self::Constants,
-        inputs: Self::Inputs,
-    ) -> CheckedInputs<Self::ValidInputs>;
-
-    /// What the mechanism does under checked inputs, before its friction is limited: bounded time, no panic.
-    fn outputs(
+    /// One step: inputs within their limits, friction within its limit, faults flagged; bounded time, no panic. Where an input is NaN or infinite
+    /// the outputs are [`SceneOutputs::safe`] and the state stays (but for [`WithMemory`](super::WithMemory)).
+    fn step(
         constants: &Self::Constants,
         state: &mut Self::State,
-        known: Self::ValidInputs,
+        inputs: Self::Inputs,
     ) -> Self::Outputs;
-
-    /// Largest friction that is put out: N m of a screw, N of a bearing.
-    fn largest_friction(constants: &Self::Constants) -> f32;
 }
 
 /// A scene whose friction coefficient may change while it runs.
@@ -73,42 +61,12 @@ pub trait SceneOutputs: Copy {
     /// The safe output: no friction, nothing pressing, standing.
     const SAFE: Self;
 
-    /// The friction that is put out (torque of a screw, N m; force of a bearing, N), and the flags beside it.
-    fn friction_and_faults(&mut self) -> (&mut f32, &mut Faults);
+    /// The safe output with its faults.
+    #[must_use]
+    fn safe(faults: Faults) -> Self;
 
     /// What was wrong.
     fn faults(&self) -> Faults;
-
-    /// These outputs with `faults` added, and with their friction within plus and minus `largest`, which is flagged where
-    /// it cuts. Friction that is no number, which no scene is known to make, becomes zero, with the same flag.
-    #[must_use]
-    #[inline(always)]
-    fn limited(mut self, largest: f32, faults: Faults) -> Self {
-        let (friction, flags) = self.friction_and_faults();
-        let within = friction.abs() <= largest;
-        *flags = (*flags | faults).with(!within, Faults::FRICTION_LIMIT);
-        if !within {
-            *friction = cut(*friction, largest);
-        }
-        self.concluded()
-    }
-
-    /// These outputs with what follows from the friction that is put out.
-    #[must_use]
-    #[inline(always)]
-    fn concluded(self) -> Self {
-        self
-    }
-}
-
-/// Replacement of friction that is not within plus and minus `largest`.
-#[cold]
-const fn cut(friction: f32, largest: f32) -> f32 {
-    if friction.is_nan() {
-        0.0
-    } else {
-        largest.copysign(friction)
-    }
 }
 
 /// Inputs within their limits, with what was wrong with them.
@@ -187,23 +145,30 @@ impl Limits {
             nut_speed,
             axial_load,
         } = inputs;
-        // Limits are finite: what is within them is a number, and needs nothing else.
-        if nut_speed.abs() <= self.nut_speed && axial_load.abs() <= self.axial_load {
+        let speed_beyond = !(nut_speed.abs() <= self.nut_speed);
+        let load_beyond = !(axial_load.abs() <= self.axial_load);
+        if !(speed_beyond || load_beyond) {
             return CheckedInputs {
                 inputs: Some(inputs),
                 faults: Faults::NONE,
             };
         }
         if nut_speed.is_finite() && axial_load.is_finite() {
+            let limited = Inputs {
+                nut_speed: if speed_beyond {
+                    self.nut_speed.copysign(nut_speed)
+                } else {
+                    nut_speed
+                },
+                axial_load: if load_beyond {
+                    self.axial_load.copysign(axial_load)
+                } else {
+                    axial_load
+                },
+            };
             CheckedInputs {
-                inputs: Some(Inputs {
-                    nut_speed: bounded(nut_speed, self.nut_speed),
-                    axial_load: bounded(axial_load, self.axial_load),
-                }),
-                faults: Faults::beyond(
-                    nut_speed.abs() > self.nut_speed,
-                    axial_load.abs() > self.axial_load,
-                ),
+                inputs: Some(limited),
+                faults: Faults::beyond(speed_beyond, load_beyond),
             }
         } else {
             CheckedInputs {
@@ -230,26 +195,88 @@ pub enum Regime {
     Locked,
 }
 
-impl Regime {
-    /// Under a load whose torque against the motion is `opposing`, with friction of this size, N m.
-    #[inline(always)]
-    pub(super) fn under(standing: bool, opposing: f32, friction: f32) -> Self {
-        let load_opposes = opposing >= 0.0;
-        Self::of(standing, load_opposes, load_opposes || friction < -opposing)
+/// Where friction is between its two directions in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct ReversalState {
+    /// Factor on sliding friction, with the sign of the direction in which friction opposes motion: -1 to 1, times the
+    /// [level](crate::law::FrictionLevel) of that direction where one is set.
+    pub factor: f32,
+    /// Part of the forces between balls that friction of the grooves carries, 0 to 1: with memory the size of the factor, without its
+    /// level; 1 in a scene without memory, whose forces are those of sliding at any speed.
+    pub carried: f32,
+    /// -1 where the motion goes, or went last, in the negative direction, else 1.
+    pub direction: f32,
+    /// Whether the mechanism stands: friction is between its two directions.
+    pub standing: bool,
+}
+
+impl ReversalState {
+    /// Sliding forward.
+    pub(super) const FORWARD: Self = Self {
+        factor: 1.0,
+        carried: 1.0,
+        direction: 1.0,
+        standing: false,
+    };
+}
+
+/// Inputs of a scene that moves under loads.
+pub trait Motion: Copy + core::fmt::Debug + PartialEq {
+    /// Neither speed nor loads.
+    const STILL: Self;
+
+    /// Speed of the nut, rad/s, or of the carriage, m/s.
+    fn speed(&self) -> f32;
+
+    /// Axial load of a screw, normal load of a bearing, N.
+    fn load(&self) -> f32;
+
+    /// These inputs with another speed, and with their loads times a factor.
+    #[must_use]
+    fn with(self, speed: f32, load_factor: f32) -> Self;
+}
+
+/// How friction passes through zero with the speed: as `w / sqrt(w^2 + w_s^2)` with the speed `w`, rad/s
+/// (m/s), and the reversal speed `w_s`, at which it is 71 %.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Reversal {
+    speed: f32,
+    squared: f32,
+}
+
+impl Reversal {
+    /// With a reversal speed in the unit of the scene's speed.
+    ///
+    /// # Errors
+    /// [`Error`] naming `reversal_speed`.
+    pub(super) const fn new(
+        reversal_speed: f32,
+        minimum: f32,
+        maximum: f32,
+    ) -> Result<Self, Error> {
+        let speed = attempt!(in_range("reversal_speed", reversal_speed, minimum, maximum));
+        Ok(Self {
+            speed,
+            squared: speed * speed,
+        })
     }
 
-    /// From what is known of a tick: whether the mechanism stands, whether the load opposes the motion, and whether
-    /// what drives (motor or load) keeps it in motion.
+    /// The reversal state at a speed; standstill counts as forward.
     #[inline(always)]
-    pub(super) const fn of(standing: bool, load_opposes: bool, moves: bool) -> Self {
-        if standing {
-            Self::Standing
-        } else if !moves {
-            Self::Locked
-        } else if load_opposes {
-            Self::Driving
-        } else {
-            Self::BackDriving
+    pub(super) fn at(&self, speed: f32) -> ReversalState {
+        ReversalState {
+            factor: speed / math::sqrt(speed * speed + self.squared),
+            carried: 1.0,
+            direction: direction(speed),
+            standing: speed.abs() < self.speed,
         }
     }
+}
+
+/// -1 where a speed is negative, else 1.
+#[inline(always)]
+pub(super) const fn direction(speed: f32) -> f32 {
+    if speed < 0.0 { -1.0 } else { 1.0 }
 }

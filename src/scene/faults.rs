@@ -2,7 +2,7 @@
 
 /// What was wrong with a tick's inputs, limited in its outputs, or beyond the model; a set of flags.
 ///
-/// [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`] speak of accuracy alone: inputs and outputs are sound, and what is put out is the
+/// [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`] speak of accuracy alone: inputs and outputs are sound, and the output is the
 /// best estimate. They are in [`Faults::any`], and are not [`Faults::faulty`].
 ///
 /// ```
@@ -27,17 +27,17 @@ impl Faults {
     pub const SPEED_RANGE: Self = Self(1 << 2);
     /// A load is beyond its limit: the limit is used instead.
     pub const LOAD_RANGE: Self = Self(1 << 3);
-    /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit; or it was no number, which no scene
-    /// is known to make, and zero is put out.
+    /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit; or it was NaN, which no scene
+    /// is known to make, and the output is zero.
     pub const FRICTION_LIMIT: Self = Self(1 << 4);
-    /// The friction that is put out is not held: the mechanism is where its formulas leave the accuracy that they promise. It is the best
+    /// The output friction is less accurate than stated: the mechanism is outside the range of its formulas. It is the best
     /// estimate, finite and continuous: not the safe output, and no reason to take the friction away. Each scene says where this begins.
     pub const BEYOND_MODEL: Self = Self(1 << 5);
-    /// Forces from ball to ball are not held, while the friction is: compensation and adaptation go on.
+    /// Forces between balls are less accurate than stated, while the friction is not: compensation and adaptation go on.
     pub const FORCES_NOT_HELD: Self = Self(1 << 6);
     /// A reading of the angle is missing or cannot be right: friction stays where it is, and the next reading spans the gap.
     pub const ANGLE_NOT_VALID: Self = Self(1 << 7);
-    /// The temperature is no number, or beyond its range: that of the configuration is used instead.
+    /// The temperature is NaN or beyond its range: that of the configuration is used instead.
     pub const TEMPERATURE_RANGE: Self = Self(1 << 8);
     /// A load is older than it may be: its friction fades away.
     pub const LOAD_STALE: Self = Self(1 << 9);
@@ -59,7 +59,7 @@ impl Faults {
         self.0 & !(Self::BEYOND_MODEL.0 | Self::FORCES_NOT_HELD.0) != 0
     }
 
-    /// True where the friction that is put out is not that of the inputs, or is not held: any flag but [`Faults::FORCES_NOT_HELD`]. An
+    /// True where the output friction is not that of the inputs, or less accurate than stated: any flag but [`Faults::FORCES_NOT_HELD`]. An
     /// adaptation waits for as long.
     #[inline]
     #[must_use]
@@ -81,12 +81,11 @@ impl Faults {
         self.0
     }
 
-    /// The set with these bits.
     pub(super) const fn of_bits(bits: u16) -> Self {
         Self(bits)
     }
 
-    /// What is wrong with numbers that are too large: the speed, a load.
+    /// Flags of inputs beyond their limits: the speed, a load.
     #[inline(always)]
     pub(super) const fn beyond(speed: bool, load: bool) -> Self {
         Self::NONE
@@ -94,7 +93,7 @@ impl Faults {
             .with(load, Self::LOAD_RANGE)
     }
 
-    /// What is wrong with inputs that are no numbers, or infinite: the speed, a load.
+    /// Flags of inputs that are NaN or infinite: the speed, a load.
     #[inline(always)]
     pub(super) const fn not_finite(speed: bool, load: bool) -> Self {
         Self::NONE

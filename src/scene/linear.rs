@@ -1,23 +1,23 @@
 //! A linear bearing with four-point contact and balls that press on each other.
 
 mod configuration;
-mod inputs;
 mod step;
-mod stored;
 
 use super::circuit::{Circuit, CircuitState};
-use super::contract::{ChangingFriction, CheckedInputs, Scene};
-use super::faults::bounded;
+use super::contract::{
+    ChangingFriction, CheckedInputs, Reversal, ReversalState, Scene, SceneOutputs as _,
+};
+use super::faults::{Faults, bounded};
 use super::outputs::LinearOutputs;
-use super::reversal::{Reversal, ReversalState};
-use super::sliding::{Sliding, SlidingFriction};
+use super::sliding::{NO_DRAG, Sliding, SlidingFriction, TrainFriction};
+use super::stored::StoredScene;
 use crate::ball::{AnalyticLinearBall, GrooveFriction};
 use crate::error::{Error, Range, attempt};
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
+use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
-pub use configuration::LinearBearingConfiguration;
-pub use inputs::{LinearInputs, LinearLimits};
+pub use configuration::{LinearBearingConfiguration, LinearInputs, LinearLimits};
 pub use step::LinearFriction;
 
 /// A linear bearing without cage, with up to `N` balls in one circuit, in four-point contact: the published
@@ -36,7 +36,7 @@ pub use step::LinearFriction;
 /// rolling, within 4 % of the friction before where grooves are straight; forces between balls go on as before, and the
 /// friction of a row is within 40 % up to a ratio of 0.97.
 ///
-/// A tick whose speed or load is no number is flagged in that tick, puts out no force, and leaves the state as
+/// A step whose speed or load is NaN or infinite is flagged, outputs no force, and leaves the state as
 /// it is; the next sound tick is unflagged. Balls, and the phase of the rail's deviations, lag by the
 /// travel of the missed ticks from then on, until [`FrictionModel::reset`](crate::FrictionModel::reset);
 /// [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position) brings the phase back.
@@ -83,7 +83,6 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
     type Constants = LinearConstants<N>;
     type State = LinearState<N>;
     type Inputs = LinearInputs;
-    type ValidInputs = LinearInputs;
     type Outputs = LinearOutputs;
 
     fn constants(configuration: &LinearBearingConfiguration) -> Result<LinearConstants<N>, Error> {
@@ -105,26 +104,18 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
     }
 
     #[inline(always)]
-    fn check_inputs(
-        constants: &LinearConstants<N>,
-        inputs: LinearInputs,
-    ) -> CheckedInputs<LinearInputs> {
-        constants.limits.check_inputs(inputs)
-    }
-
-    #[inline(always)]
-    fn outputs(
+    fn step(
         constants: &LinearConstants<N>,
         state: &mut LinearState<N>,
         inputs: LinearInputs,
     ) -> LinearOutputs {
+        let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
+        let Some(inputs) = inputs else {
+            return LinearOutputs::safe(faults);
+        };
         let sliding = constants.friction_of_balls(&mut state.circuit, inputs, state.friction);
-        LinearConstants::<N>::outputs_at(&sliding, constants.reversal.at(inputs.speed))
-    }
-
-    #[inline(always)]
-    fn largest_friction(constants: &LinearConstants<N>) -> f32 {
-        constants.limits.friction_force
+        let reversal = constants.reversal.at(inputs.speed);
+        Self::outputs_at(constants, inputs, &sliding, reversal, NO_DRAG, faults)
     }
 }
 
@@ -134,6 +125,14 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     const COUNTS_PRELOAD: bool = false;
 
     type Friction = LinearFriction;
+
+    #[inline(always)]
+    fn check_inputs(
+        constants: &LinearConstants<N>,
+        inputs: LinearInputs,
+    ) -> CheckedInputs<LinearInputs> {
+        constants.limits.check_inputs(inputs)
+    }
 
     #[inline(always)]
     fn sliding_friction(
@@ -160,12 +159,29 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
 
     #[inline(always)]
     fn outputs_at(
-        _: &LinearConstants<N>,
+        constants: &LinearConstants<N>,
         _: LinearInputs,
         sliding: &LinearFriction,
         reversal: ReversalState,
+        drag: f32,
+        faults: Faults,
     ) -> LinearOutputs {
-        LinearConstants::<N>::outputs_at(sliding, reversal)
+        let row = sliding.row.outputs_at(
+            reversal,
+            0.0,
+            drag,
+            faults.with(sliding.beyond_model, Faults::BEYOND_MODEL),
+            constants.limits.friction_force,
+        );
+        LinearOutputs {
+            friction_force: row.whole.friction_torque,
+            groove_force: row.groove,
+            ball_force: row.ball,
+            contacts: row.contacts,
+            largest_contact_force: row.largest_contact_force,
+            regime: row.whole.regime,
+            faults: row.whole.faults,
+        }
     }
 
     #[inline(always)]
@@ -231,5 +247,55 @@ impl<const N: usize> ChangingFriction for LinearBearingTrain<N> {
         let friction = ranges::FRICTION.checked("friction", friction)?;
         state.friction = friction / constants.friction;
         Ok(())
+    }
+}
+
+impl<const N: usize> StoredScene for LinearBearingTrain<N> {
+    const KIND: u16 = 3;
+    const BALLS: u16 = N as u16;
+
+    fn balls(state: &LinearState<N>) -> u16 {
+        state.circuit.train.balls() as u16
+    }
+
+    fn fingerprint(constants: &LinearConstants<N>, fingerprint: &mut Fingerprint) {
+        constants.circuit.fingerprint(fingerprint);
+        let per_ball = constants.circuit.per_loaded_ball();
+        fingerprint.numbers(&[
+            constants.friction,
+            per_ball * constants.normal,
+            per_ball * constants.side,
+            constants.wavelength,
+        ]);
+    }
+
+    fn complete(_: &LinearConstants<N>, state: &mut LinearState<N>) -> Result<(), Refusal> {
+        state.circuit.train.in_order()
+    }
+
+    fn forget_readings(_: &mut LinearState<N>) {}
+}
+
+impl<const N: usize> Stored for LinearState<N> {
+    const BYTES: usize = CircuitState::<N>::BYTES + 4;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        self.circuit.exchange(port)?;
+        // Any friction coefficient over any other.
+        let largest = ranges::FRICTION.maximum / ranges::FRICTION.minimum;
+        port.number(
+            "friction",
+            &mut self.friction,
+            Range::new(0.5 / largest, 2.0 * largest),
+        )
+    }
+}
+
+impl Stored for LinearFriction {
+    const BYTES: usize = TrainFriction::BYTES + 1;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        self.row.exchange(port)?;
+        port.flag("beyond_model", &mut self.beyond_model)
     }
 }

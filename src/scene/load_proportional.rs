@@ -1,13 +1,10 @@
 //! A drive without a drawing: Coulomb and viscous friction, and a loss in proportion to the transmitted load.
 
-mod configuration;
-
-use super::contract::{CheckedInputs, Inputs, Limits, Regime, Scene};
-use super::faults::Faults;
+use super::contract::{
+    CheckedInputs, Inputs, Limits, Reversal, ReversalState, Scene, SceneOutputs as _,
+};
 use super::outputs::Outputs;
-use super::reversal::{Reversal, ReversalState};
 use crate::error::{Error, attempt, in_range};
-pub use configuration::LoadProportionalConfiguration;
 
 /// A drive whose geometry is not known, by four numbers that `epas-bench calibrate` identifies from a trace without a design.
 ///
@@ -38,6 +35,28 @@ pub use configuration::LoadProportionalConfiguration;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadProportionalScrew;
+
+/// What the engineer sets for a drive without a drawing; unchecked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct LoadProportionalConfiguration {
+    /// Torque about the nut's axis of a unit of [`Inputs::axial_load`](crate::Inputs::axial_load), m, 1e-6 to 1e3: `lead / 2 pi` of a
+    /// load in N. At 1 the load is given as its torque, N m, and its limit is one of a torque.
+    pub load_lever: f32,
+    /// Friction torque without a load, N m, 0 to 1e6.
+    pub coulomb_friction: f32,
+    /// Friction torque over the speed, N m s/rad, 0 to 1e6.
+    pub viscous_friction: f32,
+    /// Friction torque over the torque of a load that the motor drives, 0 to 10: the efficiency is at most `1 / (1 + driving_loss)`.
+    pub driving_loss: f32,
+    /// Friction torque over the torque of a load that drives the motor, 0 to 10: the efficiency is at most `1 - back_driving_loss`, and
+    /// from 1 on no load drives.
+    pub back_driving_loss: f32,
+    /// Nut speed over which friction changes its direction, rad/s, 1e-6 to 1e3: at this speed it has 71 % of its full value.
+    pub reversal_speed: f32,
+    /// Limits of inputs and outputs.
+    pub limits: Limits,
+}
 
 /// Constants of a drive without a drawing.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -87,18 +106,6 @@ impl LoadProportionalConstants {
             limits: attempt!(limits.checked()),
         })
     }
-
-    /// Size of the friction torque without its viscous part, away from the reversal, N m, under a torque of the load that opposes
-    /// the motion by `opposing_torque`, N m.
-    #[inline(always)]
-    fn sliding(&self, opposing_torque: f32) -> f32 {
-        let loss = if opposing_torque < 0.0 {
-            self.back_driving_loss
-        } else {
-            self.driving_loss
-        };
-        self.coulomb_friction + loss * opposing_torque.abs()
-    }
 }
 
 impl Scene for LoadProportionalScrew {
@@ -106,7 +113,6 @@ impl Scene for LoadProportionalScrew {
     type Constants = LoadProportionalConstants;
     type State = LoadProportionalState;
     type Inputs = Inputs;
-    type ValidInputs = Inputs;
     type Outputs = Outputs;
 
     fn constants(
@@ -126,46 +132,39 @@ impl Scene for LoadProportionalScrew {
         Ok(())
     }
 
-    #[inline(always)]
-    fn check_inputs(
-        constants: &LoadProportionalConstants,
-        inputs: Inputs,
-    ) -> CheckedInputs<Inputs> {
-        constants.limits.check_inputs(inputs)
-    }
-
-    #[inline(always)]
-    fn outputs(
+    #[inline]
+    fn step(
         constants: &LoadProportionalConstants,
         _: &mut LoadProportionalState,
         inputs: Inputs,
     ) -> Outputs {
-        let Inputs {
+        let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
+        let Some(Inputs {
             nut_speed,
             axial_load,
-        } = inputs;
+        }) = inputs
+        else {
+            return Outputs::safe(faults);
+        };
+        let reversal = constants.reversal.at(nut_speed);
         let ReversalState {
-            factor,
-            direction,
-            standing,
-            ..
-        } = constants.reversal.at(nut_speed);
+            factor, direction, ..
+        } = reversal;
         let load_torque = constants.load_lever * axial_load;
-        let opposing_torque = direction * load_torque;
-        let sliding = constants.sliding(opposing_torque);
+        let loss = if direction * load_torque < 0.0 {
+            constants.back_driving_loss
+        } else {
+            constants.driving_loss
+        };
+        let sliding = constants.coulomb_friction + loss * load_torque.abs();
         let viscous = constants.viscous_friction * nut_speed;
-        let full = sliding + direction * viscous;
-        Outputs {
-            friction_torque: factor * sliding + viscous,
+        Outputs::new(
+            factor * sliding + viscous,
+            sliding + direction * viscous,
             load_torque,
-            efficiency: 0.0,
-            regime: Regime::under(standing, opposing_torque, full),
-            faults: Faults::NONE,
-        }
-    }
-
-    #[inline(always)]
-    fn largest_friction(constants: &LoadProportionalConstants) -> f32 {
-        constants.limits.friction_torque
+            &reversal,
+            faults,
+            constants.limits.friction_torque,
+        )
     }
 }

@@ -20,16 +20,14 @@
 //! angle and takes work out of every closed path.
 
 mod configuration;
-mod inputs;
 mod remembered;
-mod step;
-mod stored;
 
 use core::marker::PhantomData;
 
-use super::contract::{CheckedInputs, Scene};
+use super::contract::{
+    CheckedInputs, Motion as _, ReversalState, Scene, SceneOutputs as _, direction,
+};
 use super::faults::Faults;
-use super::reversal::Motion;
 use super::sliding::Sliding;
 use crate::error::{Error, attempt, in_range};
 use crate::law::Elements;
@@ -37,10 +35,14 @@ use crate::law::coefficient::{CoefficientLaw, CoefficientModel, TemperatureFade}
 use crate::law::fade::Fade;
 use crate::law::motion::{NutAngle, Play};
 
-pub use configuration::{CoefficientFor, WithMemoryConfiguration};
-pub use inputs::{Freshness, WithMemoryInputs};
+pub use configuration::{CoefficientFor, Freshness, WithMemoryConfiguration, WithMemoryInputs};
 pub use remembered::SceneMemory;
 use remembered::checked;
+
+/// Part of sliding friction below which the mechanism counts as standing. Only [`Regime`](crate::scene::Regime) and what is read from it
+/// depend on it, not friction. A hundredth below 1, because the last elements of spin slide late: one of
+/// [`SPIN_8`](crate::law::memory::SPIN_8) carries 3.5 % and slides after seven breakaway angles.
+const SLIDES: f32 = 0.99;
 
 /// Speed given to the scene when the nut has not moved, rad/s (m/s), with the sign of its last motion: at zero speed Coulomb
 /// friction has no direction. Forces between balls are then those with which motion sets in.
@@ -80,7 +82,6 @@ pub struct WithMemoryConstants<C, E, A, L = CoefficientLaw> {
     play: Play,
     coefficient: L,
     temperature: TemperatureFade,
-    /// Factor of a load by its age.
     load: Fade,
 }
 
@@ -110,8 +111,6 @@ where
     type Constants = WithMemoryConstants<S::Constants, E, A, L>;
     type State = WithMemoryState<S, E, A, L>;
     type Inputs = WithMemoryInputs<S::Inputs, A::Reading>;
-    /// Without the scene's inputs where one of them is NaN or infinite.
-    type ValidInputs = WithMemoryInputs<Option<S::Inputs>, A::Reading>;
     type Outputs = S::Outputs;
 
     fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
@@ -147,48 +146,30 @@ where
         remembered.set_coefficient(constants.coefficient)
     }
 
-    /// Inputs of the scene that are no numbers leave the others as they are.
+    /// Without a valid speed and load the last ones are used.
     #[inline(always)]
-    fn check_inputs(
-        constants: &Self::Constants,
-        inputs: Self::Inputs,
-    ) -> CheckedInputs<Self::ValidInputs> {
-        let WithMemoryInputs {
-            scene,
-            reading,
-            load_age,
-            temperature,
-            temperature_age,
-        } = inputs;
-        let CheckedInputs {
-            inputs: scene,
-            faults,
-        } = S::check_inputs(&constants.scene, scene);
-        CheckedInputs {
-            inputs: Some(WithMemoryInputs {
-                scene,
-                reading,
-                load_age,
-                temperature,
-                temperature_age,
-            }),
-            faults,
-        }
-    }
-
-    #[inline(always)]
-    fn outputs(
+    fn step(
         constants: &Self::Constants,
         state: &mut Self::State,
-        known: Self::ValidInputs,
+        inputs: Self::Inputs,
     ) -> S::Outputs {
         let remembered = &mut state.remembered;
-        let mut faults = constants.take_temperature(remembered, &known);
-        let inputs = known.scene.unwrap_or(remembered.inputs);
+        let CheckedInputs {
+            inputs: known,
+            mut faults,
+        } = S::check_inputs(&constants.scene, inputs.scene);
+        faults |= constants.take_temperature(remembered, &inputs);
+        let factor = if constants.load.holds(inputs.load_age) {
+            1.0
+        } else {
+            let left = constants.load.left(inputs.load_age);
+            faults = faults.with(left < 1.0, Faults::LOAD_STALE);
+            left
+        };
+        let (turn, angle_faults) = constants.turn(remembered, inputs.reading);
+        faults |= angle_faults;
+        let inputs = known.unwrap_or(remembered.inputs);
         remembered.inputs = inputs;
-        let factor = constants.load.left(known.load_age);
-        faults = faults.with(factor < 1.0, Faults::LOAD_STALE);
-        let (turn, angle_faults) = constants.turn(remembered, known.reading);
 
         let direction = remembered.direction();
         let measured = inputs.speed();
@@ -224,12 +205,7 @@ where
             load,
             by_direction.load - load,
         );
-        constants.follow(remembered, turn, inputs, faults | angle_faults)
-    }
-
-    #[inline(always)]
-    fn largest_friction(constants: &Self::Constants) -> f32 {
-        S::largest_friction(&constants.scene)
+        constants.follow(remembered, turn, inputs, faults)
     }
 }
 
@@ -268,5 +244,99 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
     #[inline(always)]
     pub const fn scene(&self) -> &C {
         &self.scene
+    }
+
+    /// The friction coefficient's law at the temperature of this step: computed anew where that changes.
+    #[inline(always)]
+    fn take_temperature<S: Sliding>(
+        &self,
+        remembered: &mut SceneMemory<S, E, A, L>,
+        inputs: &WithMemoryInputs<S::Inputs, A::Reading>,
+    ) -> Faults {
+        let fade = &self.temperature;
+        let valid = fade.is_temperature(inputs.temperature);
+        let fresh = fade.holds(inputs.temperature_age);
+        let (temperature, faults) = if valid && fresh {
+            (inputs.temperature, Faults::NONE)
+        } else {
+            let faults = Faults::NONE
+                .with(!valid, Faults::TEMPERATURE_RANGE)
+                .with(!fresh, Faults::TEMPERATURE_STALE);
+            let temperature = fade.at(inputs.temperature, inputs.temperature_age);
+            (temperature, faults)
+        };
+        if temperature != remembered.temperature {
+            remembered.temperature = temperature;
+            remembered.at_temperature = remembered.coefficient.at_temperature(temperature);
+        }
+        faults
+    }
+
+    /// The turn since the last valid reading; its part beyond the play is added to the travel of the balls.
+    #[inline(always)]
+    fn turn<S: Sliding>(
+        &self,
+        remembered: &mut SceneMemory<S, E, A, L>,
+        reading: A::Reading,
+    ) -> (f32, Faults) {
+        let turn = self.angle.turn(&mut remembered.reading, reading);
+        let faults = Faults::NONE.with(!turn.is_measured(), Faults::ANGLE_NOT_VALID);
+        let turn = turn.angle();
+        remembered.moved += self.play.follow(&mut remembered.play, turn).turn;
+        (turn, faults)
+    }
+
+    /// See [`FrictionModel::between`](crate::FrictionModel::between).
+    #[inline(always)]
+    pub(crate) fn between<S: Sliding<Constants = C>>(
+        &self,
+        remembered: &mut SceneMemory<S, E, A, L>,
+        reading: A::Reading,
+    ) -> S::Outputs {
+        let (turn, faults) = self.turn(remembered, reading);
+        self.follow(remembered, turn, remembered.inputs, faults)
+    }
+
+    /// Friction after a turn, between the limits of the last sliding friction.
+    #[inline(always)]
+    fn follow<S: Sliding<Constants = C>>(
+        &self,
+        remembered: &mut SceneMemory<S, E, A, L>,
+        turn: f32,
+        inputs: S::Inputs,
+        faults: Faults,
+    ) -> S::Outputs {
+        let Some(sliding) = &remembered.sliding else {
+            return S::Outputs::safe(faults);
+        };
+        let limits = &remembered.limits.times(&remembered.level);
+        let friction = self.elements.follow(&mut remembered.elements, turn, limits);
+        let limit = if friction < 0.0 {
+            limits.backward
+        } else {
+            limits.forward
+        };
+        let factor = if limit > 0.0 { friction / limit } else { 0.0 };
+        let reversal = ReversalState {
+            factor: factor * remembered.level.of(friction),
+            carried: factor.abs(),
+            // Where there is friction and the nut does not stand, that of its motion.
+            direction: direction(if limit > 0.0 { friction } else { turn }),
+            standing: if limit > 0.0 {
+                factor.abs() < SLIDES || turn * friction < 0.0
+            } else {
+                turn == 0.0
+            },
+        };
+        let held = L::holds_drag(&remembered.at_temperature, inputs.speed());
+        let faults = faults.with(!held, Faults::BEYOND_MODEL);
+        S::outputs_at(
+            &self.scene,
+            inputs,
+            sliding,
+            reversal,
+            remembered.drag,
+            faults,
+        )
     }
 }

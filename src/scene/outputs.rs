@@ -1,10 +1,10 @@
 //! What scenes return: torques of a ball screw and forces of a bearing, in types of their own that nothing converts
 //! one into the other.
 
-use super::contract::{Regime, SceneOutputs};
+use super::contract::{Regime, ReversalState, SceneOutputs};
 use super::faults::Faults;
 
-/// Least efficiency that is put out: friction of a preload over a load near zero would make that of back-driving minus infinity.
+/// Least efficiency of an output: friction of a preload over a load near zero would make that of back-driving minus infinity.
 const LEAST_EFFICIENCY: f32 = -1e6;
 
 /// What every ball screw returns.
@@ -86,19 +86,16 @@ impl SceneOutputs for Outputs {
     };
 
     #[inline(always)]
-    fn friction_and_faults(&mut self) -> (&mut f32, &mut Faults) {
-        (&mut self.friction_torque, &mut self.faults)
+    fn safe(faults: Faults) -> Self {
+        Self {
+            faults,
+            ..Self::SAFE
+        }
     }
 
     #[inline(always)]
     fn faults(&self) -> Faults {
         self.faults
-    }
-
-    #[inline(always)]
-    fn concluded(mut self) -> Self {
-        self.efficiency = self.efficiency_of_torques();
-        self
     }
 }
 
@@ -115,8 +112,11 @@ impl SceneOutputs for UncagedOutputs {
     };
 
     #[inline(always)]
-    fn friction_and_faults(&mut self) -> (&mut f32, &mut Faults) {
-        (&mut self.friction_torque, &mut self.faults)
+    fn safe(faults: Faults) -> Self {
+        Self {
+            faults,
+            ..Self::SAFE
+        }
     }
 
     #[inline(always)]
@@ -137,8 +137,11 @@ impl SceneOutputs for LinearOutputs {
     };
 
     #[inline(always)]
-    fn friction_and_faults(&mut self) -> (&mut f32, &mut Faults) {
-        (&mut self.friction_force, &mut self.faults)
+    fn safe(faults: Faults) -> Self {
+        Self {
+            faults,
+            ..Self::SAFE
+        }
     }
 
     #[inline(always)]
@@ -148,21 +151,39 @@ impl SceneOutputs for LinearOutputs {
 }
 
 impl Outputs {
-    /// Work out over work in of the torques that are put out: `load/(load + friction)` where the motor drives, `1 + friction/load`
-    /// where the load does; 0 without a load and while standing.
+    /// Outputs of a mechanism at a reversal state: `friction`, N m, within plus and minus `largest` and flagged where that cuts it, 0 in the place of
+    /// NaN; the regime from the friction `sliding` in the direction of motion, not negative; the efficiency of the two torques.
     #[inline(always)]
-    fn efficiency_of_torques(&self) -> f32 {
-        let Self {
-            friction_torque,
-            load_torque,
-            ..
-        } = *self;
-        if load_torque == 0.0 || matches!(self.regime, Regime::Standing) {
-            return 0.0;
-        }
+    pub(super) fn new(
+        friction: f32,
+        sliding: f32,
+        load_torque: f32,
+        reversal: &ReversalState,
+        faults: Faults,
+        largest: f32,
+    ) -> Self {
+        let (friction_torque, faults) = if friction.abs() <= largest {
+            (friction, faults)
+        } else if friction.is_nan() {
+            (0.0, faults | Faults::FRICTION_LIMIT)
+        } else {
+            (largest.copysign(friction), faults | Faults::FRICTION_LIMIT)
+        };
+        let opposing = reversal.direction * load_torque;
+        let regime = if reversal.standing {
+            Regime::Standing
+        } else if opposing >= 0.0 {
+            Regime::Driving
+        } else if sliding < -opposing {
+            Regime::BackDriving
+        } else {
+            Regime::Locked
+        };
         // Signs, because the product of two small torques would vanish.
-        let alike = (load_torque < 0.0) == (friction_torque < 0.0);
-        if alike {
+        let alike = friction_torque.is_sign_negative() == load_torque.is_sign_negative();
+        let efficiency = if load_torque == 0.0 || reversal.standing {
+            0.0
+        } else if alike {
             load_torque / (load_torque + friction_torque)
         } else {
             let efficiency = 1.0 + friction_torque / load_torque;
@@ -171,6 +192,13 @@ impl Outputs {
             } else {
                 LEAST_EFFICIENCY
             }
+        };
+        Self {
+            friction_torque,
+            load_torque,
+            efficiency,
+            regime,
+            faults,
         }
     }
 }
@@ -185,14 +213,19 @@ impl From<UncagedOutputs> for Outputs {
             faults,
             ..
         } = outputs;
-        Self {
+        let reversal = ReversalState {
+            standing: matches!(regime, Regime::Standing),
+            ..ReversalState::FORWARD
+        };
+        let all = Self::new(
             friction_torque,
+            0.0,
             load_torque,
-            efficiency: 0.0,
-            regime,
+            &reversal,
             faults,
-        }
-        .concluded()
+            f32::MAX,
+        );
+        Self { regime, ..all }
     }
 }
 
@@ -244,5 +277,24 @@ mod tests {
         // Twice the least is not cut.
         let half = 0.5 * LEAST_EFFICIENCY;
         assert_eq!(efficiency_of(1.0, half - 1.0, Regime::BackDriving), half);
+    }
+
+    /// Whatever a scene computes, friction is a number within its limit, and flagged where it is cut.
+    #[test]
+    fn friction_is_within_its_limit() {
+        for (friction, output, cut) in [
+            (1.5, 1.5, false),
+            (-2.0, -2.0, false),
+            (f32::NAN, 0.0, true),
+            (-f32::NAN, 0.0, true),
+            (f32::INFINITY, 2.0, true),
+            (-2.1, -2.0, true),
+        ] {
+            let faults = Faults::LOAD_RANGE.with(cut, Faults::FRICTION_LIMIT);
+            let reversal = &ReversalState::FORWARD;
+            let found = Outputs::new(friction, 1.0, 0.0, reversal, Faults::LOAD_RANGE, 2.0);
+            assert_eq!(found.friction_torque, output, "{friction}");
+            assert_eq!(found.faults, faults, "{friction}");
+        }
     }
 }

@@ -36,7 +36,6 @@ pub trait StoredScene: Scene<State: Stored + Copy> {
     fn forget_readings(state: &mut Self::State);
 }
 
-/// Every flag.
 const FLAGS: u16 = (Faults::TEMPERATURE_STALE.bits() << 1) - 1;
 
 impl Stored for Faults {

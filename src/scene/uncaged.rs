@@ -11,9 +11,11 @@ mod stored;
 use core::f32::consts::TAU;
 
 use super::circuit::{Circuit, CircuitState};
-use super::contract::{ChangingFriction, CheckedInputs, Inputs, Limits, Scene};
+use super::contract::{
+    ChangingFriction, CheckedInputs, Inputs, Limits, Reversal, Scene, SceneOutputs as _,
+};
 use super::outputs::UncagedOutputs;
-use super::reversal::Reversal;
+use super::sliding::{NO_DRAG, Sliding as _};
 use crate::ball::LoadShare;
 use crate::ball::folded::{FrictionInterval, node_octaves};
 use crate::ball::pressed::{BallLaw, RowConstants};
@@ -30,7 +32,7 @@ pub use step::UncagedFriction;
 /// Every ball is evaluated in every tick, at its position, under the load of this tick: nothing settles after a start, a reversal or a step of the
 /// load. What is kept from tick to tick is where the balls are, the phase of the screw's deviations and the friction coefficient.
 ///
-/// A tick whose speed or load is no number is flagged in that tick, puts out no torque, and leaves the state as
+/// A step whose speed or load is NaN or infinite is flagged, outputs no torque, and leaves the state as
 /// it is; the next sound tick is unflagged. Balls, and the phase of the screw's deviations, then lag by
 /// the travel of the missed ticks, and friction is that of this position: sound, but that of an earlier angle.
 /// [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle) brings the phase back; the balls, whose positions no sensor knows, stay behind.
@@ -92,7 +94,6 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
     type Constants = UncagedConstants<N, NODES>;
     type State = UncagedState<N>;
     type Inputs = Inputs;
-    type ValidInputs = Inputs;
     type Outputs = UncagedOutputs;
 
     fn constants(
@@ -120,29 +121,18 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
     }
 
     #[inline(always)]
-    fn check_inputs(
-        constants: &UncagedConstants<N, NODES>,
-        inputs: Inputs,
-    ) -> CheckedInputs<Inputs> {
-        constants.limits.check_inputs(inputs)
-    }
-
-    #[inline(always)]
-    fn outputs(
+    fn step(
         constants: &UncagedConstants<N, NODES>,
         state: &mut UncagedState<N>,
         inputs: Inputs,
     ) -> UncagedOutputs {
+        let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
+        let Some(inputs) = inputs else {
+            return UncagedOutputs::safe(faults);
+        };
         let sliding = constants.friction_of_balls(state, inputs);
-        sliding.outputs_at(
-            inputs.axial_load * constants.reduced_lead,
-            constants.reversal.at(inputs.nut_speed),
-        )
-    }
-
-    #[inline(always)]
-    fn largest_friction(constants: &UncagedConstants<N, NODES>) -> f32 {
-        constants.limits.friction_torque
+        let reversal = constants.reversal.at(inputs.nut_speed);
+        Self::outputs_at(constants, inputs, &sliding, reversal, NO_DRAG, faults)
     }
 }
 

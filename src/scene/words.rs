@@ -13,10 +13,8 @@
 use crate::error::{Error, Range, attempt, in_range};
 use crate::stored::crc32_of_words;
 
-/// Words before the numbers.
 pub(super) const HEADER: usize = 6;
 
-/// Layout of a scene's block.
 #[derive(Clone, Copy)]
 pub(super) struct Layout {
     pub(super) magic: u32,
@@ -28,7 +26,7 @@ pub(super) struct Layout {
 
 impl Layout {
     /// Refuses words that begin with no block of this layout.
-    #[inline(always)]
+    #[inline]
     pub(super) const fn check(&self, words: &[u32]) -> Result<(), Error> {
         let length = self.words as f32;
         let Some((words, _)) = words.split_at_checked(self.words) else {
@@ -80,19 +78,17 @@ impl Layout {
 }
 
 /// The word at a place; 0 beyond the last, where a block whose length has been checked has none.
-#[inline(always)]
+#[inline]
 pub(super) const fn word(words: &[u32], at: usize) -> u32 {
     if at < words.len() { words[at] } else { 0 }
 }
 
-/// The number in a word.
-#[inline(always)]
+#[inline]
 pub(super) const fn float(words: &[u32], at: usize) -> f32 {
     f32::from_bits(word(words, at))
 }
 
-/// The numbers from a word on.
-#[inline(always)]
+#[inline]
 pub(super) const fn floats<const M: usize>(words: &[u32], at: usize) -> [f32; M] {
     let mut all = [0.0; M];
     let mut number = 0;

@@ -1,20 +1,17 @@
 //! The block around a state: what it is of, and whether it is whole.
 
-use super::checksum::{Fingerprint, crc32};
+use super::Refusal;
 use super::port::{Port, Reader, Stored, Writer};
-use super::refusal::Refusal;
+use super::{Fingerprint, crc32};
 
 /// Version of the layout: counts up with every change of what a state's bytes mean.
 pub const VERSION: u16 = 3;
 
-/// First bytes of a block.
 const MAGIC: [u8; 4] = *b"EPAF";
 
-/// Bytes before the state, and after it.
 const HEADER: usize = 16;
 const CHECKSUM: usize = 4;
 
-/// Bytes of a block beside the state's own.
 pub(crate) const OVERHEAD: usize = HEADER + CHECKSUM;
 
 /// What a state is of.
@@ -44,7 +41,6 @@ impl Block {
         }
     }
 
-    /// The header of a sound block.
     fn header(&self) -> [u8; HEADER] {
         let [m0, m1, m2, m3] = MAGIC;
         let [v0, v1] = VERSION.to_le_bytes();
@@ -78,7 +74,6 @@ impl Block {
         Ok(self.bytes)
     }
 
-    /// Reads a state that is this block's.
     pub(crate) fn open<T: Stored>(&self, state: &mut T, bytes: &[u8]) -> Result<(), Refusal> {
         let mut reader = self.checked(bytes)?;
         state.exchange(&mut reader)?;
@@ -139,7 +134,6 @@ impl Block {
     }
 }
 
-/// Magic and fingerprint; version, kind, balls and length.
 fn numbers(header: &[u8; HEADER]) -> ([[u8; 4]; 2], [u16; 4]) {
     let [
         m0,

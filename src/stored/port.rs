@@ -2,7 +2,7 @@
 
 use core::mem::take;
 
-use super::refusal::Refusal;
+use super::Refusal;
 use crate::error::Range;
 
 /// Where numbers are written to or read from: which of both, the description of a state does not know.
@@ -142,7 +142,6 @@ impl<T: Stored + Default> Stored for Option<T> {
     }
 }
 
-/// Nothing to keep.
 impl Stored for () {
     const BYTES: usize = 0;
 
@@ -151,12 +150,10 @@ impl Stored for () {
     }
 }
 
-/// Room for a state.
 pub(super) struct Writer<'a> {
     pub(super) rest: &'a mut [u8],
 }
 
-/// Bytes of a state.
 pub(super) struct Reader<'a> {
     pub(super) rest: &'a [u8],
 }

@@ -1,5 +1,7 @@
 //! Folds the gears of the firmware: `cargo run --release -p epas-design --example gears -- bench/firmware/src/gears`.
 
+use std::path::Path;
+
 use epas_design::{Failure, gears};
 
 fn main() -> Result<(), Failure> {
@@ -9,7 +11,10 @@ fn main() -> Result<(), Failure> {
     }
     for (name, fold) in gears::firmware_uncaged()? {
         let folded = fold.folded()?;
-        folded.write_rust(name, &folder)?;
+        let file = Path::new(&folder)
+            .join(name.to_lowercase())
+            .with_extension("bin");
+        std::fs::write(file, folded.bytes()?).map_err(Failure::File)?;
         println!("{name}\n{}", folded.summary().join("\n"));
     }
     Ok(())

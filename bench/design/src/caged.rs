@@ -7,7 +7,7 @@ mod nodes;
 use std::time::Instant;
 
 use epas_friction::Range;
-use epas_friction::ball::folded::{FrictionNode, LoadLaw, octaves};
+use epas_friction::ball::folded::{FrictionNode, LoadLaw, log2_biased};
 use epas_friction::scene::{CagedBallScrewConfiguration, CagedConstants};
 use rayon::prelude::*;
 
@@ -249,7 +249,7 @@ impl CagedFold {
             .par_iter()
             .map(|samples| Ok(fitted(samples)?.0))
             .collect::<Result<Vec<_>, Failure>>()?;
-        let end = |load: f64| octaves((load + exact.lift_off) as f32);
+        let end = |load: f64| log2_biased((load + exact.lift_off) as f32);
         let shifted_from = shifted_from(exact);
         let mut nodes: [FrictionNode; N] = std::array::from_fn(|node| FrictionNode {
             friction: frictions[node],
@@ -288,7 +288,7 @@ impl CagedFold {
 /// Octaves from which on loads are shifted between nodes.
 fn shifted_from(exact: &Exact) -> f32 {
     if exact.lift_off > 0.0 {
-        octaves((exact.lift_off + exact.lift_off) as f32)
+        log2_biased((exact.lift_off + exact.lift_off) as f32)
     } else {
         1.0
     }

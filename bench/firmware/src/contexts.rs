@@ -35,10 +35,9 @@ use crate::gears::{GEAR_33X20, GEAR_33X20_RANGE};
 use crate::peers::{LuGre, Stribeck};
 use crate::remembering::{self, Carriage, Gear, GearByLaw};
 use crate::scenes::{
-    BALLS, CAGED_BY_LAW, CAGED_WITH_MEMORY, CagedByLaw, CagedLawConstants, CagedMemory, ROW,
-    SCREW_DEVIATION, TICK, UNCAGED, closed_form_configuration, linear_configuration,
-    load_proportional_configuration, uncaged_configuration, uncaged_range_configuration,
-    uncaged_shares_configuration,
+    BALLS, CAGED_BY_LAW, CAGED_WITH_MEMORY, CARRIAGE, CLOSED_FORM, CagedByLaw, CagedLawConstants,
+    CagedMemory, LOAD_PROPORTIONAL, ROW, SCREW_DEVIATION, TICK, UNCAGED, UNCAGED_RANGE,
+    UNCAGED_SCREW, UNCAGED_SHARES,
 };
 
 /// Everything that is set up once.
@@ -47,128 +46,68 @@ pub struct Contexts {
     pub clock: fn() -> u32,
     /// Cycles of the last function run, by that counter.
     pub elapsed: u32,
-    /// Catalogue formula of the curvature.
-    pub literature: LiteratureCurvature,
-    /// Curvature of a circular groove.
-    pub circular: CircularGrooveCurvature,
-    /// Fitted curvature.
-    pub fitted: FittedCurvature,
-    /// Exact curvatures.
-    pub exact: GothicArch,
-    /// Contact ellipse.
-    pub hertz: HertzContact,
-    /// Efficiency in closed form.
-    pub efficiency: EfficiencyGeometry,
-    /// Contact kinematics.
-    pub kinematics: ContactKinematics,
-    /// Friction of a contact with spin.
-    pub map: FrictionMap,
-    /// Friction coefficient by speed and temperature.
-    pub coefficient: CoefficientLaw,
-    /// The same at one temperature.
-    pub at_temperature: CoefficientAtTemperature,
-    /// Friction level that follows the vehicle, with all five numbers.
-    pub adaptation: Adaptation,
-    /// Published closed form of a ball.
-    pub analytic: AnalyticLinearBall,
-    /// Ball screw by a closed form.
-    pub closed_form: FrictionModel<ClosedFormScrew>,
-    /// Drive without a drawing.
-    pub load_proportional: FrictionModel<LoadProportionalScrew>,
-    /// Caged ball screw.
-    pub caged: FrictionModel<CagedBallScrew>,
-    /// The same with a friction coefficient between two nodes.
-    pub caged_range: FrictionModel<CagedBallScrew<5>>,
-    /// The same, whose friction coefficient is set.
-    pub caged_set: FrictionModel<CagedBallScrew<5>, &'static CagedConstants<5>>,
-    /// Caged ball screw whose block is changed.
-    pub caged_swapped: FrictionModel<CagedBallScrew, &'static CagedConstants>,
-    /// Whether it is the worn one.
-    pub worn: bool,
-    /// Caged ball screw with a memory.
-    pub caged_memory: FrictionModel<CagedMemory>,
-    /// The same with a friction coefficient by speed and temperature.
-    pub caged_law: FrictionModel<CagedByLaw>,
-    /// The same, that starts anew.
-    pub caged_law_started: FrictionModel<CagedByLaw, &'static CagedLawConstants>,
-    /// Deviation of contact angles along a groove.
-    pub deviation: &'static DeviationMap,
-    /// Balls of a ball screw in closed form.
-    pub screw_row: ScrewRow,
-    /// The same under a load.
-    pub screw_tick: ScrewTick,
-    /// Forces between balls.
-    pub press: Press<BALLS>,
-    /// Forces between balls and their positions.
-    pub train: Train<BALLS>,
-    /// Ball screw without cage.
-    pub uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
-    /// The same with loads of their own for the balls.
-    pub uncaged_shares: FrictionModel<UncagedBallScrew<BALLS>>,
-    /// The same for a range of friction coefficients, between two of them.
-    pub uncaged_range: FrictionModel<UncagedBallScrew<BALLS, 3>>,
-    /// The same, whose friction coefficient is set.
-    pub set: FrictionModel<UncagedBallScrew<BALLS, 3>>,
-    /// The same, that starts anew.
-    pub uncaged_started: FrictionModel<UncagedBallScrew<BALLS>, &'static UncagedConstants<BALLS>>,
-    /// The same after turns under a falling load: most balls press on each other.
-    pub pressing: FrictionModel<UncagedBallScrew<BALLS>>,
-    /// Ball screw without cage, with a memory and an encoder.
-    pub gear: FrictionModel<Gear>,
-    /// Its encoder's count.
-    pub gear_count: u32,
-    /// The same after turns under a falling load.
-    pub gear_pressing: FrictionModel<Gear>,
-    /// Its encoder's count.
-    pub gear_pressing_count: u32,
-    /// The same with a friction coefficient by speed and temperature.
-    pub gear_law: FrictionModel<GearByLaw>,
-    /// Its encoder's count.
-    pub gear_law_count: u32,
-    /// Linear bearing with a memory.
-    pub carriage_memory: FrictionModel<Carriage>,
-    /// Linear bearing.
-    pub carriage: FrictionModel<LinearBearingTrain<ROW>>,
-    /// Elements in proportion.
-    pub proportional: ProportionalElements<8>,
-    /// What they remember.
-    pub proportional_state: MemoryState<8>,
-    /// Elements that touch by load.
-    pub load_exact: LoadExactElements<8>,
-    /// What they remember.
-    pub load_exact_state: MemoryState<8>,
-    /// Elements that touch by the load of both flanks.
-    pub preloaded: PreloadedElements<LoadExactElements<10>>,
-    /// What they remember.
-    pub preloaded_state: MemoryState<10>,
-    /// Four elements beside six.
-    pub together: ParallelElements<ProportionalElements<4>, ProportionalElements<6>>,
-    /// What both remember.
-    pub together_state: ParallelElementsState<MemoryState<4>, MemoryState<6>>,
-    /// A seat with free play.
-    pub seat: SeatElement,
-    /// Where it is.
-    pub seat_state: SeatState,
-    /// Counts of an encoder.
-    pub counts: CountSensor,
-    /// The last one.
-    pub last_count: CountReading,
-    /// Angle in radians.
-    pub angles: WrappedAngle,
-    /// The last one.
-    pub last_angle: AngleReading,
-    /// Speed over a tick.
-    pub speeds: SpeedOverTick,
-    /// Counts of an encoder behind a play.
-    pub steady: Deadband<CountSensor>,
-    /// The last one.
-    pub last_steady: DeadbandReading<CountReading>,
-    /// A backlash.
-    pub play: Play,
-    /// Where it is.
-    pub play_state: PlayState,
-    /// What others run.
-    pub lugre: LuGre,
+    pub(crate) literature: LiteratureCurvature,
+    pub(crate) circular: CircularGrooveCurvature,
+    pub(crate) fitted: FittedCurvature,
+    pub(crate) exact: GothicArch,
+    pub(crate) hertz: HertzContact,
+    pub(crate) efficiency: EfficiencyGeometry,
+    pub(crate) kinematics: ContactKinematics,
+    pub(crate) map: FrictionMap,
+    pub(crate) coefficient: CoefficientLaw,
+    pub(crate) at_temperature: CoefficientAtTemperature,
+    pub(crate) adaptation: Adaptation,
+    pub(crate) analytic: AnalyticLinearBall,
+    pub(crate) closed_form: FrictionModel<ClosedFormScrew>,
+    pub(crate) load_proportional: FrictionModel<LoadProportionalScrew>,
+    pub(crate) caged: FrictionModel<CagedBallScrew>,
+    pub(crate) caged_range: FrictionModel<CagedBallScrew<5>>,
+    pub(crate) caged_set: FrictionModel<CagedBallScrew<5>, &'static CagedConstants<5>>,
+    pub(crate) caged_swapped: FrictionModel<CagedBallScrew, &'static CagedConstants>,
+    pub(crate) worn: bool,
+    pub(crate) caged_memory: FrictionModel<CagedMemory>,
+    pub(crate) caged_law: FrictionModel<CagedByLaw>,
+    pub(crate) caged_law_started: FrictionModel<CagedByLaw, &'static CagedLawConstants>,
+    pub(crate) deviation: &'static DeviationMap,
+    pub(crate) screw_row: ScrewRow,
+    pub(crate) screw_tick: ScrewTick,
+    pub(crate) press: Press<BALLS>,
+    pub(crate) train: Train<BALLS>,
+    pub(crate) uncaged: FrictionModel<UncagedBallScrew<BALLS>>,
+    pub(crate) uncaged_shares: FrictionModel<UncagedBallScrew<BALLS>>,
+    pub(crate) uncaged_range: FrictionModel<UncagedBallScrew<BALLS, 3>>,
+    pub(crate) set: FrictionModel<UncagedBallScrew<BALLS, 3>>,
+    pub(crate) uncaged_started:
+        FrictionModel<UncagedBallScrew<BALLS>, &'static UncagedConstants<BALLS>>,
+    pub(crate) pressing: FrictionModel<UncagedBallScrew<BALLS>>,
+    pub(crate) gear: FrictionModel<Gear>,
+    pub(crate) gear_count: u32,
+    pub(crate) gear_pressing: FrictionModel<Gear>,
+    pub(crate) gear_pressing_count: u32,
+    pub(crate) gear_law: FrictionModel<GearByLaw>,
+    pub(crate) gear_law_count: u32,
+    pub(crate) carriage_memory: FrictionModel<Carriage>,
+    pub(crate) carriage: FrictionModel<LinearBearingTrain<ROW>>,
+    pub(crate) proportional: ProportionalElements<8>,
+    pub(crate) proportional_state: MemoryState<8>,
+    pub(crate) load_exact: LoadExactElements<8>,
+    pub(crate) load_exact_state: MemoryState<8>,
+    pub(crate) preloaded: PreloadedElements<LoadExactElements<10>>,
+    pub(crate) preloaded_state: MemoryState<10>,
+    pub(crate) together: ParallelElements<ProportionalElements<4>, ProportionalElements<6>>,
+    pub(crate) together_state: ParallelElementsState<MemoryState<4>, MemoryState<6>>,
+    pub(crate) seat: SeatElement,
+    pub(crate) seat_state: SeatState,
+    pub(crate) counts: CountSensor,
+    pub(crate) last_count: CountReading,
+    pub(crate) angles: WrappedAngle,
+    pub(crate) last_angle: AngleReading,
+    pub(crate) speeds: SpeedOverTick,
+    pub(crate) steady: Deadband<CountSensor>,
+    pub(crate) last_steady: DeadbandReading<CountReading>,
+    pub(crate) play: Play,
+    pub(crate) play_state: PlayState,
+    pub(crate) lugre: LuGre,
 }
 
 /// Ball radius, m, of the linear bearing of Lin 2019, Table 3.3.
@@ -232,8 +171,8 @@ impl Contexts {
             at_temperature: coefficient.at_temperature(300.0),
             adaptation: Adaptation::new(&black_box(adaptation_configuration()))?,
             analytic: AnalyticLinearBall::new(&linear_parameters, PUBLISHED_SLOPE)?,
-            closed_form: FrictionModel::new(&black_box(closed_form_configuration()?))?,
-            load_proportional: FrictionModel::new(&black_box(load_proportional_configuration()))?,
+            closed_form: FrictionModel::new(&black_box(CLOSED_FORM))?,
+            load_proportional: FrictionModel::new(&black_box(LOAD_PROPORTIONAL))?,
             caged: FrictionModel::of(black_box(GEAR_33X20)),
             caged_range: between_nodes(FrictionModel::of(black_box(GEAR_33X20_RANGE)))?,
             caged_set: FrictionModel::of(black_box(&GEAR_33X20_RANGE)),
@@ -247,16 +186,16 @@ impl Contexts {
             screw_row,
             press: Press::new(),
             train: Train::evenly_spaced(0.2248, 0.00594, BALLS)?,
-            uncaged: FrictionModel::new(&black_box(uncaged_configuration()?))?,
-            uncaged_shares: FrictionModel::new(&black_box(uncaged_shares_configuration()?))?,
+            uncaged: FrictionModel::new(&black_box(UNCAGED_SCREW))?,
+            uncaged_shares: FrictionModel::new(&black_box(UNCAGED_SHARES))?,
             uncaged_range: {
-                let mut model = FrictionModel::new(&black_box(uncaged_range_configuration()?))?;
+                let mut model = FrictionModel::new(&black_box(UNCAGED_RANGE))?;
                 model.set_friction(0.09)?;
                 model
             },
-            set: FrictionModel::new(&black_box(uncaged_range_configuration()?))?,
+            set: FrictionModel::new(&black_box(UNCAGED_RANGE))?,
             uncaged_started: FrictionModel::of(black_box(&UNCAGED)),
-            pressing: pressing(FrictionModel::new(&black_box(uncaged_configuration()?))?),
+            pressing: pressing(FrictionModel::new(&black_box(UNCAGED_SCREW))?),
             gear: FrictionModel::new(&black_box(remembering::gear_configuration()?))?,
             gear_count: 0,
             gear_pressing: remembering::pressing(FrictionModel::new(&black_box(
@@ -268,7 +207,7 @@ impl Contexts {
             carriage_memory: FrictionModel::new(
                 &black_box(remembering::carriage_configuration()?),
             )?,
-            carriage: FrictionModel::new(&black_box(linear_configuration()?))?,
+            carriage: FrictionModel::new(&black_box(CARRIAGE))?,
             proportional: elements(&SLIP_8.elements)?,
             proportional_state: ProportionalElements::VIRGIN,
             load_exact: LoadExactElements::new(black_box(0.04), 2e-3, 4.0)?,

@@ -13,7 +13,7 @@ use crate::cases::Reader;
 use crate::devices::{BIT_LOST, Bridge, GEAR_RATIO, Sensor, TICK};
 use crate::gears::GEAR_33X20;
 use crate::numbers::{linear_outputs, outputs, uncaged_outputs};
-use crate::scenes::{BALLS, Digest, ROW, linear_configuration, uncaged_configuration};
+use crate::scenes::{BALLS, CARRIAGE, Digest, ROW, UNCAGED_SCREW};
 
 /// The recorded manoeuvre: how many ticks, the digest that a host found, and for each tick the nut speed,
 /// rad/s, and the axial load, N; words of 32 bits, little endian.
@@ -74,8 +74,8 @@ impl ControlLoop {
             safe: true,
             ticks: 0,
             caged: FrictionModel::of(&GEAR_33X20),
-            uncaged: FrictionModel::new(&uncaged_configuration()?)?,
-            linear: FrictionModel::new(&linear_configuration()?)?,
+            uncaged: FrictionModel::new(&UNCAGED_SCREW)?,
+            linear: FrictionModel::new(&CARRIAGE)?,
             left,
             expected,
             inputs,

@@ -13,9 +13,7 @@ use epas_friction::{
     Error, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain, LinearInputs,
 };
 
-use crate::scenes::{
-    BALLS, ROW, TICK, linear_configuration, uncaged_configuration, uncaged_range_configuration,
-};
+use crate::scenes::{BALLS, CARRIAGE, ROW, TICK, UNCAGED_RANGE, UNCAGED_SCREW};
 
 /// Counts of the encoder in a turn of the nut.
 pub const COUNTS: u32 = 1 << 14;
@@ -62,7 +60,7 @@ pub fn gear_configuration() -> Result<
     >,
     Error,
 > {
-    let screw = uncaged_configuration()?;
+    let screw = UNCAGED_SCREW;
     let friction = screw.folded.friction;
     gear(screw, OneCoefficient::new(friction)?)
 }
@@ -75,10 +73,7 @@ pub fn gear_law_configuration() -> Result<
     WithMemoryConfiguration<UncagedBallScrewConfiguration<3>, ProportionalElements<8>, Encoder>,
     Error,
 > {
-    gear(
-        uncaged_range_configuration()?,
-        CoefficientLaw::new(&COEFFICIENT)?,
-    )
+    gear(UNCAGED_RANGE, CoefficientLaw::new(&COEFFICIENT)?)
 }
 
 fn gear<C: Copy, L: Copy>(
@@ -117,7 +112,7 @@ pub fn carriage_configuration() -> Result<
     >,
     Error,
 > {
-    let scene = linear_configuration()?;
+    let scene = CARRIAGE;
     Ok(WithMemoryConfiguration {
         scene,
         elements: elements(2.0, 2e-5)?,

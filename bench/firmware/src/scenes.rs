@@ -57,7 +57,9 @@ static NUT_DEVIATION: DeviationMap = folded(DeviationMap::from_harmonics(
     }],
 ));
 
-const DESIGN: BallScrew = {
+/// The gear whose geometry every scene of a ball screw has: Lin 2019, chapter 3.6, 33 mm pitch circle,
+/// lead 20 mm, 37 balls in two turns.
+pub const DESIGN: BallScrew = {
     let [_, design, _] = DISSERTATION_DESIGNS;
     folded(BallScrew::new(design.parameters))
 };
@@ -72,10 +74,9 @@ const BEARING: LinearBearing = folded(LinearBearing::new(LinearBearingParameters
 
 static CURVATURE: FittedCurvature = FittedCurvature::of(&DESIGN, Groove::Screw);
 static EFFICIENCY: EfficiencyGeometry = EfficiencyGeometry::of(&DESIGN);
-static LINEAR: LinearConstants<ROW> = folded(LinearConstants::new(&folded(linear_configuration())));
+static LINEAR: LinearConstants<ROW> = folded(LinearConstants::new(&CARRIAGE));
 /// Constants of the screw without a cage.
-pub static UNCAGED: UncagedConstants<BALLS> =
-    folded(UncagedConstants::new(&folded(uncaged_configuration())));
+pub static UNCAGED: UncagedConstants<BALLS> = folded(UncagedConstants::new(&UNCAGED_SCREW));
 
 /// `?` of a constant function.
 macro_rules! tried {
@@ -99,10 +100,7 @@ pub static CAGED_BY_LAW: CagedLawConstants = folded(WithMemoryConstants::new(
 ));
 static UNCAGED_WITH_MEMORY: UncagedMemoryConstants = folded(WithMemoryConstants::new(
     UNCAGED,
-    &folded(with_memory(
-        folded(uncaged_configuration()),
-        folded(OneCoefficient::new(0.1)),
-    )),
+    &folded(with_memory(UNCAGED_SCREW, folded(OneCoefficient::new(0.1)))),
 ));
 
 /// Constants of a caged gear with a memory.
@@ -395,63 +393,41 @@ impl Run for Uncaged {
     }
 }
 
-/// The gear whose geometry every scene of a ball screw has: Lin 2019, chapter 3.6, 33 mm pitch circle,
-/// lead 20 mm, 37 balls in two turns.
-///
-/// # Errors
-/// None.
-pub const fn design() -> Result<BallScrew, Error> {
-    Ok(DESIGN)
-}
-
 /// Its caged form by a closed form.
-///
-/// # Errors
-/// None.
-pub const fn closed_form_configuration() -> Result<ClosedFormScrewConfiguration, Error> {
-    Ok(ClosedFormScrewConfiguration {
-        design: DESIGN,
-        friction: 0.075,
-        rolling_tangent: 0.0,
-        branch: FrictionBranch::Rolling,
-        clearance: OVERSIZE,
-        loaded_balls: 36,
-        reversal_speed: 0.5,
-        limits: LIMITS,
-    })
-}
+pub const CLOSED_FORM: ClosedFormScrewConfiguration = ClosedFormScrewConfiguration {
+    design: DESIGN,
+    friction: 0.075,
+    rolling_tangent: 0.0,
+    branch: FrictionBranch::Rolling,
+    clearance: OVERSIZE,
+    loaded_balls: 36,
+    reversal_speed: 0.5,
+    limits: LIMITS,
+};
 
 /// A drive of its lead without a drawing.
-#[must_use]
-pub const fn load_proportional_configuration() -> LoadProportionalConfiguration {
-    LoadProportionalConfiguration {
-        load_lever: DESIGN.reduced_lead(),
-        coulomb_friction: 0.05,
-        viscous_friction: 1e-3,
-        driving_loss: 0.1,
-        back_driving_loss: 0.13,
-        reversal_speed: 0.5,
-        limits: LIMITS,
-    }
-}
+pub const LOAD_PROPORTIONAL: LoadProportionalConfiguration = LoadProportionalConfiguration {
+    load_lever: DESIGN.reduced_lead(),
+    coulomb_friction: 0.05,
+    viscous_friction: 1e-3,
+    driving_loss: 0.1,
+    back_driving_loss: 0.13,
+    reversal_speed: 0.5,
+    limits: LIMITS,
+};
 
 /// Its form without a cage: all 37 balls under load, as in the dissertation; this takes the most cycles.
-///
-/// # Errors
-/// None.
-pub const fn uncaged_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
-    Ok(UncagedBallScrewConfiguration {
-        folded: &GEAR_33X20_BALL,
-        ball_friction: 0.1,
-        balls: BALLS as u16,
-        turns: 2.0,
-        return_length: 0.0,
-        screw_deviation: &SCREW_DEVIATION,
-        nut_deviation: &NUT_DEVIATION,
-        load_shares: LoadShares::EVEN,
-        tick: TICK,
-    })
-}
+pub const UNCAGED_SCREW: UncagedBallScrewConfiguration = UncagedBallScrewConfiguration {
+    folded: &GEAR_33X20_BALL,
+    ball_friction: 0.1,
+    balls: BALLS as u16,
+    turns: 2.0,
+    return_length: 0.0,
+    screw_deviation: &SCREW_DEVIATION,
+    nut_deviation: &NUT_DEVIATION,
+    load_shares: LoadShares::EVEN,
+    tick: TICK,
+};
 
 /// Loads of the balls over their mean, in eight parts of the track: a nut that is pulled at one end.
 static SHARES: [LoadShare; 8] = [
@@ -466,61 +442,44 @@ static SHARES: [LoadShare; 8] = [
 ];
 
 /// The same with loads of their own for the balls.
-///
-/// # Errors
-/// None.
-pub const fn uncaged_shares_configuration() -> Result<UncagedBallScrewConfiguration, Error> {
-    let even = folded(uncaged_configuration());
-    Ok(UncagedBallScrewConfiguration {
-        load_shares: LoadShares::same(&SHARES),
-        ..even
-    })
-}
+pub const UNCAGED_SHARES: UncagedBallScrewConfiguration = UncagedBallScrewConfiguration {
+    load_shares: LoadShares::same(&SHARES),
+    ..UNCAGED_SCREW
+};
 
 /// The same for a range of friction coefficients.
-///
-/// # Errors
-/// None.
-pub const fn uncaged_range_configuration() -> Result<UncagedBallScrewConfiguration<3>, Error> {
-    let even = folded(uncaged_configuration());
-    Ok(UncagedBallScrewConfiguration {
-        folded: &GEAR_33X20_BALL_RANGE,
-        ball_friction: even.ball_friction,
-        balls: even.balls,
-        turns: even.turns,
-        return_length: even.return_length,
-        screw_deviation: even.screw_deviation,
-        nut_deviation: even.nut_deviation,
-        load_shares: even.load_shares,
-        tick: even.tick,
-    })
-}
+pub const UNCAGED_RANGE: UncagedBallScrewConfiguration<3> = UncagedBallScrewConfiguration {
+    folded: &GEAR_33X20_BALL_RANGE,
+    ball_friction: UNCAGED_SCREW.ball_friction,
+    balls: UNCAGED_SCREW.balls,
+    turns: UNCAGED_SCREW.turns,
+    return_length: UNCAGED_SCREW.return_length,
+    screw_deviation: UNCAGED_SCREW.screw_deviation,
+    nut_deviation: UNCAGED_SCREW.nut_deviation,
+    load_shares: UNCAGED_SCREW.load_shares,
+    tick: UNCAGED_SCREW.tick,
+};
 
 /// A carriage on a rail with the balls of Lin 2019, Table 3.3.
-///
-/// # Errors
-/// None.
-pub const fn linear_configuration() -> Result<LinearBearingConfiguration, Error> {
-    Ok(LinearBearingConfiguration {
-        bearing: BEARING,
-        friction: 0.1,
-        ball_friction: 0.1,
-        balls: ROW as u16,
-        loaded_length: 0.16,
-        return_length: 0.09,
-        wavelength: 0.1,
-        rail_deviation: &SCREW_DEVIATION,
-        carriage_deviation: &NUT_DEVIATION,
-        load_shares: &[LoadShare::MEAN],
-        reversal_speed: 0.01,
-        tick: TICK,
-        limits: LinearLimits {
-            speed: 3.0,
-            load: 5_000.0,
-            friction_force: 500.0,
-        },
-    })
-}
+pub const CARRIAGE: LinearBearingConfiguration = LinearBearingConfiguration {
+    bearing: BEARING,
+    friction: 0.1,
+    ball_friction: 0.1,
+    balls: ROW as u16,
+    loaded_length: 0.16,
+    return_length: 0.09,
+    wavelength: 0.1,
+    rail_deviation: &SCREW_DEVIATION,
+    carriage_deviation: &NUT_DEVIATION,
+    load_shares: &[LoadShare::MEAN],
+    reversal_speed: 0.01,
+    tick: TICK,
+    limits: LinearLimits {
+        speed: 3.0,
+        load: 5_000.0,
+        friction_force: 500.0,
+    },
+};
 
 /// Efficiency of the present direction, and the torque that friction takes.
 #[derive(Clone, Copy, Debug)]

@@ -9,28 +9,11 @@ use epas_friction::scene::WithMemoryInputs;
 use epas_friction::{Faults, Inputs, LoadShare, Regime};
 
 use crate::contexts::Contexts;
-use crate::counted::{
-    FourContacts, count_adaptation_update, count_ball_screw_ball, count_ball_screw_row,
-    count_between_caged, count_between_linear, count_between_train_37, count_cbrt,
-    count_cbrt_and_squared, count_cbrt_squared, count_curvature_circular_groove,
-    count_curvature_exact, count_curvature_fitted, count_curvature_literature, count_deviation_map,
-    count_efficiency_backdrive, count_efficiency_rolling, count_efficiency_sliding,
-    count_friction_coefficient, count_friction_coefficient_warming, count_friction_map,
-    count_hertz_ellipse, count_idsp_sin_cos, count_kinematics_ratios, count_kinematics_tick,
-    count_kinematics_update, count_libm_cbrtf, count_libm_cosf, count_libm_powf,
-    count_libm_sincosf, count_libm_sqrtf, count_linear_ball_analytic, count_linear_ball_speed,
-    count_lugre_step, count_memory_8, count_memory_load_exact_8, count_memory_preloaded_10,
-    count_memory_seat, count_memory_together_10, count_micromath_cos, count_micromath_powf,
-    count_micromath_sqrt, count_play, count_press_37, count_set_friction_37,
-    count_set_friction_caged, count_sin_cos, count_sqrt, count_start_37, count_start_caged,
-    count_start_caged_law, count_step_caged, count_step_caged_law, count_step_caged_memory,
-    count_step_caged_range, count_step_closed_form, count_step_efficiency, count_step_linear,
-    count_step_linear_memory, count_step_load_proportional, count_step_train_37,
-    count_step_train_37_law, count_step_train_37_memory, count_step_train_37_memory_pressing,
-    count_step_train_37_pressing, count_step_train_37_range, count_step_train_37_shares,
-    count_stribeck_curve, count_swap_caged, count_train_37, count_turn_of_angles,
-    count_turn_of_counts, count_turn_of_speed, count_turn_steady,
-};
+#[allow(
+    clippy::wildcard_imports,
+    reason = "every function that is counted is a subject"
+)]
+use crate::counted::*;
 use crate::gears::{GEAR_33X20, GEAR_33X20_RANGE, GEAR_33X20_WORN};
 use crate::inputs::{
     SPECIAL, adaptation, angle, contact_angle, four_contacts, impedances, memory, pair, positive,

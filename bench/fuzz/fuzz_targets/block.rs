@@ -4,16 +4,13 @@
 //! sound one, sealed again: six bytes a change, which word and its bits.
 #![no_main]
 
-#[path = "../../firmware/src/gears/gear_33x20_ball.rs"]
-mod ball;
-#[path = "../../firmware/src/gears/gear_33x20_ball_range.rs"]
-mod ball_range;
+#[path = "../../firmware/src/gears/balls.rs"]
+mod balls;
 
 use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use ball::GEAR_33X20_BALL;
-use ball_range::GEAR_33X20_BALL_RANGE;
+use balls::{GEAR_33X20_BALL, GEAR_33X20_BALL_RANGE};
 use epas_friction::ball::folded::{FrictionNode, LoadCurve, LoadLaw, PARTS};
 use epas_friction::scene::{
     CagedBallScrewConfiguration, ChangingFriction, FoldedBall, StoredScene,

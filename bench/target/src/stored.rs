@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use epas_firmware::cases::{Sink, write};
 use epas_firmware::control_loop::ControlLoop;
-use epas_firmware::scenes::design;
+use epas_firmware::scenes::DESIGN;
 
 use super::tools::firmware;
 use epas_bench::counts::{self, Figures};
@@ -40,7 +40,7 @@ const TICKS: usize = 600;
 fn manoeuvre() -> Result<Vec<u8>, Failure> {
     let refused = |error| Failure::Data(format!("the firmware's designs are refused: {error}"));
     let moments = Manoeuvre::Kerb
-        .of_nut(&design().map_err(refused)?)
+        .of_nut(&DESIGN)
         .ok_or_else(|| Failure::Data("the firmware's design has no lead".into()))?;
     let record = |digest: u32| -> Vec<u8> {
         let samples = moments.iter().step_by(10).take(TICKS);

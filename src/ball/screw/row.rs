@@ -1,13 +1,14 @@
-//! Closed form for a row of balls in a ball screw, for comparison and for the range of speeds at set-up.
+//! Balls of a ball screw under one load, in closed form: set-up, and what the contacts carry.
 
-use super::contacts::{Contacts, Loads};
-use super::fit::GrooveFit;
-use super::raceway::cube_root;
-use super::speeds::Speeds;
+use super::tick::Speeds;
 use super::tick::{Mean, ScrewTick, limited};
 use crate::ball::loads::loaded;
+use crate::ball::preload::Preload;
+use crate::contact::{Across, AcrossTable};
 use crate::error::{Error, attempt, in_range};
-use crate::geometry::BallScrew;
+use crate::geometry::{BallScrew, Groove};
+use crate::hertz::HertzContact;
+use crate::math::{constant, inverse_cube_roots};
 use crate::ranges;
 
 /// Smallest load per ball, N: below it a ball keeps the motion and the compliance that it has there. A numerical floor: compliance
@@ -58,7 +59,6 @@ pub struct ScrewRow {
     contact_angle: f32,
     /// Normal force of a contact over the axial load, `1/(sin beta cos alpha)`.
     normal: f32,
-    /// Whether play leaves a ball two contacts.
     play: bool,
     /// Whether a ball in two contacts sticks to the screw, or else to the nut.
     sticks_to_screw: bool,
@@ -283,4 +283,168 @@ const fn counted(axial_load: f32) -> f32 {
     } else {
         SMALLEST_LOAD
     }
+}
+
+/// How balls fit between the grooves, as the closed form [`ScrewRow`](super::ScrewRow) takes it: three cases, where
+/// scenes take a [`Clearance`](crate::Clearance), of which these are limits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub enum GrooveFit {
+    /// No play and no preload: friction across the track closes a light third contact.
+    Zero,
+    /// So much play that only two contacts carry a ball (from about 20 micrometres on).
+    Play,
+    /// Oversized balls in four-point contact.
+    Preload {
+        /// Force of each of the four contacts without an external load, N; 1e-3 to 1e6.
+        contact_force: f32,
+    },
+}
+
+/// Load of a light contact below which it does not count, over that of the main contacts. A numerical floor: such a contact adds
+/// about a millionth to friction, and its ellipse, a hundredth of the main contact's, has not vanished.
+const LEAST_LOAD: f32 = 1e-6;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Contacts {
+    /// Friction coefficient of ball and groove.
+    pub(super) friction: f32,
+    pub(super) screw: Raceway,
+    pub(super) nut: Raceway,
+    /// Contact forces of the two diagonals without a load.
+    preload: Preload,
+    /// Slip across the track in the contact with the screw, times the slope of its share of sliding friction, m.
+    sliding: f32,
+}
+
+/// Loads of a ball's contacts, N, and friction of the loaded pair.
+#[derive(Clone, Copy)]
+pub(super) struct Loads {
+    pub(super) main: f32,
+    /// The contact of the other diagonal towards which friction across the track pushes the ball.
+    pub(super) third: f32,
+    /// The contact opposite to it; 0 where it is lost.
+    pub(super) fourth: f32,
+    /// The main contact with the screw, over `mu` times its load.
+    pub(super) screw: Across,
+    pub(super) nut: Across,
+}
+
+impl Contacts {
+    /// The contacts of a design's ball that spins by `spins` (screw, nut) and slips by `slip`, m, per unit of nut speed, with a
+    /// preload, N.
+    ///
+    /// # Errors
+    /// [`Error`] naming `axis_ratio`.
+    pub(super) const fn new(
+        design: &BallScrew,
+        friction: f32,
+        [screw_spin, nut_spin]: [f32; 2],
+        slip: f32,
+        preload: f32,
+    ) -> Result<Self, Error> {
+        let screw = attempt!(Raceway::new(design, Groove::Screw, screw_spin, slip));
+        let nut = attempt!(Raceway::new(design, Groove::Nut, nut_spin, slip));
+        Ok(Self {
+            friction,
+            preload: Preload::new(preload),
+            sliding: screw.share_slope() * slip,
+            screw,
+            nut,
+        })
+    }
+
+    /// Loads of the contacts under a given difference of the two diagonals.
+    #[inline]
+    pub(super) const fn loads(&self, normal: f32) -> Loads {
+        // Share of sliding friction across the track, to some per cent.
+        let sliding = self.sliding;
+        let spinning = self.screw.end_speed() * cube_root(normal);
+        let size = constant::sqrt(spinning * spinning + sliding * sliding + 1e-30);
+        let main = self
+            .preload
+            .larger(normal * size / (size - self.friction * sliding));
+        let root = cube_root(main);
+        let screw = self.screw.under(root);
+        let nut = self.nut.under(root);
+        let loss = 0.5 * self.friction * (screw.share + nut.share);
+        let (main, other) = self.preload.both(normal / (1.0 - loss));
+
+        // Friction across the track of the loaded diagonal pushes the ball along the other one.
+        let push = loss * main;
+        // Without lead there is no such friction, and a lost diagonal carries nothing at all: the floor
+        // keeps its ellipse from vanishing.
+        let least = LEAST_LOAD * main;
+        let third = larger(if other > push { other } else { push } + push, least);
+        let fourth = if other - push > least {
+            other - push
+        } else {
+            0.0
+        };
+        Loads {
+            main,
+            third,
+            fourth,
+            screw,
+            nut,
+        }
+    }
+}
+
+#[inline]
+const fn larger(first: f32, second: f32) -> f32 {
+    if first > second { first } else { second }
+}
+
+/// Contact of a ball that slips across the track by a given speed and spins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(super) struct Raceway {
+    table: AcrossTable,
+    /// Speed that the spin gives the end of the major axis under one newton, `a w`, `m/N^(1/3)` per unit of nut speed.
+    end_speed: f32,
+}
+
+impl Raceway {
+    /// The contact of a design's groove with a spin and a slip across the track, m, per unit of nut speed.
+    ///
+    /// # Errors
+    /// [`Error`] naming `axis_ratio`.
+    pub(super) const fn new(
+        design: &BallScrew,
+        groove: Groove,
+        spin: f32,
+        slip: f32,
+    ) -> Result<Self, Error> {
+        let contact = HertzContact::of(design, groove);
+        Ok(Self {
+            table: attempt!(AcrossTable::new(contact.axis_ratio(), slip)),
+            end_speed: contact.semi_major_coefficient() * spin,
+        })
+    }
+
+    /// The contact under a load of which this is the cube root.
+    #[inline]
+    pub(super) const fn under(&self, root: f32) -> Across {
+        self.table.at(self.end_speed * root)
+    }
+
+    /// Speed that the spin gives the end of the major axis under one newton, `m/N^(1/3)` per unit of nut speed.
+    #[inline]
+    pub(super) const fn end_speed(&self) -> f32 {
+        self.end_speed
+    }
+
+    /// Friction force over `mu F` by the ratio of slip and the end's speed, where that is small.
+    pub(super) const fn share_slope(&self) -> f32 {
+        self.table.share_slope()
+    }
+}
+
+/// `x^(1/3)` of a positive normal number within 6e-5.
+#[inline]
+pub(super) const fn cube_root(x: f32) -> f32 {
+    let [inverse, _] = inverse_cube_roots([x, 1.0]);
+    x * inverse * inverse
 }

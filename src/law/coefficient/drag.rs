@@ -129,7 +129,7 @@ impl RollingDrag {
     }
 
     /// Drag torque, N m, not negative, from `eta^-0.8`, a speed's size, rad/s, the size of the axial load and the lift-off load, N.
-    #[inline(always)]
+    #[inline]
     pub(super) fn at(&self, fluidity: f32, speed: f32, loads: [f32; 2]) -> f32 {
         use crate::math::sqrt;
         let [load, lift_off] = loads;

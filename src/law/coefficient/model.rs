@@ -1,12 +1,66 @@
-//! Where a scene's friction coefficient comes from.
+//! Where a scene's friction coefficient comes from, and what it is in both directions.
 
-use core::fmt::Debug;
-
-use super::at_temperature::CoefficientAtTemperature;
-use super::both::DirectionalCoefficient;
+use super::form::CoefficientAtTemperature;
 use super::form::CoefficientLaw;
 use crate::error::{Error, attempt};
 use crate::ranges;
+use core::fmt::Debug;
+
+/// Friction coefficients of ball and groove in both directions at one speed: what the limits of a memory need.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct DirectionalCoefficient {
+    /// In the positive direction, 1e-6 to 1.
+    pub forward: f32,
+    /// In the negative direction, 1e-6 to 1.
+    pub backward: f32,
+}
+
+impl DirectionalCoefficient {
+    /// Coefficient of a direction, given by its sign, and of the opposite direction; 0 and NaN count as forward. No
+    /// arithmetic.
+    #[inline]
+    #[must_use]
+    pub const fn of(&self, direction: f32) -> (f32, f32) {
+        if direction < 0.0 {
+            (self.backward, self.forward)
+        } else {
+            (self.forward, self.backward)
+        }
+    }
+
+    /// Both coefficients, cut to `largest`; NaN becomes that.
+    #[inline]
+    #[must_use]
+    pub const fn within(self, largest: f32) -> Self {
+        Self {
+            forward: if self.forward < largest {
+                self.forward
+            } else {
+                largest
+            },
+            backward: if self.backward < largest {
+                self.backward
+            } else {
+                largest
+            },
+        }
+    }
+
+    /// Both coefficients over the one of a direction, given by its sign, forward first: 1 and a ratio, 1e-6 to 1e6. Cost: one
+    /// division.
+    #[inline]
+    #[must_use]
+    pub const fn over_own(&self, direction: f32) -> [f32; 2] {
+        let (own, opposite) = self.of(direction);
+        let ratio = opposite / own;
+        if direction < 0.0 {
+            [ratio, 1.0]
+        } else {
+            [1.0, ratio]
+        }
+    }
+}
 
 /// What gives a scene with memory its friction coefficient: [`CoefficientLaw`] by speed, temperature and direction, or
 /// [`OneCoefficient`], which leaves out what only a law needs.
@@ -56,12 +110,12 @@ impl CoefficientModel for OneCoefficient {
         (self.friction, self.friction)
     }
 
-    #[inline(always)]
+    #[inline]
     fn at_temperature(&self, _: f32) -> Self {
         *self
     }
 
-    #[inline(always)]
+    #[inline]
     fn both(at: &Self, _: f32) -> DirectionalCoefficient {
         DirectionalCoefficient {
             forward: at.friction,
@@ -69,12 +123,12 @@ impl CoefficientModel for OneCoefficient {
         }
     }
 
-    #[inline(always)]
+    #[inline]
     fn drag_torque(_: &Self, _: f32, _: f32, _: f32) -> f32 {
         0.0
     }
 
-    #[inline(always)]
+    #[inline]
     fn holds_drag(_: &Self, _: f32) -> bool {
         true
     }
@@ -87,22 +141,22 @@ impl CoefficientModel for CoefficientLaw {
         Self::extremes(self)
     }
 
-    #[inline(always)]
+    #[inline]
     fn at_temperature(&self, temperature: f32) -> CoefficientAtTemperature {
         Self::at_temperature(self, temperature)
     }
 
-    #[inline(always)]
+    #[inline]
     fn both(at: &CoefficientAtTemperature, speed: f32) -> DirectionalCoefficient {
         at.both(speed)
     }
 
-    #[inline(always)]
+    #[inline]
     fn drag_torque(at: &CoefficientAtTemperature, speed: f32, load: f32, lift_off: f32) -> f32 {
         at.drag_torque(speed, load, lift_off)
     }
 
-    #[inline(always)]
+    #[inline]
     fn holds_drag(at: &CoefficientAtTemperature, speed: f32) -> bool {
         at.holds_drag(speed)
     }

@@ -49,7 +49,6 @@ pub struct Backbone<const N: usize> {
 }
 
 impl<const N: usize> Backbone<N> {
-    /// The backbone with these angles and weights.
     const fn new(angles: [f32; N], weights: [f32; N], error: f32) -> Self {
         let mut elements = [BackboneElement {
             angle: 1.0,

@@ -5,11 +5,12 @@ use super::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::{Elements, SlidingLimits};
 use crate::math::{constant, inverse_cube_roots};
+use crate::stored::{Fingerprint, Fingerprinted};
 
 /// Largest load of load-exact elements over the reference load: 1e-3 to 1e6.
 pub const LARGEST_LOAD: Range = Range::new(1e-3, 1e6);
 
-/// Beyond this load over the reference all elements are in contact whatever it is; keeps what is not a number out.
+/// Beyond this load over the reference all elements are in contact whatever it is; keeps NaN out.
 const BOUNDLESS: f32 = 1e12;
 
 /// `N` elements, each in contact from a load of its own on: friction across the path under any load.
@@ -115,7 +116,7 @@ impl<const N: usize> LoadExactElements<N> {
 fn approach(load: f32) -> f32 {
     const THIRD: f32 = 1.0 / 3.0;
     let load = load.abs();
-    // False for what is no number.
+    // False for NaN.
     let load = if load < BOUNDLESS { load } else { BOUNDLESS };
     let [inverse, _] = inverse_cube_roots([load, 1.0]);
     let root = load * inverse;
@@ -259,4 +260,14 @@ const fn legendre(degree: usize, x: f64) -> (f64, f64) {
         index += 1;
     }
     (value, slope)
+}
+
+const LOAD_EXACT: u32 = 2;
+
+impl<const N: usize> Fingerprinted for LoadExactElements<N> {
+    fn fingerprint(&self, fingerprint: &mut Fingerprint) {
+        fingerprint.count(LOAD_EXACT);
+        fingerprint.numbers(&self.stiffnesses);
+        fingerprint.numbers(&self.onsets);
+    }
 }

@@ -5,6 +5,7 @@ use super::state::{MemoryState, held, held_pair, turned};
 use super::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
 use crate::error::{Error, attempt, in_range};
 use crate::law::{Elements, SlidingLimits};
+use crate::stored::{Fingerprint, Fingerprinted};
 
 /// Fewest elements: `follow` adds up differences from the first one of a pair.
 const FEWEST: f32 = 2.0;
@@ -220,5 +221,15 @@ impl<const N: usize> Hysteresis for ProportionalElements<N> {
             |least, &rate| if rate < least { rate } else { least },
         );
         self.reference_limit / slowest
+    }
+}
+
+const PROPORTIONAL: u32 = 1;
+
+impl<const N: usize> Fingerprinted for ProportionalElements<N> {
+    fn fingerprint(&self, fingerprint: &mut Fingerprint) {
+        fingerprint.count(PROPORTIONAL);
+        fingerprint.numbers(&self.rates);
+        fingerprint.numbers(&self.shares);
     }
 }

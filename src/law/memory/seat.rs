@@ -5,6 +5,7 @@ use super::{BREAKAWAY, Hysteresis, REFERENCE_LIMIT};
 use crate::error::{Error, Range, attempt};
 use crate::law::{Elements, SlidingLimits};
 use crate::math::{cbrt_squared, constant, sqrt};
+use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 
 /// Free play in each direction: 0 to 1e3 rad (m).
 pub const FREE_PLAY: Range = Range::new(0.0, 1e3);
@@ -53,7 +54,7 @@ impl SeatState {
     /// A state from a turn from the middle of the play. One beyond sliding is cut in the next tick.
     ///
     /// # Errors
-    /// `displacement`, where it is not a number within 1e6.
+    /// `displacement`, where it is NaN or beyond 1e6.
     pub const fn from_displacement(displacement: f32) -> Result<Self, Error> {
         let displacement = attempt!(Range::new(-1e6, 1e6).checked("displacement", displacement));
         Ok(Self { displacement })
@@ -135,5 +136,26 @@ impl Hysteresis for SeatElement {
 
     fn breakaway(&self) -> f32 {
         self.free_play + self.breakaway_angle
+    }
+}
+
+const SEAT: u32 = 3;
+
+impl Stored for SeatState {
+    const BYTES: usize = 4;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number(
+            "displacement",
+            &mut self.displacement,
+            Range::new(-1e6, 1e6),
+        )
+    }
+}
+
+impl Fingerprinted for SeatElement {
+    fn fingerprint(&self, fingerprint: &mut Fingerprint) {
+        fingerprint.count(SEAT);
+        fingerprint.numbers(&[self.free_play, self.stiffness]);
     }
 }

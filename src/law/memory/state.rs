@@ -1,8 +1,9 @@
 //! What a set of elements remembers, and what a slider lets through.
 //!
-//! Sliders compare in an order that leaves a finite number finite, whatever the limits are: what is no number never stays in a state.
+//! Sliders compare in an order that leaves a finite number finite, whatever the limits are: NaN never stays in a state.
 
-use crate::error::{Error, attempt, in_range};
+use crate::error::{Error, Range, attempt, in_range};
+use crate::stored::{Port, Refusal, Stored};
 
 /// Largest number that a state may hold, N m or N.
 pub(super) const LARGEST: f32 = 1e12;
@@ -30,7 +31,7 @@ impl<const N: usize> MemoryState<N> {
     /// A state from what each element holds. What is beyond an element's limit is cut in the next tick.
     ///
     /// # Errors
-    /// `held`, where one is not a number within 1e12.
+    /// `held`, where one is NaN or beyond 1e12.
     pub const fn from_held(held: [f32; N]) -> Result<Self, Error> {
         let mut index = 0;
         while index < N {
@@ -51,9 +52,9 @@ impl<const N: usize> defmt::Format for MemoryState<N> {
 /// Turns below this size, rad (m), are turns: `2^20`, 1.05e6, far beyond any sensor's.
 const TURN_BEYOND: f32 = 1_048_576.0;
 
-/// A turn: none where it is no number, or beyond any sensor's.
+/// A turn: none where it is NaN or beyond any sensor's.
 ///
-/// Bits of positive numbers rise with them, and those of what is no number stand above all: a comparison of integers costs
+/// Bits of positive numbers rise with them, and those of NaN stand above all: a comparison of integers costs
 /// three cycles less than one of numbers. A power of two is a constant that the comparison itself holds.
 #[inline(always)]
 pub(super) fn turned(turn: f32) -> f32 {
@@ -87,4 +88,12 @@ pub(super) fn held_pair([f, g]: [f32; 2], low: [f32; 2], high: [f32; 2]) -> [f32
 #[inline(always)]
 pub(super) fn not_negative(value: f32) -> f32 {
     if value < 0.0 { 0.0 } else { value }
+}
+
+impl<const N: usize> Stored for MemoryState<N> {
+    const BYTES: usize = 4 * N;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.numbers("held", &mut self.held, Range::new(-LARGEST, LARGEST))
+    }
 }

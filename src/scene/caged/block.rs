@@ -8,7 +8,7 @@
 //! | 1 | number of friction coefficients (nodes) |
 //! | 2 | digest of the inputs from which the block was folded, low word first |
 //! | 7 | friction coefficient, lead, number of loaded balls, reversal speed, limits of nut speed, axial load and friction torque |
-//! | 4 | lift-off load of a ball, least and largest octaves, octaves from which on loads are shifted |
+//! | 4 | lift-off load of a ball, least and largest biased logarithm, that from which on loads are shifted |
 //! | 83 a node | friction coefficient; two curves, each 8 begins and 8 times 4 coefficients; two shifts |
 //! | 1 | CRC-32 of all words before it, each with its least significant byte first |
 //!
@@ -138,7 +138,6 @@ const NO_NODE: FrictionNode = FrictionNode {
     shift: [0.0; 2],
 };
 
-/// The curve that begins at a word.
 const fn curve(words: &[u32], at: usize) -> LoadCurve {
     let mut curve = NO_CURVE;
     curve.starts = floats(words, at);

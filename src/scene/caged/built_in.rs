@@ -9,7 +9,6 @@ use crate::geometry::position;
 /// Friction coefficients of a built-in design's block: 0.05 to 0.15 in steps of 0.01.
 pub const BUILT_IN_NODES: usize = 11;
 
-/// Words of one block, and their bytes.
 const WORDS: usize = CagedBallScrewConfiguration::<BUILT_IN_NODES>::WORDS;
 const BYTES: usize = WORDS * size_of::<u32>();
 

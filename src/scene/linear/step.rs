@@ -4,11 +4,8 @@ use super::{LinearConstants, LinearInputs};
 use crate::ball::GrooveLoss;
 use crate::math;
 use crate::scene::circuit::{CircuitState, LoadedBall, UNLOADED};
-use crate::scene::contract::Regime;
-use crate::scene::faults::Faults;
-use crate::scene::outputs::LinearOutputs;
-use crate::scene::reversal::{ReversalState, direction};
-use crate::scene::row::TrainFriction;
+use crate::scene::contract::direction;
+use crate::scene::sliding::TrainFriction;
 
 /// Force of a diagonal below which it does not count, N: the sum of two contacts of 1e-6 N. A numerical floor, which keeps cube roots
 /// and impedances above zero. In the bearing of Lin 2019, Table 3.3, the latter stay above the least that a train takes, 1e-9 N, also
@@ -20,7 +17,6 @@ const SMALLEST_FORCE: f32 = 2e-6;
 pub struct LinearFriction {
     /// Its parts. `load`: the normal load that would put the same sum of forces on both diagonals, N.
     pub(super) row: TrainFriction,
-    /// Whether some ball may roll on two points.
     pub(super) beyond_model: bool,
 }
 
@@ -121,20 +117,6 @@ impl<const N: usize> LinearConstants<N> {
             loss: self.grooves.at([up, down], spins, normal - side.abs()),
             forces: [up, down],
             loads: [normal, side],
-        }
-    }
-
-    #[inline(always)]
-    pub(super) fn outputs_at(sliding: &LinearFriction, reversal: ReversalState) -> LinearOutputs {
-        let row = sliding.row.outputs_at(reversal);
-        LinearOutputs {
-            friction_force: row.groove + row.ball,
-            groove_force: row.groove,
-            ball_force: row.ball,
-            contacts: row.contacts,
-            largest_contact_force: row.largest_contact_force,
-            regime: Regime::of(reversal.standing, true, true),
-            faults: Faults::NONE.with(sliding.beyond_model, Faults::BEYOND_MODEL),
         }
     }
 }

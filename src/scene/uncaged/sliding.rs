@@ -4,10 +4,9 @@ use super::{UncagedBallScrew, UncagedConstants, UncagedFriction, UncagedState};
 use crate::error::Range;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
-use crate::scene::contract::Inputs;
-use crate::scene::faults::bounded;
+use crate::scene::contract::{CheckedInputs, Inputs, ReversalState};
+use crate::scene::faults::{Faults, bounded};
 use crate::scene::outputs::UncagedOutputs;
-use crate::scene::reversal::ReversalState;
 use crate::scene::sliding::{Sliding, SlidingFriction};
 
 impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> {
@@ -16,6 +15,14 @@ impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> 
     const COUNTS_PRELOAD: bool = true;
 
     type Friction = UncagedFriction;
+
+    #[inline(always)]
+    fn check_inputs(
+        constants: &UncagedConstants<N, NODES>,
+        inputs: Inputs,
+    ) -> CheckedInputs<Inputs> {
+        constants.limits.check_inputs(inputs)
+    }
 
     #[inline(always)]
     fn sliding_friction(
@@ -46,8 +53,26 @@ impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> 
         inputs: Inputs,
         sliding: &UncagedFriction,
         reversal: ReversalState,
+        drag: f32,
+        faults: Faults,
     ) -> UncagedOutputs {
-        sliding.outputs_at(inputs.axial_load * constants.reduced_lead, reversal)
+        let row = sliding.row.outputs_at(
+            reversal,
+            inputs.axial_load * constants.reduced_lead,
+            drag,
+            sliding.faults | faults,
+            constants.limits.friction_torque,
+        );
+        UncagedOutputs {
+            friction_torque: row.whole.friction_torque,
+            groove_torque: row.groove,
+            ball_torque: row.ball,
+            load_torque: row.whole.load_torque,
+            contacts: row.contacts,
+            largest_contact_force: row.largest_contact_force,
+            regime: row.whole.regime,
+            faults: row.whole.faults,
+        }
     }
 
     #[inline(always)]

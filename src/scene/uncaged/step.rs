@@ -5,11 +5,9 @@ use crate::ball::LoadShare;
 use crate::ball::folded::FrictionInterval;
 use crate::ball::pressed::{BallNumbers, BallOfRow, NeighbourLaw, Pressed};
 use crate::scene::circuit::{LoadedBall, Sharing, UNLOADED};
-use crate::scene::contract::{Inputs, Regime};
+use crate::scene::contract::{Inputs, direction};
 use crate::scene::faults::Faults;
-use crate::scene::outputs::UncagedOutputs;
-use crate::scene::reversal::{ReversalState, direction};
-use crate::scene::row::{TrainFriction, not_negative};
+use crate::scene::sliding::{TrainFriction, not_negative};
 use crate::train::{Intake, Losses, RubbedBall, RubbedRow};
 
 /// Sliding friction of a ball screw without cage, in the direction in which its balls go.
@@ -18,32 +16,6 @@ pub struct UncagedFriction {
     /// Its parts. `load`: the axial load, preload counted, N.
     pub(in crate::scene) row: TrainFriction,
     pub(in crate::scene) faults: Faults,
-}
-
-impl UncagedFriction {
-    /// The outputs under a load that is held by this torque, N m.
-    #[inline(always)]
-    pub(in crate::scene) fn outputs_at(
-        &self,
-        load_torque: f32,
-        reversal: ReversalState,
-    ) -> UncagedOutputs {
-        let row = self.row.outputs_at(reversal);
-        UncagedOutputs {
-            friction_torque: row.groove + row.ball,
-            groove_torque: row.groove,
-            ball_torque: row.ball,
-            load_torque,
-            contacts: row.contacts,
-            largest_contact_force: row.largest_contact_force,
-            regime: Regime::under(
-                reversal.standing,
-                reversal.direction * load_torque,
-                self.row.of(reversal.direction),
-            ),
-            faults: self.faults,
-        }
-    }
 }
 
 /// What all balls have in common in a tick.

@@ -4,7 +4,7 @@ use super::{UncagedBallScrew, UncagedConstants, UncagedFriction, UncagedState};
 use crate::ranges;
 use crate::scene::circuit::CircuitState;
 use crate::scene::faults::Faults;
-use crate::scene::row::TrainFriction;
+use crate::scene::sliding::TrainFriction;
 use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 

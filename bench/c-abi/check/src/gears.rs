@@ -41,21 +41,10 @@ pub static GEAR_33X20_WORN: &[u32] = gear_33x20_worn::WORDS;
 /// The gear of the README's first example.
 pub static GEAR_29X7_RANGE: &[u32] = gear_29x7_range::WORDS;
 
-/// A ball screw without cage of the firmware: what was folded of its ball, from which its words are written.
-macro_rules! ball {
-    ($module:ident, $file:literal) => {
-        mod $module {
-            #![allow(dead_code, missing_docs, clippy::all, clippy::pedantic)]
-            include!(concat!("../../../firmware/src/gears/", $file));
-        }
-    };
-}
+#[path = "../../../firmware/src/gears/balls.rs"]
+mod balls;
 
-ball!(gear_33x20_ball, "gear_33x20_ball.rs");
-ball!(gear_33x20_ball_range, "gear_33x20_ball_range.rs");
-
-pub use gear_33x20_ball::GEAR_33X20_BALL;
-pub use gear_33x20_ball_range::GEAR_33X20_BALL_RANGE;
+pub use balls::{GEAR_33X20_BALL, GEAR_33X20_BALL_RANGE};
 
 /// [`GEAR_33X20_BALL`] with a fifth more friction torque: as worn as a test needs it.
 pub static GEAR_33X20_BALL_WORN: LazyLock<FoldedBall> = LazyLock::new(|| {

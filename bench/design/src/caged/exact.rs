@@ -1,6 +1,6 @@
 //! The exact ball of a design, at the loads from which a curve is fitted.
 
-use epas_friction::ball::folded::octaves;
+use epas_friction::ball::folded::log2_biased;
 use epas_reference::curvature::Groove;
 use epas_reference::friction::caged_ball::CagedBall;
 
@@ -75,7 +75,7 @@ impl Exact {
                 let whole = load + self.lift_off;
                 Sample {
                     // What the step computes of it.
-                    at: octaves(whole as f32).into(),
+                    at: log2_biased(whole as f32).into(),
                     value: found.torque / (whole * f64::from(friction)),
                     weight: if load < least { WEIGHT_BELOW } else { 1.0 },
                 }

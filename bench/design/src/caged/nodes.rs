@@ -3,7 +3,7 @@
 //! A contact opens under a load that depends on the friction coefficient, and not as a power of it: below some coefficient it is open under every
 //! load. Where nodes at equal ratios leave more than [`ENOUGH`] between them, they lie where the largest error between two of them is least.
 
-use epas_friction::ball::folded::{octaves, shifted_part};
+use epas_friction::ball::folded::{log2_biased, shifted_part};
 use rayon::prelude::*;
 
 use super::{Exact, LARGEST_ERROR, NODES, SHIFT, SPARSE, loads};
@@ -74,7 +74,7 @@ impl Nodes<NODES> {
         let [Some(drive), Some(backdrive)] = solved else {
             return even;
         };
-        let end = octaves((most + exact.lift_off) as f32).into();
+        let end = log2_biased((most + exact.lift_off) as f32).into();
         let tables = [drive, backdrive].map(|solved| Table { solved, from, end });
         Self::least_error(&tables, &tried).unwrap_or(even)
     }

@@ -7,7 +7,7 @@ use cortex_m_rt::entry;
 use defmt_semihosting as _;
 use epas_firmware::board::finish;
 use epas_firmware::gears::GEAR_33X20;
-use epas_firmware::scenes::{BALLS, course, linear_configuration, uncaged_configuration};
+use epas_firmware::scenes::{BALLS, CARRIAGE, UNCAGED_SCREW, course};
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{
     BallScrew, BallScrewParameters, DISSERTATION_DESIGNS, Error, FrictionModel, Inputs,
@@ -26,7 +26,7 @@ fn main() -> ! {
 }
 
 fn log() -> Result<(), Error> {
-    let configuration = uncaged_configuration()?;
+    let configuration = UNCAGED_SCREW;
     defmt::info!("lead {}", configuration.folded.lead);
     // What an engineer gets wrong, and what the log says of it.
     let [_, design, _] = DISSERTATION_DESIGNS;
@@ -39,7 +39,7 @@ fn log() -> Result<(), Error> {
     }
     let mut caged = FrictionModel::<CagedBallScrew, _>::of(&GEAR_33X20);
     let mut uncaged = FrictionModel::<UncagedBallScrew<BALLS>>::new(&configuration)?;
-    let mut linear = FrictionModel::<LinearBearingTrain<24>>::new(&linear_configuration()?)?;
+    let mut linear = FrictionModel::<LinearBearingTrain<24>>::new(&CARRIAGE)?;
     for tick in [100, 300, 500] {
         let (nut_speed, axial_load) = course(tick);
         let inputs = Inputs {

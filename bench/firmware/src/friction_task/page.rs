@@ -1,6 +1,6 @@
 //! The calibration page: numbers that a tuner changes while the controller runs, and the checks that a page has to pass.
 
-use crc::{CRC_32_ISO_HDLC, Crc};
+use epas_friction::stored::Fingerprint;
 
 use super::table::table;
 
@@ -101,25 +101,22 @@ pub enum Refused {
     Layout,
     /// Its checksum does not hold: it is damaged, or half written.
     Checksum,
-    /// The number with this index in [`CALIBRATION`] is outside its limits, or no number.
+    /// The number with this index in [`CALIBRATION`] is outside its limits or NaN.
     Range(u32),
     /// Every number is within its limits, and the model does not take them together.
     Together,
 }
 
-/// Not a constant, of which every use would have its own table on the stack.
-static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
-
 /// Checksum of names and units: another table is another layout.
 pub const LAYOUT: u32 = {
-    let mut digest = CRC.digest();
+    let mut sum = Fingerprint::NONE;
     let mut index = 0;
     while index < CALIBRATION.len() {
-        digest.update(CALIBRATION[index].name.as_bytes());
-        digest.update(CALIBRATION[index].unit.as_bytes());
+        sum.bytes(CALIBRATION[index].name.as_bytes());
+        sum.bytes(CALIBRATION[index].unit.as_bytes());
         index += 1;
     }
-    digest.finalize()
+    sum.value()
 };
 
 impl CalibrationPage {
@@ -141,15 +138,15 @@ impl CalibrationPage {
     /// The checksum that it should have.
     #[must_use]
     pub const fn sum(&self) -> u32 {
-        let mut digest = CRC.digest();
-        digest.update(&self.layout.to_le_bytes());
+        let mut sum = Fingerprint::NONE;
+        sum.count(self.layout);
         let words = self.numbers.words();
         let mut rest = words.as_slice();
-        while let Some((word, others)) = rest.split_first() {
-            digest.update(&word.to_le_bytes());
+        while let Some((&word, others)) = rest.split_first() {
+            sum.count(word);
             rest = others;
         }
-        digest.finalize()
+        sum.value()
     }
 
     /// Its numbers, where every one may be taken.

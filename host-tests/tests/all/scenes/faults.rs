@@ -1,10 +1,7 @@
 //! Faults of sensors and of the configuration: flagged within the tick, over within the next, never kept.
 
 use crate::recorded;
-use epas_friction::scene::{CheckedInputs, SceneOutputs};
-use epas_friction::{
-    DeviationMap, Error, Faults, FrictionModel, LinearBearingTrain, Outputs, Scene,
-};
+use epas_friction::{DeviationMap, Faults, FrictionModel, LinearBearingTrain};
 use epas_reference::promises::PROMISES;
 use epas_testkit::gears;
 use epas_testkit::gears::{linear_inputs, screw_inputs};
@@ -344,64 +341,5 @@ fn a_reversal_every_tick_is_even() {
     for (before, now) in start.iter().zip(even.state().circuit.train.positions()) {
         let moved = now.wrapping_sub(*before).cast_signed();
         assert!(moved.unsigned_abs() <= 2, "{moved} units");
-    }
-}
-
-#[derive(Clone, Copy)]
-struct Anything;
-
-impl Scene for Anything {
-    type Configuration = ();
-    type Constants = ();
-    type State = ();
-    type Inputs = f32;
-    type ValidInputs = f32;
-    type Outputs = Outputs;
-
-    fn constants(&(): &()) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn initial_state(&(): &()) {}
-
-    fn take_over(&(): &(), (): &mut ()) -> Result<(), Error> {
-        Ok(())
-    }
-
-    fn check_inputs(&(): &(), inputs: f32) -> CheckedInputs<f32> {
-        CheckedInputs {
-            inputs: Some(inputs),
-            faults: Faults::NONE,
-        }
-    }
-
-    fn outputs(&(): &(), (): &mut (), friction_torque: f32) -> Outputs {
-        Outputs {
-            friction_torque,
-            ..Outputs::SAFE
-        }
-    }
-
-    fn largest_friction(&(): &()) -> f32 {
-        2.0
-    }
-}
-
-#[test]
-fn friction_that_is_nan_is_zero() {
-    let mut model = FrictionModel::<Anything>::new(&()).unwrap();
-    for (found, put_out, cut) in [
-        (1.5, 1.5, false),
-        (-2.0, -2.0, false),
-        (f32::NAN, 0.0, true),
-        (-f32::NAN, 0.0, true),
-        (f32::INFINITY, 2.0, true),
-        (-2.1, -2.0, true),
-    ] {
-        let outputs = model.step(found);
-        assert_eq!(outputs.friction_torque, put_out, "{found}");
-        assert_eq!(outputs.faults == Faults::FRICTION_LIMIT, cut, "{found}");
-        assert_eq!(outputs.faults.any(), cut, "{found}");
-        assert_eq!(model.faulted_ticks() > 0, cut, "{found}");
     }
 }

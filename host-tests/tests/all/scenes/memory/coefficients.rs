@@ -144,7 +144,14 @@ fn full_friction_is_what_passes_in_its_direction() {
                     direction,
                     standing,
                 };
-                parts(&S::outputs_at(&constants, inputs, &full, reversal))
+                parts(&S::outputs_at(
+                    &constants,
+                    inputs,
+                    &full,
+                    reversal,
+                    0.0,
+                    Faults::NONE,
+                ))
             });
             let [
                 ([groove, ball], contacts),

@@ -7,7 +7,7 @@ use epas_friction::scene::{
     Motion, ReversalState, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryState,
 };
 use epas_friction::{
-    FrictionModel, LinearBearingConfiguration, LinearBearingTrain, LinearOutputs, Regime,
+    Faults, FrictionModel, LinearBearingConfiguration, LinearBearingTrain, LinearOutputs, Regime,
     UncagedOutputs,
 };
 use epas_reference::presliding::elements::Elements;
@@ -123,7 +123,7 @@ where
                     direction: direction as f32,
                     standing: false,
                 };
-                S::outputs_at(&constants, inputs, &sliding, reversal)
+                S::outputs_at(&constants, inputs, &sliding, reversal, 0.0, Faults::NONE)
             });
             sliding_outputs = Some(with);
             let [with, against] = [with, against]
