@@ -35,10 +35,8 @@ pub const FRICTION: f32 = 0.1;
 
 /// Clearance: a radial gap of every contact of -1 um, that is 1 um of oversize.
 ///
-/// Steering gears and machine tools are built without play. A micrometre of oversize is the least preload that a maker
-/// can set by sorting balls; it makes efficiency rise with load, as is measured, and keeps the friction of the makers'
-/// rule down to small leads, where a ball that just fits loses its third contact. It costs some 0.12 N m without load
-/// in a steering gear's screw (29x7, 71 balls).
+/// Steering gears and machine tools are built without play. A micrometre of oversize is the least preload that sorting balls can set; it makes efficiency
+/// rise with load, as is measured. It costs some 0.12 N m without load in a steering gear's screw (29x7, 71 balls).
 ///
 /// Range: 5 um of oversize (heavily preloaded) to 20 um of play.
 pub const CLEARANCE: Clearance = match Clearance::new(-1e-6) {
@@ -64,10 +62,9 @@ pub const VISCOSITY: Viscosity = match Viscosity::through((313.15, 0.088), (373.
 
 /// Viscosity of the base oil of a steering gear's grease: a poly-alpha-olefin of 48 mm²/s at 40 degrees Celsius and 8 at 100.
 ///
-/// Assumed, not measured on a gear. Patents on greases for the ball screws of rack-assisted steering ask for base oils of 4 to
-/// 100 mm²/s at 40 degrees (Kyodo Yushi, US 2023/0139040), most often poly-alpha-olefins. Taken for this class, and not found in print: 48, 8.0 and, at
-/// -40 degrees, 19,000 mm²/s, density 833 kg/m³. The formula is led through -40 and 40 degrees (16.4 and 0.0393 Pa s), because the cold
-/// decides the drag: 0.103 Pa s at 20 degrees, where the law of Walther has 0.105, and 0.0048 at 100, a quarter less than that.
+/// Assumed, not measured on a gear: patents on greases for rack-assisted steering ask for base oils of 4 to 100 mm²/s at 40 degrees (Kyodo Yushi,
+/// US 2023/0139040). Taken for this class: 48, 8.0 and, at -40 degrees, 19,000 mm²/s, density 833 kg/m³. The formula is led through -40 and 40 degrees
+/// (16.4 and 0.0393 Pa s), because the cold decides the drag; 0.103 Pa s at 20 degrees, where the law of Walther has 0.105.
 pub const STEERING_GREASE: Viscosity =
     match Viscosity::through((233.15, 16.4), (313.15, 0.0393), 225.15) {
         Ok(viscosity) => viscosity,

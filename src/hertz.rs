@@ -1,9 +1,6 @@
 //! The contact ellipse: axis ratio, semi-axes, deflection and pressure of one Hertzian contact.
 //!
-//! Set-up of all three scenes; [`HertzContact::at`] is called directly.
-//!
-//! Everything that follows from the curvatures is folded at set-up; per tick only the cube root of
-//! the load is left.
+//! Everything that follows from the curvatures is folded at set-up; per call only the cube root of the load is left.
 
 use crate::curvature::{GothicArch, RelativeCurvatures};
 use crate::error::{Error, attempt, in_range};
@@ -24,11 +21,9 @@ pub const LARGEST_RADIUS_RATIO: f32 = 1e5;
 /// p0    = 3 F / (2 pi a b)
 /// ```
 ///
-/// with relative radii `R1 <= R2`, contact modulus `E*` and complete elliptic integrals `E`, `K` of
-/// `sqrt(1 - k²)` (Johnson's theory as in Lin 2019, eqs. (B.1), (B.7), (B.10), (B.11), with its exact factor in place of the
-/// approximation 1; Alberdi et al., eqs. (4), (5)). **Corrected:** the exponents of (B.11) are 1/3. The axis ratio `k = b/a` comes from a rational function of `(R1/R2)^(1/3)` (error
-/// 1.1e-5 for ratios 1 to 1e5), the integrals from five steps of the arithmetic-geometric mean (exact
-/// in f32): no iteration to convergence, no logarithm.
+/// with relative radii `R1 <= R2`, contact modulus `E*` and complete elliptic integrals `E`, `K` of `sqrt(1 - k²)` (Johnson's theory as in Lin 2019,
+/// eqs. (B.1), (B.7), (B.10), (B.11); Alberdi et al., eqs. (4), (5)). **Corrected:** the exponents of (B.11) are 1/3. The axis ratio `k = b/a` comes from a
+/// rational function of `(R1/R2)^(1/3)` (error 1.1e-5 for ratios 1 to 1e5), the integrals from five steps of the arithmetic-geometric mean.
 ///
 /// Errors against exact elliptic integrals, ratios 1 to 1e5: axis ratio 1.2e-5, semi-axes 1e-5,
 /// deflection 5e-6, pressure 1e-5.

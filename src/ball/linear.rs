@@ -62,15 +62,11 @@ impl LinearBallParameters {
 /// `tan beta_0`, which is the same at 45 degrees only (0.577 against 0.5 at 30 degrees), and the printed
 /// exponents -2/3 of (3.51) must be +2/3.
 ///
-/// Valid for four loaded contacts with nearly equal loads on a diagonal. Largest error of the speed
-/// deviation against the minimum of the dissipation, angle deviations of the bottom groove up to 3
-/// degrees, in units of `v/2`: 2.3e-3 for side-force ratios up to 0.5, 4.1e-3 up to 0.6, 5.8e-3 up to
-/// 0.8; four independent angles 1.5e-2 (rms 2e-3). Of the force between two balls, side-force ratios up to 0.8: 0.62 N
-/// (rms 0.27 N) of up to 5.8 N at deviations of 2 degrees, 1.39 N (rms 0.57 N) of up to 9.1 N at 3 degrees. Near two-point rolling, from side-force ratios of 0.88 to 0.98 on, the exact
-/// speed jumps: where the weaker diagonal carries less than `(3/8) E (a/r_b)/sin(2 beta_0)` of the stronger
-/// one (3.7 % in Lin 2019, Table 3.3) it falls from 8.8e-3 per degree of the deviation to 3e-4. This formula
-/// keeps the speed from before, too large by up to 9.5e-3 per degree, never of the wrong sense, and never
-/// beyond `tan(beta_0)/2` times the larger of the two differences of angles.
+/// Valid for four loaded contacts with nearly equal loads on a diagonal. Largest error of the speed deviation against the minimum of the dissipation,
+/// in units of `v/2`, bottom groove turned by up to 3 degrees: 2.3e-3 for side-force ratios up to 0.5, 5.8e-3 up to 0.8; four independent angles 1.5e-2
+/// (rms 2e-3). Of the force between two balls: 0.62 N of up to 5.8 N at deviations of 2 degrees, 1.39 N of up to 9.1 N at 3. From side-force ratios of
+/// 0.88 to 0.98 on balls change to two-point rolling, where the weaker diagonal carries less than `(3/8) E (a/r_b)/sin(2 beta_0)` of the stronger one:
+/// the exact speed falls from 8.8e-3 per degree to 3e-4, this formula keeps the speed from before.
 ///
 /// Cost of two balls and the force between them: 243 modelled cycles.
 ///

@@ -27,9 +27,8 @@ pub const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 /// two-point rolling:  two contacts slide with v sin²(beta)            mu sin²(beta) D,  D the weaker one
 /// ```
 ///
-/// Where the second gets less than the first, the ball's speed jumps. Two things move this border: angle deviations,
-/// which take force off one diagonal; and neighbours, because a ball in two-point rolling resists their pressing without
-/// a loss, and rubs less on them.
+/// Where the second gets less than the first, the ball's speed jumps. Angle deviations take force off one diagonal, and neighbours resist a ball less in
+/// two-point rolling: both move this border.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct GrooveFriction {

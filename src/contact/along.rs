@@ -71,10 +71,8 @@ pub struct NormalizedFriction {
 impl FrictionMap {
     /// Maps of a contact with the axis ratio `b/a`, 0.01 to 1.
     ///
-    /// The elliptic integrals come from five steps of the arithmetic-geometric mean, `E - k² K` and its
-    /// like from the mean's own sums, so that nothing cancels towards the circle; at `k = 1` the limits
-    /// `kf = 3 pi/8`, `k3 = 3 pi/32` come out by themselves. Coefficients are within 4e-7. Cost: 374
-    /// modelled cycles.
+    /// The elliptic integrals come from five steps of the arithmetic-geometric mean; at `k = 1` the limits are `kf = 3 pi/8`, `k3 = 3 pi/32`. Coefficients
+    /// are within 4e-7. Cost: 374 modelled cycles.
     ///
     /// # Errors
     /// [`Error`] naming `axis_ratio` where it is not within 0.01 to 1.

@@ -17,10 +17,8 @@ pub const CHEBYSHEV: [f32; NODES] = [0.95105652, 0.58778525, 0.0, -0.58778525, -
 /// First principal curvature of a gothic-arch groove by a quotient that is exact at five contact
 /// angles: `kappa1 = (n0 + n1 cos(beta) + n2 sin(beta)) / (1 - d1 cos(beta) - d2 sin(beta))`.
 ///
-/// Its shape is that of a tube about a helix, to which the exact surface is close; the five
-/// coefficients come from the exact curvatures at Chebyshev nodes of the contact angle, by one 5 x 5
-/// linear system at set-up. On the 31 catalogue sizes and contact angles 0 to 70 degrees the error is
-/// at most 7e-7 (rounding included; the form itself 2.4e-7); over lead angles to 80 degrees with
+/// The shape is that of a tube about a helix; the five coefficients come from the exact curvatures at Chebyshev nodes, by one 5 x 5 linear system at
+/// set-up. Error on the 31 catalogue sizes, contact angles 0 to 70 degrees: at most 7e-7 (the form itself 2.4e-7); over lead angles to 80 degrees with
 /// offsets as in use, 1.5e-5.
 ///
 /// Cost in the loop: one division, 8 other operations.

@@ -84,14 +84,11 @@ impl ShapeOperator {
 /// kappa1 = h22 + q,      kappa2 = h11 - q
 /// ```
 ///
-/// It equals the eigenvalues of the Weingarten map (Bertolino et al. 2023, eq. (17)-(24)) without the
-/// cancelling subtraction of their quadratic formula, in 45 operations in place of about 730 of
-/// Appendix B. That appendix holds two misprints, corrected here by construction: (A1a) returns
-/// `kappa2`, and (A1m) lacks a `zeta`.
+/// It equals the eigenvalues of the Weingarten map (Bertolino et al. 2023, eq. (17)-(24)) without their cancelling subtraction. Two misprints of
+/// Appendix B are **corrected** by construction: (A1a) returns `kappa2`, and (A1m) lacks a `zeta`.
 ///
-/// Error in f32 over lead angles and contact angles 0 to 80 degrees: `kappa1` within 6e-7, `kappa2`
-/// within 3e-7; close to the nut's zero of `kappa1` (contact angles near 90 degrees) within 1e-7 of
-/// `kappa2`.
+/// Error in f32 over lead angles and contact angles 0 to 80 degrees: `kappa1` within 6e-7, `kappa2` within 3e-7; close to the nut's zero of `kappa1`
+/// (contact angles near 90 degrees) within 1e-7 of `kappa2`.
 ///
 /// ```
 /// use epas_friction::CATALOGUE;

@@ -21,10 +21,9 @@ pub enum Drive {
 /// ball radius over the pitch radius, `R = sqrt(Cb² + ta²)`, `f` the friction coefficient (0 to 1), `t` the rolling tangent, eq. (2):
 /// `t = f_r / (r_b Sb)` with the lever arm `f_r` of rolling friction, m.
 ///
-/// Each efficiency is the raw value of its formula: it is negative where the screw locks. Each loss,
-/// one less the efficiency, has its own formula, because `1 - efficiency` leaves no digit of a small
-/// loss. Errors over friction 0.001 to 0.3, lead angles 0.5 to 60 and contact angles 5 to 85 degrees:
-/// 3e-7 absolute for an efficiency between 0 and 1, 4e-7 relative for a loss.
+/// Each efficiency is the raw value of its formula, negative where the screw locks; each loss, one less the efficiency, has its own formula, which keeps
+/// the digits of a small loss. Errors over friction 0.001 to 0.3, lead angles 0.5 to 60 and contact angles 5 to 85 degrees: 3e-7 absolute for an
+/// efficiency between 0 and 1, 4e-7 relative for a loss.
 ///
 /// ```
 /// use epas_friction::efficiency::EfficiencyGeometry;

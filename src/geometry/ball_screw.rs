@@ -100,20 +100,6 @@ impl BallScrewParameters {
 /// const CONTACT: HertzContact = HertzContact::of(&DESIGN, Groove::Nut);
 /// assert!(CONTACT.at(100.0).max_pressure > 1e9);
 /// ```
-///
-/// ```compile_fail,E0080
-/// use epas_friction::{BallScrew, BallScrewParameters, DISSERTATION_DESIGNS};
-///
-/// const PARAMETERS: BallScrewParameters = BallScrewParameters {
-///     lead: -7e-3,
-///     ..DISSERTATION_DESIGNS[2].parameters
-/// };
-/// const DESIGN: BallScrew = match BallScrew::new(PARAMETERS) {
-///     Ok(design) => design,
-///     Err(_) => panic!("the ball screw's design is out of range"),
-/// };
-/// println!("{DESIGN:?}");
-/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallScrew {

@@ -21,12 +21,10 @@ use crate::math::{self, constant};
 /// `w_o = -G_i / (G_i + G_o)`, `n_k = cos beta cos beta' sin alpha_k - sin beta cos alpha_k` and
 /// `S_k` the distance from the ball's centre to the centre of the contact.
 ///
-/// This is Alberdi et al., eqs. (22), (23), (31), (32), (34) and, for the entrainment speed, (36), rearranged: the printed (31) is the
-/// difference of two nearly equal speeds and loses three digits in f32; here the difference is
-/// `r'_k - S_k`, formed from `r'_k - D/2` and from `2 r - D`, both exact in f32 by Sterbenz' lemma.
-/// **Corrected:** (23) as printed divides `omega_m` by the geometry of the *inner* contact; rolling
-/// needs `(omega - omega_m) A_i / (r'_i b_i)`, which equals `omega_m A_o / (r'_o b_o)`. The printed
-/// form gives 185.9 in place of 252.0 rad/s for the paper's own screw.
+/// This is Alberdi et al., eqs. (22), (23), (31), (32), (34) and, for the entrainment speed, (36), rearranged: the printed (31) is the difference of two
+/// nearly equal speeds; here the difference is `r'_k - S_k`, formed from `r'_k - D/2` and from `2 r - D`, both exact in f32.
+/// **Corrected:** (23) as printed divides `omega_m` by the geometry of the *inner* contact; rolling needs `(omega - omega_m) A_i / (r'_i b_i)`, which
+/// equals `omega_m A_o / (r'_o b_o)`. The printed form gives 185.9 in place of 252.0 rad/s for the paper's own screw.
 ///
 /// Errors against the exact model in f64, over 200 000 random geometries (helix angle 0 to 40°, ball
 /// diameter over pitch diameter 0.04 to 0.29, groove radius over ball diameter 0.505 to 0.58, contact

@@ -151,10 +151,8 @@ impl ContactCoefficients {
     /// `entrainment_angle = atan2(-v_e,y, -v_e,x)`, `slide_to_roll = |v_s| / |v_e|`,
     /// `slide_angle = atan2(side_slip, rolling_slip)`,
     /// `spin_to_roll = spin sqrt(a b) / |v_e|`: Alberdi et al., eqs. (37) to (40), with `v_e` of (36).
-    /// **Corrected:** (37) and (39) print an arc tangent of a quotient, which loses the quadrant, and
-    /// (36) has the sign against the direction of rolling (`v_e,x < 0`); with atan2 the entrainment
-    /// angle takes both components reversed. The printed values 0.87 and 1.19° are exchanged:
-    /// 1.19° belongs to the screw (inner), 0.88° to the nut.
+    /// **Corrected:** (37) and (39) print an arc tangent of a quotient, which loses the quadrant, and (36) has the sign against the direction of rolling
+    /// (`v_e,x < 0`). The printed values 0.87 and 1.19° are exchanged: 1.19° belongs to the screw (inner), 0.88° to the nut.
     ///
     /// They stay the same until the next update: call this after one, not in every interrupt.
     ///

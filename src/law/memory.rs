@@ -2,16 +2,14 @@
 //!
 //! Runs in the step of a scene with memory, and may be called directly; constants are folded at set-up.
 //!
-//! Friction after a reversal is a matter of angle, not of speed: contacts deflect before they slide. Parallel springs, each
-//! in series with a slider (Maxwell slip; Iwan 1966, Prandtl-Ishlinskii), have that: any number of nested loops, all
-//! of them closed, no drift, and the sliding friction after enough turn.
+//! Friction after a reversal is a matter of angle, not of speed: contacts deflect before they slide. Parallel springs, each in series with a slider
+//! (Maxwell slip; Iwan 1966, Prandtl-Ishlinskii), have nested closed loops, no drift, and the sliding friction after enough turn:
 //!
 //! `f_i <- clamp(f_i + k_i dtheta, -lambda_i T-, +lambda_i T+)`, `T = sum f_i`, `sum lambda_i = 1`
 //!
-//! `T+` and `T-` are the friction of gross sliding of the same tick, so that steady motion has exactly the torque of the
-//! law without memory. The clamp is the implicit step (return mapping; Simo and Hughes 1998) and exact for a
-//! turn at constant speed: no tick is too long and no stiffness too high. Stiffnesses `k_i` are constant. That makes the
-//! elements passive: stored energy `sum f_i²/(2 k_i)` never grows by more than the work done, however the limits change.
+//! `T+` and `T-` are the friction of gross sliding of the same tick: steady motion has the torque of the law without memory. The clamp is the implicit
+//! step (return mapping; Simo and Hughes 1998), exact for a turn at constant speed. Stiffnesses `k_i` are constant, so the elements are passive: stored
+//! energy `sum f_i²/(2 k_i)` never grows by more than the work done, however the limits change.
 //!
 //! | type | shares `lambda_i` | for |
 //! |---|---|---|

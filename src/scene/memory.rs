@@ -3,21 +3,18 @@
 //!
 //! # Balls that press on each other, at a reversal
 //!
-//! A ball presses on the next one because friction of its grooves pushes it on while that of the other's grooves holds the other back: along
-//! the path nothing else acts on them. So forces between balls are in proportion to what the grooves carry of their sliding friction, and none is
-//! left where that is zero: friction of the other sign would part the balls. Friction `f` of the elements, positive in the direction in which the
-//! balls went last, lies between
+//! Forces between balls are in proportion to what the grooves carry of their sliding friction: friction of the other sign would part the balls. Friction
+//! `f` of the elements, positive in the direction in which the balls went last, lies between
 //!
 //! ```text
 //! -T_0 <= f <= T_g + T_b,   between balls: T_b f/(T_g + T_b) where f > 0, else 0
 //! ```
 //!
-//! with the sliding friction of the grooves `T_g`, between balls `T_b`, and of the grooves where no ball presses `T_0`. After a reversal springs
-//! of constant stiffness take `f` from the upper limit to the lower one over twice the breakaway angle, the whole width of the play; then the balls
-//! turn round, and those that pressed have nothing left to lose. A limit `L` that falls there all the same (elements that turn later, under
-//! a load far above their reference) is `L (1 + e)`, with `e >= 0` from its value before over the load, and `e` falls by one with each half of the
-//! play that the balls go on. Constant springs between limits that hold zero are passive, however the limits change: torque is continuous in the
-//! angle and takes work out of every closed path.
+//! with the sliding friction of the grooves `T_g`, between balls `T_b`, and of the grooves where no ball presses `T_0`. After a reversal springs of
+//! constant stiffness take `f` from the upper limit to the lower one over the whole width of the play; then the balls turn round. A limit `L` that falls
+//! there all the same (elements that turn later, under a load far above their reference) is `L (1 + e)`, with `e >= 0` from its value before over the
+//! load; `e` falls by one with each half of the play that the balls go on. Constant springs between limits that hold zero are passive: torque is continuous
+//! in the angle and takes work out of every closed path.
 
 mod configuration;
 mod remembered;

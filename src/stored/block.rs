@@ -1,8 +1,7 @@
 //! The block around a state: what it is of, and whether it is whole.
 
-use super::Refusal;
 use super::port::{Port, Reader, Stored, Writer};
-use super::{Fingerprint, crc32};
+use super::{Fingerprint, Refusal, crc32};
 
 /// Version of the layout: counts up with every change of what a state's bytes mean.
 pub const VERSION: u16 = 3;
@@ -26,6 +25,29 @@ pub struct Label {
     pub fingerprint: Fingerprint,
 }
 
+/// The first bytes of a block.
+struct Header {
+    magic: [u8; 4],
+    version: u16,
+    kind: u16,
+    balls: u16,
+    length: u16,
+    fingerprint: u32,
+}
+
+impl Stored for Header {
+    const BYTES: usize = HEADER;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.bytes(&mut self.magic)?;
+        port.long_count("version", &mut self.version, u16::MAX)?;
+        port.long_count("kind", &mut self.kind, u16::MAX)?;
+        port.long_count("balls", &mut self.balls, u16::MAX)?;
+        port.long_count("length", &mut self.length, u16::MAX)?;
+        port.word(&mut self.fingerprint)
+    }
+}
+
 /// A block of a fixed length around a state of type `T`.
 pub(crate) struct Block {
     label: Label,
@@ -41,16 +63,15 @@ impl Block {
         }
     }
 
-    fn header(&self) -> [u8; HEADER] {
-        let [m0, m1, m2, m3] = MAGIC;
-        let [v0, v1] = VERSION.to_le_bytes();
-        let [k0, k1] = self.label.kind.to_le_bytes();
-        let [b0, b1] = self.label.balls.to_le_bytes();
-        let [l0, l1] = (self.bytes as u16).to_le_bytes();
-        let [f0, f1, f2, f3] = self.label.fingerprint.value().to_le_bytes();
-        [
-            m0, m1, m2, m3, v0, v1, k0, k1, b0, b1, l0, l1, f0, f1, f2, f3,
-        ]
+    fn header(&self) -> Header {
+        Header {
+            magic: MAGIC,
+            version: VERSION,
+            kind: self.label.kind,
+            balls: self.label.balls,
+            length: self.bytes as u16,
+            fingerprint: self.label.fingerprint.value(),
+        }
     }
 
     /// The state as a block at the begin of `bytes`; bytes that it does not need are 0.
@@ -67,7 +88,7 @@ impl Block {
         let (body, rest) = bytes.split_at_mut_checked(body).ok_or(wrong)?;
         let checksum = rest.first_chunk_mut::<CHECKSUM>().ok_or(wrong)?;
         let mut writer = Writer { rest: body };
-        writer.bytes(&mut self.header())?;
+        self.header().exchange(&mut writer)?;
         state.exchange(&mut writer)?;
         writer.rest.fill(0);
         *checksum = crc32(body).to_le_bytes();
@@ -91,68 +112,47 @@ impl Block {
             found: bytes.len(),
             expected: self.bytes,
         };
-        let (header, state) = bytes.split_first_chunk::<HEADER>().ok_or(wrong)?;
-        let (state, checksum) = state.split_last_chunk::<CHECKSUM>().ok_or(wrong)?;
-        let ([magic, fingerprint], [found, kind, balls, length]) = numbers(header);
-        if magic != MAGIC {
+        let (body, checksum) = bytes.split_last_chunk::<CHECKSUM>().ok_or(wrong)?;
+        let mut reader = Reader { rest: body };
+        let mut found = self.header();
+        if found.exchange(&mut reader).is_err() {
+            return Err(wrong);
+        }
+        if found.magic != MAGIC {
             return Err(Refusal::NotAState);
         }
-        if found != VERSION {
+        if found.version != VERSION {
             return Err(Refusal::Version {
-                found,
+                found: found.version,
                 expected: VERSION,
             });
         }
-        if usize::from(length) != bytes.len() {
+        if usize::from(found.length) != bytes.len() {
             return Err(Refusal::Length {
                 found: bytes.len(),
-                expected: usize::from(length),
+                expected: usize::from(found.length),
             });
         }
-        let (body, _) = bytes.split_last_chunk::<CHECKSUM>().ok_or(wrong)?;
         if crc32(body) != u32::from_le_bytes(*checksum) {
             return Err(Refusal::Damaged);
         }
-        if kind != self.label.kind {
+        if found.kind != self.label.kind {
             return Err(Refusal::OtherScene);
         }
-        if balls != self.label.balls {
+        if found.balls != self.label.balls {
             return Err(Refusal::OtherBalls {
-                found: balls,
+                found: found.balls,
                 expected: self.label.balls,
             });
         }
-        if u32::from_le_bytes(fingerprint) != self.label.fingerprint.value() {
+        if found.fingerprint != self.label.fingerprint.value() {
             return Err(Refusal::OtherConstants);
         }
         // Elements of another number have other constants.
         if bytes.len() == self.bytes {
-            Ok(Reader { rest: state })
+            Ok(reader)
         } else {
             Err(wrong)
         }
     }
-}
-
-fn numbers(header: &[u8; HEADER]) -> ([[u8; 4]; 2], [u16; 4]) {
-    let [
-        m0,
-        m1,
-        m2,
-        m3,
-        v0,
-        v1,
-        k0,
-        k1,
-        b0,
-        b1,
-        l0,
-        l1,
-        f0,
-        f1,
-        f2,
-        f3,
-    ] = *header;
-    let words = [[v0, v1], [k0, k1], [b0, b1], [l0, l1]].map(u16::from_le_bytes);
-    ([[m0, m1, m2, m3], [f0, f1, f2, f3]], words)
 }

@@ -38,14 +38,11 @@ const SMALLEST_LOAD: f32 = 1e-3;
 ///
 /// Input: a validated design, friction 1e-6 to 0.5, axial loads per ball 1e-3 to 1e7 N, deviations up to 0.2 rad.
 ///
-/// Errors against the formulas above with exact contact integrals: orbital speed 2e-7 of the nut's, compliance and
-/// torque 0.6 % at the mean load; 6 % and 12 % at shares of 0.1 to 3 of it. Against equilibrium of balls in elastic
-/// grooves (Lin 2019, Table 3.6, groove radius 3.254 mm, friction 0.1): contact loads 2.5 %, force between two balls
-/// whose screw grooves differ by 0.5 to 3 degrees so that the third contact gains load: 3.2 % up to 50 N per ball, 7 %
-/// at 100 N. Of the opposite sign the third contact slides, and the force is too large, by up to 11 % at 10 N,
-/// 21 % at 25 N, 44 % at 50 N and a factor two at 100 N. Table 3.7, read as 50 N on each ball: -1.3 % and -2.9 %.
-/// With two contacts and unequal contact angles the speed is that between a ball which sticks to the screw and one which
-/// sticks to the nut: off by up to 4.5e-3 of the nut's speed for deviations of 3 degrees in both grooves of Table 3.6.
+/// Errors against the formulas above with exact contact integrals: orbital speed 2e-7 of the nut's, compliance and torque 0.6 % at the mean load; 6 %
+/// and 12 % at shares of 0.1 to 3 of it. Against balls in elastic grooves (Lin 2019, Table 3.6, groove radius 3.254 mm, friction 0.1): contact loads
+/// 2.5 %; force between two balls 3.2 % up to 50 N per ball and 7 % at 100 N where the third contact gains load; where it slides, too large by up to 11 % at
+/// 10 N and a factor two at 100 N. Table 3.7, read as 50 N on each ball: -1.3 % and -2.9 %. With two contacts and unequal contact angles the speed is off by
+/// up to 4.5e-3 of the nut's for deviations of 3 degrees in both grooves.
 ///
 /// Source: not in Lin 2019; from its equations (3.65)-(3.76).
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -55,17 +55,15 @@ const BOTH_FLANKS: f32 = 2.1;
 /// phi_ish = 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64)         n, 1/min    d_m, mm    nu, mm^2/s
 /// ```
 ///
-/// with the pitch circle of the screw for the mean diameter of the bearing: in both it sets the speed of the surfaces. SKF's rolling
-/// moment `G_rr (nu n)^0.6` itself is not taken: its constants are for bearings with 7 to 15 balls and radial grooves. Both agree
-/// within a factor of two for the bearing 6206.
+/// with the pitch circle of the screw for the mean diameter of the bearing. SKF's rolling moment `G_rr (nu n)^0.6` itself is not taken: its constants are
+/// for bearings with 7 to 15 balls and radial grooves. Both agree within a factor of two for the bearing 6206.
 ///
 /// The powers above approximate all of this. Largest difference -26 and +25 %, rms 10 %: 0.02 to 16 Pa s, 0.5 to 60 rad/s, 5 to 200
 /// N a ball, five sizes of 20 to 50 mm. Preloaded flanks are counted within 22 % below lift-off.
 ///
-/// Left out: churning of grease in the nut and its return ([`churning`](super::CoefficientParameters::churning) has a place for it), the
-/// yield stress of a grease's thickener, wipers and seals, and starvation that grows with speed: SKF's
-/// `phi_rs = exp(-6e-8 nu n (d + D) sqrt(K_z/(2 (D - d))))` for grease is meant for bearings that turn on and on at their working
-/// viscosity; in a gear that reverses, grease flows back into the track, and with that factor friction would fall in the cold.
+/// Left out: churning of grease in the nut and its return ([`churning`](super::CoefficientParameters::churning)), the yield stress of a grease's
+/// thickener, wipers and seals, and starvation that grows with speed (SKF's factor for grease is meant for bearings that turn on and on; in a gear that
+/// reverses, grease flows back into the track).
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RollingDrag {

@@ -60,10 +60,9 @@ pub struct OilData {
 /// | Walther, 100 and 11.2 mm²/s (mineral, viscosity index 98) | 43 % | 67 % | 81 % |
 /// | Walther, 100 and 14.5 mm²/s (synthetic, viscosity index 150) | 35 % | 59 % | 77 % |
 ///
-/// Walther's oils are stiffer in the cold than the formula, three times at -20 degrees. A coefficient follows viscosity weakly:
-/// twice the viscosity shifts it by at most 0.17 of the difference of both coefficients, three times by 0.27. Where cold matters,
-/// take [`Viscosity::through`] with the temperatures that matter: through 0 and 40 degrees the mineral oil of the table is within
-/// 20 % from -20 to 60 degrees.
+/// Walther's oils are stiffer in the cold than the formula, three times at -20 degrees; a coefficient follows that weakly: it shifts by at most 0.27 of the
+/// difference of both coefficients. Where cold matters, take [`Viscosity::through`] with the temperatures that matter: through 0 and 40 degrees the
+/// mineral oil of the table is within 20 % from -20 to 60 degrees.
 ///
 /// ```
 /// use epas_friction::law::coefficient::{OilData, Viscosity};
