@@ -14,4 +14,3 @@ pub mod measured;
 pub mod promised;
 pub mod random;
 pub mod random_scenes;
-pub mod remembering;

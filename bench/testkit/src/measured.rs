@@ -48,6 +48,11 @@ pub fn assert_at(name: &str, error: impl Into<f64>, case: impl Display) {
     }
 }
 
+/// Asserts errors of one case; the name of a row is the group's, a comma, and the quantity's.
+pub fn of_case(group: &str, case: impl Display) -> impl Fn(&str, f64) {
+    move |quantity, error| assert_at(&format!("{group}, {quantity}"), error, &case)
+}
+
 /// The row of a name.
 ///
 /// # Panics

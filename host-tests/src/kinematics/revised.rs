@@ -130,16 +130,6 @@ impl Revised {
             + self.about_y(raceway)
     }
 
-    /// (31) as printed, per rad/s of the screw, m.
-    pub fn rolling_slip_as_printed(&self, raceway: Raceway, y: f64) -> f64 {
-        let distance = self.distance(raceway, y);
-        let cos_psi = self.input.lead_angle.cos();
-        let cos_alpha = self.input.contact(raceway).contact_angle.cos();
-        self.frame_ratio(raceway)
-            * (self.input.pitch_radius / cos_psi - raceway.sign() * distance * cos_alpha * cos_psi)
-            - distance * self.about_y(raceway)
-    }
-
     /// Side slip per rad/s of the screw, m: (32), with `omega_t` for the misprinted `omega_l`.
     pub fn side_slip(&self, raceway: Raceway, y: f64) -> f64 {
         self.distance(raceway, y) * self.side_gradient(raceway)

@@ -4,6 +4,10 @@
 //! Inputs come from integers by one multiplication, so that nothing but the crate's own arithmetic can
 //! differ.
 
+use crate::remembering::{
+    COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,
+    linear_by_speed, uncaged_by_counts,
+};
 use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::scene::{CagedBallScrew, Scene};
 use epas_friction::{
@@ -14,10 +18,6 @@ use epas_testkit::gears;
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
 use epas_testkit::random_scenes::{EDGES, Trial, row_numbers};
-use epas_testkit::remembering::{
-    COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,
-    linear_by_speed, uncaged_by_counts,
-};
 
 const TICKS: u32 = 200_000;
 

@@ -14,6 +14,7 @@ mod determinism;
 mod formulas;
 mod law;
 mod reference;
+mod remembering;
 mod scenes;
 mod stiffness;
 mod stored_folds;

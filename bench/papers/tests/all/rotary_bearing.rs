@@ -318,7 +318,7 @@ fn follow_hostile_loads(oversizes: &[f64]) {
                             .flat_map(|ball| ball.contacts.contact_forces)
                             .fold(0.0, f64::max);
                         measured::assert(
-                            "hostile loads, residual",
+                            "extreme loads, residual",
                             loaded.residual / largest.max(force).max(1e-9),
                         );
                         if force == 0.0 && oversize <= 0.0 {

@@ -6,13 +6,13 @@ use std::f32::consts::TAU;
 use epas_friction::adaptation::Estimates;
 use epas_friction::law::FrictionLevel;
 use epas_friction::law::coefficient::OneCoefficient;
-use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
+use epas_friction::law::memory::ProportionalElements;
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{Sliding, WithMemory, WithMemoryConfiguration};
 use epas_friction::{FrictionModel, Inputs, Outputs};
 
+use crate::remembering::{at, slip};
 use epas_testkit::gears::{CagedScrew, SCREW_BALLS, UncagedScrew, caged, uncaged};
-use epas_testkit::remembering::at;
 
 const TICK: f32 = 1e-4;
 
@@ -23,12 +23,7 @@ fn model<S>(scene: S::Configuration) -> Model<S>
 where
     S: Sliding<Constants: Copy, Configuration: Copy>,
 {
-    let part = Part {
-        backbone: &SLIP_8.elements,
-        share: 1.0,
-        breakaway_angle: 2e-3,
-    };
-    let elements = ProportionalElements::new(0.05, &[part]).unwrap();
+    let elements = slip(0.05);
     let sensor = SpeedOverTick::new(TICK, 1.0).unwrap();
     let configuration = WithMemoryConfiguration::new(scene, 0.1, elements, sensor, 1000.0).unwrap();
     FrictionModel::new(&configuration).unwrap()

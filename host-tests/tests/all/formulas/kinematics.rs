@@ -296,24 +296,24 @@ fn a_contact_may_be_a_point() {
     }
 }
 
-type Setter = fn(&mut KinematicsParameters, f32);
+type Field = fn(&mut KinematicsParameters) -> &mut f32;
 
-const FIELDS: [(&str, Setter); 15] = [
-    ("ball_diameter", |p, v| p.ball_diameter = v),
-    ("pitch_radius", |p, v| p.pitch_radius = v),
-    ("lead_angle", |p, v| p.lead_angle = v),
-    ("groove_radius_screw", |p, v| p.groove_radius_screw = v),
-    ("groove_radius_nut", |p, v| p.groove_radius_nut = v),
-    ("contact_angle_screw", |p, v| p.contact_angle_screw = v),
-    ("contact_angle_nut", |p, v| p.contact_angle_nut = v),
-    ("pitch_angle", |p, v| p.pitch_angle = v),
-    ("yaw_angle", |p, v| p.yaw_angle = v),
-    ("rolling_radius_screw", |p, v| p.rolling_radius_screw = v),
-    ("rolling_radius_nut", |p, v| p.rolling_radius_nut = v),
-    ("semi_major_screw", |p, v| p.semi_major_screw = v),
-    ("semi_minor_screw", |p, v| p.semi_minor_screw = v),
-    ("semi_major_nut", |p, v| p.semi_major_nut = v),
-    ("semi_minor_nut", |p, v| p.semi_minor_nut = v),
+const FIELDS: [(&str, Field); 15] = [
+    ("ball_diameter", |p| &mut p.ball_diameter),
+    ("pitch_radius", |p| &mut p.pitch_radius),
+    ("lead_angle", |p| &mut p.lead_angle),
+    ("groove_radius_screw", |p| &mut p.groove_radius_screw),
+    ("groove_radius_nut", |p| &mut p.groove_radius_nut),
+    ("contact_angle_screw", |p| &mut p.contact_angle_screw),
+    ("contact_angle_nut", |p| &mut p.contact_angle_nut),
+    ("pitch_angle", |p| &mut p.pitch_angle),
+    ("yaw_angle", |p| &mut p.yaw_angle),
+    ("rolling_radius_screw", |p| &mut p.rolling_radius_screw),
+    ("rolling_radius_nut", |p| &mut p.rolling_radius_nut),
+    ("semi_major_screw", |p| &mut p.semi_major_screw),
+    ("semi_minor_screw", |p| &mut p.semi_minor_screw),
+    ("semi_major_nut", |p| &mut p.semi_major_nut),
+    ("semi_minor_nut", |p| &mut p.semi_minor_nut),
 ];
 
 const ODD: [f32; 16] = [
@@ -363,10 +363,10 @@ fn all_finite(kinematics: &ContactKinematics) -> bool {
 #[test]
 fn odd_parameters_are_refused_by_name_or_give_finite_numbers() {
     let good = parameters(&operating::table_two().unwrap());
-    for (name, set) in FIELDS {
+    for (name, field) in FIELDS {
         for value in ODD {
             let mut given = good;
-            set(&mut given, value);
+            *field(&mut given) = value;
             match ContactKinematics::new(&given) {
                 Ok(kinematics) => {
                     assert!(value.is_finite(), "{name} {value}");
@@ -611,7 +611,8 @@ fn parameters_of_a_design_are_those_typed_in() {
             semi_minor_nut: nut.semi_minor,
         };
         // Each number within three roundings, 3 x 2^-24, the lead angle within 1.5e-7 rad.
-        for ((found, typed), (name, _)) in numbers(&found).iter().zip(numbers(&typed)).zip(FIELDS) {
+        for (name, field) in FIELDS {
+            let [found, typed] = [found, typed].map(|mut given| *field(&mut given));
             let bound = 2e-7 * typed.abs() + if name == "lead_angle" { 1.5e-7 } else { 0.0 };
             assert!((found - typed).abs() <= bound, "{name} {found} {typed}");
         }
@@ -627,26 +628,6 @@ fn parameters_of_a_design_are_those_typed_in() {
         let error = ContactKinematics::new(&crushed).unwrap_err();
         assert_eq!(error.field(), "semi_major_screw");
     }
-}
-
-fn numbers(p: &KinematicsParameters) -> [f32; 15] {
-    [
-        p.ball_diameter,
-        p.pitch_radius,
-        p.lead_angle,
-        p.groove_radius_screw,
-        p.groove_radius_nut,
-        p.contact_angle_screw,
-        p.contact_angle_nut,
-        p.pitch_angle,
-        p.yaw_angle,
-        p.rolling_radius_screw,
-        p.rolling_radius_nut,
-        p.semi_major_screw,
-        p.semi_minor_screw,
-        p.semi_major_nut,
-        p.semi_minor_nut,
-    ]
 }
 
 /// The lead angle of a design against the arc tangent in f64, from no lead to the steepest helix, of 88.2 degrees: the

@@ -148,7 +148,7 @@ fn springs_hold_the_work_until_an_element_slides() {
     assert_eq!(preloaded.breakaway(), plain.breakaway());
 }
 
-/// Load biased below breakaway, a million cycles: nothing creeps. 1e-9 of a breakaway angle a cycle is 1e-9 of friction, too:
+/// Load biased below breakaway, a hundred thousand cycles: nothing creeps. 1e-9 of a breakaway angle a cycle is 1e-9 of friction, too:
 /// the stiffness is 1.5 in these units.
 #[test]
 fn nothing_drifts_below_breakaway() {

@@ -359,8 +359,9 @@ fn random_row(random: &mut Random, all: &Value, balls: usize) -> ElasticRow {
 }
 
 fn check(row: &ElasticRow, found: &RowMotion) {
-    measured::assert("random rows, residual", found.residual);
-    measured::assert("random rows, balance of power", found.power_error);
+    let near = measured::of_case("random rows", format!("{row:?}"));
+    near("residual", found.residual);
+    near("balance of power", found.power_error);
     let (_, cos) = ScrewTrack::from(&row.design).ball_contact_angle();
     let mut behind = 0.0;
     for (place, ball) in found.pressing.iter().enumerate() {
@@ -370,11 +371,7 @@ fn check(row: &ElasticRow, found: &RowMotion) {
             .get(place)
             .map_or(0.0, |force| force * cos);
         assert!(ahead >= 0.0);
-        measured::assert_at(
-            "random rows, balance of forces in N",
-            ball.force - (behind - ahead),
-            format_args!("{row:?}"),
-        );
+        near("balance of forces in N", ball.force - (behind - ahead));
         if let Some(front) = found.pressing.get(place + 1) {
             let overtakes =
                 (ball.motion.orbital_speed - front.motion.orbital_speed) / row.nut_speed;
@@ -383,11 +380,7 @@ fn check(row: &ElasticRow, found: &RowMotion) {
             } else {
                 overtakes
             };
-            measured::assert_at(
-                "random rows, speeds of touching balls",
-                wrong,
-                format_args!("{row:?}"),
-            );
+            near("speeds of touching balls", wrong);
         }
         behind = ahead;
     }

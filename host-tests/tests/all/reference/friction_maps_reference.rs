@@ -13,14 +13,12 @@ fn maps_agree_with_high_precision_values() {
     for case in golden("friction")["maps"].as_array().unwrap() {
         let k = case["k"].as_f64().unwrap();
         let map = FrictionMap::new(k).unwrap();
-        let [p0, p2, p4] = map.coefficients();
-        for (name, value) in [("p0", p0), ("p2", p2), ("p4", p4)] {
-            let stored = case[name].as_f64().unwrap();
-            measured::assert_at(
-                "friction maps, coefficients",
-                value - stored,
-                format_args!("k = {k}: {name} = {value}, stored {stored}"),
-            );
+        let near = |name: &str, x: f64, error: f64| {
+            let case = format_args!("k = {k}, offset = {x}");
+            measured::assert_at(&format!("friction maps, {name}"), error, case);
+        };
+        for (name, value) in ["p0", "p2", "p4"].into_iter().zip(map.coefficients()) {
+            near("coefficients", 0.0, value - case[name].as_f64().unwrap());
         }
         let columns = ["kappa", "f", "M", "P", "df"].map(|name| list(&case[name]));
         for (i, &x) in columns[0].iter().enumerate() {
@@ -34,14 +32,7 @@ fn maps_agree_with_high_precision_values() {
                 ("power", here.power, columns[3][i]),
                 ("slope", here.slope, columns[4][i]),
             ] {
-                let error = (value - stored).abs();
-                measured::assert_at(
-                    &format!("friction maps, {name}"),
-                    error / (1.0 + x),
-                    format_args!(
-                        "FrictionMap::new({k}).at({x}).{name} = {value}, stored {stored}, off {error:e}"
-                    ),
-                );
+                near(name, x, (value - stored) / (1.0 + x));
             }
         }
     }
@@ -72,11 +63,8 @@ fn area_quadrature_confirms_the_maps() {
                 ("minor", gradient[1] - value.force),
                 ("moment", gradient[2] - value.moment),
             ] {
-                measured::assert_at(
-                    "area quadrature, maps",
-                    error / (1.0 + x),
-                    format_args!("k = {k}, offset = {x}: {name} off by {error:e}"),
-                );
+                let case = format_args!("k = {k}, offset = {x}: {name}");
+                measured::assert_at("area quadrature, maps", error / (1.0 + x), case);
             }
         }
     }
@@ -109,26 +97,17 @@ fn area_quadrature_confirms_the_general_reduction() {
             };
             let (power, gradient) = friction_over_area(&patch, velocity);
             let exact = patch.friction(velocity);
-            let scales = [
-                patch.friction_limit,
-                patch.friction_limit,
-                patch.friction_limit * a,
-            ];
-            for i in 0..3 {
-                let error = (gradient[i] - exact.gradient[i]).abs() / scales[i];
-                measured::assert_at(
-                    "area quadrature, any direction",
-                    error,
-                    format_args!(
-                        "e = {e}, angle = {angle}, spin = {spin}: component {i} off by {error:e}"
-                    ),
-                );
+            let near = |what: &str, error: f64| {
+                let case = format_args!("e = {e}, angle = {angle}, spin = {spin}: {what}");
+                measured::assert_at("area quadrature, any direction", error, case);
+            };
+            let limit = patch.friction_limit;
+            for (i, scale) in [limit, limit, limit * a].into_iter().enumerate() {
+                near("friction", (gradient[i] - exact.gradient[i]) / scale);
             }
-            let error = (power - exact.power).abs() / (patch.friction_limit * a * 4.0 * (1.0 + e));
-            measured::assert_at(
-                "area quadrature, any direction",
-                error,
-                format_args!("e = {e}, angle = {angle}, spin = {spin}: power off by {error:e}"),
+            near(
+                "power",
+                (power - exact.power) / (limit * a * 4.0 * (1.0 + e)),
             );
         }
     }
@@ -158,11 +137,8 @@ fn reduction_and_maps_agree_where_both_hold() {
                 exact.gradient[0] / 3.0,
             ];
             for error in errors {
-                measured::assert_at(
-                    "reduction and maps",
-                    error,
-                    format_args!("k = {k}, offset = {x}: {errors:?}"),
-                );
+                let case = format_args!("k = {k}, offset = {x}: {errors:?}");
+                measured::assert_at("reduction and maps", error, case);
             }
         }
     }
@@ -185,18 +161,11 @@ fn stored_friction_of_the_ball_screw_contact() {
             spin: args[6],
         };
         let here = patch.friction(velocity);
-        let values = [
-            -here.gradient[0],
-            -here.gradient[1],
-            -here.gradient[2],
-            here.power,
-        ];
+        let [major, minor, moment] = here.gradient;
+        let values = [-major, -minor, -moment, here.power];
         for (value, stored) in values.iter().zip(&out) {
-            measured::assert_at(
-                "friction of the contacts of a screw",
-                value - stored,
-                format_args!("{args:?}: {values:?}, stored {out:?}"),
-            );
+            let case = format_args!("{args:?}: {values:?}, stored {out:?}");
+            measured::assert_at("friction of the contacts of a screw", value - stored, case);
         }
     }
 }
@@ -227,20 +196,14 @@ fn power_is_convex_and_homogeneous() {
         let here = patch.friction(velocity(v));
         let energy: f64 = here.gradient.iter().zip(v).map(|(f, v)| f * v).sum();
         assert!(here.power > 0.0);
-        measured::assert_at(
-            "power of a contact, homogeneous",
-            energy / here.power - 1.0,
-            format_args!("{v:?}: energy {energy}, power {}", here.power),
-        );
+        let near = |name: &str, error: f64| measured::assert_at(name, error, format_args!("{v:?}"));
+        near("power of a contact, homogeneous", energy / here.power - 1.0);
         let lengths = [1.0, 1.0, 1.0 / a];
         let speed = v[0].hypot(v[1]).hypot(a * v[2]);
         for i in 0..3 {
             let along: f64 = here.hessian[i].iter().zip(v).map(|(h, v)| h * v).sum();
-            measured::assert_at(
-                "Hessian of a contact along its velocity",
-                along * lengths[i] / patch.friction_limit,
-                format_args!("{v:?}: row {i} along the velocity {along:e}"),
-            );
+            let along = along * lengths[i] / patch.friction_limit;
+            near("Hessian of a contact along its velocity", along);
             for j in 0..3 {
                 let step = 1e-5 * speed * lengths[j];
                 let (mut up, mut down) = (v, v);
@@ -251,14 +214,7 @@ fn power_is_convex_and_homogeneous() {
                     / (2.0 * step);
                 let error = (slope - here.hessian[i][j]).abs() * lengths[i] * lengths[j] * speed
                     / patch.friction_limit;
-                measured::assert_at(
-                    "Hessian of a contact by differences",
-                    error,
-                    format_args!(
-                        "{v:?}: Hessian {i} {j}: {} by differences {slope}",
-                        here.hessian[i][j]
-                    ),
-                );
+                near("Hessian of a contact by differences", error);
             }
         }
         let h = nalgebra::Matrix3::from_fn(|i, j| here.hessian[i][j] * lengths[i] * lengths[j]);
@@ -269,9 +225,9 @@ fn power_is_convex_and_homogeneous() {
 
 #[test]
 fn limits_and_bad_input_of_the_maps() {
-    assert!(FrictionMap::new(0.0).is_err());
-    assert!(FrictionMap::new(1.1).is_err());
-    assert!(FrictionMap::new(f64::NAN).is_err());
+    for axis_ratio in [0.0, 1.1, f64::NAN] {
+        assert!(FrictionMap::new(axis_ratio).is_err(), "{axis_ratio}");
+    }
     let map = FrictionMap::new(0.25).unwrap();
     let sliding = map.at(f64::INFINITY);
     assert_eq!((sliding.force, sliding.moment), (1.0, 0.0));
@@ -284,44 +240,29 @@ fn limits_and_bad_input_of_the_maps() {
     // The slope stays continuous where the closed form takes over, and the circle is the limit of the ellipse.
     // A slope below one times 1e-12.
     assert!((map.at(1.0).force - map.at(1.0 + 1e-12).force).abs() < 1e-12);
-    let (circle, near) = (
-        FrictionMap::new(1.0).unwrap(),
-        FrictionMap::new(1.0 - 1e-9).unwrap(),
-    );
+    let [circle, near] = [1.0, 1.0 - 1e-9].map(|axis_ratio| FrictionMap::new(axis_ratio).unwrap());
     for x in [0.0, 0.5, 1.5, 10.0] {
         // Measured: 1.3e-10, an eighth of what the axis ratios differ by.
         assert!((circle.at(x).force - near.at(x).force).abs() < 2e-10);
     }
     // Circle: kf = 3 pi/8 and k3 = 3 pi/32. Measured: 0.0; a unit of the last place is 2.2e-16.
     assert!((circle.initial_slope() - 0.375 * std::f64::consts::PI).abs() < 7e-16);
-    let rest = Patch {
-        semi_major: 1.0,
-        semi_minor: 0.3,
-        friction_limit: 1.0,
-    }
-    .friction(PatchVelocity::default());
+    let friction = |friction_limit, slip_major, slip_minor| {
+        let patch = Patch {
+            semi_major: 1.0,
+            semi_minor: 0.3,
+            friction_limit,
+        };
+        patch.friction(PatchVelocity {
+            slip_major,
+            slip_minor,
+            spin: 0.0,
+        })
+    };
+    let rest = friction(1.0, 0.0, 0.0);
     assert_eq!((rest.power, rest.gradient), (0.0, [0.0; 3]));
-    let unloaded = Patch {
-        semi_major: 1.0,
-        semi_minor: 0.3,
-        friction_limit: 0.0,
-    }
-    .friction(PatchVelocity {
-        slip_major: 1.0,
-        slip_minor: 0.0,
-        spin: 0.0,
-    });
-    assert_eq!(unloaded.power, 0.0);
-    let sliding = Patch {
-        semi_major: 1.0,
-        semi_minor: 0.3,
-        friction_limit: 2.0,
-    }
-    .friction(PatchVelocity {
-        slip_major: 3.0,
-        slip_minor: -4.0,
-        spin: 0.0,
-    });
+    assert_eq!(friction(0.0, 1.0, 0.0).power, 0.0);
+    let sliding = friction(2.0, 3.0, -4.0);
     assert!(
         (sliding.power - 10.0).abs() < 1e-14 && (sliding.gradient[1] + 1.6).abs() < 1e-14,
         "{sliding:?}"

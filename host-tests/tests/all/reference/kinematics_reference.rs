@@ -42,23 +42,15 @@ fn golden_cases_within_1e_12() {
             check("v_e", contact.entrainment_speed, entrainment, entrainment);
             check("roll", contact.rolling_slip, golden("roll"), entrainment);
             check("side", contact.side_slip, golden("side"), entrainment);
-            check(
-                "spin",
-                contact.spin * radius,
-                golden("spin") * radius,
-                entrainment,
-            );
+            let (spin, wanted) = (contact.spin * radius, golden("spin") * radius);
+            check("spin", spin, wanted, entrainment);
             let [v_x, v_y] = revised.entrainment(raceway);
             let speed = revised.input().speed;
             check("v_e,x", speed * v_x, golden("ve_x"), entrainment);
             check("v_e,y", speed * v_y, golden("ve_y"), entrainment);
             check("SRR", contact.slide_to_roll, golden("SRR"), 1.0);
-            check(
-                "gamma",
-                contact.entrainment_angle,
-                golden("gamma_atan2"),
-                1.0,
-            );
+            let wanted = golden("gamma_atan2");
+            check("gamma", contact.entrainment_angle, wanted, 1.0);
             check("S_p", contact.spin_to_roll, golden("S_p"), 1.0);
             let phi = turn(contact.slide_angle.unwrap(), golden("phi_atan2"));
             check("phi", phi * golden("SRR"), 0.0, 1.0);
@@ -83,11 +75,7 @@ fn rolling_slip_keeps_its_own_digits() {
             let excess = (contact.rolling_radius - 0.5 * revised.input().ball_diameter).abs();
             if excess < 1e-9 {
                 let error = (revised.rolling_slip(raceway, 0.0) / golden - 1.0).abs();
-                measured::assert_at(
-                    "rolling slip, its own digits",
-                    error,
-                    format_args!("{}: {error:e}", case["tag"]),
-                );
+                measured::assert_at("rolling slip, its own digits", error, &case["tag"]);
             }
         }
     }
@@ -112,24 +100,15 @@ fn zero_lead_is_a_bearing() {
         let ratio = (1.0 + gamma * outer.cos()) * (inner - beta).cos()
             / ((1.0 - gamma * inner.cos()) * (outer - beta).cos());
         let orbital = input.speed / (1.0 + ratio);
-        measured::assert(
-            "bearing of zero lead, speeds",
-            ball.orbital_speed / orbital - 1.0,
-        );
+        let near = measured::of_case("bearing of zero lead", format!("{input:?}"));
+        near("speeds", ball.orbital_speed / orbital - 1.0);
         let spin_speed = orbital * (1.0 + gamma * outer.cos()) / (gamma * (outer - beta).cos());
-        measured::assert(
-            "bearing of zero lead, speeds",
-            ball.spin_speed / spin_speed - 1.0,
-        );
+        near("speeds", ball.spin_speed / spin_speed - 1.0);
         // Spin: relative rotation of ring and ball about the contact normal.
         let inner_spin = (orbital - input.speed) * inner.sin() + spin_speed * (beta - inner).sin();
         let outer_spin = -orbital * outer.sin() - spin_speed * (beta - outer).sin();
         for (spin, wanted) in [(ball.screw.spin, inner_spin), (ball.nut.spin, outer_spin)] {
-            measured::assert_at(
-                "bearing of zero lead, spin",
-                (spin - wanted) / spin_speed,
-                format_args!("{input:?}"),
-            );
+            near("spin", (spin - wanted) / spin_speed);
         }
         assert_eq!((ball.screw.side_slip, ball.nut.side_slip), (0.0, 0.0));
         let straight_back = ball.screw.slide_angle.unwrap();
@@ -151,21 +130,15 @@ fn neither_side_slip_nor_spin_can_vanish_at_both_contacts() {
             .iter()
             .sum();
         let wanted = -input.speed * input.lead_angle.sin();
-        measured::assert_at(
-            "sum of both side slips",
-            (sum - wanted) / input.speed,
-            format_args!("{input:?}"),
-        );
+        let (error, case) = ((sum - wanted) / input.speed, format!("{input:?}"));
+        measured::assert_at("sum of both side slips", error, case);
 
         input.contact_angle_nut = input.contact_angle_screw;
         let ball = Revised::new(&input).unwrap().evaluate();
         let wanted = -input.speed * input.lead_angle.cos() * input.contact_angle_screw.sin();
         let sum = ball.screw.spin + ball.nut.spin;
-        measured::assert_at(
-            "sum of both spins",
-            (sum - wanted) / ball.spin_speed,
-            format_args!("{input:?}"),
-        );
+        let (error, case) = ((sum - wanted) / ball.spin_speed, format!("{input:?}"));
+        measured::assert_at("sum of both spins", error, case);
     }
 }
 
@@ -177,23 +150,15 @@ fn contact_ellipse_of_the_published_screw() {
         (Raceway::Screw, 0.601080947980393e-3, 0.08288466900521317e-3),
         (Raceway::Nut, 0.5858084960826777e-3, 0.09748010125556548e-3),
     ] {
-        let ellipse = operating::ellipse(
-            raceway,
-            operating::CONTACT_ANGLE,
-            cosine * cosine,
-            operating::CONTACT_LOAD,
-        )
-        .unwrap();
-        measured::assert_at(
-            "ellipses of the published screw",
-            ellipse.semi_major / a - 1.0,
-            format_args!("{ellipse:?}"),
-        );
-        measured::assert_at(
-            "ellipses of the published screw",
-            ellipse.semi_minor / b - 1.0,
-            format_args!("{ellipse:?}"),
-        );
+        let (angle, load) = (operating::CONTACT_ANGLE, operating::CONTACT_LOAD);
+        let ellipse = operating::ellipse(raceway, angle, cosine * cosine, load).unwrap();
+        for error in [ellipse.semi_major / a - 1.0, ellipse.semi_minor / b - 1.0] {
+            measured::assert_at(
+                "ellipses of the published screw",
+                error,
+                format!("{raceway:?}"),
+            );
+        }
     }
     let ball = operating::loaded_ball(1500.0, operating::SPEED).unwrap();
     measured::assert(

@@ -67,12 +67,9 @@ fn stored_single_balls() {
         let rho = case["rho"].as_f64().unwrap();
         let ball = tilted(theta, rho);
         let name = format!("theta = {theta} deg, side force ratio = {rho}");
+        let near = measured::of_case("stored linear balls", name);
         for (force, stored) in ball.contact_forces.iter().zip(list(&case["F"])) {
-            measured::assert_at(
-                "stored linear balls, load in N",
-                force - stored,
-                format_args!("{name}: load {force}, stored {stored}"),
-            );
+            near("load in N", force - stored);
         }
         let motion = ball.solve(0.01).unwrap();
         check_laws(&ball, &motion, 0.01);
@@ -92,34 +89,16 @@ fn stored_single_balls() {
             continue;
         }
         // Convergence leaves 1e-14 of the load over a stiffness of some 100 N.
-        measured::assert_at(
-            "stored linear balls, speed deviation",
-            motion.speed_deviation - eps,
-            format_args!("{name}: {} stored {eps}", motion.speed_deviation),
-        );
-        measured::assert_at(
-            "stored linear balls, loss in N",
-            motion.power_loss / 0.01 - power,
-            format_args!("{name}: {} stored {power}", motion.power_loss / 0.01),
-        );
+        near("speed deviation", motion.speed_deviation - eps);
+        near("loss in N", motion.power_loss / 0.01 - power);
         let [kappa, f, m] = ["kappa", "f", "M"].map(|key| list(&case[key]));
         for (i, c) in motion.contacts.iter().enumerate() {
-            let _scale = ball.ellipse.semi_major_constant * ball.contact_forces[i].cbrt();
-            measured::assert_at(
-                "stored linear balls, offset",
+            near(
+                "offset",
                 (c.offset - kappa[i]) / (1.0 + kappa[i] * kappa[i]),
-                format_args!("{name}: offset {i}"),
             );
-            measured::assert_at(
-                "stored linear balls, friction in N",
-                c.force - f[i],
-                format_args!("{name}: force {i}: {} stored {}", c.force, f[i]),
-            );
-            measured::assert_at(
-                "stored linear balls, moment in N m",
-                c.moment - m[i],
-                format_args!("{name}: moment {i}: {} stored {}", c.moment, m[i]),
-            );
+            near("friction in N", c.force - f[i]);
+            near("moment in N m", c.moment - m[i]);
         }
         let stored = case["eps_analytic"].as_f64().unwrap();
         // (3.54), with the loads that the text takes as equal on a diagonal.
@@ -129,11 +108,7 @@ fn stored_single_balls() {
             ..ball
         }
         .analytic_speed_deviation(FRAC_PI_4);
-        measured::assert_at(
-            "stored linear balls, closed form",
-            analytic - stored,
-            format_args!("{name}: analytic {analytic}, stored {stored}"),
-        );
+        near("closed form", analytic - stored);
     }
 }
 
@@ -154,11 +129,8 @@ fn analytic_factor_is_the_tangent() {
             let analytic = one.analytic_speed_deviation(nominal);
             // The loads enter the exact model through kf F^(2/3) as well; what the closed form drops is the moment,
             // of order a/R_B = 6 % of the force terms, to first order symmetric.
-            measured::assert_at(
-                "factor of the contact angle",
-                numerical / analytic - 1.0,
-                format_args!("{degrees} deg, contact {i}: {numerical:e}, {analytic:e}"),
-            );
+            let (error, case) = (numerical / analytic - 1.0, format!("{degrees}, {i}"));
+            measured::assert_at("factor of the contact angle", error, case);
         }
     }
 }
@@ -200,11 +172,8 @@ fn two_point_contact_rolls() {
                 .solve(1.0)
                 .unwrap_or_else(|e| panic!("theta = {theta}, rho = {rho}: {e}"));
             check_laws(&ball, &motion, 1.0);
-            measured::assert_at(
-                "two-point contact, gap in W",
-                motion.gap,
-                format_args!("theta = {theta}, rho = {rho}: gap {:e}", motion.gap),
-            );
+            let case = format!("theta = {theta}, rho = {rho}");
+            measured::assert_at("two-point contact, gap in W", motion.gap, case);
             // Derived: the strong pair alone deviates by half the angle, 0.0262 at 3 degrees. Measured: 0.0251.
             assert!(
                 motion.speed_deviation.abs() < 0.0262
@@ -261,11 +230,7 @@ fn switch_to_rolling_where_the_moment_bound_says() {
     let map = epas_reference::friction::maps::FrictionMap::new(ball.ellipse.axis_ratio).unwrap();
     let bound =
         map.coefficients()[0] * ball.ellipse.semi_major_constant * up.cbrt() / ball.ball_radius;
-    measured::assert_at(
-        "switch to rolling",
-        ratio / bound - 1.0,
-        format_args!("{ratio} {bound}"),
-    );
+    measured::assert("switch to rolling", ratio / bound - 1.0);
 }
 
 #[test]

@@ -74,32 +74,19 @@ fn contact_forces_are_those_of_an_independent_solver() {
         let truth = &golden["static"][name];
         let found = solve(&case);
         let load = case.axial_load;
+        let near = measured::of_case("independent statics", name);
         for (contact, field) in Contact::ALL.into_iter().zip(["SL", "SR", "NL", "NR"]) {
-            for (ball, (force, truth)) in found
-                .of(contact)
-                .iter()
-                .zip(list(&truth["F"][field]))
-                .enumerate()
-            {
-                measured::assert_at(
-                    "independent statics, forces over the load",
-                    (force - truth) / load.max(100.0),
-                    format_args!("{name} {field} ball {ball}: {force} for {truth}"),
-                );
+            for (force, truth) in found.of(contact).iter().zip(list(&truth["F"][field])) {
+                near("forces over the load", (force - truth) / load.max(100.0));
             }
         }
         let truth_axial = truth["uz_left"].as_f64().unwrap() * 1e-3;
-        measured::assert_at(
-            "independent statics, axial displacement",
+        near(
+            "axial displacement",
             found.axial_displacement() / truth_axial - 1.0,
-            format_args!("{name}"),
         );
         for (angles, truth) in found.contact_angles.iter().zip(list(&truth["angle_SL"])) {
-            measured::assert_at(
-                "independent statics, contact angle in rad",
-                angles[0] - truth.to_radians(),
-                format_args!("{name}: {} for {truth}", angles[0]),
-            );
+            near("contact angle in rad", angles[0] - truth.to_radians());
         }
         assert!(found.iterations <= 10, "{name}: {} steps", found.iterations);
     }
@@ -140,11 +127,7 @@ fn geometric_errors_of_the_screw_give_the_loads_of_an_independent_solver() {
                 worst = worst.max((force - truth).abs());
             }
         }
-        measured::assert_at(
-            "independent statics, geometric errors in N",
-            worst,
-            format_args!("{name}: {worst} N"),
-        );
+        measured::assert_at("independent statics, geometric errors in N", worst, name);
         assert_eq!(found.balls_lost as u64, truth["lost"].as_u64().unwrap());
     }
 }
@@ -155,10 +138,8 @@ fn bar_model_falls_from_the_loaded_end() {
     setup.shaft.model = ShaftModel::Bar;
     let bar = StaticLoad::new(setup).unwrap().solve().unwrap();
     let forces = bar.of(Contact::ScrewLeft);
-    assert!(
-        forces.windows(2).all(|pair| pair[1] < pair[0]),
-        "{forces:?}"
-    );
+    let falls = forces.windows(2).all(|pair| pair[1] < pair[0]);
+    assert!(falls, "{forces:?}");
 }
 
 fn constants(groove_radius: f64, convention: HertzConvention) -> ContactConstants {
@@ -193,11 +174,8 @@ fn hertzian_constants_are_the_golden_ones() {
                     (contact.relative_radii[1], relative[1] * 1e-3),
                 ] {
                     // Stored radii have eleven digits.
-                    measured::assert_at(
-                        "golden Hertz constants",
-                        found / truth - 1.0,
-                        format_args!("{side} {name} {field}: {found} for {truth}"),
-                    );
+                    let case = format_args!("{side} {name} {field}: {found} for {truth}");
+                    measured::assert_at("golden Hertz constants", found / truth - 1.0, case);
                 }
             }
         }
@@ -222,36 +200,25 @@ fn forces_are_the_gradient_of_the_energy() {
         .balls
         .iter()
         .fold(0.0, |most: f64, pull| most.max(pull.norm()));
-    for dof in 0..state.nodes.len() {
+    let slope = |shifted: &dyn Fn(&mut State, f64)| {
         let h = 1e-8;
-        let side = |shift: f64| {
+        let [ahead, behind] = [h, -h].map(|shift| {
             let mut moved = state.clone();
-            moved.nodes[dof] += shift;
+            shifted(&mut moved, shift);
             case.energy(&moved).0
-        };
-        let slope = (side(h) - side(-h)) / (2.0 * h);
-        nodes = nodes.max((slope - gradient.nodes[dof]).abs());
+        });
+        (ahead - behind) / (2.0 * h)
+    };
+    for (dof, force) in gradient.nodes.iter().enumerate() {
+        let slope = slope(&|moved, shift| moved.nodes[dof] += shift);
+        nodes = nodes.max((slope - force).abs());
     }
-    for index in 0..state.balls.len() {
-        let h = 1e-8;
-        let side = |shift: f64| {
-            let mut moved = state.clone();
-            moved.balls[index].y += shift;
-            case.energy(&moved).0
-        };
-        let slope = (side(h) - side(-h)) / (2.0 * h);
-        balls = balls.max((slope - gradient.balls[index].y).abs());
+    for (index, force) in gradient.balls.iter().enumerate() {
+        let slope = slope(&|moved, shift| moved.balls[index].y += shift);
+        balls = balls.max((slope - force.y).abs());
     }
-    measured::assert_at(
-        "energy by differences, nodes",
-        nodes / scale.max(100.0),
-        format_args!("{nodes} {balls}"),
-    );
-    measured::assert_at(
-        "energy by differences, balls",
-        balls / scale.max(100.0),
-        format_args!("{nodes} {balls}"),
-    );
+    measured::assert("energy by differences, nodes", nodes / scale.max(100.0));
+    measured::assert("energy by differences, balls", balls / scale.max(100.0));
 }
 
 /// `V((a + b) / 2) <= (V(a) + V(b)) / 2` on pairs of states from small to extreme, and the minimum is below
@@ -278,20 +245,13 @@ fn energy_is_convex() {
                     state
                 };
                 let (first, second) = (state(), state());
-                let mean = State {
-                    nodes: first
-                        .nodes
-                        .iter()
-                        .zip(&second.nodes)
-                        .map(|(a, b)| 0.5 * (a + b))
-                        .collect(),
-                    balls: first
-                        .balls
-                        .iter()
-                        .zip(&second.balls)
-                        .map(|(a, b)| 0.5 * (a + b))
-                        .collect(),
-                };
+                let mut mean = first.clone();
+                for (mean, other) in mean.nodes.iter_mut().zip(&second.nodes) {
+                    *mean = 0.5 * (*mean + other);
+                }
+                for (mean, other) in mean.balls.iter_mut().zip(&second.balls) {
+                    *mean = 0.5 * (*mean + other);
+                }
                 let [first, second, mean] =
                     [&first, &second, &mean].map(|state| case.energy(state).0);
                 // Measured: the mean is below by 2.6e-8 of both at least. Roundings of some hundred terms are less than 1e-13.
@@ -340,10 +300,9 @@ fn forces_and_moments_balance() {
             let allowed = if axis < 3 { 1e-6 } else { couple };
             assert!(sum.abs() < allowed, "case {name}, axis {axis}: {sum}");
         }
-        measured::assert_at(
+        measured::assert(
             "balance of the case studies, residual in N",
             solution.residual,
-            format_args!("{}", solution.residual),
         );
     }
 }
@@ -375,17 +334,8 @@ fn loads_scale_with_the_square_of_the_size() {
         }),
         solve(&large),
     );
-    for (small, large) in small
-        .forces
-        .iter()
-        .flatten()
-        .zip(large.forces.iter().flatten())
-    {
-        measured::assert_at(
-            "screw of twice the size, forces in N",
-            large - 4.0 * small,
-            format_args!("{large} for 4 x {small}"),
-        );
+    for [small, large] in both_forces(&small, &large) {
+        measured::assert("screw of twice the size, forces in N", large - 4.0 * small);
     }
 }
 
@@ -402,11 +352,7 @@ fn zero_lead_is_a_bearing() {
     let solution = StaticLoad::new(setup).unwrap().solve().unwrap();
     for (force, angle) in solution.forces.iter().zip(&solution.contact_angles) {
         let even = case.axial_load / (32.0 * angle[0].sin());
-        measured::assert_at(
-            "ring of zero lead, forces",
-            force[0] / even - 1.0,
-            format_args!("{} for {even}", force[0]),
-        );
+        measured::assert("ring of zero lead, forces", force[0] / even - 1.0);
         measured::assert("ring of zero lead, forces", force[0] / force[3] - 1.0);
     }
 }
@@ -424,14 +370,7 @@ fn two_point_contact_has_a_closed_form() {
     let travel = 20e-6;
     setup.supports = vec![Support {
         position: case.nut_position,
-        held: [
-            Some(0.0),
-            Some(0.0),
-            Some(travel),
-            Some(0.0),
-            Some(0.0),
-            Some(0.0),
-        ],
+        held: [0.0, 0.0, travel, 0.0, 0.0, 0.0].map(Some),
     }];
     let contact = setup.contact;
     let solution = StaticLoad::new(setup).unwrap().solve().unwrap();
@@ -442,43 +381,24 @@ fn two_point_contact_has_a_closed_form() {
     let force =
         ((distance - 2.0 * excess) / (contact.screw.deflection + contact.nut.deflection)).powf(1.5);
     for forces in &solution.forces {
-        measured::assert_at(
-            "two-point statics in closed form",
-            forces[0] / force - 1.0,
-            format_args!("{} for {force}", forces[0]),
-        );
+        measured::assert("two-point statics in closed form", forces[0] / force - 1.0);
     }
 }
 
 #[test]
 fn loads_of_every_kind_are_carried() {
-    for load in [
-        Load {
-            position: 0.0,
-            force: [0.0, 0.0, -5000.0],
-            moment: [0.0; 3],
-        },
-        Load {
-            position: 0.4,
-            force: [500.0, -200.0, 0.0],
-            moment: [0.0; 3],
-        },
-        Load {
-            position: 0.8,
-            force: [30.0, 0.0, 0.0],
-            moment: [0.0; 3],
-        },
-        Load {
-            position: 0.4,
-            force: [0.0; 3],
-            moment: [5.0, 8.0, 1.0],
-        },
-        Load {
-            position: 0.6,
-            force: [100.0, 50.0, 3000.0],
-            moment: [2.0, -3.0, 0.0],
-        },
+    for (position, force, moment) in [
+        (0.0, [0.0, 0.0, -5000.0], [0.0; 3]),
+        (0.4, [500.0, -200.0, 0.0], [0.0; 3]),
+        (0.8, [30.0, 0.0, 0.0], [0.0; 3]),
+        (0.4, [0.0; 3], [5.0, 8.0, 1.0]),
+        (0.6, [100.0, 50.0, 3000.0], [2.0, -3.0, 0.0]),
     ] {
+        let load = Load {
+            position,
+            force,
+            moment,
+        };
         for oversize in [0.0, 5e-6] {
             let mut setup = CaseStudy {
                 ball_oversize: vec![oversize],
@@ -490,26 +410,34 @@ fn loads_of_every_kind_are_carried() {
             let solution = StaticLoad::new(setup).unwrap().solve();
             let solution = solution.unwrap_or_else(|error| panic!("{load:?} {oversize}: {error}"));
             assert_eq!(solution.outcome, Outcome::Loaded, "{load:?}");
+            let case = format_args!("{load:?} {oversize}");
             measured::assert_at(
                 "loads of every kind, residual in N",
                 solution.residual,
-                format_args!("{load:?} {oversize}: {}", solution.residual),
+                case,
             );
         }
     }
 }
 
 fn finite(solution: &StaticSolution) -> bool {
-    solution
-        .forces
+    let mut forces = solution.forces.iter().flatten();
+    let mut displacements = solution.displacements.iter().flatten();
+    forces.all(|force| force.is_finite() && *force >= 0.0)
+        && displacements.all(|value| value.is_finite())
+}
+
+/// The forces of two solutions, contact by contact.
+fn both_forces<'a>(
+    one: &'a StaticSolution,
+    other: &'a StaticSolution,
+) -> impl Iterator<Item = [f64; 2]> + 'a {
+    let others = other.forces.iter().flatten();
+    one.forces
         .iter()
         .flatten()
-        .all(|force| force.is_finite() && *force >= 0.0)
-        && solution
-            .displacements
-            .iter()
-            .flatten()
-            .all(|value| value.is_finite())
+        .zip(others)
+        .map(|(a, b)| [*a, *b])
 }
 
 #[test]
@@ -536,17 +464,11 @@ fn extreme_starts() {
                 // 1e-9 N.
                 let loose = load.abs() <= 1e-3 && oversize < 0.0;
                 let (allowed, near) = if loose { (1e-3, 4e-6) } else { (1e-9, 1e-9) };
-                assert!(
-                    finite(&found) && found.residual <= allowed,
-                    "{name}: {}",
-                    found.residual
-                );
+                let residual = found.residual;
+                assert!(finite(&found) && residual <= allowed, "{name}: {residual}");
                 most = most.max(found.iterations);
-                let largest = found
-                    .forces
-                    .iter()
-                    .flatten()
-                    .fold(0.0, |most: f64, f| most.max(*f));
+                let forces = found.forces.iter().flatten();
+                let largest = forces.fold(0.0, |most: f64, f| most.max(*f));
                 for start in 0..4 {
                     let mut state = if start == 0 {
                         case.rest()
@@ -565,16 +487,9 @@ fn extreme_starts() {
                         Ok(other) => {
                             most = most.max(other.iterations);
                             assert!(finite(&other), "{name}");
-                            for (a, b) in found
-                                .forces
-                                .iter()
-                                .flatten()
-                                .zip(other.forces.iter().flatten())
-                            {
-                                assert!(
-                                    (a - b).abs() <= 6e-9 * largest + near,
-                                    "{name}, start {start}: {a} {b}"
-                                );
+                            for [a, b] in both_forces(&found, &other) {
+                                let same = (a - b).abs() <= 6e-9 * largest + near;
+                                assert!(same, "{name}, start {start}: {a} {b}");
                             }
                         }
                         // Loose balls under a load far below their weight: nothing resists until each ball has
@@ -651,20 +566,9 @@ fn a_constant_profile_offset_is_an_oversize() {
         ball_oversize: vec![3e-6],
         ..case_1()
     });
-    let mut worst: f64 = 0.0;
-    for (a, b) in offset
-        .forces
-        .iter()
-        .flatten()
-        .zip(oversize.forces.iter().flatten())
-    {
-        worst = worst.max((a - b).abs());
+    for [a, b] in both_forces(&offset, &oversize) {
+        measured::assert("profile offset, forces in N", a - b);
     }
-    measured::assert_at(
-        "profile offset, forces in N",
-        worst,
-        format_args!("{worst}"),
-    );
 }
 
 /// A uniform change of the pitch radius of one body by an error is a change of it in the geometry.
@@ -679,12 +583,7 @@ fn local_curvature_changes_the_constants_little() {
     let local = StaticLoad::new(setup).unwrap().solve().unwrap();
     // The wave's curvature is 4 x 5 um / (16.8 mm)² = 0.07 / m on 47 / m along the path, of which the
     // relative radius along the path feels 0.02 %.
-    for (plain, local) in plain
-        .forces
-        .iter()
-        .flatten()
-        .zip(local.forces.iter().flatten())
-    {
+    for [plain, local] in both_forces(&plain, &local) {
         assert!((plain - local).abs() < 2e-4 * 300.0, "{plain} {local}");
     }
     assert_ne!(plain.forces, local.forces);

@@ -1,28 +1,14 @@
 //! Whole ball screw with recirculation: stored runs, the features of Figure 3.24, and the laws of contact.
 
+use super::ball_screw_reference::law;
 use crate::golden::{file as golden, list_of as list};
 use crate::refusals::assert_refused;
 use epas_reference::friction::ball_screw_closed::ThreePointModel;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
-use epas_reference::friction::contact_law::HertzLaw;
-use epas_reference::friction::linear_ball::EllipseLaw;
 use epas_reference::friction::whole_screw::WholeScrew;
 use epas_testkit::designs::SCREW_TRACK;
 use epas_testkit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
-
-fn law(side: &str, groove_radius: &str) -> HertzLaw {
-    let all = golden("ballscrew");
-    let stored = &all["hertz"][format!("{side}_rG{groove_radius}")]["correct"];
-    let value = |key: &str| stored[key].as_f64().unwrap() * 1e-3;
-    HertzLaw {
-        ellipse: EllipseLaw {
-            semi_major_constant: value("Ca"),
-            axis_ratio: value("Cb") / value("Ca"),
-        },
-        compliance: value("C"),
-    }
-}
 
 fn screw(groove_radius: &str, theta_degrees: f64, ball_slip: BallSlip) -> WholeScrew {
     WholeScrew {

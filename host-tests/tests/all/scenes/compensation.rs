@@ -8,7 +8,7 @@ use epas_friction::hal::{FaultReaction, FeedForwardConfiguration, FrictionFeedFo
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
 use epas_friction::law::compensation::CompensationMargin;
-use epas_friction::law::memory::{LoadExactElements, Part, ProportionalElements, SLIP_8};
+use epas_friction::law::memory::LoadExactElements;
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
 use epas_friction::scene::{
     Freshness, SceneOutputs, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
@@ -16,9 +16,9 @@ use epas_friction::scene::{
 use epas_friction::{Faults, FrictionModel, Inputs, Outputs, UncagedOutputs};
 use epas_reference::closed_loop::{ClosedLoop, Swing};
 
+use crate::remembering::{at, slip_by};
 use epas_testkit::gears::{CAGED_PRELOAD, CagedScrew, caged};
 use epas_testkit::random::Random;
-use epas_testkit::remembering::at;
 
 const TEMPERATURE: f32 = 313.15;
 
@@ -82,7 +82,7 @@ fn still(reading: u32) -> WithMemoryInputs<Inputs, u32> {
 
 /// Full friction of the model, N m: by the preload alone, the same in both directions.
 fn full_friction() -> f32 {
-    let mut model = model(slip(0.05, 1e-3), 0.0, 1.0);
+    let mut model = model(slip_by(0.05, 1e-3), 0.0, 1.0);
     model.step(still(0));
     model.step(still(3000));
     let forward = model.step(still(3000)).friction_torque;
@@ -153,7 +153,7 @@ impl Case {
         let full = full_friction();
         let angle = self.breakaway / self.earlier;
         match self.form {
-            Form::Proportional => self.swing_of(slip(full, angle as f32), 1.0),
+            Form::Proportional => self.swing_of(slip_by(full, angle as f32), 1.0),
             // Full friction grows with the load, breakaway with its power 2/3.
             Form::LoadExact(load) => {
                 let limit = full / load as f32;
@@ -204,15 +204,6 @@ fn stage(full_torque: f32, share: f32) -> FrictionFeedForward<Bridge> {
         reaction: FaultReaction::NeutralOnAnyFault,
     };
     FrictionFeedForward::new(Bridge(0), &configuration).unwrap()
-}
-
-fn slip(limit: f32, breakaway_angle: f32) -> ProportionalElements<8> {
-    let part = Part {
-        backbone: &SLIP_8.elements,
-        share: 1.0,
-        breakaway_angle,
-    };
-    ProportionalElements::new(limit, &[part]).unwrap()
 }
 
 fn all_are(cases: &[Case], good: impl Fn(&Case, &Swing) -> bool + Sync) {

@@ -11,7 +11,7 @@ use epas_friction::defaults::COEFFICIENT;
 use epas_friction::law::coefficient::{
     CoefficientLaw, CoefficientParameters, OneCoefficient, TemperatureFade,
 };
-use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
+use epas_friction::law::memory::MemoryState;
 use epas_friction::law::motion::{
     CountSensor, CountSensorParameters, NutAngle, SpeedOverTick, WrappedAngle,
     WrappedAngleParameters,
@@ -25,32 +25,19 @@ use epas_friction::{
     ClosedFormScrew, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, Regime,
 };
 
+use crate::remembering::{Slip, at, slip, slip_by};
 use epas_testkit::gears::{
     CagedScrew, LINEAR_BALLS, SCREW_BALLS, UncagedScrew, caged, changed, closed_form, linear,
     printed_phase, uncaged, worn,
 };
 use epas_testkit::random::Random;
-use epas_testkit::remembering::at;
 
-type Slip = ProportionalElements<8>;
 type Caged<A> = FrictionModel<WithMemory<CagedScrew, Slip, A>>;
 
 /// Turn from no friction to full sliding, rad (m).
 const BREAKAWAY: f32 = 2e-3;
 const TICK: f32 = 1e-4;
 const TEMPERATURE: f32 = 313.15;
-
-fn slip(limit: f32, breakaway_angle: f32) -> Slip {
-    ProportionalElements::new(
-        limit,
-        &[Part {
-            backbone: &SLIP_8.elements,
-            share: 1.0,
-            breakaway_angle,
-        }],
-    )
-    .unwrap()
-}
 
 fn with_memory<C, A>(
     scene: C,
@@ -91,7 +78,7 @@ fn caged_by_angle() -> Caged<WrappedAngle> {
     let configuration = caged();
     Caged::new(&with_memory(
         configuration,
-        slip(0.5, BREAKAWAY),
+        slip(0.5),
         angle_sensor(),
         configuration.friction,
     ))
@@ -114,7 +101,7 @@ fn slides_as_without<S>(
     S::Outputs: Into<Figures>,
 {
     let mut without = FrictionModel::<S>::new(&configuration).unwrap();
-    let elements = slip(reference, breakaway);
+    let elements = slip_by(reference, breakaway);
     let one =
         WithMemoryConfiguration::new(configuration, friction, elements, speed_sensor(), 1000.0);
     let mut with = FrictionModel::<WithMemory<S, Slip, SpeedOverTick, OneCoefficient>>::new(
@@ -169,7 +156,7 @@ where
         FrictionModel::<WithMemory<S, Slip, SpeedOverTick>>::new(&WithMemoryConfiguration {
             play: 0.0,
             coefficient,
-            ..with_memory(configuration, slip(0.5, BREAKAWAY), speed_sensor(), 0.1)
+            ..with_memory(configuration, slip(0.5), speed_sensor(), 0.1)
         })
         .unwrap()
     };
@@ -317,7 +304,7 @@ fn friction_follows_the_angle_as_its_elements_do() {
         load: 1.0,
     };
     assert!((limits.forward - limits.backward).abs() > 1e-3 * limits.forward);
-    let elements = slip(0.5, BREAKAWAY);
+    let elements = slip(0.5);
     let mut state = MemoryState::VIRGIN;
     let mut model = caged_by_angle();
     let mut random = Random(17);
@@ -506,7 +493,7 @@ fn between_steps_the_memory_goes_on() {
     .unwrap();
     let configuration = with_memory(
         configuration,
-        slip(0.5, BREAKAWAY),
+        slip(0.5),
         sensor,
         configuration.folded.friction,
     );
@@ -568,7 +555,7 @@ fn balls_catch_up_with_a_turn_that_was_missed() {
     .unwrap();
     let scene = uncaged();
     let limits = scene.folded.limits;
-    let configuration = with_memory(scene, slip(0.5, BREAKAWAY), sensor, scene.folded.friction);
+    let configuration = with_memory(scene, slip(0.5), sensor, scene.folded.friction);
     // Half of what balls may turn in a tick.
     let counts = (0.5 * limits.nut_speed * scene.tick / 1e-3) as u32;
     let [mut gap, mut sound] = [(); 2].map(|()| Model::new(&configuration).unwrap());
@@ -602,7 +589,7 @@ fn an_angle_is_set_once() {
     type Model = FrictionModel<WithMemory<UncagedScrew<SCREW_BALLS>, Slip, WrappedAngle>>;
     let scene = uncaged();
     let friction = scene.folded.friction;
-    let configuration = with_memory(scene, slip(0.5, BREAKAWAY), angle_sensor(), friction);
+    let configuration = with_memory(scene, slip(0.5), angle_sensor(), friction);
     let configuration = WithMemoryConfiguration {
         play: 0.0,
         ..configuration
@@ -627,7 +614,7 @@ fn an_angle_is_set_once() {
 #[test]
 fn without_a_load_a_nut_that_turns_does_not_stand() {
     let scene = worn();
-    let configuration = with_memory(scene, slip(0.5, BREAKAWAY), angle_sensor(), scene.friction);
+    let configuration = with_memory(scene, slip(0.5), angle_sensor(), scene.friction);
     let mut model =
         FrictionModel::<WithMemory<CagedBallScrew, Slip, WrappedAngle>>::new(&configuration)
             .unwrap();
@@ -681,7 +668,7 @@ fn changes_while_it_runs_keep_the_memory() {
         let mut scene = configuration;
         scene.folded = changed(scene.folded, |folded| folded.friction = friction);
         scene.turns = turns;
-        let whole = with_memory(scene, slip(0.5, BREAKAWAY), speed_sensor(), friction);
+        let whole = with_memory(scene, slip(0.5), speed_sensor(), friction);
         <Scene as epas_friction::Scene>::constants(&whole).unwrap()
     };
     let (first, second, other) = (of(0.075, 2.5), of(0.1, 2.5), of(0.075, 2.6));

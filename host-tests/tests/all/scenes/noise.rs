@@ -1,18 +1,18 @@
 //! Hands off the wheel, with a noisy angle: how often the regime changes, and how far the torque steps.
 
 use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
-use epas_friction::law::memory::{Hysteresis, Part, ProportionalElements, SLIP_8};
+use epas_friction::law::memory::{Hysteresis, ProportionalElements};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband, NutAngle};
 use epas_friction::scene::{Freshness, Sliding, WithMemory, WithMemoryConfiguration};
 use epas_friction::{FrictionModel, Inputs, Outputs, Regime, UncagedOutputs};
 use epas_reference::closed_loop::ClosedLoop;
 use epas_testkit::gears::screw_inputs;
 
+use crate::remembering::{at, slip};
 use epas_testkit::gears::{
     CagedScrew, SCREW_BALLS, UncagedConfiguration, UncagedScrew, caged, uncaged,
 };
 use epas_testkit::random::Random;
-use epas_testkit::remembering::at;
 
 const TICK: f64 = 1e-3;
 const TICKS: usize = 4900;
@@ -81,15 +81,6 @@ fn counts() -> CountSensor {
         largest_turn: 0.5,
     })
     .unwrap()
-}
-
-fn slip(full: f32) -> ProportionalElements<8> {
-    let part = Part {
-        backbone: &SLIP_8.elements,
-        share: 1.0,
-        breakaway_angle: BREAKAWAY,
-    };
-    ProportionalElements::new(full, &[part]).unwrap()
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]

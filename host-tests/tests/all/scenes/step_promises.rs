@@ -1,9 +1,9 @@
 //! What a step promises, and what it calls: measured against the float64 reference.
 
+use crate::remembering::at;
 use epas_testkit::errors::Errors;
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
-use epas_testkit::remembering::at;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};

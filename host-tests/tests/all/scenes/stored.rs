@@ -13,15 +13,15 @@ use epas_friction::{
     LinearInputs, Refusal,
 };
 
+use crate::remembering::{
+    COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,
+    linear_by_speed, uncaged_by_counts,
+};
 use epas_testkit::gears::{
     CROWD, CagedScrew, LINEAR_BALLS, SCREW_BALLS, UncagedScrew, caged, closed_form, crowded,
     linear, uncaged,
 };
 use epas_testkit::random::Random;
-use epas_testkit::remembering::{
-    COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,
-    linear_by_speed, uncaged_by_counts,
-};
 
 type Uncaged = UncagedScrew<SCREW_BALLS>;
 type Linear = LinearBearingTrain<LINEAR_BALLS>;

@@ -13,11 +13,11 @@ use epas_friction::{
 };
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 
+use crate::remembering::{Slip, TEMPERATURE, at, caged_by_angle, slip, with_memory};
 use epas_testkit::gears::{
     CagedConfiguration, CagedScrew, LINEAR_BALLS, caged, closed_form, linear,
     linear_of_smaller_balls, preloaded, worn,
 };
-use epas_testkit::remembering::{Slip, TEMPERATURE, at, caged_by_angle, slip, with_memory};
 
 type Caged = FrictionModel<CagedScrew>;
 type Linear = FrictionModel<LinearBearingTrain<LINEAR_BALLS>>;

@@ -16,7 +16,7 @@ use epas_testkit::gears::linear_inputs;
 
 use super::{
     BRANCHES, BREAKAWAY, Caged, Slip, TEMPERATURE, angle_sensor, caged_by_angle, fresh, screw,
-    slip, speed_sensor, with_memory,
+    slip, slip_by, speed_sensor, with_memory,
 };
 use epas_testkit::gears::{
     CROWD, CagedScrew, LINEAR_BALLS, UncagedScrew, caged, closed_form, crowded, linear,
@@ -36,7 +36,12 @@ fn a_coefficient_by_a_law_is_one_that_is_set() {
     plain.reversal_speed = 1e-6;
     let by_law = WithMemoryConfiguration {
         coefficient: law,
-        ..with_memory(plain, slip(0.5, 1e-9), speed_sensor(), COEFFICIENT.boundary)
+        ..with_memory(
+            plain,
+            slip_by(0.5, 1e-9),
+            speed_sensor(),
+            COEFFICIENT.boundary,
+        )
     };
     let mut by_law = Model::new(&by_law).unwrap();
     let mut direct = FrictionModel::<CagedScrew>::new(&plain).unwrap();
@@ -61,15 +66,10 @@ fn a_coefficient_by_a_law_is_one_that_is_set() {
 #[test]
 fn equal_coefficients_are_one() {
     let scene = caged();
-    let by_law = with_memory(scene, slip(0.5, BREAKAWAY), speed_sensor(), scene.friction);
+    let by_law = with_memory(scene, slip(0.5), speed_sensor(), scene.friction);
     let mut by_law = Model::new(&by_law).unwrap();
-    let one = WithMemoryConfiguration::new(
-        scene,
-        scene.friction,
-        slip(0.5, BREAKAWAY),
-        speed_sensor(),
-        1000.0,
-    );
+    let one =
+        WithMemoryConfiguration::new(scene, scene.friction, slip(0.5), speed_sensor(), 1000.0);
     let one = WithMemoryConfiguration {
         play: BREAKAWAY,
         ..one.unwrap()
@@ -99,7 +99,7 @@ fn coefficients_beyond_the_scene_are_refused() {
     .unwrap();
     let configuration = WithMemoryConfiguration {
         coefficient: steep,
-        ..with_memory(scene, slip(0.5, BREAKAWAY), angle_sensor(), scene.friction)
+        ..with_memory(scene, slip(0.5), angle_sensor(), scene.friction)
     };
     let refused = Caged::new(&configuration).unwrap_err();
     assert_eq!((refused.field(), refused.value()), ("coefficient", 0.7));
@@ -252,7 +252,7 @@ fn backward_is_forward_under_the_opposite_load() {
 fn a_level_leaves_the_drag_that_is_said() {
     use epas_friction::law::FrictionLevel;
     let model = || {
-        let configuration = with_memory(caged(), slip(0.5, BREAKAWAY), speed_sensor(), 0.12);
+        let configuration = with_memory(caged(), slip(0.5), speed_sensor(), 0.12);
         let coefficient = CoefficientLaw::new(&CoefficientParameters {
             churning: 0.05,
             ..COEFFICIENT
@@ -308,7 +308,7 @@ fn drag_beyond_its_fit_is_flagged() {
         .unwrap()
     };
     let model = |coefficient| {
-        let configuration = with_memory(caged(), slip(0.5, BREAKAWAY), speed_sensor(), 0.12);
+        let configuration = with_memory(caged(), slip(0.5), speed_sensor(), 0.12);
         Model::new(&WithMemoryConfiguration {
             coefficient,
             ..configuration

@@ -14,7 +14,7 @@ use epas_reference::presliding::elements::Elements;
 use epas_reference::presliding::row::{Row, RowMemory, Torque};
 use epas_testkit::gears::linear_inputs;
 
-use super::{BREAKAWAY, OneCoefficient, Slip, TICK, at, caged_by_angle, fresh, screw, slip};
+use super::{BREAKAWAY, OneCoefficient, Slip, TICK, at, caged_by_angle, fresh, screw, slip_by};
 use epas_testkit::gears::{
     CROWD, LINEAR_BALLS, UncagedConfiguration, UncagedScrew, crowded, linear,
 };
@@ -61,7 +61,7 @@ where
         (limit, breakaway): (f32, f32),
         parts: fn(&S::Outputs) -> [f32; 2],
     ) -> Self {
-        let elements = slip(limit, breakaway);
+        let elements = slip_by(limit, breakaway);
         let sensor = SpeedOverTick::new(tick, 1.0).unwrap();
         let with =
             WithMemoryConfiguration::new(configuration, coefficient, elements, sensor, 1000.0);

@@ -9,13 +9,13 @@ use epas_friction::scene::{StoredScene, WithMemory, WithMemoryConfiguration};
 use epas_friction::stored::VERSION;
 use epas_friction::{Faults, FrictionModel, LinearBearingTrain, Refusal, UncagedBallScrew};
 
+use crate::remembering::{COUNTS, CagedByAngle, UncagedByCounts, slip, with_memory};
 use epas_testkit::gears::{
     BALL_RANGE, CagedConfiguration, CagedScrew, LINEAR_BALLS, UncagedConfiguration, UncagedScrew,
     caged, changed, linear, linear_of_smaller_balls, uncaged,
 };
 use epas_testkit::random::Random;
 use epas_testkit::random_scenes::{Trial, accepted};
-use epas_testkit::remembering::{COUNTS, CagedByAngle, UncagedByCounts, slip, with_memory};
 
 use super::{
     BALLS_AT, FINGERPRINT_AT, KIND_AT, Kept, LENGTH_AT, Linear, STATE_AT, TWO_TURNS, Uncaged,

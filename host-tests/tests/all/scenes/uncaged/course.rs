@@ -10,9 +10,9 @@ use epas_reference::promises;
 use epas_testkit::gears::screw_inputs;
 
 use super::exact::{BALLS, Beside, PLAIN, TICK, screw};
+use crate::remembering::TEMPERATURE;
 use crate::scenes::step_promises::{BETWEEN, remembering, sound};
 use epas_testkit::errors::Errors;
-use epas_testkit::remembering::TEMPERATURE;
 
 const SPEED: f32 = 20.0;
 const TICKS: usize = 80;

@@ -14,7 +14,7 @@ use epas_friction::law::motion::{
 use epas_friction::scene::{Freshness, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{LinearBearingConfiguration, LinearBearingTrain};
 
-use super::gears::{
+use epas_testkit::gears::{
     CagedConfiguration, CagedScrew, LINEAR_BALLS, SCREW_BALLS, UncagedConfiguration, UncagedScrew,
     caged, linear, uncaged,
 };
@@ -70,17 +70,19 @@ pub fn with_memory<C, E, A>(scene: C, elements: E, angle: A) -> WithMemoryConfig
     }
 }
 
-/// Elements that slip from a limit on.
+/// Elements in slip with a limit, which all slide from a turn on.
+pub fn slip_by(limit: f32, breakaway_angle: f32) -> Slip {
+    let part = Part {
+        backbone: &SLIP_8.elements,
+        share: 1.0,
+        breakaway_angle,
+    };
+    ProportionalElements::new(limit, &[part]).unwrap()
+}
+
+/// The same, from a usual turn.
 pub fn slip(limit: f32) -> Slip {
-    ProportionalElements::new(
-        limit,
-        &[Part {
-            backbone: &SLIP_8.elements,
-            share: 1.0,
-            breakaway_angle: 2e-3,
-        }],
-    )
-    .unwrap()
+    slip_by(limit, 2e-3)
 }
 
 /// The configuration of [`CagedByAngle`].
