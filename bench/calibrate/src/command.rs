@@ -315,7 +315,7 @@ fn tell(seen: &SeenController, coordinate: Coordinate) {
     };
     say(format_args!(
         "The controller's speed is {}; it leaves {:.3e} {unit} rms of the effort, {:.1} %.",
-        seen.source.words(),
+        seen.source.1,
         seen.residual,
         100.0 * seen.share
     ));

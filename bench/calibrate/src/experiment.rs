@@ -15,6 +15,7 @@ use crate::estimator::record::Smoothed;
 use crate::experiment::manoeuvre::{MANOEUVRES, Manoeuvre, Reach};
 use crate::fit::problem::{Scale, Separable, inner, outer};
 use crate::fit::search::{projected, slopes};
+use crate::fit::uncertainty::QUANTILE;
 use crate::screw::choice::{Start, Wanted};
 use crate::screw::evidence::Evidence;
 use crate::screw::exact::Spacing;
@@ -22,9 +23,6 @@ use crate::screw::problem::Known;
 use crate::screw::stages::{Prepared, Window};
 use epas_design::files::Design;
 use epas_page::failure::Failure;
-
-/// Half width of a normal 95 % interval in standard deviations.
-const NORMAL: f64 = 1.959964;
 
 /// What is estimated beside the wanted parameter.
 const BESIDE: &str =
@@ -41,12 +39,10 @@ const STEP: f64 = 1e-3;
 
 struct Said {
     manoeuvre: Manoeuvre,
-    names: Vec<&'static str>,
-    /// The wanted parameter among them: its place, scale, bounds and value.
+    /// Parameters: name, scale, bounds, value.
+    all: Vec<(&'static str, Scale, [f64; 2], f64)>,
+    /// The place of the wanted one.
     place: usize,
-    scale: Scale,
-    bounds: [f64; 2],
-    value: f64,
     /// Information of its rows, and with that of the bounds.
     rows: DMatrix<f64>,
     own: DMatrix<f64>,
@@ -79,14 +75,10 @@ impl Said {
                 1e-12 * rows[(k, k)]
             };
         }
-        let (_, scale, bounds, value) = all[place];
         Ok(Self {
             manoeuvre,
-            names: all.iter().map(|(name, ..)| *name).collect(),
+            all,
             place,
-            scale,
-            bounds,
-            value,
             rows,
             own,
         })
@@ -97,17 +89,15 @@ impl Said {
         let told = information[(self.place, self.place)] > 0.0;
         let covariance = covariance(information).filter(|_| told);
         covariance.map_or(f64::INFINITY, |covariance| {
-            NORMAL * covariance[(self.place, self.place)].sqrt()
+            QUANTILE * covariance[(self.place, self.place)].sqrt()
         })
     }
 
     /// The 95 % interval that the trace would give.
     fn interval(&self) -> [f64; 2] {
         let half = self.half_width(&self.own);
-        [-half, half].map(|away| {
-            let place = inner(self.scale, self.value) + away;
-            outer(self.scale, place).clamp(self.bounds[0], self.bounds[1])
-        })
+        let (_, scale, [low, high], value) = self.all[self.place];
+        [-half, half].map(|away| outer(scale, inner(scale, value) + away).clamp(low, high))
     }
 
     /// The parameter that hides this one most, and their correlation.
@@ -116,8 +106,8 @@ impl Said {
         let k = self.place;
         let correlation =
             |j: usize| covariance[(j, k)] / (covariance[(j, j)] * covariance[(k, k)]).sqrt();
-        let others = (0..self.names.len()).filter(|j| *j != k);
-        let others = others.map(|j| (self.names[j], correlation(j)));
+        let others = (0..self.all.len()).filter(|j| *j != k);
+        let others = others.map(|j| (self.all[j].0, correlation(j)));
         others.max_by(|a, b| a.1.abs().total_cmp(&b.1.abs()))
     }
 
@@ -198,7 +188,7 @@ fn print(out: &mut impl Write, name: &str, reach: &Reach, all: &[Said]) -> Resul
         "Manoeuvres that tell {name}, the best first; intervals (95 %) with a noise of {noise:.1} mN m. They reach {reach}."
     )?;
     for one in all {
-        let (manoeuvre, value, [low, high]) = (one.manoeuvre, one.value, one.interval());
+        let (manoeuvre, value, [low, high]) = (one.manoeuvre, one.all[one.place].3, one.interval());
         let Manoeuvre {
             name,
             how,
@@ -241,7 +231,7 @@ mod tests {
             nonlinear: vec![positive("warmth", 0.5, 0.01, 5.0)],
             linear: ["level", "gain"].map(free).into(),
             target: signals().map(|[warm, load]| warm.sqrt() + load).collect(),
-            model: Box::new(move |q| Evaluation {
+            evaluate: Box::new(move |q| Evaluation {
                 fixed: vec![0.0; 400],
                 columns: vec![
                     signals().map(|[warm, _]| warm.powf(q[0])).collect(),
@@ -264,7 +254,7 @@ mod tests {
             ]
         };
         let warmth = of("warmth");
-        let even = NORMAL * 500f64.ln() / 12f64.sqrt();
+        let even = QUANTILE * 500f64.ln() / 12f64.sqrt();
         for cold in &warmth[..2] {
             assert!((cold.half_width(&cold.own) - even).abs() < 1e-6 * even);
             let (companion, both) = cold.companion(&warmth).unwrap();

@@ -40,7 +40,7 @@ use crate::estimator::words::wrong;
 use crate::fit::problem::Separable as _;
 use crate::fit::uncertainty::{Interval, Uncertainty, effective_rows};
 use crate::trace::{Coordinate, Trace};
-use crate::without_design::placed;
+use crate::without_design::{comparable, placed};
 use epas_design::files::Design;
 use epas_page::failure::Failure;
 
@@ -100,7 +100,7 @@ pub fn calibrate(
     request: &Request,
 ) -> Result<ScrewCalibration, Failure> {
     request.check()?;
-    comparable(trace, request.unseen.as_ref())?;
+    of_screw(trace, request.unseen.as_ref())?;
     let trace = &*placed(trace);
     let late = looked_at(trace, reduced_lead(design))?;
     let evidence = Evidence::of(trace, &Smoothed::of(trace));
@@ -150,26 +150,13 @@ pub fn calibrate(
 }
 
 /// Whether a trace is one of a screw, and another one may score its models.
-fn comparable(trace: &Trace, unseen: Option<&Trace>) -> Result<(), Failure> {
-    let traces = [Some(trace), unseen];
-    if traces
-        .into_iter()
-        .flatten()
-        .any(|trace| trace.coordinate != Coordinate::Rotation)
-    {
+fn of_screw(trace: &Trace, unseen: Option<&Trace>) -> Result<(), Failure> {
+    if trace.coordinate != Coordinate::Rotation {
         return Err(Failure::Data(
             "a screw's trace is one of the nut's angle and the torque on it".into(),
         ));
     }
-    match unseen {
-        Some(unseen) if unseen.load.is_some() != trace.load.is_some() => {
-            Err(Failure::Data(format!(
-                "one of {} and {} has an axial load and the other none: one cannot score the other's models",
-                trace.name, unseen.name
-            )))
-        }
-        _ => Ok(()),
-    }
+    unseen.map_or(Ok(()), |unseen| comparable(trace, unseen))
 }
 
 fn told<'a>(

@@ -207,7 +207,7 @@ pub fn placed(trace: &Trace) -> Cow<'_, Trace> {
 }
 
 /// Refuses a trace that cannot score what was fitted to the other.
-fn comparable(trace: &Trace, other: &Trace) -> Result<(), Failure> {
+pub fn comparable(trace: &Trace, other: &Trace) -> Result<(), Failure> {
     let (one, two) = (&trace.name, &other.name);
     if other.coordinate != trace.coordinate {
         return Err(Failure::Data(format!(
@@ -217,7 +217,7 @@ fn comparable(trace: &Trace, other: &Trace) -> Result<(), Failure> {
     let load = |trace: &Trace| (trace.load.is_some(), trace.load_is_effort);
     if load(other) != load(trace) {
         return Err(Failure::Data(format!(
-            "{one} and {two} have not the same load's channel: one cannot score the other's models; an effort that only one of them has is given as known_torque or known_force"
+            "{one} and {two} have not the same load's channel (axial_load or load_torque): one cannot score the other's models; an effort that only one of them has is given as known_torque or known_force"
         )));
     }
     Ok(())

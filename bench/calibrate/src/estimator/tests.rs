@@ -176,7 +176,9 @@ fn told(trace: &Trace) -> Result<Diagnosis, String> {
 type Spoil = fn(&mut Trace);
 
 fn each(values: &mut [f64], of: impl Fn(f64) -> f64) {
-    values.iter_mut().for_each(|value| *value = of(*value));
+    for value in values {
+        *value = of(*value);
+    }
 }
 
 /// Adds a wave of the position, of a part of the largest effort.

@@ -77,11 +77,14 @@ pub trait Separable: Sync {
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation;
 }
 
+/// The model at values of the nonlinear parameters.
+pub(crate) type Evaluate<'a> = Box<dyn Fn(&[f64]) -> Evaluation + Sync + 'a>;
+
 pub(crate) struct Model<'a> {
     pub nonlinear: Vec<Parameter>,
     pub linear: Vec<LinearParameter>,
     pub target: Vec<f64>,
-    pub model: Box<dyn Fn(&[f64]) -> Evaluation + Sync + 'a>,
+    pub evaluate: Evaluate<'a>,
 }
 
 impl Separable for Model<'_> {
@@ -98,7 +101,7 @@ impl Separable for Model<'_> {
     }
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
-        (self.model)(nonlinear)
+        (self.evaluate)(nonlinear)
     }
 }
 
@@ -107,7 +110,7 @@ pub(crate) fn part(whole: &dyn Separable, rows: Range<usize>) -> Model<'_> {
         nonlinear: whole.nonlinear().to_vec(),
         linear: whole.linear().to_vec(),
         target: whole.target()[rows.clone()].to_vec(),
-        model: Box::new(move |nonlinear| {
+        evaluate: Box::new(move |nonlinear| {
             let Evaluation { fixed, columns } = whole.evaluate(nonlinear);
             let cut = |all: &Vec<f64>| all[rows.clone()].to_vec();
             Evaluation {

@@ -85,6 +85,6 @@ pub fn stribeck_toy(noise: &[f64], size: f64) -> Model<'static> {
             .zip(noise)
             .map(|(value, noise)| value + size * noise)
             .collect(),
-        model: Box::new(move |q: &[f64]| stribeck(&speeds, q)),
+        evaluate: Box::new(move |q: &[f64]| stribeck(&speeds, q)),
     }
 }

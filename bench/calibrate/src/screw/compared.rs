@@ -191,7 +191,7 @@ impl Side<'_> {
             nonlinear,
             linear,
             target: problem.target().to_vec(),
-            model: Box::new(move |values| {
+            evaluate: Box::new(move |values| {
                 let friction = problem.rows().sums(0, &friction(values));
                 let Evaluation {
                     mut fixed,

@@ -187,7 +187,7 @@ fn wrong_requests_are_named() {
     let mut beside = request("", "");
     beside.unseen = Some(trace.clone());
     beside.unseen.as_mut().unwrap().load = None;
-    refused(&beside, &trace, "axial load");
+    refused(&beside, &trace, "axial_load");
     let mut travel = trace;
     travel.coordinate = crate::trace::Coordinate::Translation;
     refused(&request("", ""), &travel, "angle");
@@ -456,7 +456,9 @@ fn keep(trace: &mut Measured, wanted: impl Fn(usize) -> bool) {
 }
 
 fn each(column: &mut [f64], of: impl Fn(f64) -> f64) {
-    column.iter_mut().for_each(|value| *value = of(*value));
+    for value in column {
+        *value = of(*value);
+    }
 }
 
 /// What is wrong with a trace, whether it is answered, and a part of the sentence with which it is refused, or of what is told beside the

@@ -72,7 +72,7 @@ impl Loop<'_> {
             time: (delay - 0.5 * tick).max(0.0),
             effort: trace.effort.first().copied().unwrap_or(0.0),
         };
-        let ticks = self.controller.source.ticks();
+        let ticks = self.controller.source.0;
         // Positions of the last ticks, the newest first; before the start it moved as it does there.
         let mut history: VecDeque<f64> = (1..=ticks)
             .map(|back| start - back as f64 * tick * speed)

@@ -8,46 +8,20 @@ use crate::trace::KnownEffort;
 use crate::trace::Trace;
 use crate::trace::channels::median;
 
-/// Where a controller has its speed from.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SpeedSource {
-    Sensor,
-    OneTick,
-    /// Difference over the last two ticks.
-    TwoTicks,
-    /// Difference over the last four ticks.
-    FourTicks,
-}
-
-impl SpeedSource {
-    pub const ALL: [Self; 4] = [Self::Sensor, Self::OneTick, Self::TwoTicks, Self::FourTicks];
-
-    /// Ticks of the difference; none of a sensor.
-    pub const fn ticks(self) -> usize {
-        match self {
-            Self::Sensor => 0,
-            Self::OneTick => 1,
-            Self::TwoTicks => 2,
-            Self::FourTicks => 4,
-        }
-    }
-
-    pub const fn words(self) -> &'static str {
-        match self {
-            Self::Sensor => "a sensor of the speed",
-            Self::OneTick => "the difference of the last two positions",
-            Self::TwoTicks => "the difference of positions two ticks apart",
-            Self::FourTicks => "the difference of positions four ticks apart",
-        }
-    }
-}
+/// Where a controller may have its speed from: ticks of a difference of positions, none of a sensor; and what that is in words.
+pub const SOURCES: [(usize, &str); 4] = [
+    (0, "a sensor of the speed"),
+    (1, "the difference of the last two positions"),
+    (2, "the difference of positions two ticks apart"),
+    (4, "the difference of positions four ticks apart"),
+];
 
 /// A controller as the trace shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenController {
     pub controller: Controller,
     /// Where it has its speed from: what explains the measured effort best.
-    pub source: SpeedSource,
+    pub source: (usize, &'static str),
     /// Effort that is not the controller's, at every sample, N or N m: what is known of it, and what is beyond the noise of the position's
     /// steps.
     pub added: Vec<f64>,
@@ -70,9 +44,8 @@ impl SeenController {
         trace: &Trace,
         speed: &[f64],
         reference: &[f64],
-        source: SpeedSource,
+        ticks: usize,
     ) -> Vec<f64> {
-        let ticks = source.ticks();
         let speeds = trace.speed.as_deref().unwrap_or(speed);
         (0..trace.len())
             .map(|sample| {
@@ -93,10 +66,10 @@ impl SeenController {
     pub fn of(controller: Controller, trace: &Trace, record: &Record) -> Option<Self> {
         let reference = trace.reference_position.as_ref()?;
         let speed = Kernel::new(SMOOTH, trace.step).along(record.order(1), &record.motion);
-        SpeedSource::ALL
+        SOURCES
             .into_iter()
             .map(|source| {
-                let efforts = Self::efforts(&controller, trace, &speed, reference, source);
+                let efforts = Self::efforts(&controller, trace, &speed, reference, source.0);
                 let rest: Vec<f64> = trace
                     .effort
                     .iter()
@@ -113,12 +86,12 @@ impl SeenController {
     fn told(
         controller: Controller,
         trace: &Trace,
-        source: SpeedSource,
+        source: (usize, &'static str),
         spread: f64,
         rest: &[f64],
     ) -> Self {
         let steps =
-            controller.gain_speed * trace.resolution / (source.ticks().max(1) as f64 * trace.step);
+            controller.gain_speed * trace.resolution / (source.0.max(1) as f64 * trace.step);
         // Six standard deviations, or two steps of the sensor: what is beyond is no noise.
         let noise = (6.0 * spread).max(2.0 * steps);
         let added = rest

@@ -56,21 +56,18 @@ impl Drive {
             self.needed("viscous_friction")?,
         ];
         let load_lever = self.value("load_gain")?.unwrap_or(1.0);
-        let losses = match self.value("load_loss")? {
-            Some(loss) => [loss / load_lever; 2],
-            None => {
-                let mut losses = [0.0; 2];
-                for (loss, name) in losses.iter_mut().zip(["driving", "back_driving"]) {
-                    let told = self.value(&format!("{name}_loss"))?;
-                    let name = name.replace('_', "-");
-                    notes.extend(told.is_none().then(|| {
-                        format!("The trace does not tell the loss of {name}: it is 0 here")
-                    }));
-                    *loss = told.unwrap_or(0.0);
-                }
-                losses
+        let mut losses = [0.0; 2];
+        if let Some(loss) = self.value("load_loss")? {
+            losses = [loss / load_lever; 2];
+        } else {
+            for (loss, name) in losses.iter_mut().zip(["driving", "back_driving"]) {
+                let told = self.value(&format!("{name}_loss"))?;
+                let name = name.replace('_', "-");
+                let word = || format!("The trace does not tell the loss of {name}: it is 0 here");
+                notes.extend(told.is_none().then(word));
+                *loss = told.unwrap_or(0.0);
             }
-        };
+        }
         if self.reversal_speed.is_none() {
             notes.push("The trace shows no speed over which friction reverses: a thousandth of its largest stands for it".into());
         }

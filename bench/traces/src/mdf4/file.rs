@@ -28,6 +28,7 @@ pub struct DataGroup {
     pub records: Vec<Record>,
 }
 
+#[allow(clippy::struct_field_names, reason = "the standard's name")]
 #[derive(Clone, Copy, Debug)]
 pub struct Record {
     pub record_id: u64,
