@@ -16,7 +16,7 @@ use super::outputs::UncagedOutputs;
 use super::reversal::Reversal;
 use crate::ball::LoadShare;
 use crate::ball::folded::{FrictionInterval, node_octaves};
-use crate::ball::pressed::{BallLaw, RowConstants};
+use crate::ball::pressed::{BallLaw, BallOfRow, RowConstants};
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
 
@@ -58,6 +58,8 @@ pub struct UncagedState<const N: usize> {
     /// Where the balls are, and how they press.
     pub circuit: CircuitState<N>,
     friction: FrictionInterval,
+    /// What each ball does alone in the present tick.
+    balls: [BallOfRow; N],
 }
 
 /// Constants of a ball screw without cage, with up to `N` balls.
@@ -106,6 +108,7 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
         UncagedState {
             circuit: CircuitState::new(&constants.circuit),
             friction: constants.friction,
+            balls: [BallOfRow::UNLOADED; N],
         }
     }
 

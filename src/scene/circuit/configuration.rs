@@ -150,6 +150,12 @@ impl Circuit {
             .sharing(state.train.positions(), self.balls, shares)
     }
 
+    /// Whether the track has no return, and no run-in.
+    #[inline(always)]
+    pub(crate) const fn is_closed(&self) -> bool {
+        self.zone.is_closed()
+    }
+
     /// Part of its load that a ball carries at a position: below 1 on a run-in, 0 in the return.
     #[inline(always)]
     pub(crate) fn part(&self, position: u32) -> f32 {

@@ -9,6 +9,7 @@ use crate::scene::faults::Faults;
 use crate::scene::outputs::LinearOutputs;
 use crate::scene::reversal::{ReversalState, direction};
 use crate::scene::row::TrainFriction;
+use crate::train::FreeBall;
 
 /// Force of a diagonal below which it does not count, N: the sum of two contacts of 1e-6 N. A numerical floor, which keeps cube roots
 /// and impedances above zero. In the bearing of Lin 2019, Table 3.3, the latter stay above the least that a train takes, 1e-9 N, also
@@ -55,9 +56,9 @@ impl<const N: usize> LinearConstants<N> {
         let (passing, recirculating) = self.circuit.deviation_units();
         let (passing, recirculating) = (tick.turn * passing, tick.turn * recirculating);
         let mut shares = 0.0;
-        let mut balls = state.train.intake(self.circuit.travel(speed));
-        while let Some(next) = balls.next_ball() {
-            let (free, impedance) = match self.circuit.loaded_ball(next.position(), phase, table) {
+        let travel = self.circuit.travel(speed);
+        state.train.take_in(travel, |_, position| {
+            let (free, impedance) = match self.circuit.loaded_ball(position, phase, table) {
                 Some(ball) => {
                     let free = recirculating * ball.recirculating + passing * ball.passing;
                     let (four_thirds, two_thirds) = powers(&ball);
@@ -66,9 +67,9 @@ impl<const N: usize> LinearConstants<N> {
                 }
                 None => (0.0, UNLOADED),
             };
-            next.put(free, impedance);
-        }
-        let pressing = balls.press();
+            FreeBall::smooth(free, impedance)
+        });
+        let pressing = state.train.press(travel, |_, _| ());
         state.advance(&self.circuit, speed);
 
         // Where the carriage is lifted off no ball rolls, and there is nothing to flag.

@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 
 use epas_friction::ball::pressed::{
-    BallNumbers, FreeMotion, NeighbourNumbers, RowConstants, RubbedNode,
+    BallNumbers, FreeMotion, NeighbourNumbers, RUBBINGS, RowConstants, RubbedNode,
 };
-use epas_friction::train::RUBBINGS;
 use epas_friction::{
     DeviationMap, Faults, FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration,
     UncagedOutputs,
