@@ -19,7 +19,6 @@ pub use neighbours::{NEIGHBOUR_KNOTS, NeighbourNumbers, RUBBINGS, RubbedNode};
 pub use node::{BallKnot, BallNode, KNOTS, Knot, NeighbourKnot};
 pub(crate) use numbers::PowerSums;
 pub use numbers::{BallNumbers, FreeMotion, LARGEST_WORK, POWERS};
-pub(crate) use row::quotient;
 pub use row::{BallOfRow, NeighbourLaw, PressedTorques};
 
 /// Largest friction of both neighbours of a ball that a law holds, over `mu W`.

@@ -50,16 +50,6 @@ impl FreeBall {
             growth: passed * stiff,
         }
     }
-
-    /// With impedances in a unit of this size.
-    #[inline(always)]
-    #[must_use]
-    pub fn times(self, unit: f32) -> Self {
-        Self {
-            impedance: self.impedance * unit,
-            ..self
-        }
-    }
 }
 
 #[cfg(test)]

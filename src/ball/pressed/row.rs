@@ -117,7 +117,7 @@ impl NeighbourLaw {
     #[must_use]
     pub fn smooth(&self, ball: &BallOfRow, part: f32) -> FreeBall {
         let grip = part * line(&self.smooth, ball.deviations);
-        FreeBall::rubbed(ball.speed, ball.impedance, 0.0, grip).times(ball.sliding)
+        FreeBall::rubbed(ball.speed, ball.sliding * ball.impedance, 0.0, grip)
     }
 
     /// A ball in the first pass: each has the friction of neighbours that press with `mu W`, `m = 2 mu_b`, on a run-in a part of it.
@@ -129,36 +129,33 @@ impl NeighbourLaw {
             ball,
             line(stiffness, ball.deviations),
             0.0,
+            0.0,
             part * line(grip, ball.deviations),
         )
     }
 
-    /// The ball in the second pass: Newton's line through the speed and the forces that the first one found.
+    /// The ball in the second pass: Newton's line through the speed and the forces that the first one found; `rubbing`: [`Self::rubbing`].
     #[inline(always)]
     #[must_use]
-    pub fn second(&self, ball: &BallOfRow, found: &Neighbours, per_sliding: f32) -> FreeBall {
-        let place = Place::of(self.ball_friction * found.rubbing * per_sliding);
+    pub fn second(&self, ball: &BallOfRow, found: &Neighbours, rubbing: f32) -> FreeBall {
+        let place = Place::of(rubbing);
         let (low, high) = place.ends(&self.numbers.nodes);
         let push = line(&low.push, ball.deviations);
         let push_rise = line(&high.push, ball.deviations) - push;
         let stiffness = line(&low.impedance, ball.deviations);
         let stiffness_rise = line(&high.impedance, ball.deviations) - stiffness;
         let rise = push_rise + stiffness_rise * (found.speed - self.held_speed);
-        let slope = self.ball_friction * (place.per_width * rise);
         let outward = line(&self.numbers.outward, ball.deviations);
-        // On a run-in a part of the neighbours' forces rubs.
-        let part = if found.rubbing == found.forces {
-            1.0
-        } else {
-            quotient(found.rubbing, found.forces)
-        };
-        let grip = limited(part * (slope + outward), LARGEST_GRIP);
-        // What the limit cuts off stays as it is at these forces.
-        let constant = outward * found.rubbing - grip * found.forces;
+        let grip = limited(
+            outward + self.ball_friction * (place.per_width * rise),
+            LARGEST_GRIP,
+        );
         let free = self.free(
             ball,
             stiffness + place.fraction * stiffness_rise,
-            push + place.fraction * push_rise + constant * per_sliding,
+            push + place.fraction * push_rise,
+            // What the limit cuts off stays as it is at these forces.
+            outward * found.rubbing - grip * found.forces,
             grip,
         );
         FreeBall {
@@ -167,9 +164,23 @@ impl NeighbourLaw {
         }
     }
 
-    /// A ball with an impedance and a push more than alone, over `mu W`, and a grip.
+    /// Friction of both neighbours of a ball over its `mu W`.
     #[inline(always)]
-    fn free(&self, ball: &BallOfRow, stiffness: f32, push: f32, grip: f32) -> FreeBall {
+    #[must_use]
+    pub fn rubbing(&self, ball: &BallOfRow, found: &Neighbours) -> f32 {
+        self.ball_friction * found.rubbing / ball.sliding
+    }
+
+    /// A ball with an impedance and a push more than alone, over `mu W`, a further push, N, and a grip.
+    #[inline(always)]
+    fn free(
+        &self,
+        ball: &BallOfRow,
+        stiffness: f32,
+        push: f32,
+        constant: f32,
+        grip: f32,
+    ) -> FreeBall {
         let [least, most] = STIFFENING.map(|part| part * ball.impedance);
         let stiff = ball.impedance + stiffness;
         let stiff = if stiff > most {
@@ -180,22 +191,27 @@ impl NeighbourLaw {
             least
         };
         let push = push + ball.impedance * (self.held_speed - ball.speed);
-        FreeBall::rubbed(self.held_speed, stiff, push, grip).times(ball.sliding)
+        FreeBall::rubbed(
+            self.held_speed,
+            ball.sliding * stiff,
+            ball.sliding * push + constant,
+            grip,
+        )
     }
 
-    /// Adds what a ball loses more than alone.
+    /// Adds what a ball loses more than alone; `rubbing`: [`Self::rubbing`].
     #[inline(always)]
     pub fn lose(
         &self,
         ball: &BallOfRow,
         found: &Neighbours,
-        per_sliding: f32,
+        rubbing: f32,
         torques: &mut PressedTorques,
     ) {
         let change = found.speed - ball.speed;
         let by_speed = (self.slope + self.curvature * ball.impedance * change) * change;
         torques.groove += ball.sliding * by_speed + self.numbers.outward_torque * found.rubbing;
-        let place = Place::of(self.ball_friction * found.rubbing * per_sliding);
+        let place = Place::of(rubbing);
         let (low, high) = place.ends(&self.numbers.nodes);
         let low = line(&low.torque, ball.deviations);
         let high = line(&high.torque, ball.deviations);
@@ -206,24 +222,11 @@ impl NeighbourLaw {
     }
 }
 
-/// A quotient, out of line: a compiler would divide for balls that do not need it.
-#[cold]
-#[inline(never)]
-pub(crate) fn quotient(number: f32, by: f32) -> f32 {
-    number / by
-}
-
-/// A number within this size, or the limit in its direction.
+/// A number within this size, or the limit in its direction. Integers compare sizes without a detour over the floating-point flags.
 #[inline(always)]
 fn limited(number: f32, size: f32) -> f32 {
-    #[cold]
-    #[inline(never)]
-    fn limit(number: f32, size: f32) -> f32 {
-        size.copysign(number)
-    }
-    // Integers compare sizes without a detour over the floating-point flags.
     if number.abs().to_bits() > size.to_bits() {
-        limit(number, size)
+        size.copysign(number)
     } else {
         number
     }

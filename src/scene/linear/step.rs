@@ -3,7 +3,7 @@
 use super::{LinearConstants, LinearInputs};
 use crate::ball::GrooveLoss;
 use crate::math;
-use crate::scene::circuit::{CircuitState, LoadedBall, UNLOADED};
+use crate::scene::circuit::{CircuitState, UNLOADED};
 use crate::scene::contract::Regime;
 use crate::scene::faults::Faults;
 use crate::scene::outputs::LinearOutputs;
@@ -52,23 +52,10 @@ impl<const N: usize> LinearConstants<N> {
         let table = self.circuit.shares(false);
         let sharing = self.circuit.sharing(state, table);
         let tick = self.diagonals(inputs, sharing.per_weight);
-        let phase = state.phase();
         let (passing, recirculating) = self.circuit.deviation_units();
-        let (passing, recirculating) = (tick.turn * passing, tick.turn * recirculating);
-        let mut shares = 0.0;
+        let units = [tick.turn * passing, tick.turn * recirculating];
         let travel = self.circuit.travel(speed);
-        state.train.take_in(travel, |_, position| {
-            let (free, impedance) = match self.circuit.loaded_ball(position, phase, table) {
-                Some(ball) => {
-                    let free = recirculating * ball.recirculating + passing * ball.passing;
-                    let (four_thirds, two_thirds) = powers(&ball);
-                    shares += four_thirds;
-                    (free, at_least(tick.impedance * two_thirds, UNLOADED))
-                }
-                None => (0.0, UNLOADED),
-            };
-            FreeBall::smooth(free, impedance)
-        });
+        let shares = self.take_in(state, units, tick.impedance, travel);
         let pressing = state.train.press(travel, |_, _| ());
         state.advance(&self.circuit, speed);
 
@@ -94,6 +81,32 @@ impl<const N: usize> LinearConstants<N> {
             },
             beyond_model,
         }
+    }
+
+    /// Takes in each ball by its free speed and its impedance, and gives the sum of the powers of 4/3 of their weights; both grooves' units of speed and the
+    /// impedance of a ball whose weight is 1. Not inlined: what the rest of a step holds would take its registers.
+    #[inline(never)]
+    fn take_in(
+        &self,
+        state: &mut CircuitState<N>,
+        [passing, recirculating]: [f32; 2],
+        impedance: f32,
+        travel: f32,
+    ) -> f32 {
+        let phase = state.phase();
+        let table = self.circuit.shares(false);
+        let mut shares = 0.0;
+        state.train.take_in(travel, |_, position| {
+            let Some(ball) = self.circuit.loaded_ball(position, phase) else {
+                return FreeBall::smooth(0.0, UNLOADED);
+            };
+            let free = recirculating * ball.recirculating + passing * ball.passing;
+            let share = self.circuit.share(position, table);
+            let (four_thirds, two_thirds) = powers(share * ball.run_in);
+            shares += four_thirds;
+            FreeBall::smooth(free, at_least(impedance * two_thirds, UNLOADED))
+        });
+        shares
     }
 
     /// What both diagonals carry, and how the ball rolls under it.
@@ -142,11 +155,16 @@ impl<const N: usize> LinearConstants<N> {
 
 /// Powers of 4/3 and of 2/3 of a ball's weight.
 #[inline(always)]
-fn powers(ball: &LoadedBall) -> (f32, f32) {
-    let weight = ball.share * ball.run_in;
+fn powers(weight: f32) -> (f32, f32) {
     if weight == 1.0 {
         return (1.0, 1.0);
     }
+    roots(weight)
+}
+
+/// Out of line, so that balls of even loads do not pay for it.
+#[inline(never)]
+fn roots(weight: f32) -> (f32, f32) {
     let (root, squared) = math::cbrt_and_squared(weight);
     (weight * root, squared)
 }

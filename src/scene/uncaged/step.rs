@@ -2,16 +2,14 @@
 
 use super::{UncagedConstants, UncagedState};
 use crate::ball::LoadShare;
-use crate::ball::pressed::{
-    BallNumbers, BallOfRow, NeighbourLaw, PowerSums, PressedTorques, quotient,
-};
+use crate::ball::pressed::{BallNumbers, BallOfRow, NeighbourLaw, PowerSums, PressedTorques};
 use crate::scene::circuit::{Sharing, UNLOADED};
 use crate::scene::contract::{Inputs, Regime};
 use crate::scene::faults::Faults;
 use crate::scene::outputs::UncagedOutputs;
 use crate::scene::reversal::{ReversalState, direction};
 use crate::scene::row::{TrainFriction, not_negative};
-use crate::train::FreeBall;
+use crate::train::{FreeBall, Neighbours};
 
 /// Sliding friction of a ball screw without cage, in the direction in which its balls go.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,9 +50,10 @@ struct Common {
     shares: &'static [LoadShare],
     /// Axial load of a ball whose weight is 1, N.
     mean: f32,
-    /// Friction coefficient times the load of such a ball, N, and 1 / it.
+    /// Friction coefficient times the load of such a ball, N.
     sliding: f32,
-    per_sliding: f32,
+    /// Friction of neighbours over `sliding`, by their force, 1/N.
+    rubbing: f32,
     /// 0 where the load opposes the motion, else 1.
     branch: usize,
     /// -1 where the nut turns backward, else 1.
@@ -66,13 +65,15 @@ struct Common {
 }
 
 impl Common {
-    /// 1 / friction coefficient times load of a ball.
+    /// Friction of both neighbours of a ball over its friction coefficient times load; none in the return.
     #[inline(always)]
-    fn per_sliding(&self, ball: &BallOfRow) -> f32 {
+    fn rubbing(&self, ball: &BallOfRow, found: &Neighbours) -> Option<f32> {
         if ball.sliding.to_bits() == self.sliding.to_bits() {
-            self.per_sliding
+            Some(found.rubbing * self.rubbing)
+        } else if ball.sliding > 0.0 {
+            Some(self.neighbours.rubbing(ball, found))
         } else {
-            quotient(1.0, ball.sliding)
+            None
         }
     }
 }
@@ -100,14 +101,11 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let mut pressed = PressedTorques::default();
         let UncagedState { circuit, balls, .. } = state;
         let pressing = circuit.train.press(travel, |index, found| {
-            if let Some(ball) = balls.get(index)
-                && found.forces > 0.0
-                && ball.sliding > 0.0
+            if found.forces > 0.0
+                && let Some(ball) = balls.get(index)
+                && let Some(rubbing) = common.rubbing(ball, found)
             {
-                let per_sliding = common.per_sliding(ball);
-                common
-                    .neighbours
-                    .lose(ball, found, per_sliding, &mut pressed);
+                common.neighbours.lose(ball, found, rubbing, &mut pressed);
             }
         });
         state.circuit.advance(&self.circuit, inputs.nut_speed);
@@ -168,7 +166,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             shares,
             mean,
             sliding,
-            per_sliding: 1.0 / sliding,
+            rubbing: self.row.ball_friction / sliding,
             branch,
             direction,
             numbers,
@@ -196,7 +194,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             friction,
         } = state;
         circuit.train.take_in(travel, |index, position| {
-            let found = self.circuit.loaded_ball(position, phase, common.shares);
+            let found = self.circuit.loaded_ball(position, phase);
             let (Some(place), Some(loaded)) = (balls.get_mut(index), found) else {
                 if let Some(place) = balls.get_mut(index) {
                     *place = BallOfRow::UNLOADED;
@@ -215,7 +213,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                     deviations,
                 }
             } else {
-                let load = self.law.load_of(common.mean * loaded.share);
+                let share = self.circuit.share(position, common.shares);
+                let load = self.law.load_of(common.mean * share);
                 let (ball, alone) = self
                     .law
                     .ball(load, common.branch, *friction, deviations, part);
@@ -241,8 +240,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
 fn refine<const N: usize>(state: &mut UncagedState<N>, common: &Common, travel: f32) {
     let UncagedState { circuit, balls, .. } = state;
     circuit.train.refine(travel, |index, found| {
-        let ball = balls.get(index).filter(|ball| ball.sliding > 0.0)?;
-        let per_sliding = common.per_sliding(ball);
-        Some(common.neighbours.second(ball, found, per_sliding))
+        let ball = balls.get(index)?;
+        let rubbing = common.rubbing(ball, found)?;
+        Some(common.neighbours.second(ball, found, rubbing))
     });
 }

@@ -153,7 +153,9 @@ impl PressedRow {
             let found = solve(&all(NeighbourLaw::first))?;
             let second = balls.iter().zip(&found);
             let second: Vec<FreeBall> = second
-                .map(|(ball, found)| neighbours.second(ball, found, 1.0 / ball.sliding))
+                .map(|(ball, found)| {
+                    neighbours.second(ball, found, neighbours.rubbing(ball, found))
+                })
                 .collect();
             solve(&second)?
         } else {
@@ -162,7 +164,8 @@ impl PressedRow {
         let mut torques = PressedTorques::default();
         for (ball, found) in balls.iter().zip(&found) {
             if found.forces > 0.0 {
-                neighbours.lose(ball, found, 1.0 / ball.sliding, &mut torques);
+                let rubbing = neighbours.rubbing(ball, found);
+                neighbours.lose(ball, found, rubbing, &mut torques);
             }
         }
         let forces = press.forces().take(balls.len() - 1);
