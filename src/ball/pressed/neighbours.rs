@@ -107,7 +107,7 @@ impl NeighbourNumbers {
 
 /// Three numbers, interpolated towards others by a fraction.
 #[inline(always)]
-pub(super) fn blended([a, b, c]: &[f32; 3], [d, e, f]: &[f32; 3], fraction: f32) -> [f32; 3] {
+fn blended([a, b, c]: &[f32; 3], [d, e, f]: &[f32; 3], fraction: f32) -> [f32; 3] {
     [
         a + fraction * (d - a),
         b + fraction * (e - b),

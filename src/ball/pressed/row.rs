@@ -1,6 +1,6 @@
 //! What the balls of a row do in a tick: each by its own law, with what friction of its neighbours changes in it.
 
-use super::neighbours::{NeighbourNumbers, RUBBINGS, RubbedNode, blended};
+use super::neighbours::{NeighbourNumbers, RUBBINGS, RubbedNode};
 use super::numbers::line;
 use crate::train::{FreeBall, LARGEST_GRIP, Neighbours};
 
@@ -23,8 +23,9 @@ pub struct NeighbourLaw {
     pub slope: f32,
     /// Torque by the square of a change of speed over the impedance, m: half the speed against the nut, times the work.
     pub curvature: f32,
-    /// What friction of neighbours that press with `mu W`, `m = 2 mu_b`, changes in proportion to their forces, and in the impedance over `mu W`.
-    first: [[f32; 3]; 2],
+    /// What friction of neighbours that press with `mu W`, `m = 2 mu_b`, changes in the mean over all deviations: in proportion to their forces, and in the
+    /// impedance over `mu W`.
+    first: [f32; 2],
     /// What the outward force changes in proportion to the forces.
     smooth: [f32; 3],
 }
@@ -76,18 +77,15 @@ impl NeighbourLaw {
     ) -> Self {
         let place = Place::of(2.0 * ball_friction);
         let (low, high) = place.ends(&numbers.nodes);
-        let [push, screw, nut] = blended(&low.push, &high.push, place.fraction);
-        let [middle, by_screw, by_nut] = numbers.outward;
-        let grip = [
-            0.5 * push + middle,
-            0.5 * screw + by_screw,
-            0.5 * nut + by_nut,
-        ];
+        let mean = |low: &[f32; 3], high: &[f32; 3]| low[0] + place.fraction * (high[0] - low[0]);
         Self {
             smooth: within_grip(numbers.outward),
             first: [
-                within_grip(grip),
-                blended(&low.impedance, &high.impedance, place.fraction),
+                limited(
+                    0.5 * mean(&low.push, &high.push) + numbers.outward[0],
+                    LARGEST_GRIP,
+                ),
+                mean(&low.impedance, &high.impedance),
             ],
             numbers,
             ball_friction,
@@ -105,7 +103,7 @@ impl NeighbourLaw {
             node.push = node.push.map(|number| direction * number);
         }
         self.numbers.outward = self.numbers.outward.map(|number| direction * number);
-        self.first[0] = self.first[0].map(|number| direction * number);
+        self.first[0] *= direction;
         self.smooth = self.smooth.map(|number| direction * number);
         self.held_speed *= direction;
         self.slope *= direction;
@@ -120,18 +118,12 @@ impl NeighbourLaw {
         FreeBall::rubbed(ball.speed, ball.sliding * ball.impedance, 0.0, grip)
     }
 
-    /// A ball in the first pass: each has the friction of neighbours that press with `mu W`, `m = 2 mu_b`, on a run-in a part of it.
+    /// A ball in the first pass: each has the mean friction of neighbours that press with `mu W`, `m = 2 mu_b`, on a run-in a part of it.
     #[inline(always)]
     #[must_use]
     pub fn first(&self, ball: &BallOfRow, part: f32) -> FreeBall {
-        let [grip, stiffness] = &self.first;
-        self.free(
-            ball,
-            line(stiffness, ball.deviations),
-            0.0,
-            0.0,
-            part * line(grip, ball.deviations),
-        )
+        let [grip, stiffness] = self.first;
+        self.free(ball, stiffness, 0.0, 0.0, part * grip)
     }
 
     /// The ball in the second pass: Newton's line through the speed and the forces that the first one found; `rubbing`: [`Self::rubbing`].
