@@ -45,8 +45,8 @@ pub use step::UncagedFriction;
 /// of the ball that carries least, the run-ins left out, to that of the one that carries most. The torque is held there all the same, as the block's
 /// certificate says.
 ///
-/// The arithmetic of a step: what a ball does on its own in `ball/pressed/numbers.rs` ([`BallNumbers`](crate::ball::pressed::BallNumbers)), which balls press in
-/// `train/pool.rs`, and how hard in `train/rubbing.rs`; `train.rs` has the words.
+/// A step reads from `scene/uncaged/step.rs`: what a ball does on its own in `ball/pressed/numbers.rs`, what its neighbours change in `ball/pressed/row.rs`, a tick
+/// of all balls in `train/tick.rs`, which balls press in `train/pool.rs`, and how hard in `train/settle.rs`; `train.rs` has the words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedBallScrew<const N: usize, const NODES: usize = 1>;

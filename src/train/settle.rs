@@ -40,7 +40,8 @@ pub(super) fn settle(
 ) -> Pressing {
     let last = balls.len().wrapping_sub(1);
     let mut index = foremost;
-    // Balls still to come of the cluster, its impedance, the last ball's change of speed, and the force with which the next one presses.
+    // Balls still to come of the cluster, its impedance, the last ball's change of speed, the force with which the next one presses, and its bits, of zero
+    // where rounding has made it a little less.
     let mut left = 0;
     let mut impedance = 0.0;
     let mut change = 0.0;
@@ -53,44 +54,41 @@ pub(super) fn settle(
         let Some(ball) = balls.get_mut(index) else {
             break;
         };
+        let force = f32::from_bits(bits as u32);
         let touches = left > 0;
         if touches {
             left -= 1;
             change += ball.slack;
             sums.force += next;
+            largest = if bits > largest { bits } else { largest };
+            // The sign bit of the negated bits: 1 for each force above zero.
+            contacts += bits.wrapping_neg() as u32 >> 31;
         } else {
             left = ball.others();
-            next = 0.0;
-            bits = 0;
             change = 0.0;
             if left > 0 {
                 impedance = ball.of_cluster;
                 change = ball.force / impedance;
             }
         }
-        let force = f32::from_bits(bits as u32);
-        largest = if bits > largest { bits } else { largest };
-        // The sign bit of the negated bits: 1 for each force above zero.
-        contacts += bits.wrapping_neg() as u32 >> 31;
-        next = ball.growth * next + change * ball.impedance;
-        // Zero where rounding has made it a little less.
-        bits = not_negative_bits(next);
-        if touches && left == 0 {
-            ball.leave_remainder(next, impedance);
-            let size = next.abs();
-            sums.remainder = if size > sums.remainder {
-                size
-            } else {
-                sums.remainder
-            };
+        if touches || left > 0 {
+            next = ball.growth * next + change * ball.impedance;
+            bits = not_negative_bits(next);
+            if left == 0 {
+                ball.leave_remainder(next, impedance);
+                let size = next.abs();
+                sums.remainder = if size > sums.remainder {
+                    size
+                } else {
+                    sums.remainder
+                };
+                next = 0.0;
+                bits = 0;
+            }
         }
         let settled = Settled {
             speed: ball.speed + change,
-            behind: if left > 0 {
-                f32::from_bits(bits as u32)
-            } else {
-                0.0
-            },
+            behind: f32::from_bits(bits as u32),
             force,
             touches,
         };
