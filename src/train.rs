@@ -26,10 +26,10 @@
 //!
 //! | phase | file | work for `N` balls | what holds afterwards |
 //! |---|---|---|---|
-//! | take in | `intake`, `track` | `N` balls | each ball has its free speed, impedance and slack; nothing but its position is left of the last tick |
+//! | take in | `tick`, `track` | `N` balls | each ball has its free speed, impedance and slack; nothing but its position is left of the last tick |
 //! | join | `pool`, `cluster` | at most `N - 1` joins, fewer than `4 N` comparisons | clusters part the ring; none runs into the one ahead; their end balls hold their sums |
-//! | settle | `settle` or `rubbing`, `ring` | `N` balls, a division for each cluster of two or more | each ball has its actual speed and its force, zero or more |
-//! | move | `track`, in the walk of settling | | balls that press stand in contact exactly, no two overlap by more than rounding |
+//! | settle | `settle` | `N` balls, a division for each cluster of two or more | each ball has its actual speed and its force, zero or more |
+//! | move | `tick`, in the walk of settling | | balls that press stand in contact exactly, no two overlap by more than rounding |
 //! | balance | `balance` | `N` balls, where rounding needs it | the net pushes on each cluster add up to zero, to 1e-6 of the largest force |
 //!
 //! `ball` says what a ball holds in each phase. Loops are bounded by `N`; nothing iterates to a tolerance,
@@ -66,7 +66,8 @@
 //! # Where balls rub on each other
 //!
 //! Friction of its neighbours makes a ball need more or less net push, in proportion to their forces (`grip`). Each force then is that of balls
-//! that do not rub, times a factor from ball to ball; impedances weighed by the same factors leave all of the above as it is.
+//! that do not rub, times a factor from ball to ball; impedances weighed by the same factors leave all of the above as it is. What friction changes
+//! is known by the forces alone: a first pass joins and settles balls that do not move, from which each is taken in anew for the second one.
 //!
 //! # Rounding
 //!
@@ -79,23 +80,18 @@ mod balance;
 mod ball;
 mod cluster;
 mod grip;
-mod intake;
-mod losses;
 mod pool;
 mod positions;
 mod press;
-mod ring;
-mod rubbing;
 mod settle;
 mod stored;
+mod tick;
 mod track;
 
-pub(crate) use grip::limited_grip;
-pub(crate) use intake::Intake;
-pub(crate) use losses::Place;
-pub use losses::{Losses, RUBBINGS, RubbedBall, RubbedRow};
+pub use grip::{FreeBall, LARGEST_GRIP};
 pub use positions::{BallContact, Train};
 pub use press::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
 pub(crate) use stored::BALL_BYTES;
+pub use tick::Neighbours;
 pub use track::LARGEST_TRAVEL;
 pub(crate) use track::Track;

@@ -6,24 +6,26 @@
 mod neighbours;
 mod node;
 mod numbers;
+mod row;
 
 use super::folded::{FrictionInterval, holds, node_octaves};
 use crate::error::{Error, attempt, in_range};
 use crate::math;
-use crate::train::IMPEDANCE_RANGE;
+use crate::train::{IMPEDANCE_RANGE, LARGEST_GRIP};
 use numbers::IMPEDANCES;
+use row::STIFFENING;
 
-pub use neighbours::{
-    BallOfRow, NEIGHBOUR_KNOTS, NeighbourLaw, NeighbourNumbers, Pressed, RubbedNode,
-};
+pub use neighbours::{NEIGHBOUR_KNOTS, NeighbourNumbers, RUBBINGS, RubbedNode};
 pub use node::{BallKnot, BallNode, KNOTS, Knot, NeighbourKnot};
+pub(crate) use numbers::PowerSums;
 pub use numbers::{BallNumbers, FreeMotion, LARGEST_WORK, POWERS};
+pub use row::{BallOfRow, NeighbourLaw, PressedTorques};
 
 /// Largest friction of both neighbours of a ball that a law holds, over `mu W`.
 const HELD_RUBBING: f32 = 0.3;
 
 /// Least and largest `mu W` that count, N.
-const SLIDING_LOADS: [f32; 2] = [1e-6, 5e5];
+const SLIDING_LOADS: [f32; 2] = [1e-6, 1e5];
 
 /// The law of one ball that its neighbours press on, for `NODES` friction coefficients: what `epas-design` folds and a scene evaluates.
 ///
@@ -139,69 +141,65 @@ impl<const NODES: usize> BallLaw<NODES> {
     #[inline(always)]
     #[must_use]
     pub fn numbers(&self, load: f32, branch: usize, friction: FrictionInterval) -> BallNumbers {
-        let below = &self.nodes[friction.node() % NODES];
-        let numbers = below.numbers(branch, below.interval(branch, load));
-        let numbers = if NODES == 1 {
-            numbers
-        } else {
-            let above = &self.nodes[(friction.node() + 1) % NODES];
-            let others = above.numbers(branch, above.interval(branch, load));
-            numbers.towards(&others, friction.fraction())
-        };
-        numbers.under(sliding_load(friction, load))
+        self.per_sliding(load, branch, friction)
+            .under(sliding_load(friction, load))
     }
 
-    /// What a ball does under a load `W`, N, with deviations of both grooves, each over its largest: [`BallNumbers::at`] of [`Self::numbers`],
-    /// of fewer operations.
+    /// The same over `mu W`.
     #[inline(always)]
     #[must_use]
-    pub fn at(
+    pub fn per_sliding(&self, load: f32, branch: usize, friction: FrictionInterval) -> BallNumbers {
+        let below = &self.nodes[friction.node() % NODES];
+        let numbers = below.numbers(branch, below.interval(branch, load));
+        if NODES == 1 {
+            return numbers;
+        }
+        let above = &self.nodes[(friction.node() + 1) % NODES];
+        let others = above.numbers(branch, above.interval(branch, load));
+        numbers.towards(&others, friction.fraction())
+    }
+
+    /// A ball under a load `W`, N, with deviations of both grooves, each over its largest, and its friction torque alone, N m; `part`, above 0 to 1: how
+    /// much of its load and of its preload it carries on the run-in between return and load.
+    ///
+    /// With a preload the law has no ball on a run-in, because load and preload keep their ratio: it is the ball under the whole load `W`, of which every
+    /// contact carries `part`. Friction of sliding falls with it, that of spin with its power of 4/3; the torque is taken with 7/6 between them.
+    #[inline(always)]
+    #[must_use]
+    pub fn ball(
         &self,
         load: f32,
         branch: usize,
         friction: FrictionInterval,
         deviations: [f32; 2],
-    ) -> FreeMotion {
+        part: f32,
+    ) -> (BallOfRow, f32) {
+        let (carried, factor) = if part == 1.0 {
+            (load, 1.0)
+        } else if self.lift_off > 0.0 {
+            (load, math::sqrt(math::cbrt(part)))
+        } else {
+            (part * load, 1.0)
+        };
         let below = &self.nodes[friction.node() % NODES];
-        let motion = below.motion(branch, load, deviations);
+        let motion = below.motion(branch, carried, deviations);
         let motion = if NODES == 1 {
             motion
         } else {
             let above = &self.nodes[(friction.node() + 1) % NODES];
-            motion.towards(above.motion(branch, load, deviations), friction.fraction())
+            motion.towards(
+                above.motion(branch, carried, deviations),
+                friction.fraction(),
+            )
         };
-        let load = sliding_load(friction, load);
-        FreeMotion {
+        let sliding = sliding_load(friction, part * load);
+        let ball = BallOfRow {
             speed: motion.speed,
-            impedance: motion.impedance * load,
-            torque: motion.torque * load,
-        }
-    }
-
-    /// [`Self::at`] of a ball that carries this part of its load and of its preload, 0 to 1, on the run-in between return and load.
-    ///
-    /// With a preload the law has no such ball, because load and preload keep their ratio: it is the ball under the whole load `W`, of which every
-    /// contact carries `part`. Friction of sliding falls with it, that of spin with its power of 4/3; the torque is taken with 7/6 between them.
-    #[inline(always)]
-    pub(crate) fn on_run_in(
-        &self,
-        part: f32,
-        load: f32,
-        branch: usize,
-        friction: FrictionInterval,
-        deviations: [f32; 2],
-    ) -> FreeMotion {
-        if self.lift_off > 0.0 {
-            let motion = self.at(load, branch, friction, deviations);
-            let sixth_root = math::sqrt(math::cbrt(part));
-            FreeMotion {
-                impedance: part * motion.impedance,
-                torque: part * sixth_root * motion.torque,
-                ..motion
-            }
-        } else {
-            self.at(part * load, branch, friction, deviations)
-        }
+            impedance: motion.impedance,
+            sliding,
+            deviations,
+        };
+        (ball, factor * motion.torque * sliding)
     }
 
     /// Whether a load `W`, N, is not above the largest for which the law was folded.
@@ -238,7 +236,7 @@ impl<const NODES: usize> BallLaw<NODES> {
         node.unheld[branch & 1] & (u32::MAX << first) & !beyond == 0
     }
 
-    /// What neighbours change in the balls of a row under a load `W`, N, with a friction coefficient and these numbers of [`Self::numbers`].
+    /// What neighbours change in the balls of a row under a load `W`, N, with a friction coefficient and these numbers of [`Self::per_sliding`].
     #[inline(always)]
     #[must_use]
     pub fn neighbours(
@@ -257,19 +255,18 @@ impl<const NODES: usize> BallLaw<NODES> {
             found.towards(&above.neighbours(branch, load), friction.fraction())
         };
         let outward = friction.friction() * row.outward;
-        let [middle, screw, nut] = found.outward;
-        NeighbourLaw {
-            first: found.first(row.ball_friction, outward),
-            numbers: NeighbourNumbers {
-                outward: [outward * middle, outward * screw, outward * nut],
-                outward_torque: outward * found.outward_torque,
-                ..found
-            },
-            ball_friction: row.ball_friction,
-            held_speed: numbers.held_speed(),
-            slope: numbers.slope / sliding_load(friction, load),
-            curvature: row.half_speed * numbers.work,
-        }
+        let found = NeighbourNumbers {
+            outward: found.outward.map(|number| outward * number),
+            outward_torque: outward * found.outward_torque,
+            ..found
+        };
+        NeighbourLaw::new(
+            found,
+            row.ball_friction,
+            numbers.held_speed(),
+            numbers.slope,
+            row.half_speed * numbers.work,
+        )
     }
 
     /// `mu W` of a ball, N, under a load `W`, N, within what a law counts.
@@ -287,8 +284,10 @@ impl<const NODES: usize> BallLaw<NODES> {
     }
 }
 
-/// A train takes what a ball may have, with what friction between balls makes of it: a factor of 0.77 to 1.43.
+/// A train takes what a ball may have, with what friction between balls makes of it.
 const _: () = assert!(
-    0.77 * IMPEDANCES.minimum * SLIDING_LOADS[0] >= IMPEDANCE_RANGE.0
-        && 1.43 * IMPEDANCES.maximum * SLIDING_LOADS[1] <= IMPEDANCE_RANGE.1
+    STIFFENING[0] / (1.0 + LARGEST_GRIP) * IMPEDANCES.minimum * SLIDING_LOADS[0]
+        >= IMPEDANCE_RANGE.0
+        && STIFFENING[1] / (1.0 - LARGEST_GRIP) * IMPEDANCES.maximum * SLIDING_LOADS[1]
+            <= IMPEDANCE_RANGE.1
 );

@@ -10,4 +10,4 @@ mod zone;
 pub use configuration::CircuitState;
 pub(super) use configuration::{Circuit, CircuitConfiguration, LONGEST_TRACK, UNLOADED};
 pub use deviation::{DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
-pub(super) use zone::{LoadedBall, Sharing};
+pub(super) use zone::Sharing;

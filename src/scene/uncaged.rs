@@ -18,7 +18,7 @@ use super::outputs::UncagedOutputs;
 use super::sliding::{NO_DRAG, Sliding as _};
 use crate::ball::LoadShare;
 use crate::ball::folded::{FrictionInterval, node_octaves};
-use crate::ball::pressed::{BallLaw, RowConstants};
+use crate::ball::pressed::{BallLaw, BallOfRow, RowConstants};
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
 
@@ -47,8 +47,8 @@ pub use step::UncagedFriction;
 /// of the ball that carries least, the run-ins left out, to that of the one that carries most. The torque is held there all the same, as the block's
 /// certificate says.
 ///
-/// The arithmetic of a step: what a ball does on its own in `ball/pressed/numbers.rs` ([`BallNumbers`](crate::ball::pressed::BallNumbers)), which balls press in
-/// `train/pool.rs`, and how hard in `train/rubbing.rs`; `train.rs` has the words.
+/// A step reads from `scene/uncaged/step.rs`: what a ball does on its own in `ball/pressed/numbers.rs`, what its neighbours change in `ball/pressed/row.rs`, a tick
+/// of all balls in `train/tick.rs`, which balls press in `train/pool.rs`, and how hard in `train/settle.rs`; `train.rs` has the words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedBallScrew<const N: usize, const NODES: usize = 1>;
@@ -60,6 +60,8 @@ pub struct UncagedState<const N: usize> {
     /// Where the balls are, and how they press.
     pub circuit: CircuitState<N>,
     friction: FrictionInterval,
+    /// What each ball does alone in the present tick.
+    balls: [BallOfRow; N],
 }
 
 /// Constants of a ball screw without cage, with up to `N` balls.
@@ -107,6 +109,7 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
         UncagedState {
             circuit: CircuitState::new(&constants.circuit),
             friction: constants.friction,
+            balls: [BallOfRow::UNLOADED; N],
         }
     }
 

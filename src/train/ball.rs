@@ -1,132 +1,94 @@
 //! What a train keeps of one ball.
 
-use super::grip::Grip;
-use super::losses::RubbedBall;
+use super::grip::FreeBall;
 use crate::error::Range;
 use crate::stored::{Port, Refusal, Stored};
 
 /// Forces that balls may press with, in the unit of speed times impedance: what 255 balls of the largest impedance do.
 const FORCES: Range = Range::new(0.0, 1e12);
 
-/// One ball of a train: 36 bytes, of which two words hold one thing after the other in the phases of a tick.
+/// All of the friction in [`Ball::rubs`].
+const WHOLE: u16 = 1 << 15;
+
+/// One ball of a train: 32 bytes, of which some words hold one thing after the other in the phases of a tick.
 ///
 /// | | taken in | at the end of a cluster | settled |
 /// |---|---|---|---|
 /// | `speed` | free speed | free speed | actual speed |
 /// | `slack` | slack | slack | rear ball of a cluster: the cluster's remainder |
 /// | `force` | - | front ball: push; rear ball: inner slack | force on the ball in front |
-/// | `of_cluster` | - | front ball: impedance; rear ball: the same, or where balls rub the tail | rear ball: impedance, as it weighs it |
+/// | `of_cluster` | - | front ball: impedance; rear ball: growth | rear ball: impedance |
 /// | `others` | - | count over the cluster | the same |
 ///
-/// A dash is what the last tick left, which nothing reads. Only the methods here touch the fields, each under the
-/// name that its phase gives it; the other files read methods alone.
+/// A dash is what the last tick left, which nothing reads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Ball {
-    speed: f32,
-    impedance: f32,
-    slack: f32,
-    force: f32,
-    of_cluster: f32,
-    /// Part of the force behind it that the ball in front feels; 1 where no neighbour counts on it.
-    transmitted: f32,
-    /// Change of the friction torque with the speed, N m.
-    torque_slope: f32,
+    pub(super) speed: f32,
+    /// Force behind the ball by its own deviation from its free speed: `Z'` of [`FreeBall`].
+    pub(super) impedance: f32,
+    /// Force behind the ball over that in front, at its free speed; 1 where no neighbour rubs on it.
+    pub(super) growth: f32,
+    /// How much faster the ball could be, against the one in front, before the two meet within the tick: the free
+    /// speed of the one in front less its own, and the room between them. Negative where it would run into that one.
+    pub(super) slack: f32,
+    pub(super) force: f32,
+    pub(super) of_cluster: f32,
     /// Place on the track, as a part of its length in units of 2^-32.
-    position: u32,
+    pub(super) position: u32,
     /// Sixteenths of a unit beyond the position, 0 to 15.
-    sixteenths: u8,
+    pub(super) sixteenths: u8,
     others: u8,
-    /// Whether it counts in what the row loses.
-    counts: bool,
+    /// Part of the friction that its contact with the ball behind has, in units of 2^-15.
+    rubs: u16,
 }
 
-const _: () = assert!(size_of::<Ball>() == 36);
+const _: () = assert!(size_of::<Ball>() == 32);
 
-/// Taken in: what the ball would do on its own.
 impl Ball {
     /// At the nominal speed, without any force.
     pub(super) const IDLE: Self = Self {
         speed: 0.0,
         impedance: 1.0,
+        growth: 1.0,
         slack: 0.0,
         force: 0.0,
         of_cluster: 0.0,
-        transmitted: 1.0,
-        torque_slope: 0.0,
         position: 0,
         sixteenths: 0,
         others: 0,
-        counts: false,
+        rubs: WHOLE,
     };
 
-    /// Free speed, impedance and [`slack`](Self::slack).
+    /// What the ball would do on its own, and its slack.
     #[inline(always)]
-    pub(super) fn take_in(&mut self, free_speed: f32, impedance: f32, slack: f32) {
-        self.speed = free_speed;
-        self.impedance = impedance;
+    pub(super) fn take_in(&mut self, free: FreeBall, slack: f32) {
+        self.speed = free.speed;
+        self.impedance = free.impedance;
+        self.growth = free.growth;
         self.slack = slack;
     }
 
-    /// A ball that neighbours rub on, and its [`slack`](Self::slack).
+    /// What it was taken in with.
     #[inline(always)]
-    pub(super) fn take_in_rubbed(&mut self, rubbed: &RubbedBall, slack: f32) {
-        let grip = Grip::within(rubbed.grip);
-        self.counts = rubbed.counts;
-        self.transmitted = grip.transmitted();
-        self.torque_slope = rubbed.torque_slope;
-        self.take_in(rubbed.speed, rubbed.impedance * grip.of_impedance(), slack);
+    pub(super) fn free(&self) -> FreeBall {
+        FreeBall {
+            speed: self.speed,
+            impedance: self.impedance,
+            growth: self.growth,
+        }
     }
 
-    /// Change of its friction torque with its speed, N m.
+    /// Puts in the part of the friction that its contact with the ball behind has, 0 to 1.
     #[inline(always)]
-    pub(super) fn torque_slope(&self) -> f32 {
-        self.torque_slope
+    pub(super) fn set_rubs(&mut self, part: f32) {
+        self.rubs = (part * f32::from(WHOLE)) as i32 as u16;
     }
 
-    /// No neighbour counts on it.
+    /// That part.
     #[inline(always)]
-    pub(super) fn set_smooth(&mut self) {
-        self.counts = false;
-        self.transmitted = 1.0;
-    }
-
-    /// Part of the force behind it that the ball in front feels.
-    #[inline(always)]
-    pub(super) fn transmitted(&self) -> f32 {
-        self.transmitted
-    }
-
-    /// Whether it counts in what the row loses.
-    #[inline(always)]
-    pub(super) fn counts(&self) -> bool {
-        self.counts
-    }
-
-    /// Puts in the slack alone, where the ball in front was not known when the ball was taken in.
-    #[inline(always)]
-    pub(super) fn set_slack(&mut self, slack: f32) {
-        self.slack = slack;
-    }
-
-    /// Speed at which the ball would run on its own.
-    #[inline(always)]
-    pub(super) fn free_speed(&self) -> f32 {
-        self.speed
-    }
-
-    /// Force that changes the ball's speed by one.
-    #[inline(always)]
-    pub(super) fn impedance(&self) -> f32 {
-        self.impedance
-    }
-
-    /// How much faster the ball could be, against the one in front, before the two meet within the tick: the free
-    /// speed of the one in front less its own, and the room between them. Negative where the ball would run into
-    /// the one in front.
-    #[inline(always)]
-    pub(super) fn slack(&self) -> f32 {
-        self.slack
+    pub(super) fn rubs(&self) -> f32 {
+        f32::from(self.rubs) * (1.0 / WHOLE as f32)
     }
 
     /// Whether the ball would run into the one in front if both ran at their free speeds: the sign bit of the
@@ -136,10 +98,7 @@ impl Ball {
     pub(super) fn may_run_into_next(&self) -> bool {
         (self.slack.to_bits() as i32) < 0
     }
-}
 
-/// At the end of a cluster: what the two end balls hold for all.
-impl Ball {
     /// Makes the ball a cluster of its own.
     #[inline(always)]
     pub(super) fn stand_alone(&mut self) {
@@ -148,9 +107,9 @@ impl Ball {
 
     /// Makes the ball the rear one of a cluster with `others` more balls.
     #[inline(always)]
-    pub(super) fn set_rear(&mut self, others: usize, tail: f32, inner_slack: f32) {
+    pub(super) fn set_rear(&mut self, others: usize, growth: f32, inner_slack: f32) {
         self.force = inner_slack;
-        self.of_cluster = tail;
+        self.of_cluster = growth;
         self.others = others as u8;
     }
 
@@ -168,33 +127,6 @@ impl Ball {
         usize::from(self.others)
     }
 
-    /// Impedance of the cluster of which this is the front ball, two balls or more.
-    #[inline(always)]
-    pub(super) fn cluster_impedance(&self) -> f32 {
-        self.of_cluster
-    }
-
-    /// Tail of the cluster of which this is the rear ball, two balls or more.
-    #[inline(always)]
-    pub(super) fn tail(&self) -> f32 {
-        self.of_cluster
-    }
-
-    /// Push of the cluster of which this is the front ball, two balls or more.
-    #[inline(always)]
-    pub(super) fn push(&self) -> f32 {
-        self.force
-    }
-
-    /// Sum of the slacks between the balls of the cluster of which this is the rear ball, two balls or more.
-    #[inline(always)]
-    pub(super) fn inner_slack(&self) -> f32 {
-        self.force
-    }
-}
-
-/// Settled: what the ball does in this tick.
-impl Ball {
     /// Leaves speed and force.
     #[inline(always)]
     pub(super) fn settle(&mut self, speed: f32, force: f32) {
@@ -202,79 +134,11 @@ impl Ball {
         self.force = force;
     }
 
-    /// A ball alone at its free speed, which presses on none.
+    /// Leaves in a rear ball what rounding made of the force that pushes it, exactly zero, and the cluster's impedance.
     #[inline(always)]
-    pub(super) fn settle_alone(&mut self) {
-        self.force = 0.0;
-    }
-
-    /// Actual speed.
-    #[inline(always)]
-    pub(super) fn speed(&self) -> f32 {
-        self.speed
-    }
-
-    /// Force between the ball and the one in front.
-    #[inline(always)]
-    pub(super) fn force(&self) -> f32 {
-        self.force
-    }
-
-    /// Corrects the force.
-    #[inline(always)]
-    pub(super) fn set_force(&mut self, force: f32) {
-        self.force = force;
-    }
-
-    /// Leaves in a rear ball what rounding made of the force that pushes it, exactly zero.
-    #[inline(always)]
-    pub(super) fn leave_remainder(&mut self, remainder: f32) {
+    pub(super) fn leave_remainder(&mut self, remainder: f32, impedance: f32) {
         self.slack = remainder;
-    }
-
-    /// Leaves in a rear ball the cluster's impedance, as it weighs it.
-    #[inline(always)]
-    pub(super) fn leave_remainder_impedance(&mut self, impedance: f32) {
         self.of_cluster = impedance;
-    }
-
-    /// The cluster's impedance, as its rear ball weighs it.
-    #[inline(always)]
-    pub(super) fn remainder_impedance(&self) -> f32 {
-        self.of_cluster
-    }
-
-    /// What [`Ball::leave_remainder`] left.
-    #[inline(always)]
-    pub(super) fn remainder(&self) -> f32 {
-        self.slack
-    }
-}
-
-/// Where the ball is: kept from tick to tick.
-impl Ball {
-    /// Place on the track, as a part of its length in units of 2^-32.
-    #[inline(always)]
-    pub(super) fn position(&self) -> u32 {
-        self.position
-    }
-
-    /// Puts the ball at a place; sixteenths of a unit stay.
-    #[inline(always)]
-    pub(super) fn set_position(&mut self, position: u32) {
-        self.position = position;
-    }
-
-    /// Sixteenths of a unit beyond the position, 0 to 15.
-    #[inline(always)]
-    pub(super) fn sixteenths(&self) -> i32 {
-        i32::from(self.sixteenths)
-    }
-
-    /// Keeps the part of a number of sixteenths that is no whole unit.
-    #[inline(always)]
-    pub(super) fn keep_sixteenths(&mut self, sixteenths: i32) {
-        self.sixteenths = (sixteenths & 15) as u8;
     }
 }
 

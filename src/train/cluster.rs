@@ -4,23 +4,22 @@ use super::ball::Ball;
 
 /// Balls that move as one: they touch, or close their last distance within the tick.
 ///
-/// With the free speed `u`, impedance `Z` and slack `s` of each ball and the front ball `f`, contact of all makes
+/// With the free speed `u`, impedance `Z'` and slack `s` of each ball and the front ball `f`, contact of all makes
 /// the speed of ball `i`
 ///
 /// ```text
 /// v_i = u_i + (v_f - u_f) + S_i        S_i = s_i + ... + s_(f-1)
 /// ```
 ///
-/// and as no force acts on the cluster from outside, `sum Z_i (v_i - u_i) = 0`, so that
+/// and as no force acts on the cluster from outside, `sum w_i Z'_i (v_i - u_i) = 0` with the product `w_i` of the growths of all balls behind ball `i`
+/// ([`FreeBall`](super::grip::FreeBall)), so that
 ///
 /// ```text
-/// v_f - u_f = push / impedance         push = -sum Z_i S_i        impedance = sum Z_i
+/// v_f - u_f = push / impedance         push = -sum w_i Z'_i S_i        impedance = sum w_i Z'_i
 /// ```
 ///
 /// All speeds count from a ball's own free speed: sums hold what drives the balls together, and not the size of the
 /// speeds, whose rounding would exceed it.
-///
-/// Where balls rub, each impedance in these sums is weighed by the product of what the balls ahead of it in the cluster pass on ([`Grip`](super::grip::Grip)).
 #[derive(Clone, Copy)]
 pub(super) struct Cluster {
     /// Force with which the balls behind would push a front ball that kept its free speed.
@@ -29,19 +28,19 @@ pub(super) struct Cluster {
     pub(super) impedance: f32,
     /// Sum of the slacks between the balls, from the rear ball to the front ball: `S` of the rear ball.
     pub(super) inner_slack: f32,
-    /// Product of what its balls pass on: the weight of the ball behind. 1 where none rubs.
-    pub(super) tail: f32,
+    /// Product of the growths of all its balls: the weight of a ball ahead. 1 where none rubs.
+    pub(super) growth: f32,
 }
 
 impl Cluster {
     /// A ball alone.
     #[inline(always)]
-    pub(super) fn single<const RUBBED: bool>(ball: &Ball) -> Self {
+    pub(super) fn single(ball: &Ball) -> Self {
         Self {
             push: 0.0,
-            impedance: ball.impedance(),
+            impedance: ball.impedance,
             inner_slack: 0.0,
-            tail: transmitted::<RUBBED>(ball),
+            growth: ball.growth,
         }
     }
 
@@ -57,21 +56,14 @@ impl Cluster {
 
     /// With the ball behind, which has run into it.
     #[inline(always)]
-    pub(super) fn grown<const RUBBED: bool>(&self, behind: &Ball) -> Self {
-        let slack = behind.slack() + self.inner_slack;
-        let impedance = self.weighed::<RUBBED>(behind.impedance());
+    pub(super) fn grown(&self, behind: &Ball) -> Self {
+        let slack = behind.slack + self.inner_slack;
         Self {
-            push: self.push - slack * impedance,
-            impedance: self.impedance + impedance,
+            push: behind.growth * self.push - slack * behind.impedance,
+            impedance: behind.growth * self.impedance + behind.impedance,
             inner_slack: slack,
-            tail: self.weighed::<RUBBED>(transmitted::<RUBBED>(behind)),
+            growth: behind.growth * self.growth,
         }
-    }
-
-    /// A number of what is behind, as the front ball weighs it.
-    #[inline(always)]
-    fn weighed<const RUBBED: bool>(&self, number: f32) -> f32 {
-        if RUBBED { self.tail * number } else { number }
     }
 
     /// This cluster and the one ahead as one, where this one, with the slack of its front ball, runs into that;
@@ -80,15 +72,15 @@ impl Cluster {
     /// Seen from the front ball ahead, each ball of this cluster has a slack larger by that between the two and the
     /// inner one ahead. What pushes then is compared by `push / impedance` of the two, crosswise multiplied.
     #[inline(always)]
-    pub(super) fn joined<const RUBBED: bool>(&self, slack: f32, ahead: &Self) -> Option<Self> {
+    pub(super) fn joined(&self, slack: f32, ahead: &Self) -> Option<Self> {
         let slack = slack + ahead.inner_slack;
         let push = self.push - slack * self.impedance;
         if push * ahead.impedance > ahead.push * self.impedance {
             Some(Self {
-                push: ahead.weighed::<RUBBED>(push) + ahead.push,
-                impedance: ahead.weighed::<RUBBED>(self.impedance) + ahead.impedance,
+                push: push + self.growth * ahead.push,
+                impedance: self.impedance + self.growth * ahead.impedance,
                 inner_slack: self.inner_slack + slack,
-                tail: ahead.weighed::<RUBBED>(self.tail),
+                growth: self.growth * ahead.growth,
             })
         } else {
             None
@@ -97,43 +89,30 @@ impl Cluster {
 
     /// The cluster with this front ball.
     #[inline(always)]
-    pub(super) fn at<const RUBBED: bool>(balls: &[Ball], front: usize) -> Self {
+    pub(super) fn at(balls: &[Ball], front: usize) -> Self {
         let Some(front_ball) = balls.get(front) else {
-            return Self::single::<RUBBED>(&Ball::IDLE);
+            return Self::single(&Ball::IDLE);
         };
         let others = front_ball.others();
         match balls.get(front.wrapping_sub(others)) {
             Some(rear_ball) if others > 0 => Self {
-                push: front_ball.push(),
-                impedance: front_ball.cluster_impedance(),
-                inner_slack: rear_ball.inner_slack(),
-                tail: if RUBBED { rear_ball.tail() } else { 1.0 },
+                push: front_ball.force,
+                impedance: front_ball.of_cluster,
+                inner_slack: rear_ball.force,
+                growth: rear_ball.of_cluster,
             },
-            _ => Self::single::<RUBBED>(front_ball),
+            _ => Self::single(front_ball),
         }
     }
 
     /// Leaves the cluster of `others` and one more balls in its two end balls. Of a single ball both ends are one.
     #[inline(always)]
-    pub(super) fn leave<const RUBBED: bool>(
-        &self,
-        balls: &mut [Ball],
-        rear: usize,
-        front: usize,
-        others: usize,
-    ) {
+    pub(super) fn leave(&self, balls: &mut [Ball], rear: usize, front: usize, others: usize) {
         if let Some(ball) = balls.get_mut(rear) {
-            let of_cluster = if RUBBED { self.tail } else { self.impedance };
-            ball.set_rear(others, of_cluster, self.inner_slack);
+            ball.set_rear(others, self.growth, self.inner_slack);
         }
         if let Some(ball) = balls.get_mut(front) {
             ball.set_front(others, self.impedance, self.push);
         }
     }
-}
-
-/// Part of the force behind a ball that the ball in front feels.
-#[inline(always)]
-fn transmitted<const RUBBED: bool>(ball: &Ball) -> f32 {
-    if RUBBED { ball.transmitted() } else { 1.0 }
 }

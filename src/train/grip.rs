@@ -1,64 +1,61 @@
-//! What friction between balls takes off the forces from ball to ball.
+//! A ball as a train takes it in, and what friction between balls does to the forces from ball to ball.
 
-/// `r`: the net push that a ball needs in addition because its neighbours rub on it, over the sum of their forces.
+/// Largest size of a grip: with it a force falls or grows by 1.9 from ball to ball.
+pub const LARGEST_GRIP: f32 = 0.3;
+
+/// What a ball would do on its own, and what of the forces of its neighbours its friction takes.
+///
+/// A ball with the speed `v` needs the net push
 ///
 /// ```text
 /// F_behind - F_ahead = Z (v - u) + r (F_behind + F_ahead)
 /// ```
 ///
-/// With `k = (1 - r)/(1 + r)` and the impedance `Z' = Z/(1 + r)` that is `k F_behind - F_ahead = Z' (v - u)`: the train of balls that do not rub,
-/// but for a factor from ball to ball. Weighed by the product of the factors of all balls ahead, the net pushes on a cluster add up to
-/// zero as without friction, so that clusters are joined as ever.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Grip {
-    transmitted: f32,
-    per_growth: f32,
+/// with its free speed `u`, its impedance `Z` and the grip `r` of its neighbours' friction. With `g = (1 + r)/(1 - r)` and the impedance
+/// `Z' = Z/(1 - r)` that is `F_behind = g F_ahead + Z' (v - u)`: the train of balls that do not rub, but for a factor from ball to ball. Seen from
+/// the rear ball of a cluster, each net push grows by the factors of all balls behind its own; so weighed, they add up to
+/// zero as without friction, and clusters are joined as ever.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeBall {
+    pub(crate) speed: f32,
+    /// `Z'`.
+    pub(crate) impedance: f32,
+    /// `g`.
+    pub(crate) growth: f32,
 }
 
-/// Largest size of `r`: with it a force falls or grows by 1.9 from ball to ball.
-const LARGEST_GRIP: f32 = 0.3;
-
-impl Grip {
-    /// Of this `r`, limited to [`LARGEST_GRIP`] in size.
+impl FreeBall {
+    /// A ball that no neighbour rubs on, of a free speed, as [`Press::solve`](super::Press::solve) counts it, and an impedance, the force that
+    /// changes the speed by one.
     #[inline(always)]
-    pub(super) fn within(grip: f32) -> Self {
-        let grip = limited_grip(grip);
-        let per_growth = 1.0 / (1.0 + grip);
+    #[must_use]
+    pub const fn smooth(speed: f32, impedance: f32) -> Self {
         Self {
-            transmitted: (1.0 - grip) * per_growth,
-            per_growth,
+            speed,
+            impedance,
+            growth: 1.0,
         }
     }
 
-    /// `k`: part of the force behind the ball that the ball in front feels.
+    /// A ball that needs the net push `impedance (v - at) + push + grip (F_behind + F_ahead)`, with a grip of at most [`LARGEST_GRIP`] in size.
     #[inline(always)]
-    pub(super) const fn transmitted(&self) -> f32 {
-        self.transmitted
-    }
-
-    /// Factor of the impedance of a ball on which its neighbours rub.
-    #[inline(always)]
-    pub(super) const fn of_impedance(&self) -> f32 {
-        self.per_growth
-    }
-}
-
-/// This `r`, or the largest in its direction. Not `clamp`, which keeps a panic for bounds that are not ordered.
-#[inline(always)]
-pub(crate) fn limited_grip(grip: f32) -> f32 {
-    if grip > LARGEST_GRIP {
-        LARGEST_GRIP
-    } else if grip > -LARGEST_GRIP {
-        grip
-    } else {
-        -LARGEST_GRIP
+    #[must_use]
+    pub fn rubbed(at: f32, impedance: f32, push: f32, grip: f32) -> Self {
+        let (passed, kept) = (1.0 + grip, 1.0 - grip);
+        let inverse = 1.0 / (impedance * kept);
+        let stiff = impedance * inverse;
+        Self {
+            speed: at - push * (kept * inverse),
+            impedance: impedance * stiff,
+            growth: passed * stiff,
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::losses::{Losses, RubbedBall};
     use super::super::press::Press;
+    use super::FreeBall;
 
     const BALLS: usize = 9;
 
@@ -87,17 +84,9 @@ mod tests {
             room[round % BALLS] = if round % 2 == 0 { f32::INFINITY } else { 0.08 };
             let grip: [f32; BALLS] = core::array::from_fn(|_| 0.6 * random(&mut seed) - 0.3);
             let mut press = Press::<BALLS>::new();
-            let balls: [RubbedBall; BALLS] = core::array::from_fn(|j| RubbedBall {
-                speed: free[j],
-                impedance: impedance[j],
-                grip: grip[j],
-                ..RubbedBall::default()
-            });
-            assert!(
-                press
-                    .solve_rubbing(&balls, &room, &Losses::default())
-                    .is_some()
-            );
+            let balls: [FreeBall; BALLS] =
+                core::array::from_fn(|j| FreeBall::rubbed(free[j], impedance[j], 0.0, grip[j]));
+            assert!(press.solve_rubbing(&balls, &room));
             let forces: [f32; BALLS] = core::array::from_fn(|j| press.forces().nth(j).unwrap());
             let speeds: [f32; BALLS] = core::array::from_fn(|j| press.speeds().nth(j).unwrap());
             let largest = forces.iter().copied().fold(0.0, f32::max);
@@ -130,13 +119,8 @@ mod tests {
         let (mut smooth, mut rubbing) = (Press::<BALLS>::new(), Press::<BALLS>::new());
         let room = [0.0, 0.0, 1e-3, 0.0, 0.0, 0.0, 0.0, 2e-3, f32::INFINITY];
         assert!(smooth.solve(&free, &[500.0; BALLS], &room));
-        let balls = free.map(|speed| RubbedBall {
-            speed,
-            impedance: 500.0,
-            ..RubbedBall::default()
-        });
-        let found = rubbing.solve_rubbing(&balls, &room, &Losses::default());
-        assert!(found.is_some());
+        let balls = free.map(|speed| FreeBall::rubbed(speed, 500.0, 0.0, 0.0));
+        assert!(rubbing.solve_rubbing(&balls, &room));
         for (one, other) in smooth.forces().zip(rubbing.forces()) {
             assert!((one - other).abs() < 1e-5, "{one} {other}");
         }

@@ -7,14 +7,14 @@ use super::cluster::Cluster;
 /// on none.
 ///
 /// Balls are taken in, with their slacks. Joins may come in any order: none of them opens another one's contact.
-#[inline(never)]
-pub(super) fn pool<const RUBBED: bool>(balls: &mut [Ball]) -> usize {
+#[inline(always)]
+pub(super) fn pool(balls: &mut [Ball]) -> usize {
     // Balls that belong to no cluster yet.
     let mut open = balls.len();
     while let Some(front) = balls.get_mut(..open).and_then(next_front) {
-        open = grow::<RUBBED>(balls, front);
+        open = grow(balls, front);
     }
-    close::<RUBBED>(balls)
+    close(balls)
 }
 
 /// From the last of these balls backwards, the first one into which the one behind runs. Balls in front of it stand
@@ -37,19 +37,17 @@ fn next_front(balls: &mut [Ball]) -> Option<usize> {
 /// Leaves the cluster that grows from the ball `front`, backwards and forwards in turn; gives the number of balls
 /// behind it.
 #[inline(always)]
-fn grow<const RUBBED: bool>(balls: &mut [Ball], mut front: usize) -> usize {
+fn grow(balls: &mut [Ball], mut front: usize) -> usize {
     let mut behind = balls.get(..front).unwrap_or_default();
     let mut cluster = balls
         .get(front)
-        .map_or(Cluster::single::<RUBBED>(&Ball::IDLE), |ball| {
-            Cluster::single::<RUBBED>(ball)
-        });
+        .map_or(Cluster::single(&Ball::IDLE), Cluster::single);
     loop {
         while let [further @ .., ball] = behind {
-            if !cluster.reached_by(ball.slack()) {
+            if !cluster.reached_by(ball.slack) {
                 break;
             }
-            cluster = cluster.grown::<RUBBED>(ball);
+            cluster = cluster.grown(ball);
             behind = further;
         }
         // What the cluster runs into slows it down, and the ball behind may run into it after all.
@@ -57,32 +55,30 @@ fn grow<const RUBBED: bool>(balls: &mut [Ball], mut front: usize) -> usize {
             break;
         }
         let next = front + 1 + others(balls, front + 1);
-        let ahead = Cluster::at::<RUBBED>(balls, next);
-        let Some(longer) = cluster.joined::<RUBBED>(slack(balls, front), &ahead) else {
+        let ahead = Cluster::at(balls, next);
+        let Some(longer) = cluster.joined(slack(balls, front), &ahead) else {
             break;
         };
         cluster = longer;
         front = next;
     }
     let rear = behind.len();
-    cluster.leave::<RUBBED>(balls, rear, front, front - rear);
+    cluster.leave(balls, rear, front, front - rear);
     rear
 }
 
 /// Joins across the place where the ring closes: the last cluster has the first one in front. Gives the index of a
 /// ball that presses on none.
 #[inline(always)]
-fn close<const RUBBED: bool>(balls: &mut [Ball]) -> usize {
+fn close(balls: &mut [Ball]) -> usize {
     let last = balls.len().wrapping_sub(1);
-    let mut closing = Closing::new::<RUBBED>(balls, last);
+    let mut closing = Closing::new(balls, last);
     // Each turn but the last makes one cluster of two.
-    while !closing.is_ring()
-        && (closing.joins_ahead::<RUBBED>(balls) || closing.joins_behind::<RUBBED>(balls))
-    {}
+    while !closing.is_ring() && (closing.joins_ahead(balls) || closing.joins_behind(balls)) {}
     if closing.front != last {
         closing
             .cluster
-            .leave::<RUBBED>(balls, closing.rear, closing.front, closing.others);
+            .leave(balls, closing.rear, closing.front, closing.others);
     }
     closing.front
 }
@@ -100,10 +96,10 @@ struct Closing {
 
 impl Closing {
     #[inline(always)]
-    fn new<const RUBBED: bool>(balls: &[Ball], last: usize) -> Self {
+    fn new(balls: &[Ball], last: usize) -> Self {
         let others = others(balls, last);
         Self {
-            cluster: Cluster::at::<RUBBED>(balls, last),
+            cluster: Cluster::at(balls, last),
             last,
             rear: last.wrapping_sub(others),
             front: last,
@@ -129,12 +125,12 @@ impl Closing {
 
     /// Joins the cluster ahead where this one runs into it.
     #[inline(always)]
-    fn joins_ahead<const RUBBED: bool>(&mut self, balls: &[Ball]) -> bool {
+    fn joins_ahead(&mut self, balls: &[Ball]) -> bool {
         let slack = slack(balls, self.front);
         let ahead = self.ahead();
         let beyond = others(balls, ahead);
-        let cluster_ahead = Cluster::at::<RUBBED>(balls, ahead + beyond);
-        let Some(joined) = self.cluster.joined::<RUBBED>(slack, &cluster_ahead) else {
+        let cluster_ahead = Cluster::at(balls, ahead + beyond);
+        let Some(joined) = self.cluster.joined(slack, &cluster_ahead) else {
             return false;
         };
         self.cluster = joined;
@@ -146,7 +142,7 @@ impl Closing {
     /// Joins the cluster behind where that runs into this one. As long as this one has not grown ahead, pooling has
     /// found already that it does not.
     #[inline(always)]
-    fn joins_behind<const RUBBED: bool>(&mut self, balls: &[Ball]) -> bool {
+    fn joins_behind(&mut self, balls: &[Ball]) -> bool {
         if self.front == self.last {
             return false;
         }
@@ -154,8 +150,8 @@ impl Closing {
         let Some(ball) = balls.get(front) else {
             return false;
         };
-        let behind = Cluster::at::<RUBBED>(balls, front);
-        let Some(joined) = behind.joined::<RUBBED>(ball.slack(), &self.cluster) else {
+        let behind = Cluster::at(balls, front);
+        let Some(joined) = behind.joined(ball.slack, &self.cluster) else {
             return false;
         };
         let beyond = 1 + ball.others();
@@ -175,5 +171,5 @@ fn others(balls: &[Ball], end: usize) -> usize {
 /// Slack between a ball and the one in front.
 #[inline(always)]
 fn slack(balls: &[Ball], ball: usize) -> f32 {
-    balls.get(ball).map_or(0.0, Ball::slack)
+    balls.get(ball).map_or(0.0, |ball| ball.slack)
 }

@@ -1,6 +1,5 @@
 //! A train: where its balls are, and what the last tick made of them.
 
-use super::ball::Ball;
 use super::press::Press;
 use super::track::OVERLAP;
 use super::track::Track;
@@ -79,7 +78,7 @@ impl<const N: usize> Train<N> {
         let mut train = Self::spread(track, gaps.len());
         let mut next = 0_u32;
         for (ball, &gap) in train.press.balls_mut().iter_mut().zip(gaps) {
-            ball.set_position(next);
+            ball.position = next;
             let largest = free as f32 / track.units_per_metre();
             let gap = (in_range("gaps", gap, 0.0, largest)? * track.units_per_metre()) as u64;
             let gap = if gap > free { free } else { gap };
@@ -108,7 +107,7 @@ impl<const N: usize> Train<N> {
         let mut train = Self::at_rest(track, balls);
         // Over all places, beyond the balls too: the compiler knows how many.
         for (index, ball) in train.press.places.iter_mut().enumerate() {
-            ball.set_position(step.wrapping_mul(index as u32));
+            ball.position = step.wrapping_mul(index as u32);
         }
         train
     }
@@ -126,13 +125,7 @@ impl<const N: usize> Train<N> {
     /// units of 2^-32.
     #[inline]
     pub fn positions(&self) -> impl Iterator<Item = u32> + '_ {
-        self.press.balls().iter().map(Ball::position)
-    }
-
-    /// Position of the first ball.
-    #[inline(always)]
-    pub(crate) fn first_position(&self) -> u32 {
-        self.press.balls().first().map_or(0, Ball::position)
+        self.press.balls().iter().map(|ball| ball.position)
     }
 
     /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
@@ -187,7 +180,7 @@ mod tests {
     fn an_overlap_by_rounding_is_a_gap_just_below_zero() {
         let mut train = Train::<2>::new(1.0, 0.01, &[0.0; 2]).unwrap();
         let rear = &mut train.press.balls_mut()[0];
-        rear.set_position(rear.position().wrapping_add(3));
+        rear.position = rear.position.wrapping_add(3);
         // Three of 2^32 units to a metre.
         let gap = train.gaps().next().unwrap();
         assert!((gap + 3.0 / 4_294_967_296.0).abs() < 1e-15, "{gap}");

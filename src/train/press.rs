@@ -1,11 +1,10 @@
 //! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
 
+use super::balance::balance;
 use super::ball::Ball;
-use super::losses::{Losses, RubbedBall, RubbedRow};
+use super::grip::FreeBall;
 use super::pool::pool;
-use super::rubbing::settle_rubbing;
-use super::settle::{Pressing, settle};
-use super::track::Motion;
+use super::settle::{Pressing, Settled, settle};
 use crate::error::{Error, attempt, in_range};
 
 /// Largest free speed that counts, a relative deviation: that of a ball that stands, or runs twice as fast as a nominal one.
@@ -39,10 +38,9 @@ impl InputCheck {
             | MOST.wrapping_sub(impedance);
     }
 
-    /// For lists of numbers that each have to have one for each ball.
+    /// Of balls that each have their numbers, or not.
     #[inline(always)]
-    pub(super) fn of_lengths<const LISTS: usize>(balls: usize, lengths: [usize; LISTS]) -> Self {
-        let complete = lengths.iter().all(|&length| length == balls);
+    pub(super) fn of(complete: bool) -> Self {
         Self {
             outside: if complete { 0 } else { 1 << 31 },
         }
@@ -144,12 +142,12 @@ impl<const N: usize> Press<N> {
     /// Force between ball `j` and the ball in front of it, in the unit of speed times impedance; zero
     /// where they do not press. The last one acts between the last ball and the first.
     pub fn forces(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
-        self.balls().iter().map(Ball::force)
+        self.balls().iter().map(|ball| ball.force)
     }
 
     /// Actual speed of each ball.
     pub fn speeds(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
-        self.balls().iter().map(Ball::speed)
+        self.balls().iter().map(|ball| ball.speed)
     }
 
     /// Index of a ball that does not press on the one in front of it: the last one unless that does, as it can on a
@@ -191,52 +189,49 @@ impl<const N: usize> Press<N> {
     /// against a complementarity solver in f64, 37 and 64 balls; 2.5e-6 for a factor 1e6, against an
     /// exhaustive search with up to 9 balls (over a hundredth of what drives the fastest ball where that is
     /// more). Exact otherwise: no iteration, at most `N - 1` joins, one division for each cluster of two or
-    /// more balls. Cost for 37 balls: 6,900 modelled cycles.
+    /// more balls. Cost for 37 balls: 7,100 modelled cycles.
     pub fn solve(&mut self, free: &[f32], impedance: &[f32], room: &[f32]) -> bool {
-        let mut check = InputCheck::of_lengths(
-            usize::from(self.count),
-            [free.len(), impedance.len(), room.len()],
-        );
-        let mut ahead = free.first().copied().unwrap_or(0.0);
-        let inputs = free.iter().zip(impedance).zip(room);
-        for (ball, ((&speed, &impedance), &room)) in self.balls_mut().iter_mut().zip(inputs).rev() {
-            check.add(speed, impedance);
+        let complete = free.len() == impedance.len();
+        let inputs = free.iter().zip(impedance);
+        self.solve_all(
+            inputs.map(|(&speed, &impedance)| FreeBall::smooth(speed, impedance)),
+            room,
+            complete,
+        )
+    }
+
+    /// The same for balls that rub on each other.
+    pub fn solve_rubbing(&mut self, balls: &[FreeBall], room: &[f32]) -> bool {
+        self.solve_all(balls.iter().copied(), room, true)
+    }
+
+    #[inline(always)]
+    fn solve_all(
+        &mut self,
+        free: impl DoubleEndedIterator<Item = FreeBall> + ExactSizeIterator + Clone,
+        room: &[f32],
+        complete: bool,
+    ) -> bool {
+        let balls = usize::from(self.count);
+        let mut check = InputCheck::of(complete && free.len() == balls && room.len() == balls);
+        let mut ahead = free.clone().next().map_or(0.0, |first| first.speed);
+        let inputs = free.zip(room);
+        for (ball, (free, &room)) in self.balls_mut().iter_mut().zip(inputs).rev() {
+            check.add(free.speed, free.impedance);
             let room = if room < 0.0 { 0.0 } else { room };
-            ball.take_in(speed, impedance, room + (ahead - speed));
-            ahead = speed;
+            ball.take_in(free, room + (ahead - free.speed));
+            ahead = free.speed;
         }
-        self.join::<false>(check.passed());
-        self.settle(Motion::NONE);
+        self.join(check.passed());
+        self.settle(|_, _, _| ());
         check.passed()
     }
 
-    /// The same for balls that rub on each other; returns what their contacts add up to, or none where some number does not count. Forces and cost as
-    /// in [`Self::solve`].
-    pub fn solve_rubbing(
-        &mut self,
-        balls: &[RubbedBall],
-        room: &[f32],
-        losses: &Losses,
-    ) -> Option<RubbedRow> {
-        let mut check = InputCheck::of_lengths(usize::from(self.count), [balls.len(), room.len()]);
-        let mut ahead = balls.first().map_or(0.0, |ball| ball.speed);
-        let inputs = balls.iter().zip(room);
-        for (ball, (rubbed, &room)) in self.balls_mut().iter_mut().zip(inputs).rev() {
-            check.add(rubbed.speed, rubbed.impedance);
-            let room = if room < 0.0 { 0.0 } else { room };
-            ball.take_in_rubbed(rubbed, room + (ahead - rubbed.speed));
-            ahead = rubbed.speed;
-        }
-        self.join::<true>(check.passed());
-        let row = self.settle_rubbing(Motion::NONE, losses, true);
-        check.passed().then_some(row)
-    }
-
     /// Joins balls to clusters, or leaves all at the nominal speed where not all that was taken in counts.
-    #[inline(always)]
-    pub(super) fn join<const RUBBED: bool>(&mut self, valid: bool) {
+    #[inline(never)]
+    pub(super) fn join(&mut self, valid: bool) {
         if valid {
-            self.foremost = pool::<RUBBED>(self.balls_mut()) as u8;
+            self.foremost = pool(self.balls_mut()) as u8;
         } else {
             self.let_go();
         }
@@ -247,29 +242,23 @@ impl<const N: usize> Press<N> {
     #[inline(never)]
     fn let_go(&mut self) {
         for ball in self.balls_mut() {
-            ball.take_in(0.0, 1.0, 0.0);
+            ball.take_in(FreeBall::smooth(0.0, 1.0), 0.0);
             ball.stand_alone();
         }
         self.foremost = self.last();
     }
 
-    /// Speeds and forces of the clusters, and where the balls go.
+    /// Leaves in all balls their speeds and forces, and passes each on as [`settle`] does.
     #[inline(always)]
-    pub(super) fn settle(&mut self, motion: Motion) -> Pressing {
+    pub(super) fn settle(&mut self, mut each: impl FnMut(usize, &mut Ball, &Settled)) -> Pressing {
         let foremost = self.foremost();
-        settle(self.balls_mut(), foremost, motion)
-    }
-
-    /// The same of balls that rub.
-    #[inline(always)]
-    pub(super) fn settle_rubbing(
-        &mut self,
-        motion: Motion,
-        losses: &Losses,
-        last: bool,
-    ) -> RubbedRow {
-        let foremost = self.foremost();
-        settle_rubbing(self.balls_mut(), foremost, motion, losses, last)
+        let balls = self.balls_mut();
+        let pressing = settle(balls, foremost, |index, ball, settled| {
+            ball.settle(settled.speed, settled.force);
+            each(index, ball, settled);
+        });
+        balance(balls, foremost, &pressing);
+        pressing
     }
 }
 

@@ -111,49 +111,43 @@ impl Track {
     }
 }
 
-/// Rooms in front of the balls, one after the other from the last ball backwards.
+/// Slacks of balls that come one after the other, each behind the one before it.
 ///
-/// The room is the speed at which a ball would close the gap in front of it within the tick, over the nominal
-/// speed: the gap over the nominal travel.
+/// The slack is the room in front of a ball and the free speed of the one ahead less its own. The room is the speed at which a ball would close the
+/// gap in front of it within the tick, over the nominal speed: the gap over the nominal travel, 0 where rounding lets two balls overlap.
 #[derive(Clone, Copy)]
-pub(super) struct Rooms {
-    /// Where the next ball touches the one in front.
-    touching: u32,
+pub(super) struct Slacks {
     track: Track,
     /// 1 / nominal travel in this tick, 1/units.
     per_unit: f32,
+    /// Position and free speed of the ball ahead.
+    ahead: (u32, f32),
 }
 
-impl Rooms {
-    /// For balls behind the one at `ahead`, in a tick with a nominal travel in units.
+impl Slacks {
+    /// In a tick with a nominal travel in units. What is ahead of the first ball that comes is not known: it comes once more at the end.
     #[inline(always)]
-    pub(super) fn behind(ahead: u32, track: Track, travel: f32) -> Self {
+    pub(super) fn new(track: Track, travel: f32) -> Self {
         let distance = travel.abs();
         Self {
-            touching: ahead.wrapping_sub(track.pitch),
             track,
             per_unit: if distance > NO_TRAVEL {
                 1.0 / distance
             } else {
                 1.0 / NO_TRAVEL
             },
+            ahead: (0, 0.0),
         }
     }
 
-    /// Room of the next ball, which is at this position.
+    /// Slack of the next ball.
     #[inline(always)]
-    pub(super) fn next(&mut self, position: u32) -> f32 {
-        let gap = self.touching.wrapping_sub(position);
-        self.touching = position.wrapping_sub(self.track.pitch);
-        gap as f32 * self.per_unit
-    }
-
-    /// Room between two balls; 0 where rounding lets them overlap.
-    #[inline(always)]
-    pub(super) fn without_overlap(&self, position: u32, ahead: u32) -> f32 {
+    pub(super) fn next(&mut self, position: u32, speed: f32) -> f32 {
+        let (ahead, speed_ahead) = self.ahead;
         let gap = self.track.gap(position, ahead);
         let gap = if gap > u32::MAX - OVERLAP { 0 } else { gap };
-        gap as f32 * self.per_unit
+        self.ahead = (position, speed);
+        gap as f32 * self.per_unit + (speed_ahead - speed)
     }
 }
 
@@ -195,17 +189,10 @@ pub(super) struct Motion {
 }
 
 impl Motion {
-    /// Balls stay where they are.
-    pub(super) const NONE: Self = Self {
-        nominal: 0,
-        sixteenths_per_speed: 0.0,
-        pitch: 0,
-    };
-
     /// A place that no ball comes near in this tick, a quarter of the track in front of where this one goes.
     #[inline(always)]
     pub(super) fn far_ahead(&self, ball: &Ball) -> u32 {
-        ball.position()
+        ball.position
             .wrapping_add(self.nominal.wrapping_add(1 << 30))
     }
 
@@ -213,9 +200,9 @@ impl Motion {
     /// touches this one.
     #[inline(always)]
     pub(super) fn advance(&self, ball: &mut Ball, limit: u32) -> u32 {
-        let sixteenths = (ball.speed() * self.sixteenths_per_speed) as i32;
-        let sixteenths = sixteenths.wrapping_add(ball.sixteenths());
-        let place = ball.position().wrapping_add(self.nominal);
+        let sixteenths = (ball.speed * self.sixteenths_per_speed) as i32;
+        let sixteenths = sixteenths.wrapping_add(i32::from(ball.sixteenths));
+        let place = ball.position.wrapping_add(self.nominal);
         let place = place.wrapping_add_signed(sixteenths >> SIXTEENTH_BITS);
         // Clusters do not run into each other, but rounding may leave that much.
         let place = if limit.wrapping_sub(place) > u32::MAX - OVERLAP {
@@ -223,8 +210,8 @@ impl Motion {
         } else {
             place
         };
-        ball.set_position(place);
-        ball.keep_sixteenths(sixteenths);
+        ball.position = place;
+        ball.sixteenths = (sixteenths & 15) as u8;
         self.touching(place)
     }
 

@@ -2,11 +2,10 @@
 
 use core::f32::consts::TAU;
 
-use epas_friction::ball::pressed::{BallLaw, NEIGHBOUR_KNOTS};
+use epas_friction::ball::pressed::{BallLaw, NEIGHBOUR_KNOTS, RUBBINGS};
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, CatalogueBall, FoldedBall,
 };
-use epas_friction::train::RUBBINGS;
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
     DeviationMap, FrictionBranch, GrooveSize, Harmonic, Inputs, Limits, LinearBearing,

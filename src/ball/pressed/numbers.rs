@@ -107,6 +107,28 @@ impl BallNumbers {
         }
     }
 
+    /// Free speed with these deviations.
+    #[inline(always)]
+    pub(crate) fn speed(&self, [screw, nut]: [f32; 2]) -> f32 {
+        powers(&self.free, screw, nut)
+    }
+
+    /// Impedance with these deviations.
+    #[inline(always)]
+    pub(crate) fn impedance(&self, deviations: [f32; 2]) -> f32 {
+        line(&self.impedance, deviations)
+    }
+
+    /// Friction torque at their free speeds of balls whose deviations have these sums of powers.
+    #[inline(always)]
+    pub(crate) fn torque_of(&self, sums: &PowerSums) -> f32 {
+        let mut torque = 0.0;
+        for (number, sum) in self.torque.iter().zip(&sums.0) {
+            torque += number * sum;
+        }
+        torque
+    }
+
     /// Mean free speed over all deviations.
     #[inline(always)]
     #[must_use]
@@ -132,6 +154,24 @@ impl BallNumbers {
         attempt!(in_range("slope", self.slope, -LARGEST_ARM, LARGEST_ARM));
         attempt!(in_range("work", self.work, 0.0, LARGEST_WORK));
         Ok(self)
+    }
+}
+
+/// Sums of the powers of some balls' deviations, in the order of the numbers.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PowerSums([f32; POWERS]);
+
+impl PowerSums {
+    /// Adds a ball.
+    #[inline(always)]
+    pub(crate) fn add(&mut self, [screw, nut]: [f32; 2]) {
+        let [count, s, n, ss, sn, nn] = &mut self.0;
+        *count += 1.0;
+        *s += screw;
+        *n += nut;
+        *ss += screw * screw;
+        *sn += screw * nut;
+        *nn += nut * nut;
     }
 }
 

@@ -150,21 +150,28 @@ impl Circuit {
             .sharing(state.train.positions(), self.balls, shares)
     }
 
+    /// Whether the track has no return, and no run-in.
+    #[inline(always)]
+    pub(crate) const fn is_closed(&self) -> bool {
+        self.zone.is_closed()
+    }
+
     /// Part of its load that a ball carries at a position: below 1 on a run-in, 0 in the return.
     #[inline(always)]
     pub(crate) fn part(&self, position: u32) -> f32 {
         self.zone.part(position)
     }
 
-    /// The ball at a position of the track, if it is loaded there, by the [`Circuit::shares`] of this tick.
+    /// The ball at a position of the track, if it is loaded there.
     #[inline(always)]
-    pub(crate) fn loaded_ball(
-        &self,
-        position: u32,
-        phase: u32,
-        shares: &'static [LoadShare],
-    ) -> Option<LoadedBall> {
-        self.zone.at(position, phase, shares)
+    pub(crate) fn loaded_ball(&self, position: u32, phase: u32) -> Option<LoadedBall> {
+        self.zone.at(position, phase)
+    }
+
+    /// Load over the mean load of a ball at a position, by the [`Circuit::shares`] of this tick, beyond the run-ins.
+    #[inline(always)]
+    pub(crate) fn share(&self, position: u32, shares: &'static [LoadShare]) -> f32 {
+        self.zone.share(position, shares)
     }
 }
 

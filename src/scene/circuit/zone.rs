@@ -39,15 +39,13 @@ pub(super) struct LoadedZone {
     shares: LoadShares,
 }
 
-/// A loaded ball: deviations of the grooves at its contacts, and its share of the load.
+/// A loaded ball: deviations of the grooves at its contacts.
 pub(crate) struct LoadedBall {
     /// Deviation of the groove that passes by, as a multiple of the first of [`LoadedZone::units`].
     pub(crate) passing: f32,
     /// Deviation of the groove of the body in which balls recirculate, as a multiple of the second.
     pub(crate) recirculating: f32,
-    /// Its load over the mean load.
-    pub(crate) share: f32,
-    /// Part of that which it carries on the run-in, above 0; 1 between the run-ins.
+    /// Part of its load which it carries on the run-in, above 0; 1 between the run-ins.
     pub(crate) run_in: f32,
 }
 
@@ -128,15 +126,9 @@ impl LoadedZone {
         self.shares.of(negative)
     }
 
-    /// The ball at `position`, if it is loaded, when the passing groove is at `phase` and the balls
-    /// have these [`LoadedZone::shares`].
+    /// The ball at `position`, if it is loaded, when the passing groove is at `phase`.
     #[inline(always)]
-    pub(super) fn at(
-        &self,
-        position: u32,
-        phase: u32,
-        shares: &'static [LoadShare],
-    ) -> Option<LoadedBall> {
+    pub(super) fn at(&self, position: u32, phase: u32) -> Option<LoadedBall> {
         let place = position.wrapping_add(self.half_run_in);
         let run_in = self.run_in(place)?;
         // Counted from the begin of the first run-in, so that nothing jumps where the track closes within it.
@@ -147,7 +139,6 @@ impl LoadedZone {
         Some(LoadedBall {
             passing: self.passing.units(passing) as f32,
             recirculating: self.recirculating.units(recirculating) as f32,
-            share: self.share(place, shares),
             run_in,
         })
     }
@@ -177,7 +168,7 @@ impl LoadedZone {
             let Some(run_in) = self.run_in(place) else {
                 continue;
             };
-            let weight = run_in * self.share(place, shares);
+            let weight = run_in * self.share(position, shares);
             weights += weight;
             if weight > largest {
                 largest = weight;
@@ -223,14 +214,15 @@ impl LoadedZone {
         }
     }
 
-    /// The share at a place: linear between the middles of the table's parts. Beyond the first and the last of them it is theirs; on a track
+    /// The share at a position: linear between the middles of the table's parts. Beyond the first and the last of them it is theirs; on a track
     /// without return, the one follows on the other.
     #[inline(always)]
-    fn share(&self, place: u32, shares: &'static [LoadShare]) -> f32 {
+    pub(super) fn share(&self, position: u32, shares: &'static [LoadShare]) -> f32 {
         const ONE: u32 = 1 << FRACTION_BITS;
         if let [all] = shares {
             return all.share();
         }
+        let place = position.wrapping_add(self.half_run_in);
         let position = place.saturating_sub(self.half_run_in);
         let from_middle = scaled(position, self.entries) + ONE / 2;
         let entry = (from_middle / ONE) as usize;
@@ -316,10 +308,10 @@ mod tests {
     fn loads(zone: &LoadedZone, positions: impl Iterator<Item = u32> + Clone) -> [f32; MOST] {
         let shares = zone.shares(false);
         let sharing = zone.sharing(positions.clone(), positions.clone().count() as u16, shares);
-        let weight = |ball: LoadedBall| ball.share * ball.run_in;
+        let weight = |position| zone.part(position) * zone.share(position, shares);
         let mut loads = [0.0; MOST];
         for (load, position) in loads.iter_mut().zip(positions) {
-            *load = zone.at(position, 0, shares).map_or(0.0, weight) * sharing.per_weight;
+            *load = weight(position) * sharing.per_weight;
         }
         loads
     }
@@ -371,9 +363,7 @@ mod tests {
                 (7.0, 29.0 / 30.0),
             ] {
                 let position = (at / (9.0 + returning) * UNITS) as u32;
-                let share = zone
-                    .at(position, 0, zone.shares(false))
-                    .map_or(0.0, |ball| ball.share);
+                let share = zone.share(position, zone.shares(false));
                 // The middle of a part is known to 2^-16 of it.
                 assert!((share - expected).abs() < 3e-5, "{at}: {share}");
             }

@@ -3,9 +3,10 @@
 use super::{LinearConstants, LinearInputs};
 use crate::ball::GrooveLoss;
 use crate::math;
-use crate::scene::circuit::{CircuitState, LoadedBall, UNLOADED};
+use crate::scene::circuit::{CircuitState, UNLOADED};
 use crate::scene::contract::direction;
 use crate::scene::sliding::TrainFriction;
+use crate::train::FreeBall;
 
 /// Force of a diagonal below which it does not count, N: the sum of two contacts of 1e-6 N. A numerical floor, which keeps cube roots
 /// and impedances above zero. In the bearing of Lin 2019, Table 3.3, the latter stay above the least that a train takes, 1e-9 N, also
@@ -47,24 +48,11 @@ impl<const N: usize> LinearConstants<N> {
         let table = self.circuit.shares(false);
         let sharing = self.circuit.sharing(state, table);
         let tick = self.diagonals(inputs, sharing.per_weight);
-        let phase = state.phase();
         let (passing, recirculating) = self.circuit.deviation_units();
-        let (passing, recirculating) = (tick.turn * passing, tick.turn * recirculating);
-        let mut shares = 0.0;
-        let mut balls = state.train.intake(self.circuit.travel(speed));
-        while let Some(next) = balls.next_ball() {
-            let (free, impedance) = match self.circuit.loaded_ball(next.position(), phase, table) {
-                Some(ball) => {
-                    let free = recirculating * ball.recirculating + passing * ball.passing;
-                    let (four_thirds, two_thirds) = powers(&ball);
-                    shares += four_thirds;
-                    (free, at_least(tick.impedance * two_thirds, UNLOADED))
-                }
-                None => (0.0, UNLOADED),
-            };
-            next.put(free, impedance);
-        }
-        let pressing = balls.press();
+        let units = [tick.turn * passing, tick.turn * recirculating];
+        let travel = self.circuit.travel(speed);
+        let shares = self.take_in(state, units, tick.impedance, travel);
+        let pressing = state.train.press(travel, |_, _| ());
         state.advance(&self.circuit, speed);
 
         // Where the carriage is lifted off no ball rolls, and there is nothing to flag.
@@ -89,6 +77,32 @@ impl<const N: usize> LinearConstants<N> {
             },
             beyond_model,
         }
+    }
+
+    /// Takes in each ball by its free speed and its impedance, and gives the sum of the powers of 4/3 of their weights; both grooves' units of speed and the
+    /// impedance of a ball whose weight is 1. Not inlined: what the rest of a step holds would take its registers.
+    #[inline(never)]
+    fn take_in(
+        &self,
+        state: &mut CircuitState<N>,
+        [passing, recirculating]: [f32; 2],
+        impedance: f32,
+        travel: f32,
+    ) -> f32 {
+        let phase = state.phase();
+        let table = self.circuit.shares(false);
+        let mut shares = 0.0;
+        state.train.take_in(travel, |_, position| {
+            let Some(ball) = self.circuit.loaded_ball(position, phase) else {
+                return FreeBall::smooth(0.0, UNLOADED);
+            };
+            let free = recirculating * ball.recirculating + passing * ball.passing;
+            let share = self.circuit.share(position, table);
+            let (four_thirds, two_thirds) = powers(share * ball.run_in);
+            shares += four_thirds;
+            FreeBall::smooth(free, at_least(impedance * two_thirds, UNLOADED))
+        });
+        shares
     }
 
     /// What both diagonals carry, and how the ball rolls under it.
@@ -123,11 +137,16 @@ impl<const N: usize> LinearConstants<N> {
 
 /// Powers of 4/3 and of 2/3 of a ball's weight.
 #[inline(always)]
-fn powers(ball: &LoadedBall) -> (f32, f32) {
-    let weight = ball.share * ball.run_in;
+fn powers(weight: f32) -> (f32, f32) {
     if weight == 1.0 {
         return (1.0, 1.0);
     }
+    roots(weight)
+}
+
+/// Out of line, so that balls of even loads do not pay for it.
+#[inline(never)]
+fn roots(weight: f32) -> (f32, f32) {
     let (root, squared) = math::cbrt_and_squared(weight);
     (weight * root, squared)
 }

@@ -3,13 +3,12 @@
 use super::FoldedBall;
 use crate::ball::pressed::{
     BallKnot, BallLaw, BallNode, BallNumbers, KNOTS, Knot, NEIGHBOUR_KNOTS, NeighbourKnot,
-    NeighbourNumbers,
+    NeighbourNumbers, RUBBINGS,
 };
 use crate::ball::{Clearance, GrooveFit, LoadShare, ScrewRow, ScrewTick};
 use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::scene::contract::Limits;
-use crate::train::RUBBINGS;
 
 /// What catalogue numbers say of a ball screw without cage; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,13 +2,12 @@
 
 use super::{UncagedConstants, UncagedState};
 use crate::ball::LoadShare;
-use crate::ball::folded::FrictionInterval;
-use crate::ball::pressed::{BallNumbers, BallOfRow, NeighbourLaw, Pressed};
-use crate::scene::circuit::{LoadedBall, Sharing, UNLOADED};
+use crate::ball::pressed::{BallNumbers, BallOfRow, NeighbourLaw, PowerSums, PressedTorques};
+use crate::scene::circuit::{Sharing, UNLOADED};
 use crate::scene::contract::{Inputs, direction};
 use crate::scene::faults::Faults;
 use crate::scene::sliding::{TrainFriction, not_negative};
-use crate::train::{Intake, Losses, RubbedBall, RubbedRow};
+use crate::train::{FreeBall, Neighbours};
 
 /// Sliding friction of a ball screw without cage, in the direction in which its balls go.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -18,47 +17,37 @@ pub struct UncagedFriction {
     pub(in crate::scene) faults: Faults,
 }
 
-/// What all balls have in common in a tick.
+/// What all balls have in common in a tick. Speeds and pushes are counted along the track.
 struct Common {
+    shares: &'static [LoadShare],
     /// Axial load of a ball whose weight is 1, N.
     mean: f32,
-    /// Friction coefficient times the load of such a ball, N, and 1 / it.
+    /// Friction coefficient times the load of such a ball, N.
     sliding: f32,
-    per_sliding: f32,
+    /// Friction of neighbours over `sliding`, by their force, 1/N.
+    rubbing: f32,
     /// 0 where the load opposes the motion, else 1.
     branch: usize,
     /// -1 where the nut turns backward, else 1.
     direction: f32,
-    /// Friction coefficient of ball and groove.
-    friction: FrictionInterval,
-    /// What such a ball does alone.
+    /// What such a ball does alone, over `sliding`.
     numbers: BallNumbers,
     /// What neighbours change in it.
     neighbours: NeighbourLaw,
 }
 
-/// Friction torques of all balls that a look at them adds up, N m.
-#[derive(Clone, Copy, Default)]
-struct Torques {
-    /// Alone, at their free speeds.
-    free: f32,
-    /// What they are more at the held speed, with what deviations change of the torque that rubbing adds.
-    held: f32,
-}
-
-/// A look at all balls: the first one of balls that rub, the second one, and the only one of balls that do not.
-const FIRST: u8 = 0;
-const SECOND: u8 = 1;
-const SMOOTH: u8 = 2;
-
-/// All balls before a step.
-struct Row<'state, const N: usize> {
-    balls: Intake<'state, N>,
-    /// Phase of the screw's deviations.
-    phase: u32,
-    shares: &'static [LoadShare],
-    /// Part of its load that the first ball carries, which is ahead of the last one.
-    part_ahead: f32,
+impl Common {
+    /// Friction of both neighbours of a ball over its friction coefficient times load; none in the return.
+    #[inline(always)]
+    fn rubbing(&self, ball: &BallOfRow, found: &Neighbours) -> Option<f32> {
+        if ball.sliding.to_bits() == self.sliding.to_bits() {
+            Some(found.rubbing * self.rubbing)
+        } else if ball.sliding > 0.0 {
+            Some(self.neighbours.rubbing(ball, found))
+        } else {
+            None
+        }
+    }
 }
 
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
@@ -69,52 +58,53 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         state: &mut UncagedState<N>,
         inputs: Inputs,
     ) -> UncagedFriction {
-        let nut_speed = inputs.nut_speed;
         let shares = self.shares(inputs.axial_load);
         let sharing = self.circuit.sharing(&state.circuit, shares);
-        let common = self.common(state, inputs, &sharing);
-        let friction = state.friction;
-        let first = state.circuit.train.first_position();
-        let row = Row {
-            part_ahead: self.circuit.part(first),
-            phase: state.circuit.phase(),
-            balls: state.circuit.train.intake(self.circuit.travel(nut_speed)),
-            shares,
-        };
-        let (torques, row) = self.press(row, &common);
-        state.circuit.advance(&self.circuit, nut_speed);
+        let common = self.common(state, inputs, &sharing, shares);
+        let travel = self.circuit.travel(inputs.nut_speed);
+        let alone = not_negative(self.take_in(state, &common, travel));
+        if !self.circuit.is_closed() {
+            let train = &mut state.circuit.train;
+            train.rub_in_part(|position| self.circuit.part(position));
+        }
+        if self.row.ball_friction > 0.0 {
+            refine(state, &common, travel);
+        }
+        let mut pressed = PressedTorques::default();
+        let UncagedState { circuit, balls, .. } = state;
+        let pressing = circuit.train.press(travel, |index, found| {
+            if found.forces > 0.0
+                && let Some(ball) = balls.get(index)
+                && let Some(rubbing) = common.rubbing(ball, found)
+            {
+                common.neighbours.lose(ball, found, rubbing, &mut pressed);
+            }
+        });
+        state.circuit.advance(&self.circuit, inputs.nut_speed);
 
-        let [most, least] = sharing.extremes;
-        let extremes = [
-            self.law.load_of(common.mean * most),
-            self.law.load_of(common.mean * least),
-        ];
-        let rubbing = self.row.ball_friction * row.largest_of_both;
+        let extremes = sharing
+            .extremes
+            .map(|weight| self.law.load_of(common.mean * weight));
+        let rubbing = self.row.ball_friction * pressed.largest;
         let held = sharing.weights > 0.0
             && self.law.holds_load(extremes[0])
-            && self.law.holds(friction.friction())
+            && self.law.holds(state.friction.friction())
             && self.law.holds_rubbing(rubbing, common.sliding);
-        let forces_held = row.contacts == 0
+        let forces_held = pressing.contacts == 0
             || self
                 .law
-                .holds_forces_within(extremes, common.branch, friction);
-        let pressed = common.neighbours.numbers.outward_torque * row.forces + row.by_speed;
-        let free = not_negative(torques.free);
+                .holds_forces_within(extremes, common.branch, state.friction);
         UncagedFriction {
             row: TrainFriction {
-                groove: if row.contacts == 0 {
-                    free
-                } else {
-                    not_negative(torques.free + torques.held + pressed)
-                },
-                ball: not_negative(row.by_rubbing),
-                free,
+                groove: not_negative(alone + pressed.groove),
+                ball: not_negative(pressed.ball),
+                free: alone,
                 ratios: [1.0; 2],
                 fading: [0.0; 2],
                 direction: common.direction,
                 load: inputs.axial_load.abs() + self.preload,
-                contacts: row.contacts,
-                largest_contact_force: self.row.normal * row.largest,
+                contacts: pressing.contacts,
+                largest_contact_force: self.row.normal * pressing.largest,
             },
             faults: Faults::NONE
                 .with(!held, Faults::BEYOND_MODEL)
@@ -122,29 +112,14 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
     }
 
-    /// A ball under a load of its own, or with a part of its load on a run-in.
-    #[inline(never)]
-    fn ball_of_own(&self, common: &Common, ball: &LoadedBall, deviations: [f32; 2]) -> BallOfRow {
-        let &Common {
-            branch, friction, ..
-        } = common;
-        let load = self.law.load_of(common.mean * ball.share);
-        let sliding = self.law.sliding(load, friction);
-        let part = ball.run_in;
-        BallOfRow {
-            alone: match part {
-                1.0 => self.law.at(load, branch, friction, deviations),
-                _ => self.law.on_run_in(part, load, branch, friction, deviations),
-            },
-            sliding,
-            per_sliding: 1.0 / sliding,
-            part,
-            deviations,
-        }
-    }
-
     #[inline(always)]
-    fn common(&self, state: &UncagedState<N>, inputs: Inputs, sharing: &Sharing) -> Common {
+    fn common(
+        &self,
+        state: &UncagedState<N>,
+        inputs: Inputs,
+        sharing: &Sharing,
+        shares: &'static [LoadShare],
+    ) -> Common {
         let direction = direction(inputs.nut_speed);
         let mean = inputs.axial_load * sharing.per_weight;
         let branch = usize::from(direction * mean < 0.0);
@@ -152,112 +127,93 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let [heaviest, _] = sharing.extremes;
         let weight = if heaviest < 1.0 { heaviest } else { 1.0 };
         let load = self.law.load_of(weight * mean);
-        let numbers = self.law.numbers(load, branch, state.friction);
+        let mut numbers = self.law.per_sliding(load, branch, state.friction);
         let neighbours = self
             .law
-            .neighbours(load, branch, state.friction, &numbers, self.row);
+            .neighbours(load, branch, state.friction, &numbers, self.row)
+            .along(direction);
+        numbers.free = numbers.free.map(|number| direction * number);
         let sliding = self.law.sliding(load, state.friction);
         Common {
+            shares,
             mean,
             sliding,
-            per_sliding: 1.0 / sliding,
+            rubbing: self.row.ball_friction / sliding,
             branch,
             direction,
-            friction: state.friction,
             numbers,
             neighbours,
         }
     }
 
-    /// How balls press, in two passes where they rub; and the sums of their torques.
-    #[inline(always)]
-    fn press(&self, mut row: Row<'_, N>, common: &Common) -> (Torques, RubbedRow) {
-        let torques = if self.row.ball_friction > 0.0 {
-            self.take_in::<FIRST>(&mut row, common);
-            row.balls = row.balls.press_once();
-            self.take_in::<SECOND>(&mut row, common)
-        } else {
-            self.take_in::<SMOOTH>(&mut row, common)
-        };
-        let losses = common
-            .neighbours
-            .losses(common.sliding, common.numbers.impedance[0]);
-        let sums = row.balls.press_rubbing(&Losses {
-            held_speed: common.direction * losses.held_speed,
-            slope: common.direction * losses.slope,
-            ..losses
-        });
-        (torques, sums)
-    }
-
-    /// Gives each ball its free speed and impedance in a pass, a loaded one by what it is under its part of the load with its deviations; returns the
-    /// sums of their torques. Not inlined: what the rest of a step holds would take its registers.
+    /// Takes in each ball by what it does alone under its part of the load with its deviations, and keeps that; returns the sum of the friction torques,
+    /// N m.
     #[inline(never)]
-    fn take_in<const PASS: u8>(&self, row: &mut Row<'_, N>, common: &Common) -> Torques {
-        let &Common {
+    fn take_in(&self, state: &mut UncagedState<N>, common: &Common, travel: f32) -> f32 {
+        let Common {
+            numbers,
+            neighbours,
             direction,
-            ref numbers,
-            ref neighbours,
             ..
         } = common;
-        let units = [direction * self.units[0], direction * self.units[1]];
-        let idle = direction * numbers.free[0];
-        let mut torques = Torques::default();
-        let mut ahead = row.part_ahead;
-        while let Some(ball) = row.balls.next_ball() {
-            let loaded = self
-                .circuit
-                .loaded_ball(ball.position(), row.phase, row.shares);
-            let Some(loaded) = loaded else {
-                ball.put_smooth(idle, UNLOADED);
-                ahead = 0.0;
-                continue;
+        let units = self.units.map(|unit| direction * unit);
+        let rubs = self.row.ball_friction > 0.0;
+        let phase = state.circuit.phase();
+        let (mut alike, mut torque) = (PowerSums::default(), 0.0);
+        let UncagedState {
+            circuit,
+            balls,
+            friction,
+        } = state;
+        circuit.train.take_in(travel, |index, position| {
+            let found = self.circuit.loaded_ball(position, phase);
+            let (Some(place), Some(loaded)) = (balls.get_mut(index), found) else {
+                if let Some(place) = balls.get_mut(index) {
+                    *place = BallOfRow::UNLOADED;
+                }
+                return FreeBall::smooth(numbers.free[0], UNLOADED);
             };
             let deviations = [units[0] * loaded.passing, units[1] * loaded.recirculating];
+            let part = loaded.run_in;
             // Between the run-ins all balls of even loads are alike.
-            let own = if self.even && loaded.run_in == 1.0 {
+            let ball = if self.even && part == 1.0 {
+                alike.add(deviations);
                 BallOfRow {
-                    alone: numbers.at(deviations),
+                    speed: numbers.speed(deviations),
+                    impedance: numbers.impedance(deviations),
                     sliding: common.sliding,
-                    per_sliding: common.per_sliding,
-                    part: 1.0,
                     deviations,
                 }
             } else {
-                self.ball_of_own(common, &loaded, deviations)
-            };
-            let (rubbed, held) = match PASS {
-                FIRST => (neighbours.first(&own), 0.0),
-                SECOND => {
-                    let behind = self.circuit.part(ball.position_behind());
-                    let parts = [lesser(behind, own.part), lesser(ahead, own.part)];
-                    neighbours.second(
-                        &own,
-                        &Pressed {
-                            forces: ball.forces(),
-                            parts,
-                            speed: direction * ball.speed(),
-                        },
-                    )
+                let share = self.circuit.share(position, common.shares);
+                let load = self.law.load_of(common.mean * share);
+                let (ball, alone) = self
+                    .law
+                    .ball(load, common.branch, *friction, deviations, part);
+                torque += alone;
+                BallOfRow {
+                    speed: direction * ball.speed,
+                    ..ball
                 }
-                _ => neighbours.smooth(&own),
             };
-            ahead = own.part;
-            torques.free += own.alone.torque;
-            torques.held += held;
-            ball.put_rubbed(&RubbedBall {
-                speed: direction * rubbed.speed,
-                grip: direction * rubbed.grip,
-                torque_slope: direction * rubbed.torque_slope,
-                ..rubbed
-            });
-        }
-        torques
+            *place = ball;
+            if rubs {
+                neighbours.first(&ball, part)
+            } else {
+                neighbours.smooth(&ball, part)
+            }
+        });
+        torque + common.sliding * numbers.torque_of(&alike)
     }
 }
 
-/// The lesser of two numbers.
-#[inline(always)]
-fn lesser(one: f32, other: f32) -> f32 {
-    if one < other { one } else { other }
+/// The first pass of balls that rub: each is taken in anew by what it found.
+#[inline(never)]
+fn refine<const N: usize>(state: &mut UncagedState<N>, common: &Common, travel: f32) {
+    let UncagedState { circuit, balls, .. } = state;
+    circuit.train.refine(travel, |index, found| {
+        let ball = balls.get(index)?;
+        let rubbing = common.rubbing(ball, found)?;
+        Some(common.neighbours.second(ball, found, rubbing))
+    });
 }

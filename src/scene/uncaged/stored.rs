@@ -1,6 +1,7 @@
 //! A ball screw without cage as bytes.
 
 use super::{UncagedBallScrew, UncagedConstants, UncagedFriction, UncagedState};
+use crate::ball::pressed::BallOfRow;
 use crate::ranges;
 use crate::scene::circuit::CircuitState;
 use crate::scene::faults::Faults;
@@ -48,6 +49,7 @@ impl<const N: usize> Stored for UncagedState<N> {
         let mut friction = self.friction.friction();
         port.number("friction", &mut friction, ranges::FRICTION_OF_A_ROW)?;
         self.friction = self.friction.with_friction(friction);
+        self.balls = [BallOfRow::UNLOADED; N];
         Ok(())
     }
 }

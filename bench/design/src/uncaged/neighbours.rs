@@ -4,7 +4,7 @@
 //! ones with the least squares of the errors over that friction. Along the loads they are linear between knots.
 
 use epas_friction::ball::pressed::NEIGHBOUR_KNOTS;
-use epas_friction::train::RUBBINGS;
+use epas_friction::ball::pressed::RUBBINGS;
 use nalgebra::{DMatrix, DVector};
 
 use super::Column;

@@ -1,7 +1,9 @@
 //! A row of touching balls: by the exact solver, and by a folded law as a control interrupt evaluates it.
 
-use epas_friction::ball::pressed::{BallLaw, BallOfRow, NeighbourLaw, Pressed, RowConstants};
-use epas_friction::train::{Losses, Press, RubbedBall, RubbedRow};
+use epas_friction::ball::pressed::{
+    BallLaw, BallOfRow, NeighbourLaw, PressedTorques, RowConstants,
+};
+use epas_friction::train::{FreeBall, Neighbours, Press};
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall};
 use epas_reference::friction::caged_ball::CagedBall;
@@ -84,7 +86,7 @@ impl Row {
     pub fn folded<const N: usize>(&self, law: &BallLaw<N>, speeds: &Speeds) -> RowAnswer {
         let interval = law.interval(self.friction);
         let (load, branch) = self.load(law);
-        let numbers = law.numbers(load, branch, interval);
+        let numbers = law.per_sliding(load, branch, interval);
         let sliding = law.sliding(load, interval);
         let row = RowConstants {
             ball_friction: self.ball_friction * (speeds.outward as f32).hypot(1.0),
@@ -93,18 +95,18 @@ impl Row {
             half_speed: 0.5 * speeds.against_nut as f32,
         };
         let neighbours = law.neighbours(load, branch, interval, &numbers, row);
-        let losses = neighbours.losses(sliding, numbers.impedance[0]);
-        let balls = self.deviations.map(|deviations| BallOfRow {
-            alone: numbers.at(deviations),
+        let alone = self.deviations.map(|deviations| numbers.at(deviations));
+        let balls: [BallOfRow; BALLS] = std::array::from_fn(|ball| BallOfRow {
+            speed: alone[ball].speed,
+            impedance: alone[ball].impedance,
             sliding,
-            per_sliding: 1.0 / sliding,
-            part: 1.0,
-            deviations,
+            deviations: self.deviations[ball],
         });
-        let row = PressedRow::of(&neighbours, &losses, &balls).unwrap_or_default();
-        let rubbing = neighbours.ball_friction * row.sums.largest_of_both;
+        let free: f64 = alone.iter().map(|ball| f64::from(ball.torque)).sum();
+        let row = PressedRow::of(&neighbours, &balls).unwrap_or_default();
+        let rubbing = neighbours.ball_friction * row.torques.largest;
         RowAnswer {
-            torque: row.free_torque + row.added_torque,
+            torque: f64::from(sliding) * free + f64::from(row.torques.groove + row.torques.ball),
             forces: row
                 .forces
                 .iter()
@@ -124,14 +126,10 @@ impl Row {
 /// Balls of an open row, as a step presses them: in two passes where they rub.
 #[derive(Clone, Debug, Default)]
 pub struct PressedRow {
-    /// Friction torque of the balls alone, at their free speeds, N m.
-    pub free_torque: f64,
-    /// What they add to it by pressing, N m.
-    pub added_torque: f64,
     /// Forces between neighbours along the track, N.
     pub forces: Vec<f64>,
-    /// What contacts add up to.
-    pub sums: RubbedRow,
+    /// What the balls lose more than alone.
+    pub torques: PressedTorques,
 }
 
 impl PressedRow {
@@ -140,38 +138,53 @@ impl PressedRow {
 
     /// None where a ball runs further from nominal rolling than a step takes, or there are none or too many.
     #[must_use]
-    pub fn of(neighbours: &NeighbourLaw, losses: &Losses, balls: &[BallOfRow]) -> Option<Self> {
+    pub fn of(neighbours: &NeighbourLaw, balls: &[BallOfRow]) -> Option<Self> {
         let mut press = Press::<{ Self::MOST }>::with_balls(balls.len()).ok()?;
         let mut room = vec![0.0; balls.len()];
         *room.last_mut()? = f32::INFINITY;
-        let last: Vec<(RubbedBall, f32)> = if neighbours.ball_friction > 0.0 {
-            let first: Vec<RubbedBall> = balls.iter().map(|ball| neighbours.first(ball)).collect();
-            press.solve_rubbing(&first, &room, losses)?;
-            let forces: Vec<f32> = press.forces().collect();
-            let behind = std::iter::once(0.0).chain(forces.iter().copied());
-            let found = behind.zip(forces.iter().copied()).zip(press.speeds());
-            let second = |(ball, ((behind, ahead), speed)): (&BallOfRow, ((f32, f32), f32))| {
-                let pressed = Pressed {
-                    forces: [behind, ahead],
-                    parts: [1.0; 2],
-                    speed,
-                };
-                neighbours.second(ball, &pressed)
-            };
-            balls.iter().zip(found).map(second).collect()
-        } else {
-            balls.iter().map(|ball| neighbours.smooth(ball)).collect()
+        let mut solve = |free: &[FreeBall]| {
+            let solved = press.solve_rubbing(free, &room);
+            solved.then(|| found(&press))
         };
-        let rubbed: Vec<RubbedBall> = last.iter().map(|(rubbed, _)| *rubbed).collect();
-        let sums = press.solve_rubbing(&rubbed, &room, losses)?;
-        let held: f64 = last.iter().map(|(_, held)| f64::from(*held)).sum();
-        let outward = neighbours.numbers.outward_torque * sums.forces;
+        let all = |of: fn(&NeighbourLaw, &BallOfRow, f32) -> FreeBall| -> Vec<FreeBall> {
+            balls.iter().map(|ball| of(neighbours, ball, 1.0)).collect()
+        };
+        let found = if neighbours.ball_friction > 0.0 {
+            let found = solve(&all(NeighbourLaw::first))?;
+            let second = balls.iter().zip(&found);
+            let second: Vec<FreeBall> = second
+                .map(|(ball, found)| {
+                    neighbours.second(ball, found, neighbours.rubbing(ball, found))
+                })
+                .collect();
+            solve(&second)?
+        } else {
+            solve(&all(NeighbourLaw::smooth))?
+        };
+        let mut torques = PressedTorques::default();
+        for (ball, found) in balls.iter().zip(&found) {
+            if found.forces > 0.0 {
+                let rubbing = neighbours.rubbing(ball, found);
+                neighbours.lose(ball, found, rubbing, &mut torques);
+            }
+        }
         let forces = press.forces().take(balls.len() - 1);
         Some(Self {
-            free_torque: balls.iter().map(|ball| f64::from(ball.alone.torque)).sum(),
-            added_torque: held + f64::from(sums.by_speed + sums.by_rubbing + outward),
             forces: forces.map(f64::from).collect(),
-            sums,
+            torques,
         })
     }
+}
+
+/// What each ball meets.
+fn found<const N: usize>(press: &Press<N>) -> Vec<Neighbours> {
+    let behind = std::iter::once(0.0).chain(press.forces());
+    let pressed = behind.zip(press.forces()).zip(press.speeds());
+    pressed
+        .map(|((behind, ahead), speed)| Neighbours {
+            speed,
+            forces: behind + ahead,
+            rubbing: behind + ahead,
+        })
+        .collect()
 }

@@ -101,26 +101,19 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
         / count as f64;
     let branch = usize::from(way * mean < 0.0);
     let load = law.load_of(mean as f32);
-    let numbers = law.numbers(load, branch, interval);
+    let numbers = law.per_sliding(load, branch, interval);
 
     let [screw, nut] = law.deviations.map(|largest| way / f64::from(largest));
-    let balls: Vec<BallOfRow> = request
+    let (balls, alone): (Vec<BallOfRow>, Vec<f32>) = request
         .balls
         .iter()
         .map(|ball| {
             let deviations = [screw * ball.screw_deviation, nut * ball.nut_deviation];
             let deviations = deviations.map(|part| part as f32);
             let load = law.load_of(ball.axial_load as f32);
-            let sliding = law.sliding(load, interval);
-            BallOfRow {
-                alone: law.at(load, branch, interval, deviations),
-                sliding,
-                per_sliding: 1.0 / sliding,
-                part: 1.0,
-                deviations,
-            }
+            law.ball(load, branch, interval, deviations, 1.0)
         })
-        .collect();
+        .unzip();
     let ball_friction = request.ball_friction as f32;
     let constants = if request.chord {
         ball.row(ball_friction)
@@ -134,8 +127,9 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
     };
     let neighbours = law.neighbours(load, branch, interval, &numbers, constants);
     let sliding = law.sliding(load, interval);
-    let losses = neighbours.losses(sliding, numbers.impedance[0]);
-    let row = PressedRow::of(&neighbours, &losses, &balls)?;
+    let row = PressedRow::of(&neighbours, &balls)?;
+    let free_torque: f64 = alone.iter().copied().map(f64::from).sum();
+    let added_torque = f64::from(row.torques.groove + row.torques.ball);
     let nominal = ball.path_radius - ball.speed;
     let orbital = |speed: f32| f64::from((nominal + ball.speed * speed) / ball.path_radius);
     let heaviest = request
@@ -145,10 +139,10 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
     let most = law.load_of(heaviest.fold(0.0, f32::max));
     let held = law.holds_forces(load, branch, interval)
         && law.holds_load(most)
-        && law.holds_rubbing(constants.ball_friction * row.sums.largest_of_both, sliding);
+        && law.holds_rubbing(constants.ball_friction * row.torques.largest, sliding);
     Some(FoldedRow {
         found: Row {
-            free_speed: Some(balls.iter().map(|ball| orbital(ball.alone.speed)).collect()),
+            free_speed: Some(balls.iter().map(|ball| orbital(ball.speed)).collect()),
             // The reference has them along the line between the centres.
             contact_force: Some(
                 row.forces
@@ -156,8 +150,8 @@ fn answer(request: &Request, ball: &FoldedBall) -> Option<FoldedRow> {
                     .map(|force| force * f64::from(constants.normal))
                     .collect(),
             ),
-            groove_torque: Some(row.free_torque + row.added_torque),
-            groove_torque_free: Some(row.free_torque),
+            groove_torque: Some(free_torque + added_torque),
+            groove_torque_free: Some(free_torque),
             ball_torque: None,
             loads: None,
         },

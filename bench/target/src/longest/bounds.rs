@@ -7,16 +7,10 @@
 /// How many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {
-    /// A number.
-    Of(u32),
     /// The balls of the train.
     Balls,
     /// One less than the balls of the train.
     BallsLessOne,
-    /// Half the balls of the train.
-    HalfTheBalls,
-    /// The balls of the train and the two rows of a ring.
-    BallsAndRows,
 }
 
 /// What a loop does on each back edge to its header.
@@ -26,8 +20,6 @@ pub enum Bound {
     Times(Count),
     /// It takes one from each of these totals.
     Takes(&'static [Total]),
-    /// It goes once over all balls, perhaps several in one turn: it writes so many bytes to each in code of a function.
-    Writes(u32, &'static str),
     /// It stores a part of the bytes that its function was called with.
     Stores,
     /// It does not run where addresses are multiples of four, as those are that its function is called with.
@@ -37,41 +29,26 @@ pub enum Bound {
 /// A total over all loops and places of one call of a function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Total {
-    /// Balls that a tick takes in: each once, by the scene or by what ends the tick.
-    TakenIn,
     /// Balls that pooling passes on its walk from the last one backwards: each stands alone, begins a cluster or joins the
     /// one ahead.
     Passed,
     /// Joins: each makes one cluster of two.
     Joins,
-    /// Balls that are settled: each alone, in front, or pushing.
-    Settled,
-    /// Clusters of two balls or more.
-    Clusters,
-    /// Back edges within the rows that settling walks through: each settles a ball.
-    SettlingWays,
-    /// Back edges within the rows that balancing walks through: each relieves a ball or passes one.
-    BalancingWays,
 }
 
 impl Total {
     /// The most that there are.
     pub const fn most(self) -> Count {
         match self {
-            Self::TakenIn
-            | Self::Passed
-            | Self::Settled
-            | Self::SettlingWays
-            | Self::BalancingWays => Count::Balls,
+            Self::Passed => Count::Balls,
             Self::Joins => Count::BallsLessOne,
-            Self::Clusters => Count::HalfTheBalls,
         }
     }
 }
 
 /// A row of the table: the loops of a function.
 pub struct Row {
-    /// The function, without lengths of arrays.
+    /// The function, without lengths of arrays and types of closures.
     pub function: &'static str,
     /// A function whose code stands where the loop goes back; none where the row is for every back edge.
     pub through: Option<&'static str>,
@@ -89,39 +66,30 @@ const fn row(function: &'static str, bound: Bound) -> Row {
 
 const BALLS: Bound = Bound::Times(Count::Balls);
 
-/// Speed, impedance and slack of each ball.
-const TAKES_IN: Bound = Bound::Writes(12, "epas_friction::train::ball::Ball::take_in");
-
 /// Loops by their functions; the first row that fits counts.
 pub const LOOPS: &[Row] = &[
     // Once over all balls.
-    row("epas_friction::train::press::Press::solve", TAKES_IN),
+    row("epas_friction::train::press::Press::solve_all", BALLS),
+    row("epas_friction::train::press::Press::settle", BALLS),
     row("epas_friction::train::press::Press::let_go", BALLS),
-    row("epas_friction::train::positions::Train::step", TAKES_IN),
-    // Balls that the scene has not asked for are taken in when the tick ends.
+    row("epas_friction::train::settle::settle", BALLS),
+    row("epas_friction::train::balance::take_out", BALLS),
+    row("epas_friction::train::positions::Train::take_in", BALLS),
+    row("epas_friction::train::positions::Train::refine", BALLS),
+    row("epas_friction::train::positions::Train::press", BALLS),
+    row("epas_friction::train::positions::Train::settle", BALLS),
+    row("epas_friction::train::positions::Train::rub_in_part", BALLS),
+    row("epas_friction::train::positions::Train::step", BALLS),
+    row("epas_friction::scene::uncaged::step", BALLS),
+    row("epas_friction::scene::uncaged::UncagedConstants", BALLS),
     row(
-        "epas_friction::scene::uncaged::UncagedConstants::friction_of_balls",
-        Bound::Takes(&[Total::TakenIn]),
-    ),
-    row(
-        "epas_friction::scene::uncaged::UncagedConstants::take_in",
-        Bound::Takes(&[Total::TakenIn]),
-    ),
-    row(
-        "epas_friction::scene::circuit::zone::LoadedZone::sharing::core::iter::adapters::map::Mapcore::slice::iter::Iterepas_friction::train::ball::Ball, epas_friction::train::ball::Ball::position",
+        "epas_friction::scene::circuit::zone::LoadedZone::sharing",
         BALLS,
     ),
+    row("epas_friction::scene::linear::LinearConstants", BALLS),
     row(
         "epas_friction::model::FrictionModelepas_friction::scene::linear::LinearBearingTrain, epas_friction::scene::linear::LinearConstants::step",
         BALLS,
-    ),
-    row(
-        "epas_friction::scene::linear::LinearConstants::friction_of_balls",
-        Bound::Takes(&[Total::TakenIn]),
-    ),
-    row(
-        "epas_friction::train::intake::Intake::end",
-        Bound::Takes(&[Total::TakenIn]),
     ),
     // "Why joining is exact", `epas_friction::train`: the walk passes each ball once, and every back edge of `grow` or `close`
     // is a join; one that grows backwards passes a ball as well.
@@ -145,32 +113,6 @@ pub const LOOPS: &[Row] = &[
     row(
         "epas_friction::train::pool::close",
         Bound::Takes(&[Total::Joins]),
-    ),
-    // The two rows of a ring that opens in front of its foremost ball.
-    row(
-        "epas_friction::train::settle::settle",
-        Bound::Times(Count::Of(2)),
-    ),
-    // The same for balls that rub: its walk and that through a row are one loop.
-    row(
-        "epas_friction::train::rubbing::settle_rubbing",
-        Bound::Times(Count::BallsAndRows),
-    ),
-    row(
-        "epas_friction::train::balance::balance",
-        Bound::Times(Count::Of(2)),
-    ),
-    row(
-        "epas_friction::train::settle::Settling::row",
-        Bound::Takes(&[Total::SettlingWays]),
-    ),
-    row(
-        "epas_friction::train::rubbing::Settling::row",
-        Bound::Takes(&[Total::SettlingWays]),
-    ),
-    row(
-        "epas_friction::train::balance::Balancing::row",
-        Bound::Takes(&[Total::BalancingWays]),
     ),
     // What the compiler calls to clear and to move memory.
     row("compiler_builtins::arm::__aeabi_memset4", Bound::Stores),
@@ -205,55 +147,14 @@ pub const LOOPS: &[Row] = &[
     ),
 ];
 
-/// Functions that are inlined in one place and called once for each of a total: counted where their code begins.
-pub const PLACES: &[(&str, Total)] = &[
-    (
-        "epas_friction::train::settle::Settling::alone",
-        Total::Settled,
-    ),
-    (
-        "epas_friction::train::settle::Settling::front",
-        Total::Settled,
-    ),
-    (
-        "epas_friction::train::settle::Settling::pushing",
-        Total::Settled,
-    ),
-    (
-        "epas_friction::train::settle::Settling::front",
-        Total::Clusters,
-    ),
-    (
-        "epas_friction::train::rubbing::Settling::alone",
-        Total::Settled,
-    ),
-    (
-        "epas_friction::train::rubbing::Settling::front",
-        Total::Settled,
-    ),
-    (
-        "epas_friction::train::rubbing::Settling::pushing",
-        Total::Settled,
-    ),
-    (
-        "epas_friction::train::rubbing::Settling::front",
-        Total::Clusters,
-    ),
-    (
-        "epas_friction::train::balance::Balancing::rear",
-        Total::Clusters,
-    ),
-];
-
 /// Types whose length is the number of balls of a train.
-const TRAINS: [&str; 8] = [
+const TRAINS: [&str; 7] = [
     "UncagedBallScrew",
     "UncagedConstants",
     "LinearBearingTrain",
     "LinearConstants",
     "Press",
     "Train",
-    "Intake",
     "CircuitState",
 ];
 

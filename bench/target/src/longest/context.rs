@@ -29,11 +29,8 @@ impl Context {
     pub fn count(self, count: Count) -> Option<f64> {
         let balls = self.balls.map(f64::from);
         match count {
-            Count::Of(number) => Some(f64::from(number)),
             Count::Balls => balls,
             Count::BallsLessOne => Some(balls? - 1.0),
-            Count::HalfTheBalls => Some((0.5 * balls?).floor()),
-            Count::BallsAndRows => Some(balls? + 2.0),
         }
     }
 

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::bounds::{Bound, LOOPS, PLACES, Row, Total, plain};
+use super::bounds::{Bound, LOOPS, Row, Total, plain};
 use super::context::Context;
 use super::graph::Graph;
-use super::loops::{Loop, first};
+use super::loops::Loop;
 use super::origin::Origins;
 use super::paths::Limit;
 use super::steps::{Step, Steps};
@@ -33,7 +33,6 @@ impl Known<'_, '_> {
         for natural in self.loops {
             limits.extend(self.of_loop(natural, context, &mut totals)?);
         }
-        self.places(context, &mut totals)?;
         for (total, (context, mut limit)) in totals {
             let most = context.count(total.most());
             limit.most = most.ok_or_else(|| format!("no number of balls for {total:?}"))?;
@@ -86,7 +85,8 @@ impl Known<'_, '_> {
     fn row(&self, owner: &str, back: usize) -> Option<&'static Row> {
         let from = self.graph.edges[back].from;
         LOOPS.iter().find(|row| {
-            row.function == owner && row.through.is_none_or(|through| self.has(from, through))
+            is_within(owner, row.function)
+                && row.through.is_none_or(|through| self.has(from, through))
         })
     }
 
@@ -105,20 +105,12 @@ impl Known<'_, '_> {
 
     /// The limit of a loop by itself: what all back edges take is no more than what all entries bring.
     fn limit(&self, natural: &Loop, bound: Bound, context: Context) -> Option<Limit> {
-        let balls = || context.balls.map(f64::from);
         let (per_back, per_entry) = match bound {
             Bound::Times(count) => {
                 let first = f64::from(natural.asks_at_its_end(self.graph));
                 (1.0, context.count(count)? - first)
             }
-            Bound::Writes(bytes, function) => {
-                let written = self.stored(natural, |address| self.is_of(address, function));
-                (f64::from(written), f64::from(bytes) * balls()?)
-            }
-            Bound::Stores => (
-                f64::from(self.stored(natural, |_| true)),
-                f64::from(context.bytes?),
-            ),
+            Bound::Stores => (f64::from(self.stored(natural)), f64::from(context.bytes?)),
             // What is entered goes around no more than never.
             Bound::Never => (1.0, -1.0),
             Bound::Takes(_) => return None,
@@ -136,32 +128,11 @@ impl Known<'_, '_> {
     }
 
     /// Bytes that a loop stores in code that counts each time that it goes around.
-    fn stored(&self, natural: &Loop, counts: impl Fn(u32) -> bool) -> u32 {
+    fn stored(&self, natural: &Loop) -> u32 {
         let blocks = natural.always.iter();
         let addresses = blocks.flat_map(|&block| self.addresses(block));
-        let counted = addresses.filter(|&&address| counts(address));
-        let steps = counted.filter_map(|address| self.steps.get(address));
+        let steps = addresses.filter_map(|address| self.steps.get(address));
         steps.map(bytes_stored).sum()
-    }
-
-    /// Counts functions that are called once for each of a total, where their code begins.
-    fn places(&self, context: Context, totals: &mut Totals) -> Result<(), String> {
-        for &(function, total) in PLACES {
-            let mut blocks: Vec<usize> = (0..self.graph.blocks.len()).collect();
-            blocks.retain(|&block| self.has(block, function));
-            if blocks.is_empty() {
-                continue;
-            }
-            let first = first(self.graph, &blocks)
-                .ok_or_else(|| format!("the code of {function} has several beginnings"))?;
-            let frames = self.origins.frames(self.graph.blocks[first].start());
-            let entry = totals.entry(total).or_default();
-            entry.0 = context.within(&frames);
-            for edge in self.graph.into(first) {
-                entry.1.add(edge, 1.0);
-            }
-        }
-        Ok(())
     }
 }
 
@@ -178,6 +149,12 @@ fn bytes_stored(step: &Step) -> u32 {
         "vstr" => 4 << u32::from(operands.starts_with('d')),
         _ => 0,
     }
+}
+
+/// Whether a name is that of a function, or of one within it.
+fn is_within(name: &str, function: &str) -> bool {
+    let rest = name.strip_prefix(function);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
 }
 
 /// Whether a function is of a crate and not of the language.

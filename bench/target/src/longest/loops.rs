@@ -72,17 +72,6 @@ pub fn loops(graph: &Graph) -> Result<Vec<Loop>, usize> {
     Ok(loops)
 }
 
-/// The block among these through which every path to the others leads.
-pub fn first(graph: &Graph, blocks: &[usize]) -> Option<usize> {
-    let dominators = simple_fast(&flow(graph, |_| true), NodeIndex::new(0));
-    let mut blocks = blocks.iter().copied();
-    let all = blocks.clone();
-    blocks.find(|&first| {
-        all.clone()
-            .all(|other| dominates(&dominators, first, other))
-    })
-}
-
 /// The edges between blocks for which `keep` holds.
 fn flow(graph: &Graph, keep: impl Fn(usize) -> bool) -> DiGraph<(), ()> {
     let mut flow = DiGraph::new();

@@ -2,7 +2,7 @@
 
 use epas_friction::law::coefficient::OneCoefficient;
 use epas_friction::scene::StoredScene;
-use epas_friction::train::{Losses, Press, RubbedBall, Train};
+use epas_friction::train::{FreeBall, Press, Train};
 use epas_friction::{
     Error, FrictionModel, LinearBearingConfiguration, LinearBearingTrain, Refusal, UncagedBallScrew,
 };
@@ -151,21 +151,9 @@ fn a_list_of_another_length_does_not_count() {
         assert!(!press.solve(&free[..length], &impedance, &room));
         assert!(!press.solve(&free, &impedance[..length], &room));
         assert!(!press.solve(&free, &impedance, &room[..length]));
-        let balls = [RubbedBall {
-            impedance: 1e3,
-            ..RubbedBall::default()
-        }; 3];
-        let losses = Losses::default();
-        assert!(
-            press
-                .solve_rubbing(&balls[..length], &room, &losses)
-                .is_none()
-        );
-        assert!(
-            press
-                .solve_rubbing(&balls, &room[..length], &losses)
-                .is_none()
-        );
+        let balls = [FreeBall::rubbed(0.0, 1e3, 0.0, 0.0); 3];
+        assert!(!press.solve_rubbing(&balls[..length], &room));
+        assert!(!press.solve_rubbing(&balls, &room[..length]));
         assert!(press.forces().eq([0.0; 3]));
     }
     let mut train = Train::<MOST>::new(1.0, 0.01, &[0.0; 3]).unwrap();

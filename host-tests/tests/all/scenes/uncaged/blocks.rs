@@ -2,7 +2,9 @@
 
 use crate::refusals::assert_refused;
 use epas_friction::Error;
-use epas_friction::ball::pressed::{BallKnot, BallLaw, BallNumbers, KNOTS, NeighbourNumbers};
+use epas_friction::ball::pressed::{
+    BallKnot, BallLaw, BallNumbers, FreeMotion, KNOTS, NeighbourNumbers,
+};
 use epas_friction::scene::FoldedBall;
 
 use epas_testkit::gears::{BALL, BALL_NODES, BALL_RANGE};
@@ -91,10 +93,13 @@ fn one_ball_is_as_all_under_its_load() {
             let branch = random.below(2);
             let deviations = [random.within(-1.0, 1.0), random.within(-1.0, 1.0)];
             let numbers = law.numbers(load, branch, interval);
-            let (one, all) = (
-                law.at(load, branch, interval, deviations),
-                numbers.at(deviations),
-            );
+            let (ball, torque) = law.ball(load, branch, interval, deviations, 1.0);
+            let one = FreeMotion {
+                speed: ball.speed,
+                impedance: ball.sliding * ball.impedance,
+                torque,
+            };
+            let all = numbers.at(deviations);
             let sum = |numbers: &[f32]| numbers.iter().map(|number| number.abs()).sum::<f32>();
             // A dozen roundings of sums of the powers' sizes.
             for (one, all, size) in [

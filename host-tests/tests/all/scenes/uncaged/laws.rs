@@ -4,9 +4,8 @@ use epas_testkit::gears::screw_inputs;
 use std::f64::consts::TAU;
 
 use epas_friction::ball::pressed::{
-    BallNumbers, FreeMotion, NeighbourNumbers, RowConstants, RubbedNode,
+    BallNumbers, FreeMotion, NeighbourNumbers, RUBBINGS, RowConstants, RubbedNode,
 };
-use epas_friction::train::RUBBINGS;
 use epas_friction::{
     DeviationMap, Faults, FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration,
     UncagedOutputs,
