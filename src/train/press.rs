@@ -1,10 +1,9 @@
 //! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
 
-use super::balance::balance;
 use super::ball::Ball;
 use super::grip::FreeBall;
 use super::pool::pool;
-use super::settle::{Pressing, Settled, settle};
+use super::settle::{Pressing, Settled, balance, settle};
 use crate::error::{Error, attempt, in_range};
 
 /// Largest free speed that counts, a relative deviation: that of a ball that stands, or runs twice as fast as a nominal one.
