@@ -188,7 +188,7 @@ impl<const N: usize> Press<N> {
     /// against a complementarity solver in f64, 37 and 64 balls; 2.5e-6 for a factor 1e6, against an
     /// exhaustive search with up to 9 balls (over a hundredth of what drives the fastest ball where that is
     /// more). Exact otherwise: no iteration, at most `N - 1` joins, one division for each cluster of two or
-    /// more balls. Cost for 37 balls: 7,100 modelled cycles.
+    /// more balls. Cost for 37 balls: 8,600 modelled cycles.
     pub fn solve(&mut self, free: &[f32], impedance: &[f32], room: &[f32]) -> bool {
         let complete = free.len() == impedance.len();
         let inputs = free.iter().zip(impedance);
