@@ -27,10 +27,10 @@
 //! | phase | file | work for `N` balls | what holds afterwards |
 //! |---|---|---|---|
 //! | take in | `tick`, `track` | `N` balls | each ball has its free speed, impedance and slack; nothing but its position is left of the last tick |
-//! | join | `pool`, `cluster` | at most `N - 1` joins, fewer than `4 N` comparisons | clusters part the ring; none runs into the one ahead; their end balls hold their sums |
+//! | join | `pool` | at most `N - 1` joins, fewer than `4 N` comparisons | clusters part the ring; none runs into the one ahead; their end balls hold their sums |
 //! | settle | `settle` | `N` balls, a division for each cluster of two or more | each ball has its actual speed and its force, zero or more |
 //! | move | `tick`, in the walk of settling | | balls that press stand in contact exactly, no two overlap by more than rounding |
-//! | balance | `balance` | `N` balls, where rounding needs it | the net pushes on each cluster add up to zero, to 1e-6 of the largest force |
+//! | balance | `settle` | `N` balls, where rounding needs it | the net pushes on each cluster add up to zero, to 1e-6 of the largest force |
 //!
 //! `ball` says what a ball holds in each phase. Loops are bounded by `N`; nothing iterates to a tolerance,
 //! recurses, allocates or panics. The longest path is in [`Press::solve`] and grows in proportion to `N`.
@@ -38,7 +38,7 @@
 //! # Why joining is exact
 //!
 //! **What is stored is enough.** A cluster is known by three sums (push, impedance, inner slack), from which follow
-//! its speed and whether it runs into another; those of two as one follow from those of the two (`cluster`).
+//! its speed and whether it runs into another; those of two as one follow from those of the two (`Cluster`).
 //!
 //! **No force inside a cluster ever falls.** Counted from the rear and from the front, the force of ball `j` is
 //!
@@ -73,12 +73,10 @@
 //!
 //! Sums hold differences from free speeds, not speeds, so that what is small keeps its digits. Forces that rounding
 //! makes negative are zero. Adding up a cluster from its front leaves at its rear ball a remainder that is exactly
-//! zero but for rounding; where it exceeds 1e-6 of the largest force, `balance` takes it out. Positions are integers
+//! zero but for rounding; where it exceeds 1e-6 of the largest force, it is taken out. Positions are integers
 //! and do not drift; balls that overlap by up to 2^10 units of 2^32 on the track count as in contact.
 
-mod balance;
 mod ball;
-mod cluster;
 mod grip;
 mod pool;
 mod positions;

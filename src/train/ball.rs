@@ -88,7 +88,7 @@ impl Ball {
     /// That part.
     #[inline(always)]
     pub(super) fn rubs(&self) -> f32 {
-        f32::from(self.rubs) * (1.0 / WHOLE as f32)
+        f32::from(self.rubs) / f32::from(WHOLE)
     }
 
     /// Whether the ball would run into the one in front if both ran at their free speeds: the sign bit of the

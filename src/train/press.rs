@@ -1,10 +1,9 @@
 //! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
 
-use super::balance::balance;
 use super::ball::Ball;
 use super::grip::FreeBall;
 use super::pool::pool;
-use super::settle::{Pressing, Settled, settle};
+use super::settle::{Pressing, Settled, balance, settle};
 use crate::error::{Error, attempt, in_range};
 
 /// Largest free speed that counts, a relative deviation: that of a ball that stands, or runs twice as fast as a nominal one.
@@ -189,7 +188,7 @@ impl<const N: usize> Press<N> {
     /// against a complementarity solver in f64, 37 and 64 balls; 2.5e-6 for a factor 1e6, against an
     /// exhaustive search with up to 9 balls (over a hundredth of what drives the fastest ball where that is
     /// more). Exact otherwise: no iteration, at most `N - 1` joins, one division for each cluster of two or
-    /// more balls. Cost for 37 balls: 7,100 modelled cycles.
+    /// more balls. Cost for 37 balls: 8,600 modelled cycles.
     pub fn solve(&mut self, free: &[f32], impedance: &[f32], room: &[f32]) -> bool {
         let complete = free.len() == impedance.len();
         let inputs = free.iter().zip(impedance);

@@ -64,6 +64,7 @@ impl<const N: usize> Train<N> {
 
     /// Puts in how far balls rub, by the part of its load that each carries at a position, 0 to 1: a contact as far as the lesser of its two. All
     /// of them do until then.
+    #[inline(never)]
     pub(crate) fn rub_in_part(&mut self, part: impl Fn(u32) -> f32) {
         let balls = self.press.balls_mut();
         let mut behind = balls.last().map_or(0.0, |last| part(last.position));

@@ -61,7 +61,7 @@ fn every_scene_gives_the_stored_bits() {
 
 const STORED: [&str; 3] = [
     "0x9edc42f8de3f201c",
-    "0x4b21dc027b0e1ddd",
+    "0xc5e4edc056a90d79",
     "0x59ec950aa062b001",
 ];
 
@@ -196,7 +196,7 @@ fn memories_give_the_stored_bits() {
 
 const STORED_MEMORIES: [&str; 3] = [
     "0x91f73d8609525e5e",
-    "0x8b21631c9e9ef2f0",
+    "0x676747d849406a80",
     "0xa408e6d0a3ff5136",
 ];
 
@@ -319,10 +319,10 @@ const STORED_COURSES: [&str; 16] = [
     "0x995cfa968c165972", "0xc8bc1ad7c1ce3ada",
     "0x995cfa968c165972", "0xc8bc1ad7c1ce3ada",
     "0x342c263f638d143f", "0x89e582c60cfeede6",
-    "0x4c4cb5605a467c8f", "0x9c484c223b0ff536",
-    "0x29b5629042f7ddee", "0x1667d6f7d94ab6d0",
-    "0x87f876760b374154", "0x33b5d62fe8ddf4a2",
-    "0x058184b94c415bf5",
+    "0x627228642ce8c80f", "0x8ecebec0075f8dcc",
+    "0xcf26194aff31342b", "0xeab4848ce0367fce",
+    "0xa6bee069f1665e70", "0xee8e5a34cbfd26b2",
+    "0xca977f1c7dcb4685",
     "0xde483034f742fb38", "0x34d50ca15d0c17eb",
     "0xf62ef90f3112d76e",
 ];

@@ -59,7 +59,7 @@ impl BallOfRow {
     /// A ball in the return.
     pub const UNLOADED: Self = Self {
         speed: 0.0,
-        impedance: 1.0,
+        impedance: 0.0,
         sliding: 0.0,
         deviations: [0.0; 2],
     };

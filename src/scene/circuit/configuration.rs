@@ -140,7 +140,7 @@ impl Circuit {
     }
 
     /// How the balls share a load where they are, by the [`Circuit::shares`] of this tick.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn sharing<const N: usize>(
         &self,
         state: &CircuitState<N>,
@@ -157,7 +157,7 @@ impl Circuit {
     }
 
     /// Part of its load that a ball carries at a position: below 1 on a run-in, 0 in the return.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn part(&self, position: u32) -> f32 {
         self.zone.part(position)
     }

@@ -73,7 +73,7 @@ pub const LOOPS: &[Row] = &[
     row("epas_friction::train::press::Press::settle", BALLS),
     row("epas_friction::train::press::Press::let_go", BALLS),
     row("epas_friction::train::settle::settle", BALLS),
-    row("epas_friction::train::balance::take_out", BALLS),
+    row("epas_friction::train::settle::take_out", BALLS),
     row("epas_friction::train::positions::Train::take_in", BALLS),
     row("epas_friction::train::positions::Train::refine", BALLS),
     row("epas_friction::train::positions::Train::press", BALLS),
@@ -103,7 +103,7 @@ pub const LOOPS: &[Row] = &[
     ),
     Row {
         function: "epas_friction::train::pool::grow",
-        through: Some("epas_friction::train::cluster::Cluster::grown"),
+        through: Some("epas_friction::train::pool::Cluster::grown"),
         bound: Bound::Takes(&[Total::Passed, Total::Joins]),
     },
     row(
