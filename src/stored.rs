@@ -144,20 +144,14 @@ const fn continued(mut rest: u32, mut bytes: &[u8]) -> u32 {
     rest
 }
 
-/// The same of words, each with its least significant byte first; for constants too.
-pub(crate) const fn crc32_of_words(words: &[u32]) -> u32 {
-    let mut rest = u32::MAX;
-    let mut number = 0;
-    while number < words.len() {
-        rest ^= words[number];
-        let mut nibble = 0;
-        while nibble < 8 {
-            rest = (rest >> 4) ^ NIBBLES[(rest & 15) as usize];
-            nibble += 1;
-        }
-        number += 1;
+/// The same of words, each with its least significant byte first.
+pub(crate) const fn crc32_of_words(mut words: &[u32]) -> u32 {
+    let mut sum = Fingerprint::NONE;
+    while let Some((&word, others)) = words.split_first() {
+        sum.count(word);
+        words = others;
     }
-    !rest
+    sum.value()
 }
 
 /// Checksum, number by number: [`crc32`] of their bytes, least significant first. For the constants that a state is read with.
