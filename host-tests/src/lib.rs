@@ -9,6 +9,7 @@
 #![allow(
     clippy::missing_errors_doc,
     clippy::must_use_candidate,
+    clippy::return_self_not_must_use,
     reason = "errors are described once, above; nearly every function here is pure"
 )]
 

@@ -2,15 +2,16 @@
 
 use core::f32::consts::TAU;
 
+use super::designs::LINEAR_BEARING;
 use epas_friction::ball::pressed::{BallLaw, NEIGHBOUR_KNOTS, RUBBINGS};
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, CatalogueBall, FoldedBall,
 };
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
-    DeviationMap, FrictionBranch, GrooveSize, Harmonic, Inputs, Limits, LinearBearing,
+    DeviationMap, FrictionBranch, Harmonic, Inputs, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearInputs, LinearLimits, LoadShare,
-    LoadShares, Material, UncagedBallScrew, UncagedBallScrewConfiguration,
+    LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
 
 /// Balls of [`uncaged`], and of [`full`].
@@ -322,14 +323,7 @@ pub fn loaded_length<const NODES: usize>(
 /// Balls of 10 mm, Lin 2019, Table 3.3.
 pub fn linear() -> LinearBearingConfiguration {
     LinearBearingConfiguration {
-        bearing: LinearBearing::new(LinearBearingParameters {
-            ball_radius: 0.005,
-            groove: GrooveSize::Conformity(0.56),
-            contact_angle: core::f32::consts::FRAC_PI_4,
-            ball_material: Material::STEEL,
-            groove_material: Material::STEEL,
-        })
-        .unwrap(),
+        bearing: LinearBearing::new(LINEAR_BEARING).unwrap(),
         friction: 0.1,
         ball_friction: 0.1,
         balls: LINEAR_BALLS as u16,

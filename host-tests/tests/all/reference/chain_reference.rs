@@ -158,35 +158,21 @@ fn stored_pairs() {
                 panic!("theta = {theta}, rho = {rho}, ball friction {ball_friction}: {e}")
             });
             let stuck = chain.balls.iter().any(|b| b.gap > 0.0);
-            check_laws(
-                &balls,
-                &chain,
-                ball_friction,
-                1.0,
-                if stuck {
-                    "sticking pairs"
-                } else {
-                    "stored pairs"
-                },
-            );
+            let kind = if stuck {
+                "sticking pairs"
+            } else {
+                "stored pairs"
+            };
+            check_laws(&balls, &chain, ball_friction, 1.0, kind);
             // Where a contact sticks, the stored values rest on a coarser smoothing.
             let force = chain.contact_forces[0];
             let stored = case[force_key].as_f64().unwrap();
-            let name = format!(
-                "theta = {theta}, rho = {rho}, ball friction {ball_friction}, stuck {stuck}"
-            );
-            if stuck {}
-            measured::assert_at(
-                &format!("stored pairs, stuck {stuck}, contact force in N"),
-                force - stored,
-                format_args!("{name}: {force}, stored {stored}"),
-            );
+            let group = format!("stored pairs, stuck {stuck}");
+            let name = format!("theta = {theta}, rho = {rho}, ball friction {ball_friction}");
+            let near = measured::of_case(&group, name);
+            near("contact force in N", force - stored);
             for (motion, stored) in chain.balls.iter().zip(list(&case[eps_key])) {
-                measured::assert_at(
-                    &format!("stored pairs, stuck {stuck}, speed deviation"),
-                    motion.speed_deviation - stored,
-                    format_args!("{name}: {} stored {stored}", motion.speed_deviation),
-                );
+                near("speed deviation", motion.speed_deviation - stored);
             }
         }
     }

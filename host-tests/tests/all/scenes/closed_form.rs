@@ -6,25 +6,21 @@ use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
     DISSERTATION_DESIGNS, Faults, FrictionBranch, FrictionModel, Limits, Outputs, Regime,
 };
-use epas_testkit::gears::oversize;
-use epas_testkit::gears::screw_inputs;
+use epas_testkit::gears::{self, LIMITS, oversize, screw_inputs};
 use epas_testkit::measured;
 use proptest::prelude::*;
 
 fn configuration() -> ClosedFormScrewConfiguration {
     ClosedFormScrewConfiguration {
         design: BallScrew::new(DISSERTATION_DESIGNS[2].parameters).unwrap(),
-        friction: 0.075,
-        rolling_tangent: 0.0,
-        branch: FrictionBranch::Rolling,
         clearance: Clearance::ZERO,
         loaded_balls: 71,
         reversal_speed: 0.2,
         limits: Limits {
-            nut_speed: 500.0,
-            axial_load: 20_000.0,
             friction_torque: 50.0,
+            ..LIMITS
         },
+        ..gears::closed_form(FrictionBranch::Rolling)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The adapters for `embedded-hal`: frames on the bus, wrap-around, faults of bus and sensor, duty cycles.
 
 use crate::refusals::assert_refused;
-use epas_testkit::gears::screw_inputs;
+use epas_testkit::gears::{closed_form, screw_inputs};
 use std::cell::Cell;
 use std::f32::consts::TAU;
 
@@ -15,7 +15,7 @@ use epas_friction::hal::{
 };
 use epas_friction::{
     BallScrew, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
-    Faults, FrictionBranch, FrictionModel, Limits, Outputs, Regime,
+    Faults, FrictionBranch, FrictionModel, Outputs, Regime,
 };
 
 const READ_ANGLE: u16 = 0xFFFF;
@@ -703,17 +703,9 @@ fn a_failed_bus_leaves_the_bridge_neutral() {
     let mut encoder = MagneticEncoder::new(&sensor, &CONFIGURATION).unwrap();
     let mut model = FrictionModel::<ClosedFormScrew>::new(&ClosedFormScrewConfiguration {
         design: BallScrew::new(DISSERTATION_DESIGNS[2].parameters).unwrap(),
-        friction: 0.075,
-        rolling_tangent: 0.0,
-        branch: FrictionBranch::Rolling,
         clearance: Clearance::ZERO,
         loaded_balls: 71,
-        reversal_speed: 0.5,
-        limits: Limits {
-            nut_speed: 500.0,
-            axial_load: 20_000.0,
-            friction_torque: 5.0,
-        },
+        ..closed_form(FrictionBranch::Rolling)
     })
     .unwrap();
     struct Bridge;

@@ -2,7 +2,7 @@
 
 use crate::remembering::at;
 use epas_testkit::errors::Errors;
-use epas_testkit::gears::{linear_inputs, screw_inputs};
+use epas_testkit::gears::{LIMITS, closed_form, linear, linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
 use std::f64::consts::{FRAC_PI_4, TAU};
 
@@ -16,9 +16,9 @@ use epas_friction::scene::{
 use epas_friction::train::Train;
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
-    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, GrooveSize, Limits,
-    LinearBearing, LinearBearingConfiguration, LinearBearingParameters, LinearBearingTrain,
-    LinearLimits, LoadProportionalConfiguration, LoadProportionalScrew, LoadShare, Material,
+    DISSERTATION_DESIGNS, DeviationMap, FrictionBranch, FrictionModel, Limits,
+    LinearBearingConfiguration, LinearBearingTrain, LinearLimits, LoadProportionalConfiguration,
+    LoadProportionalScrew,
 };
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::chain::solve_chain;
@@ -38,17 +38,13 @@ fn closed_form_step() {
         for branch in [FrictionBranch::Rolling, FrictionBranch::Sliding] {
             let mut model = FrictionModel::<ClosedFormScrew>::new(&ClosedFormScrewConfiguration {
                 design: BallScrew::new(parameters).unwrap(),
-                friction: 0.075,
-                rolling_tangent: 0.0,
-                branch,
                 clearance: Clearance::ZERO,
                 loaded_balls: 40,
-                reversal_speed: 0.5,
                 limits: Limits {
-                    nut_speed: 500.0,
-                    axial_load: 20_000.0,
                     friction_torque: 1e3,
+                    ..LIMITS
                 },
+                ..closed_form(branch)
             })
             .unwrap();
             let arm = f64::from(parameters.lead) / TAU;
@@ -264,30 +260,19 @@ fn pairs_in_a_linear_bearing() {
 #[test]
 fn linear_step() {
     let configuration = LinearBearingConfiguration {
-        bearing: LinearBearing::new(LinearBearingParameters {
-            ball_radius: BALL_RADIUS as f32,
-            groove: GrooveSize::Conformity(CONFORMITY as f32),
-            contact_angle: FRAC_PI_4 as f32,
-            ball_material: Material::STEEL,
-            groove_material: Material::STEEL,
-        })
-        .unwrap(),
-        friction: 0.1,
-        ball_friction: 0.1,
         balls: 24,
         loaded_length: 0.26,
         return_length: 0.0,
         wavelength: 0.1,
         rail_deviation: &DeviationMap::NONE,
         carriage_deviation: &DeviationMap::NONE,
-        load_shares: &[LoadShare::MEAN],
-        reversal_speed: 1e-3,
         tick: 1e-3,
         limits: LinearLimits {
             speed: 2.0,
             load: 1e5,
             friction_force: 1e3,
         },
+        ..linear()
     };
     let mut model = FrictionModel::<LinearBearingTrain<24>>::new(&configuration).unwrap();
     let one = OneCoefficient::new(0.1).unwrap();
