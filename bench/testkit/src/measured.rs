@@ -100,7 +100,6 @@ const TABLES: &[&[Measured]] = &[
     KINEMATICS_REFERENCE,
     ROLLING_BALL,
     STATICS,
-    STATICS_MEASURED,
     STATICS_STUDIES,
     STEADY_STATE,
     WHOLE_SCREW_REFERENCE,
@@ -440,7 +439,6 @@ const KINEMATICS_REFERENCE: &[Measured] = &[
     largest("golden mean slip", 1e-4, 5.4e-5),
     largest("moments of the Hertz weight", 1.8e-14, 5.8e-15),
     largest("mean slip of pure spin", 1.5e-7, 9.2e-8),
-    largest("friction power over its bound, closest", 1e-3, 6.1e-4),
     largest("loss of the published screw in W", 2e-5, 9.6e-6),
     largest("parts of the mean slip", 2.4e-15, 7.8e-16),
     largest("loss over the pitch angle", 0.035, 0.033),
@@ -477,19 +475,6 @@ const STATICS: &[Measured] = &[
     largest("two-point statics in closed form", 2.2e-13, 7.3e-14),
     largest("loads of every kind, residual in N", 1.2e-11, 3.9e-12),
     largest("profile offset, forces in N", 1.7e-12, 5.6e-13),
-];
-
-/// `reference/statics_measured.rs`.
-#[rustfmt::skip]
-const STATICS_MEASURED: &[Measured] = &[
-    largest("splines, values", 7.5e-15, 2.5e-15),
-    largest("splines, slope by differences", 5e-8, 2.9e-8),
-    largest("splines, bend by differences", 8e-9, 5.3e-9),
-    largest("splines, periodic", 7e-14, 2.4e-14),
-    largest("straight profile, offset in m", 7.8e-19, 2.6e-19),
-    largest("straight profile, slope", 2.4e-18, 8e-19),
-    largest("straight profile, bend", 3.9e-17, 1.3e-17),
-    largest("straight profile, forces in N", 2.5e-12, 8.3e-13),
 ];
 
 /// `reference/statics_studies.rs`.

@@ -2,15 +2,16 @@
 
 use std::f64::consts::TAU;
 
-use crate::published::balls::whole_screw;
+use crate::published::balls::{peak_and_release, whole_screw};
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::whole_screw::WholeScrew;
 use rayon::prelude::*;
 
 use epas_bench::exact_ring::{Case, exact, follow};
-use epas_page::document::{Block, Cell, Figure, Table};
+use epas_bench::report::draw::{chart, figure, table};
+use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Series};
 
 /// Amplitudes of the screw's deviation, degrees: the text does not print that of Figure 3.23.
 const AMPLITUDES: [f64; 4] = [2.0, 2.3, 2.5, 3.0];
@@ -82,22 +83,6 @@ impl Run {
     }
 }
 
-/// Largest torque between balls over that of the grooves, per cent, its angle, and where no balls press any more,
-/// degrees.
-fn peak_and_release(course: &Course) -> [f64; 3] {
-    let (mut peak, mut at, mut release) = (0.0, 0.0, f64::NAN);
-    for (angle, groove, ball) in course {
-        let share = 100.0 * ball / groove;
-        if share > peak {
-            (peak, at, release) = (share, angle.to_degrees(), f64::NAN);
-        }
-        if peak > 1.0 && *ball == 0.0 && release.is_nan() {
-            release = angle.to_degrees();
-        }
-    }
-    [peak, at, release]
-}
-
 /// Text, table and figure.
 pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
     let (amplitudes, states) = if quick {
@@ -117,7 +102,7 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
             rows.push(match &run.refused {
                 Some(reason) if of_scene => refused(model, &amplitude, reason),
                 _ => {
-                    let mut row = row(model, &amplitude, peak_and_release(course));
+                    let mut row = row(model, &amplitude, peak_and_release(course.iter().copied()));
                     if of_scene {
                         row[FLAGGED] = Cell::fixed(run.flagged as f64, 0);
                     }
@@ -126,18 +111,14 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
             });
         }
     }
+    let caption = format!(
+        "Lin 2019, Figures 3.24 and 3.25, again: 37 balls, 1500 N on SR and NL, friction 0.1, two waves a turn on the screw, first turn of the nut, \
+         {states} steps. The amplitude is not printed; the scene's law is folded for it. Deviations above 1 degree are more than a groove has: \
+         the scene flags loads under which its law does not hold the forces"
+    );
     Ok(vec![
-        Block::Table(Table {
-            name: "lin_figure_3_25_exact",
-            caption: format!(
-                "Lin 2019, Figures 3.24 and 3.25, again: 37 balls, 1500 N on SR and NL, friction 0.1, two waves a turn on the screw, first turn of the nut, \
-                      {states} steps. The amplitude is not printed; the scene's law is folded for it. Deviations above 1 degree are more than a groove has: \
-                      the scene flags loads under which its law does not hold the forces"
-            ),
-            columns: COLUMNS.map(String::from).to_vec(),
-            rows,
-        }),
-        Block::Figure(figure(&runs)),
+        Block::Table(table("lin_figure_3_25_exact", caption, &COLUMNS, rows)),
+        picture(&runs),
     ])
 }
 
@@ -175,50 +156,42 @@ fn row(model: &str, amplitude: &str, values: [f64; 3]) -> Vec<Cell> {
     ]
 }
 
-fn figure(runs: &[Run]) -> Figure {
-    let chart = |title: &str, label: &str, value: fn(&(f64, f64, f64)) -> f64| {
+fn picture(runs: &[Run]) -> Block {
+    type Value = fn(&(f64, f64, f64)) -> f64;
+    let panels = [
+        (
+            "Lin 2019, Figure 3.24",
+            "groove torque (N m)",
+            (|moment| moment.1) as Value,
+        ),
+        (
+            "Lin 2019, Figure 3.25",
+            "ball torque over groove torque (%)",
+            |moment| 100.0 * moment.2 / moment.1,
+        ),
+    ]
+    .map(|(title, label, value)| {
         let mut series = Vec::new();
         for (colour, run) in runs.iter().enumerate() {
-            for ((model, course), mark) in
-                MODELS
-                    .into_iter()
-                    .zip(&run.courses)
-                    .zip([Mark::Line, Mark::Circles, Mark::Dashed])
-            {
-                if course.is_empty() {
-                    continue;
-                }
-                // Points of the scene stand apart, or they hide the line.
-                let stride = if mark == Mark::Circles { 12 } else { 1 };
+            // Points of the scene stand apart, or they hide the line.
+            let marks = [(Mark::Line, 1), (Mark::Circles, 12), (Mark::Dashed, 1)];
+            let models = MODELS.into_iter().zip(&run.courses).zip(marks);
+            for ((model, course), (mark, stride)) in models.filter(|((_, c), _)| !c.is_empty()) {
                 let points = course
                     .iter()
                     .step_by(stride)
-                    .map(|moment| (moment.0.to_degrees(), value(moment)))
-                    .collect();
+                    .map(|moment| (moment.0.to_degrees(), value(moment)));
                 let name = format!("{model}, {} degrees", run.degrees);
-                series.push(Series::new(&name, colour, mark, points));
+                series.push(Series::new(&name, colour, mark, points.collect()));
             }
         }
-        Panel::Chart(Chart {
-            title: title.into(),
-            x: Axis::linear("nut angle (deg)").between(0.0, 360.0),
-            y: Axis::linear(label),
-            series,
-            notes: Vec::new(),
-        })
-    };
-    Figure {
-        name: "lin_figures_3_24_3_25_exact",
-        caption: "Lin 2019, Figures 3.24 and 3.25, from the exact whole screw: torque of the grooves, and torque between balls over it.".into(),
-        panels: vec![
-            chart("Lin 2019, Figure 3.24", "groove torque (N m)", |moment| moment.1),
-            chart(
-                "Lin 2019, Figure 3.25",
-                "ball torque over groove torque (%)",
-                |moment| 100.0 * moment.2 / moment.1,
-            ),
-        ],
-        columns: 1,
-        size: (1080, 460),
-    }
+        let x = Axis::linear("nut angle (deg)").between(0.0, 360.0);
+        chart(title, x, Axis::linear(label), series)
+    });
+    figure(
+        "lin_figures_3_24_3_25_exact",
+        "Lin 2019, Figures 3.24 and 3.25, from the exact whole screw: torque of the grooves, and torque between balls over it.",
+        (1, 1080, 460),
+        panels.into(),
+    )
 }
