@@ -121,7 +121,7 @@ impl Off {
         self.add(found / exact - 1.0, 1.0);
     }
 
-    /// Largest, rms and mean; no numbers where nothing was compared or every exact value is zero.
+    /// Largest, rms and mean; NaN where nothing was compared or every exact value is zero.
     pub fn relative(&self) -> [f64; 3] {
         [
             self.largest,
@@ -421,7 +421,7 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
                 axial_load: load as f32,
             })
         };
-        // The last tick of those that lead to a state puts out what holds there; a flag of any of them counts.
+        // The last tick of those that lead to a state outputs what holds there; a flag of any of them counts.
         let mut flagged = false;
         let mut outputs = step();
         for _ in 1..if at == 0 { 1 } else { ticks } {

@@ -1,16 +1,18 @@
 //! Equations of motion of one ball between its grooves, in scaled variables.
 //!
-//! Frame along the ball path: tangent `t`, normal `n` (to the axis), binormal `b`; the axis is `k = Sa t + Ca b`. A contact lies at `C =
-//! (0, Cn, Cb)` from the ball's centre (times `r_b`): the main ones at `A = (0, -cos, -sin)` of the contact angle on the nut and `B = (0,
-//! cos, sin)` on the screw, the minor ones at `A' = (0, -cos, sin)` and `B' = (0, cos, -sin)`. With `x = (0, -Cb, Cn)` across the groove
-//! and `y = t` along it, the slips (7), (8) of Lin, Velinsky, Ravani 1994 are for each contact
+//! Frame along the ball path: tangent `t`, normal `n` (to the axis), binormal `b`; the axis is
+//! `k = Sa t + Ca b`. A contact lies at `C = (0, Cn, Cb)` from the ball's centre (times `r_b`): the main
+//! ones at `A = (0, -cos, -sin)` of the contact angle on the nut and `B = (0, cos, sin)` on the screw,
+//! the minor ones at `A' = (0, -cos, sin)` and `B' = (0, cos, -sin)`. With `x = (0, -Cb, Cn)` across
+//! the groove and `y = t` along it, the slips (7), (8) of Lin, Velinsky, Ravani 1994 are for each contact
 //!
 //! ```text
 //! Vx = wt - u Sa        Vy = D (w - u) + wn Cb - (wb - u Ca) Cn
 //! ```
 //!
-//! (`u` the speed of the groove's body, `w` that of the ball about the axis, `D = d / r_b`), and a normal load `Q` with friction `(fx, fy)`
-//! gives the ball a force `(fy, -Q Cn - fx Cb, -Q Cb + fx Cn)` and a moment `r_b (fx, fy Cb, -fy Cn)`.
+//! (`u` the speed of the groove's body, `w` that of the ball about the axis, `D = d / r_b`), and a
+//! normal load `Q` with friction `(fx, fy)` gives the ball a force `(fy, -Q Cn - fx Cb, -Q Cb + fx Cn)`
+//! and a moment `r_b (fx, fy Cb, -fy Cn)`.
 
 use std::f64::consts::PI;
 

@@ -123,7 +123,7 @@ impl RollingBall {
         let end = turns * TAU;
         // An event is a change of sign: a contact that is open from the start has none.
         self.instant(&motion, 0.0, &State::zeros())?;
-        // Slips are held to a share of the smoothing speed, also while they are zero. Where the rounding of the friction moments
+        // Slips are accurate to a share of the smoothing speed, also while they are zero. Where the rounding of the friction moments
         // is more than that (slow, heavily loaded), the integrator takes ever smaller steps; a coarser share is tried then.
         let attempt = |share: f64| {
             Ivp::first_order(&System(motion), 0.0, end, State::zeros().as_slice())

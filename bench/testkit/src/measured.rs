@@ -222,7 +222,7 @@ const ROTARY_BEARING: &[Measured] = &[
     largest("turned load, forces in N", 5.4e-12, 1.8e-12),
     largest("reciprocal displacements", 2.1e-10, 6.8e-11),
     largest("double row, variation", 1.6, 1.6),
-    largest("hostile loads, residual", 5e-8, 3.2e-8),
+    largest("extreme loads, residual", 5e-8, 3.2e-8),
     largest("bearing balance of the ring in N", 3.6e-10, 1.2e-10),
     largest("ball screw of zero lead, Held", 9.9e-12, 3.3e-12),
     largest("ball screw of zero lead, Free", 0.06, 0.027),

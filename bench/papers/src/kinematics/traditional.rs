@@ -44,8 +44,8 @@ impl Traditional {
         }
     }
 
-    /// The same formula fed with the revised speeds and the *absolute* rotation of the ball, `(omega_t + omega_m sin psi, omega_n, omega_b
-    /// + omega_m cos psi)`: equal to the revised formulation, because what (26) adds is `omega_m e_Z x r`.
+    /// The same formula fed with the revised speeds and the *absolute* rotation of the ball,
+    /// `(omega_t + omega_m sin psi, omega_n, omega_b + omega_m cos psi)`: equal to the revised formulation, because what (26) adds is `omega_m e_Z x r`.
     pub fn with_absolute_rotation(revised: &Revised) -> Self {
         let input = revised.input();
         let (sin_psi, cos_psi) = input.lead_angle.sin_cos();

@@ -287,7 +287,6 @@ fn follow_extreme_loads(oversizes: &[f64]) {
                         force,
                         tilt,
                         undersize: -oversize,
-                        ..TurningLoad::default()
                     };
                     for rows in [study.four_point().to_vec(), study.double_row().to_vec()] {
                         let loaded = match study.loaded(&rows, angle) {
@@ -307,7 +306,7 @@ fn follow_extreme_loads(oversizes: &[f64]) {
                             .flat_map(|ball| ball.contacts.contact_forces)
                             .fold(0.0, f64::max);
                         measured::assert(
-                            "hostile loads, residual",
+                            "extreme loads, residual",
                             loaded.residual / largest.max(force).max(1e-9),
                         );
                         if force == 0.0 && oversize <= 0.0 {

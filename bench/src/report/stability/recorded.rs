@@ -144,7 +144,7 @@ pub fn blocks(swept: &Errors, requests: u64) -> Result<Vec<Block>, Failure> {
                 .into(),
         ),
         Block::Table(table("recorded_sweeps", "Recorded: every f32 of a function's domain against float64", &["quantity", "inputs", "largest", "rms", "mean", "command"], sweeps.collect())),
-        Block::Table(table("recorded_runs", "Recorded: random, failing and hostile inputs", &["what", "count", "failures", "command"], runs.chain([this]).collect())),
+        Block::Table(table("recorded_runs", "Recorded: random, failing and extreme inputs", &["what", "count", "failures", "command"], runs.chain([this]).collect())),
         Block::Table(table("mended", "What such runs found, and what the same input does now", &["found", "now"], recorded
                 .mended
                 .into_iter()

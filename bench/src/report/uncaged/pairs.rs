@@ -146,7 +146,7 @@ impl Found {
     }
 }
 
-/// None too for what is no number.
+/// None for NaN and infinities too.
 fn finite(number: Option<f64>) -> Option<f64> {
     number.filter(|number| number.is_finite())
 }
