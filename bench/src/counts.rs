@@ -12,9 +12,6 @@ use epas_page::failure::Failure;
 const STORED: &str = include_str!("../target.json");
 
 /// The stored figures.
-///
-/// # Errors
-/// A file that is not what `epas-target --store` writes.
 pub fn stored() -> Result<Figures, Failure> {
     serde_json::from_str(STORED)
         .map_err(|error| Failure::Data(format!("bench/target.json: {error}")))

@@ -121,8 +121,7 @@ impl Off {
         self.add(found / exact - 1.0, 1.0);
     }
 
-    /// Largest, rms and mean; no numbers where nothing was compared or every exact value is zero.
-    #[must_use]
+    /// Largest, rms and mean; NaN where nothing was compared or every exact value is zero.
     pub fn relative(&self) -> [f64; 3] {
         [
             self.largest,
@@ -312,9 +311,6 @@ impl<const N: usize> Followed<N> {
 impl Case {
     /// The law that firmware would have, folded once for all cases that share it: for 5 to 300 N a ball, or up to the power of two above
     /// [`MARGIN`] times the case's load where that is more, and for its deviations.
-    ///
-    /// # Errors
-    /// What is out of range; why the design is not folded.
     pub fn law(&self) -> Result<&'static FoldedBall, String> {
         let named = |error: epas_friction::Error| error.to_string();
         let material = Material {
@@ -390,9 +386,6 @@ impl Case {
 }
 
 /// The exact screw over the turns of a case.
-///
-/// # Errors
-/// What is out of range.
 pub fn exact<const N: usize>(case: &Case) -> Result<Vec<RingState>, String> {
     let (nut_speed, axial_load) = case.drive(N);
     let (ticks, tick) = case.ticks();
@@ -409,9 +402,6 @@ pub fn exact<const N: usize>(case: &Case) -> Result<Vec<RingState>, String> {
 }
 
 /// Follows both over the turns of a case.
-///
-/// # Errors
-/// What is out of range; why the design is not folded.
 pub fn compare<const N: usize>(case: &Case) -> Result<Comparison, String> {
     // Told before the exact screw is followed.
     let _ = case.law()?;
@@ -419,9 +409,6 @@ pub fn compare<const N: usize>(case: &Case) -> Result<Comparison, String> {
 }
 
 /// Follows the scene beside the states of the exact screw.
-///
-/// # Errors
-/// What is out of range; why the design is not folded.
 pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Comparison, String> {
     let mut scene = Followed::<N>::new(case)?;
     let (nut_speed, load) = case.drive(N);
@@ -434,7 +421,7 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
                 axial_load: load as f32,
             })
         };
-        // The last tick of those that lead to a state puts out what holds there; a flag of any of them counts.
+        // The last tick of those that lead to a state outputs what holds there; a flag of any of them counts.
         let mut flagged = false;
         let mut outputs = step();
         for _ in 1..if at == 0 { 1 } else { ticks } {

@@ -5,6 +5,7 @@ mod accuracy;
 mod context;
 mod cortex_m;
 pub mod curvature;
+pub mod draw;
 mod efficiency;
 mod flagship;
 mod friction;
@@ -73,9 +74,6 @@ pub struct Arguments {
 }
 
 /// A number of rounds: a median is over one or more.
-///
-/// # Errors
-/// A text that is no such number.
 pub fn rounds(text: &str) -> Result<usize, String> {
     match text.parse() {
         Ok(rounds) if (1..=MOST_ROUNDS).contains(&rounds) => Ok(rounds),
@@ -102,66 +100,24 @@ pub fn shares<C>(plans: &[Plan<C>]) -> impl Iterator<Item = f64> {
 const BEFORE: [f64; 4] = [2.3, 1.7, 0.1, 3.8];
 
 /// Every section, in the order of the report: what firmware steps first, then what it is made of.
+#[rustfmt::skip]
 const PARTS: [Plan<Context>; 3] = [
-    (
-        "Friction",
-        true,
-        &[
-            (
-                friction::section,
-                "torque over a manoeuvre, its error and its cost",
-                0.8,
-            ),
-            (
-                uncaged::section,
-                "37 balls against the exact whole screw; pairs; settings",
-                5.5,
-            ),
-        ],
-    ),
-    (
-        "Stability and cost",
-        false,
-        &[
-            (
-                stability::section,
-                "worst cases over whole domains, known limits, every promise",
-                4.0,
-            ),
-            (
-                cortex_m::section,
-                "instructions, modelled cycles, flash, RAM and stack of every function",
-                0.3,
-            ),
-        ],
-    ),
-    (
-        "What friction is made of",
-        false,
-        &[
-            (
-                trains::section,
-                "how balls are driven apart or together, and what rubbing costs",
-                0.6,
-            ),
-            (
-                hertz::section,
-                "the contact ellipse against elliptic integrals",
-                0.1,
-            ),
-            (
-                kernels::section,
-                "roots and angles in single precision",
-                0.2,
-            ),
-        ],
-    ),
+    ("Friction", true, &[
+        (friction::section, "torque over a manoeuvre, its error and its cost", 0.8),
+        (uncaged::section, "37 balls against the exact whole screw; pairs; settings", 5.5),
+    ]),
+    ("Stability and cost", false, &[
+        (stability::section, "worst cases over whole domains, known limits, every promise", 4.0),
+        (cortex_m::section, "instructions, modelled cycles, flash, RAM and stack of every function", 0.3),
+    ]),
+    ("What friction is made of", false, &[
+        (trains::section, "how balls are driven apart or together, and what rubbing costs", 0.6),
+        (hertz::section, "the contact ellipse against elliptic integrals", 0.1),
+        (kernels::section, "roots and angles in single precision", 0.2),
+    ]),
 ];
 
 /// Makes the report. Each section is printed when it is made, the first within seconds.
-///
-/// # Errors
-/// A model that is refused, a folder that cannot be written; with `--gate`, an error that is not the stored one.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if arguments.store {
         return accuracy::store(&accuracy::measured(&Flagship::new(false), false)?);
@@ -223,9 +179,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
 }
 
 /// Makes every part and prints each section when it is made, saying which one it is at.
-///
-/// # Errors
-/// What a section refuses; an output that is closed.
 pub fn parts<C>(plans: &[Plan<C>], context: &C, stages: &Stages) -> Result<Vec<Part>, Failure> {
     plans
         .iter()

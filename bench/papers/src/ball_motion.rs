@@ -81,9 +81,6 @@ pub struct Action<T> {
 impl Motion {
     /// The ball's motion where `turning` turns and the other part moves along the axis; `smoothing` over
     /// the slip speed of rolling. With a positive speed the load is moved, with a negative one it drives.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming the field of `ball` that is out of range.
     pub fn new(
         ball: &BallScrewState,
         turning: Groove,
@@ -230,8 +227,7 @@ impl Motion {
         actions
     }
 
-    /// Rate of the state over the angle of the turning part: eq. (5) with the accelerations
-    /// `m d W' t` and `I omega'`.
+    /// Rate of the state over the angle of the turning part: eq. (5) with the accelerations `m d W' t` and `I omega'`.
     pub fn rate<T: DualNum<f64> + Copy>(&self, state: &State<T>) -> State<T> {
         let Speeds {
             orbital: w,

@@ -1,16 +1,14 @@
-//! The printed numbers, figures and studies of four papers on ball screws, computed anew with the exact models of
-//! [`epas_reference`].
+//! The printed numbers, figures and studies of four papers on ball screws, computed anew with the exact models of [`epas_reference`].
 //!
 //! | module | what |
 //! |---|---|
-//! | [`published`] | printed numbers of the four papers beside the computed ones; [`record`] says what became of each |
+//! | [`published`] | printed numbers of the four papers beside the computed ones |
 //! | [`measured`] | measured and catalogue figures of real ball screws beside the exact model |
 //! | [`kinematics`] | figures and rival formulations of Alberdi et al. |
 //! | [`rolling_ball`] | equations of motion of one ball, Lin, Velinsky, Ravani 1994, from a rolling start |
 //! | [`stability`] | small disturbances of its steady state |
 //! | [`load_studies`] | applications of the static load distribution, Lin 2019, chapter 4 |
-//! | [`surfaces`] | measured groove surfaces for it |
-//! | [`rotary_ball`], [`rotary_bearing`], [`bearing_study`] | four-point rotary bearings, Lin 2019, sections 3.2 and 4.3.1 |
+//! | [`rotary_ball`], [`rotary_bearing`] | four-point rotary bearings, Lin 2019, sections 3.2 and 4.3.1 |
 //! | [`report`] | the page of all of them, with rival laws of friction beside the crate's |
 //! | [`screws`] | random whole screws in the loop against the exact ones |
 //!
@@ -22,17 +20,14 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 mod ball_motion;
-pub mod bearing_study;
 pub mod kinematics;
 pub mod load_studies;
 pub mod measured;
 mod peers;
 pub mod published;
-pub mod record;
 pub mod report;
 pub mod rolling_ball;
 pub mod rotary_ball;
 pub mod rotary_bearing;
 pub mod screws;
 pub mod stability;
-pub mod surfaces;

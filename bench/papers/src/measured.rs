@@ -1,9 +1,7 @@
-//! Measured and catalogue figures of real ball screws beside what the exact model computes: [`records`], and the
-//! studies behind them.
+//! Measured and catalogue figures of real ball screws beside what the exact model computes: [`records`], and the studies behind them.
 //!
-//! No figure comes with all that the model needs: geometry, lubricant or seals are missing somewhere. So figures are
-//! bands, assumptions are stated, and each row says which parameter would have to be what to meet its figure. Nothing
-//! is fitted but where a row says so.
+//! No figure comes with all that the model needs: geometry, lubricant or seals are missing somewhere. So figures are bands, assumptions are
+//! stated, and each row says which parameter would have to be what to meet its figure. Nothing is fitted but where a row says so.
 
 pub mod catalogue;
 pub mod cold;
@@ -14,20 +12,17 @@ pub mod studies;
 
 use rayon::prelude::*;
 
-use epas_reference::error::ReferenceError;
-pub use figure::{Measured, Size, Source, Standing, Usual};
+use epas_page::failure::Failure;
+pub use figure::{Measured, Size, Standing, Usual};
 
 /// All figures, computed in parallel. `step` is called after each of the [`COUNT`].
-///
-/// # Errors
-/// [`ReferenceError`] of a balance that is not found.
-pub fn records(usual: &Usual, step: &(dyn Fn() + Sync)) -> Result<Vec<Measured>, ReferenceError> {
+pub fn records(usual: &Usual, step: &(dyn Fn() + Sync)) -> Result<Vec<Measured>, Failure> {
     rows::ROWS
         .par_iter()
-        .map(|row| {
-            let record = row(usual);
+        .map(|(name, row)| {
+            let found = row(usual)?;
             step();
-            record
+            Measured::of(name, &found)
         })
         .collect()
 }

@@ -1,32 +1,217 @@
-//! Printed numbers of the four papers, and their values computed again: [`records`]; with the tables of Bertolino et al. 2023 as
-//! printed.
+//! Printed numbers of the four papers (`published.toml`) beside their values computed again: [`records`].
 
 pub mod balls;
 pub mod bearings;
-mod curvature;
+pub mod curvature;
 pub mod efficiency;
 pub mod kinematics;
 pub mod loads;
-mod radius_tables;
 
-pub use radius_tables::{CONFORMITY, Row, TABLE_A1, TABLE_A2, computed_errors, radius_errors};
+use std::collections::BTreeMap;
+use std::fmt;
 
-use std::error::Error;
+use epas_page::failure::Failure;
+use serde::Deserialize;
 
-use crate::record::{Page, Paper, Record};
+/// What became of a printed number.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Computed to the printed digits from what the text states.
+    #[default]
+    Reproduces,
+    /// Computed to the printed digits once something is taken as the text does not say; what.
+    Convention,
+    /// The print is wrong; how.
+    Misprint,
+    /// Not reached from what the text states; why, and how near.
+    NotReproducible,
+}
 
-/// The printed numbers of the four papers, in the order of the papers: all that can be computed, and those that cannot because the
-/// text leaves out what the computation needs.
-///
-/// # Errors
-/// None for the printed cases; the types of the models' own errors.
-pub fn records() -> Result<Vec<Record>, Box<dyn Error>> {
-    let mut records = Vec::new();
-    curvature::append(&mut Page::new(&mut records, Paper::Bertolino2023))?;
-    efficiency::append(&mut Page::new(&mut records, Paper::LinVelinskyRavani1994));
-    kinematics::append(&mut Page::new(&mut records, Paper::Alberdi))?;
-    loads::append(&mut Page::new(&mut records, Paper::Lin2019))?;
-    bearings::append(&mut Page::new(&mut records, Paper::Lin2019))?;
-    balls::append(&mut Page::new(&mut records, Paper::Lin2019))?;
+impl Verdict {
+    /// Every verdict.
+    pub const ALL: [Self; 4] = [
+        Self::Reproduces,
+        Self::Convention,
+        Self::Misprint,
+        Self::NotReproducible,
+    ];
+
+    /// In words.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Reproduces => "reproduces",
+            Self::Convention => "reproduces with stated convention",
+            Self::Misprint => "misprint",
+            Self::NotReproducible => "not reproducible",
+        }
+    }
+
+    /// Whether printed and computed number agree.
+    pub const fn agrees(self) -> bool {
+        matches!(self, Self::Reproduces | Self::Convention)
+    }
+}
+
+/// A printed number as the file has it.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Printed {
+    /// What it is.
+    pub quantity: String,
+    /// Unit of both numbers.
+    #[serde(default)]
+    pub unit: String,
+    /// As printed, digit by digit.
+    pub printed: String,
+    /// Largest difference that counts as reproduced; half a unit of the last printed digit where none is given.
+    pub tolerance: Option<f64>,
+    /// What became of it.
+    #[serde(default)]
+    pub verdict: Verdict,
+    /// Why, or which convention; in the file a text, or the name of one that several numbers share.
+    #[serde(default)]
+    pub reason: String,
+}
+
+/// Numbers of one table, figure or section.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Place {
+    paper: String,
+    name: String,
+    numbers: Vec<Printed>,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    reasons: BTreeMap<String, String>,
+    radius_tables: [Vec<curvature::Row>; 2],
+    place: Vec<Place>,
+}
+
+fn file() -> Result<File, Failure> {
+    Ok(toml::from_str(include_str!("../published.toml"))?)
+}
+
+/// A printed number beside the computed one.
+#[derive(Clone, Debug)]
+pub struct Record {
+    /// Paper as cited.
+    pub paper: String,
+    /// Table, figure or section.
+    pub place: String,
+    /// What is printed.
+    pub printed: Printed,
+    /// As computed; NaN where the text leaves out what the computation needs.
+    pub computed: f64,
+}
+
+impl Record {
+    /// The printed number.
+    pub fn value(&self) -> f64 {
+        self.printed.printed.parse().unwrap_or(f64::NAN)
+    }
+
+    /// Computed less printed.
+    pub fn deviation(&self) -> f64 {
+        self.computed - self.value()
+    }
+
+    /// Largest difference that counts as reproduced.
+    pub fn tolerance(&self) -> f64 {
+        let half = half_unit(&self.printed.printed);
+        self.printed.tolerance.unwrap_or(half)
+    }
+
+    /// Whether computed and printed number agree within the tolerance.
+    pub fn agrees(&self) -> bool {
+        self.deviation().abs() <= self.tolerance()
+    }
+}
+
+impl fmt::Display for Record {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Printed {
+            quantity,
+            unit,
+            printed,
+            verdict,
+            reason,
+            ..
+        } = &self.printed;
+        write!(
+            formatter,
+            "{}, {}, {quantity}: printed {printed} {unit}, computed {}, off {}, tolerance {}; {} {reason}",
+            self.paper,
+            self.place,
+            self.computed,
+            self.deviation(),
+            self.tolerance(),
+            verdict.name(),
+        )
+    }
+}
+
+/// Half a unit of the last digit of a number as printed: `0.05` of `2.3`, `5e-11` of `1.812e-7`.
+pub fn half_unit(printed: &str) -> f64 {
+    let (digits, power) = printed.split_once('e').unwrap_or((printed, "0"));
+    let decimals = digits.split_once('.').map_or(0, |(_, after)| after.len());
+    let power: i32 = power.parse().unwrap_or(0);
+    // A little more than half: a value that ends exactly in the half may lie on either side in binary.
+    0.5000001 * 10_f64.powi(power - decimals as i32)
+}
+
+/// Computed numbers by place, in the order of the file.
+type Computed = Vec<(&'static str, Vec<f64>)>;
+
+/// The printed numbers of the four papers, in their order: all that can be computed, and those that cannot because the text leaves
+/// out what the computation needs.
+pub fn records() -> Result<Vec<Record>, Failure> {
+    let file = file()?;
+    let mut records = curvature::records(&file.radius_tables)?;
+    let mut computed = BTreeMap::new();
+    for part in [
+        curvature::computed(&file.radius_tables)?,
+        efficiency::computed(),
+        kinematics::computed()?,
+        loads::computed()?,
+        bearings::computed()?,
+        balls::computed()?,
+    ] {
+        computed.extend(part);
+    }
+    for Place {
+        paper,
+        name,
+        numbers,
+    } in file.place
+    {
+        let values = computed.remove(name.as_str()).unwrap_or_default();
+        if values.len() != numbers.len() {
+            let counts = format!("{} printed, {} computed", numbers.len(), values.len());
+            return Err(Failure::Data(format!("published.toml, {name}: {counts}")));
+        }
+        records.extend(
+            numbers
+                .into_iter()
+                .zip(values)
+                .map(|(printed, computed)| Record {
+                    paper: paper.clone(),
+                    place: name.clone(),
+                    printed,
+                    computed,
+                }),
+        );
+    }
+    if let Some(name) = computed.keys().next() {
+        return Err(Failure::Data(format!("published.toml has no place {name}")));
+    }
+    for record in &mut records {
+        if let Some(reason) = file.reasons.get(&record.printed.reason) {
+            record.printed.reason.clone_from(reason);
+        }
+    }
     Ok(records)
 }

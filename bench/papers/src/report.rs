@@ -2,27 +2,34 @@
 
 mod applications;
 mod bearings;
-mod context;
 mod curvature;
 mod efficiency;
 mod kinematics;
 mod loads;
-mod measured;
+pub mod measured;
 mod memory;
 mod published;
 mod uncaged;
 
 use std::path::PathBuf;
 
-use epas_bench::counts;
+use epas_bench::counts::{self, Figures};
 use epas_bench::report::stages::Stages;
 use epas_bench::report::{Plan, parts, provenance, shares};
-use epas_bench::timing::compete;
+use epas_bench::timing::{Competition, compete};
 use epas_page::document::{Document, print_line};
 use epas_page::failure::Failure;
 use epas_page::folder;
 
-use context::Context;
+/// What every section works with.
+pub struct Context {
+    /// Whether coarser sweeps are enough.
+    quick: bool,
+    /// Times on this machine.
+    competition: Vec<Competition>,
+    /// Stored counts on the target.
+    counts: Figures,
+}
 
 /// Timing rounds of the papers' ratios of times.
 const ROUNDS: usize = 120;
@@ -42,73 +49,27 @@ pub struct Arguments {
 }
 
 /// Every section.
+#[rustfmt::skip]
 const PARTS: [Plan<Context>; 3] = [
-    (
-        "The papers",
-        true,
-        &[
-            (
-                published::section,
-                "every printed number that can be computed, and what did not reproduce",
-                1.0,
-            ),
-            (
-                curvature::section,
-                "radius of curvature of helical grooves: Tables A1 and A2, Figures 8 to 11",
-                1.0,
-            ),
-            (
-                efficiency::section,
-                "rolling and full sliding, driving and back-driving",
-                1.0,
-            ),
-            (
-                kinematics::section,
-                "slip, spin and entrainment at the contacts",
-                1.0,
-            ),
-            (loads::section, "shares of the balls in the axial load", 1.0),
-            (
-                bearings::section,
-                "rotary and linear bearings of Lin 2019",
-                1.0,
-            ),
-            (
-                applications::section,
-                "lash, tie rod and wavy grooves of Lin 2019, chapter 4",
-                1.0,
-            ),
-            (
-                uncaged::section,
-                "whole screws of Lin 2019; closed forms of a ball",
-                1.0,
-            ),
-        ],
-    ),
-    (
-        "Real screws",
-        false,
-        &[(
-            measured::section,
-            "figures of real screws beside the model; what decides the friction of a screw",
-            1.0,
-        )],
-    ),
-    (
-        "Laws in use today",
-        false,
-        &[(
-            memory::section,
-            "reversals: loops, rival laws, changing loads, noise, compensation",
-            1.0,
-        )],
-    ),
+    ("The papers", true, &[
+        (published::section, "every printed number that can be computed, and what did not reproduce", 1.0),
+        (curvature::section, "radius of curvature of helical grooves: Tables A1 and A2, Figures 8 to 11", 1.0),
+        (efficiency::section, "rolling and full sliding, driving and back-driving", 1.0),
+        (kinematics::section, "slip, spin and entrainment at the contacts", 1.0),
+        (loads::section, "shares of the balls in the axial load", 1.0),
+        (bearings::section, "rotary and linear bearings of Lin 2019", 1.0),
+        (applications::section, "lash, tie rod and wavy grooves of Lin 2019, chapter 4", 1.0),
+        (uncaged::section, "whole screws of Lin 2019; closed forms of a ball", 1.0),
+    ]),
+    ("Real screws", false, &[
+        (measured::section, "figures of real screws beside the model; what decides the friction of a screw", 1.0),
+    ]),
+    ("Laws in use today", false, &[
+        (memory::section, "reversals: loops, rival laws, changing loads, noise, compensation", 1.0),
+    ]),
 ];
 
 /// Makes the page.
-///
-/// # Errors
-/// A model that is refused, a folder that cannot be written.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     folder::check(&arguments.output, arguments.force)?;
     let stages = Stages::new(std::iter::once(1.0).chain(shares(&PARTS)).collect());

@@ -1,16 +1,12 @@
-//! One ball of a ball screw integrated in time: where the equations of motion of Lin, Velinsky, Ravani
-//! 1994 lead from a rolling start.
+//! One ball of a ball screw integrated in time: where the equations of motion of Lin, Velinsky, Ravani 1994 lead from a rolling start.
 //!
-//! The steady state of their eq. (5)-(9) ([`epas_reference::steady_state`]) lets every contact slide and needs a
-//! spin of millions of revolutions a minute. The same equations with their rates kept (eq. (5) with
-//! `m d W'` and `I omega'`), Coulomb friction smoothed over a small slip speed, and a ball that starts
-//! to roll stay at rolling: A and A' stick, B slips across the groove alone, and the efficiency is
-//! eq. (3) without rolling resistance, whether screw or nut turns. They never lead to eq. (4), which is
-//! printed for the nut.
+//! The steady state of their eq. (5)-(9) ([`epas_reference::steady_state`]) lets every contact slide and needs a spin of millions of
+//! revolutions a minute. The same equations with their rates kept (eq. (5) with `m d W'` and `I omega'`), Coulomb friction smoothed over a
+//! small slip speed, and a ball that starts to roll stay at rolling: A and A' stick, B slips across the groove alone, and the efficiency is
+//! eq. (3) without rolling resistance, whether screw or nut turns. They never lead to eq. (4), which is printed for the nut.
 //!
-//! Where the load drives, the friction of the slipping contact presses the ball inward: A' opens, and the
-//! minor contact is B' on the screw. Then B and B' stick and A slips, with the efficiency `1 - x` to the
-//! `1 / (1 + x)` of eq. (3), `x = f a / (Sb - f Cb)`.
+//! Where the load drives, the friction of the slipping contact presses the ball inward: A' opens, and the minor contact is B' on the screw.
+//! Then B and B' stick and A slips, with the efficiency `1 - x` to the `1 / (1 + x)` of eq. (3), `x = f a / (Sb - f Cb)`.
 
 use std::f64::consts::TAU;
 
@@ -28,15 +24,13 @@ pub const SMOOTHING: f64 = 1e-3;
 /// What is turned, which way, and how friction is smoothed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingBall {
-    /// Geometry, speed, load per ball, friction. With a positive speed the load is moved, with a negative one
-    /// it drives.
+    /// Geometry, speed, load per ball, friction. With a positive speed the load is moved, with a negative one it drives.
     pub ball: BallScrewState,
     /// The part that turns; the other one moves along the axis.
     pub turning: Groove,
     /// The groove with the third, minor contact: the nut's at A', or the screw's at B'.
     pub minor: Groove,
-    /// Slip speed `V0` of the friction `f V / sqrt(V² + V0²)` over the slip speed `r_b Omega Sa` of
-    /// rolling at B, 1e-6 to 1; [`SMOOTHING`].
+    /// Slip speed `V0` of the friction `f V / sqrt(V² + V0²)` over the slip speed `r_b Omega Sa` of rolling at B, 1e-6 to 1; [`SMOOTHING`].
     pub smoothing: f64,
 }
 
@@ -65,21 +59,6 @@ pub struct Instant {
     pub friction_power: f64,
     /// Largest change of a slip speed over a turn, over the slip speed of rolling: small once settled.
     pub drift: f64,
-}
-
-/// Rolling in closed form.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RollingLimit {
-    /// Efficiency of moving the load, or of the load driving.
-    pub efficiency: f64,
-    /// Normal load at B, N.
-    pub normal_screw: f64,
-    /// Normal load at A, N.
-    pub normal_nut: f64,
-    /// Normal load at the minor contact, N.
-    pub normal_minor: f64,
-    /// Friction force of each sticking contact over its Coulomb limit; above 1 they would slip.
-    pub used_friction: f64,
 }
 
 struct System(Motion);
@@ -120,7 +99,6 @@ impl FirstOrderSystem for System {
 impl RollingBall {
     /// The screw turns; the minor contact is where friction presses the ball: outward, against the nut,
     /// while the load is moved, inward, against the screw, where the load drives.
-    #[must_use]
     pub fn new(ball: BallScrewState) -> Self {
         Self {
             ball,
@@ -134,145 +112,27 @@ impl RollingBall {
         }
     }
 
-    /// From the rolling start through `turns` turns; `instants` of them at equal angles, the last one
-    /// at the end.
-    ///
-    /// The equations are stiff by ten orders (friction against inertia over the smoothing speed):
-    /// LSODA (backward differentiation while stiff) with exact derivatives, slips held to 1e-8 of the
-    /// smoothing speed or, where rounding forbids it, to at most 1e-5.
-    ///
-    /// # Errors
-    /// [`ReferenceError`]: an input out of range, a contact that opens, or the integrator's reason to stop.
-    pub fn run(&self, turns: f64, instants: usize) -> Result<Vec<Instant>, ReferenceError> {
-        let motion = self.motion()?;
-        within("turns", turns, 1e-6, 1e4)?;
-        if !(1..=100_000).contains(&instants) {
-            return Err(ReferenceError::input(
-                "instants",
-                format!("{instants} is not within 1 to 100000"),
-            ));
-        }
-        self.integrate(&motion, State::zeros(), turns, instants)
-    }
-
     /// The state after `turns` turns from the rolling start.
     ///
-    /// # Errors
-    /// As [`RollingBall::run`].
+    /// The equations are stiff by ten orders (friction against inertia over the smoothing speed): LSODA (backward differentiation while
+    /// stiff) with exact derivatives, slips accurate to 1e-8 of the smoothing speed or, where rounding forbids it, to at most 1e-5. An
+    /// input out of range, a contact that opens, and the integrator's reason to stop are errors.
     pub fn settle(&self, turns: f64) -> Result<Instant, ReferenceError> {
-        let mut instants = self.run(turns, 1)?;
-        instants.pop().ok_or_else(|| ReferenceError::Integrator {
-            reason: "no instant".into(),
-        })
-    }
-
-    /// Rolling in closed form: the ball sticks to the groove with the minor contact, its single contact
-    /// with the other groove slips across with the normal load `Q` and the friction `f Q`, and the two
-    /// sticking contacts use the same share of their friction (their creep is the same). With `S` and
-    /// `D` the sum and the difference of their normal loads:
-    ///
-    /// ```text
-    /// Fa = Q Ca (Sb - f Cb)      D = Q (1 - 2 f Cb / Sb)
-    /// Cb S² - (Cb Q + f Sb Q +- m r_m W²) S - f Sb Q D = 0       (+ minor contact on the nut)
-    /// 1 / eta = 1 + x while the load is moved, eq. (3); eta = 1 - x where it drives;
-    /// x = f a / (Sb - f Cb)
-    /// ```
-    ///
-    /// The gyroscopic moment is left out: it changes the loads by parts in a million to a thousand and
-    /// the efficiency not at all.
-    ///
-    /// # Errors
-    /// [`ReferenceError`]: a field out of range; `friction` where the slipping contact locks or the
-    /// sticking ones cannot hold; `minor` where friction presses the ball away from it; `speed` where the
-    /// centrifugal force does.
-    pub fn limit(&self) -> Result<RollingLimit, ReferenceError> {
+        within("turns", turns, 1e-6, 1e4)?;
         let motion = self.motion()?;
-        let ball = &self.ball;
-        let f = ball.friction;
-        let (s, c) = (motion.sin_b, motion.cos_b);
-        // Friction presses the ball outward while the load is moved, inward where it drives.
-        let outward = if self.minor == Groove::Nut { 1.0 } else { -1.0 };
-        if f > 0.0 && outward * motion.relative() < 0.0 {
-            return Err(ReferenceError::input(
-                "minor",
-                "friction presses the ball away from this minor contact",
-            ));
-        }
-        let grip = s - f * c;
-        if grip <= 0.0 {
-            return Err(ReferenceError::input(
-                "friction",
-                "the slipping contact locks",
-            ));
-        }
-        let single = ball.axial_load / (motion.cos_a * grip);
-        let difference = single * (1.0 - 2.0 * f * c / s);
-        let orbital = motion.rolling().orbital;
-        let unit = ball.axial_load / (motion.cos_a * s);
-        let centrifugal = outward * motion.inertia * orbital * orbital * unit;
-        let pull = f * s * single;
-        let linear = c * single + pull + centrifugal;
-        let sum = (linear + (linear * linear + 4.0 * c * pull * difference).sqrt()) / (2.0 * c);
-        let (main, minor) = (0.5 * (sum + difference), 0.5 * (sum - difference));
-        if minor < 0.0 {
-            return Err(ReferenceError::input(
-                "speed",
-                "the centrifugal force opens the minor contact",
-            ));
-        }
-        let used_friction = single / sum;
-        if f > 0.0 && used_friction > 1.0 {
-            return Err(ReferenceError::input(
-                "friction",
-                "the sticking contacts cannot hold",
-            ));
-        }
-        let loss = f * motion.ball_ratio / grip;
-        let (normal_nut, normal_screw) = match self.minor {
-            Groove::Nut => (main, single),
-            Groove::Screw => (single, main),
-        };
-        Ok(RollingLimit {
-            efficiency: if motion.relative() > 0.0 {
-                1.0 / (1.0 + loss)
-            } else {
-                1.0 - loss
-            },
-            normal_screw,
-            normal_nut,
-            normal_minor: minor,
-            used_friction,
-        })
-    }
-
-    fn motion(&self) -> Result<Motion, ReferenceError> {
-        within("smoothing", self.smoothing, 1e-6, 1.0)?;
-        Motion::new(&self.ball, self.turning, self.minor, self.smoothing)
-    }
-
-    fn integrate(
-        &self,
-        motion: &Motion,
-        start: State<f64>,
-        turns: f64,
-        instants: usize,
-    ) -> Result<Vec<Instant>, ReferenceError> {
-        // An event is a change of sign: a contact that is open from the start has none.
-        self.instant(motion, 0.0, &start)?;
         let end = turns * TAU;
-        let points: Vec<_> = (1..=instants)
-            .map(|index| end * index as f64 / instants as f64)
-            .collect();
-        // Slips are held to a share of the smoothing speed, also while they are zero. Where the rounding of the friction moments
+        // An event is a change of sign: a contact that is open from the start has none.
+        self.instant(&motion, 0.0, &State::zeros())?;
+        // Slips are accurate to a share of the smoothing speed, also while they are zero. Where the rounding of the friction moments
         // is more than that (slow, heavily loaded), the integrator takes ever smaller steps; a coarser share is tried then.
         let attempt = |share: f64| {
-            Ivp::first_order(&System(*motion), 0.0, end, start.as_slice())
+            Ivp::first_order(&System(motion), 0.0, end, State::zeros().as_slice())
                 .method(Method::LSODA)
                 .rtol(1e-4 * share)
                 .atol(share * motion.smoothing)
                 .first_step((1e-3 / motion.grip.max(1.0)).min(0.1 * end))
-                .max_steps(4000 + 4 * instants)
-                .t_eval(Vec::clone(&points))
+                .max_steps(4004)
+                .t_eval(vec![end])
                 .solve()
         };
         let mut outcome = attempt(1e-8);
@@ -284,21 +144,22 @@ impl RollingBall {
             }
             outcome = attempt(share);
         }
-        let solution = outcome.map_err(|error| ReferenceError::Integrator {
-            reason: error.to_string(),
-        })?;
+        let stopped = |reason: String| ReferenceError::Integrator { reason };
+        let solution = outcome.map_err(|error| stopped(error.to_string()))?;
         if let Some(&angle) = solution.t_events.iter().flatten().next() {
             return Err(ReferenceError::ContactLost { angle });
         }
-        if !solution.status.is_success() || solution.t.len() != instants {
-            return Err(ReferenceError::Integrator {
-                reason: format!("{:?}", solution.status),
-            });
+        if !solution.status.is_success() {
+            return Err(stopped(format!("{:?}", solution.status)));
         }
-        solution
-            .iter()
-            .map(|(angle, state)| self.instant(motion, angle, &State::from_column_slice(state)))
-            .collect()
+        let last = solution.iter().last();
+        let (angle, state) = last.ok_or_else(|| stopped("no instant".into()))?;
+        self.instant(&motion, angle, &State::from_column_slice(state))
+    }
+
+    fn motion(&self) -> Result<Motion, ReferenceError> {
+        within("smoothing", self.smoothing, 1e-6, 1.0)?;
+        Motion::new(&self.ball, self.turning, self.minor, self.smoothing)
     }
 
     fn instant(

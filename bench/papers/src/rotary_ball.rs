@@ -4,7 +4,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use epas_reference::error::{ReferenceError, within};
+use epas_reference::error::ReferenceError;
 use epas_reference::friction::contact_law::{Eccentricity, HertzLaw};
 use epas_reference::friction::maps::FrictionMap;
 use epas_reference::friction::newton::{Local, minimise};
@@ -13,7 +13,7 @@ use epas_reference::friction::planar::{
 };
 
 /// Direction of each contact from the ball centre: signs of the axial (x) and radial (y) component.
-pub(super) const SIGNS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+pub const SIGNS: [(f64, f64); 4] = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
 
 /// How the groove's curvature along the track and the eccentricity of the contact enter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,30 +74,21 @@ impl RotaryBearing {
     /// Contact law of the inner (false) or outer (true) ring at the nominal contact angle.
     ///
     /// `1/R' = 1/R_B +- cos b/(R_P -+ R_B cos b)` (+ inner, - outer), `1/R'' = 1/R_B - 1/R_G`.
-    ///
-    /// # Errors
-    /// When the design is not one.
     pub fn contact_law(&self, outer: bool) -> Result<HertzLaw, ReferenceError> {
-        let r = within("ball_radius", self.ball_radius, 1e-6, 1.0)?;
-        let pitch = within("pitch_radius", self.pitch_radius, 1.5 * r, 100.0)?;
-        let conformity = within("conformity", self.conformity, 0.501, 1.0)?;
-        let angle = within("contact_angle", self.contact_angle, 0.0, 1.5)?;
-        let modulus = within("youngs_modulus", self.youngs_modulus, 1.0, 1e15)?;
-        let poisson = within("poisson_ratio", self.poisson_ratio, 0.0, 0.5)?;
-        let (sign, eccentricity) = (if outer { -1.0 } else { 1.0 }, self.convention);
-        let distance = pitch - sign * r * angle.cos();
-        let (along, eccentricity) = match eccentricity {
-            RotaryConvention::Physical => (angle.cos() / distance, Eccentricity::Exact),
-            RotaryConvention::Dissertation => {
-                (1.0 / (distance * angle.cos()), Eccentricity::Ignored)
-            }
+        let (r, poisson) = (self.ball_radius, self.poisson_ratio);
+        let sign = if outer { -1.0 } else { 1.0 };
+        let cos = self.contact_angle.cos();
+        let distance = self.pitch_radius - sign * r * cos;
+        let (along, eccentricity) = match self.convention {
+            RotaryConvention::Physical => (cos / distance, Eccentricity::Exact),
+            RotaryConvention::Dissertation => (1.0 / (distance * cos), Eccentricity::Ignored),
         };
         let relative_1 = 1.0 / (1.0 / r + sign * along);
-        let relative_2 = 1.0 / (1.0 / r - 1.0 / (2.0 * conformity * r));
+        let relative_2 = 1.0 / (1.0 / r - 1.0 / (2.0 * self.conformity * r));
         HertzLaw::new(
             relative_1,
             relative_2,
-            modulus / (2.0 * (1.0 - poisson * poisson)),
+            self.youngs_modulus / (2.0 * (1.0 - poisson * poisson)),
             eccentricity,
         )
     }
@@ -105,24 +96,14 @@ impl RotaryBearing {
     /// Contact angles and loads of a ball under an axial load on the inner ring, with the inner ring displaced by
     /// `radial_displacement` towards the ball (Figure 3.6).
     ///
-    /// The groove arcs are circles of radius `R_G`, so a contact lies on the line from the arc's centre through the ball
-    /// centre, and the elastic energy `sum 2/5 C^-3/2 deflection^5/2` less the load's work is
-    /// convex in ball centre and ring displacement; it is minimised.
-    ///
-    /// # Errors
-    /// When an input is out of range, or the residual stays above 1e-8 of the largest load.
+    /// The groove arcs are circles of radius `R_G`, so a contact lies on the line from the arc's centre through the ball centre, and the
+    /// elastic energy `sum 2/5 C^-3/2 deflection^5/2` less the load's work is convex in ball centre and ring displacement; it is minimised.
     pub fn contacts_under_load(
         &self,
         axial_load: f64,
         radial_displacement: f64,
     ) -> Result<RotaryContacts, ReferenceError> {
-        let load = within("axial_load", axial_load, 1e-9, 1e9)?;
-        let lift = within(
-            "radial_displacement",
-            radial_displacement,
-            -0.1 * self.ball_radius,
-            0.1 * self.ball_radius,
-        )?;
+        let (load, lift) = (axial_load, radial_displacement);
         let laws = [self.contact_law(false)?, self.contact_law(true)?];
         let (sin, cos) = self.contact_angle.sin_cos();
         let offset = (2.0 * self.conformity - 1.0) * self.ball_radius;
@@ -195,17 +176,15 @@ impl RotaryBearing {
             FrictionMap::new(laws[0].ellipse.axis_ratio)?,
             FrictionMap::new(laws[1].ellipse.axis_ratio)?,
         ];
-        let mut rows = [None; 4];
-        for (i, row) in rows.iter_mut().enumerate() {
-            let angle = within("contact_angles", contacts.contact_angles[i], 1e-3, 1.57)?;
-            let load = within("contact_forces", contacts.contact_forces[i], -1e9, 1e9)?.max(0.0);
+        let rows = std::array::from_fn(|i| {
+            let load = contacts.contact_forces[i].max(0.0);
             let (sx, sy) = SIGNS[i];
             let side = usize::from(sy > 0.0);
-            let (sin, cos) = angle.sin_cos();
+            let (sin, cos) = contacts.contact_angles[i].sin_cos();
             let radius = self.pitch_radius / self.ball_radius + sy * cos;
             // The inner ring turns at one: its speed is taken off slip and spin of the inner contacts.
             let ring = if sy < 0.0 { 1.0 } else { 0.0 };
-            *row = Some(PlanarContact {
+            PlanarContact {
                 slip: [radius, sy * cos, -sx * sin],
                 slip_base: -radius * ring,
                 spin: [-sx * sin, -sx * sin, -sy * cos],
@@ -215,13 +194,9 @@ impl RotaryBearing {
                     / self.ball_radius,
                 friction_limit: load,
                 map: maps[side],
-            });
-        }
-        let [Some(il), Some(ir), Some(or), Some(ol)] = rows else {
-            return Err(ReferenceError::Undriven);
-        };
-        let rows = [il, ir, or, ol];
-        let loaded = |i: usize| rows[i].friction_limit > 0.0;
+            }
+        });
+        let loaded = |i: usize| contacts.contact_forces[i] > 0.0;
         if (loaded(0) || loaded(1)) && (loaded(2) || loaded(3)) {
             Ok(rows)
         } else {
@@ -230,17 +205,13 @@ impl RotaryBearing {
     }
 
     /// Motion of least dissipation: the Coulomb model itself.
-    ///
-    /// # Errors
-    /// When an input is out of range, at `inner_speed = 0`, without a loaded contact on each ring, or without convergence.
     pub fn motion(
         &self,
         contacts: &RotaryContacts,
         friction: f64,
         inner_speed: f64,
     ) -> Result<RotaryMotion, ReferenceError> {
-        let mu = within("friction", friction, 0.0, 1.0)?;
-        let speed = within("inner_speed", inner_speed, -1e6, 1e6)?;
+        let (mu, speed) = (friction, inner_speed);
         if speed == 0.0 {
             return Err(ReferenceError::Standstill);
         }
@@ -269,9 +240,6 @@ impl RotaryBearing {
     /// kept for Table 3.2. In a two-point contact it decides how the spin is shared (`w_x`, `w_y`), not the losses.
     /// Corrected: in (3.19) `Sig` carries the sign of the spin that the force already has, so its magnitude is meant; likewise (3.21).
     /// Written as tanh, the factor does not overflow for fast spin.
-    ///
-    /// # Errors
-    /// As [`Self::motion`].
     pub fn motion_with_sigmoid(
         &self,
         contacts: &RotaryContacts,
@@ -279,9 +247,7 @@ impl RotaryBearing {
         inner_speed: f64,
         sigmoid_slope: f64,
     ) -> Result<RotaryMotion, ReferenceError> {
-        let mu = within("friction", friction, 0.0, 1.0)?;
-        let speed = within("inner_speed", inner_speed, -1e6, 1e6)?;
-        let final_slope = within("sigmoid_slope", sigmoid_slope, 1e-3, 1e6)?;
+        let (mu, speed, final_slope) = (friction, inner_speed, sigmoid_slope);
         if speed == 0.0 {
             return Err(ReferenceError::Standstill);
         }

@@ -8,8 +8,10 @@
 
 use nalgebra::{Matrix2, Matrix2x5, SMatrix, SVector, Vector2};
 
-use crate::rotary_ball::{RotaryBearing, RotaryContacts, SIGNS};
-use epas_reference::error::{ReferenceError, within};
+use crate::published::bearings::{INNER_SPEED, table_3_1};
+use crate::rotary_ball::{RotaryBearing, RotaryContacts, RotaryConvention, SIGNS};
+use epas_bench::report::statistics::evenly;
+use epas_reference::error::ReferenceError;
 use epas_reference::friction::newton::{Local, Minimum, minimise};
 
 /// Which contacts the balls of a row can make.
@@ -33,19 +35,17 @@ impl Raceways {
     }
 }
 
-/// A row of equal balls, evenly spaced.
+/// A row of equal balls, evenly spaced from azimuth 0, the y axis, on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallRow {
     /// Balls, grooves and pitch circle.
     pub bearing: RotaryBearing,
     /// The contacts there are.
     pub raceways: Raceways,
-    /// Number of balls, 1 to 1000.
+    /// Number of balls.
     pub balls: usize,
     /// Axial position of the row in the bearing, m, -1 to 1.
     pub position: f64,
-    /// Azimuth of the first ball, rad, from the y axis to the z axis.
-    pub phase: f64,
     /// Excess of the ball radius over the one that fits the grooves without play, m; negative of undersized balls;
     /// within 5 % of the ball radius.
     pub oversize: f64,
@@ -95,17 +95,6 @@ pub struct LoadedBearing {
     pub shaft_moment: [f64; 2],
     /// Largest unbalanced force of ring and balls (moments over the pitch radius), N.
     pub residual: f64,
-    /// Newton steps of the ring.
-    pub steps: usize,
-}
-
-/// Friction of a loaded bearing.
-#[derive(Clone, Debug, PartialEq)]
-pub struct BearingFriction {
-    /// Friction torque on the inner ring, N m.
-    pub torque: f64,
-    /// Share of each ball, N m; zero of an unloaded one.
-    pub ball_torques: Vec<f64>,
 }
 
 type Ring = SVector<f64, 5>;
@@ -233,21 +222,6 @@ impl Place<'_> {
     }
 }
 
-fn check(rows: &[BallRow]) -> Result<(), ReferenceError> {
-    if rows.is_empty() {
-        return Err(ReferenceError::Unsupported);
-    }
-    for row in rows {
-        within("balls", row.balls as f64, 1.0, 1000.0)?;
-        within("position", row.position, -1.0, 1.0)?;
-        within("phase", row.phase, -1e3, 1e3)?;
-        let limit = 0.05 * row.bearing.ball_radius;
-        within("oversize", row.oversize, -limit, limit)?;
-        row.bearing.contact_law(false)?;
-    }
-    Ok(())
-}
-
 fn places(rows: &[BallRow]) -> Result<Vec<Place<'_>>, ReferenceError> {
     let mut places = Vec::new();
     for (index, row) in rows.iter().enumerate() {
@@ -259,7 +233,7 @@ fn places(rows: &[BallRow]) -> Result<Vec<Place<'_>>, ReferenceError> {
             places.push(Place {
                 row,
                 index,
-                azimuth: row.phase + std::f64::consts::TAU * ball as f64 / row.balls as f64,
+                azimuth: std::f64::consts::TAU * ball as f64 / row.balls as f64,
                 compliances,
                 offset: (2.0 * row.bearing.conformity - 1.0) * row.bearing.ball_radius,
             });
@@ -271,19 +245,15 @@ fn places(rows: &[BallRow]) -> Result<Vec<Place<'_>>, ReferenceError> {
 /// Load distribution on the balls of one or more rows on common rigid rings.
 ///
 /// Loads up to 1e6 N, moments up to 1e5 N m. Without load and without preload there is nothing to share: forces are zero.
-///
-/// # Errors
-/// [`ReferenceError`]: an input out of range; `Unsupported` if no displacement up to a quarter of the ball radius makes the balls
-/// take up the load, or only by contacts beyond the ends of the groove arcs; no convergence to 1e-7 of the largest
-/// force and the rounding of a deflection in the play.
 pub fn distribute(
     rows: &[BallRow],
     load: &RingLoad,
     tilt: Tilt,
 ) -> Result<LoadedBearing, ReferenceError> {
-    check(rows)?;
-    load.check()?;
-    let pitch_radius = rows[0].bearing.pitch_radius;
+    let Some(first) = rows.first() else {
+        return Err(ReferenceError::Unsupported);
+    };
+    let pitch_radius = first.bearing.pitch_radius;
     // Rotations count as displacements at the pitch circle, and moments as forces there.
     let widths = Ring::new(1.0, 1.0, 1.0, 1.0 / pitch_radius, 1.0 / pitch_radius);
     let mut push = load.generalised().component_mul(&widths);
@@ -297,20 +267,6 @@ pub fn distribute(
 }
 
 impl RingLoad {
-    fn check(&self) -> Result<(), ReferenceError> {
-        for (field, value) in [
-            ("axial", self.axial),
-            ("radial", self.radial[0]),
-            ("radial", self.radial[1]),
-        ] {
-            within(field, value, -1e6, 1e6)?;
-        }
-        for moment in self.moment {
-            within("moment", moment, -1e5, 1e5)?;
-        }
-        Ok(())
-    }
-
     /// Forces along x, y, z and moments about y and z.
     fn generalised(&self) -> Ring {
         let ([y, z], [about_y, about_z]) = (self.radial, self.moment);
@@ -471,7 +427,6 @@ impl<'a> Distribution<'a> {
                 Tilt::Held => [taken[3] - load.moment[0], taken[4] - load.moment[1]],
             },
             residual,
-            steps: end.iterations,
         })
     }
 }
@@ -532,57 +487,41 @@ fn take_up(limit: f64, excess: impl Fn(f64) -> f64) -> Option<f64> {
 }
 
 impl LoadedBearing {
-    /// Friction of all balls, each moving with least dissipation, at a speed of the inner ring in rad/s.
+    /// Friction torque of all balls, N m, each moving with least dissipation, at a speed of the inner ring in rad/s.
     ///
-    /// `rows` are those of [`distribute`]. Balls do not touch each other (a cage, or room between them); unloaded ones have no
-    /// friction.
-    ///
-    /// # Errors
-    /// As [`RotaryBearing::motion`].
+    /// `rows` are those of [`distribute`]. Balls do not touch each other (a cage, or room between them); unloaded ones have no friction.
     pub fn friction(
         &self,
         rows: &[BallRow],
         friction: f64,
         inner_speed: f64,
-    ) -> Result<BearingFriction, ReferenceError> {
-        let mut ball_torques = Vec::with_capacity(self.balls.len());
-        for ball in &self.balls {
-            let row = rows.get(ball.row).ok_or(ReferenceError::Unsupported)?;
-            let [il, ir, or, ol] = ball.contacts.contact_forces;
-            let torque = if il.max(ir) > 0.0 && or.max(ol) > 0.0 {
-                let mut contacts = ball.contacts;
+    ) -> Result<f64, ReferenceError> {
+        let mut torque = 0.0;
+        for LoadedBall { row, contacts, .. } in &self.balls {
+            let bearing = &rows.get(*row).ok_or(ReferenceError::Unsupported)?.bearing;
+            let [il, ir, or, ol] = contacts.contact_forces;
+            if il.max(ir) > 0.0 && or.max(ol) > 0.0 {
+                let mut contacts = *contacts;
+                let angles = contacts.contact_angles.iter_mut();
                 // A lost contact's direction is without meaning.
-                for (angle, force) in contacts
-                    .contact_angles
-                    .iter_mut()
-                    .zip(contacts.contact_forces)
-                {
+                for (angle, force) in angles.zip(contacts.contact_forces) {
                     if force <= 0.0 {
-                        *angle = row.bearing.contact_angle;
+                        *angle = bearing.contact_angle;
                     }
                 }
-                row.bearing
-                    .motion(&contacts, friction, inner_speed)?
-                    .friction_torque
-            } else {
-                0.0
-            };
-            ball_torques.push(torque);
+                let motion = bearing.motion(&contacts, friction, inner_speed)?;
+                torque += motion.friction_torque;
+            }
         }
-        Ok(BearingFriction {
-            torque: ball_torques.iter().sum(),
-            ball_torques,
-        })
+        Ok(torque)
     }
 
     /// Balls with all four contacts loaded.
-    #[must_use]
     pub fn four_point_balls(&self) -> usize {
         self.count(4)
     }
 
     /// Balls without load.
-    #[must_use]
     pub fn lost_balls(&self) -> usize {
         self.count(0)
     }
@@ -596,4 +535,116 @@ impl LoadedBearing {
             })
             .count()
     }
+}
+
+/// Friction of a four-point and of a double-row angular contact ball bearing under a load that turns from axial to radial (Table 4.2 and
+/// Figure 4.7), in kind. Not printed: friction coefficient (0.1 as in Table 3.1), azimuth of the balls (0 from the plane of the load) and
+/// distance of the rows (half the printed thickness, back to back; of no effect without tilt); curvatures are the right ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurningLoad {
+    /// Force on the inner ring, N; printed, 3000.
+    pub force: f64,
+    /// Ball radius less than fits the grooves, m, of both bearings; not printed, 0.
+    pub undersize: f64,
+    /// Whether the inner ring can tilt; not printed, the rack holds it.
+    pub tilt: Tilt,
+}
+
+/// Friction coefficient, and distance of the two rows, m.
+const FRICTION: f64 = 0.1;
+const ROW_DISTANCE: f64 = 12e-3;
+
+impl Default for TurningLoad {
+    fn default() -> Self {
+        Self {
+            force: 3000.0,
+            undersize: 0.0,
+            tilt: Tilt::Held,
+        }
+    }
+}
+
+/// Both bearings under one direction of the load.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TurningPoint {
+    /// Angle of the force from the axis, rad.
+    pub angle: f64,
+    /// Friction torque of the four-point bearing, N m.
+    pub four_point: f64,
+    /// Friction torque of the double-row bearing, N m.
+    pub double_row: f64,
+    /// Balls of the four-point bearing with all four contacts loaded.
+    pub four_point_balls: usize,
+}
+
+impl TurningLoad {
+    fn row(&self, ball_radius: f64, raceways: Raceways, position: f64) -> BallRow {
+        BallRow {
+            bearing: RotaryBearing {
+                ball_radius,
+                ..table_3_1(RotaryConvention::Physical)
+            },
+            raceways,
+            balls: 9,
+            position,
+            oversize: -self.undersize,
+        }
+    }
+
+    /// The four-point bearing: nine balls of 6.25 mm radius in grooves of 6.75 mm.
+    pub fn four_point(&self) -> [BallRow; 1] {
+        [self.row(6.25e-3, Raceways::FourPoint, 0.0)]
+    }
+
+    /// The double-row bearing: twice nine balls of 4 mm radius in grooves of 4.32 mm, back to back.
+    pub fn double_row(&self) -> [BallRow; 2] {
+        let half = 0.5 * ROW_DISTANCE;
+        [
+            self.row(4e-3, Raceways::Forward, -half),
+            self.row(4e-3, Raceways::Backward, half),
+        ]
+    }
+
+    /// Load distribution under a force at `angle` from the axis, in the plane of axis and first ball.
+    pub fn loaded(&self, rows: &[BallRow], angle: f64) -> Result<LoadedBearing, ReferenceError> {
+        let (sin, cos) = angle.sin_cos();
+        let load = RingLoad {
+            axial: self.force * cos,
+            radial: [self.force * sin, 0.0],
+            moment: [0.0; 2],
+        };
+        distribute(rows, &load, self.tilt)
+    }
+
+    /// Both bearings under a force at `angle` (rad) from the axis.
+    pub fn at(&self, angle: f64) -> Result<TurningPoint, ReferenceError> {
+        let (four, double) = (self.four_point(), self.double_row());
+        let loaded = self.loaded(&four, angle)?;
+        let other = self.loaded(&double, angle)?;
+        Ok(TurningPoint {
+            angle,
+            four_point: loaded.friction(&four, FRICTION, INNER_SPEED)?,
+            double_row: other.friction(&double, FRICTION, INNER_SPEED)?,
+            four_point_balls: loaded.four_point_balls(),
+        })
+    }
+
+    /// `steps + 1` directions from axial to radial.
+    pub fn sweep(&self, steps: usize) -> Result<Vec<TurningPoint>, ReferenceError> {
+        evenly(0.0, std::f64::consts::FRAC_PI_2, steps)
+            .map(|angle| self.at(angle))
+            .collect()
+    }
+}
+
+/// Largest over least of the values of a sweep: of the four-point and of the double-row bearing.
+pub fn variation(points: &[TurningPoint]) -> [f64; 2] {
+    let ratio = |value: fn(&TurningPoint) -> f64| {
+        let values = points.iter().map(value);
+        values.clone().fold(0.0, f64::max) / values.fold(f64::INFINITY, f64::min)
+    };
+    [
+        ratio(|point| point.four_point),
+        ratio(|point| point.double_row),
+    ]
 }

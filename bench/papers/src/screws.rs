@@ -76,33 +76,15 @@ fn case(number: u32) -> Case {
     }
 }
 
-/// What a table says of one quantity of a comparison.
-struct Quantity {
-    name: &'static str,
-    of: fn(&Comparison) -> &Off,
-}
+/// A quantity of a comparison.
+type Quantity = (&'static str, fn(&Comparison) -> &Off);
 
 const QUANTITIES: [Quantity; 5] = [
-    Quantity {
-        name: "force between balls",
-        of: |found| &found.force,
-    },
-    Quantity {
-        name: "friction torque",
-        of: |found| &found.torque,
-    },
-    Quantity {
-        name: "grooves' torque",
-        of: |found| &found.groove,
-    },
-    Quantity {
-        name: "balls' torque",
-        of: |found| &found.ball,
-    },
-    Quantity {
-        name: "pairs that press",
-        of: |found| &found.pairs,
-    },
+    ("force between balls", |found| &found.force),
+    ("friction torque", |found| &found.torque),
+    ("grooves' torque", |found| &found.groove),
+    ("balls' torque", |found| &found.ball),
+    ("pairs that press", |found| &found.pairs),
 ];
 
 /// Errors of a quantity over many screws.
@@ -175,7 +157,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         stdout,
         "quantity             screws   largest       rms      mean    median of rms   worst rms, its screw"
     )?;
-    for Quantity { name, of } in QUANTITIES {
+    for (name, of) in QUANTITIES {
         let over = Over::of(
             found
                 .iter()

@@ -16,13 +16,11 @@ pub struct Growth {
     pub frequency: f64,
 }
 
-/// What becomes of a small disturbance of `steady`: the eigenvalue with the largest real part of the
-/// ball's equations of motion, eq. (5) with `m d W'` and `I omega'`, linearised there. `None` where
-/// the numbers are out of range or no eigenvalue is found.
+/// What becomes of a small disturbance of `steady`: the eigenvalue with the largest real part of the ball's equations of motion, eq. (5)
+/// with `m d W'` and `I omega'`, linearised there. `None` where the numbers are out of range or no eigenvalue is found.
 ///
 /// At the case of Lin, Velinsky, Ravani 1994 (lead angle 10, contact angle 45 degrees, 2113 N on one
 /// ball at 2000 rpm) the disturbance grows at 5.6 1/s: the state of eq. (14) does not hold there.
-#[must_use]
 pub fn growth(ball: &BallScrewState, steady: &SteadyState) -> Option<Growth> {
     let omega = ball.speed.abs();
     let moving = BallScrewState {

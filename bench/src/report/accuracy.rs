@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 pub use measured::{measured, memory_against_exact};
 
 use super::statistics::Errors;
+use crate::report::draw;
 use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::files::{self, Existing};
@@ -123,12 +124,12 @@ fn differing(stored: &[Accuracy], found: &[Accuracy]) -> Vec<String> {
 pub fn section(found: &[Accuracy], quick: bool) -> Result<Section, Failure> {
     Ok(Section {
         title: "Errors of scenes and formulas",
-        blocks: vec![Block::Table(table(found, quick)?)],
+        blocks: vec![Block::Table(errors(found, quick)?)],
     })
 }
 
 /// The table of the report: what this run found beside what a full one has stored.
-fn table(found: &[Accuracy], quick: bool) -> Result<Table, Failure> {
+fn errors(found: &[Accuracy], quick: bool) -> Result<Table, Failure> {
     let stored = stored()?;
     let row = |entry: &Accuracy| {
         let full = stored.iter().find(|stored| stored.name == entry.name);
@@ -144,13 +145,13 @@ fn table(found: &[Accuracy], quick: bool) -> Result<Table, Failure> {
         ]
     };
     let sweeps = if quick { "samples" } else { "whole sweeps" };
-    Ok(Table {
-        name: "accuracy",
-        caption: format!(
+    Ok(draw::table(
+        "accuracy",
+        format!(
             "Errors at the same state, flagged states counted: {sweeps} of this run, beside those of the whole sweeps (`epas-bench --full`) that README and \
              bench/accuracy.md print; those over every f32 are recorded"
         ),
-        columns: [
+        &[
             "quantity",
             "largest error",
             "rms",
@@ -159,11 +160,9 @@ fn table(found: &[Accuracy], quick: bool) -> Result<Table, Failure> {
             "stored: largest",
             "rms",
             "error of what, over which states",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: found.iter().map(row).collect(),
-    })
+        ],
+        found.iter().map(row).collect(),
+    ))
 }
 
 #[cfg(test)]

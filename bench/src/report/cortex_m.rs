@@ -1,18 +1,14 @@
 //! What everything costs on a Cortex-M4F: error against cycles, functions, scenes, promises.
 
-use std::f64::consts::TAU;
-
-use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::math;
-use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall};
-use rand::RngExt as _;
-use rand_pcg::Pcg64;
 
 use super::context::Context;
 use super::curvature::{FORMS, catalogue_errors};
-use super::statistics::{Errors, evenly};
+use super::kernels;
+use super::trains::closed_form_errors;
 use crate::counts::{Budget, Figures, budgets};
-use epas_page::document::{Block, Cell, Figure, Section, Table};
+use crate::report::draw::{figure, table};
+use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 
@@ -29,66 +25,14 @@ struct Rivals {
     points: Vec<Point>,
 }
 
-/// Inputs of a sweep.
-const INPUTS: usize = 100_000;
-
 /// Largest relative error over all magnitudes.
 fn relative(kernel: impl Fn(f32) -> f32, exact: impl Fn(f64) -> f64) -> f64 {
-    evenly(-30.0, 30.0, INPUTS)
-        .map(|exponent| 10f64.powf(exponent) as f32)
-        .map(|x| f64::from(kernel(x)) / exact(f64::from(x)) - 1.0)
-        .collect::<Errors>()
-        .largest
+    kernels::relative(kernel, exact).largest
 }
 
 /// Largest absolute error of sine and cosine within two turns.
 fn absolute(kernel: impl Fn(f32) -> (f32, f32)) -> f64 {
-    evenly(-TAU, TAU, INPUTS)
-        .flat_map(|angle| {
-            let angle = angle as f32;
-            let (sin, cos) = kernel(angle);
-            let (exact_sin, exact_cos) = f64::from(angle).sin_cos();
-            [f64::from(sin) - exact_sin, f64::from(cos) - exact_cos]
-        })
-        .collect::<Errors>()
-        .largest
-}
-
-/// Largest error of a ball's speed deviation by the closed form, side forces up to 0.8 of the load, deviations of the angles
-/// up to 3 degrees.
-fn ball_error() -> Result<f64, Failure> {
-    let refused = |error| Failure::Data(format!("{error}"));
-    let parameters = LinearBallParameters {
-        ball_radius: 0.005,
-        contact_angle: std::f32::consts::FRAC_PI_4,
-        axis_ratio: 0.2321,
-        semi_major_coefficient: 9.075e-5,
-        friction: 0.1,
-    };
-    let analytic = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).map_err(refused)?;
-    let mut closed = Errors::default();
-    let mut random = Pcg64::new(1, 0);
-    for _ in 0..200 {
-        let side = random.random_range(-0.8..0.8);
-        let mut angle = || std::f32::consts::FRAC_PI_4 + random.random_range(-0.052..0.052);
-        let angles = [angle(), angle(), angle(), angle()];
-        let forces = [1.0 + side, 1.0 - side, 1.0 + side, 1.0 - side].map(|force| 100.0 * force);
-        let exact = LinearBall {
-            ball_radius: 0.005,
-            friction: 0.1,
-            contact_angles: angles.map(f64::from),
-            contact_forces: forces.map(f64::from),
-            ellipse: EllipseLaw {
-                semi_major_constant: f64::from(parameters.semi_major_coefficient),
-                axis_ratio: f64::from(parameters.axis_ratio),
-            },
-        }
-        .solve(1.0)
-        .map_err(|error| Failure::Data(format!("{error}")))?
-        .speed_deviation;
-        closed.add(f64::from(analytic.speed_deviation(&angles, &forces).speed_deviation) - exact);
-    }
-    Ok(closed.largest)
+    kernels::absolute(kernel).largest
 }
 
 /// Cycles by the name of a count.
@@ -202,7 +146,11 @@ fn angle_rivals(counts: &Counts) -> Result<Rivals, Failure> {
 fn ball_rivals(counts: &Counts) -> Result<Rivals, Failure> {
     Ok(Rivals {
         title: "Ball in a linear bearing, error of its speed over v/2",
-        points: vec![counts.point("closed form", "linear_ball_speed", ball_error()?)?],
+        points: vec![counts.point(
+            "closed form",
+            "linear_ball_speed",
+            closed_form_errors(0.8)?.largest,
+        )?],
     })
 }
 
@@ -258,13 +206,11 @@ fn whole(value: impl Into<f64>) -> Cell {
 }
 
 fn functions(figures: &Figures) -> Table {
-    Table {
-        name: "target_functions",
-        caption:
-            "Instructions and modelled cycles of every function, from its first instruction to its \
-                  return, least and most over the inputs"
-                .into(),
-        columns: [
+    table(
+        "target_functions",
+        "Instructions and modelled cycles of every function, from its first instruction to its \
+                  return, least and most over the inputs",
+        &[
             "function",
             "instructions, least",
             "most",
@@ -272,10 +218,8 @@ fn functions(figures: &Figures) -> Table {
             "most",
             "most, built for size",
             "instructions on a Cortex-M7",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: figures
+        ],
+        figures
             .functions
             .iter()
             .map(|entry| {
@@ -290,14 +234,14 @@ fn functions(figures: &Figures) -> Table {
                 ]
             })
             .collect(),
-    }
+    )
 }
 
 fn scenes(figures: &Figures) -> Table {
-    Table {
-        name: "target_scenes",
-        caption: "Size of one image for each scene, bytes".into(),
-        columns: [
+    table(
+        "target_scenes",
+        "Size of one image for each scene, bytes",
+        &[
             "scene",
             "flash",
             "beyond the empty program",
@@ -306,10 +250,8 @@ fn scenes(figures: &Figures) -> Table {
             "stack of the set-up",
             "flash, built for size",
             "stack of a step, built for size",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: figures
+        ],
+        figures
             .scenes
             .iter()
             .chain([&figures.empty])
@@ -327,17 +269,15 @@ fn scenes(figures: &Figures) -> Table {
                 ]
             })
             .collect(),
-    }
+    )
 }
 
 fn promised(figures: &Figures) -> Table {
-    Table {
-        name: "target_budgets",
-        caption: "What the crate promises, and what was found".into(),
-        columns: ["promise", "at most", "found", "kept"]
-            .map(String::from)
-            .to_vec(),
-        rows: budgets(figures)
+    table(
+        "target_budgets",
+        "What the crate promises, and what was found",
+        &["promise", "at most", "found", "kept"],
+        budgets(figures)
             .into_iter()
             .map(|budget| {
                 let decimals = usize::from(budget.most < 10.0);
@@ -351,7 +291,7 @@ fn promised(figures: &Figures) -> Table {
                 ]
             })
             .collect(),
-    }
+    )
 }
 
 /// Where the cycles go.
@@ -394,24 +334,9 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                  short."
                     .into(),
             ),
-            Block::Figure(Figure {
-                name: "error_against_cycles",
-                caption:
-                    "Largest error against cycles on a Cortex-M4F, one point for each formula and \
-                          backend, with the Pareto front"
-                        .into(),
-                panels: rivals.iter().map(Rivals::panel).collect(),
-                columns: 2,
-                size: (460, 340),
-            }),
-            Block::Table(Table {
-                name: "errors_and_cycles",
-                caption: "Largest error and most cycles".into(),
-                columns: ["what", "formula or backend", "largest error", "cycles"]
-                    .map(String::from)
-                    .to_vec(),
-                rows,
-            }),
+            figure("error_against_cycles", "Largest error against cycles on a Cortex-M4F, one point for each formula and \
+                          backend, with the Pareto front", (2, 460, 340), rivals.iter().map(Rivals::panel).collect()),
+            Block::Table(table("errors_and_cycles", "Largest error and most cycles", &["what", "formula or backend", "largest error", "cycles"], rows)),
             Block::Table(functions(figures)),
             Block::Table(scenes(figures)),
             Block::Table(promised(figures)),

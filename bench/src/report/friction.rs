@@ -7,9 +7,10 @@ use super::context::Context;
 use super::statistics::Errors;
 use super::times::time;
 use super::weave::{Row, Weave};
-use epas_page::document::{Block, Cell, Figure, Section, Table};
+use crate::report::draw::{chart, figure, table};
+use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series, thin};
+use epas_page::plot::{Axis, Mark, Series, thin};
 
 /// Cycles in a millisecond of a processor of 168 MHz.
 const CYCLES_A_MILLISECOND: f64 = 168_000.0;
@@ -29,7 +30,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                     .into(),
             ),
             Block::Table(errors_and_costs(context, &weave)?),
-            Block::Figure(over_the_weave(&weave)),
+            over_the_weave(&weave),
         ],
     })
 }
@@ -96,28 +97,27 @@ fn errors_and_costs(context: &Context, weave: &Weave) -> Result<Table, Failure> 
             counted: "step_train_37_pressing",
         },
     ];
-    Ok(Table {
-        name: "friction",
-        caption: "Error and cost of a step. What was found in this run; the largest error promised holds over the whole domain of the scene (table \"promises\"), \
-                  for memory beyond the reversal alone, for 37 balls without the ticks in which balls meet, which what was found has too. Cycles: the most on a Cortex-M4F."
-            .into(),
-        columns: [
-            "scene",
-            "largest error (%)",
-            "rms (%)",
-            "of what, against what",
-            "promised largest (%)",
-            "time of a step here (ns)",
-            "cycles",
-            "of a 168 MHz core at 1 kHz (%)",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: rows
-            .iter()
-            .map(|row| cells(context, row))
-            .collect::<Result<_, _>>()?,
-    })
+    let rows = rows
+        .iter()
+        .map(|row| cells(context, row))
+        .collect::<Result<_, _>>()?;
+    let columns = [
+        "scene",
+        "largest error (%)",
+        "rms (%)",
+        "of what, against what",
+        "promised largest (%)",
+        "time of a step here (ns)",
+        "cycles",
+        "of a 168 MHz core at 1 kHz (%)",
+    ];
+    Ok(table(
+        "friction",
+        "Error and cost of a step. What was found in this run; the largest error promised holds over the whole domain of the scene (table \"promises\"), \
+         for memory beyond the reversal alone, for 37 balls without the ticks in which balls meet, which what was found has too. Cycles: the most on a Cortex-M4F.",
+        &columns,
+        rows,
+    ))
 }
 
 fn cells(context: &Context, row: &SceneRow) -> Result<Vec<Cell>, Failure> {
@@ -153,7 +153,7 @@ pub(super) fn reversal(rows: &[Row]) -> f64 {
         .map_or(0.0, |pair| pair[0].time)
 }
 
-fn over_the_weave(weave: &Weave) -> Figure {
+fn over_the_weave(weave: &Weave) -> Block {
     const WHOLE: (f64, f64) = (0.0, 5.0);
     let start = reversal(&weave.rows);
     let close = (start - 0.02, start + 0.06);
@@ -161,14 +161,13 @@ fn over_the_weave(weave: &Weave) -> Figure {
         let points = thin(between(&weave.rows, ends), &|row| row.time, value);
         Series::new(name, colour, Mark::Line, points)
     };
-    let chart = |title: &str, label: &str, ends: (f64, f64), series| {
-        Panel::Chart(Chart {
-            title: title.into(),
-            x: Axis::linear("time (s)").between(ends.0, ends.1),
-            y: Axis::linear(label),
+    let panel = |title: &str, label: &str, ends: (f64, f64), series| {
+        chart(
+            title,
+            Axis::linear("time (s)").between(ends.0, ends.1),
+            Axis::linear(label),
             series,
-            notes: Vec::new(),
-        })
+        )
     };
     let three = |ends| {
         vec![
@@ -177,17 +176,22 @@ fn over_the_weave(weave: &Weave) -> Figure {
             line("37 balls, memory", 2, ends, &|row: &Row| row.balls[0]),
         ]
     };
-    Figure {
-        name: "friction_over_a_manoeuvre",
-        caption: "Friction torque of a screw of 33 mm and lead 20 mm with 37 balls, on centre. A weave at 0.2 Hz with small corrections; the \
+    figure(
+        "friction_over_a_manoeuvre",
+        "Friction torque of a screw of 33 mm and lead 20 mm with 37 balls, on centre. A weave at 0.2 Hz with small corrections; the \
                   reversal under the largest load closer; motor torque at the nut without inertia; and friction of the 37 balls in its parts. Without memory \
                   friction turns round with the speed, with memory over an angle. All have the numbers of the design lin-3.6: friction 0.1, balls that just fit; the \
-                  37 balls also have its contact angles that deviate by 40 mrad, which a cage does not notice. Model of this crate; geometry of Lin 2019, Table 3.6."
-            .into(),
-        panels: vec![
-            chart("Friction on centre", "friction torque (N m)", WHOLE, three(WHOLE)),
-            chart("One reversal", "friction torque (N m)", close, three(close)),
-            chart(
+                  37 balls also have its contact angles that deviate by 40 mrad, which a cage does not notice. Model of this crate; geometry of Lin 2019, Table 3.6.",
+        (2, 540, 350),
+        vec![
+            panel(
+                "Friction on centre",
+                "friction torque (N m)",
+                WHOLE,
+                three(WHOLE),
+            ),
+            panel("One reversal", "friction torque (N m)", close, three(close)),
+            panel(
                 "What the motor has to do",
                 "motor torque (N m)",
                 WHOLE,
@@ -198,7 +202,7 @@ fn over_the_weave(weave: &Weave) -> Figure {
                     }),
                 ],
             ),
-            chart(
+            panel(
                 "Friction of 37 balls in its parts",
                 "friction torque (N m)",
                 WHOLE,
@@ -208,7 +212,5 @@ fn over_the_weave(weave: &Weave) -> Figure {
                 ],
             ),
         ],
-        columns: 2,
-        size: (540, 350),
-    }
+    )
 }

@@ -5,9 +5,10 @@ use epas_reference::hertz::Hertz;
 
 use super::context::Context;
 use super::statistics::{Errors, evenly};
-use epas_page::document::{Block, Cell, Figure, Section, Table};
+use crate::report::draw::{chart, figure, table};
+use epas_page::document::{Block, Cell, Section};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Series};
 
 const PARTS: [&str; 5] = [
     "axis ratio",
@@ -88,31 +89,25 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     Ok(Section {
         title: "Contact ellipse",
         blocks: vec![
-            Block::Table(Table {
-                name: "hertz_errors",
-                caption: "Errors of the crate's contact ellipse in f32 against exact elliptic integrals, \
-                          ratios of the relative radii 1 to 1e5"
-                    .into(),
-                columns: ["quantity", "largest", "rms", "mean"]
-                    .map(String::from)
-                    .to_vec(),
+            Block::Table(table(
+                "hertz_errors",
+                "Errors of the crate's contact ellipse in f32 against exact elliptic integrals, \
+                          ratios of the relative radii 1 to 1e5",
+                &["quantity", "largest", "rms", "mean"],
                 rows,
-            }),
-            Block::Figure(Figure {
-                name: "hertz",
-                caption: "Errors of the contact ellipse over the ratio of the relative radii; a groove of \
-                          conformity 0.528 has a ratio of about 20."
-                    .into(),
-                panels: vec![Panel::Chart(Chart {
-                    title: String::new(),
-                    x: Axis::log("larger over smaller relative radius"),
-                    y: Axis::log("relative error").between(1e-8, 0.1),
+            )),
+            figure(
+                "hertz",
+                "Errors of the contact ellipse over the ratio of the relative radii; a groove of \
+                          conformity 0.528 has a ratio of about 20.",
+                (1, 1080, 420),
+                vec![chart(
+                    "",
+                    Axis::log("larger over smaller relative radius"),
+                    Axis::log("relative error").between(1e-8, 0.1),
                     series,
-                    notes: Vec::new(),
-                })],
-                columns: 1,
-                size: (1080, 420),
-            }),
+                )],
+            ),
         ],
     })
 }

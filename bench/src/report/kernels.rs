@@ -5,22 +5,25 @@ use std::f64::consts::TAU;
 use super::context::Context;
 use super::statistics::{Errors, evenly};
 use super::times::time;
+use crate::report::draw::table;
 use crate::timing;
 use crate::timing::kernels::{libm, micromath, own};
-use epas_page::document::{Block, Cell, Section, Table};
+use epas_page::document::{Block, Cell, Section};
 use epas_page::failure::Failure;
 
 /// Inputs of a sweep.
 const INPUTS: usize = 400_000;
 
-fn relative(kernel: fn(f32) -> f32, exact: fn(f64) -> f64) -> Errors {
+/// Relative errors over all magnitudes.
+pub fn relative(kernel: impl Fn(f32) -> f32, exact: impl Fn(f64) -> f64) -> Errors {
     evenly(-37.9, 38.5, INPUTS)
         .map(|exponent| 10f64.powf(exponent) as f32)
         .map(|x| f64::from(kernel(x)) / exact(f64::from(x)) - 1.0)
         .collect()
 }
 
-fn absolute(kernel: fn(f32) -> (f32, f32)) -> Errors {
+/// Absolute errors of sine and cosine within two turns.
+pub fn absolute(kernel: impl Fn(f32) -> (f32, f32)) -> Errors {
     evenly(-TAU, TAU, INPUTS)
         .flat_map(|angle| {
             let angle = angle as f32;
@@ -98,10 +101,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                  Cortex-M4F that is software, over a thousand instructions a call."
                     .into(),
             ),
-            Block::Table(Table {
-                name: "kernels",
-                caption: "Scalar kernels of the three backends".into(),
-                columns: [
+            Block::Table(table("kernels", "Scalar kernels of the three backends", &[
                     "kernel",
                     "backend",
                     "largest error",
@@ -109,11 +109,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                     "mean",
                     "latency (ns)",
                     "throughput (ns)",
-                ]
-                .map(String::from)
-                .to_vec(),
-                rows,
-            }),
+                ], rows)),
         ],
     })
 }

@@ -11,15 +11,16 @@ pub use recorded::errors as recorded_errors;
 
 use super::context::Context;
 use super::statistics::Errors;
-use epas_page::document::{Block, Cell, Figure, Section, Table};
+use crate::report::draw::{figure, table};
+use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 
 /// The table of promises.
 fn table_of_promises() -> Table {
-    Table {
-        name: "promises",
-        caption: "What the functions of the loop promise; cycles of a Cortex-M4F, ceilings".into(),
-        columns: [
+    table(
+        "promises",
+        "What the functions of the loop promise; cycles of a Cortex-M4F, ceilings",
+        &[
             "function",
             "domain",
             "error",
@@ -29,10 +30,8 @@ fn table_of_promises() -> Table {
             "outside",
             "NaN, infinities",
             "cycles",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: PROMISES
+        ],
+        PROMISES
             .all()
             .map(|promise| {
                 vec![
@@ -48,7 +47,7 @@ fn table_of_promises() -> Table {
                 ]
             })
             .collect(),
-    }
+    )
 }
 
 /// The section.
@@ -73,23 +72,10 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
              the reference where one is named."
                 .into(),
         ),
-        Block::Table(Table {
-            name: "stability",
-            caption: "Worst cases over the maps below. Apart from the inputs that are compared, points are counted that crate or reference \
-                      refuse, those where the reference has no number or none that counts, and those where the crate alone has none"
-                .into(),
-            columns: maps::COLUMNS.map(String::from).to_vec(),
-            rows,
-        }),
-        Block::Figure(Figure {
-            name: "stability_maps",
-            caption: "Errors of the formulas in f32 against the reference, from the same numbers; nothing is \
-                      drawn where a request is refused or the quantity does not exist."
-                .into(),
-            panels,
-            columns: 3,
-            size: (540, 420),
-        }),
+        Block::Table(table("stability", "Worst cases over the maps below. Apart from the inputs that are compared, points are counted that crate or reference \
+                      refuse, those where the reference has no number or none that counts, and those where the crate alone has none", &maps::COLUMNS, rows)),
+        figure("stability_maps", "Errors of the formulas in f32 against the reference, from the same numbers; nothing is \
+                      drawn where a request is refused or the quantity does not exist.", (3, 540, 420), panels),
     ];
     blocks.extend(two_point::blocks()?);
     blocks.extend(recorded::blocks(&all, requests)?);

@@ -4,8 +4,9 @@ use super::context::Context;
 use super::statistics::Errors;
 use super::times::{quartiles, ratio, time};
 use super::{curvature, efficiency, hertz};
+use crate::report::draw::{figure, table};
 use crate::timing;
-use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 
@@ -16,50 +17,33 @@ const CURVATURE: &str = "31 sizes, both grooves, contact angles 0-70 deg";
 const EFFICIENCY: &str = "friction to 0.3, lead to 60, contact 10-80 deg";
 
 /// Key of the time, name, kind of error and domain of each formula.
+#[rustfmt::skip]
 const FORMULAS: [[&str; 4]; 8] = [
-    [
-        "literature",
-        "curvature: literature (27),(28)",
-        "relative",
-        CURVATURE,
-    ],
-    [
-        "circular_groove",
-        "curvature: circular groove (25),(26)",
-        "relative",
-        CURVATURE,
-    ],
+    ["literature", "curvature: literature (27),(28)", "relative", CURVATURE],
+    ["circular_groove", "curvature: circular groove (25),(26)", "relative", CURVATURE],
     ["fitted", "curvature: fitted", "relative", CURVATURE],
-    [
-        "exact",
-        "curvature: exact, both curvatures",
-        "relative",
-        CURVATURE,
-    ],
-    [
-        "hertz_ellipse",
-        "contact ellipse under a load",
-        "relative",
-        "radius ratios 1 to 1e5",
-    ],
-    [
-        "efficiency_rolling",
-        "efficiency: rolling (3)",
-        "absolute",
-        EFFICIENCY,
-    ],
-    [
-        "efficiency_sliding",
-        "efficiency: full sliding (14)",
-        "absolute",
-        EFFICIENCY,
-    ],
-    [
-        "efficiency_sliding",
-        "loss of full sliding",
-        "relative",
-        EFFICIENCY,
-    ],
+    ["exact", "curvature: exact, both curvatures", "relative", CURVATURE],
+    ["hertz_ellipse", "contact ellipse under a load", "relative", "radius ratios 1 to 1e5"],
+    ["efficiency_rolling", "efficiency: rolling (3)", "absolute", EFFICIENCY],
+    ["efficiency_sliding", "efficiency: full sliding (14)", "absolute", EFFICIENCY],
+    ["efficiency_sliding", "loss of full sliding", "relative", EFFICIENCY],
+];
+
+/// Key of the time, name and printed ratio of each curvature.
+#[rustfmt::skip]
+const CURVATURES: [[&str; 3]; 12] = [
+    ["literature", "literature, cosine given", "1"],
+    ["circular_groove", "circular groove, cosine given", "1.32"],
+    ["fitted", "fitted, cosine and sine given", ""],
+    ["exact", "exact f32, cosine and sine given", "71.5"],
+    ["literature_angle", "literature, from the angle", "1"],
+    ["circular_groove_angle", "circular groove, from the angle", "1.32"],
+    ["fitted_angle", "fitted, from the angle", ""],
+    ["exact_angle", "exact f32, from the angle", "71.5"],
+    ["literature_f64", "literature, f64", "1"],
+    ["weingarten_f64", "Weingarten map in the Frenet frame, f64", ""],
+    ["weingarten_printed_f64", "Weingarten map as printed, f64", ""],
+    ["appendix_b_f64", "Appendix B, f64", "71.5"],
 ];
 
 /// The section.
@@ -100,7 +84,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                  roots does not wait for the other."
                     .into(),
             ),
-            Block::Figure(picture(context, &[literature, circular, fitted, exact])?),
+            picture(context, &[literature, circular, fitted, exact])?,
         ],
     })
 }
@@ -165,10 +149,10 @@ fn errors_and_times(context: &Context, errors: [&Errors; 8]) -> Result<Table, Fa
         time(&step.throughput, 2),
         "one tick in the interrupt".into(),
     ]);
-    Ok(Table {
-        name: "summary",
-        caption: "Error and run time".into(),
-        columns: [
+    Ok(table(
+        "summary",
+        "Error and run time",
+        &[
             "formula",
             "largest error",
             "rms",
@@ -178,42 +162,15 @@ fn errors_and_times(context: &Context, errors: [&Errors; 8]) -> Result<Table, Fa
             "in multiply-adds",
             "throughput (ns)",
             "domain",
-        ]
-        .map(String::from)
-        .to_vec(),
+        ],
         rows,
-    })
+    ))
 }
 
 /// Ratios in the paper's own terms, from the contact angle on, with the exact models beside.
 fn ratios(context: &Context) -> Result<Table, Failure> {
     let mut rows = Vec::new();
-    for (key, name, printed) in [
-        ("literature", "literature, cosine given", "1"),
-        ("circular_groove", "circular groove, cosine given", "1.32"),
-        ("fitted", "fitted, cosine and sine given", ""),
-        ("exact", "exact f32, cosine and sine given", "71.5"),
-        ("literature_angle", "literature, from the angle", "1"),
-        (
-            "circular_groove_angle",
-            "circular groove, from the angle",
-            "1.32",
-        ),
-        ("fitted_angle", "fitted, from the angle", ""),
-        ("exact_angle", "exact f32, from the angle", "71.5"),
-        ("literature_f64", "literature, f64", "1"),
-        (
-            "weingarten_f64",
-            "Weingarten map in the Frenet frame, f64",
-            "",
-        ),
-        (
-            "weingarten_printed_f64",
-            "Weingarten map as printed, f64",
-            "",
-        ),
-        ("appendix_b_f64", "Appendix B, f64", "71.5"),
-    ] {
+    for [key, name, printed] in CURVATURES {
         let times = timing::times(&context.competition, key)?;
         rows.push(vec![
             Cell::from(name),
@@ -225,11 +182,10 @@ fn ratios(context: &Context) -> Result<Table, Failure> {
             ratio(times.ratios.1, 2),
         ]);
     }
-    Ok(Table {
-        name: "curvature_times",
-        caption: "Curvature: time of one call over that of the literature formula of the same kind"
-            .into(),
-        columns: [
+    Ok(table(
+        "curvature_times",
+        "Curvature: time of one call over that of the literature formula of the same kind",
+        &[
             "formula",
             "latency (ns)",
             "quartiles",
@@ -237,15 +193,13 @@ fn ratios(context: &Context) -> Result<Table, Failure> {
             "printed ratio",
             "throughput (ns)",
             "ratio",
-        ]
-        .map(String::from)
-        .to_vec(),
+        ],
         rows,
-    })
+    ))
 }
 
 /// One point a formula: time of a call and largest error of the first curvature.
-fn picture(context: &Context, errors: &[Errors; 4]) -> Result<Figure, Failure> {
+fn picture(context: &Context, errors: &[Errors; 4]) -> Result<Block, Failure> {
     let [weingarten, appendix_b] = curvature::double_errors()?;
     let [literature, circular, fitted, exact] = errors.map(|errors| errors.largest);
     let groups: [(&str, Mark, Vec<Point>); 3] = [
@@ -297,21 +251,19 @@ fn picture(context: &Context, errors: &[Errors; 4]) -> Result<Figure, Failure> {
         }
         series.push(Series::new(name, colour, mark, places));
     }
-    Ok(Figure {
-        name: "error_against_time",
-        caption: "Groove curvature: largest error against the time of one call. Latency on this machine, 31 \
+    Ok(figure(
+        "error_against_time",
+        "Groove curvature: largest error against the time of one call. Latency on this machine, 31 \
                   catalogue sizes, screw and nut, contact angles 0 to 70 degrees. The exact form gives both \
                   curvatures. The error of the reference is the difference of its separate \
-                  derivations."
-            .into(),
-        panels: vec![Panel::Chart(Chart {
+                  derivations.",
+        (1, 1080, 560),
+        vec![Panel::Chart(Chart {
             title: "Groove curvature: error against run time".into(),
             x: Axis::log("time of one call (ns)").between(1.0, 1000.0),
             y: Axis::log("largest relative error of the first curvature").between(1e-16, 10.0),
             series,
             notes,
         })],
-        columns: 1,
-        size: (1080, 560),
-    })
+    ))
 }

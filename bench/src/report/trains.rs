@@ -4,7 +4,7 @@ mod cost;
 mod linear;
 mod screw;
 
-pub use linear::closed_form_errors;
+pub use linear::{Closed, closed_form_errors};
 
 use super::context::Context;
 use epas_page::document::{Block, Section};

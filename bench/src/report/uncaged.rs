@@ -6,6 +6,7 @@ mod settings;
 use super::context::Context;
 use super::flagship::Flagship;
 use super::times::time;
+use crate::report::draw::table;
 use crate::timing;
 use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
@@ -57,9 +58,9 @@ fn flagship(context: &Context) -> Result<Table, Failure> {
             .flat_map(|_| [Cell::power(0.0), Cell::power(0.0)]),
     );
     exact.push(Cell::power(1e9 * exact_state));
-    Ok(Table {
-        name: "flagship",
-        caption: format!(
+    Ok(table(
+        "flagship",
+        format!(
             "37 balls of Table 3.6's screw, 50 N a ball, deviations of 1 degree on the screw and 0.5 degrees in the nut, one turn a second: largest \
              and rms error at the same state over {turns} turns, groove torque over its own exact value, the others over the largest exact one. {}",
             refused.as_ref().map_or_else(
@@ -72,7 +73,7 @@ fn flagship(context: &Context) -> Result<Table, Failure> {
                 |reason| format!("Not folded: {reason}"),
             ),
         ),
-        columns: [
+        &[
             "model",
             "force",
             "rms",
@@ -83,9 +84,7 @@ fn flagship(context: &Context) -> Result<Table, Failure> {
             "speed",
             "rms",
             "time of a tick or state (ns)",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: vec![scene, exact],
-    })
+        ],
+        vec![scene, exact],
+    ))
 }

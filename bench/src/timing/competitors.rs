@@ -44,9 +44,6 @@ pub struct Competition {
 }
 
 /// The times of a function by its key.
-///
-/// # Errors
-/// A key under which nothing was timed.
 pub fn times<'a>(competition: &'a [Competition], key: &str) -> Result<&'a Competition, Failure> {
     competition
         .iter()

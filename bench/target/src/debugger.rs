@@ -15,9 +15,6 @@ impl<W: Write, R: Read> Debugger<W, R> {
     }
 
     /// Lets the processor run until it comes to an address in Thumb code.
-    ///
-    /// # Errors
-    /// An emulator that refuses, or ends before it comes there.
     pub fn run_to(&mut self, address: u32) -> Result<()> {
         let place = format!("0,{:x},2", address & !1);
         self.done(&format!("Z{place}"))?;
@@ -29,9 +26,6 @@ impl<W: Write, R: Read> Debugger<W, R> {
     }
 
     /// Gives a command to the emulator's monitor.
-    ///
-    /// # Errors
-    /// An emulator that refuses.
     pub fn monitor(&mut self, command: &str) -> Result<()> {
         let words = command.bytes().fold("qRcmd,".to_string(), |words, byte| {
             words + &format!("{byte:02x}")
@@ -45,9 +39,6 @@ impl<W: Write, R: Read> Debugger<W, R> {
     }
 
     /// Lets the processor run for good.
-    ///
-    /// # Errors
-    /// An emulator that refuses.
     pub fn detach(&mut self) -> Result<()> {
         self.done("D")
     }

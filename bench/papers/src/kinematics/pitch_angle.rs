@@ -39,13 +39,11 @@ fn root_near_contact_angle(input: &KinematicsInput, f: impl Fn(&Revised) -> f64)
 }
 
 /// IRC, exact for a helix: no spin at the screw.
-#[must_use]
 pub fn inner_raceway_control(input: &KinematicsInput) -> Option<f64> {
     root_near_contact_angle(input, |revised| revised.spin(Raceway::Screw))
 }
 
 /// ORC, exact for a helix: no spin at the nut.
-#[must_use]
 pub fn outer_raceway_control(input: &KinematicsInput) -> Option<f64> {
     root_near_contact_angle(input, |revised| revised.spin(Raceway::Nut))
 }
@@ -56,27 +54,23 @@ fn ball_ratio(input: &KinematicsInput) -> f64 {
 }
 
 /// IRC as Table 1 prints it.
-#[must_use]
 pub fn inner_raceway_control_printed(input: &KinematicsInput) -> f64 {
     let (sine, cosine) = input.contact_angle_screw.sin_cos();
     sine.atan2(cosine - ball_ratio(input))
 }
 
 /// ORC as Table 1 prints it.
-#[must_use]
 pub fn outer_raceway_control_printed(input: &KinematicsInput) -> f64 {
     let (sine, cosine) = input.contact_angle_nut.sin_cos();
     sine.atan2(cosine + ball_ratio(input))
 }
 
 /// GEO: mean of the contact angles.
-#[must_use]
 pub fn mean_contact_angle(input: &KinematicsInput) -> f64 {
     0.5 * (input.contact_angle_screw + input.contact_angle_nut)
 }
 
-/// Spin moment of a contact over `3/8 mu`: `W a E(1 - b^2/a^2)`; `None` for an ellipse without
-/// extent.
+/// Spin moment of a contact over `3/8 mu`: `W a E(1 - b^2/a^2)`; `None` for an ellipse without extent.
 fn spin_moment(input: &KinematicsInput, raceway: Raceway, load: f64) -> Option<f64> {
     let contact = input.contact(raceway);
     let ratio = contact.semi_minor / contact.semi_major;
@@ -85,7 +79,6 @@ fn spin_moment(input: &KinematicsInput, raceway: Raceway, load: f64) -> Option<f
 }
 
 /// DAL as Table 1 prints it; unverified, its source was not at hand.
-#[must_use]
 pub fn d_alembert_printed(input: &KinematicsInput, load_screw: f64, load_nut: f64) -> Option<f64> {
     let c = spin_moment(input, Raceway::Nut, load_nut)?
         / spin_moment(input, Raceway::Screw, load_screw)?;
@@ -94,7 +87,6 @@ pub fn d_alembert_printed(input: &KinematicsInput, load_screw: f64, load_nut: f6
 
 /// DAL with the two contradictions of Table 1 resolved: `cos alpha_o` beside `gamma'`, and `C`
 /// turned over, so that the nut controls (ORC) where its spin moment rules. Unverified.
-#[must_use]
 pub fn d_alembert(input: &KinematicsInput, load_screw: f64, load_nut: f64) -> Option<f64> {
     let c = spin_moment(input, Raceway::Screw, load_screw)?
         / spin_moment(input, Raceway::Nut, load_nut)?;
@@ -114,7 +106,6 @@ fn d_alembert_with(input: &KinematicsInput, c: f64, cosine_second: f64) -> f64 {
 }
 
 /// Equal spin power `mu W 3/8 a E |spin|` at both contacts.
-#[must_use]
 pub fn balanced_spin(input: &KinematicsInput, load_screw: f64, load_nut: f64) -> Option<f64> {
     let screw = spin_moment(input, Raceway::Screw, load_screw)?;
     let nut = spin_moment(input, Raceway::Nut, load_nut)?;
@@ -125,7 +116,6 @@ pub fn balanced_spin(input: &KinematicsInput, load_screw: f64, load_nut: f64) ->
 
 /// Least friction power of both contacts in the pitch angle, at the input's yaw angle and rolling
 /// radii; between the two raceway controls. Root of the power's central difference over 1e-4 rad.
-#[must_use]
 pub fn least_power(
     input: &KinematicsInput,
     rule: &HertzMean,

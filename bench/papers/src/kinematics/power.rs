@@ -1,4 +1,4 @@
-//! Friction power by quadrature over the contact ellipse.
+//! Mean slip by quadrature over the contact ellipse: times coefficient and load it is the power of friction.
 
 use epas_reference::kinematics::Raceway;
 use epas_reference::kinematics::Revised;
@@ -8,11 +8,9 @@ use std::num::NonZeroUsize;
 
 /// Means over an ellipse weighted by Hertz pressure, `sqrt(1 - x^2/b^2 - y^2/a^2)`.
 ///
-/// With `x = b rho cos t`, `y = a rho sin t` and `rho = sqrt(1 - u^2)` the mean is
-/// `3 / (2 pi)` times the integral of `f u^2` over `u` from 0 to 1 and `t` from 0 to `2 pi`: Gauss and
-/// Legendre's rule in `u`, the trapezoidal rule, exact for periodic functions, in `t`. Where `f` has
-/// a kink inside the ellipse (slip that vanishes there) the error falls only as the cube of the
-/// spacing.
+/// With `x = b rho cos t`, `y = a rho sin t` and `rho = sqrt(1 - u^2)` the mean is `3 / (2 pi)` times the integral of `f u^2` over `u` from
+/// 0 to 1 and `t` from 0 to `2 pi`: Gauss and Legendre's rule in `u`, the trapezoidal rule, exact for periodic functions, in `t`. Where `f`
+/// has a kink inside the ellipse (slip that vanishes there) the error falls only as the cube of the spacing.
 #[derive(Clone, Debug)]
 pub struct HertzMean {
     /// `x / b`, `y / a`, weight; weights add up to one.
@@ -21,7 +19,6 @@ pub struct HertzMean {
 
 impl HertzMean {
     /// A rule of `radial` times `angular` points (at least one each).
-    #[must_use]
     pub fn new(radial: usize, angular: usize) -> Self {
         let radial = NonZeroUsize::new(radial).unwrap_or(NonZeroUsize::MIN);
         let angular = angular.max(1);
@@ -72,9 +69,7 @@ pub struct MeanSlip {
 }
 
 impl MeanSlip {
-    /// Mean over an ellipse of a field given as rolling slip, side slip (both functions of `y`) and
-    /// spin.
-    #[must_use]
+    /// Mean over an ellipse of a field given as rolling slip, side slip (both functions of `y`) and spin.
     pub fn of_field(
         rule: &HertzMean,
         semi_major: f64,
@@ -106,22 +101,9 @@ impl MeanSlip {
             spin,
         }
     }
-
-    /// Power of friction `friction` (1) under a load (N), W.
-    #[must_use]
-    pub fn power(&self, friction: f64, load: f64) -> Self {
-        let factor = friction * load;
-        Self {
-            total: factor * self.total,
-            rolling: factor * self.rolling,
-            side: factor * self.side,
-            spin: factor * self.spin,
-        }
-    }
 }
 
 /// Mean slip of one contact over its ellipse with the full field (30), `S_k(y)` of (14) included.
-#[must_use]
 pub fn mean_slip(revised: &Revised, rule: &HertzMean, raceway: Raceway) -> MeanSlip {
     let input = revised.input();
     let contact = input.contact(raceway);
@@ -138,38 +120,4 @@ pub fn mean_slip(revised: &Revised, rule: &HertzMean, raceway: Raceway) -> MeanS
         |y| speed * side * revised.distance(raceway, y),
         speed * revised.spin(raceway),
     )
-}
-
-/// Friction power of one ball, W, at the screw and at the nut: `mu W <|v|>`.
-#[must_use]
-pub fn friction_power(
-    revised: &Revised,
-    rule: &HertzMean,
-    friction: f64,
-    load_screw: f64,
-    load_nut: f64,
-) -> [MeanSlip; 2] {
-    [
-        mean_slip(revised, rule, Raceway::Screw).power(friction, load_screw),
-        mean_slip(revised, rule, Raceway::Nut).power(friction, load_nut),
-    ]
-}
-
-/// Least power of both contacts under equal loads that any rotation of the ball allows, W:
-/// `mu W S sin psi |omega|`, from `side_i / S_i + side_o / S_o = -omega sin psi` and Jensen's
-/// inequality; `S` is the smaller of the two mean distances.
-#[must_use]
-pub fn least_friction_power(revised: &Revised, rule: &HertzMean, friction: f64, load: f64) -> f64 {
-    let input = revised.input();
-    let distance = Raceway::BOTH
-        .map(|raceway| {
-            let contact = input.contact(raceway);
-            let [mean] = rule.mean(contact.semi_major, contact.semi_minor, |_, y| {
-                [revised.distance(raceway, y)]
-            });
-            mean
-        })
-        .into_iter()
-        .fold(f64::INFINITY, f64::min);
-    friction * load * distance * (input.lead_angle.sin() * input.speed).abs()
 }

@@ -3,16 +3,14 @@
 use epas_reference::kinematics::Revised;
 use epas_reference::kinematics::{KinematicsInput, Raceway};
 
-/// Slip by the formula of Lin, Ravani and Velinsky 1994, which leaves the orbiting frame's rotation
-/// out of the ball's surface velocity.
+/// Slip by the formula of Lin, Ravani and Velinsky 1994, which leaves the orbiting frame's rotation out of the ball's surface velocity.
 ///
 /// Per rad/s of the screw: (26) without its second term, plus (29), minus (19) or (21).
 ///
-/// It lets the ball turn by its rotation *relative* to the orbiting frame where the formula needs the
-/// *absolute* one, which is larger by the orbital speed; [`Self::with_absolute_rotation`] puts that right and
-/// equals the revised formulation. For the screw of Alberdi et al. its slip is three times the true one (2.9
-/// at the screw, 3.4 at the nut), nearly all of it along the path, and side slip at the nut vanishes where
-/// there is as much as at the screw. It stands here for comparison and must not feed wear or heat.
+/// It lets the ball turn by its rotation *relative* to the orbiting frame where the formula needs the *absolute* one, which is larger by
+/// the orbital speed; [`Self::with_absolute_rotation`] puts that right and equals the revised formulation. For the screw of Alberdi et al.
+/// its slip is three times the true one (2.9 at the screw, 3.4 at the nut), nearly all of it along the path, and side slip at the nut
+/// vanishes where there is as much as at the screw. It stands here for comparison and must not feed wear or heat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Traditional {
     input: KinematicsInput,
@@ -23,10 +21,8 @@ pub struct Traditional {
 }
 
 impl Traditional {
-    /// As it is used: orbital and spin speed of Wei and Lin, (22) and (23) without the advance
-    /// `L / (2 pi) sin psi` and with (23) corrected, and the rotation (27) *relative* to the orbiting
-    /// frame.
-    #[must_use]
+    /// As it is used: orbital and spin speed of Wei and Lin, (22) and (23) without the advance `L / (2 pi) sin psi` and with (23)
+    /// corrected, and the rotation (27) *relative* to the orbiting frame.
     pub fn new(revised: &Revised) -> Self {
         let input = revised.input();
         let cos_psi = input.lead_angle.cos();
@@ -49,9 +45,7 @@ impl Traditional {
     }
 
     /// The same formula fed with the revised speeds and the *absolute* rotation of the ball,
-    /// `(omega_t + omega_m sin psi, omega_n, omega_b + omega_m cos psi)`: equal to the revised
-    /// formulation, because what (26) adds is `omega_m e_Z x r`.
-    #[must_use]
+    /// `(omega_t + omega_m sin psi, omega_n, omega_b + omega_m cos psi)`: equal to the revised formulation, because what (26) adds is `omega_m e_Z x r`.
     pub fn with_absolute_rotation(revised: &Revised) -> Self {
         let input = revised.input();
         let (sin_psi, cos_psi) = input.lead_angle.sin_cos();
@@ -70,19 +64,16 @@ impl Traditional {
     }
 
     /// `omega_m / omega`.
-    #[must_use]
     pub const fn orbital_ratio(&self) -> f64 {
         self.orbital_ratio
     }
 
     /// Magnitude of the ball's rotation over `omega`.
-    #[must_use]
     pub fn spin_ratio(&self) -> f64 {
         self.rotation.iter().map(|w| w * w).sum::<f64>().sqrt()
     }
 
     /// `S_k` at the centre of a contact, m.
-    #[must_use]
     pub const fn distance(&self, raceway: Raceway) -> f64 {
         match raceway {
             Raceway::Screw => self.distances[0],
@@ -117,16 +108,13 @@ impl Traditional {
         [ball, race]
     }
 
-    /// Slip `(x, y)` at a point of the contact whose surface lies `distance` from the ball's centre,
-    /// m/s.
-    #[must_use]
+    /// Slip `(x, y)` at a point of the contact whose surface lies `distance` from the ball's centre, m/s.
     pub fn slip(&self, raceway: Raceway, x: f64, y: f64, distance: f64) -> [f64; 2] {
         let [ball, race] = self.surfaces(raceway, x, y, distance);
         [0, 1].map(|i| self.input.speed * (ball[i] - race[i]))
     }
 
     /// Spin, rad/s.
-    #[must_use]
     pub fn spin(&self, raceway: Raceway) -> f64 {
         let (sin_alpha, cos_alpha) = self.input.contact(raceway).contact_angle.sin_cos();
         let [_, normal, binormal] = self.rotation;
@@ -138,9 +126,7 @@ impl Traditional {
         self.input.speed * (ball_spin - raceway_spin)
     }
 
-    /// Mean velocity of both surfaces at the centre, the translation of the ball's centre taken off,
-    /// m/s.
-    #[must_use]
+    /// Mean velocity of both surfaces at the centre, the translation of the ball's centre taken off, m/s.
     pub fn entrainment(&self, raceway: Raceway) -> [f64; 2] {
         let [ball, race] = self.surfaces(raceway, 0.0, 0.0, self.distance(raceway));
         [0, 1].map(|i| 0.5 * self.input.speed * (ball[i] + race[i]))

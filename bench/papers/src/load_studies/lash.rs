@@ -4,15 +4,14 @@ use std::f64::consts::TAU;
 
 use rayon::prelude::*;
 
-use super::{Tick, told};
+use super::Tick;
 use epas_reference::error::{ReferenceError, within};
 use epas_reference::statics::ball::Ball;
 use epas_reference::statics::cases::CaseStudy;
 use epas_reference::statics::geometry::Geometry;
 use epas_reference::statics::problem::{Load, StaticLoad, Support};
 
-/// Where the balls lie on a track that they do not fill (Figure 4.2; the text shows but does not define
-/// them).
+/// Where the balls lie on a track that they do not fill (Figure 4.2; the text shows but does not define them).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
     /// Evenly distributed.
@@ -30,7 +29,6 @@ impl Pattern {
     pub const ALL: [Self; 4] = [Self::Even, Self::OneEnd, Self::OneSide, Self::HalfHalf];
 
     /// What the figure calls it.
-    #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
             Self::Even => "evenly distributed",
@@ -41,9 +39,6 @@ impl Pattern {
     }
 
     /// Azimuths of `balls` balls on a track of `turns` turns from azimuth 0 on.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] naming `balls` where they do not fit.
     pub fn azimuths(
         self,
         geometry: &Geometry,
@@ -119,7 +114,6 @@ pub struct LashTest {
 
 impl LashTest {
     /// Table 4.1, with an oversize of the balls' radius, m, which the text does not print.
-    #[must_use]
     pub fn table_4_1(oversize: f64) -> Self {
         let case = CaseStudy::table_4_1();
         Self {
@@ -165,9 +159,6 @@ impl LashTest {
     }
 
     /// Axial displacement, m, of the left end under an axial force, N. Only the balls hold the screw aside.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] of the static model.
     pub fn axial(&self, pattern: Pattern, force: f64) -> Result<f64, ReferenceError> {
         let load = Load::axial(0.0, force);
         let case = self.load(pattern, load)?;
@@ -176,9 +167,6 @@ impl LashTest {
 
     /// Lateral displacement, m, where a lateral force, N, acts; only the balls hold the screw, and what keeps
     /// it from turning. Larger balls in an uneven pattern push the screw aside without any force.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] of the static model.
     pub fn conical(&self, pattern: Pattern, force: f64) -> Result<f64, ReferenceError> {
         let load = Load {
             position: self.lateral_position,
@@ -196,9 +184,6 @@ impl LashTest {
     }
 
     /// Both curves of all patterns.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] of the static model, or cancelled.
     pub fn curves(&self, tick: Tick<'_>) -> Result<Vec<LashCurves>, ReferenceError> {
         if !(2..=10_000).contains(&self.steps) {
             return Err(ReferenceError::input("steps", "must be 2 to 10000"));
@@ -218,7 +203,7 @@ impl LashTest {
                     (axial, self.axial(pattern, axial)?),
                     (lateral, self.conical(pattern, lateral)?),
                 ];
-                told(tick)?;
+                tick();
                 Ok(point)
             })
             .collect::<Result<_, ReferenceError>>()?;
@@ -246,7 +231,6 @@ pub struct LashCurves {
 }
 
 /// Difference of the largest and the smallest of some values over their mean.
-#[must_use]
 pub fn spread(values: &[f64]) -> f64 {
     let (least, most) = values.iter().fold(
         (f64::INFINITY, f64::NEG_INFINITY),
@@ -256,7 +240,6 @@ pub fn spread(values: &[f64]) -> f64 {
 }
 
 /// Displacement over the whole range of the force, which leaves out what the balls push without any.
-#[must_use]
 pub fn range(curve: &[(f64, f64)]) -> f64 {
     match (curve.first(), curve.last()) {
         (Some(first), Some(last)) => last.1 - first.1,

@@ -8,7 +8,7 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use nalgebra::{SMatrix, SVector};
 use rayon::prelude::*;
 
-use super::{Tick, told};
+use super::Tick;
 use epas_reference::error::ReferenceError;
 use epas_reference::statics::ball::NutPose;
 use epas_reference::statics::cases::CaseStudy;
@@ -39,8 +39,7 @@ pub struct TieRodLoad {
 }
 
 impl Default for TieRodLoad {
-    /// The ball screw of Table 4.1, the four-point bearing of Table 4.2, and the pinion 100 mm from the far
-    /// end.
+    /// The ball screw of Table 4.1, the four-point bearing of Table 4.2, and the pinion 100 mm from the far end.
     fn default() -> Self {
         let rack = CaseStudy::table_4_1();
         Self {
@@ -78,7 +77,6 @@ pub struct TieRodLoads {
 
 impl TieRodLoads {
     /// Largest contact forces of ball screw and bearing, N.
-    #[must_use]
     pub fn largest(&self) -> [f64; 2] {
         [&self.screw, &self.bearing].map(|solution| {
             solution
@@ -107,18 +105,14 @@ impl TieRodLoad {
         let half = 0.5 * self.rack_load;
         let (sin, cos) = angle.sin_cos();
         setup.supports = vec![Support::axial_guide(self.pinion_position)];
-        setup.loads = vec![
-            Load {
-                position: 0.0,
+        let ends = [0.0, self.rack.screw_length];
+        setup.loads = ends
+            .map(|position| Load {
+                position,
                 force: [half * sin, 0.0, half * cos],
                 moment: [0.0; 3],
-            },
-            Load {
-                position: self.rack.screw_length,
-                force: [half * sin, 0.0, half * cos],
-                moment: [0.0; 3],
-            },
-        ];
+            })
+            .into();
         Ok(setup)
     }
 
@@ -172,14 +166,7 @@ impl TieRodLoad {
         let mut bearing = bearing.clone();
         bearing.supports = vec![Support {
             position: self.rack.nut_position,
-            held: [
-                Some(pose[0]),
-                Some(pose[1]),
-                Some(pose[2]),
-                Some(pose[3]),
-                Some(pose[4]),
-                Some(0.0),
-            ],
+            held: [pose[0], pose[1], pose[2], pose[3], pose[4], 0.0].map(Some),
         }];
         let bearing = StaticLoad::new(bearing)?.solve()?;
         let on_nut = screw.on_nut_about(self.rack.nut_position);
@@ -193,9 +180,6 @@ impl TieRodLoad {
     }
 
     /// Balances the nut at one tie-rod angle, rad, by Newton's method with differences of forces.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] of the static model.
     pub fn at(&self, angle: f64) -> Result<TieRodLoads, ReferenceError> {
         let (screw, bearing) = (self.screw_setup(angle)?, self.bearing_setup()?);
         let radius = self.bearing.pitch_radius;
@@ -274,15 +258,12 @@ impl TieRodLoad {
     }
 
     /// All of some tie-rod angles, rad.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] of the static model, or cancelled.
     pub fn over(&self, angles: &[f64], tick: Tick<'_>) -> Result<Vec<TieRodLoads>, ReferenceError> {
         angles
             .par_iter()
             .map(|angle| {
                 let loads = self.at(*angle)?;
-                told(tick)?;
+                tick();
                 Ok(loads)
             })
             .collect()

@@ -12,25 +12,21 @@ pub const PRACTICE: f64 = 0.9;
 /// friction torque of `K/(2 pi) F d0`.
 ///
 /// Source: SKF's catalogue of ball screws, from memory.
-#[must_use]
 pub fn efficiency(diameter: f64, lead: f64) -> f64 {
     1.0 / (1.0 + K * diameter / lead)
 }
 
-/// Friction coefficients of the chart of efficiency over lead angle: a plain screw's efficiency `tan(angle)/tan(angle +
-/// atan(f))`.
+/// Friction coefficients of the chart of efficiency over lead angle: a plain screw's efficiency `tan(angle)/tan(angle + atan(f))`.
 ///
 /// Source: Rexroth's catalogue, seen.
 pub const CHART_FRICTION: [f64; 2] = [0.005, 0.01];
 
 /// Efficiency by the chart.
-#[must_use]
 pub fn chart_efficiency(lead_angle: f64, friction: f64) -> f64 {
     lead_angle.tan() / (lead_angle + friction.atan()).tan()
 }
 
 /// Friction coefficient of the chart at which a plain screw has an efficiency.
-#[must_use]
 pub fn chart_friction(lead_angle: f64, efficiency: f64) -> f64 {
     ((lead_angle.tan() / efficiency).atan() - lead_angle).tan()
 }
@@ -38,7 +34,6 @@ pub fn chart_friction(lead_angle: f64, efficiency: f64) -> f64 {
 /// Drag torque of a preloaded screw over `preload lead/2 pi`: `0.05 (tan lead angle)^-1/2`.
 ///
 /// Source: JIS B 1192, from memory.
-#[must_use]
 pub fn drag_coefficient(diameter: f64, lead: f64) -> f64 {
     0.05 / (lead / (PI * diameter)).sqrt()
 }

@@ -59,7 +59,6 @@ pub const GREASE: Lubricant = Lubricant {
 
 impl Lubricant {
     /// Viscosity, Pa s, at a temperature, degrees Celsius.
-    #[must_use]
     pub fn viscosity(&self, celsius: f64) -> f64 {
         let [(cold, thick), (warm, thin)] = self.viscosities;
         let root = (thick / thin).powf(0.2);
@@ -68,7 +67,6 @@ impl Lubricant {
     }
 
     /// Friction coefficient at a speed, rad/s.
-    #[must_use]
     pub fn coefficient(&self, celsius: f64, speed: f64) -> f64 {
         let half = self.half_share_speed * self.viscosity(20.0) / self.viscosity(celsius);
         let [boundary, full_film] = self.coefficients;
@@ -93,7 +91,6 @@ pub struct Friction {
 
 impl Friction {
     /// All of it, N m.
-    #[must_use]
     pub fn torque(&self) -> f64 {
         self.grooves + self.drag
     }
@@ -123,9 +120,6 @@ fn flanks(size: &Size, oversize: f64, load: f64) -> Result<[f64; 2], ReferenceEr
 }
 
 /// Friction of [`STEERING`] at a state.
-///
-/// # Errors
-/// [`ReferenceError`] of a balance that is not found.
 pub fn friction(
     usual: &Usual,
     lubricant: &Lubricant,
@@ -154,9 +148,6 @@ pub fn friction(
 }
 
 /// Friction at -40 degrees Celsius over that at 20, at a speed of the nut, rad/s, and an axial load, N.
-///
-/// # Errors
-/// [`ReferenceError`] of a balance that is not found.
 pub fn growth(
     usual: &Usual,
     lubricant: &Lubricant,
@@ -167,9 +158,6 @@ pub fn growth(
 }
 
 /// Friction at all of [`LOADS`], [`SPEEDS`] and [`TEMPERATURES`], in this order.
-///
-/// # Errors
-/// [`ReferenceError`] of a balance that is not found.
 pub fn over_temperature(
     usual: &Usual,
     lubricant: &Lubricant,

@@ -1,9 +1,13 @@
 //! A figure beside the computed one, and what a computation needs.
 
+use std::collections::BTreeMap;
+
+use epas_page::failure::Failure;
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 use epas_reference::material::Elastic;
+use serde::Deserialize;
 
 /// Parameters of friction that no drawing prints.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,7 +39,6 @@ pub struct Size {
 
 impl Size {
     /// The design.
-    #[must_use]
     pub fn design(&self) -> BallScrewDesign {
         let groove_radius = 1e-3 * self.conformity * self.ball;
         BallScrewDesign {
@@ -51,7 +54,6 @@ impl Size {
     }
 
     /// The screw under a load, N, with the usual parameters.
-    #[must_use]
     pub fn under(&self, axial_load: f64, usual: &Usual) -> LoadedScrew {
         LoadedScrew {
             design: self.design(),
@@ -79,7 +81,6 @@ pub enum Standing {
 
 impl Standing {
     /// As printed.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Within => "within the band",
@@ -90,7 +91,6 @@ impl Standing {
     }
 
     /// Whether a range of computed numbers lies in a band.
-    #[must_use]
     pub fn of(computed: [f64; 2], band: [f64; 2]) -> Self {
         if computed[0] >= band[0] && computed[1] <= band[1] {
             Self::Within
@@ -100,39 +100,89 @@ impl Standing {
     }
 }
 
-/// How a figure is known.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
-    /// Read in its source.
-    Seen(&'static str),
+/// Words of a figure as `measured.toml` has them.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Words {
+    what: String,
+    figure: String,
+    source: String,
     /// From memory: to be checked before a conclusion hangs on it.
-    Recalled(&'static str),
+    #[serde(default)]
+    recalled: bool,
+    computed: String,
+    needed: String,
 }
 
-impl Source {
-    /// As printed.
-    #[must_use]
-    pub fn name(self) -> String {
-        match self {
-            Self::Seen(source) => source.into(),
-            Self::Recalled(source) => format!("{source} (from memory)"),
+/// What was computed of a figure: the numbers of its words.
+pub(super) struct Found {
+    standing: Standing,
+    computed: Vec<String>,
+    needed: Vec<String>,
+}
+
+impl Found {
+    pub fn new(standing: Standing, computed: impl IntoIterator<Item = String>) -> Self {
+        Self {
+            standing,
+            computed: computed.into_iter().collect(),
+            needed: Vec::new(),
         }
     }
+
+    pub fn needs(self, needed: impl IntoIterator<Item = String>) -> Self {
+        Self {
+            needed: needed.into_iter().collect(),
+            ..self
+        }
+    }
+}
+
+/// A number with so many decimals.
+pub(super) fn fixed(value: f64, decimals: usize) -> String {
+    format!("{value:.decimals$}")
+}
+
+/// A text with its numbers in the places of the braces.
+fn filled(text: &str, numbers: &[String]) -> String {
+    let mut pieces = text.split("{}");
+    let first = pieces.next().unwrap_or_default().to_owned();
+    pieces
+        .zip(numbers)
+        .fold(first, |text, (piece, number)| text + number + piece)
 }
 
 /// A figure beside the computed one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
     /// What it is.
-    pub what: &'static str,
+    pub what: String,
     /// As given.
-    pub figure: &'static str,
-    /// Where it is from.
-    pub source: Source,
+    pub figure: String,
+    /// Where it is from, and whether from memory.
+    pub source: String,
     /// As computed, with what had to be assumed.
     pub computed: String,
     /// What became of it.
     pub standing: Standing,
     /// Which parameter would have to be what to meet the figure; or what is missing.
     pub needed: String,
+}
+
+impl Measured {
+    /// Of a row's name and numbers.
+    pub(super) fn of(name: &str, found: &Found) -> Result<Self, Failure> {
+        let mut all: BTreeMap<String, Words> = toml::from_str(include_str!("../../measured.toml"))?;
+        let missing = || Failure::Data(format!("measured.toml has no {name}"));
+        let words = all.remove(name).ok_or_else(missing)?;
+        let recalled = if words.recalled { " (from memory)" } else { "" };
+        Ok(Self {
+            what: words.what,
+            figure: words.figure,
+            source: words.source + recalled,
+            computed: filled(&words.computed, &found.computed),
+            standing: found.standing,
+            needed: filled(&words.needed, &found.needed),
+        })
+    }
 }

@@ -1,8 +1,8 @@
-//! Studies behind the figures: efficiency over lead and load, what decides a screw's friction, and the choice of usual
-//! parameters.
+//! Studies behind the figures: efficiency over lead and load, what decides a screw's friction, and the choice of usual parameters.
 
 use super::catalogue;
 use super::figure::{Size, Usual};
+use epas_reference::design::BallScrewDesign;
 use epas_reference::efficiency::Screw;
 use epas_reference::error::ReferenceError;
 use epas_reference::friction::ball_screw_efficiency::{LoadedScrew, ScrewFriction};
@@ -40,6 +40,17 @@ pub const BALL_LOADS: [f64; 3] = [30.0, 100.0, 300.0];
 /// Load at which parameters are sought that meet the catalogue's rule, N a ball.
 pub const FIT_LOAD: f64 = 100.0;
 
+/// The closed forms of a design.
+fn closed(design: &BallScrewDesign, friction: f64) -> Screw {
+    Screw {
+        lead_angle: design.lead_angle(),
+        contact_angle: design.contact_angle,
+        friction,
+        ball_ratio: design.ball_radius / design.pitch_radius,
+        rolling_tangent: 0.0,
+    }
+}
+
 /// Efficiency of one screw under one load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EfficiencyRow {
@@ -63,7 +74,6 @@ pub struct EfficiencyRow {
 
 impl EfficiencyRow {
     /// Friction torque over load and diameter of the exact model.
-    #[must_use]
     pub fn torque_over_diameter(&self) -> f64 {
         self.exact.as_ref().map_or(f64::NAN, |friction| {
             friction.torque() / (self.size.balls * self.ball_load * 1e-3 * self.size.diameter)
@@ -82,13 +92,7 @@ pub fn efficiency_over_lead(usual: &Usual, step: &(dyn Fn() + Sync)) -> Vec<Effi
         .map(|&(size, ball_load)| {
             let screw = size.under(size.balls * ball_load, usual);
             let design = screw.design;
-            let closed = Screw {
-                lead_angle: design.lead_angle(),
-                contact_angle: design.contact_angle,
-                friction: usual.friction,
-                ball_ratio: design.ball_radius / design.pitch_radius,
-                rolling_tangent: 0.0,
-            };
+            let closed = closed(&design, usual.friction);
             let rule = catalogue::efficiency(size.diameter, size.lead);
             let fitted = ball_load == FIT_LOAD;
             let target =
@@ -164,13 +168,7 @@ pub fn what_decides(step: &(dyn Fn() + Sync)) -> Vec<DecidingRow> {
         .zip(solved.chunks(CLEARANCES.len()))
         .map(|(&(load, friction), solved)| {
             let design = TABLE_3_6.design();
-            let closed = Screw {
-                lead_angle: design.lead_angle(),
-                contact_angle: design.contact_angle,
-                friction,
-                ball_ratio: design.ball_radius / design.pitch_radius,
-                rolling_tangent: 0.0,
-            };
+            let closed = closed(&design, friction);
             DecidingRow {
                 load,
                 friction,
@@ -196,8 +194,7 @@ pub struct Choice {
     pub over_rule: f64,
     /// Factor by which one screw and load is away from that mean (one standard deviation of the logarithm).
     pub spread: f64,
-    /// Geometric mean over screws of the drag torque of two braced nuts, whose balls just fit, over that of the rule of
-    /// drag.
+    /// Geometric mean over screws of the drag torque of two braced nuts, whose balls just fit, over that of the rule of drag.
     pub over_drag: f64,
     /// Mean efficiency at the largest load less that at the smallest.
     pub gain_with_load: f64,

@@ -66,7 +66,7 @@ impl AtRest {
 }
 
 fn noise(size: f64) -> Result<Vec<f64>, Failure> {
-    let normal = Normal::new(0.0, size).map_err(|error| Failure::Data(error.to_string()))?;
+    let normal = Normal::new(0.0, size)?;
     Ok(normal
         .sample_iter(Pcg64::new(11, STREAM))
         .take(TICKS)

@@ -1,11 +1,10 @@
 //! Every computable number of Lin, Velinsky, Ravani 1994.
 
-use crate::record::{Page, Verdict};
+use super::Computed;
 use epas_reference::efficiency::{Screw, optimum_backdrive, optimum_drive};
 use epas_reference::steady_state::BallScrewState;
 
 /// The paper's ball screw: 2113 N on one ball at 2000 rpm, friction 0.075.
-#[must_use]
 pub fn ball(lead_angle: f64, contact_angle: f64) -> BallScrewState {
     BallScrewState {
         lead_angle,
@@ -19,13 +18,11 @@ pub fn ball(lead_angle: f64, contact_angle: f64) -> BallScrewState {
     }
 }
 
-/// The closed forms of the same ball screw.
-#[must_use]
-pub fn screw(lead_angle: f64, contact_angle: f64) -> Screw {
-    let ball = ball(lead_angle, contact_angle);
+/// The closed forms of a ball screw.
+pub fn closed(ball: &BallScrewState) -> Screw {
     Screw {
-        lead_angle,
-        contact_angle,
+        lead_angle: ball.lead_angle,
+        contact_angle: ball.contact_angle,
         friction: ball.friction,
         ball_ratio: ball.ball_radius / ball.pitch_radius,
         rolling_tangent: 0.0,
@@ -36,54 +33,33 @@ pub fn screw(lead_angle: f64, contact_angle: f64) -> Screw {
 fn largest_difference(cases: impl Iterator<Item = (f64, f64)>) -> f64 {
     cases
         .filter_map(|(lead, contact)| {
-            let (lead, contact) = (lead.to_radians(), contact.to_radians());
-            let exact = ball(lead, contact).solve().ok()?.efficiency;
-            let closed = screw(lead, contact).sliding_drive();
-            Some(100.0 * (closed - exact).abs())
+            let ball = ball(lead.to_radians(), contact.to_radians());
+            let exact = ball.solve().ok()?.efficiency;
+            Some(100.0 * (closed(&ball).sliding_drive() - exact).abs())
         })
         .fold(0.0, f64::max)
 }
 
-/// Appends the records.
-pub(super) fn append(page: &mut Page<'_>) {
+pub(super) fn computed() -> Computed {
     let ten = 10_f64.to_radians();
-    for (name, optimum) in [
+    let screw = |contact: f64| closed(&ball(ten, contact));
+    let optima = [
+        optimum_drive(ten, 0.075).map(|contact| screw(contact).sliding_drive()),
+        optimum_backdrive(ten, 0.075).map(|contact| screw(contact).sliding_backdrive()),
+    ];
+    vec![
         (
-            "optimal efficiency, driving",
-            optimum_drive(ten, 0.075).map(|contact| screw(ten, contact).sliding_drive()),
+            "section on optimal efficiency",
+            optima
+                .map(|optimum| 100.0 * optimum.unwrap_or(f64::NAN))
+                .into(),
         ),
         (
-            "optimal efficiency, back-driving",
-            optimum_backdrive(ten, 0.075).map(|contact| screw(ten, contact).sliding_backdrive()),
+            "Figure 3",
+            vec![
+                largest_difference((8..=45).map(|lead| (f64::from(lead), 45.0))),
+                largest_difference((20..=165).map(|contact| (10.0, 0.5 * f64::from(contact)))),
+            ],
         ),
-    ] {
-        page.turn("section on optimal efficiency").add(
-            name,
-            "%",
-            "86.1",
-            100.0 * optimum.unwrap_or(f64::NAN),
-            Verdict::Convention(
-                "not for all helix angles: up to 42.9 degrees driving, 47.1 degrees back-driving; and of full sliding, which the \
-                 ball does not keep up",
-            ),
-        );
-    }
-    page.turn("Figure 3").add(
-        "largest difference of eq. (14) from the exact steady state over the helix angle",
-        "%",
-        "0.33",
-        largest_difference((8..=45).map(|lead| (f64::from(lead), 45.0))),
-        Verdict::NotReproducible(
-            "the two agree 600 times better; no load or unit slip gives both printed differences",
-        ),
-    );
-    page.turn("Figure 3").add(
-        "largest difference of eq. (14) from the exact steady state over the contact angle",
-        "%",
-        "0.86",
-        largest_difference((20..=165).map(|contact| (10.0, 0.5 * f64::from(contact)))),
-        Verdict::NotReproducible(
-            "the two agree 400 times better; a load divided by 386 (gravity in inches) would give 0.86 % here, but not 0.33 % there",
-        ),
-    );
+    ]
 }

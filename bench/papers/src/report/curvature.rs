@@ -1,7 +1,6 @@
-//! Groove curvature: Tables A1 and A2, Figures 8 to 11 of Bertolino et al. 2023, and the new forms in
-//! each.
+//! Groove curvature: Tables A1 and A2, Figures 8 to 11 of Bertolino et al. 2023, and the new forms in each.
 
-use crate::published::{Row, TABLE_A1, TABLE_A2, computed_errors};
+use crate::published::curvature::{Row, radius_tables};
 use epas_bench::timing;
 use epas_friction::curvature::{
     CircularGrooveCurvature, FittedCurvature, GothicArch, LiteratureCurvature,
@@ -10,20 +9,20 @@ use epas_friction::geometry::{Groove, GrooveProfile, HelixPath};
 use epas_friction::{BallScrew, CATALOGUE};
 use epas_reference::curvature::{self as reference, Surface};
 
-use super::context::Context;
+use super::Context;
 use epas_bench::report::curvature::{FORMS, Forms, GROOVES, surface};
+use epas_bench::report::draw::{centres, chart, figure, map, table};
 use epas_bench::report::statistics::{Errors, evenly};
 use epas_bench::timing::Competition;
-use epas_page::document::{Block, Cell, Figure, Section, Table};
+use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, ColourMap, Colours, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Panel, Series};
+
+/// Groove of the crate, of the reference, and its name.
+type Side = (Groove, reference::Groove, &'static str);
 
 /// Errors of the four forms on one size, contact angles 0 to 70 degrees, relative to the curvature.
-fn size_errors(
-    design: &BallScrew,
-    (groove, same, _): (Groove, reference::Groove, &str),
-    steps: usize,
-) -> [Errors; 4] {
+fn size_errors(design: &BallScrew, (groove, same, _): Side, steps: usize) -> [Errors; 4] {
     let forms = Forms::of(design, groove);
     let surface = surface(design, groove, same);
     let mut errors = [Errors::default(); 4];
@@ -39,17 +38,18 @@ fn size_errors(
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
+    let [screw, nut] = radius_tables()?;
     let (screw, screw_matches) = published_table(
         "table_a1",
-        &TABLE_A1,
-        GROOVES[0],
         "Table A1, screw shaft: errors of the radius of curvature in percent, printed | computed",
+        &screw,
+        GROOVES[0],
     )?;
     let (nut, nut_matches) = published_table(
         "table_a2",
-        &TABLE_A2,
-        GROOVES[1],
         "Table A2, nut: errors of the radius of curvature in percent, printed | computed",
+        &nut,
+        GROOVES[1],
     )?;
     Ok(Section {
         title: "Groove curvature",
@@ -64,80 +64,57 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             )),
             Block::Table(screw),
             Block::Table(nut),
-            Block::Figure(figure_8()),
-            Block::Figure(figure_9()),
+            figure_8(),
+            figure_9(),
             Block::Text(
                 "Figure 9's stated largest error of 2.38 % holds for contact angles up to 65 degrees; \
                  over the whole domain it is 5.0 %. Its means (0.84 and 0.77 %) reproduce with H = L = \
                  0.0629; L = 0.0505 is a misprint."
                     .into(),
             ),
-            Block::Figure(figure_10(context.quick)?),
-            Block::Figure(figure_11(context)?),
+            figure_10(context.quick)?,
+            figure_11(context)?,
         ],
     })
 }
 
 fn published_table(
     name: &'static str,
-    rows: &[Row],
-    groove: (Groove, reference::Groove, &str),
     caption: &str,
+    rows: &[Row],
+    side: Side,
 ) -> Result<(Table, usize), Failure> {
     let mut matches = 0;
-    let mut table = Table {
-        name,
-        caption: caption.into(),
-        columns: [
-            "size (mm)",
-            "lead angle (deg)",
-            "literature mean",
-            "literature max",
-            "circular mean",
-            "circular max",
-            "fitted max",
-            "exact f32 max",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: Vec::new(),
-    };
+    let mut cells = Vec::new();
     for (row, size) in rows.iter().zip(CATALOGUE) {
-        let computed =
-            computed_errors(row, groove.1).map_err(|error| Failure::Data(error.to_string()))?;
-        let degrees = row.surface(groove.1).lead_angle.to_degrees();
-        let mut cells = vec![Cell::from(size.name), Cell::fixed(degrees, 2)];
-        for (computed, printed) in computed.into_iter().zip(row.errors()) {
+        let degrees = row.surface(side.1).lead_angle.to_degrees();
+        let mut line = vec![Cell::from(size.name), Cell::fixed(degrees, 2)];
+        for (computed, printed) in row.computed_errors(side.1)?.into_iter().zip(row.errors) {
             let agrees = (computed - printed).abs() < 0.005_001;
             matches += usize::from(agrees);
             let mark = if agrees { "|" } else { "!" };
-            cells.push(Cell::Number(
-                computed,
-                format!("{printed:.2} {mark} {computed:.3}"),
-            ));
+            let text = format!("{printed:.2} {mark} {computed:.3}");
+            line.push(Cell::Number(computed, text));
         }
-        let design = size
-            .design()
-            .map_err(|error| Failure::Data(error.to_string()))?;
-        let errors = size_errors(&design, groove, 70);
-        cells.push(Cell::Number(
-            100.0 * errors[2].largest,
-            format!("{:.5}", 100.0 * errors[2].largest),
-        ));
-        cells.push(Cell::Number(
-            100.0 * errors[3].largest,
-            format!("{:.5}", 100.0 * errors[3].largest),
-        ));
-        table.rows.push(cells);
+        let [_, _, fitted, exact] = size_errors(&size.design()?, side, 70);
+        line.extend([fitted, exact].map(|errors| Cell::fixed(100.0 * errors.largest, 5)));
+        cells.push(line);
     }
-    Ok((table, matches))
+    let columns = [
+        "size (mm)",
+        "lead angle (deg)",
+        "literature mean",
+        "literature max",
+        "circular mean",
+        "circular max",
+        "fitted max",
+        "exact f32 max",
+    ];
+    Ok((table(name, caption, &columns, cells), matches))
 }
 
 /// The design of Figures 8 and 9 at a lead angle: `r_m` 8, `r_b` 1.5875, `H = L` 0.0629 mm.
-fn figure_9_forms(
-    lead_degrees: f64,
-    (groove, same, _): (Groove, reference::Groove, &str),
-) -> (Forms, Surface) {
+fn figure_9_forms(lead_degrees: f64, (groove, same, _): Side) -> (Forms, Surface) {
     const PITCH_RADIUS: f32 = 8.0;
     const BALL_RADIUS: f32 = 1.5875;
     const OFFSET: f32 = 0.0629;
@@ -167,36 +144,20 @@ fn figure_9_forms(
     (forms, surface)
 }
 
-/// Maps over lead angle (upwards) and contact angle, 0 to 80 degrees.
-fn map(
-    title: String,
-    quantity: &str,
-    bounds: &[(f64, &str)],
+/// A map over lead angle (upwards) and contact angle, 0 to 80 degrees.
+fn over_angles(
+    title: &str,
+    bands: (&str, &[(f64, &str)]),
     value: impl Fn(f64, f64) -> f64,
 ) -> Panel {
-    const CELLS: usize = 80;
-    let centre = |cell: usize| 80.0 * (cell as f64 + 0.5) / CELLS as f64;
-    Panel::Map(ColourMap {
-        title,
-        x: Axis::linear("contact angle (deg)").between(0.0, 80.0),
-        y: Axis::linear("lead angle (deg)").between(0.0, 80.0),
-        quantity: quantity.into(),
-        colours: Colours::of(bounds.iter().map(|(bound, _)| bound)),
-        bounds: bounds
-            .iter()
-            .map(|(bound, text)| (*bound, (*text).to_owned()))
-            .collect(),
-        values: (0..CELLS)
-            .map(|row| {
-                (0..CELLS)
-                    .map(|column| value(centre(row), centre(column)))
-                    .collect()
-            })
-            .collect(),
-    })
+    let axis = |label| Axis::linear(label).between(0.0, 80.0);
+    let axes = (axis("contact angle (deg)"), axis("lead angle (deg)"));
+    let centres = || centres((0.0, 80.0), 80);
+    let row = |lead| centres().map(|contact| value(lead, contact)).collect();
+    map(title, axes, bands, centres().map(row).collect())
 }
 
-fn figure_8() -> Figure {
+fn figure_8() -> Block {
     let bounds = [
         (10.0, "10"),
         (20.0, "20"),
@@ -205,33 +166,23 @@ fn figure_8() -> Figure {
         (300.0, "300"),
         (1000.0, "1000"),
     ];
-    let panels = GROOVES
-        .iter()
-        .map(|&groove| {
-            map(
-                format!("{}: first radius of curvature", groove.2),
-                "|radius| (mm)",
-                &bounds,
-                |lead, contact| {
-                    let (_, surface) = figure_9_forms(lead, groove);
-                    1.0 / surface.principal(contact.to_radians()).kappa1.abs()
-                },
-            )
+    let panels = GROOVES.map(|side| {
+        let title = format!("{}: first radius of curvature", side.2);
+        over_angles(&title, ("|radius| (mm)", &bounds), |lead, contact| {
+            let (_, surface) = figure_9_forms(lead, side);
+            1.0 / surface.principal(contact.to_radians()).kappa1.abs()
         })
-        .collect();
-    Figure {
-        name: "curvature_figure_8",
-        caption:
-            "Bertolino et al. 2023, Figure 8: exact first radius of curvature over lead and contact angle, pitch radius \
-                  8 mm, ball radius 1.5875 mm, H = L = 0.0629 mm."
-                .into(),
-        panels,
-        columns: 2,
-        size: (540, 400),
-    }
+    });
+    figure(
+        "curvature_figure_8",
+        "Bertolino et al. 2023, Figure 8: exact first radius of curvature over lead and contact angle, pitch radius \
+         8 mm, ball radius 1.5875 mm, H = L = 0.0629 mm.",
+        (2, 540, 400),
+        panels.into(),
+    )
 }
 
-fn figure_9() -> Figure {
+fn figure_9() -> Block {
     let bounds = [
         (1e-7, "1e-7"),
         (1e-6, "1e-6"),
@@ -244,70 +195,50 @@ fn figure_9() -> Figure {
     ];
     let mut panels = Vec::new();
     for (form, name) in FORMS.iter().enumerate() {
-        for groove in GROOVES {
-            panels.push(map(
-                format!("{}: {name}", groove.2),
-                "error",
-                &bounds,
-                |lead, contact| {
-                    let (forms, surface) = figure_9_forms(lead, groove);
-                    let angle = contact.to_radians() as f32;
-                    let exact = surface.principal(f64::from(angle)).kappa1;
-                    forms
-                        .first(angle)
-                        .get(form)
-                        .map_or(f64::NAN, |computed| (exact / computed - 1.0).abs())
-                },
-            ));
+        for side in GROOVES {
+            let title = format!("{}: {name}", side.2);
+            panels.push(over_angles(&title, ("error", &bounds), |lead, contact| {
+                let (forms, surface) = figure_9_forms(lead, side);
+                let angle = contact.to_radians() as f32;
+                let exact = surface.principal(f64::from(angle)).kappa1;
+                (exact / forms.first(angle)[form] - 1.0).abs()
+            }));
         }
     }
-    Figure {
-        name: "curvature_figure_9",
-        caption:
-            "Bertolino et al. 2023, Figure 9 with the new forms: relative error of the first radius of curvature, for \
-                  screw and nut; the fitted form is fitted for contact angles to 82 degrees."
-                .into(),
+    figure(
+        "curvature_figure_9",
+        "Bertolino et al. 2023, Figure 9 with the new forms: relative error of the first radius of curvature, for \
+         screw and nut; the fitted form is fitted for contact angles to 82 degrees.",
+        (2, 540, 360),
         panels,
-        columns: 2,
-        size: (540, 360),
-    }
+    )
 }
 
-fn figure_10(quick: bool) -> Result<Figure, Failure> {
+fn figure_10(quick: bool) -> Result<Block, Failure> {
+    let steps = if quick { 70 } else { 700 };
     let mut panels = Vec::new();
-    for groove in GROOVES {
-        let mut curves: [Vec<(f64, f64)>; 4] = Default::default();
+    for side in GROOVES {
+        let marks = [Mark::Crosses, Mark::Triangles, Mark::Circles, Mark::Circles];
+        let mut series: Vec<Series> = (0..4)
+            .map(|form| Series::new(FORMS[form], form, marks[form], Vec::new()))
+            .collect();
         for (index, size) in CATALOGUE.iter().enumerate() {
-            let design = size
-                .design()
-                .map_err(|error| Failure::Data(error.to_string()))?;
-            let errors = size_errors(&design, groove, if quick { 70 } else { 700 });
-            for (curve, errors) in curves.iter_mut().zip(errors) {
-                curve.push((index as f64 + 1.0, errors.largest));
+            let errors = size_errors(&size.design()?, side, steps);
+            for (series, errors) in series.iter_mut().zip(errors) {
+                series.points.push((index as f64 + 1.0, errors.largest));
             }
         }
-        let marks = [Mark::Crosses, Mark::Triangles, Mark::Circles, Mark::Circles];
-        panels.push(Panel::Chart(Chart {
-            title: groove.2.into(),
-            x: Axis::linear("catalogue size, by lead angle").between(0.0, 32.0),
-            y: Axis::log("largest relative error").between(1e-8, 10.0),
-            series: curves
-                .into_iter()
-                .enumerate()
-                .map(|(form, curve)| Series::new(FORMS[form], form, marks[form], curve))
-                .collect(),
-            notes: Vec::new(),
-        }));
+        let x = Axis::linear("catalogue size, by lead angle").between(0.0, 32.0);
+        let y = Axis::log("largest relative error").between(1e-8, 10.0);
+        panels.push(chart(side.2, x, y, series));
     }
-    Ok(Figure {
-        name: "curvature_figure_10",
-        caption: "Bertolino et al. 2023, Figure 10 with the new forms: largest error of the first curvature over contact \
-                  angles 0 to 70 degrees, for the 31 sizes in the order of Table A1."
-            .into(),
+    Ok(figure(
+        "curvature_figure_10",
+        "Bertolino et al. 2023, Figure 10 with the new forms: largest error of the first curvature over contact \
+         angles 0 to 70 degrees, for the 31 sizes in the order of Table A1.",
+        (2, 540, 400),
         panels,
-        columns: 2,
-        size: (540, 400),
-    })
+    ))
 }
 
 /// Shares of the rounds over the time of a call, within `ends`.
@@ -333,7 +264,7 @@ fn histogram(entry: &Competition, colour: usize, name: &str, ends: (f64, f64)) -
     Series::new(name, colour, Mark::ShadedBelow, points)
 }
 
-fn figure_11(context: &Context) -> Result<Figure, Failure> {
+fn figure_11(context: &Context) -> Result<Block, Failure> {
     let keys = [
         ("literature_angle", "literature, f32"),
         ("circular_groove_angle", "circular groove, f32"),
@@ -342,37 +273,22 @@ fn figure_11(context: &Context) -> Result<Figure, Failure> {
         ("weingarten_printed_f64", "Weingarten map as printed, f64"),
         ("appendix_b_f64", "Appendix B, f64"),
     ];
-    let ends = (
-        0.5 * timing::times(&context.competition, keys[0].0)?
-            .latency
-            .at_least_resolved(),
-        4.0 * timing::times(&context.competition, keys[5].0)?
-            .latency
-            .at_least_resolved(),
-    );
+    let times = |key: &str| timing::times(&context.competition, key);
+    let shortest = times(keys[0].0)?.latency.at_least_resolved();
+    let longest = times(keys[5].0)?.latency.at_least_resolved();
+    let ends = (0.5 * shortest, 4.0 * longest);
     let mut series = Vec::new();
     for (colour, (key, name)) in keys.into_iter().enumerate() {
-        series.push(histogram(
-            timing::times(&context.competition, key)?,
-            colour,
-            name,
-            ends,
-        ));
+        series.push(histogram(times(key)?, colour, name, ends));
     }
-    Ok(Figure {
-        name: "curvature_figure_11",
-        caption: "Bertolino et al. 2023, Figure 11: times of one call from the contact angle on this machine, each call \
-                  waiting for the one before, over all rounds (rounds that the machine interrupted lie beyond \
-                  the right edge)."
-            .into(),
-        panels: vec![Panel::Chart(Chart {
-            title: String::new(),
-            x: Axis::log("time of one call (ns)").between(ends.0, ends.1),
-            y: Axis::linear("share of rounds (%)"),
-            series,
-            notes: Vec::new(),
-        })],
-        columns: 1,
-        size: (1080, 380),
-    })
+    let x = Axis::log("time of one call (ns)").between(ends.0, ends.1);
+    let y = Axis::linear("share of rounds (%)");
+    Ok(figure(
+        "curvature_figure_11",
+        "Bertolino et al. 2023, Figure 11: times of one call from the contact angle on this machine, each call \
+         waiting for the one before, over all rounds (rounds that the machine interrupted lie beyond \
+         the right edge).",
+        (1, 1080, 380),
+        vec![chart("", x, y, series)],
+    ))
 }

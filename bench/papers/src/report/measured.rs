@@ -3,20 +3,20 @@
 mod cold;
 mod deciding;
 mod efficiency;
-mod known;
 
 use crate::measured::cold::Lubricant;
 use crate::measured::{COUNT, Measured, Standing, Usual, records, studies};
 use epas_friction::defaults;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 
-use super::context::Context;
+use super::Context;
+use epas_bench::report::draw::table;
 use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
 
 /// The crate's defaults, widened for the reference.
-fn usual() -> Usual {
+pub fn usual() -> Usual {
     // 0.1 and not the f32 next to it.
     let decimal = |value: f32| value.to_string().parse().unwrap_or(f64::from(value));
     Usual {
@@ -56,7 +56,7 @@ pub fn section(_: &Context) -> Result<Section, Failure> {
             + studies::CHOICE_COUNT,
     );
     let step = || progress.step();
-    let records = records(&usual, &step).map_err(|error| Failure::Data(error.to_string()))?;
+    let records = records(&usual, &step)?;
     let rows = studies::efficiency_over_lead(&usual, &step);
     let deciding = studies::what_decides(&step);
     let choices = studies::choices(&usual, &step);
@@ -83,7 +83,7 @@ pub fn section(_: &Context) -> Result<Section, Failure> {
             count(Standing::NotComputed),
         )),
         Block::Table(verdicts(&records)),
-        Block::Annex(table(&records)),
+        Block::Annex(sources(&records)),
     ];
     blocks.extend(efficiency::blocks(&rows));
     blocks.extend(deciding::blocks(&deciding, &choices));
@@ -95,49 +95,40 @@ pub fn section(_: &Context) -> Result<Section, Failure> {
 }
 
 fn verdicts(records: &[Measured]) -> Table {
-    Table {
-        name: "measured_verdicts",
-        caption: "Against measured and catalogue figures: makers' rules by friction torque; the table \"measured\" has sources and what would have to be what"
-            .into(),
-        columns: ["what", "figure", "computed", "verdict"]
-            .map(String::from)
-            .to_vec(),
-        rows: records
-            .iter()
-            .map(|record| {
-                vec![
-                    Cell::from(record.what),
-                    record.figure.into(),
-                    record.computed.clone().into(),
-                    record.standing.name().into(),
-                ]
-            })
-            .collect(),
-    }
+    let row = |record: &Measured| {
+        vec![
+            Cell::from(record.what.as_str()),
+            record.figure.as_str().into(),
+            record.computed.clone().into(),
+            record.standing.name().into(),
+        ]
+    };
+    table(
+        "measured_verdicts",
+        "Against measured and catalogue figures: makers' rules by friction torque; the table \"measured\" has sources and what would have to be what",
+        &["what", "figure", "computed", "verdict"],
+        records.iter().map(row).collect(),
+    )
 }
 
-fn table(records: &[Measured]) -> Table {
-    Table {
-        name: "measured",
-        caption: "Sources of these figures, and what the model would need to meet them".into(),
-        columns: [
+fn sources(records: &[Measured]) -> Table {
+    let row = |record: &Measured| {
+        vec![
+            Cell::from(record.what.as_str()),
+            record.source.as_str().into(),
+            record.needed.clone().into(),
+        ]
+    };
+    table(
+        "measured",
+        "Sources of these figures, and what the model would need to meet them",
+        &[
             "what",
             "source",
             "what would have to be what, or is missing",
-        ]
-        .map(String::from)
-        .to_vec(),
-        rows: records
-            .iter()
-            .map(|record| {
-                vec![
-                    Cell::from(record.what),
-                    record.source.name().into(),
-                    record.needed.clone().into(),
-                ]
-            })
-            .collect(),
-    }
+        ],
+        records.iter().map(row).collect(),
+    )
 }
 
 #[cfg(test)]
@@ -154,11 +145,11 @@ mod tests {
             .iter()
             .map(|record| {
                 let cells = [
-                    record.what,
-                    record.figure,
+                    &record.what,
+                    &record.figure,
                     &record.computed,
                     record.standing.name(),
-                    &record.source.name(),
+                    &record.source,
                     &record.needed,
                 ];
                 format!("| {} |", cells.join(" | "))

@@ -6,13 +6,16 @@ mod laws;
 mod loads;
 mod loops;
 mod noise;
-mod panel;
 mod trial;
 
-use super::context::Context;
+use super::Context;
 use crate::peers::candidates::{best, ours, published};
 use epas_page::document::{Block, Section};
 use epas_page::failure::Failure;
+
+/// Figures: panels in a row, width and height of one, pixels.
+const WIDE: (usize, u32, u32) = (1, 1080, 440);
+const PAIRS: (usize, u32, u32) = (2, 540, 440);
 
 /// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
@@ -27,9 +30,9 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
          speed, which adds nothing at the speeds of a reversal."
             .into(),
     )];
-    blocks.push(Block::Figure(loops::picture()?));
+    blocks.push(loops::picture()?);
     blocks.extend(laws::blocks(context, &candidates)?);
-    blocks.push(Block::Figure(loops::drift()?));
+    blocks.push(loops::drift()?);
     blocks.extend(loads::blocks(context)?);
     blocks.extend(noise::blocks()?);
     blocks.extend(compensation::blocks()?);

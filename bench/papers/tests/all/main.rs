@@ -1,16 +1,13 @@
 //! The papers' printed numbers, figures and studies against the exact models, first principles and stored cases.
 
-mod curvature;
 mod kinematics;
 #[path = "../../../../host-tests/tests/all/reference/kinematics_cases.rs"]
 mod kinematics_cases;
 mod load_studies;
 mod measured_figures;
 mod program;
-mod published_records;
+mod published;
 mod rolling_ball;
 mod rotary_ball;
 mod rotary_bearing;
-mod stability;
-mod surfaces;
 mod whole_screw_figures;

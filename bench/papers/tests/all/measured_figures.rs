@@ -3,40 +3,15 @@
 use epas_friction::{CATALOGUE, defaults};
 use epas_papers::measured::cold::{self, GREASE};
 use epas_papers::measured::studies::{self, SCREWS};
-use epas_papers::measured::{self, Standing, Usual, catalogue};
-use epas_reference::design::BallScrewDesign;
+use epas_papers::measured::{self, Standing, catalogue};
+use epas_papers::report::measured::usual;
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
-use epas_reference::friction::rolling_resistance::RollingResistance;
 
 use epas_testkit::errors::Errors;
 use epas_testkit::given;
 
 /// Zero of the Celsius scale, K.
 const ZERO: f32 = 273.15;
-
-/// The crate's defaults, widened.
-fn usual() -> Usual {
-    Usual {
-        friction: defaults::FRICTION.into(),
-        clearance: defaults::CLEARANCE.gap().into(),
-        rolling: RollingResistance {
-            hysteresis_loss: defaults::ROLLING_RESISTANCE.hysteresis_loss.into(),
-            lubricant_drag: defaults::ROLLING_RESISTANCE.lubricant_drag.into(),
-        },
-    }
-}
-
-fn screw(design: BallScrewDesign, ball_load: f64) -> LoadedScrew {
-    let usual = usual();
-    LoadedScrew {
-        design,
-        clearance: usual.clearance,
-        friction: usual.friction,
-        rolling: usual.rolling,
-        balls: 1.0,
-        axial_load: ball_load,
-    }
-}
 
 /// With the defaults efficiency rises with the lead at one diameter, at every load; and all three designs of the papers
 /// lie between the makers' rule in practice and in theory at an EPAS's ordinary loads.
@@ -77,6 +52,11 @@ fn efficiency_is_monotone_in_lead_and_between_the_makers_rules() {
 /// % and one of 0.01 plus 15 %, the makers' chart, over the chart's lead angles of 1 to 9 degrees.
 #[test]
 fn catalogue_sizes_lie_on_the_makers_chart() {
+    let screw = SCREWS[0].under(100.0, &usual());
+    let screw = LoadedScrew {
+        balls: 1.0,
+        ..screw
+    };
     let mut frictions = Errors::of("friction of a plain screw, over the middle of the chart");
     for size in CATALOGUE {
         let design = given::ball_screw(&size.parameters());
@@ -84,7 +64,10 @@ fn catalogue_sizes_lie_on_the_makers_chart() {
         if !(1.0..=9.0).contains(&angle.to_degrees()) {
             continue;
         }
-        let efficiency = screw(design, 100.0).solve().unwrap().efficiency();
+        let efficiency = LoadedScrew { design, ..screw }
+            .solve()
+            .unwrap()
+            .efficiency();
         let friction = catalogue::chart_friction(angle, efficiency);
         // Measured: 1.1e-16, a rounding.
         assert!((catalogue::chart_efficiency(angle, friction) - efficiency).abs() < 4e-16);
@@ -109,13 +92,6 @@ fn every_figure_stands_somewhere() {
             .filter(|record| record.standing == standing)
             .count()
     };
-    println!(
-        "{} within, {} in kind, {} apart, {} not computed",
-        count(Standing::Within),
-        count(Standing::InKind),
-        count(Standing::Apart),
-        count(Standing::NotComputed)
-    );
     for record in &records {
         assert!(!record.needed.is_empty(), "{}", record.what);
         assert_eq!(
@@ -130,7 +106,7 @@ fn every_figure_stands_somewhere() {
     let apart = records
         .iter()
         .filter(|record| record.standing == Standing::Apart);
-    let apart: Vec<&str> = apart.map(|record| record.what).collect();
+    let apart: Vec<&str> = apart.map(|record| record.what.as_str()).collect();
     assert_eq!(
         apart,
         [

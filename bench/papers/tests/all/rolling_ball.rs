@@ -1,10 +1,11 @@
 //! The ball in time: where the equations of motion lead from a rolling start, against tabulated values,
 //! closed forms and the balance of power.
 
+use epas_papers::published::efficiency::{ball, closed};
 use epas_papers::rolling_ball::{RollingBall, SMOOTHING};
+use epas_papers::stability::growth;
 use epas_reference::ReferenceError;
 use epas_reference::curvature::Groove;
-use epas_reference::efficiency::Screw;
 use epas_reference::steady_state::BallScrewState;
 use epas_testkit::measured;
 use proptest::prelude::*;
@@ -25,26 +26,7 @@ fn number(case: &Value, name: &str) -> f64 {
 
 /// The screw of Lin, Velinsky, Ravani 1994.
 fn published() -> BallScrewState {
-    BallScrewState {
-        lead_angle: 10f64.to_radians(),
-        contact_angle: 45f64.to_radians(),
-        friction: 0.075,
-        ball_radius: 4.37e-3,
-        pitch_radius: 24.3e-3,
-        speed: 2000.0 * std::f64::consts::TAU / 60.0,
-        axial_load: 2113.0,
-        ball_density: 7800.0,
-    }
-}
-
-fn closed(ball: &BallScrewState) -> Screw {
-    Screw {
-        lead_angle: ball.lead_angle,
-        contact_angle: ball.contact_angle,
-        friction: ball.friction,
-        ball_ratio: ball.ball_radius / ball.pitch_radius,
-        rolling_tangent: 0.0,
-    }
+    ball(10f64.to_radians(), 45f64.to_radians())
 }
 
 /// The table was integrated by another program with the same smoothing of friction.
@@ -120,8 +102,7 @@ fn rolling_leads_to_eq_3_as_smoothing_goes_to_zero() {
         let [coarse, usual, fine] = [1e-2, 1e-3, 1e-4].map(deviation);
         println!("{lead} {contact} {friction}: {coarse:.1e} {usual:.1e} {fine:.1e}");
         measured::assert("rolling ball, smoothing of 1e-3", usual);
-        // What goes with the smoothing falls to a tenth, what goes with its square to a hundredth.
-        // Measured: at most 0.143, then 0.103.
+        // What goes with the smoothing falls to a tenth, what goes with its square to a hundredth. Measured: at most 0.143, then 0.103.
         assert!(usual < 0.15 * coarse);
         assert!(fine < 0.12 * usual);
     }
@@ -172,7 +153,6 @@ fn minor_contact_is_on_the_nut_while_driving_and_on_the_screw_while_driven() {
                 opened.settle(10.0),
                 Err(ReferenceError::ContactLost { angle: 0.0 })
             );
-            assert_eq!(opened.limit().unwrap_err().field(), Some("minor"));
         }
     }
 }
@@ -208,49 +188,24 @@ prop_compose! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
-    /// The closed form is where the motion settles: efficiency within the smoothing, loads within the
-    /// gyroscopic moment that the closed form leaves out; and at every instant of a settled motion what
-    /// goes in comes out or is friction.
+    /// The closed form is where the motion settles: eq. (3) while the load is moved, `1 - f a / (Sb - f Cb)` where it drives; and at
+    /// every instant of a settled motion what goes in comes out or is friction.
     #[test]
     fn closed_form_and_balance_of_power(rolling in balls()) {
         let settled = rolling.settle(20.0).unwrap();
-        let limit = rolling.limit().unwrap();
+        let ball = rolling.ball;
         // What still changes in a turn is less than the speed over which friction is smoothed.
         prop_assert!(settled.drift < SMOOTHING, "{:?}", settled);
-        let ball = rolling.ball;
-        // 5e-7 of the loss, and the gyroscopic moment's part. Measured over 1200 balls: 5.4e-8, and 2.9e-7, 1.4e-6 and 3.0e-5 of
-        // the loads; the rarest ones, light and fast, have more.
-        prop_assert!((settled.efficiency - limit.efficiency).abs() < 1e-6, "{:?} {:?}", settled, limit);
-        prop_assert!((settled.normal_screw / limit.normal_screw - 1.0).abs() < 1e-4);
-        prop_assert!((settled.normal_nut / limit.normal_nut - 1.0).abs() < 1e-4);
-        prop_assert!((settled.normal_minor / limit.normal_minor - 1.0).abs() < 5e-3);
-        prop_assert!(limit.used_friction < 1.0);
+        let moved = closed(&ball).rolling_screw();
+        let loss = 1.0 / moved - 1.0;
+        let efficiency = if ball.speed > 0.0 { moved } else { 1.0 - loss };
+        // 5e-7 of the loss, and the gyroscopic moment's part. Measured over 1200 balls: 5.4e-8; the rarest ones, light and fast, have more.
+        prop_assert!((settled.efficiency - efficiency).abs() < 1e-6, "{:?} {}", settled, efficiency);
 
         let useful = ball.axial_load * ball.pitch_radius * ball.lead_angle.tan() * ball.speed;
         let balance = settled.torque * ball.speed - useful - settled.friction_power;
         // Whatever the state is, its loads balance. Measured: 1.0e-15 of 1200 balls; room for smaller efficiencies.
         prop_assert!(balance.abs() < 1e-13 * useful.abs(), "{} of {}", balance, useful);
-
-        let closed = closed(&ball);
-        if ball.speed > 0.0 {
-            prop_assert!((limit.efficiency - closed.rolling_screw()).abs() < 1e-14);
-        }
-    }
-}
-
-#[test]
-fn instants_of_a_run_are_those_of_the_motion() {
-    let rolling = RollingBall::new(published());
-    let run = rolling.run(2.0, 8).unwrap();
-    assert_eq!(run.len(), 8);
-    for (index, instant) in run.iter().enumerate() {
-        let turns = 0.25 * (index + 1) as f64;
-        // Derived: four roundings of 1.1e-16 in both angles and their quotient.
-        assert!((instant.angle / (turns * std::f64::consts::TAU) - 1.0).abs() < 5e-16);
-        let alone = rolling.settle(turns).unwrap();
-        // Measured: 0.0 both: the integrator's steps do not depend on where it ends, and an instant is read between two of them.
-        assert!((instant.efficiency - alone.efficiency).abs() < 4e-16);
-        assert!((instant.normal_minor / alone.normal_minor - 1.0).abs() < 4e-16);
     }
 }
 
@@ -265,22 +220,21 @@ fn no_friction_no_loss() {
     // Measured: 2.2e-16.
     assert!((settled.efficiency - 1.0).abs() < 7e-16);
     assert_eq!(settled.friction_power, 0.0);
-    assert_eq!(rolling.limit().unwrap().efficiency, 1.0);
 }
 
-/// Hostile inputs: finite numbers, or the reason; never a loop, NaN or panic. A sample of the friction coefficients.
+/// Extreme inputs: finite numbers, or the reason; never a loop, NaN or panic. A sample of the friction coefficients.
 #[test]
-fn hostile_inputs_settle_or_say_why() {
-    settle_hostile_inputs(&[0.3], 8);
+fn extreme_inputs_settle_or_say_why() {
+    settle_extreme_inputs(&[0.3], 8);
 }
 
 #[test]
 #[ignore = "five friction coefficients"]
-fn hostile_inputs_settle_or_say_why_whole() {
-    settle_hostile_inputs(&[0.0, 1e-6, 0.005, 0.3, 0.9], 40);
+fn extreme_inputs_settle_or_say_why_whole() {
+    settle_extreme_inputs(&[0.0, 1e-6, 0.005, 0.3, 0.9], 40);
 }
 
-fn settle_hostile_inputs(frictions: &[f64], least: usize) {
+fn settle_extreme_inputs(frictions: &[f64], least: usize) {
     let (mut settled, mut opened, mut stopped) = (0, 0, 0);
     for &friction in frictions {
         for speed in [1e-5, -200.0, 1e4, 1e6] {
@@ -309,9 +263,6 @@ fn settle_hostile_inputs(frictions: &[f64], least: usize) {
                         Err(ReferenceError::Integrator { .. }) => stopped += 1,
                         Err(error) => panic!("{rolling:?}: {error}"),
                     }
-                    if let Ok(limit) = rolling.limit() {
-                        assert!(limit.efficiency.is_finite() && limit.normal_minor >= 0.0);
-                    }
                 }
             }
         }
@@ -320,31 +271,35 @@ fn settle_hostile_inputs(frictions: &[f64], least: usize) {
     assert!(settled > least);
 }
 
+/// The share of unstable states over lead angle, contact angle and friction, at the screw, load and speed of Lin, Velinsky,
+/// Ravani 1994; and the growth at their own case.
 #[test]
-fn bad_inputs_are_refused_by_name() {
-    let good = RollingBall::new(published());
-    let field = |rolling: RollingBall, turns: f64, instants: usize| {
-        rolling.run(turns, instants).unwrap_err().field().unwrap()
-    };
-    for bad in [f64::NAN, f64::INFINITY, -1.0] {
-        assert_eq!(field(good, bad, 1), "turns");
-        let smoothing = RollingBall {
-            smoothing: bad,
-            ..good
-        };
-        assert_eq!(field(smoothing, 1.0, 1), "smoothing");
-        assert_eq!(smoothing.limit().unwrap_err().field(), Some("smoothing"));
-        let ball = BallScrewState {
-            axial_load: bad,
-            ..published()
-        };
-        assert_eq!(field(RollingBall { ball, ..good }, 1.0, 1), "axial_load");
+fn full_sliding_is_unstable_nearly_everywhere() {
+    let case = published();
+    let found = growth(&case, &case.solve().unwrap()).unwrap();
+    println!("{found:?}");
+    // Half a unit of the last digit, here and below.
+    assert!((found.rate - 5.6).abs() < 0.05, "{found:?}");
+    assert!((found.frequency - 65.0).abs() < 0.5, "{found:?}");
+
+    let (mut unstable, mut all) = (0, 0);
+    for lead in (1..=12).map(|step| 3.5 * f64::from(step)) {
+        for contact in [25.0_f64, 35.0, 45.0, 55.0, 65.0] {
+            for friction in [0.01, 0.03, 0.075, 0.15, 0.3] {
+                let state = BallScrewState {
+                    lead_angle: lead.to_radians(),
+                    contact_angle: contact.to_radians(),
+                    friction,
+                    ..case
+                };
+                if let Ok(steady) = state.solve() {
+                    all += 1;
+                    let found = growth(&state, &steady).unwrap();
+                    unstable += usize::from(found.rate > 0.0);
+                }
+            }
+        }
     }
-    assert_eq!(field(good, 1.0, 0), "instants");
-    let locked = RollingBall::new(BallScrewState {
-        friction: 0.9,
-        contact_angle: 0.5,
-        ..published()
-    });
-    assert_eq!(locked.limit().unwrap_err().field(), Some("friction"));
+    println!("{unstable} of {all} states are unstable");
+    assert!(all > 150 && unstable * 10 > all * 8);
 }

@@ -1,6 +1,6 @@
 //! Figures 3.24 and 3.25 of Lin 2019: the closed form of a whole screw beside the exact ring.
 
-use epas_papers::published::balls::whole_screw;
+use epas_papers::published::balls::{peak_and_release, whole_screw};
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::ScrewTrack;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
@@ -51,21 +51,6 @@ fn run(ring: &ElasticRing, samples: &[RingSample]) -> Vec<RingState> {
     states
 }
 
-/// Peak of the ball torque over the groove torque in the first turn, per cent, its angle, and where no balls press any more, degrees.
-fn peak_and_release(states: &[(f64, f64, f64)]) -> [f64; 3] {
-    let (mut peak, mut at, mut release) = (0.0, 0.0, f64::NAN);
-    for (angle, groove, ball) in states.iter().filter(|(angle, _, _)| *angle < TAU) {
-        let share = 100.0 * ball / groove;
-        if share > peak {
-            (peak, at, release) = (share, angle.to_degrees(), f64::NAN);
-        }
-        if peak > 1.0 && *ball == 0.0 && release.is_nan() {
-            release = angle.to_degrees();
-        }
-    }
-    [peak, at, release]
-}
-
 /// The closed form beside the exact ring, where it is at its best: 10 N a ball. It has the same three-point contact, and its orbital speeds
 /// leave out that friction shifts the contacts, and that a third contact with less load slides.
 #[test]
@@ -114,25 +99,22 @@ fn figures_3_24_and_3_25() {
         let ring = published(degrees);
         let samples = steady_samples(TAU, load, 2.0 * TAU, 720);
         let states = run(&ring, &samples);
-        let exact: Vec<_> = states
+        let exact = states
             .iter()
-            .map(|s| (s.nut_angle, s.groove_torque, s.ball_torque))
-            .collect();
+            .map(|s| (s.nut_angle, s.groove_torque, s.ball_torque));
         let closed = WholeScrew {
             axial_load: load,
             ball_slip: BallSlip::Orbiting,
             ..whole_screw(degrees * DEGREE).unwrap()
         };
-        let closed: Vec<_> = closed
-            .simulate(2.0 * TAU, 720, 4)
-            .unwrap()
+        let closed = closed.simulate(2.0 * TAU, 720, 4).unwrap();
+        let closed = closed
             .iter()
-            .map(|s| (s.nut_angle, s.groove_torque(), s.ball_torque))
-            .collect();
-        let found = peak_and_release(&exact);
+            .map(|s| (s.nut_angle, s.groove_torque(), s.ball_torque));
+        let found = peak_and_release(exact);
         println!(
             "{degrees} deg {load} N: exact {found:?}, closed {:?}",
-            peak_and_release(&closed)
+            peak_and_release(closed)
         );
         // Measured: 0.03 and 0.0; other rounding may move an event from one state to the next, by a degree.
         assert!((found[0] - peak).abs() < 0.09, "{found:?}");
@@ -153,11 +135,8 @@ fn figure_3_25_peaks_against_amplitude() {
             ..whole_screw(degrees * DEGREE).unwrap()
         };
         let run = screw.simulate(2.0 * TAU, 200, 1).unwrap();
-        let states: Vec<_> = run
-            .iter()
-            .map(|s| (s.nut_angle, s.main_torque, s.ball_torque))
-            .collect();
-        peak_and_release(&states)
+        let states = run.iter();
+        peak_and_release(states.map(|s| (s.nut_angle, s.main_torque, s.ball_torque)))
     };
     for (degrees, printed) in [
         (2.0, [26.0, 108.0, 248.0]),

@@ -29,9 +29,6 @@ const BALLS: usize = 24;
 const CONFORMITY: f32 = 0.56;
 
 /// Every quantity, in the order of the page; of whole sweeps, or of samples of them.
-///
-/// # Errors
-/// What is refused.
 pub fn measured(flagship: &Flagship, quick: bool) -> Result<Vec<Accuracy>, Failure> {
     const CURVATURES: &str =
         "curvature, relative: 31 catalogue sizes, both grooves, contact angles 0 to 70 degrees";
@@ -103,9 +100,6 @@ fn memory(quick: bool) -> Result<Errors, Failure> {
 }
 
 /// Eight elements against the hysteresis that they stand for, over random turns.
-///
-/// # Errors
-/// What is refused.
 pub fn memory_against_exact() -> Result<Errors, Failure> {
     let [_, exact] = elements(20_000)?;
     Ok(exact)

@@ -4,10 +4,11 @@ mod every;
 mod requests;
 mod sample;
 
+use crate::report::draw;
 use epas_eval::BadField;
 use epas_page::document::Cell;
 use epas_page::failure::Failure;
-use epas_page::plot::{self, ColourMap, Colours, Panel};
+use epas_page::plot::{self, Panel};
 use epas_reference::promises;
 use rayon::prelude::*;
 
@@ -158,26 +159,20 @@ impl Map {
     }
 
     /// The map over its domain.
-    ///
-    /// # Errors
-    /// A field that is compared and that an answer does not have; a map without a point to compare.
     pub fn draw(&self, cells: usize) -> Result<Drawn, Failure> {
         let cells = (cells as f64 * self.fineness).ceil() as usize;
         let (tally, values) = self.errors(cells)?;
         let (x, x_low, x_high) = self.x;
         let (y, y_low, y_high) = self.y;
-        let panel = Panel::Map(ColourMap {
-            title: self.title.into(),
-            x: plot::Axis::linear(x).between(x_low, x_high),
-            y: plot::Axis::linear(y).between(y_low, y_high),
-            quantity: "error".into(),
-            colours: Colours::Sequential,
-            bounds: BOUNDS
-                .iter()
-                .map(|(bound, text)| (*bound, (*text).to_owned()))
-                .collect(),
+        let panel = draw::map(
+            self.title,
+            (
+                plot::Axis::linear(x).between(x_low, x_high),
+                plot::Axis::linear(y).between(y_low, y_high),
+            ),
+            ("error", &BOUNDS),
             values,
-        });
+        );
         let largest = tally.errors.largest;
         Ok(Drawn {
             panel,

@@ -3,8 +3,9 @@
 use serde::Deserialize;
 
 use crate::report::accuracy::Accuracy;
+use crate::report::draw::table;
 use crate::report::statistics::Errors;
-use epas_page::document::{Block, Cell, Table};
+use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
 
 /// The file.
@@ -94,10 +95,6 @@ pub fn errors() -> Result<Vec<Accuracy>, Failure> {
     KERNELS.into_iter().map(kernel).collect()
 }
 
-fn columns(names: &[&str]) -> Vec<String> {
-    names.iter().map(|name| (*name).to_owned()).collect()
-}
-
 /// A whole number in groups of three digits.
 fn grouped(count: u64) -> Cell {
     let digits = count.to_string();
@@ -146,37 +143,17 @@ pub fn blocks(swept: &Errors, requests: u64) -> Result<Vec<Block>, Failure> {
              are missing or wrong, balls that are lost or overlap."
                 .into(),
         ),
-        Block::Table(Table {
-            name: "recorded_sweeps",
-            caption: "Recorded: every f32 of a function's domain against float64".into(),
-            columns: columns(&["quantity", "inputs", "largest", "rms", "mean", "command"]),
-            rows: sweeps.collect(),
-        }),
-        Block::Table(Table {
-            name: "recorded_runs",
-            caption: "Recorded: random, failing and hostile inputs".into(),
-            columns: columns(&["what", "count", "failures", "command"]),
-            rows: runs.chain([this]).collect(),
-        }),
-        Block::Table(Table {
-            name: "mended",
-            caption: "What such runs found, and what the same input does now".into(),
-            columns: columns(&["found", "now"]),
-            rows: recorded
+        Block::Table(table("recorded_sweeps", "Recorded: every f32 of a function's domain against float64", &["quantity", "inputs", "largest", "rms", "mean", "command"], sweeps.collect())),
+        Block::Table(table("recorded_runs", "Recorded: random, failing and extreme inputs", &["what", "count", "failures", "command"], runs.chain([this]).collect())),
+        Block::Table(table("mended", "What such runs found, and what the same input does now", &["found", "now"], recorded
                 .mended
                 .into_iter()
                 .map(|mended| vec![mended.found.into(), mended.now.into()])
-                .collect(),
-        }),
-        Block::Table(Table {
-            name: "known_limits",
-            caption: "Limits that are known and remain".into(),
-            columns: columns(&["limit"]),
-            rows: recorded
+                .collect())),
+        Block::Table(table("known_limits", "Limits that are known and remain", &["limit"], recorded
                 .limits
                 .into_iter()
                 .map(|limit| vec![limit.into()])
-                .collect(),
-        }),
+                .collect())),
     ])
 }

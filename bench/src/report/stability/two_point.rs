@@ -1,16 +1,13 @@
 //! Balls that are about to lose what holds them: near two-point contact.
 
-use epas_friction::ball::{AnalyticLinearBall, PUBLISHED_SLOPE};
 use epas_reference::friction::linear_ball::LinearBall;
 
-use crate::study::{self, turned_ball};
-use epas_page::document::{Block, Cell, Figure, Table};
+use crate::report::draw::{chart, figure, table};
+use crate::report::trains::Closed;
+use crate::study::turned_ball;
+use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
-
-fn failure(error: epas_friction::Error) -> Failure {
-    Failure::Data(error.to_string())
-}
+use epas_page::plot::{Axis, Mark, Panel, Series};
 
 /// Deviations of the bottom groove, degrees: a side force to the right loads the diagonal whose angle grows,
 /// or the other one.
@@ -77,89 +74,61 @@ fn weakness(ball: &LinearBall) -> f64 {
     up.min(down) / up.max(down)
 }
 
-/// The closed form of a ball in a linear bearing.
-struct Linear {
-    analytic: AnalyticLinearBall,
+/// Row of the table: border, jump, and largest errors before, about and after it.
+fn row(closed: &Closed, degrees: f64) -> Result<Vec<Cell>, Failure> {
+    /// About the border: within this of its side-force ratio.
+    const NEAR: f64 = 0.01;
+    let border = Border::of(degrees)?;
+    let mut worst = [0.0_f64; 3];
+    for step in 0..=STEPS {
+        let side = SIDES.0 + (1.0 - SIDES.0) * f64::from(step) / f64::from(STEPS);
+        let ball = turned_ball(degrees, side);
+        let exact = ball.solve(1.0)?.speed_deviation;
+        let part = if (side - border.side).abs() < NEAR {
+            1
+        } else {
+            usize::from(side > border.side) * 2
+        };
+        worst[part] = worst[part].max((closed.speed(&ball) - exact).abs());
+    }
+    Ok([
+        Cell::fixed(degrees, 0),
+        Cell::fixed(border.side, 4),
+        Cell::fixed(weakness(&turned_ball(degrees, border.side)), 4),
+        Cell::power(border.before),
+        Cell::power(border.after),
+    ]
+    .into_iter()
+    .chain(worst.map(Cell::power))
+    .collect())
 }
 
-impl Linear {
-    fn new() -> Result<Self, Failure> {
-        let parameters = study::linear_ball();
-        Ok(Self {
-            analytic: AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).map_err(failure)?,
-        })
-    }
-
-    /// Speed deviation in closed form.
-    fn speed(&self, ball: &LinearBall) -> f64 {
-        let angles = ball.contact_angles.map(|angle| angle as f32);
-        let forces = ball.contact_forces.map(|force| force as f32);
-        let closed = self.analytic.speed_deviation(&angles, &forces);
-        closed.speed_deviation.into()
-    }
-
-    /// Row of the table: border, jump, and largest errors before, about and after it.
-    fn row(&self, degrees: f64) -> Result<Vec<Cell>, Failure> {
-        /// About the border: within this of its side-force ratio.
-        const NEAR: f64 = 0.01;
-        let border = Border::of(degrees)?;
-        let mut worst = [0.0_f64; 3];
-        for step in 0..=STEPS {
-            let side = SIDES.0 + (1.0 - SIDES.0) * f64::from(step) / f64::from(STEPS);
-            let ball = turned_ball(degrees, side);
-            let exact = ball.solve(1.0)?.speed_deviation;
-            let part = if (side - border.side).abs() < NEAR {
-                1
-            } else {
-                usize::from(side > border.side) * 2
-            };
-            worst[part] = worst[part].max((self.speed(&ball) - exact).abs());
+fn panel(closed: &Closed, degrees: f64) -> Result<Panel, Failure> {
+    let mut lines = [const { Vec::new() }; 2];
+    for step in 0..=400_u32 {
+        let ball = turned_ball(degrees, 0.999 * f64::from(step) / 400.0);
+        let exact = ball.solve(1.0)?.speed_deviation;
+        for (line, speed) in lines.iter_mut().zip([closed.speed(&ball), exact]) {
+            line.push((weakness(&ball), speed));
         }
-        Ok([
-            Cell::fixed(degrees, 0),
-            Cell::fixed(border.side, 4),
-            Cell::fixed(weakness(&turned_ball(degrees, border.side)), 4),
-            Cell::power(border.before),
-            Cell::power(border.after),
-        ]
-        .into_iter()
-        .chain(worst.map(Cell::power))
-        .collect())
     }
-
-    fn chart(&self, degrees: f64) -> Result<Panel, Failure> {
-        let mut lines = [const { Vec::new() }; 2];
-        for step in 0..=400_u32 {
-            let ball = turned_ball(degrees, 0.999 * f64::from(step) / 400.0);
-            let exact = ball.solve(1.0)?.speed_deviation;
-            for (line, speed) in lines.iter_mut().zip([self.speed(&ball), exact]) {
-                line.push((weakness(&ball), speed));
-            }
-        }
-        let [closed, exact] = lines;
-        Ok(Panel::Chart(Chart {
-            title: format!("ball of a linear bearing, deviation {degrees} degrees"),
-            x: Axis::log("load of the weaker diagonal over the stronger").between(1e-3, 1.0),
-            y: Axis::linear("speed deviation over v/2"),
-            series: vec![
-                Series::new("closed form (3.43)", 1, Mark::Line, closed),
-                Series::new("reference", 6, Mark::Dashed, exact),
-            ],
-            notes: Vec::new(),
-        }))
-    }
-}
-
-fn columns(names: &[&str]) -> Vec<String> {
-    names.iter().map(|name| (*name).to_owned()).collect()
+    let [formula, exact] = lines;
+    let title = format!("ball of a linear bearing, deviation {degrees} degrees");
+    let x = Axis::log("load of the weaker diagonal over the stronger").between(1e-3, 1.0);
+    let y = Axis::linear("speed deviation over v/2");
+    let series = vec![
+        Series::new("closed form (3.43)", 1, Mark::Line, formula),
+        Series::new("reference", 6, Mark::Dashed, exact),
+    ];
+    Ok(chart(&title, x, y, series))
 }
 
 /// Text, table and the figure.
 pub fn blocks() -> Result<Vec<Block>, Failure> {
-    let linear = Linear::new()?;
+    let closed = Closed::new()?;
     let rows = TURNS
         .iter()
-        .map(|degrees| linear.row(*degrees))
+        .map(|degrees| row(&closed, *degrees))
         .collect::<Result<_, _>>()?;
     Ok(vec![
         Block::Text(
@@ -170,13 +139,9 @@ pub fn blocks() -> Result<Vec<Block>, Failure> {
              tick on in which the loads allow it (`Faults::BEYOND_MODEL`)."
                 .into(),
         ),
-        Block::Table(Table {
-            name: "two_point_linear",
-            caption: "Ball of a linear bearing (Lin 2019, Table 3.3): the border of two-point rolling, and largest \
+        Block::Table(table("two_point_linear", "Ball of a linear bearing (Lin 2019, Table 3.3): the border of two-point rolling, and largest \
                       errors of the speed deviation in closed form, over v/2, from a side-force ratio of 0.7 on: more \
-                      than 0.01 before the border, about it, and after it"
-                .into(),
-            columns: columns(&[
+                      than 0.01 before the border, about it, and after it", &[
                 "deviation (deg)",
                 "side force at the border",
                 "weaker over stronger diagonal",
@@ -185,15 +150,7 @@ pub fn blocks() -> Result<Vec<Block>, Failure> {
                 "error before",
                 "about",
                 "after",
-            ]),
-            rows,
-        }),
-        Block::Figure(Figure {
-            name: "two_point_contact",
-            caption: "Speed of a ball in a linear bearing as one diagonal gets lighter.".into(),
-            panels: vec![linear.chart(2.0)?, linear.chart(-2.0)?],
-            columns: 2,
-            size: (560, 400),
-        }),
+            ], rows)),
+        figure("two_point_contact", "Speed of a ball in a linear bearing as one diagonal gets lighter.", (2, 560, 400), vec![panel(&closed, 2.0)?, panel(&closed, -2.0)?]),
     ])
 }

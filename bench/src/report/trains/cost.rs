@@ -6,13 +6,14 @@ use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 use epas_reference::friction::chain::solve_chain;
 
 use crate::report::context::Context;
+use crate::report::draw::{chart, figure, table};
 use crate::report::times::{quartiles, time};
 use crate::study::{self, turned_ball};
 use crate::timing;
 use crate::timing::Measure;
-use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::document::{Block, Cell, Table};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Series};
 
 /// Balls of each timed train, and the keys of its forces, its tick and the tick of its scene.
 const TRAINS: [(u8, [&str; 3]); 9] = [
@@ -39,7 +40,7 @@ pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
     Ok(vec![
         Block::Table(printed_times(context)?),
         Block::Table(train_times(context)?),
-        Block::Figure(picture(context)?),
+        picture(context)?,
     ])
 }
 
@@ -113,22 +114,19 @@ fn printed_times(context: &Context) -> Result<Table, Failure> {
         "numerical model of two balls, Table 3.7",
         15.0,
     );
-    Ok(Table {
-        name: "pair_times",
-        caption: "Two balls that press on each other: time on this machine (latency), and the times that Lin 2019 \
-                  prints for an Intel i7-3770"
-            .into(),
-        columns: [
+    Ok(table(
+        "pair_times",
+        "Two balls that press on each other: time on this machine (latency), and the times that Lin 2019 \
+                  prints for an Intel i7-3770",
+        &[
             "model",
             "time (ns)",
             "printed model",
             "printed time (s)",
             "ratio",
-        ]
-        .map(String::from)
-        .to_vec(),
+        ],
         rows,
-    })
+    ))
 }
 
 fn train_times(context: &Context) -> Result<Table, Failure> {
@@ -146,13 +144,12 @@ fn train_times(context: &Context) -> Result<Table, Failure> {
         ));
         rows.push(row);
     }
-    Ok(Table {
-        name: "train_times",
-        caption: "Latency in ns of a train: its forces from free speeds and impedances that vary from ball to ball (`Press::solve`, one exact pass), \
+    Ok(table(
+        "train_times",
+        "Latency in ns of a train: its forces from free speeds and impedances that vary from ball to ball (`Press::solve`, one exact pass), \
                   forces and positions from speeds of a run, where fewer balls press (`Train::step`), and of a tick of the ball screw without cage that holds it; \
-                  quartiles, and the latency of the tick for each ball"
-            .into(),
-        columns: [
+                  quartiles, and the latency of the tick for each ball",
+        &[
             "balls",
             "forces",
             "quartiles",
@@ -161,11 +158,9 @@ fn train_times(context: &Context) -> Result<Table, Failure> {
             "whole tick",
             "quartiles",
             "tick, a ball",
-        ]
-        .map(String::from)
-        .to_vec(),
+        ],
         rows,
-    })
+    ))
 }
 
 /// A ball's part of a time, ns.
@@ -177,7 +172,7 @@ fn share(whole: &Measure, balls: u8) -> Cell {
     }
 }
 
-fn picture(context: &Context) -> Result<Figure, Failure> {
+fn picture(context: &Context) -> Result<Block, Failure> {
     let mut series = Vec::new();
     for (colour, part) in PARTS.into_iter().enumerate() {
         let mut points = Vec::new();
@@ -192,17 +187,15 @@ fn picture(context: &Context) -> Result<Figure, Failure> {
         series.push(Series::new("", colour, Mark::Circles, points.clone()));
         series.push(Series::new(part, colour, Mark::Line, points));
     }
-    Ok(Figure {
-        name: "train_times_picture",
-        caption: "Latency of a train over its number of balls: in proportion to it, without an iteration.".into(),
-        panels: vec![Panel::Chart(Chart {
-            title: String::new(),
-            x: Axis::linear("balls").between(0.0, 66.0),
-            y: Axis::linear("latency (ns)"),
+    Ok(figure(
+        "train_times_picture",
+        "Latency of a train over its number of balls: in proportion to it, without an iteration.",
+        (1, 1080, 380),
+        vec![chart(
+            "",
+            Axis::linear("balls").between(0.0, 66.0),
+            Axis::linear("latency (ns)"),
             series,
-            notes: Vec::new(),
-        })],
-        columns: 1,
-        size: (1080, 380),
-    })
+        )],
+    ))
 }

@@ -5,13 +5,14 @@ use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::LinearBall;
 
 use crate::report::context::Context;
+use crate::report::draw::{centres, figure, map, table};
 use crate::report::statistics::{Errors, evenly};
 use crate::report::times::time;
 use crate::study::{self, turned_ball};
 use crate::timing;
-use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::document::{Block, Cell, Table};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, ColourMap, Colours, Panel};
+use epas_page::plot::Axis;
 
 /// Side-force ratios up to which errors are summed up; the ball changes to two-point rolling at 0.88 to
 /// 0.98.
@@ -41,15 +42,14 @@ const FORCE_BANDS: [(f64, &str); 6] = [
     (3.0, "3"),
 ];
 
-/// The closed form.
-struct Closed(AnalyticLinearBall);
+/// The closed form of a ball in a linear bearing.
+pub struct Closed(AnalyticLinearBall);
 
 impl Closed {
-    fn new() -> Result<Self, Failure> {
-        let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
-        AnalyticLinearBall::new(&study::linear_ball(), PUBLISHED_SLOPE)
-            .map(Self)
-            .map_err(failure)
+    /// The ball of the case study.
+    pub fn new() -> Result<Self, Failure> {
+        let form = AnalyticLinearBall::new(&study::linear_ball(), PUBLISHED_SLOPE)?;
+        Ok(Self(form))
     }
 
     fn ball(&self, ball: &LinearBall) -> SpeedDeviation {
@@ -59,10 +59,14 @@ impl Closed {
         )
     }
 
+    /// Speed deviation.
+    pub fn speed(&self, ball: &LinearBall) -> f64 {
+        self.ball(ball).speed_deviation.into()
+    }
+
     /// Error of the speed deviation against the least dissipation.
     fn error(&self, ball: &LinearBall) -> Result<f64, Failure> {
-        let exact = ball.solve(1.0)?.speed_deviation;
-        Ok(f64::from(self.ball(ball).speed_deviation) - exact)
+        Ok(self.speed(ball) - ball.solve(1.0)?.speed_deviation)
     }
 
     /// Force between two balls.
@@ -83,14 +87,8 @@ const LARGEST_RATIO: f64 = 0.96;
 
 impl Grid {
     fn new(closed: &Closed, cells: usize) -> Result<Self, Failure> {
-        let centres = |largest: f64| {
-            (0..cells)
-                .map(move |cell| largest * ((2 * cell + 1) as f64 / cells as f64 - 1.0))
-                .collect::<Vec<_>>()
-        };
-        let ratios = centres(LARGEST_RATIO);
-        let rows = centres(LARGEST_TURN)
-            .into_iter()
+        let ratios: Vec<f64> = centres((-LARGEST_RATIO, LARGEST_RATIO), cells).collect();
+        let rows = centres((-LARGEST_TURN, LARGEST_TURN), cells)
             .map(|degrees| {
                 ratios
                     .iter()
@@ -128,7 +126,7 @@ pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
     Ok(vec![
         Block::Table(published(&closed)?),
         Block::Table(summary(context, &grid)?),
-        Block::Figure(maps(&grid, forces)),
+        maps(&grid, forces),
     ])
 }
 
@@ -177,23 +175,20 @@ fn published(form: &Closed) -> Result<Table, Failure> {
             Cell::fixed(closed[0].contact_force(&closed[1]).into(), 4),
         ]);
     }
-    Ok(Table {
-        name: "linear_ball_published",
-        caption: "Tables 3.4 and 3.5, case (a): two balls under a yaw moment, bottom groove turned by 2 degrees. \
-                  The closed form with the loads as the text takes them, alike on a diagonal, and with all four"
-            .into(),
-        columns: [
+    Ok(table(
+        "linear_ball_published",
+        "Tables 3.4 and 3.5, case (a): two balls under a yaw moment, bottom groove turned by 2 degrees. \
+                  The closed form with the loads as the text takes them, alike on a diagonal, and with all four",
+        &[
             "quantity",
             "printed, numerical",
             "reference",
             "printed, formula",
             "closed form, f32",
             "with four loads",
-        ]
-        .map(String::from)
-        .to_vec(),
+        ],
         rows,
-    })
+    ))
 }
 
 fn summary(context: &Context, grid: &Grid) -> Result<Table, Failure> {
@@ -212,74 +207,60 @@ fn summary(context: &Context, grid: &Grid) -> Result<Table, Failure> {
             ]
         })
         .collect();
-    Ok(Table {
-        name: "linear_ball",
-        caption: format!(
+    Ok(table(
+        "linear_ball",
+        format!(
             "Speed deviation of one ball by the closed form (3.43), in units of v/2 (full scale 0.025), against the least \
              dissipation; bottom groove turned by up to {LARGEST_TURN} degrees. Above a side-force ratio of 0.88 the ball \
              begins to change to two-point rolling, and its speed jumps"
         ),
-        columns: [
+        &[
             "side-force ratio",
             "largest error",
             "rms",
             "mean",
             "latency (ns)",
             "throughput (ns)",
-        ]
-        .map(String::from)
-        .to_vec(),
+        ],
         rows,
-    })
-}
-
-fn map(title: &str, quantity: &str, bounds: &[(f64, &str)], values: Vec<Vec<f64>>) -> Panel {
-    Panel::Map(ColourMap {
-        title: title.into(),
-        x: Axis::linear("side-force ratio").between(-LARGEST_RATIO, LARGEST_RATIO),
-        y: Axis::linear("angle deviation (deg)").between(-LARGEST_TURN, LARGEST_TURN),
-        quantity: quantity.into(),
-        colours: Colours::of(bounds.iter().map(|(bound, _)| bound)),
-        bounds: bounds
-            .iter()
-            .map(|(bound, text)| (*bound, (*text).to_owned()))
-            .collect(),
-        values,
-    })
+    ))
 }
 
 /// Errors of the speed of one ball, and of the force between two.
-fn maps(grid: &Grid, forces: Vec<Vec<f64>>) -> Figure {
+fn maps(grid: &Grid, forces: Vec<Vec<f64>>) -> Block {
     let speeds = grid
         .rows
         .iter()
         .map(|row| row.iter().map(|error| error.abs()).collect())
         .collect();
-    Figure {
-        name: "linear_ball_errors",
-        caption: "Errors of the closed form over side-force ratio and angle deviation. Left: speed deviation of one ball; \
+    let axes = || {
+        let x = Axis::linear("side-force ratio").between(-LARGEST_RATIO, LARGEST_RATIO);
+        let y = Axis::linear("angle deviation (deg)").between(-LARGEST_TURN, LARGEST_TURN);
+        (x, y)
+    };
+    figure(
+        "linear_ball_errors",
+        "Errors of the closed form over side-force ratio and angle deviation. Left: speed deviation of one ball; \
                   the form leaves out that friction bends away from a straight line. Right: force between two balls (up \
                   to 10 N) whose side forces are opposite, with friction between the balls in the reference: rear ball \
                   at the ratio shown, front ball at its negative; half of the field is without contact. The bright edges \
-                  are two-point rolling."
-            .into(),
-        panels: vec![
+                  are two-point rolling.",
+        (2, 540, 400),
+        vec![
             map(
                 "speed of one ball, (3.43)",
-                "error (v/2)",
-                &BANDS,
+                axes(),
+                ("error (v/2)", &BANDS),
                 speeds,
             ),
             map(
                 "force between two balls, (3.51)",
-                "error (N)",
-                &FORCE_BANDS,
+                axes(),
+                ("error (N)", &FORCE_BANDS),
                 forces,
             ),
         ],
-        columns: 2,
-        size: (540, 400),
-    }
+    )
 }
 
 /// Errors of the force between two balls with opposite side forces.

@@ -6,13 +6,14 @@ use epas_reference::friction::ball_screw_ball::ScrewMotion;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 
 use crate::report::context::Context;
+use crate::report::draw::{chart, figure, table};
 use crate::report::statistics::Errors;
 use crate::report::times::time;
 use crate::study;
 use crate::timing;
-use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::document::{Block, Cell, Table};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Series};
 
 /// Axial loads on each ball, N.
 const LOADS: [f64; 3] = [10.0, 25.0, 50.0];
@@ -57,8 +58,8 @@ pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
              rolling, is too large."
                 .into(),
         ),
-        Block::Table(table(context, &cases)?),
-        Block::Figure(picture(&cases)),
+        Block::Table(errors(context, &cases)?),
+        picture(&cases),
     ])
 }
 
@@ -98,7 +99,7 @@ fn third_load(ball: &ScrewMotion) -> f64 {
     loads.iter().rev().nth(2).copied().unwrap_or(0.0)
 }
 
-fn table(context: &Context, cases: &[Case]) -> Result<Table, Failure> {
+fn errors(context: &Context, cases: &[Case]) -> Result<Table, Failure> {
     let times = timing::times(&context.competition, "screw_row_pair")?;
     let mut rows = Vec::new();
     for (sign, name) in SIGNS.into_iter().enumerate() {
@@ -124,13 +125,12 @@ fn table(context: &Context, cases: &[Case]) -> Result<Table, Failure> {
             ]);
         }
     }
-    Ok(Table {
-        name: "screw_ball",
-        caption: "Closed form of a row: force between two balls of a ball screw (per cent) and orbital speed (over the \
+    Ok(table(
+        "screw_ball",
+        "Closed form of a row: force between two balls of a ball screw (per cent) and orbital speed (over the \
                   nut's) against the elastic model, in which the force also moves the contacts; screw's contact angles \
-                  turned by up to 3 degrees at one of them, friction 0.1. The time is that of both balls and the force"
-            .into(),
-        columns: [
+                  turned by up to 3 degrees at one of them, friction 0.1. The time is that of both balls and the force",
+        &[
             "deviation",
             "load a ball (N)",
             "largest force error (%)",
@@ -139,14 +139,12 @@ fn table(context: &Context, cases: &[Case]) -> Result<Table, Failure> {
             "largest speed error",
             "latency (ns)",
             "throughput (ns)",
-        ]
-        .map(String::from)
-        .to_vec(),
+        ],
         rows,
-    })
+    ))
 }
 
-fn picture(cases: &[Case]) -> Figure {
+fn picture(cases: &[Case]) -> Block {
     let forces = |force: fn(&Case) -> f64| {
         let mut points: Vec<_> = cases
             .iter()
@@ -161,22 +159,19 @@ fn picture(cases: &[Case]) -> Figure {
         points.dedup_by_key(|point| point.0);
         points
     };
-    Figure {
-        name: "screw_pair_force",
-        caption: "Force between two balls of a ball screw at 50 N a ball; favourable deviations to the right, \
-                  unfavourable ones to the left."
-            .into(),
-        panels: vec![Panel::Chart(Chart {
-            title: "Force at 50 N a ball".into(),
-            x: Axis::linear("deviation (deg)").between(-3.2, 3.2),
-            y: Axis::linear("force between the balls (N)"),
-            series: vec![
+    figure(
+        "screw_pair_force",
+        "Force between two balls of a ball screw at 50 N a ball; favourable deviations to the right, \
+                  unfavourable ones to the left.",
+        (1, 540, 460),
+        vec![chart(
+            "Force at 50 N a ball",
+            Axis::linear("deviation (deg)").between(-3.2, 3.2),
+            Axis::linear("force between the balls (N)"),
+            vec![
                 Series::new("elastic model", 0, Mark::Line, forces(|case| case.exact)),
                 Series::new("closed form", 1, Mark::Circles, forces(|case| case.force)),
             ],
-            notes: Vec::new(),
-        })],
-        columns: 1,
-        size: (540, 460),
-    }
+        )],
+    )
 }

@@ -2,11 +2,12 @@
 
 use std::f64::consts::FRAC_PI_4;
 
+use crate::report::draw::{self, figure, table};
 use epas_eval::ball_screw_pair::{Ball, Request, Row};
 use epas_eval::{BadField, Both, Model, ScrewNumbers};
-use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, ColourMap, Colours, Panel};
+use epas_page::plot::{Axis, Panel};
 use rayon::prelude::*;
 
 use crate::report::statistics::Errors;
@@ -145,7 +146,7 @@ impl Found {
     }
 }
 
-/// None too for what is no number.
+/// None for NaN and infinities too.
 fn finite(number: Option<f64>) -> Option<f64> {
     number.filter(|number| number.is_finite())
 }
@@ -199,9 +200,9 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
         }
     }
     Ok(vec![
-        Block::Table(Table {
-            name: "exact_pairs",
-            caption: format!(
+        Block::Table(table(
+            "exact_pairs",
+            format!(
                 "Two balls of Table 3.6's screw, SR and NL loaded with 5 to 300 N, the screw's contact angles of one turned by 1 degree: errors of the law that a \
                  step evaluates against the exact pair, per cent; forces from {LEAST_FORCE} N. A law is folded for each friction coefficient and clearance, for \
                  deviations up to 1 degree on the screw and for these loads. Pairs without a law have no error; those that a step flags, because the \
@@ -209,19 +210,17 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
                  where none was found. Where both light contacts of a ball are open one of its grooves sticks. The \
                  last column reproduces the largest error of the force"
             ),
-            columns: COLUMNS.map(String::from).to_vec(),
+            &COLUMNS,
             rows,
-        }),
-        Block::Figure(Figure {
-            name: "exact_pairs_maps",
-            caption: "Errors of the folded law against the exact pair, per cent: force between the balls and torque of the grooves. A deviation of +1 \
+        )),
+        figure(
+            "exact_pairs_maps",
+            "Errors of the folded law against the exact pair, per cent: force between the balls and torque of the grooves. A deviation of +1 \
                       degree loads the third contact, one of -1 degree takes load from it. Nothing is drawn where balls press with less than 0.02 N \
-                      (force), or not at all, and where there is no law."
-                .into(),
+                      (force), or not at all, and where there is no law.",
+            (2, 540, 400),
             panels,
-            columns: 2,
-            size: (540, 400),
-        }),
+        ),
     ])
 }
 
@@ -255,25 +254,21 @@ fn panel(
     value: fn(&Found) -> Option<f64>,
 ) -> Panel {
     let (label, low, high) = over.axis();
-    Panel::Map(ColourMap {
-        title: format!("{quantity}, deviation {degrees:+} degrees"),
-        x: Axis::linear("log10 of the axial load of a ball (N)").between(LOADS.0, LOADS.1),
-        y: Axis::linear(label).between(low, high),
-        quantity: "error (%)".into(),
-        colours: Colours::Diverging,
-        bounds: BOUNDS
-            .iter()
-            .map(|(bound, text)| (*bound, (*text).to_owned()))
-            .collect(),
-        values: grid
-            .iter()
+    draw::map(
+        &format!("{quantity}, deviation {degrees:+} degrees"),
+        (
+            Axis::linear("log10 of the axial load of a ball (N)").between(LOADS.0, LOADS.1),
+            Axis::linear(label).between(low, high),
+        ),
+        ("error (%)", &BOUNDS),
+        grid.iter()
             .map(|line| {
                 line.iter()
                     .map(|found| 100.0 * value(found).unwrap_or(f64::NAN))
                     .collect()
             })
             .collect(),
-    })
+    )
 }
 
 const COLUMNS: [&str; 15] = [

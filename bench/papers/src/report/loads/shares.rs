@@ -4,6 +4,7 @@ use epas_reference::ReferenceError;
 use epas_reference::statics::shares::loads_between;
 use epas_reference::statics::{Served, ShareError, ShareTable, ShareTables};
 
+use epas_bench::report::draw;
 use epas_design::files::loads::{LoadCase, built_in};
 use epas_page::document::{Cell, Table};
 
@@ -65,29 +66,27 @@ pub fn table() -> Result<Table, ReferenceError> {
             ]);
         }
     }
-    Ok(Table {
-        name: "load_share_tables",
-        caption: "Tables of load shares from 5 to 300 N a ball, by push and pull: how many keep friction of the grooves within 1 % of \
-                  that with each load's own table and each ball's load within 5 % of the largest; up to which load none does, because \
-                  some balls push against it; and by how much the best single table for all loads errs, of the friction and largest ball \
-                  load under the same load and under the largest one"
-            .into(),
-        columns: [
-            "screw",
-            "error of its groove",
-            "tables of a push",
-            "no table of a push up to (N a ball)",
-            "tables of a pull",
-            "no table of a pull up to (N a ball)",
-            "one table: friction (%)",
-            "one table: ball load (%)",
-            "of the largest friction (%)",
-            "of the largest ball load (%)",
-        ]
-        .map(String::from)
-        .to_vec(),
+    let columns = [
+        "screw",
+        "error of its groove",
+        "tables of a push",
+        "no table of a push up to (N a ball)",
+        "tables of a pull",
+        "no table of a pull up to (N a ball)",
+        "one table: friction (%)",
+        "one table: ball load (%)",
+        "of the largest friction (%)",
+        "of the largest ball load (%)",
+    ];
+    Ok(draw::table(
+        "load_share_tables",
+        "Tables of load shares from 5 to 300 N a ball, by push and pull: how many keep friction of the grooves within 1 % of \
+         that with each load's own table and each ball's load within 5 % of the largest; up to which load none does, because \
+         some balls push against it; and by how much the best single table for all loads errs, of the friction and largest ball \
+         load under the same load and under the largest one",
+        &columns,
         rows,
-    })
+    ))
 }
 
 #[cfg(test)]

@@ -5,21 +5,19 @@ use crate::measured::cold::{
     Friction, LEAST, LOADS, Lubricant, SPEEDS, STEERING, growth, over_temperature,
 };
 
-use epas_reference::error::ReferenceError;
-
-use epas_page::document::{Block, Cell, Figure, Table};
+use epas_bench::report::draw::{chart, figure, table};
+use epas_page::document::{Block, Cell, Table};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Series};
 
 /// Text, figure and table.
 pub fn blocks(usual: &Usual, lubricant: &Lubricant) -> Result<Vec<Block>, Failure> {
-    let failure = |error: ReferenceError| Failure::Data(error.to_string());
-    let rows = over_temperature(usual, lubricant).map_err(failure)?;
-    let least = growth(usual, lubricant, LEAST).map_err(failure)?;
+    let rows = over_temperature(usual, lubricant)?;
+    let least = growth(usual, lubricant, LEAST)?;
     Ok(vec![
         Block::Text(text(&rows, least)),
-        Block::Figure(picture(&rows)),
-        Block::Annex(table(&rows)),
+        picture(&rows),
+        Block::Annex(torques(&rows)),
     ])
 }
 
@@ -49,72 +47,58 @@ fn text(rows: &[Friction], least: f64) -> String {
     )
 }
 
-fn picture(rows: &[Friction]) -> Figure {
-    let panels = LOADS
-        .iter()
-        .map(|load| {
-            let of = |row: &&Friction| row.load == *load;
-            let mut series: Vec<Series> = SPEEDS
-                .iter()
-                .enumerate()
-                .map(|(colour, speed)| {
-                    let points = rows
-                        .iter()
-                        .filter(of)
-                        .filter(|row| row.speed == *speed)
-                        .map(|row| (row.celsius, row.torque()))
-                        .collect();
-                    Series::new(&format!("{speed} rad/s"), colour, Mark::Line, points)
-                })
-                .collect();
-            series.extend(SPEEDS.iter().enumerate().map(|(colour, speed)| {
+fn picture(rows: &[Friction]) -> Block {
+    let panels = LOADS.map(|load| {
+        let mut series = Vec::new();
+        type Part = fn(&Friction) -> f64;
+        for (mark, part) in [
+            (Mark::Line, Friction::torque as Part),
+            (Mark::Dashed, |row| row.grooves),
+        ] {
+            for (colour, speed) in SPEEDS.into_iter().enumerate() {
                 let points = rows
                     .iter()
-                    .filter(of)
-                    .filter(|row| row.speed == *speed)
-                    .map(|row| (row.celsius, row.grooves))
-                    .collect();
-                Series::new("", colour, Mark::Dashed, points)
-            }));
-            Panel::Chart(Chart {
-                title: format!("{:.0} kN", 1e-3 * load),
-                x: Axis::linear("temperature (C)"),
-                y: Axis::linear("friction torque (N m)"),
-                series,
-                notes: Vec::new(),
-            })
-        })
-        .collect();
-    Figure {
-        name: "cold",
-        caption: format!(
-            "Friction torque of a steering gear's screw ({}) over temperature; dashed: without the lubricant's drag. Assumed, not measured.",
-            STEERING.name
-        ),
-        panels,
-        columns: 2,
-        size: (540, 460),
-    }
+                    .filter(|row| row.load == load && row.speed == speed)
+                    .map(|row| (row.celsius, part(row)));
+                let name = if mark == Mark::Line {
+                    format!("{speed} rad/s")
+                } else {
+                    String::new()
+                };
+                series.push(Series::new(&name, colour, mark, points.collect()));
+            }
+        }
+        let x = Axis::linear("temperature (C)");
+        let y = Axis::linear("friction torque (N m)");
+        chart(&format!("{:.0} kN", 1e-3 * load), x, y, series)
+    });
+    let caption = format!(
+        "Friction torque of a steering gear's screw ({}) over temperature; dashed: without the lubricant's drag. Assumed, not measured.",
+        STEERING.name
+    );
+    figure("cold", caption, (2, 540, 460), panels.into())
 }
 
-fn table(rows: &[Friction]) -> Table {
-    Table {
-        name: "cold_friction",
-        caption: "Friction of a steering gear's screw over temperature (N m): slip and spin of the grooves, drag of the lubricant".into(),
-        columns: ["load (N)", "speed (rad/s)", "temperature (C)", "grooves", "drag"]
-            .map(String::from)
-            .to_vec(),
-        rows: rows
-            .iter()
-            .map(|row| {
-                vec![
-                    Cell::fixed(row.load, 0),
-                    Cell::fixed(row.speed, 0),
-                    Cell::fixed(row.celsius, 0),
-                    Cell::fixed(row.grooves, 4),
-                    Cell::fixed(row.drag, 4),
-                ]
-            })
-            .collect(),
-    }
+fn torques(rows: &[Friction]) -> Table {
+    let row = |row: &Friction| {
+        vec![
+            Cell::fixed(row.load, 0),
+            Cell::fixed(row.speed, 0),
+            Cell::fixed(row.celsius, 0),
+            Cell::fixed(row.grooves, 4),
+            Cell::fixed(row.drag, 4),
+        ]
+    };
+    table(
+        "cold_friction",
+        "Friction of a steering gear's screw over temperature (N m): slip and spin of the grooves, drag of the lubricant",
+        &[
+            "load (N)",
+            "speed (rad/s)",
+            "temperature (C)",
+            "grooves",
+            "drag",
+        ],
+        rows.iter().map(row).collect(),
+    )
 }

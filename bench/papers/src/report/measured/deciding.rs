@@ -2,9 +2,9 @@
 
 use crate::measured::studies::{CLEARANCES, Choice, DecidingRow, LOADS, TABLE_3_6};
 
-use super::known::known;
-use epas_page::document::{Block, Cell, Figure, Table};
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_bench::report::draw::{chart, figure, known, table};
+use epas_page::document::{Block, Cell, Table};
+use epas_page::plot::{Axis, Mark, Series};
 
 /// Tables and figure.
 pub fn blocks(rows: &[DecidingRow], choices: &[Choice]) -> Vec<Block> {
@@ -17,8 +17,8 @@ pub fn blocks(rows: &[DecidingRow], choices: &[Choice]) -> Vec<Block> {
              coefficient to one measured torque.",
             spans(rows)
         )),
-        Block::Table(table(rows)),
-        Block::Figure(picture(rows)),
+        Block::Table(torques(rows)),
+        picture(rows),
         Block::Text(
             "The defaults are a choice from the next table. The friction coefficient is fitted, to the rule of drag alone: 0.1. Of the clearances, 1 um of oversize \
              spreads least over screws and loads, lets efficiency rise with load, and lies between the rule of efficiency in theory and in practice; balls that \
@@ -55,102 +55,76 @@ fn spans(rows: &[DecidingRow]) -> String {
     )
 }
 
-fn table(rows: &[DecidingRow]) -> Table {
-    let mut columns = vec!["load (N)".to_owned(), "friction".into()];
-    columns.extend(CLEARANCES.map(|clearance| format!("{clearance} um")));
-    columns.push("rolling ball, eq. (3)".into());
-    Table {
-        name: "what_decides",
-        caption: format!(
-            "What decides the friction of a screw: torque of the grooves of {} (N m), slip and spin by the exact model, over load, friction coefficient and \
-             clearance (radial gap of every contact; oversize below zero)",
-            TABLE_3_6.name
-        ),
-        columns,
-        rows: rows
-            .iter()
-            .map(|row| {
-                let mut cells = vec![Cell::fixed(row.load, 0), Cell::fixed(row.friction, 3)];
-                cells.extend(row.torques.iter().map(|torque| known(*torque, 3)));
-                cells.push(Cell::fixed(row.closed, 3));
-                cells
-            })
-            .collect(),
-    }
+fn torques(rows: &[DecidingRow]) -> Table {
+    let clearances = CLEARANCES.map(|clearance| format!("{clearance} um"));
+    let mut columns = vec!["load (N)", "friction"];
+    columns.extend(clearances.iter().map(String::as_str));
+    columns.push("rolling ball, eq. (3)");
+    let row = |row: &DecidingRow| {
+        let mut cells = vec![Cell::fixed(row.load, 0), Cell::fixed(row.friction, 3)];
+        cells.extend(row.torques.iter().map(|torque| known(*torque, 3)));
+        cells.push(Cell::fixed(row.closed, 3));
+        cells
+    };
+    let caption = format!(
+        "What decides the friction of a screw: torque of the grooves of {} (N m), slip and spin by the exact model, over load, friction coefficient and \
+         clearance (radial gap of every contact; oversize below zero)",
+        TABLE_3_6.name
+    );
+    let rows = rows.iter().map(row).collect();
+    table("what_decides", caption, &columns, rows)
 }
 
-fn picture(rows: &[DecidingRow]) -> Figure {
-    let panels = LOADS
-        .iter()
-        .map(|load| {
-            let series = rows
-                .iter()
-                .filter(|row| row.load == *load)
-                .enumerate()
-                .map(|(colour, row)| {
-                    let points = CLEARANCES
-                        .iter()
-                        .zip(&row.torques)
-                        .map(|(clearance, torque)| (*clearance, *torque))
-                        .filter(|point| point.1.is_finite())
-                        .collect();
-                    Series::new(
-                        &format!("friction {}", row.friction),
-                        colour,
-                        Mark::Line,
-                        points,
-                    )
-                })
-                .collect();
-            Panel::Chart(Chart {
-                title: format!("{:.1} kN", 1e-3 * load),
-                x: Axis::linear("clearance (um)"),
-                y: Axis::log("friction torque (N m)"),
-                series,
-                notes: Vec::new(),
-            })
-        })
-        .collect();
-    Figure {
-        name: "what_decides_picture",
-        caption: format!(
-            "Friction torque of the grooves of {} over clearance, by the exact model.",
-            TABLE_3_6.name
-        ),
-        panels,
-        columns: 2,
-        size: (540, 460),
-    }
+fn picture(rows: &[DecidingRow]) -> Block {
+    let panels = LOADS.map(|load| {
+        let rows = rows.iter().filter(|row| row.load == load);
+        let line = |(colour, row): (usize, &DecidingRow)| {
+            let points = CLEARANCES.into_iter().zip(row.torques.iter().copied());
+            let points = points.filter(|point| point.1.is_finite()).collect();
+            let name = format!("friction {}", row.friction);
+            Series::new(&name, colour, Mark::Line, points)
+        };
+        let x = Axis::linear("clearance (um)");
+        let y = Axis::log("friction torque (N m)");
+        let title = format!("{:.1} kN", 1e-3 * load);
+        chart(&title, x, y, rows.enumerate().map(line).collect())
+    });
+    let caption = format!(
+        "Friction torque of the grooves of {} over clearance, by the exact model.",
+        TABLE_3_6.name
+    );
+    figure(
+        "what_decides_picture",
+        caption,
+        (2, 540, 460),
+        panels.into(),
+    )
 }
 
 fn choice(choices: &[Choice]) -> Table {
-    Table {
-        name: "choice_of_defaults",
-        caption: "Choice of the defaults: friction torque over that of makers' rules, 125x10, 29x7, 32x10 and 33x20 at 15, 50 and 150 N a ball; drag with two nuts \
-                  under 25 N a ball, whose balls just fit. The rule of efficiency in practice means 2 to 5 times the torque of the rule in theory"
-            .into(),
-        columns: [
-            "friction",
-            "clearance (um)",
-            "torque over the rule of efficiency in theory",
-            "factor of spread",
-            "drag over the rule of drag",
-            "efficiency at 150 N less that at 15 N",
+    let row = |choice: &Choice| {
+        vec![
+            Cell::fixed(choice.friction, 3),
+            Cell::fixed(1e6 * choice.clearance, 0),
+            known(choice.over_rule, 2),
+            known(choice.spread, 2),
+            known(choice.over_drag, 2),
+            known(choice.gain_with_load, 3),
         ]
-        .map(String::from)
-        .to_vec(),
-        rows: choices
-            .iter()
-            .map(|choice| {
-                vec![
-                    Cell::fixed(choice.friction, 3),
-                    Cell::fixed(1e6 * choice.clearance, 0),
-                    known(choice.over_rule, 2),
-                    known(choice.spread, 2),
-                    known(choice.over_drag, 2),
-                    known(choice.gain_with_load, 3),
-                ]
-            })
-            .collect(),
-    }
+    };
+    let columns = [
+        "friction",
+        "clearance (um)",
+        "torque over the rule of efficiency in theory",
+        "factor of spread",
+        "drag over the rule of drag",
+        "efficiency at 150 N less that at 15 N",
+    ];
+    table(
+        "choice_of_defaults",
+        "Choice of the defaults: friction torque over that of makers' rules, 125x10, 29x7, 32x10 and 33x20 at 15, 50 and 150 N a ball; drag with two nuts \
+         under 25 N a ball, whose balls just fit. The rule of efficiency in practice means 2 to 5 times the torque of the rule in theory",
+        &columns,
+        choices.iter().map(row).collect(),
+    )
 }

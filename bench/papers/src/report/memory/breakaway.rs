@@ -3,7 +3,8 @@
 use epas_design::breakaway::{Breakaway, BreakawayConfiguration, Mechanism, ScrewContacts};
 use epas_friction::{BallScrew, Clearance, DISSERTATION_DESIGNS, defaults};
 
-use epas_page::document::{Block, Cell, Table};
+use epas_bench::report::draw::table;
+use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
 
 /// Axial loads, N.
@@ -16,9 +17,7 @@ const GAPS: [f32; 3] = [-1e-6, 0.0, 20e-6];
 pub fn blocks() -> Result<Vec<Block>, Failure> {
     let mut rows = Vec::new();
     for design in &DISSERTATION_DESIGNS[1..] {
-        let failed =
-            |error: epas_friction::Error| Failure::Data(format!("{}: {error}", design.name));
-        let screw = BallScrew::new(design.parameters).map_err(failed)?;
+        let screw = BallScrew::new(design.parameters)?;
         for load in LOADS {
             for gap in GAPS {
                 let contact_load =
@@ -27,41 +26,38 @@ pub fn blocks() -> Result<Vec<Block>, Failure> {
                     &screw,
                     &BreakawayConfiguration {
                         friction: defaults::FRICTION,
-                        clearance: Clearance::new(gap).map_err(failed)?,
+                        clearance: Clearance::new(gap)?,
                         rolling_resistance: defaults::ROLLING_RESISTANCE,
                         loaded_balls: design.loaded_balls,
                         contact_load,
                     },
-                )
-                .map_err(failed)?;
+                )?;
                 rows.push(row(design.name, load, gap, &breakaway));
             }
         }
     }
-    Ok(vec![Block::Table(Table {
-        name: "memory_breakaway",
-        caption: "Stiffness and breakaway of designs, friction coefficient 0.1: torque of sliding, stiffness at rest, and for each mechanism its share of the torque and the angle over which it comes. \
-                  Clearance decides: where a ball does not lie against a third point of its grooves it first drifts to its seat. So the angle of slip should be identified on \
-                  the screw where it matters"
-            .into(),
-        columns: [
-            "design",
-            "axial load (N)",
-            "clearance (um)",
-            "torque (mN m)",
-            "stiffness (N m/rad)",
-            "slip in the contacts alone (mrad)",
-            "slip: share",
-            "angle (mrad)",
-            "spin: share",
-            "angle (mrad)",
-            "rolling resistance: share",
-            "angle (mrad)",
-        ]
-        .map(String::from)
-        .to_vec(),
+    let columns = [
+        "design",
+        "axial load (N)",
+        "clearance (um)",
+        "torque (mN m)",
+        "stiffness (N m/rad)",
+        "slip in the contacts alone (mrad)",
+        "slip: share",
+        "angle (mrad)",
+        "spin: share",
+        "angle (mrad)",
+        "rolling resistance: share",
+        "angle (mrad)",
+    ];
+    Ok(vec![Block::Table(table(
+        "memory_breakaway",
+        "Stiffness and breakaway of designs, friction coefficient 0.1: torque of sliding, stiffness at rest, and for each mechanism its share of the torque and the angle over which it comes. \
+         Clearance decides: where a ball does not lie against a third point of its grooves it first drifts to its seat. So the angle of slip should be identified on \
+         the screw where it matters",
+        &columns,
         rows,
-    })])
+    ))])
 }
 
 fn row(name: &str, load: f32, gap: f32, breakaway: &Breakaway) -> Vec<Cell> {

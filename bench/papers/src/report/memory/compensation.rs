@@ -10,7 +10,8 @@ use rand_pcg::Pcg64;
 use rayon::prelude::*;
 
 use crate::peers::paths::STREAM;
-use epas_page::document::{Block, Cell, Table};
+use epas_bench::report::draw::table;
+use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
 
 /// Full friction, N m.
@@ -62,16 +63,15 @@ pub fn blocks() -> Result<Vec<Block>, Failure> {
         "swing, breakaway angles",
         "speed, rad/s",
     ];
-    Ok(vec![Block::Table(Table {
-        name: "memory_compensation",
-        caption: "Friction compensated in a simulated loop: motor and screw of 4e-4 kg m^2 at the nut, exact friction of 0.04 N m, an encoder of 14 bits behind a ratio of 2.5, and ticks of \
-                  delay from a reading to its torque. Pushed at 25 Hz with half of the friction for half a second, or with a noisy angle from rest; left alone until 2 s; what the nut does in the \
-                  second after that, from end to end. Compensation is negative stiffness: the share has to stay below the friction, below the stiffness and below what a swing loses; a play between \
-                  sensor and elements, a twentieth of the breakaway angle beyond the noise, gives room for the last of these and keeps noise out"
-            .into(),
-        columns: columns.map(Into::into).to_vec(),
+    Ok(vec![Block::Table(table(
+        "memory_compensation",
+        "Friction compensated in a simulated loop: motor and screw of 4e-4 kg m^2 at the nut, exact friction of 0.04 N m, an encoder of 14 bits behind a ratio of 2.5, and ticks of \
+         delay from a reading to its torque. Pushed at 25 Hz with half of the friction for half a second, or with a noisy angle from rest; left alone until 2 s; what the nut does in the \
+         second after that, from end to end. Compensation is negative stiffness: the share has to stay below the friction, below the stiffness and below what a swing loses; a play between \
+         sensor and elements, a twentieth of the breakaway angle beyond the noise, gives room for the last of these and keeps noise out",
+        &columns,
         rows,
-    })])
+    ))])
 }
 
 fn cases() -> Vec<Case> {
@@ -166,8 +166,7 @@ impl Case {
             settling: 2.0,
             watched: 1.0,
         };
-        let failed = |error: &dyn std::fmt::Display| Failure::Data(error.to_string());
-        let normal = Normal::new(0.0, self.noise).map_err(|error| failed(&error))?;
+        let normal = Normal::new(0.0, self.noise)?;
         let mut random = Pcg64::new(11, STREAM);
         // Cut at three, which the play is wide enough for.
         let noise = || {
@@ -186,7 +185,7 @@ impl Case {
                 }))
             }
             Law::Angle(ratio, play) => {
-                let mut follow = self.elements(ratio, play).map_err(|error| failed(&error))?;
+                let mut follow = self.elements(ratio, play)?;
                 Ok(plant.run(noise, |count| {
                     share * follow(count.rem_euclid(PERIOD.into()) as u32)
                 }))

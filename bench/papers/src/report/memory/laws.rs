@@ -1,10 +1,11 @@
 //! Error and cost of every law under constant limits.
 
-use super::panel::PANEL;
+use super::WIDE;
 use crate::peers::candidates::{Candidate, Cycles};
 use crate::peers::compare::Comparison;
-use crate::report::context::Context;
-use epas_page::document::{Block, Cell, Figure, Table};
+use crate::report::Context;
+use epas_bench::report::draw::{figure, table};
+use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 
@@ -36,18 +37,17 @@ pub fn blocks(context: &Context, candidates: &[Candidate]) -> Result<Vec<Block>,
         .map(|(candidate, comparison)| row(context, candidate, comparison))
         .collect();
     Ok(vec![
-        Block::Table(Table {
-            name: "memory_laws",
-            caption: "Friction laws against the exact hysteresis. Area of a loop: relative error of what a cycle of that amplitude loses. Small loop: from -0.1 to 0.4 and back, \
-                      torque missed. Drift: creep of the angle under a torque that swings below breakaway, over the breakaway angle; 1e-7 and less is the resolution of an f32. \
-                      Largest turn: the largest one in a tick with which sliding still comes to its limit. Least loss: work less gain of stored energy, limits jumping between 0.1 and 3; \
-                      below zero a law gives out energy that nobody put in. Below an amplitude of 0.15 no element of six or eight slips: no loss, \
-                      where the exact one is under 0.4 % of that of full friction. Cycles of a Cortex-M4F: modelled where a function is counted on the target, static counts in brackets"
-                .into(),
-            columns: COLUMNS.map(String::from).to_vec(),
+        Block::Table(table(
+            "memory_laws",
+            "Friction laws against the exact hysteresis. Area of a loop: relative error of what a cycle of that amplitude loses. Small loop: from -0.1 to 0.4 and back, \
+             torque missed. Drift: creep of the angle under a torque that swings below breakaway, over the breakaway angle; 1e-7 and less is the resolution of an f32. \
+             Largest turn: the largest one in a tick with which sliding still comes to its limit. Least loss: work less gain of stored energy, limits jumping between 0.1 and 3; \
+             below zero a law gives out energy that nobody put in. Below an amplitude of 0.15 no element of six or eight slips: no loss, \
+             where the exact one is under 0.4 % of that of full friction. Cycles of a Cortex-M4F: modelled where a function is counted on the target, static counts in brackets",
+            &COLUMNS,
             rows,
-        }),
-        Block::Figure(picture(context, &found)),
+        )),
+        picture(context, &found),
     ])
 }
 
@@ -83,7 +83,7 @@ fn counted(context: &Context, cycles: &Cycles) -> Option<f64> {
     Some(function.cycles_max.into())
 }
 
-fn picture(context: &Context, found: &[(&Candidate, Comparison)]) -> Figure {
+fn picture(context: &Context, found: &[(&Candidate, Comparison)]) -> Block {
     let mut series = Vec::new();
     let mut notes = Vec::new();
     for (ours, name, mark) in [
@@ -109,18 +109,17 @@ fn picture(context: &Context, found: &[(&Candidate, Comparison)]) -> Figure {
         }
         series.push(Series::new(name, usize::from(ours), mark, points));
     }
-    Figure {
-        name: "memory_error_against_cycles",
-        caption: "Error over random strokes against cycles of a step, where these are known; LuGre with its Stribeck curve."
-            .into(),
-        panels: vec![Panel::Chart(Chart {
-            title: "Friction laws: error against cost".into(),
-            x: Axis::linear("cycles of a Cortex-M4F").between(0.0, 300.0),
-            y: Axis::log("rms error (% of the limit)").between(0.1, 100.0),
-            series,
-            notes,
-        })],
-        columns: 1,
-        size: (2 * PANEL.0, PANEL.1),
-    }
+    let panel = Panel::Chart(Chart {
+        title: "Friction laws: error against cost".into(),
+        x: Axis::linear("cycles of a Cortex-M4F").between(0.0, 300.0),
+        y: Axis::log("rms error (% of the limit)").between(0.1, 100.0),
+        series,
+        notes,
+    });
+    figure(
+        "memory_error_against_cycles",
+        "Error over random strokes against cycles of a step, where these are known; LuGre with its Stribeck curve.",
+        WIDE,
+        vec![panel],
+    )
 }

@@ -1,17 +1,15 @@
 //! Loops and drift as pictures.
 
-use epas_reference::presliding::Limits;
-use epas_reference::presliding::answers::Tick;
-
-use super::panel::PANEL;
+use super::{PAIRS, WIDE};
 use crate::peers::candidates::{Candidate, ours, published};
 use crate::peers::compare::turn_to;
 use crate::peers::fit::exact;
 use crate::peers::paths::Course;
 use crate::peers::torques;
-use epas_page::document::Figure;
+use epas_bench::report::draw::{chart, figure};
+use epas_page::document::Block;
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Series};
 
 /// Strokes with small loops inside large ones.
 const POINTS: [f64; 12] = [
@@ -26,7 +24,7 @@ fn named(candidates: Vec<Candidate>, start: &str) -> Result<Candidate, Failure> 
 }
 
 /// Torque over angle.
-pub fn picture() -> Result<Figure, Failure> {
+pub fn picture() -> Result<Block, Failure> {
     let course = Course::strokes(&POINTS, 60);
     let truth = exact(&course.angle);
     let over_angle = |torque: Vec<f64>| course.angle.iter().copied().zip(torque).collect();
@@ -38,28 +36,24 @@ pub fn picture() -> Result<Figure, Failure> {
         ("Dahl, exponent 1/3", named(published(), "Dahl, exponent")?),
     ] {
         let found = torques(law.start()?.as_mut(), &course.path());
-        panels.push(Panel::Chart(Chart {
-            title: title.into(),
-            x: Axis::linear("angle over the breakaway angle").between(-1.1, 1.3),
-            y: Axis::linear("torque over the limit").between(-1.1, 1.1),
-            series: vec![
-                Series::new("exact", 0, Mark::Line, over_angle(truth.clone())),
-                Series::new(&law.name, 1, Mark::Dashed, over_angle(found)),
-            ],
-            notes: Vec::new(),
-        }));
+        let series = vec![
+            Series::new("exact", 0, Mark::Line, over_angle(truth.clone())),
+            Series::new(&law.name, 1, Mark::Dashed, over_angle(found)),
+        ];
+        let x = Axis::linear("angle over the breakaway angle").between(-1.1, 1.3);
+        let y = Axis::linear("torque over the limit").between(-1.1, 1.1);
+        panels.push(chart(title, x, y, series));
     }
-    Ok(Figure {
-        name: "memory_loops",
-        caption: "Torque over angle, with small loops inside large ones: exactly, by elements that remember, and by laws whose state is one number.".into(),
+    Ok(figure(
+        "memory_loops",
+        "Torque over angle, with small loops inside large ones: exactly, by elements that remember, and by laws whose state is one number.",
+        PAIRS,
         panels,
-        columns: 2,
-        size: PANEL,
-    })
+    ))
 }
 
 /// Angle over the cycles of a torque that swings below breakaway.
-pub fn drift() -> Result<Figure, Failure> {
+pub fn drift() -> Result<Block, Failure> {
     const CYCLES: u32 = 10;
     let mut series = Vec::new();
     for (colour, law) in [
@@ -81,25 +75,13 @@ pub fn drift() -> Result<Figure, Failure> {
             points.push((f64::from(cycle), angle));
         }
         series.push(Series::new(&law.name, colour, Mark::Line, points));
-        // What is held at the end is still what was asked for.
-        let held = state.follow(&Tick {
-            turn: 0.0,
-            limits: Limits::UNIT,
-            load: 1.0,
-        });
-        debug_assert!((held - 0.85).abs() < 1e-3);
     }
-    Ok(Figure {
-        name: "memory_drift",
-        caption: "Angle under a torque that swings between 0.15 and 0.85 of the limit: a nut that is held creeps away by laws whose small loops do not close.".into(),
-        panels: vec![Panel::Chart(Chart {
-            title: "Drift below breakaway".into(),
-            x: Axis::linear("cycles of the torque"),
-            y: Axis::linear("angle over the breakaway angle"),
-            series,
-            notes: Vec::new(),
-        })],
-        columns: 1,
-        size: (2 * PANEL.0, PANEL.1),
-    })
+    let x = Axis::linear("cycles of the torque");
+    let y = Axis::linear("angle over the breakaway angle");
+    Ok(figure(
+        "memory_drift",
+        "Angle under a torque that swings between 0.15 and 0.85 of the limit: a nut that is held creeps away by laws whose small loops do not close.",
+        WIDE,
+        vec![chart("Drift below breakaway", x, y, series)],
+    ))
 }

@@ -1,11 +1,12 @@
 //! What encoder noise does to friction by angle and by speed.
 
-use super::panel::PANEL;
+use super::WIDE;
 use crate::peers::candidates::{Candidate, ours};
 use crate::peers::noise::{AtRest, TICK, by_angle, by_speed, error_of_counts};
-use epas_page::document::{Block, Cell, Figure, Table};
+use epas_bench::report::draw::{chart, figure, table};
+use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Series};
 
 /// Breakaway angles, rad.
 const BREAKAWAYS: [f64; 3] = [1e-3, 2e-3, 5e-3];
@@ -56,37 +57,30 @@ pub fn blocks() -> Result<Vec<Block>, Failure> {
         let error = error_of_counts(|| law.start(), breakaway)?;
         rows.push(row(name, &found, Cell::fixed(error, 3)));
     }
+    let columns = [
+        "friction",
+        "changes of regime",
+        "largest step of the torque, over the limit",
+        "rms error by counts, over the limit",
+    ];
+    let y = Axis::linear("torque over the limit").between(-1.1, 1.1);
+    let panel = chart("Hands off", Axis::linear("time (s)"), y, series);
     Ok(vec![
-        Block::Table(Table {
-            name: "memory_noise",
-            caption: "Noise of a motor's encoder of 14 bits behind a ratio of 2.5 (0.153 mrad a count at the nut). Hands off for 4.9 s at 1 kHz with 0.05 rad/s of noise, the nut resting \
-                      where a count changes: by speed, a regime changes whenever the noise passes the reversal speed, which can be avoided only by a \
-                      reversal speed far above the noise, at which friction is missing in every slow motion; by angle, none changes where the nut rests in the middle of a loop, and a step of the torque is that of one count; where it has slid to rest, elements need a play as wide as the noise (the table of compensation). Counts: rms error \
-                      over random strokes up to two breakaway angles long, because angles are counts. A breakaway angle below 2 mrad asks for a finer angle than that of counts"
-                .into(),
-            columns: [
-                "friction",
-                "changes of regime",
-                "largest step of the torque, over the limit",
-                "rms error by counts, over the limit",
-            ]
-            .map(String::from)
-            .to_vec(),
+        Block::Table(table(
+            "memory_noise",
+            "Noise of a motor's encoder of 14 bits behind a ratio of 2.5 (0.153 mrad a count at the nut). Hands off for 4.9 s at 1 kHz with 0.05 rad/s of noise, the nut resting \
+             where a count changes: by speed, a regime changes whenever the noise passes the reversal speed, which can be avoided only by a \
+             reversal speed far above the noise, at which friction is missing in every slow motion; by angle, none changes where the nut rests in the middle of a loop, and a step of the torque is that of one count; where it has slid to rest, elements need a play as wide as the noise (the table of compensation). Counts: rms error \
+             over random strokes up to two breakaway angles long, because angles are counts. A breakaway angle below 2 mrad asks for a finer angle than that of counts",
+            &columns,
             rows,
-        }),
-        Block::Figure(Figure {
-            name: "memory_noise_picture",
-            caption: "Torque over the limit with the nut at rest: by speed and by angle.".into(),
-            panels: vec![Panel::Chart(Chart {
-                title: "Hands off".into(),
-                x: Axis::linear("time (s)"),
-                y: Axis::linear("torque over the limit").between(-1.1, 1.1),
-                series,
-                notes: Vec::new(),
-            })],
-            columns: 1,
-            size: (2 * PANEL.0, PANEL.1),
-        }),
+        )),
+        figure(
+            "memory_noise_picture",
+            "Torque over the limit with the nut at rest: by speed and by angle.",
+            WIDE,
+            vec![panel],
+        ),
     ])
 }
 

@@ -6,14 +6,15 @@ mod rivals;
 use epas_rig::parameters::Parameters;
 use rayon::prelude::*;
 
-use super::panel::PANEL;
+use super::WIDE;
+use epas_bench::report::draw::{chart, figure, table};
 use epas_calibrate::screw::choice::Wanted;
 use epas_calibrate::screw::exact::Spacing;
 use epas_calibrate::screw::friction::{Course, ElementsKind};
 use epas_calibrate::screw::{Request, calibrate};
-use epas_page::document::{Block, Cell, Figure, Table};
+use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Series};
 use gear::Gear;
 use rivals::Rival;
 
@@ -87,17 +88,16 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
         "all, % of the friction",
     ];
     Ok(vec![
-        Block::Table(Table {
-            name: "memory_trial",
-            caption: "Rms of the true friction less a model's, on a synthetic trace that was not fitted, with what a control unit knows: counted angles (14 bits behind a ratio of 2.5), a speed that \
-                      tracks them with 40 Hz, a load with 8 N of noise. Every model is fitted to the torque of another trace of the same gear (noise 1 %), beside inertia, drag, offset, \
-                      gain of the load and waves over the turn. Another physics: a film by Hamrock and Dowson with Vogel's oil, two fifths of the torque by spin over twice the breakaway angle, a seal of 4 mN m, a third \
-                      wave, half of the rolling resistance; no model here has that form"
-                .into(),
-            columns: columns.map(Into::into).to_vec(),
+        Block::Table(table(
+            "memory_trial",
+            "Rms of the true friction less a model's, on a synthetic trace that was not fitted, with what a control unit knows: counted angles (14 bits behind a ratio of 2.5), a speed that \
+             tracks them with 40 Hz, a load with 8 N of noise. Every model is fitted to the torque of another trace of the same gear (noise 1 %), beside inertia, drag, offset, \
+             gain of the load and waves over the turn. Another physics: a film by Hamrock and Dowson with Vogel's oil, two fifths of the torque by spin over twice the breakaway angle, a seal of 4 mN m, a third \
+             wave, half of the rolling resistance; no model here has that form",
+            &columns,
             rows,
-        }),
-        Block::Figure(picture(&other, &tried)),
+        )),
+        picture(&other, &tried),
     ])
 }
 
@@ -169,7 +169,7 @@ fn table_rows(physics: &str, tried: &[Tried]) -> Vec<Vec<Cell>> {
 }
 
 /// Friction over a few seconds of small strokes.
-fn picture(gear: &Gear, tried: &[Tried]) -> Figure {
+fn picture(gear: &Gear, tried: &[Tried]) -> Block {
     let glimpse: Vec<(usize, f64, f64)> = gear.glimpse().collect();
     let truth = glimpse.iter().map(|(_, time, torque)| (*time, *torque));
     let mut series = vec![Series::new("true", 0, Mark::Line, truth.collect())];
@@ -185,20 +185,14 @@ fn picture(gear: &Gear, tried: &[Tried]) -> Figure {
             series.push(Series::new(name, colour, Mark::Line, points.collect()));
         }
     }
-    Figure {
-        name: "memory_trial_picture",
-        caption: "Friction of the other physics and what the models make of it: strokes of some milliradians, not fitted."
-            .into(),
-        panels: vec![Panel::Chart(Chart {
-            title: "Compensation of small strokes".into(),
-            x: Axis::linear("time (s)"),
-            y: Axis::linear("friction torque (N m)"),
-            series,
-            notes: Vec::new(),
-        })],
-        columns: 1,
-        size: (2 * PANEL.0, PANEL.1),
-    }
+    let x = Axis::linear("time (s)");
+    let y = Axis::linear("friction torque (N m)");
+    figure(
+        "memory_trial_picture",
+        "Friction of the other physics and what the models make of it: strokes of some milliradians, not fitted.",
+        WIDE,
+        vec![chart("Compensation of small strokes", x, y, series)],
+    )
 }
 
 #[cfg(test)]

@@ -5,19 +5,18 @@ use std::f64::consts::FRAC_PI_4;
 use epas_friction::LoadShare;
 use epas_friction::ball::{GrooveFit, ScrewRow};
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
-use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
+use epas_friction::{BallScrew, BallScrewParameters};
 use rayon::prelude::*;
 
+use epas_bench::report::draw::{chart, figure};
+use epas_bench::study;
 use epas_eval::caged_torque::{Request, Torques};
 use epas_eval::{Model, ScrewNumbers};
-use epas_page::document::Figure;
+use epas_page::document::Block;
 use epas_page::failure::Failure;
-use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
+use epas_page::plot::{Axis, Mark, Series};
 
-/// The ball of Table 3.6, in m, under this load, N, with this friction and lead.
-const PITCH_RADIUS: f64 = 16.5e-3;
-const BALL_RADIUS: f64 = 2.778e-3;
-const GROOVE_RADIUS: f64 = 3.254e-3;
+/// Load, N, friction and lead, m, of the ball of Table 3.6.
 const LOAD: f64 = 50.0;
 const FRICTION: f64 = 0.1;
 const LEAD: f64 = 20e-3;
@@ -31,37 +30,20 @@ const MODELS: [(&str, Mark); 5] = [
     ("rolling ball, eq. (3)", Mark::Dashed),
 ];
 
-fn design(lead: f64) -> Result<BallScrew, epas_friction::Error> {
-    let material = Material {
-        youngs_modulus: 2.1e11,
-        poisson_ratio: 0.28,
-        ..Material::STEEL
-    };
-    let groove = GrooveSize::Radius(GROOVE_RADIUS as f32);
-    BallScrew::new(BallScrewParameters {
-        pitch_radius: PITCH_RADIUS as f32,
+fn design(lead: f64) -> Result<BallScrew, Failure> {
+    Ok(BallScrew::new(BallScrewParameters {
         lead: lead as f32,
-        ball_radius: BALL_RADIUS as f32,
-        screw_groove: groove,
-        nut_groove: groove,
-        contact_angle: FRAC_PI_4 as f32,
-        ball_material: material,
-        groove_material: material,
-    })
+        ..*study::ball_screw()?.parameters()
+    })?)
 }
 
 /// Torque of a ball on the nut over its axial load, mm, by every model; no number where one has none.
 fn torques(lead: f64, load: f64, friction: f64) -> Result<[f64; 5], Failure> {
-    let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
-    let design = design(lead).map_err(failure)?;
+    let design = design(lead)?;
     let request = Request {
         screw: ScrewNumbers {
-            pitch_radius: PITCH_RADIUS,
             lead,
-            ball_radius: BALL_RADIUS,
-            groove_radius: GROOVE_RADIUS,
-            youngs_modulus: 2.1e11,
-            poisson_ratio: 0.28,
+            ..ScrewNumbers::LIN_2_1
         },
         contact_angle: FRAC_PI_4,
         friction,
@@ -69,15 +51,13 @@ fn torques(lead: f64, load: f64, friction: f64) -> Result<[f64; 5], Failure> {
         axial_load: vec![load],
         direction: 1.0,
     };
-    let both = request
-        .evaluate()
-        .map_err(|error| Failure::Data(error.to_string()))?;
+    let both = request.evaluate()?;
     let of = |torques: &Torques| {
         let torque = torques.torque.as_ref().and_then(|torques| torques[0]);
         torque.map_or(f64::NAN, |torque| torque / load)
     };
     let closed = |fit: GrooveFit| -> Result<f64, Failure> {
-        let row = ScrewRow::new(&design, friction as f32, fit).map_err(failure)?;
+        let row = ScrewRow::new(&design, friction as f32, fit)?;
         let ball = row.at(1.0, load as f32).ball(0.0, 0.0, &LoadShare::MEAN);
         Ok(f64::from(ball.groove_torque) / load)
     };
@@ -111,7 +91,7 @@ const SWEEPS: [Sweep; 3] = [
 ];
 
 /// The figure.
-pub fn figure(quick: bool) -> Result<Figure, Failure> {
+pub fn picture(quick: bool) -> Result<Block, Failure> {
     let parts = if quick { 6 } else { 24 };
     let mut panels = Vec::new();
     for (label, first, last, arguments) in SWEEPS {
@@ -134,24 +114,20 @@ pub fn figure(quick: bool) -> Result<Figure, Failure> {
                 Series::new(name, model, mark, points)
             })
             .collect();
-        panels.push(Panel::Chart(Chart {
-            title: String::new(),
-            x: Axis::linear(label).between(first.min(0.0), last),
-            y: Axis::linear("torque over axial load (mm)"),
-            series,
-            notes: Vec::new(),
-        }));
+        let x = Axis::linear(label).between(first.min(0.0), last);
+        let y = Axis::linear("torque over axial load (mm)");
+        panels.push(chart("", x, y, series));
     }
-    Ok(Figure {
-        name: "closed_forms_of_a_ball",
-        caption: format!(
-            "Friction torque of one ball of Table 3.6's screw over its axial load, without deviations: over the lead ({LOAD} N, friction \
-             {FRICTION}), over the load (lead {} mm) and over the friction coefficient. The rolling ball leaves spin out; the three-point closed form \
-             takes the third contact's load from friction alone and spins as geometry has it; the two-point one has no third contact.",
-            1e3 * LEAD
-        ),
+    let caption = format!(
+        "Friction torque of one ball of Table 3.6's screw over its axial load, without deviations: over the lead ({LOAD} N, friction \
+         {FRICTION}), over the load (lead {} mm) and over the friction coefficient. The rolling ball leaves spin out; the three-point closed form \
+         takes the third contact's load from friction alone and spins as geometry has it; the two-point one has no third contact.",
+        1e3 * LEAD
+    );
+    Ok(figure(
+        "closed_forms_of_a_ball",
+        caption,
+        (1, 1080, 400),
         panels,
-        columns: 1,
-        size: (1080, 400),
-    })
+    ))
 }

@@ -79,9 +79,6 @@ pub fn ask<M: Model>(request: &M) -> Result<Answers, BadField> {
 impl Answers {
     /// The numbers at these places of the crate and of the reference, and that of the reference which the error is over, 1 for an empty place;
     /// the reference's counts not where the place `unless` says so.
-    ///
-    /// # Errors
-    /// A place that an answer does not have.
     pub fn sample(self, [found, exact, over]: [&str; 3], unless: &str) -> Result<Sample, Failure> {
         let excluded = !unless.is_empty() && at(&self.reference, unless)? == &Value::Bool(true);
         let scale = if over.is_empty() {

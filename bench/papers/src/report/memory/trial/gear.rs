@@ -43,10 +43,9 @@ pub struct Gear {
 impl Gear {
     /// Runs the vehicle's course twice, its parts as long as this share of their 20 s.
     pub fn new(parameters: Parameters, length: f64) -> Result<Self, Failure> {
-        let failed = |error: epas_reference::ReferenceError| Failure::Data(error.to_string());
-        let rig = Rig::new(parameters.clone(), Sensors::default()).map_err(failed)?;
+        let rig = Rig::new(parameters.clone(), Sensors::default())?;
         let course = Course::vehicle().times(length);
-        let run = |seed: u64| rig.run(&course, seed).map_err(failed);
+        let run = |seed: u64| rig.run(&course, seed);
         let trace = measured(&run(SEEDS[0])?);
         let unseen = run(SEEDS[1])?;
         let known = measured(&unseen);

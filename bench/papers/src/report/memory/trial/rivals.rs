@@ -92,7 +92,7 @@ impl Rival {
         }
     }
 
-    /// Friction along a trace, N m; no numbers where a parameter is out of range.
+    /// Friction along a trace, N m; NaN where a parameter is out of range.
     fn torque(self, gear: &Gear, values: &[f64], course: &Course<'_>) -> Vec<f64> {
         let Course {
             trace,
