@@ -1,13 +1,11 @@
-//! What bindings to other languages take of the program: designs, scenes over traces, `eval` without its command line.
+//! What bindings to other languages take of the program: designs, models of scenes, runs over traces, `eval` without its command line.
 
-pub use crate::simulate::bindings::{
-    Balls, Built, Caged, CagedRow, EncoderStep, Folded, Friction, Linear, LinearRow, LinearSample,
-    Lines, Manoeuvre, ReferenceModel, Remembered, Remembers, Scene, ScrewSample, Trace, TrainRow,
-    Uncaged, UncagedRow, Use, angle, coefficients, regime_name, remembering, trace, wrapped,
-};
+pub use crate::model::{Built, Model, TickInputs, TickOutputs};
+pub use crate::simulate::bindings::*;
 pub use epas_calibrate::controller::Controller;
 pub use epas_design::files::train::{LinearDesign, UncagedDesign};
 pub use epas_design::files::{Design, DesignSource, built_in, read as read_design, text};
+pub use epas_design::uncaged::Folded;
 pub use epas_design::uncaged_scene::ScrewConfiguration;
 pub use epas_eval::fit_range;
 pub use epas_page::failure::Failure;

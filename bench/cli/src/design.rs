@@ -108,7 +108,6 @@ pub enum Format {
 }
 
 impl Format {
-    /// Endings of its files.
     const fn endings(self) -> &'static [&'static str] {
         match self {
             Self::Rust => &["rs"],
@@ -119,7 +118,6 @@ impl Format {
     }
 }
 
-/// A block that is written.
 struct Target {
     format: Format,
     path: PathBuf,
@@ -266,7 +264,6 @@ fn chosen(table: &epas_design::files::fold::FoldTable, asked: Option<Scene>) -> 
     })
 }
 
-/// Folds the ball of a scene.
 fn made(design: &Design, scene: Option<Scene>) -> Result<Made, Failure> {
     let table = &design.fold;
     let failure = |message: String| Failure::Data(format!("{}: {message}", design.name));
@@ -292,7 +289,6 @@ fn made(design: &Design, scene: Option<Scene>) -> Result<Made, Failure> {
     }
 }
 
-/// The block in its file, whole or not at all.
 fn write(target: &Target, block: &[u8]) -> Result<(), Failure> {
     let mut pending = Pending::new(&target.path, target.existing)?;
     pending
@@ -319,7 +315,6 @@ fn constant(name: &std::ffi::OsStr) -> String {
     }
 }
 
-/// How firmware takes the block in.
 fn next(out: &mut dyn Write, target: Option<&Target>, made: &Made, words: usize) -> io::Result<()> {
     let Some(Target { format, path, .. }) = target.filter(|target| !standard(&target.path)) else {
         if target.is_none() {

@@ -92,9 +92,6 @@ pub struct Figures {
 }
 
 /// Figures of one design.
-///
-/// # Errors
-/// Field, value and range of what is out of range.
 pub fn figures(design: &Design, duty: &Duty) -> Result<Figures, Error> {
     let screw = screw(design)?;
     let clearance = clearance(&screw, design.preload)?;
@@ -170,7 +167,6 @@ struct Balls {
     /// Ball in grooves of any deviation.
     ball: HeldBall,
     axial_load: f64,
-    /// Friction coefficient of ball and ball.
     ball_friction: f64,
 }
 

@@ -1,7 +1,7 @@
 //! `fmu`: a scene with a design as a co-simulation unit for FMI 2.0 and 3.0.
 //!
 //! `variables` and `parameters` say what a unit shows, `description` writes that as XML, `models` makes the models behind it and `running`
-//! steps them, `rows` those of rows of balls, `unit` puts them together; `library` builds the shared library from `bench/fmu`, whose one job
+//! steps them, `unit` puts them together; `library` builds the shared library from `bench/fmu`, whose one job
 //! is the foreign interface, and `run` packs the file. The models are those of `simulate`, and their outputs its bits.
 
 mod description;
@@ -9,7 +9,6 @@ mod documentation;
 mod library;
 mod models;
 mod parameters;
-mod rows;
 mod running;
 mod scene;
 #[cfg(test)]
@@ -144,7 +143,6 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The file of a unit.
 fn packed(unit: &Unit, version: Version, place: &str, library: &[u8]) -> Result<Vec<u8>, Failure> {
     let failure = |error: &dyn std::fmt::Display| {
         Failure::Data(format!("the unit cannot be packed: {error}"))

@@ -17,6 +17,7 @@ mod cli;
 mod design;
 pub mod design_study;
 pub mod fmu;
+mod model;
 pub mod simulate;
 
 use std::process::ExitCode;

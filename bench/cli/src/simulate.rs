@@ -1,10 +1,9 @@
 //! `simulate`: the in-loop model over a trace of speed and load.
 
-pub mod balls;
 mod beyond;
 #[doc(hidden)]
 pub mod bindings;
-mod caged;
+pub(crate) mod caged;
 mod caged_exact;
 mod choice;
 pub(crate) mod encoder;
@@ -25,13 +24,11 @@ pub(crate) mod remembering;
 mod samples;
 mod scene;
 mod screw;
-mod shown;
 mod summary;
 mod targets;
 mod tick;
 mod trace;
 mod train;
-mod train_picture;
 pub(crate) mod uncaged;
 
 use std::io::{self, Cursor, Write};
@@ -52,12 +49,10 @@ use epas_traces::source::Source;
 pub use manoeuvre::Manoeuvre;
 use output::write_table;
 use picture::Form;
-pub use picture::Moment;
 use progress::Progress;
 use reference::ReferenceModel;
 use samples::ScrewSample;
 use scene::Scene;
-pub use shown::{Courses, courses};
 use summary::Lines;
 use targets::targets;
 use trace::Temperature;
@@ -323,7 +318,6 @@ fn remembers(arguments: &Arguments) -> bool {
     arguments.memory || reverses && !arguments.no_memory && arguments.reference.is_none()
 }
 
-/// Runs one scene over its trace, and writes what is asked for.
 fn simulate<S: Scene>(
     mut scene: S,
     arguments: &Arguments,
@@ -381,10 +375,11 @@ fn simulate<S: Scene>(
         .as_deref()
         .map(|path| {
             let mut pending = Pending::new(path, existing)?;
-            let columns = S::columns(arguments.reference.is_some());
+            let columns = scene::columns::<S>(arguments.reference.is_some());
+            let outputs = S::outputs();
             let records = rows.iter().map(|row| {
                 progress.step();
-                S::record(row)
+                scene::record(&outputs, row)
             });
             let group = format!("{} on {}", trace.name, scene.name());
             write_table(pending.writer(), path, (&group, &columns), records)?;

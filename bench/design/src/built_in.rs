@@ -21,9 +21,6 @@ pub const NODES: [f32; BUILT_IN_NODES] = [
 pub type Block = CagedBallScrewConfiguration<BUILT_IN_NODES>;
 
 /// What is folded of a design: with the default friction coefficient, clearance and rolling resistance, for 5 to 300 N a ball.
-///
-/// # Errors
-/// [`Failure`] naming a parameter out of range.
 pub fn fold_of(
     parameters: BallScrewParameters,
     loaded_balls: Option<u16>,
@@ -33,17 +30,11 @@ pub fn fold_of(
 }
 
 /// The block of a fold.
-///
-/// # Errors
-/// What cannot be folded.
 pub fn block_of(fold: &CagedFold) -> Result<Block, Failure> {
     fold.block_at(NODES)
 }
 
 /// The bytes of a fold's block.
-///
-/// # Errors
-/// What cannot be folded.
 pub fn bytes_of(fold: &CagedFold) -> Result<Vec<u8>, Failure> {
     let mut words = vec![0; Block::WORDS];
     block_of(fold)?.write(fold.digest(), &mut words)?;
@@ -51,9 +42,6 @@ pub fn bytes_of(fold: &CagedFold) -> Result<Vec<u8>, Failure> {
 }
 
 /// The whole file, folded anew.
-///
-/// # Errors
-/// What cannot be folded.
 pub fn folded() -> Result<Vec<u8>, Failure> {
     let designs: Vec<_> = files::built_in().collect();
     let blocks = designs

@@ -103,17 +103,11 @@ impl CagedFold {
     }
 
     /// Folds it, and measures the block's errors.
-    ///
-    /// # Errors
-    /// [`Failure`] naming a number out of range, or with the reason why the domain cannot be held.
     pub fn folded(&self) -> Result<Folded, Failure> {
         self.folded_with(&|_| ())
     }
 
     /// The same; `progress` is told the share that is done, rising from 0 to 1.
-    ///
-    /// # Errors
-    /// As [`Self::folded`].
     pub fn folded_with(&self, progress: &(dyn Fn(f64) + Sync)) -> Result<Folded, Failure> {
         let begun = Instant::now();
         self.check()?;
@@ -146,9 +140,6 @@ impl CagedFold {
     }
 
     /// The block alone, in a fifth of the time: its errors are not measured.
-    ///
-    /// # Errors
-    /// As [`Self::folded`], but for a domain that only the certificate would refuse.
     pub fn block(&self) -> Result<Block, Failure> {
         self.check()?;
         self.block_of(&Exact::of(&self.gear)?)
@@ -170,9 +161,6 @@ impl CagedFold {
     }
 
     /// The block for friction coefficients between the first and the last of some nodes, at least 1.01 times apart; [`Self::friction`] is not read.
-    ///
-    /// # Errors
-    /// As [`Self::block`].
     pub fn block_at<const N: usize>(
         &self,
         nodes: [f32; N],
@@ -185,9 +173,6 @@ impl CagedFold {
     }
 
     /// The errors of a block of this design, over the loads of this fold and the friction coefficients of the block's nodes.
-    ///
-    /// # Errors
-    /// Where the exact solver has no answer.
     pub fn errors<const N: usize>(
         &self,
         block: &CagedBallScrewConfiguration<N>,
@@ -196,9 +181,6 @@ impl CagedFold {
     }
 
     /// Whether every number of the design and of the domain is within its range; nothing is solved.
-    ///
-    /// # Errors
-    /// [`Failure`] naming the number that is not.
     pub fn check(&self) -> Result<(), Failure> {
         self.gear.checked()?;
         let [least, most] = self.axial_load;

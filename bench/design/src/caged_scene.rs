@@ -29,9 +29,6 @@ const LARGEST_ERROR: f64 = 0.03;
 const LOADS: u32 = 48;
 
 /// The block of a design, folded where it is not kept.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
 pub fn block(fold: &CagedFold) -> Result<Block, Failure> {
     FOLDS.get_or(fold.digest(), || {
         let block = fold.block()?;
@@ -43,9 +40,6 @@ pub fn block(fold: &CagedFold) -> Result<Block, Failure> {
 }
 
 /// The block of a design, folded where it is not kept; a range may be far off between its nodes.
-///
-/// # Errors
-/// Why it is not folded, as the fold says it.
 pub fn unchecked(fold: &CagedFold) -> Result<Block, Failure> {
     if let Some(Ok(block)) = FOLDS.get(fold.digest()) {
         return Ok(block);
@@ -56,9 +50,6 @@ pub fn unchecked(fold: &CagedFold) -> Result<Block, Failure> {
 }
 
 /// The block of a design with its certificate, whose share that is done is told to `progress`; kept as any other block.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
 pub fn certified(fold: &CagedFold, progress: &(dyn Fn(f64) + Sync)) -> Result<Folded, Failure> {
     let folded = fold.folded_with(progress)?;
     FOLDS.keep(folded.digest, folded.block);
@@ -66,9 +57,6 @@ pub fn certified(fold: &CagedFold, progress: &(dyn Fn(f64) + Sync)) -> Result<Fo
 }
 
 /// Refuses a design whose block is too far from the exact ball; one that is kept is not measured again.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
 pub fn check_errors(fold: &CagedFold, progress: &(dyn Fn(f64) + Sync)) -> Result<(), Failure> {
     match FOLDS.get(fold.digest()) {
         Some(kept) => kept.map(drop),
@@ -76,7 +64,6 @@ pub fn check_errors(fold: &CagedFold, progress: &(dyn Fn(f64) + Sync)) -> Result
     }
 }
 
-/// The block of these words.
 fn read(words: &[u32]) -> Result<Block, Error> {
     const RANGE: u32 = NODES as u32;
     match words.get(3) {
@@ -163,18 +150,12 @@ impl From<Block> for CagedScene {
 
 impl CagedScene {
     /// That of a design with its own friction coefficient, as its table `[fold]` says it.
-    ///
-    /// # Errors
-    /// What cannot be folded, with the reason.
     pub fn of(design: &Design) -> Result<Self, Failure> {
         let friction = design.caged.friction;
         Self::with_coefficients(design, (friction, friction))
     }
 
     /// That of a design for friction coefficients between two.
-    ///
-    /// # Errors
-    /// What cannot be folded, with the reason.
     pub fn with_coefficients(design: &Design, coefficients: (f32, f32)) -> Result<Self, Failure> {
         let named = |message: String| Failure::Domain(format!("{}: {message}", design.name));
         if let Some(closed) = design.closed_form() {
@@ -188,17 +169,11 @@ impl CagedScene {
     }
 
     /// That of a block's words.
-    ///
-    /// # Errors
-    /// [`Error`] naming what is wrong with the block.
     pub fn read(words: &[u32]) -> Result<Self, Error> {
         read(words).map(Self::from)
     }
 
     /// A model of it.
-    ///
-    /// # Errors
-    /// [`Error`] naming a number out of range.
     pub fn model(&self) -> Result<CagedModel, Error> {
         Ok(match self {
             Self::One(block) => CagedModel::One(FrictionModel::new(block)?),
@@ -209,9 +184,6 @@ impl CagedScene {
 }
 
 /// The words of a design's block for friction coefficients between two, with the digest of their inputs; none of a closed form.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
 pub fn words(design: &Design, coefficients: (f32, f32)) -> Result<Option<Vec<u32>>, Failure> {
     if design.branch.is_some() {
         return Ok(None);
@@ -221,18 +193,12 @@ pub fn words(design: &Design, coefficients: (f32, f32)) -> Result<Option<Vec<u32
 }
 
 /// Keeps the block of these words: what was folded from the same inputs is not folded again.
-///
-/// # Errors
-/// [`Error`] naming what is wrong with the block.
 pub fn keep_words(words: &[u32]) -> Result<(), Error> {
     FOLDS.keep(digest_of(words), read(words)?);
     Ok(())
 }
 
 /// What is folded of a design for friction coefficients between two.
-///
-/// # Errors
-/// Coefficients that the table `[fold]` does not hold; what else of the table cannot be folded.
 pub fn fold_for(design: &Design, coefficients: (f32, f32)) -> Result<CagedFold, String> {
     let mut fold = design
         .fold
@@ -245,9 +211,6 @@ pub fn fold_for(design: &Design, coefficients: (f32, f32)) -> Result<CagedFold, 
 
 /// The range of friction coefficients that is folded for those between two: a table's, where it says one. It holds the design's own one too, which
 /// a law that comes to it at rest misses by the rounding of its sum.
-///
-/// # Errors
-/// Coefficients that the table's range does not hold.
 pub(crate) fn range_for(
     range: Option<[f32; 2]>,
     own: f32,
@@ -310,9 +273,6 @@ impl CagedModel {
     }
 
     /// Sets the friction coefficient: of a block within its range, of a closed form any.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`; the model is as it was.
     pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
         match self {
             Self::One(model) => model.set_friction(friction),
@@ -327,9 +287,6 @@ impl CagedModel {
     }
 
     /// Goes on with the block of these words, of as many friction coefficients.
-    ///
-    /// # Errors
-    /// [`Error`] naming what is wrong with the block; the model is as it was. A closed form has none.
     pub fn swap(&mut self, words: &[u32]) -> Result<(), Error> {
         match self {
             Self::One(model) => {
@@ -350,9 +307,6 @@ impl CagedModel {
     }
 
     /// Its state as a block.
-    ///
-    /// # Errors
-    /// What the crate refuses.
     pub fn export(&self) -> Result<Vec<u8>, Refusal> {
         fn of<S: StoredScene>(model: &FrictionModel<S>) -> Result<Vec<u8>, Refusal> {
             let mut block = vec![0; FrictionModel::<S>::STATE_BYTES];
@@ -363,9 +317,6 @@ impl CagedModel {
     }
 
     /// Takes the state of a block over.
-    ///
-    /// # Errors
-    /// What the crate refuses; the state is as it was.
     pub fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
         each!(self, model => model.import(block))
     }

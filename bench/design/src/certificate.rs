@@ -65,12 +65,10 @@ struct Found {
 }
 
 impl Found {
-    /// Relative error.
     fn error(&self) -> f64 {
         self.torque / self.exact - 1.0
     }
 
-    /// Takes a second exact answer in: the nearer one counts.
     fn take_other(&mut self, exact: f64) {
         self.two_answers = (exact / self.exact - 1.0).abs() > TWO_ANSWERS;
         if (self.torque - exact).abs() < (self.torque - self.exact).abs() {
@@ -135,9 +133,6 @@ impl Certificate {
 }
 
 /// A model of one ball of a block with a friction coefficient, whose friction is full at any speed.
-///
-/// # Errors
-/// [`Failure`] naming a number out of range.
 pub fn one_ball<const N: usize>(
     block: &CagedBallScrewConfiguration<N>,
     friction: f32,

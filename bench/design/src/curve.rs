@@ -42,9 +42,6 @@ impl Cubic {
 ///
 /// Parts are as long as a tolerance allows, from the lowest place upwards, each beginning with the value where the last one ends; the
 /// tolerance is the least one with which [`PARTS`] are enough.
-///
-/// # Errors
-/// [`Failure::Domain`] where samples are fewer than four, not rising or not positive.
 pub fn fitted(samples: &[Sample]) -> Result<(LoadCurve, f64), Failure> {
     let rising = samples.windows(2).all(|pair| pair[0].at < pair[1].at);
     let positive = samples.iter().all(|s| s.value > 0.0 && s.weight > 0.0);

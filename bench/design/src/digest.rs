@@ -25,7 +25,6 @@ use epas_friction::{BallScrewParameters, GrooveSize, Limits, Material, RollingRe
 use crate::caged::{self, CagedDesign, CagedFold};
 use crate::uncaged::{self, UncagedFold};
 
-/// A digest of the words so far.
 struct Digest(u64);
 
 impl Digest {
@@ -165,7 +164,6 @@ mod tests {
         with_gear(|gear| gear.design = BallScrew::new(parameters).unwrap())
     }
 
-    /// A number one step up, as a change of it.
     fn up(number: &mut f32) {
         *number = number.next_up();
     }

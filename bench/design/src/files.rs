@@ -155,9 +155,6 @@ impl Design {
     }
 
     /// Refuses numbers out of range.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field.
     pub fn check(&self) -> Result<(), Error> {
         let branch = self.branch.unwrap_or(FrictionBranch::Rolling);
         if self.branch.is_none() {
@@ -239,26 +236,17 @@ impl DesignSource {
 
     /// The text of its file, where it is one, with the samples of its charts in the place of their names: it stands for itself. Standard input can
     /// be read once.
-    ///
-    /// # Errors
-    /// A file or a chart that cannot be read, or what is wrong with the chart.
     pub fn text(&self) -> Result<Option<String>, Failure> {
         let read = |path: &Path| deviation::with_charts(path, text_of(path)?);
         self.file().map(read).transpose()
     }
 
     /// The ball screw, checked.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or what is wrong with it; a design of another kind.
     pub fn load(&self) -> Result<Design, Failure> {
         self.load_from(self.text()?.as_deref())
     }
 
     /// The same from the text of its file.
-    ///
-    /// # Errors
-    /// What is wrong with the text; a design of another kind.
     pub fn load_from(&self, text: Option<&str>) -> Result<Design, Failure> {
         match self {
             Self::BuiltIn {
@@ -279,17 +267,11 @@ impl DesignSource {
     }
 
     /// The linear bearing, checked.
-    ///
-    /// # Errors
-    /// What is wrong with its file, or that it is a ball screw.
     pub fn load_bearing(&self) -> Result<LinearDesign, Failure> {
         self.load_bearing_from(self.text()?.as_deref())
     }
 
     /// The same from the text of its file.
-    ///
-    /// # Errors
-    /// What is wrong with the text, or that it is a ball screw.
     pub fn load_bearing_from(&self, text: Option<&str>) -> Result<LinearDesign, Failure> {
         match self {
             Self::LinearBearing => LinearDesign::built_in(),
@@ -302,7 +284,6 @@ impl DesignSource {
     }
 }
 
-/// A design file, as it is written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct DesignFile {
@@ -377,17 +358,11 @@ enum BranchName {
 }
 
 /// Reads a design file.
-///
-/// # Errors
-/// What a user is told of it.
 pub fn accepts(text: &str) -> Result<(), String> {
     read(text, "design").map(drop)
 }
 
 /// The design of a file's text; its name where it has none.
-///
-/// # Errors
-/// What is wrong with the text.
 pub fn read(text: &str, name: &str) -> Result<Design, String> {
     let file: DesignFile = parsed(text)?;
     file.design(name)
@@ -557,7 +532,6 @@ fn usual_balls(design: &BallScrew) -> u16 {
     (2.5 * turn / (2.0 * design.ball_radius())).clamp(1.0, 1e3) as u16
 }
 
-/// A groove's own table, or what is given for both.
 fn groove(name: &str, own: Option<&GrooveTable>, both: &GrooveTable) -> Result<GrooveSize, String> {
     let table = own.unwrap_or(both);
     groove_size(name, table.conformity, table.groove_radius)

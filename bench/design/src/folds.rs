@@ -18,13 +18,11 @@ use crate::built_in;
 use crate::files::{self, Design, DesignSource};
 use crate::{caged_scene as caged, uncaged_scene as uncaged};
 
-/// Blocks of the built-in designs.
 static BUILT_IN: &[u8] = include_bytes!("../folded/built_in.bin");
 
 /// Words before the numbers of a block.
 const HEADER: usize = 6;
 
-/// Bytes of a word.
 const WORD: usize = size_of::<u32>();
 
 /// Blocks of one kind that were folded, and reasons why a design was not.
@@ -63,9 +61,6 @@ impl<T: Clone> Folds<T> {
     }
 
     /// The same, folded where it is not there.
-    ///
-    /// # Errors
-    /// Those of the fold.
     pub fn get_or(
         &self,
         digest: u64,
@@ -175,7 +170,6 @@ fn folds_of(design: &Design) -> Result<Vec<(String, Fold)>, Failure> {
     Ok(folds)
 }
 
-/// What is stored of all built-in designs.
 fn stored_folds() -> Result<Vec<(String, Fold)>, Failure> {
     let mut folds = Vec::new();
     for (name, ..) in files::built_in() {
@@ -195,9 +189,6 @@ fn folded() -> Result<Vec<(String, Vec<u32>)>, Failure> {
 }
 
 /// The files of both kinds of stored blocks, in the sources of this program.
-///
-/// # Errors
-/// The user is not in the checkout that this program was built from: no other folder's files are touched.
 fn paths() -> Result<[PathBuf; 2], Failure> {
     let refused = || {
         Failure::Domain(
@@ -223,9 +214,6 @@ fn path(root: &Path) -> PathBuf {
 }
 
 /// Stores the blocks of the built-in designs, folded anew: those of this program and those of the crate.
-///
-/// # Errors
-/// Outside the checkout of this program; what cannot be folded; a file that cannot be written.
 pub fn store() -> Result<(), Failure> {
     let [own, the_crate] = paths()?;
     let words = folded()?.into_iter().flat_map(|(_, words)| words);
@@ -240,9 +228,6 @@ fn written(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// How many stored blocks have the bits of a new fold.
-///
-/// # Errors
-/// Outside the checkout of this program; the designs whose stored blocks have not.
 pub fn gate() -> Result<usize, Failure> {
     let [_, the_crate] = paths()?;
     let folded = folded()?;
@@ -287,7 +272,6 @@ mod tests {
         assert_eq!(blocks(BUILT_IN).count(), folds.len());
     }
 
-    /// A fold that is stored is not made.
     #[test]
     fn a_stored_block_is_not_folded() {
         let source: DesignSource = "lin-4.1".parse().unwrap();

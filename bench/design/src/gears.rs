@@ -16,9 +16,6 @@ const WORN: f32 = 2e-6;
 const FRICTION_RANGE: [f32; 2] = [0.05, 0.15];
 
 /// The gear of the scenes: geometry of Lin 2019, Table 3.6, with 100 N of preload on each flank of the nut.
-///
-/// # Errors
-/// None that is known.
 pub fn gear_33x20() -> Result<CagedDesign, Error> {
     let [_, design, _] = DISSERTATION_DESIGNS;
     Ok(CagedDesign {
@@ -37,9 +34,6 @@ pub fn gear_33x20() -> Result<CagedDesign, Error> {
 }
 
 /// The gear of the friction task: geometry of Lin 2019, Table 4.1, a rack-assist screw, 29 mm pitch circle, lead 7 mm.
-///
-/// # Errors
-/// None that is known.
 pub fn gear_29x7() -> Result<CagedDesign, Error> {
     let [_, _, design] = DISSERTATION_DESIGNS;
     Ok(CagedDesign {
@@ -60,9 +54,6 @@ pub fn gear_29x7() -> Result<CagedDesign, Error> {
 
 /// What the firmware has of them, each with the name of its `static`: that of the scenes for one friction coefficient, for a range of them,
 /// and worn, with play; that of the friction task for a range.
-///
-/// # Errors
-/// None that is known.
 pub fn firmware() -> Result<[(&'static str, CagedFold); 4], Error> {
     let gear = gear_33x20()?;
     let worn = CagedDesign {
@@ -85,9 +76,6 @@ pub fn firmware() -> Result<[(&'static str, CagedFold); 4], Error> {
 const DEVIATIONS: [f32; 2] = [0.01745, 0.00873];
 
 /// What the firmware has without cage, each with the name of its `static`: the gear of the scenes for one friction coefficient, and for a range.
-///
-/// # Errors
-/// None that is known.
 pub fn firmware_uncaged() -> Result<[(&'static str, UncagedFold); 2], Error> {
     let one = UncagedFold::of(UncagedDesign {
         gear: gear_33x20()?,
@@ -107,9 +95,6 @@ pub const TESTED_CLEARANCES: [f32; 7] = [-5e-6, -1e-6, 0.0, 2e-6, 5e-6, 10e-6, 2
 pub const TESTED_FRICTIONS: [f32; 3] = [0.05, 0.1, 0.15];
 
 /// A gear on which folding is tested: a screw of any size with 37 loaded balls, a clearance, m, and a friction coefficient.
-///
-/// # Errors
-/// [`Error`] naming a parameter of the screw or the clearance.
 pub fn tested(
     parameters: BallScrewParameters,
     clearance: f32,

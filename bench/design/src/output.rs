@@ -34,9 +34,6 @@ impl Block {
     }
 
     /// Its words, with the digest of what it was folded from.
-    ///
-    /// # Errors
-    /// None that is known.
     pub fn words(&self, digest: u64) -> Result<Vec<u32>, Failure> {
         fn of<const N: usize>(
             block: &CagedBallScrewConfiguration<N>,
@@ -55,25 +52,16 @@ impl Block {
 
 impl Folded {
     /// The block's words.
-    ///
-    /// # Errors
-    /// None that is known.
     pub fn words(&self) -> Result<Vec<u32>, Failure> {
         self.block.words(self.digest)
     }
 
     /// Version of the block's layout.
-    ///
-    /// # Errors
-    /// As [`Self::words`].
     pub fn version(&self) -> Result<u32, Failure> {
         Ok(self.words()?.get(1).copied().unwrap_or(0))
     }
 
     /// The block's bytes, each word with its least significant byte first: for a calibration page.
-    ///
-    /// # Errors
-    /// As [`Self::words`].
     pub fn bytes(&self) -> Result<Vec<u8>, Failure> {
         Ok(bytes(&self.words()?))
     }
@@ -104,9 +92,6 @@ impl Folded {
     }
 
     /// A Rust module with a `static` of this name.
-    ///
-    /// # Errors
-    /// As [`Self::words`].
     pub fn rust(&self, name: &str) -> Result<String, Failure> {
         let nodes = self.block.nodes();
         let declared = Declared {
@@ -120,17 +105,11 @@ impl Folded {
     }
 
     /// A C header with an array of this name.
-    ///
-    /// # Errors
-    /// As [`Self::words`].
     pub fn c(&self, name: &str) -> Result<String, Failure> {
         Ok(c(&self.summary(), name, &self.words()?))
     }
 
     /// TOML: the summary as comments, the words as one array.
-    ///
-    /// # Errors
-    /// As [`Self::words`].
     pub fn toml(&self) -> Result<String, Failure> {
         Ok(toml(&self.summary(), self.digest, &self.words()?))
     }
@@ -138,9 +117,6 @@ impl Folded {
     /// Writes [`Self::rust`] to `folder` as a file with the name in small letters, for `include!`: what a `build.rs` calls.
     ///
     /// Into the folder of a build script it also tells cargo that the script alone decides what is folded: an edit elsewhere does not fold again.
-    ///
-    /// # Errors
-    /// [`Failure::File`] where it cannot be written.
     pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
         write(&self.rust(name)?, name, folder.as_ref())
     }
@@ -166,9 +142,6 @@ impl UncagedBlock {
     }
 
     /// Its words, with the digest of what it was folded from.
-    ///
-    /// # Errors
-    /// None that is known.
     pub fn words(&self, digest: u64) -> Result<Vec<u32>, Failure> {
         fn of<const N: usize>(block: &FoldedBall<N>, digest: u64) -> Result<Vec<u32>, Failure> {
             let mut words = vec![0; FoldedBall::<N>::WORDS];
@@ -184,17 +157,11 @@ impl UncagedBlock {
 
 impl FoldedUncaged {
     /// The block's words.
-    ///
-    /// # Errors
-    /// None that is known.
     pub fn words(&self) -> Result<Vec<u32>, Failure> {
         self.block.words(self.digest)
     }
 
     /// The block's bytes, each word with its least significant byte first: for a calibration page.
-    ///
-    /// # Errors
-    /// As [`Self::words`].
     pub fn bytes(&self) -> Result<Vec<u8>, Failure> {
         Ok(bytes(&self.words()?))
     }
@@ -245,9 +212,6 @@ impl FoldedUncaged {
     }
 
     /// A Rust module with a `static` of this name.
-    ///
-    /// # Errors
-    /// As [`Self::words`].
     pub fn rust(&self, name: &str) -> Result<String, Failure> {
         let nodes = self.block.nodes();
         let declared = Declared {
@@ -261,31 +225,21 @@ impl FoldedUncaged {
     }
 
     /// A C header with an array of this name.
-    ///
-    /// # Errors
-    /// As [`Self::words`].
     pub fn c(&self, name: &str) -> Result<String, Failure> {
         Ok(c(&self.summary(), name, &self.words()?))
     }
 
     /// TOML: the summary as comments, the words as one array.
-    ///
-    /// # Errors
-    /// As [`Self::words`].
     pub fn toml(&self) -> Result<String, Failure> {
         Ok(toml(&self.summary(), self.digest, &self.words()?))
     }
 
     /// Writes [`Self::rust`] to `folder`, as [`Folded::write_rust`] does.
-    ///
-    /// # Errors
-    /// [`Failure::File`] where it cannot be written.
     pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
         write(&self.rust(name)?, name, folder.as_ref())
     }
 }
 
-/// What a Rust file declares.
 struct Declared {
     doc: String,
     /// Its type.
@@ -301,7 +255,6 @@ fn head(digest: u64) -> [String; 2] {
     ]
 }
 
-/// The numbers of a drawing.
 fn drawn(gear: &CagedDesign) -> String {
     let parameters = gear.design.parameters();
     format!(
@@ -324,7 +277,6 @@ fn bytes(words: &[u32]) -> Vec<u8> {
     words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
 
-/// Lines as comments.
 fn commented(summary: &[String], mark: &str) -> String {
     let mut text = String::new();
     for line in summary {
@@ -374,7 +326,6 @@ fn toml(summary: &[String], digest: u64, words: &[u32]) -> String {
     text
 }
 
-/// Writes a Rust file of a build script, or of any other folder.
 fn write(text: &str, name: &str, folder: &Path) -> Result<(), Failure> {
     let path = folder.join(format!("{}.rs", name.to_lowercase()));
     std::fs::write(path, text)?;
@@ -384,7 +335,6 @@ fn write(text: &str, name: &str, folder: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Words in lines.
 fn listed(words: &[u32]) -> String {
     let mut text = String::new();
     for line in words.chunks(IN_A_LINE) {

@@ -60,7 +60,6 @@ impl ScrewConfiguration {
     }
 }
 
-/// Laws that need no fold.
 static FOLDS: Folds<Folded> = Folds::new(usize::MAX, |words| Ok(leaked(&block_of(words)?)));
 
 /// By how much the loads that are folded for pass the largest one that is asked for, at least: a model counts loaded balls by their places.
@@ -84,17 +83,11 @@ pub fn loads_holding([least, most]: [f32; 2], [from, to]: [f32; 2]) -> [f32; 2] 
 }
 
 /// The law of a fold, folded where it is not kept.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
 pub fn folded(fold: &UncagedFold) -> Result<Folded, Failure> {
     FOLDS.get_or(fold.digest(), || Ok(leaked(&fold.block()?)))
 }
 
 /// The law of a fold with its certificate, whose share that is done is told to `progress`; kept as any other law.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
 pub fn certified(
     fold: &UncagedFold,
     progress: &(dyn Fn(f64) + Sync),
@@ -119,7 +112,6 @@ fn keep(digest: u64, block: &UncagedBlock) -> Folded {
     law
 }
 
-/// A law for as long as the program runs.
 fn leaked(block: &UncagedBlock) -> Folded {
     match block {
         UncagedBlock::One(block) => Folded::One(Box::leak(Box::new(*block))),
@@ -127,7 +119,6 @@ fn leaked(block: &UncagedBlock) -> Folded {
     }
 }
 
-/// The block of these words.
 fn block_of(words: &[u32]) -> Result<UncagedBlock, Error> {
     const RANGE: u32 = NODES as u32;
     Ok(match words.get(3) {
@@ -138,17 +129,11 @@ fn block_of(words: &[u32]) -> Result<UncagedBlock, Error> {
 }
 
 /// The law of a block's words, kept by the digest that they hold.
-///
-/// # Errors
-/// [`Error`] naming what is wrong with the block.
 pub fn read(words: &[u32]) -> Result<Folded, Error> {
     Ok(keep(digest_of(words), &block_of(words)?))
 }
 
 /// The words of a design's block for its own friction coefficient, with the digest of its inputs.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
 pub fn words(design: &Design, row: &UncagedDesign) -> Result<Vec<u32>, Failure> {
     let friction = row.gear.friction;
     let fold = fold_for(design, row, (friction, friction), 0.0).map_err(Failure::Domain)?;
@@ -161,9 +146,6 @@ pub fn words(design: &Design, row: &UncagedDesign) -> Result<Vec<u32>, Failure> 
 
 /// What is folded of a design for friction coefficients between two. Loads of a ball are those of the table `[fold]`, or 5 to 300 N, and up
 /// to the next power of two where an axial load, N, needs more: so that traces that are much alike share a law.
-///
-/// # Errors
-/// Coefficients that the table does not hold; what else of it cannot be folded.
 pub fn fold_for(
     design: &Design,
     row: &UncagedDesign,
@@ -187,9 +169,6 @@ pub fn fold_for(
 }
 
 /// What a model of a design is made of, for friction coefficients between two and up to an axial load, N; its tick is a millisecond.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
 pub fn configuration(
     design: &Design,
     row: &UncagedDesign,

@@ -45,7 +45,6 @@ request! {
     }
 }
 
-/// Contacts of a ball.
 struct Contacts(Vec<Contact>);
 
 struct Contact {
@@ -175,7 +174,6 @@ impl Request {
             .map_err(|error| BadField::from(error).renamed("axis_ratio", "groove_radius"))
     }
 
-    /// Nothing moves; forces between balls are undefined.
     fn standstill(&self) -> Row {
         Row {
             orbital_speed: Some(vec![0.0; self.balls.len()]),

@@ -80,7 +80,6 @@ impl<'a> Fields<'a> {
         raw.map(|raw| list(field, raw, largest)).transpose()
     }
 
-    /// Takes an object.
     pub fn object(&mut self, field: &str) -> Result<Fields<'a>, BadField> {
         let raw = self.take(field)?;
         Self::nested(field, raw)
@@ -138,7 +137,6 @@ impl<'a> Fields<'a> {
 /// Deepest nesting of an id: the limit of common readers of JSON.
 const DEEPEST: usize = 100;
 
-/// How deep lists and objects of a JSON value are nested.
 fn depth(raw: &RawValue) -> usize {
     let (mut depth, mut deepest) = (0_usize, 0);
     let (mut in_text, mut escaped) = (false, false);
@@ -158,12 +156,10 @@ fn depth(raw: &RawValue) -> usize {
     deepest
 }
 
-/// The beginning of a JSON value, for a message.
 fn shown(raw: &RawValue) -> Cow<'_, str> {
     beginning(raw.get())
 }
 
-/// The beginning of a text, for a message.
 fn beginning(text: &str) -> Cow<'_, str> {
     const LENGTH: usize = 40;
     match text.char_indices().nth(LENGTH) {

@@ -4,6 +4,7 @@
 // square brackets are no links.
 #![allow(
     clippy::doc_markdown,
+    clippy::missing_errors_doc,
     rustdoc::broken_intra_doc_links,
     rustdoc::private_intra_doc_links
 )]
@@ -215,9 +216,6 @@ struct Reply<'a> {
 }
 
 /// Answers every request of the file or of stdin.
-///
-/// # Errors
-/// A file that cannot be read, an output that cannot be written, or a request that was refused.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     let output = BufWriter::new(io::stdout().lock());
     let all_good = match &arguments.file {
@@ -262,7 +260,6 @@ fn answer_all(input: impl Read, path: &Path, mut output: impl Write) -> Result<b
 }
 
 impl<'a> Reply<'a> {
-    /// The reply to one line.
     fn to(line: &'a str) -> Self {
         let read = Fields::parse(line).and_then(|fields| Ok((fields.id()?, fields)));
         match read {

@@ -166,7 +166,6 @@ impl Request {
         })
     }
 
-    /// Sign of the track speed, zero at standstill.
     fn direction(&self) -> f32 {
         if self.speed == 0.0 {
             0.0

@@ -19,11 +19,9 @@ pub struct Lines<R> {
     first: bool,
 }
 
-/// What a line turned out to be.
 pub enum Line<'a> {
     /// Nothing but white space.
     Blank,
-    /// A line of text.
     Text(&'a str),
     /// Too long or no UTF-8; with what to say about it.
     Unreadable(String),

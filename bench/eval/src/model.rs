@@ -24,15 +24,9 @@ pub trait Model: Serialize {
     type Reference: Serialize;
 
     /// Both answers.
-    ///
-    /// # Errors
-    /// The field that is out of range.
     fn evaluate(&self) -> Result<Both<Self::InLoop, Self::Reference>, BadField>;
 
     /// The line that asks `eval` the same, with the id 0.
-    ///
-    /// # Errors
-    /// None for numbers, which all have a JSON text.
     fn line(&self) -> Result<String, BadField> {
         #[derive(Serialize)]
         struct Line<'a, T: ?Sized> {
@@ -54,7 +48,6 @@ pub trait Model: Serialize {
 pub type Answer = Both<Box<RawValue>, Box<RawValue>>;
 
 impl<InLoop: Serialize, Reference: Serialize> Both<InLoop, Reference> {
-    /// Both in JSON.
     pub(crate) fn json(&self) -> Result<Answer, BadField> {
         Ok(Both {
             in_loop: json(&self.in_loop)?,

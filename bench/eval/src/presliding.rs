@@ -25,7 +25,6 @@ const LONGEST: usize = 100_000;
 /// Most that an angle may be, over the breakaway angle; and a load and a limit, over the reference.
 const LARGEST: f64 = 1e6;
 
-/// Every table by its name.
 const TABLES: [(&str, &[BackboneElement]); 8] = [
     ("slip4", &SLIP_4.elements),
     ("slip6", &SLIP_6.elements),
@@ -90,7 +89,6 @@ impl Path {
         })
     }
 
-    /// Friction at each angle, by the reference.
     fn exact(&self, form: &Asked) -> Exact {
         let [forward, backward] = self.limit_ratio;
         let ticks = Ticks {

@@ -111,7 +111,6 @@ impl ScrewNumbers {
         }
     }
 
-    /// The crate's design with a nominal contact angle.
     pub(crate) fn design(&self, contact_angle: f32) -> Result<BallScrew, Error> {
         let material = Material {
             youngs_modulus: self.youngs_modulus as f32,

@@ -39,7 +39,6 @@ pub struct Instance {
 /// Units by the text of their resource: tables of a design are read once in a process.
 static UNITS: LazyLock<Mutex<HashMap<String, Arc<Unit>>>> = LazyLock::new(Mutex::default);
 
-/// The unit that the resources of a file are of.
 fn unit(resources: &Path) -> Result<Arc<Unit>, String> {
     let path = resources.join(RESOURCE);
     let text = std::fs::read_to_string(&path).map_err(|error| {
@@ -250,14 +249,12 @@ impl Instance {
             .collect()
     }
 
-    /// Flags of the last tick about its inputs.
     fn faults(&self) -> u32 {
         let mut pairs = self.unit.variables.iter().zip(&self.values);
         let faults = pairs.find(|(variable, _)| variable.name == "faults");
         faults.map_or(0, |(_, value)| *value as u32 & !ACCURACY)
     }
 
-    /// What is told of the last tick.
     fn flagged(&mut self, time: f64) -> Option<Told> {
         let faults = self.faults();
         let inputs: Vec<String> = self
@@ -274,7 +271,6 @@ impl Instance {
         })
     }
 
-    /// Its state.
     fn snapshot(&self) -> Result<Snapshot, String> {
         Ok(Snapshot {
             unit: self.token,

@@ -16,7 +16,6 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// All, by their numbers.
     pub const ALL: [Self; 4] = [
         Self::Instantiated,
         Self::Initializing,
@@ -68,7 +67,6 @@ impl Wanted {
         )
     }
 
-    /// Its name.
     pub fn name(self) -> String {
         match self {
             Self::Other(name) => name.to_owned(),

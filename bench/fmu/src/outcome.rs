@@ -7,7 +7,6 @@ pub enum Outcome {
     Fine,
     /// Success, with a text.
     Warning,
-    /// Refused, with a text.
     Refused,
 }
 

@@ -28,7 +28,6 @@ pub fn fresh() -> usize {
     NEXT.fetch_add(16, Ordering::Relaxed)
 }
 
-/// What a panic said.
 fn panicked(what: &(dyn Any + Send)) -> String {
     let text = what
         .downcast_ref::<&str>()

@@ -3,12 +3,10 @@
 /// First bytes, with the version of the layout.
 const MAGIC: &[u8; 8] = b"EPASFMU1";
 
-/// What is in a state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
     /// Checksum of the unit's token.
     pub unit: u32,
-    /// Phase, by its number.
     pub phase: u8,
     /// Values of all variables.
     pub values: Vec<f64>,
@@ -17,7 +15,6 @@ pub struct Snapshot {
 }
 
 impl Snapshot {
-    /// As bytes.
     pub fn bytes(&self) -> Vec<u8> {
         let mut bytes = MAGIC.to_vec();
         bytes.extend(self.unit.to_le_bytes());
@@ -30,10 +27,6 @@ impl Snapshot {
         bytes
     }
 
-    /// Of bytes.
-    ///
-    /// # Errors
-    /// What is wrong with them.
     pub fn of(bytes: &[u8]) -> Result<Self, String> {
         let damaged = || "the state is damaged: its checksum is wrong".to_owned();
         let rest = bytes

@@ -131,7 +131,6 @@ impl Pending {
     }
 }
 
-/// The folder of a file.
 fn folder(path: &Path) -> &Path {
     match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -152,7 +151,6 @@ fn named(folder: &Path, complete: &mut File) -> io::Result<NamedTempFile<File>> 
         })
 }
 
-/// Links a file without a name.
 #[cfg(target_os = "linux")]
 fn linked(file: &File, path: &Path) -> io::Result<()> {
     use rustix::fs::{AtFlags, CWD, linkat};
@@ -166,7 +164,6 @@ fn linked(_: &File, _: &Path) -> io::Result<()> {
     Err(io::ErrorKind::Unsupported.into())
 }
 
-/// A copy of a file, under a name that is free.
 fn copied(complete: &mut File, path: &Path) -> io::Result<File> {
     let mut copy = File::options().write(true).create_new(true).open(path)?;
     lock(&copy);
@@ -356,7 +353,6 @@ impl<R: Read> Read for Bounded<R> {
 }
 
 impl<R: Seek> Seek for Bounded<R> {
-    /// What is read again counts again.
     fn seek(&mut self, position: SeekFrom) -> io::Result<u64> {
         self.left = self.largest;
         self.input.seek(position)
@@ -364,9 +360,6 @@ impl<R: Seek> Seek for Bounded<R> {
 }
 
 /// The text of a file, or of standard input, of at most `largest` bytes.
-///
-/// # Errors
-/// A file that cannot be read, is longer, or is no text.
 pub fn read_text(path: &Path, largest: u64) -> Result<String, Failure> {
     let input: Box<dyn Read> = if standard(path) {
         Box::new(io::stdin())

@@ -11,9 +11,6 @@ const MARK: &str = ".epas-friction";
 
 /// Fails where a folder cannot be written, or holds files that this program has not put there: those stay without `force`. Below
 /// `target/` are products alone.
-///
-/// # Errors
-/// The folder, and what is in the way.
 pub fn check(folder: &Path, force: bool) -> Result<(), Failure> {
     let failure = |error: io::Error| Failure::file("write", folder, &error);
     if fs::metadata(folder).is_ok_and(|data| !data.is_dir()) {
@@ -48,9 +45,6 @@ pub fn check(folder: &Path, force: bool) -> Result<(), Failure> {
 
 /// Fails where a folder would stand in one that is missing: the folder itself is what is asked for, one above it is a mistyped path. Below
 /// `target/` every folder is this program's own.
-///
-/// # Errors
-/// The missing folder.
 pub fn refuse_way(folder: &Path) -> Result<(), Failure> {
     let above = folder
         .parent()
@@ -66,9 +60,6 @@ pub fn refuse_way(folder: &Path) -> Result<(), Failure> {
 }
 
 /// Makes a folder, and marks it as filled by this program.
-///
-/// # Errors
-/// A folder that cannot be made or written.
 pub fn mark(folder: &Path) -> Result<(), Failure> {
     let failure = |error: io::Error| Failure::file("write", folder, &error);
     fs::create_dir_all(folder).map_err(failure)?;

@@ -23,9 +23,6 @@ enum Source<'py> {
 
 impl<'py> Argument<'py> {
     /// A number, or an array of numbers. Arrays of float32 and float64 are taken as they are, others become float64.
-    ///
-    /// # Errors
-    /// What is no number.
     pub fn new(name: &'static str, value: &Bound<'py, PyAny>) -> PyResult<Self> {
         let source = match number(value) {
             Some(number) => Source::Number(number),
@@ -44,9 +41,6 @@ impl<'py> Argument<'py> {
     }
 
     /// Repeats an array along a shape, without a copy; one of a single value stays as it is.
-    ///
-    /// # Errors
-    /// What numpy refuses.
     pub fn broadcast(&mut self, py: Python<'py>, shape: &[usize]) -> PyResult<()> {
         let array = match &self.source {
             Source::Single(array) if array.len() != 1 && array.shape() != shape => {

@@ -20,9 +20,6 @@ pub struct Arguments<'py, const I: usize> {
 
 impl<'py, const I: usize> Arguments<'py, I> {
     /// Broadcasts arguments against each other.
-    ///
-    /// # Errors
-    /// Shapes that do not fit, named.
     pub fn new(py: Python<'py>, arguments: [Argument<'py>; I]) -> PyResult<Self> {
         let mut shape: Vec<usize> = Vec::new();
         for argument in &arguments {
@@ -45,9 +42,6 @@ impl<'py, const I: usize> Arguments<'py, I> {
     }
 
     /// One list of results for each that the kernel gives, without the interpreter's lock.
-    ///
-    /// # Errors
-    /// What the kernel refuses, with its place.
     pub fn map<T, F, const O: usize>(self, py: Python<'py>, kernel: F) -> PyResult<Results<T, O>>
     where
         T: Real,
@@ -57,9 +51,6 @@ impl<'py, const I: usize> Arguments<'py, I> {
     }
 
     /// The same by a kernel that may take a whole block at once.
-    ///
-    /// # Errors
-    /// What the kernel refuses, with its place.
     pub fn map_blocks<T, K, const O: usize>(
         self,
         py: Python<'py>,
@@ -97,9 +88,6 @@ impl<'py, const I: usize> Arguments<'py, I> {
     }
 
     /// The same, where it is one number or more along a trace. What is below single precision is at rest or without a load: 0.
-    ///
-    /// # Errors
-    /// Arrays of more than one dimension; numbers that are not finite, or not in single precision, where they are not allowed.
     pub fn trace(mut self, py: Python<'py>, allow_faults: bool) -> PyResult<Self> {
         if self.shape.len() > 1 {
             let message = format!("a trace has one dimension; the shape is {:?}", self.shape);
@@ -136,9 +124,6 @@ impl<'py, const I: usize> Arguments<'py, I> {
     }
 
     /// Calls a function with the values in order, without the interpreter's lock.
-    ///
-    /// # Errors
-    /// What the function refuses, with its place.
     pub fn each<T, F>(&self, py: Python<'py>, mut function: F) -> PyResult<()>
     where
         T: Real,
@@ -175,9 +160,6 @@ pub struct Results<T, const O: usize> {
 
 impl<T: Real, const O: usize> Results<T, O> {
     /// As arrays.
-    ///
-    /// # Errors
-    /// None that is known.
     pub fn arrays(self, py: Python<'_>) -> PyResult<[Bound<'_, PyAny>; O]> {
         let mut arrays = Vec::with_capacity(O);
         for values in self.values {
@@ -190,9 +172,6 @@ impl<T: Real, const O: usize> Results<T, O> {
 }
 
 /// An array of a list, without a copy.
-///
-/// # Errors
-/// None that is known.
 pub fn shaped<'py, T: Element>(
     py: Python<'py>,
     values: Vec<T>,

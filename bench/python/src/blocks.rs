@@ -136,9 +136,6 @@ pub struct Block<'a, T, const I: usize, const O: usize> {
 /// What is computed for each set of inputs.
 pub trait Kernel<T, const I: usize, const O: usize> {
     /// One set of inputs.
-    ///
-    /// # Errors
-    /// What is out of its range.
     fn one(&mut self, inputs: [T; I]) -> Result<[T; O], Refused>;
 
     /// All of a block at once, with the same results; false where it has to go one by one, as where something is refused.
@@ -191,9 +188,6 @@ pub struct Inputs<'a, const I: usize> {
 const GLANCE: usize = 16;
 
 /// Runs a kernel over all values, block by block.
-///
-/// # Errors
-/// What the kernel refuses, with its place; no memory for the results, or an interrupt.
 pub fn compute<T: Real, const I: usize, const O: usize>(
     inputs: Inputs<'_, I>,
     mut kernel: impl Kernel<T, I, O>,

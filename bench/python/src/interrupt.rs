@@ -29,9 +29,6 @@ impl Signals {
     }
 
     /// Runs Python's signal handlers where a check is due.
-    ///
-    /// # Errors
-    /// The exception of a handler: `KeyboardInterrupt`.
     #[inline]
     pub fn check(&mut self) -> PyResult<()> {
         let now = Instant::now();
@@ -68,9 +65,6 @@ impl Stop {
 /// Runs work on a thread of its own, without the interpreter's lock, and waits for it; signals are handled meanwhile.
 ///
 /// After an interrupt the call ends at once, and the work at its next [`Stop::check`].
-///
-/// # Errors
-/// The exception of a signal handler: `KeyboardInterrupt`.
 pub fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(&Stop) -> T + Send + 'static,

@@ -13,9 +13,6 @@ impl<const N: usize, T> Kept<N, T> {
     pub const NONE: Self = Self { last: None };
 
     /// The constants of these numbers.
-    ///
-    /// # Errors
-    /// What `make` refuses.
     #[inline]
     pub fn get<R: Real, E: Into<Refused>>(
         &mut self,

@@ -4,9 +4,6 @@ use pyo3::exceptions::PyMemoryError;
 use pyo3::prelude::*;
 
 /// An empty list with room for so many values.
-///
-/// # Errors
-/// `MemoryError` where there is no such room.
 pub fn room<T>(length: usize) -> PyResult<Vec<T>> {
     let mut list = Vec::new();
     match list.try_reserve_exact(length) {
@@ -25,9 +22,6 @@ fn no_room<T>(length: usize) -> PyErr {
 }
 
 /// Number of values of a shape.
-///
-/// # Errors
-/// `MemoryError` where no memory could hold an array of this shape.
 pub fn length(shape: &[usize]) -> PyResult<usize> {
     const LARGEST: usize = isize::MAX as usize / size_of::<f64>();
     if shape.contains(&0) {

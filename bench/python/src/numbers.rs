@@ -9,9 +9,6 @@ use crate::blocks::Real as _;
 use crate::errors::{Refused, refused};
 
 /// A groove by its name.
-///
-/// # Errors
-/// Any other name.
 pub fn groove(py: Python<'_>, name: &str) -> PyResult<Groove> {
     match name {
         "screw" => Ok(Groove::Screw),
@@ -24,9 +21,6 @@ pub fn groove(py: Python<'_>, name: &str) -> PyResult<Groove> {
 }
 
 /// A value within a range that `eval` sets, not the crate.
-///
-/// # Errors
-/// A value outside.
 pub fn within(field: &str, value: f64, minimum: f64, maximum: f64) -> Result<(), Refused> {
     if (minimum..=maximum).contains(&value) {
         Ok(())
@@ -36,9 +30,6 @@ pub fn within(field: &str, value: f64, minimum: f64, maximum: f64) -> Result<(),
 }
 
 /// A number in single precision.
-///
-/// # Errors
-/// A number that single precision takes for infinite, or for 0.
 pub fn single(py: Python<'_>, field: &str, value: f64) -> PyResult<f32> {
     if f32::loses(value) {
         return Err(refused(py, Refused::lost(field, value)));
@@ -47,17 +38,11 @@ pub fn single(py: Python<'_>, field: &str, value: f64) -> PyResult<f32> {
 }
 
 /// The same of a number that may be left out.
-///
-/// # Errors
-/// As of [`single`].
 pub fn single_or(py: Python<'_>, field: &str, value: Option<f64>, usual: f32) -> PyResult<f32> {
     value.map_or(Ok(usual), |value| single(py, field, value))
 }
 
 /// Both ends of a range in single precision, or the same number twice where it is left out.
-///
-/// # Errors
-/// As of [`single`].
 pub fn range_or(
     py: Python<'_>,
     field: &str,
@@ -71,9 +56,6 @@ pub fn range_or(
 }
 
 /// Names and values of arguments, in order.
-///
-/// # Errors
-/// What is no number.
 pub fn arguments<'py, const I: usize>(
     py: Python<'py>,
     names: [&'static str; I],

@@ -37,9 +37,6 @@ impl Recipe {
 pub type Reduced<'py> = (Bound<'py, PyAny>, Bound<'py, PyTuple>);
 
 /// The same.
-///
-/// # Errors
-/// None that is known.
 pub fn reduced<'py, A>(py: Python<'py>, function: &str, arguments: A) -> PyResult<Reduced<'py>>
 where
     A: IntoPyObject<'py, Target = PyTuple, Output = Bound<'py, PyTuple>>,
@@ -50,9 +47,6 @@ where
 }
 
 /// An exported state as bytes.
-///
-/// # Errors
-/// `epas_friction.Error` where the state was refused.
 pub fn state(py: Python<'_>, exported: Result<Vec<u8>, Refusal>) -> PyResult<Bound<'_, PyBytes>> {
     let state = exported.map_err(|error| refused(py, error.to_string()))?;
     Ok(PyBytes::new(py, &state))

@@ -4,9 +4,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 
 /// A class of `results.py` made from its fields in order.
-///
-/// # Errors
-/// None that is known.
 pub fn result<'py, A>(py: Python<'py>, class: &str, fields: A) -> PyResult<Bound<'py, PyAny>>
 where
     A: IntoPyObject<'py, Target = PyTuple, Output = Bound<'py, PyTuple>>,

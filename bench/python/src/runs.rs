@@ -1,8 +1,8 @@
 //! Whole traces as the command `simulate` runs them, and the float64 reference over them; single evaluations of `eval`.
 
 use epas_cli::bindings::{
-    self, Caged, EncoderStep, Linear, LinearSample, Manoeuvre, ReferenceModel, Scene, ScrewSample,
-    Trace, Uncaged,
+    self, Caged, EncoderStep, Linear, LinearSample, Manoeuvre, ReferenceModel, Row, Scene,
+    ScrewSample, TickOutputs, Trace, Uncaged,
 };
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
@@ -84,9 +84,9 @@ fn rows<S>(
     mut scene: S,
     trace: Trace<S::Sample>,
     reference: Option<ReferenceModel>,
-) -> PyResult<Vec<S::Row>>
+) -> PyResult<Vec<Row<S::Sample>>>
 where
-    S: Scene<Sample: Send + 'static, Row: Send + 'static> + Send + 'static,
+    S: Scene<Sample: Send + 'static> + Send + 'static,
 {
     scene.set_encoder(EncoderStep::of(None, &trace));
     let made = interruptible(py, move |stop| {
@@ -99,7 +99,7 @@ where
 /// Outputs of a scene over a trace, as arrays.
 fn columns<C: Columns>(
     py: Python<'_>,
-    outputs: impl ExactSizeIterator<Item = C::Outputs>,
+    outputs: impl ExactSizeIterator<Item = TickOutputs>,
 ) -> PyResult<Bound<'_, PyAny>> {
     let mut columns = C::with_capacity(outputs.len())?;
     for outputs in outputs {
@@ -189,7 +189,7 @@ pub fn simulate_uncaged<'py>(
     let trace = screw_trace(py, [&time, &nut_speed, &axial_load])?;
     let scene = uncaged(py, design, memory)?;
     let rows = rows(py, scene, trace, None)?;
-    columns::<UncagedColumns>(py, rows.iter().map(|row| row.train.outputs))
+    columns::<UncagedColumns>(py, rows.iter().map(|row| row.outputs))
 }
 
 /// A linear bearing over a trace of equal steps of time, as the command ``simulate`` runs it, to the bit.
@@ -240,7 +240,7 @@ pub fn simulate_linear<'py>(
         encoder: EncoderStep::default(),
     };
     let rows = rows(py, scene, trace, None)?;
-    columns::<LinearColumns>(py, rows.iter().map(|row| row.train.outputs))
+    columns::<LinearColumns>(py, rows.iter().map(|row| row.outputs))
 }
 
 /// What the reference says, as arrays.

@@ -31,13 +31,11 @@ impl Numbers {
         (self.0 >> 8) as f32 / 16_777_216.0
     }
 
-    /// A whole number below another one.
     fn below(&mut self, most: u32) -> u32 {
         self.next();
         self.0 % most
     }
 
-    /// Between two numbers.
     fn within(&mut self, least: f32, most: f32) -> f32 {
         least + (most - least) * self.next()
     }
@@ -85,7 +83,7 @@ fn ticks<S>(
     change: impl Fn(&mut FrictionModel<S>, u32) -> Result<(), Error>,
 ) -> Result<Vec<Vec<u32>>, Error>
 where
-    S: Scene<Inputs = Inputs, Outputs = Outputs>,
+    S: Scene<Inputs = Inputs, Outputs: Words>,
 {
     let mut numbers = Numbers(start);
     let mut speed = Wander {
@@ -103,18 +101,42 @@ where
                 nut_speed: speed.next(&mut numbers, tick, 0),
                 axial_load: load.next(&mut numbers, tick, 30),
             };
-            let outputs = model.step(inputs);
-            Ok(vec![
-                inputs.nut_speed.to_bits(),
-                inputs.axial_load.to_bits(),
-                outputs.friction_torque.to_bits(),
-                outputs.load_torque.to_bits(),
-                outputs.efficiency.to_bits(),
-                regime(outputs.regime),
-                outputs.faults.bits().into(),
-            ])
+            let mut row = vec![inputs.nut_speed.to_bits(), inputs.axial_load.to_bits()];
+            row.extend(model.step(inputs).words());
+            Ok(row)
         })
         .collect()
+}
+
+trait Words {
+    fn words(&self) -> Vec<u32>;
+}
+
+impl Words for Outputs {
+    fn words(&self) -> Vec<u32> {
+        vec![
+            self.friction_torque.to_bits(),
+            self.load_torque.to_bits(),
+            self.efficiency.to_bits(),
+            regime(self.regime),
+            self.faults.bits().into(),
+        ]
+    }
+}
+
+impl Words for UncagedOutputs {
+    fn words(&self) -> Vec<u32> {
+        vec![
+            self.friction_torque.to_bits(),
+            self.groove_torque.to_bits(),
+            self.ball_torque.to_bits(),
+            self.load_torque.to_bits(),
+            self.largest_contact_force.to_bits(),
+            self.contacts.into(),
+            regime(self.regime),
+            self.faults.bits().into(),
+        ]
+    }
 }
 
 /// Worn from the middle on.
@@ -127,7 +149,6 @@ fn caged() -> Result<Vec<Vec<u32>>, Error> {
     })
 }
 
-/// Its friction coefficient rises in every tick.
 fn caged_range() -> Result<Vec<Vec<u32>>, Error> {
     ticks(setups::caged_range()?, 0x2026_0033, |model, tick| {
         model.set_friction(0.05 + tick as f32 * (0.1 / 256.0))
@@ -191,7 +212,7 @@ fn memory() -> Result<Vec<Vec<u32>>, Error> {
             };
             let outputs = model.step(inputs);
             let between = model.between(second);
-            Ok(vec![
+            let mut row = vec![
                 inputs.scene.nut_speed.to_bits(),
                 inputs.scene.axial_load.to_bits(),
                 inputs.reading,
@@ -199,64 +220,21 @@ fn memory() -> Result<Vec<Vec<u32>>, Error> {
                 inputs.temperature.to_bits(),
                 inputs.temperature_age.to_bits(),
                 second,
-                outputs.friction_torque.to_bits(),
-                outputs.load_torque.to_bits(),
-                outputs.efficiency.to_bits(),
-                regime(outputs.regime),
-                outputs.faults.bits().into(),
+            ];
+            row.extend(outputs.words());
+            row.extend([
                 between.friction_torque.to_bits(),
                 regime(between.regime),
                 between.faults.bits().into(),
-            ])
-        })
-        .collect()
-}
-
-/// Ticks of a screw without cage, with its nut's largest speed and load; something may change on the way.
-fn ticks_without_cage<S>(
-    mut model: FrictionModel<S>,
-    start: u32,
-    change: impl Fn(&mut FrictionModel<S>, u32) -> Result<(), Error>,
-) -> Result<Vec<Vec<u32>>, Error>
-where
-    S: Scene<Inputs = Inputs, Outputs = UncagedOutputs>,
-{
-    let mut numbers = Numbers(start);
-    let mut speed = Wander {
-        value: 0.0,
-        bound: 100.0,
-    };
-    let mut load = Wander {
-        value: 0.0,
-        bound: 20_000.0,
-    };
-    (0..TICKS)
-        .map(|tick| {
-            change(&mut model, tick)?;
-            let inputs = Inputs {
-                nut_speed: speed.next(&mut numbers, tick, 0),
-                axial_load: load.next(&mut numbers, tick, 30),
-            };
-            let outputs = model.step(inputs);
-            Ok(vec![
-                inputs.nut_speed.to_bits(),
-                inputs.axial_load.to_bits(),
-                outputs.friction_torque.to_bits(),
-                outputs.groove_torque.to_bits(),
-                outputs.ball_torque.to_bits(),
-                outputs.load_torque.to_bits(),
-                outputs.largest_contact_force.to_bits(),
-                outputs.contacts.into(),
-                regime(outputs.regime),
-                outputs.faults.bits().into(),
-            ])
+            ]);
+            Ok(row)
         })
         .collect()
 }
 
 /// Worn from the middle on.
 fn screw() -> Result<Vec<Vec<u32>>, Error> {
-    ticks_without_cage(setups::screw()?, 0x0037_0037, |model, tick| {
+    ticks(setups::screw()?, 0x0037_0037, |model, tick| {
         if tick == TICKS / 2 {
             model.swap_constants(setups::worn_screw()?)?;
         }
@@ -267,7 +245,7 @@ fn screw() -> Result<Vec<Vec<u32>>, Error> {
 /// Its friction coefficient rises in every tick, from the least to the largest that was folded.
 fn screw_range() -> Result<Vec<Vec<u32>>, Error> {
     let (least, largest) = gears::GEAR_33X20_BALL_RANGE.law.friction_range();
-    ticks_without_cage(setups::screw_range()?, 0x0037_0003, |model, tick| {
+    ticks(setups::screw_range()?, 0x0037_0003, |model, tick| {
         model.set_friction(least + tick as f32 * ((largest - least) / 256.0))
     })
 }
@@ -311,7 +289,6 @@ fn linear() -> Result<Vec<Vec<u32>>, Error> {
         .collect())
 }
 
-/// Over the whole domain, locked drives among them.
 fn efficiency() -> Result<Vec<Vec<u32>>, Error> {
     let mut numbers = Numbers(0x0014_0017);
     (0..128)
@@ -377,7 +354,6 @@ fn curvature() -> Result<Vec<Vec<u32>>, Error> {
     Ok(cases)
 }
 
-/// One table in C.
 fn table(text: &mut String, name: &str, columns: &str, rows: &[Vec<u32>]) -> Outcome<()> {
     let width = rows.first().map_or(0, Vec::len);
     writeln!(text, "\n/* {columns} */")?;
@@ -394,71 +370,53 @@ fn table(text: &mut String, name: &str, columns: &str, rows: &[Vec<u32>]) -> Out
     Ok(())
 }
 
+/// Columns of a screw with a cage.
+const CAGED: &str =
+    "nut_speed, axial_load; friction_torque, load_torque, efficiency, regime, faults";
+
+/// Columns of a screw without.
+const UNCAGED: &str = "nut_speed, axial_load; friction_torque, groove_torque, ball_torque, load_torque, \
+         largest_contact_force, contacts, regime, faults";
+
 /// The file of stored cases.
 pub fn generated() -> Outcome<String> {
     let mut text = String::from(
         "/* Written by `cargo run -p epas-c-check -- --write`; do not edit. Inputs and what the crate makes of\n\
          \x20* them on the host, called from Rust: floats by their bits. */\n",
     );
-    table(
-        &mut text,
-        "stored_caged",
-        "nut_speed, axial_load; friction_torque, load_torque, efficiency, regime, faults",
-        &caged()?,
-    )?;
-    table(
-        &mut text,
-        "stored_caged_range",
-        "nut_speed, axial_load; friction_torque, load_torque, efficiency, regime, faults",
-        &caged_range()?,
-    )?;
-    table(
-        &mut text,
-        "stored_closed_form",
-        "nut_speed, axial_load; friction_torque, load_torque, efficiency, regime, faults",
-        &closed_form()?,
-    )?;
-    table(
-        &mut text,
-        "stored_memory",
-        "nut_speed, axial_load, count, load_age, temperature, temperature_age, count between two steps; \
+    let tables = [
+        ("stored_caged", CAGED, caged()?),
+        ("stored_caged_range", CAGED, caged_range()?),
+        ("stored_closed_form", CAGED, closed_form()?),
+        (
+            "stored_memory",
+            "nut_speed, axial_load, count, load_age, temperature, temperature_age, count between two steps; \
          friction_torque, load_torque, efficiency, regime, faults; between: friction_torque, regime, faults",
-        &memory()?,
-    )?;
-    table(
-        &mut text,
-        "stored_screw",
-        "nut_speed, axial_load; friction_torque, groove_torque, ball_torque, load_torque, \
+            memory()?,
+        ),
+        ("stored_screw", UNCAGED, screw()?),
+        ("stored_screw_range", UNCAGED, screw_range()?),
+        (
+            "stored_linear",
+            "speed, normal_load, side_load; friction_force, groove_force, ball_force, \
          largest_contact_force, contacts, regime, faults",
-        &screw()?,
-    )?;
-    table(
-        &mut text,
-        "stored_screw_range",
-        "nut_speed, axial_load; friction_torque, groove_torque, ball_torque, load_torque, \
-         largest_contact_force, contacts, regime, faults",
-        &screw_range()?,
-    )?;
-    table(
-        &mut text,
-        "stored_linear",
-        "speed, normal_load, side_load; friction_force, groove_force, ball_force, \
-         largest_contact_force, contacts, regime, faults",
-        &linear()?,
-    )?;
-    table(
-        &mut text,
-        "stored_efficiency",
-        "lead_angle, contact_angle, ball_ratio, friction, rolling_tangent; rolling drive and back-drive, \
+            linear()?,
+        ),
+        (
+            "stored_efficiency",
+            "lead_angle, contact_angle, ball_ratio, friction, rolling_tangent; rolling drive and back-drive, \
          sliding drive and back-drive, locked drive and back-drive",
-        &efficiency()?,
-    )?;
-    table(
-        &mut text,
-        "stored_curvature",
-        "pitch_radius, lead, ball_radius, groove, contact_angle; first, second, circular_groove, literature",
-        &curvature()?,
-    )?;
+            efficiency()?,
+        ),
+        (
+            "stored_curvature",
+            "pitch_radius, lead, ball_radius, groove, contact_angle; first, second, circular_groove, literature",
+            curvature()?,
+        ),
+    ];
+    for (name, columns, rows) in &tables {
+        table(&mut text, name, columns, rows)?;
+    }
     Ok(text)
 }
 

@@ -64,7 +64,6 @@ pub fn words_of<const NODES: usize>(ball: &FoldedBall<NODES>) -> Outcome<Vec<u32
     Ok(words)
 }
 
-/// A header with arrays.
 fn header(guard: &str, arrays: &[(&str, &[u32])]) -> Outcome<String> {
     let mut text = format!(
         "/* Written by `cargo run -p epas-c-check -- --write`; do not edit. Folded ball screws, as `epas design` writes\n\

@@ -76,7 +76,6 @@ pub fn check(root: &Path) -> Outcome<()> {
     Ok(())
 }
 
-/// The C of a README.
 fn examples(readme: &str) -> String {
     let mut inside = false;
     let mut code = String::new();

@@ -65,7 +65,6 @@ fn run(root: &Path, write: bool, host_only: bool) -> Outcome<()> {
     Ok(())
 }
 
-/// A generated file is what it would be generated as.
 fn up_to_date(root: &Path, name: &str, text: &str, write: bool) -> Outcome<()> {
     let file = root.join(name);
     if fs::read_to_string(&file).is_ok_and(|stored| stored == text) {

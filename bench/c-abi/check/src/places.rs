@@ -133,7 +133,6 @@ pub fn says(root: &Path, page: &str, line: &str) -> Outcome<()> {
     }
 }
 
-/// A number that a constant has.
 fn defined(types: &str, name: &str) -> Option<usize> {
     let start = format!("pub const {name}: usize = ");
     types

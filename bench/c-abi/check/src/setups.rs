@@ -28,7 +28,6 @@ pub fn caged_range() -> Result<FrictionModel<CagedBallScrew<NODES>>, Error> {
     FrictionModel::new(&CagedBallScrewConfiguration::read(gears::GEAR_33X20_RANGE)?)
 }
 
-/// Its catalogue numbers.
 fn design() -> Result<BallScrew, Error> {
     BallScrew::new(BallScrewParameters {
         pitch_radius: 16.5e-3,
@@ -74,7 +73,6 @@ pub type Remembering = WithMemory<
     CoefficientLaw,
 >;
 
-/// What is set for it.
 type RememberingConfiguration = WithMemoryConfiguration<
     CagedBallScrewConfiguration<NODES>,
     ProportionalElements<8>,
@@ -124,7 +122,6 @@ const SLIP_SHARE: f32 = 0.3717;
 const SLIP_ANGLE: f32 = 23.5e-3;
 const SPIN_ANGLE: f32 = 0.3017e-3;
 
-/// A gear with a memory, of this block.
 fn remembering(block: &[u32]) -> Result<RememberingConfiguration, Error> {
     let scene = CagedBallScrewConfiguration::read(block)?;
     let slip = Part {
@@ -158,7 +155,6 @@ fn remembering(block: &[u32]) -> Result<RememberingConfiguration, Error> {
     })
 }
 
-/// A table that lives as long as the program.
 fn kept<T>(value: T) -> &'static T {
     Box::leak(Box::new(value))
 }
@@ -209,7 +205,6 @@ fn without_cage<const NODES: usize>(
     })
 }
 
-/// Its model, with the angle of its nut.
 fn with_angle<const NODES: usize>(
     folded: &'static FoldedBall<NODES>,
 ) -> Result<FrictionModel<UncagedBallScrew<MOST_BALLS, NODES>>, Error> {

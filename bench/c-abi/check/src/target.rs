@@ -184,7 +184,6 @@ pub fn check(root: &Path) -> Outcome<()> {
     Ok(())
 }
 
-/// Nothing in the archive calls what only a panic calls.
 fn no_panic_path(archive: &Path) -> Outcome<()> {
     if symbols("arm-none-eabi-nm", archive)?
         .iter()

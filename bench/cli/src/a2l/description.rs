@@ -27,10 +27,8 @@ const NUMBERS: &str = "numbers.";
 /// Addresses are written as everybody reads them.
 const HEXADECIMAL: bool = true;
 
-/// Plain numbers.
 const PLAIN: &str = "plain";
 
-/// The description of an image, as text.
 pub fn describe(image: &Variables<'_>) -> Result<String, Failure> {
     let [working, reference, measured] = [
         image.find(WORKING)?,
@@ -68,7 +66,6 @@ pub fn describe(image: &Variables<'_>) -> Result<String, Failure> {
     Ok(file.write_to_string() + "\n")
 }
 
-/// The page in the image's flash is one of this table.
 fn same_layout(image: &Variables<'_>, reference: &Variable) -> Result<(), Failure> {
     let layout = reference
         .fields
@@ -153,7 +150,6 @@ fn record_layout(number: Number) -> RecordLayout {
     layout
 }
 
-/// A conversion for each unit, and for each list of names.
 fn conversions(module: &mut Module) {
     let units: BTreeSet<&str> = CALIBRATION
         .iter()
@@ -201,7 +197,6 @@ fn conversions(module: &mut Module) {
 /// Measured numbers that stand for names.
 const VERBAL: [(&str, &[&str]); 2] = [("regime", &REGIMES), ("page_state", &PAGE_STATES)];
 
-/// The name of a unit's conversion.
 fn conversion(unit: &str) -> String {
     if unit.is_empty() {
         return PLAIN.into();
@@ -253,7 +248,6 @@ fn page(module: &mut Module, variable: &Variable, reference: bool) -> Result<(),
     Ok(())
 }
 
-/// A number of a page.
 fn characteristic(
     field: &Field,
     name: String,

@@ -24,25 +24,20 @@ pub enum Number {
     Unsigned32,
 }
 
-/// A number of a variable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
     /// Its path from the variable on, without what only wraps it: `numbers.friction_boundary`.
     pub path: String,
     /// Its whole path, with the variable's name: what a debugger calls it.
     pub symbol: String,
-    /// Its address.
     pub address: u32,
     /// Its type.
     pub number: Number,
 }
 
-/// A variable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Variable {
-    /// Its address.
     pub address: u32,
-    /// Its size in bytes.
     pub size: u32,
     /// Its numbers, in their order.
     pub fields: Vec<Field>,
@@ -103,7 +98,6 @@ impl<'a> Variables<'a> {
         })
     }
 
-    /// A variable by its name.
     pub fn find(&self, name: &str) -> Result<Variable, Failure> {
         let found = self.search(name).map_err(|error| broken(&error))?;
         found.ok_or_else(|| {
@@ -140,7 +134,6 @@ impl<'a> Variables<'a> {
         Ok(None)
     }
 
-    /// The type of an entry.
     fn kind(&self, unit: usize, entry: &Entry<'a>) -> Option<Kind> {
         match entry.attr_value(gimli::DW_AT_type)? {
             AttributeValue::UnitRef(offset) => Some(Kind { unit, offset }),
@@ -162,7 +155,6 @@ impl<'a> Variables<'a> {
         Ok(Some(name.to_string_lossy().into_owned()))
     }
 
-    /// Takes in the numbers of a type; its size in bytes.
     fn walk(
         &self,
         kind: Kind,
@@ -235,7 +227,6 @@ impl<'a> Variables<'a> {
 /// Most fields in fields.
 const DEEPEST: usize = 16;
 
-/// Where a part of a variable stands.
 struct Place<'a> {
     path: &'a str,
     symbol: &'a str,

@@ -13,7 +13,6 @@ use super::Format;
 use epas_design::files::{Design, capacity};
 use epas_page::failure::Failure;
 
-/// A folded design.
 pub enum Made {
     /// Of balls that no other ball presses.
     Caged(Box<Folded>),
@@ -47,7 +46,6 @@ struct ShownFigure {
     unit: &'static str,
 }
 
-/// What both kinds say above their certificate.
 struct Head {
     about: String,
     friction: (f32, f32),
@@ -57,10 +55,6 @@ struct Head {
 }
 
 impl Made {
-    /// The words of its block.
-    ///
-    /// # Errors
-    /// None that is known.
     pub fn words(&self) -> Result<Vec<u32>, Failure> {
         Ok(match self {
             Self::Caged(folded) => folded.words()?,
@@ -69,9 +63,6 @@ impl Made {
     }
 
     /// Its block in a format, for a constant with a name.
-    ///
-    /// # Errors
-    /// None that is known.
     pub fn written(&self, format: Format, name: &str) -> Result<Vec<u8>, Failure> {
         let text = match (self, format) {
             (Self::Caged(folded), Format::Rust) => folded.rust(name),
@@ -87,9 +78,6 @@ impl Made {
     }
 
     /// What `--json` prints.
-    ///
-    /// # Errors
-    /// None that is known.
     pub fn shown(&self) -> Result<Shown, Failure> {
         let bytes = 4 * self.words()?.len();
         Ok(match self {
@@ -177,9 +165,6 @@ impl Made {
     }
 
     /// Prints what was folded, over which domain, and how exact it is.
-    ///
-    /// # Errors
-    /// What cannot be written.
     pub fn print(&self, out: &mut dyn Write, design: &Design, words: usize) -> io::Result<()> {
         let Head {
             about,
@@ -246,9 +231,6 @@ impl Made {
     }
 
     /// How firmware takes the block in, of a file with a name and a constant's name.
-    ///
-    /// # Errors
-    /// What cannot be written.
     pub fn next(
         &self,
         out: &mut dyn Write,
@@ -310,7 +292,6 @@ fn micrometres(gap: f32) -> f64 {
     (1e9 * f64::from(gap)).round() / 1e3 + 0.0
 }
 
-/// What a drawing says, in its units.
 fn geometry(screw: &BallScrew) -> String {
     let millimetres = |length: f32| (1e6 * f64::from(length)).round() / 1e3;
     let ContactAngle { cos, sin } = screw.contact_angle();
@@ -388,7 +369,6 @@ fn line(out: &mut dyn Write, figure: &ShownFigure) -> io::Result<()> {
     )
 }
 
-/// What a figure's numbers rest on.
 fn notes(out: &mut dyn Write, seed: u64, figure: &Figure) -> io::Result<()> {
     writeln!(
         out,
@@ -406,7 +386,6 @@ fn notes(out: &mut dyn Write, seed: u64, figure: &Figure) -> io::Result<()> {
     unsolved(out, figure.unsolved, "states")
 }
 
-/// The same of rows of balls.
 fn notes_of_rows(out: &mut dyn Write, folded: &FoldedUncaged) -> io::Result<()> {
     let certificate = &folded.certificate;
     for figure in of_rows(certificate) {

@@ -17,7 +17,6 @@ const SCREW: Design = Design {
     preload: 0.0,
 };
 
-/// The caged scene's friction torque and efficiency.
 fn scene(design: &Design, duty: &Duty) -> (f32, f32) {
     let screw = screw(design).unwrap();
     let fold = CagedFold::of(CagedDesign {

@@ -9,7 +9,6 @@ use super::unit::Unit;
 use super::units::UNITS;
 use super::variables::{Causality, Choice, Kind, Variable};
 
-/// A version of FMI.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
     /// FMI 2.0.
@@ -23,7 +22,6 @@ pub const LIBRARY: &str = "epas_friction";
 
 type Xml = Writer<Vec<u8>>;
 
-/// Attributes of an element.
 type Attributes<'a> = Vec<(&'a str, String)>;
 
 fn element(
@@ -51,7 +49,6 @@ fn empty(xml: &mut Xml, name: &str, attributes: &Attributes<'_>) -> io::Result<(
     Ok(())
 }
 
-/// The text of a unit's model description.
 pub fn description(unit: &Unit, version: Version) -> String {
     let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
     // Nothing fails that writes into memory.
@@ -91,7 +88,6 @@ fn whole(xml: &mut Xml, unit: &Unit, version: Version) -> io::Result<()> {
     })
 }
 
-/// What the unit is.
 fn model(unit: &Unit, version: Version) -> Attributes<'static> {
     let scene = unit.stored.scene;
     let (number, token) = match version {
@@ -116,7 +112,6 @@ fn model(unit: &Unit, version: Version) -> Attributes<'static> {
     ]
 }
 
-/// What it can do.
 fn capabilities(version: Version) -> Attributes<'static> {
     let [get, serialise] = match version {
         Version::Two => ["canGetAndSetFMUstate", "canSerializeFMUstate"],
@@ -130,7 +125,6 @@ fn capabilities(version: Version) -> Attributes<'static> {
     ]
 }
 
-/// Units that the variables have.
 fn units(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
     let used = UNITS.iter().filter(|known| {
         unit.variables
@@ -153,7 +147,6 @@ fn units(xml: &mut Xml, unit: &Unit) -> io::Result<()> {
     })
 }
 
-/// Types of some names.
 fn types(xml: &mut Xml, unit: &Unit, version: Version) -> io::Result<()> {
     let used = Choice::ALL.into_iter().filter(|choice| {
         unit.variables
@@ -185,7 +178,6 @@ fn types(xml: &mut Xml, unit: &Unit, version: Version) -> io::Result<()> {
     })
 }
 
-/// Causality, variability and how the start value is meant.
 fn roles(variable: &Variable) -> Attributes<'static> {
     let number = matches!(variable.kind, Kind::Float64 | Kind::Float32);
     let changing = if number { "continuous" } else { "discrete" };

@@ -60,9 +60,6 @@ pub fn platform() -> String {
 }
 
 /// Where a library stands in a unit's file, by the names that a version of FMI has for this platform.
-///
-/// # Errors
-/// Where FMI has no name for it.
 pub fn place(version: Version) -> Result<String, Failure> {
     let own = platform();
     let known = platforms(version).find(|(_, of)| *of == own);
@@ -80,9 +77,6 @@ pub fn place(version: Version) -> Result<String, Failure> {
 }
 
 /// A library that was built before; its bytes.
-///
-/// # Errors
-/// A file that cannot be read, or is another library.
 pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let bytes = fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
     if marked(&bytes) {
@@ -99,9 +93,6 @@ fn marked(bytes: &[u8]) -> bool {
 }
 
 /// Builds the library; its bytes, and the folder of its sources.
-///
-/// # Errors
-/// Where there are no sources, or cargo or its build fails.
 pub fn build() -> Result<(Vec<u8>, PathBuf), Failure> {
     let sources = sources().ok_or_else(|| Failure::Data(how()))?;
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());

@@ -1,46 +1,35 @@
 //! Models of a unit, of a design whose numbers have been changed.
 
-use epas_design::uncaged::Folded;
-use epas_friction::scene::{FoldedBall, UncagedBallScrewConfiguration};
-use epas_friction::{Error, FrictionModel, LinearBearingTrain, UncagedBallScrew};
+use epas_friction::Error;
 
 use super::parameters::Values;
-use super::rows::Row;
-use super::running::{ByAngle, Moving, Running};
+use super::running::{ByAngle, Caged, Motion, Row, Running};
 use super::scene::SceneName;
-use crate::simulate::balls::CAPACITY;
+use crate::model::{Model, Sensor, TEMPERATURE};
 use crate::simulate::encoder::EncoderStep;
 use crate::simulate::linear::Linear;
-use crate::simulate::memory::{self, Remembered, Remembering};
-use crate::simulate::nut::STEPS;
-use crate::simulate::remembering::{Sensor, Use, remembering};
+use crate::simulate::memory::{self, Remembered};
+use crate::simulate::nut::{Nut, STEPS};
+use crate::simulate::remembering::remembering;
 use crate::simulate::uncaged::Uncaged;
+use epas_calibrate::mechanism::Mechanism;
 use epas_design::caged_scene::CagedScene;
 use epas_design::files::Design;
-use epas_design::files::train::{LinearDesign, UncagedDesign, no_row};
+use epas_design::files::train::{LinearDesign, no_row};
 
 /// A screw whose balls do not touch.
-///
-/// # Errors
-/// The parameter that is wrong, its value and what is allowed.
 pub fn caged(design: &Design) -> Result<Box<dyn Running>, String> {
     design.check().map_err(said)?;
     let scene = CagedScene::of(design).map_err(|failure| failure.to_string())?;
-    Ok(Box::new(scene.model().map_err(said)?))
+    Ok(Box::new(Caged(Box::new(scene.model().map_err(said)?))))
 }
 
 /// The same with friction that remembers.
-///
-/// # Errors
-/// The parameter that is wrong, its value and what is allowed.
 pub fn caged_with_memory(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running>, String> {
     let angle = memory::angle().map_err(said)?;
-    with_memory(
-        design,
-        mean_load(values)?,
-        (angle, encoder_step(values)?),
-        ByAngle,
-    )
+    let sensor = (angle, encoder_step(values)?);
+    let model = with_memory(design, mean_load(values)?, sensor)?;
+    Ok(Box::new(ByAngle::new(model)))
 }
 
 fn said(error: Error) -> String {
@@ -63,49 +52,50 @@ fn checked_tick(values: &Values<'_>) -> Result<f64, String> {
     values.within("tick", 1e-6, 1.0)
 }
 
-/// A caged screw that remembers.
-fn with_memory<A, U>(
+fn with_memory(
     design: &Design,
     load: f32,
-    sensor: (A, f32),
-    then: U,
-) -> Result<Box<dyn Running>, String>
-where
-    A: Sensor,
-    U: Use<Made = Box<dyn Running>>,
-{
+    sensor: (impl Sensor, f32),
+) -> Result<Box<dyn Model>, String> {
     // A wrong number of the design is told under its own name, whatever a law or elements make of it.
     design.check().map_err(said)?;
-    match remembering(design, load, sensor, then) {
-        Ok((running, _)) => Ok(running),
+    match remembering(design, load, sensor) {
+        Ok((model, _)) => Ok(model),
         Err(failure) => Err(failure.message().into()),
     }
 }
 
 /// What turns with the nut.
-///
-/// # Errors
-/// The parameter that is wrong, its value and what is allowed.
 pub fn mechanism(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running>, String> {
     let tick = checked_tick(values)?;
-    let moving = Moving {
-        told: [
-            values.within("gain", -10.0, 10.0)?,
-            values.within("drag", -1e3, 1e3)?,
-            values.within("offset", -1e3, 1e3)?,
-        ],
-        inertia: values.within("inertia", 1e-9, 1e3)?,
-        tick,
-    };
+    let [gain, drag, offset] = [
+        values.within("gain", -10.0, 10.0)?,
+        values.within("drag", -1e3, 1e3)?,
+        values.within("offset", -1e3, 1e3)?,
+    ];
+    let inertia = values.within("inertia", 1e-9, 1e3)?;
     let speed = memory::speed((tick / STEPS as f64) as f32).map_err(said)?;
     // The nut's own motion has no noise.
-    with_memory(design, mean_load(values)?, (speed, 0.0), moving)
+    let model = with_memory(design, mean_load(values)?, (speed, 0.0))?;
+    let resistance = Nut {
+        model,
+        gain,
+        drag,
+        offset,
+        axial_load: 0.0,
+        temperature: TEMPERATURE,
+        outputs: None,
+    };
+    let mechanism = Mechanism {
+        inertia,
+        position: 0.0,
+        speed: 0.0,
+        resistance,
+    };
+    Ok(Box::new(Motion { mechanism, tick }))
 }
 
 /// A row of balls of a screw's design.
-///
-/// # Errors
-/// Where it has none.
 pub fn row(design: &Design) -> Result<Uncaged, String> {
     Ok(Uncaged {
         design: design.clone(),
@@ -116,9 +106,6 @@ pub fn row(design: &Design) -> Result<Uncaged, String> {
 }
 
 /// A screw whose balls press on each other.
-///
-/// # Errors
-/// The parameter that is wrong, its value and what is allowed.
 pub fn uncaged(
     design: &Design,
     scene: SceneName,
@@ -126,86 +113,48 @@ pub fn uncaged(
 ) -> Result<Box<dyn Running>, String> {
     let row = row(design)?;
     row.balls.gear.checked().map_err(said)?;
-    let remembered = if scene.has_memory() {
-        let mut remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
-        remembered.encoder_step = encoder_step(values)?;
-        Some(remembered)
-    } else {
-        None
-    };
+    let remembered = remembered(scene, values, |load| row.remembered_at(load))?;
     let tick = checked_tick(values)? as f32;
-    match row
-        .folded(0.0)
-        .map_err(|failure| failure.message().to_owned())?
-        .folded
-    {
-        Folded::One(folded) => row_of(&row.balls, folded, remembered.as_ref(), tick),
-        Folded::Range(folded) => row_of(&row.balls, folded, remembered.as_ref(), tick),
-    }
+    let configuration = row.folded(0.0);
+    let configuration = configuration.map_err(|failure| failure.message().to_owned())?;
+    let model = row.model(&configuration, tick, remembered.as_ref());
+    Ok(Box::new(Row {
+        model: model.map_err(said)?,
+        linear: false,
+        motion: 0.0,
+    }))
 }
 
-/// The same by a law of its ball.
-fn row_of<const K: usize>(
-    balls: &UncagedDesign,
-    folded: &'static FoldedBall<K>,
-    remembered: Option<&Remembered>,
-    tick: f32,
-) -> Result<Box<dyn Running>, String> {
-    let configuration = UncagedBallScrewConfiguration {
-        folded,
-        ball_friction: balls.ball_friction,
-        balls: balls.balls.into(),
-        turns: balls.turns,
-        return_length: balls.return_length,
-        screw_deviation: balls.screw_deviation,
-        nut_deviation: balls.nut_deviation,
-        load_shares: balls.load_shares,
-        tick,
-    };
-    if let Some(remembered) = remembered {
-        let speed = memory::rows_speed(tick, remembered.encoder_step).map_err(said)?;
-        let model = memory::configuration(configuration, remembered, speed, balls.gear.friction)
-            .and_then(|whole| {
-                FrictionModel::<Remembering<UncagedBallScrew<CAPACITY, K>>>::new(&whole)
-            })
-            .map_err(said)?;
-        Ok(Box::new(Row { model, motion: 0.0 }))
-    } else {
-        let model =
-            FrictionModel::<UncagedBallScrew<CAPACITY, K>>::new(&configuration).map_err(said)?;
-        Ok(Box::new(Row { model, motion: 0.0 }))
+fn remembered(
+    scene: SceneName,
+    values: &Values<'_>,
+    at: impl FnOnce(f32) -> Result<Remembered, Error>,
+) -> Result<Option<Remembered>, String> {
+    if !scene.has_memory() {
+        return Ok(None);
     }
+    let mut remembered = at(mean_load(values)?).map_err(said)?;
+    remembered.encoder_step = encoder_step(values)?;
+    Ok(Some(remembered))
 }
 
-/// A linear bearing.
-///
-/// # Errors
-/// The parameter that is wrong, its value and what is allowed.
+/// A linear bearing whose balls press on each other.
 pub fn linear(
     design: LinearDesign,
     scene: SceneName,
     values: &Values<'_>,
 ) -> Result<Box<dyn Running>, String> {
-    let mut configuration = design.configuration;
-    configuration.tick = checked_tick(values)? as f32;
-    if scene.has_memory() {
-        let row = Linear {
-            design,
-            memory: true,
-            encoder: EncoderStep::default(),
-        };
-        let remembered = row.remembered_at(mean_load(values)?).map_err(said)?;
-        let friction = configuration.friction;
-        let speed = memory::rows_speed(configuration.tick, encoder_step(values)?).map_err(said)?;
-        let model = memory::configuration(configuration, &remembered, speed, friction)
-            .and_then(|whole| {
-                FrictionModel::<Remembering<LinearBearingTrain<CAPACITY>>>::new(&whole)
-            })
-            .map_err(said)?;
-        Ok(Box::new(Row { model, motion: 0.0 }))
-    } else {
-        let model =
-            FrictionModel::<LinearBearingTrain<CAPACITY>>::new(&configuration).map_err(said)?;
-        Ok(Box::new(Row { model, motion: 0.0 }))
-    }
+    let tick = checked_tick(values)? as f32;
+    let row = Linear {
+        design,
+        memory: true,
+        encoder: EncoderStep::default(),
+    };
+    let remembered = remembered(scene, values, |load| row.remembered_at(load))?;
+    let model = row.model(tick, remembered.as_ref());
+    Ok(Box::new(Row {
+        model: model.map_err(said)?,
+        linear: true,
+        motion: 0.0,
+    }))
 }

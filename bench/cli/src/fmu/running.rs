@@ -1,14 +1,11 @@
 //! Models of a unit while it runs: inputs in, outputs out, state as bytes.
 
-use std::f64::consts::{PI, TAU};
+use epas_friction::{Refusal, Regime};
 
-use epas_friction::{Inputs, Outputs, Refusal, Regime};
-
-use crate::simulate::memory;
+use crate::model::{Model, TickInputs, TickOutputs};
+use crate::simulate::caged::wrapped;
 use crate::simulate::nut::{Nut, STEPS};
-use crate::simulate::remembering::{Remembers, Use};
 use epas_calibrate::mechanism::Mechanism;
-use epas_design::caged_scene::CagedModel;
 
 /// What a step is told.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +21,11 @@ pub struct Moment<'a> {
 }
 
 impl Moment<'_> {
+    /// The first two inputs, of a tick whose sensor reads the speed.
+    fn tick(&self) -> TickInputs {
+        TickInputs::new(self.input(0) as f32, self.input(1) as f32)
+    }
+
     /// An input by its place; NaN where there is none.
     pub fn input(&self, index: usize) -> f64 {
         self.inputs.get(index).copied().unwrap_or(f64::NAN)
@@ -33,26 +35,16 @@ impl Moment<'_> {
 /// A model that runs.
 pub trait Running: Send {
     /// Outputs at the end of a step, in the order of `variables::outputs`.
-    ///
-    /// # Errors
-    /// An input under which there is no motion; nothing has moved.
     fn step(&mut self, moment: &Moment<'_>) -> Result<Vec<f64>, String>;
 
     /// Its state as bytes.
-    ///
-    /// # Errors
-    /// What the crate refuses.
     fn save(&self) -> Result<Vec<u8>, String>;
 
     /// Takes a state over.
-    ///
-    /// # Errors
-    /// What is wrong; the state is as it was.
     fn load(&mut self, state: &[u8]) -> Result<(), String>;
 }
 
-/// A regime by its number.
-pub fn regime(regime: Regime) -> f64 {
+fn regime(regime: Regime) -> f64 {
     match regime {
         Regime::Standing => 0.0,
         Regime::Driving => 1.0,
@@ -61,18 +53,10 @@ pub fn regime(regime: Regime) -> f64 {
     }
 }
 
-/// Inputs of a screw.
-pub fn screw_inputs(moment: &Moment<'_>) -> Inputs {
-    Inputs {
-        nut_speed: moment.input(0) as f32,
-        axial_load: moment.input(1) as f32,
-    }
-}
-
-/// Outputs of a screw.
-pub fn screw_outputs(outputs: &Outputs) -> Vec<f64> {
+/// The outputs of every screw.
+fn screw_outputs(outputs: &TickOutputs) -> Vec<f64> {
     vec![
-        outputs.friction_torque.into(),
+        outputs.friction.into(),
         outputs.load_torque.into(),
         outputs.efficiency.into(),
         regime(outputs.regime),
@@ -81,22 +65,19 @@ pub fn screw_outputs(outputs: &Outputs) -> Vec<f64> {
 }
 
 /// Why a state was refused.
-pub fn text(refusal: Refusal) -> String {
+fn text(refusal: Refusal) -> String {
     format!("the state is refused: {refusal}")
 }
 
 /// Numbers before a model's block.
-pub fn joined(numbers: &[f64], block: &[u8]) -> Vec<u8> {
+fn joined(numbers: &[f64], block: &[u8]) -> Vec<u8> {
     let mut bytes: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes()).collect();
     bytes.extend_from_slice(block);
     bytes
 }
 
 /// The numbers and the block again.
-///
-/// # Errors
-/// Where the state is too short.
-pub fn parted<const N: usize>(state: &[u8]) -> Result<([f64; N], &[u8]), String> {
+fn parted<const N: usize>(state: &[u8]) -> Result<([f64; N], &[u8]), String> {
     let mut numbers = [0.0; N];
     let mut rest = state;
     for number in &mut numbers {
@@ -109,44 +90,42 @@ pub fn parted<const N: usize>(state: &[u8]) -> Result<([f64; N], &[u8]), String>
     Ok((numbers, rest))
 }
 
-impl Running for CagedModel {
+/// A screw without memory whose balls do not touch.
+pub struct Caged(pub Box<dyn Model>);
+
+impl Running for Caged {
     fn step(&mut self, moment: &Moment<'_>) -> Result<Vec<f64>, String> {
-        Ok(screw_outputs(&Self::step(self, screw_inputs(moment))))
+        Ok(screw_outputs(&self.0.step(&moment.tick())))
     }
 
     fn save(&self) -> Result<Vec<u8>, String> {
-        self.export().map_err(text)
+        self.0.export().map_err(text)
     }
 
     fn load(&mut self, state: &[u8]) -> Result<(), String> {
-        self.import(state).map_err(text)
+        self.0.import(state).map_err(text)
     }
 }
 
-/// Boxes a caged screw that remembers: its angle is the integral of its speed by the trapezoidal rule.
-pub struct ByAngle;
-
-/// A caged screw that remembers.
-struct Caged<M> {
-    model: M,
+/// A caged screw that remembers: its angle is the integral of its speed by the trapezoidal rule.
+pub struct ByAngle {
+    model: Box<dyn Model>,
     /// Angle of the nut, rad; time, s, and speed, rad/s, of the last step, NaN before the first one.
     angle: f64,
     last: [f64; 2],
 }
 
-impl Use for ByAngle {
-    type Made = Box<dyn Running>;
-
-    fn with(self, model: impl Remembers + 'static) -> Self::Made {
-        Box::new(Caged {
+impl ByAngle {
+    pub fn new(model: Box<dyn Model>) -> Self {
+        Self {
             model,
             angle: 0.0,
             last: [f64::NAN; 2],
-        })
+        }
     }
 }
 
-impl<M: Remembers> Running for Caged<M> {
+impl Running for ByAngle {
     fn step(&mut self, moment: &Moment<'_>) -> Result<Vec<f64>, String> {
         let speed = moment.input(0);
         if speed.is_finite() {
@@ -156,13 +135,12 @@ impl<M: Remembers> Running for Caged<M> {
             }
             self.last = [moment.time, speed];
         }
-        let reading = ((self.angle + PI).rem_euclid(TAU) - PI) as f32;
-        let temperature = moment.input(2) as f32;
-        Ok(screw_outputs(&self.model.step_at(
-            screw_inputs(moment),
-            reading,
-            temperature,
-        )))
+        let inputs = TickInputs {
+            reading: wrapped(self.angle),
+            temperature: moment.input(2) as f32,
+            ..moment.tick()
+        };
+        Ok(screw_outputs(&self.model.step(&inputs)))
     }
 
     fn save(&self) -> Result<Vec<u8>, String> {
@@ -182,48 +160,61 @@ impl<M: Remembers> Running for Caged<M> {
     }
 }
 
-/// Boxes a mechanism.
-pub struct Moving {
-    /// Its design's gain, drag and offset.
-    pub told: [f64; 3],
-    /// Inertia, kg m².
-    pub inertia: f64,
+/// A row of balls with the motion that it has made: angle of the nut, rad, or travel of the carriage, m.
+pub struct Row {
+    pub model: Box<dyn Model>,
+    pub linear: bool,
+    pub motion: f64,
+}
+
+impl Running for Row {
+    fn step(&mut self, moment: &Moment<'_>) -> Result<Vec<f64>, String> {
+        let mut inputs = moment.tick();
+        if self.linear {
+            inputs.side_load = moment.input(2) as f32;
+        }
+        // Behind the loads; without memory nothing follows it.
+        inputs.temperature = moment.input(2 + usize::from(self.linear)) as f32;
+        let mut made = self.model.step(&inputs);
+        for _ in 1..moment.ticks {
+            made = self.model.step(&inputs);
+        }
+        let speed = moment.input(0);
+        if speed.is_finite() {
+            self.motion += speed * moment.size;
+        }
+        let mut outputs = screw_outputs(&made);
+        if self.linear {
+            // A bearing has neither load torque nor efficiency.
+            outputs.drain(1..3);
+        }
+        outputs.push(self.motion);
+        outputs.extend([made.groove, made.ball].map(f64::from));
+        outputs.push(made.contacts.into());
+        outputs.push(made.largest_contact_force.into());
+        Ok(outputs)
+    }
+
+    fn save(&self) -> Result<Vec<u8>, String> {
+        Ok(joined(&[self.motion], &self.model.export().map_err(text)?))
+    }
+
+    fn load(&mut self, state: &[u8]) -> Result<(), String> {
+        let ([motion], block) = parted(state)?;
+        self.model.import(block).map_err(text)?;
+        self.motion = motion;
+        Ok(())
+    }
+}
+
+/// What turns with the nut.
+pub struct Motion {
+    pub mechanism: Mechanism<Nut<Box<dyn Model>>>,
     /// Tick, s.
     pub tick: f64,
 }
 
-/// A mechanism.
-struct Motion<M> {
-    mechanism: Mechanism<Nut<M>>,
-    tick: f64,
-}
-
-impl Use for Moving {
-    type Made = Box<dyn Running>;
-
-    fn with(self, model: impl Remembers + 'static) -> Self::Made {
-        let [gain, drag, offset] = self.told;
-        Box::new(Motion {
-            mechanism: Mechanism {
-                inertia: self.inertia,
-                position: 0.0,
-                speed: 0.0,
-                resistance: Nut {
-                    model,
-                    gain,
-                    drag,
-                    offset,
-                    axial_load: 0.0,
-                    temperature: memory::TEMPERATURE,
-                    outputs: None,
-                },
-            },
-            tick: self.tick,
-        })
-    }
-}
-
-impl<M: Remembers> Running for Motion<M> {
+impl Running for Motion {
     fn step(&mut self, moment: &Moment<'_>) -> Result<Vec<f64>, String> {
         let torque = moment.input(0);
         if !torque.is_finite() {

@@ -17,7 +17,6 @@ struct Cli {
     fmu: Arguments,
 }
 
-/// A design that has the scene.
 const fn design(scene: SceneName) -> &'static str {
     match scene {
         SceneName::Linear | SceneName::LinearWithMemory => "lin-3.3",
@@ -30,7 +29,6 @@ fn unit(scene: SceneName) -> Unit {
     Unit::new(scene, &design(scene).parse().unwrap()).unwrap()
 }
 
-/// A value of a parameter by its name, the others as they start.
 fn with(unit: &Unit, name: &str, value: f64) -> Vec<f64> {
     let place = unit
         .variables

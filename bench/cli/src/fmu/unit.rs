@@ -64,9 +64,6 @@ pub struct Unit {
 
 impl Unit {
     /// The unit of a design.
-    ///
-    /// # Errors
-    /// What is wrong with the design, or that it has no such scene.
     pub fn new(scene: SceneName, design: &DesignSource) -> Result<Self, Failure> {
         let text = design.text()?;
         let source = if scene.is_linear() {
@@ -87,9 +84,6 @@ impl Unit {
     }
 
     /// The unit that is stored.
-    ///
-    /// # Errors
-    /// What is wrong.
     pub fn restored(stored: &Stored) -> Result<Self, String> {
         let Stored {
             scene,
@@ -213,9 +207,6 @@ impl Unit {
     }
 
     /// A model with the values of parameters.
-    ///
-    /// # Errors
-    /// The parameter that is wrong, its value and what is allowed.
     pub fn start(&self, values: &[f64]) -> Result<Box<dyn Running>, String> {
         let (scene, values) = (self.stored.scene, self.values(values));
         match &self.source {
@@ -256,7 +247,6 @@ fn block(scene: SceneName, source: &Source) -> Result<Option<Vec<u32>>, Failure>
     }
 }
 
-/// Parameters beside those of the design.
 fn beside(scene: SceneName, source: &Source, tick: Option<f64>) -> Vec<Variable> {
     let calibrated = match source {
         Source::Screw(design) => design.calibrated.as_ref(),
@@ -339,7 +329,6 @@ fn beside(scene: SceneName, source: &Source, tick: Option<f64>) -> Vec<Variable>
     list
 }
 
-/// Gain, drag and offset that a trace has told of a design.
 fn told(design: &Design) -> [f64; 3] {
     let nut = Nut::of(design, ());
     [nut.gain, nut.drag, nut.offset]

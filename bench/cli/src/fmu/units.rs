@@ -1,8 +1,6 @@
 //! Units of variables, by the exponents of their base units.
 
-/// A unit.
 pub struct Known {
-    /// Name.
     pub name: &'static str,
     /// Base units with their exponents, zeros left out.
     pub exponents: &'static [(&'static str, i8)],

@@ -1,7 +1,7 @@
 //! Variables of a unit: what a model description lists, and what an instance keeps.
 
 use super::scene::SceneName;
-use crate::simulate::memory::TEMPERATURE;
+use crate::model::TEMPERATURE;
 
 /// What a variable is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,7 +88,6 @@ pub struct Variable {
     pub start: f64,
 }
 
-/// A variable without the causality.
 const fn variable(
     causality: Causality,
     kind: Kind,
@@ -107,7 +106,6 @@ const fn variable(
     }
 }
 
-/// Time.
 pub const TIME: Variable = variable(
     Causality::Independent,
     Kind::Float64,
@@ -117,7 +115,6 @@ pub const TIME: Variable = variable(
     0.0,
 );
 
-/// A parameter.
 pub const fn parameter(
     kind: Kind,
     name: &'static str,
@@ -176,7 +173,6 @@ pub fn inputs(scene: SceneName) -> Vec<Variable> {
     inputs
 }
 
-/// An output of a kind.
 fn output(
     kind: Kind,
     name: &'static str,
@@ -219,7 +215,6 @@ pub fn outputs(scene: SceneName) -> Vec<Variable> {
 const FAULTS: &str = "what was wrong with the last tick, a sum: 1 speed not finite, 2 load not finite, 4 speed limit, 8 load limit, \
                       16 friction limit, 32 beyond the model, 64 forces between balls not held, 128 angle not valid, 256 temperature out of range";
 
-/// What a row of balls puts out beside the friction.
 fn of_row(linear: bool) -> [Variable; 5] {
     let (motion, unit, about) = if linear {
         ("travel", "m", "travel of the carriage")

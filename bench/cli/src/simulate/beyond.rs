@@ -108,7 +108,6 @@ impl Beyond {
         }
     }
 
-    /// Of a linear bearing.
     pub const fn bearing() -> Self {
         Self {
             held: Held::Bearing,
@@ -151,7 +150,6 @@ impl Beyond {
         }
     }
 
-    /// Why, in words.
     fn reason(&self, cause: Cause) -> String {
         match cause {
             Cause::Load => format!("{} (axial_load in [fold])", self.domain),
@@ -173,7 +171,6 @@ impl Beyond {
         }
     }
 
-    /// A line for each cause.
     pub fn lines(mut self, lines: &mut Lines) {
         self.moments
             .sort_by(|one, other| one.load.total_cmp(&other.load));
@@ -224,7 +221,6 @@ impl Beyond {
         }
     }
 
-    /// A band of loads in words.
     fn band(&self, band: [f32; 2]) -> String {
         let range = |factor: f32| {
             let [from, to] = band.map(|load| newtons(factor * load));
@@ -251,7 +247,6 @@ fn opposing(inputs: Inputs) -> bool {
     direction * inputs.axial_load >= 0.0
 }
 
-/// Three digits at least.
 fn newtons(load: f32) -> String {
     match load {
         100.0.. => format!("{load:.0}"),

@@ -1,7 +1,7 @@
 //! A ball screw whose balls do not touch.
 
 use epas_design::{CagedDesign, CagedFold};
-use epas_friction::{Error, FrictionBranch, Inputs, Outputs, RollingResistance};
+use epas_friction::{Error, FrictionBranch, RollingResistance};
 use epas_reference::promises::{self, Promise};
 
 use super::beyond::Beyond;
@@ -12,12 +12,13 @@ use super::manoeuvre::{Manoeuvre, trace};
 use super::memory;
 use super::picture::{self, Form, Labels, Moment};
 use super::reference::{CagedReference, Friction, ReferenceModel};
-use super::remembering::{Remembers, Use, coefficients, remembering};
+use super::remembering::{coefficients, remembering};
 use super::samples::ScrewSample;
-use super::scene::Scene;
+use super::scene::{Column, OF_EVERY, OF_SCREW, Row, Scene};
 use super::screw::{self, ScrewSummary};
 use super::summary::Lines;
 use super::trace::{SceneSample, Temperature, Trace};
+use crate::model::{Model, TEMPERATURE, TickInputs, TickOutputs};
 use epas_calibrate::outputs::firmware;
 use epas_design::caged_scene::{self as caged, CagedScene};
 use epas_design::files::Design;
@@ -39,7 +40,6 @@ pub struct Caged {
     pub temperature: bool,
 }
 
-/// What runs beside the scene.
 enum Reference {
     Exact(ExactCaged),
     ClosedForm(CagedReference),
@@ -69,42 +69,30 @@ impl Reference {
     }
 }
 
-/// The model that runs, told inputs, the angle of the nut, rad, within half a turn either way, and a temperature, K.
-type Model = Box<dyn FnMut(Inputs, f32, f32) -> Outputs>;
-
-/// Boxes a screw that remembers.
-struct Boxed;
-
-impl Use for Boxed {
-    type Made = Model;
-
-    fn with(self, mut screw: impl Remembers + 'static) -> Model {
-        Box::new(move |inputs, angle, temperature| screw.step_at(inputs, angle, temperature))
-    }
-}
+type Step = Box<dyn FnMut(&TickInputs) -> TickOutputs>;
 
 impl Caged {
     /// The model over a trace, and what of its memory the summary tells.
-    fn model(&self, trace: &Trace<ScrewSample>) -> Result<(Model, Lines), Failure> {
+    fn model(&self, trace: &Trace<ScrewSample>) -> Result<(Step, Lines), Failure> {
         let refused = |error: Error| Failure::Data(format!("{}: {error}", self.design.name));
         if self.memory {
             let angle = memory::angle().map_err(refused)?;
             let sensor = (angle, self.encoder.size());
             let load = memory::mean_load(trace);
-            let (model, mut lines) = remembering(&self.design, load, sensor, Boxed)?;
+            let (mut model, mut lines) = remembering(&self.design, load, sensor)?;
             if trace.has_position() {
                 lines.add("angle", "the trace's nut_position");
             }
             lines.add_some("encoder", self.encoder.told("rad"));
-            return Ok((model, lines));
+            return Ok((Box::new(move |inputs| model.step(inputs)), lines));
         }
         let law = firmware::law(&self.design)?.filter(|_| self.temperature);
-        let plain: Model = if let Some(law) = &law {
+        let plain: Step = if let Some(law) = &law {
             let mut model = Lawful::new(&self.design, law)?;
-            Box::new(move |inputs, _, temperature| model.step(inputs, temperature))
+            Box::new(move |inputs| model.step(inputs))
         } else {
             let mut model = CagedScene::of(&self.design)?.model().map_err(refused)?;
-            Box::new(move |inputs, _, _| model.step(inputs))
+            Box::new(move |inputs| Model::step(&mut model, inputs))
         };
         let mut lines = Lines::default();
         lines.add_some("closed form", self.design.branch.map(range_of));
@@ -125,7 +113,7 @@ impl Caged {
         temperature: impl Fn(usize) -> Option<f32>,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<CagedRow>, Lines), Failure> {
+    ) -> Result<(Vec<Row<ScrewSample>>, Lines), Failure> {
         let (mut model, mut lines) = self.model(trace)?;
         let reference = reference
             .map(|model| Reference::new(model, &self.design, trace))
@@ -147,13 +135,19 @@ impl Caged {
                 if measured {
                     angle = sample.nut_position;
                 }
-                let temperature = temperature(index).unwrap_or(memory::TEMPERATURE);
-                let outputs = model(sample.inputs(), wrapped(angle), temperature);
+                let temperature = temperature(index).unwrap_or(TEMPERATURE);
+                let outputs = model(&TickInputs {
+                    reading: wrapped(angle),
+                    temperature,
+                    ..sample.inputs()
+                });
                 done();
-                CagedRow {
+                Row {
                     sample,
                     temperature,
                     outputs,
+                    pressing: 0,
+                    motion: angle,
                     reference: reference.as_ref().map(|scene| scene.friction(&sample)),
                 }
             })
@@ -163,9 +157,6 @@ impl Caged {
 }
 
 /// Refuses a design whose block is too far from the exact ball, as `design` does.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
 pub fn check_errors(design: &Design, by_law: bool) -> Result<(), Failure> {
     fold(design, by_law)?.map_or(Ok(()), |fold| {
         let progress = Progress::of_fold();
@@ -175,9 +166,6 @@ pub fn check_errors(design: &Design, by_law: bool) -> Result<(), Failure> {
 }
 
 /// What is folded of a design for a run, for all coefficients of its law where friction follows one; nothing of a closed form.
-///
-/// # Errors
-/// What cannot be folded, with the reason.
 pub fn fold(design: &Design, by_law: bool) -> Result<Option<CagedFold>, Failure> {
     if design.branch.is_some() {
         return Ok(None);
@@ -188,7 +176,6 @@ pub fn fold(design: &Design, by_law: bool) -> Result<Option<CagedFold>, Failure>
     fold.map(Some).map_err(|failure| failure.of(&design.name))
 }
 
-/// What a closed form is worth.
 fn range_of(branch: FrictionBranch) -> String {
     let range = match branch {
         FrictionBranch::Rolling => "0.02 to 1.1",
@@ -205,20 +192,8 @@ pub fn wrapped(angle: f64) -> f32 {
     ((angle + half).rem_euclid(2.0 * half) - half) as f32
 }
 
-/// One sample with what the models say to it.
-pub struct CagedRow {
-    sample: ScrewSample,
-    /// K.
-    temperature: f32,
-    /// What the scene puts out.
-    pub outputs: Outputs,
-    /// What the float64 reference says.
-    pub reference: Option<Friction>,
-}
-
 impl Scene for Caged {
     type Sample = ScrewSample;
-    type Row = CagedRow;
 
     fn name(&self) -> &str {
         &self.design.name
@@ -258,7 +233,7 @@ impl Scene for Caged {
         trace: &Trace<ScrewSample>,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<CagedRow>, Lines), Failure> {
+    ) -> Result<(Vec<Row<ScrewSample>>, Lines), Failure> {
         self.follow(trace, |_| None, reference, done)
     }
 
@@ -300,25 +275,15 @@ impl Scene for Caged {
         temperature: &Temperature,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<CagedRow>, Lines), Failure> {
+    ) -> Result<(Vec<Row<ScrewSample>>, Lines), Failure> {
         self.follow(trace, |sample| temperature.at(sample), reference, done)
     }
 
-    fn columns(with_reference: bool) -> Vec<&'static str> {
-        let mut columns = screw::columns();
-        if with_reference {
-            columns.extend(screw::REFERENCE_COLUMNS);
-        }
-        columns
+    fn outputs() -> Vec<Column> {
+        OF_SCREW.into_iter().chain(OF_EVERY).collect()
     }
 
-    fn record(row: &CagedRow) -> Vec<String> {
-        let mut record = screw::record(&row.sample, &row.outputs);
-        record.extend(row.reference.iter().flat_map(screw::reference_record));
-        record
-    }
-
-    fn summary(&self, trace: &Trace<ScrewSample>, rows: &[CagedRow]) -> Lines {
+    fn summary(&self, trace: &Trace<ScrewSample>, rows: &[Row<ScrewSample>]) -> Lines {
         // What has run was folded: nothing is refused here.
         let fold = fold(&self.design, self.memory || self.temperature)
             .ok()
@@ -326,7 +291,7 @@ impl Scene for Caged {
         let beyond = fold.map(|fold| Beyond::caged(&self.design, &fold));
         let mut summary = ScrewSummary::new(&self.design, beyond);
         for row in rows {
-            summary.add(&row.sample, &row.outputs, row.reference.as_ref());
+            summary.add(row);
         }
         let CagedDesign {
             friction,
@@ -353,7 +318,7 @@ impl Scene for Caged {
     fn picture(
         &self,
         trace: &Trace<ScrewSample>,
-        rows: &[CagedRow],
+        rows: &[Row<ScrewSample>],
         form: Form,
     ) -> Result<String, Failure> {
         let labels = self.labels(trace);
@@ -392,13 +357,10 @@ impl Caged {
     }
 
     /// Every sample for the picture. Slip and spin are the friction without rolling resistance.
-    ///
-    /// # Errors
-    /// A trace that does not fit the picture.
     pub fn moments(
         &self,
         trace: &Trace<ScrewSample>,
-        rows: &[CagedRow],
+        rows: &[Row<ScrewSample>],
     ) -> Result<Vec<Moment>, Failure> {
         let caged = &self.design.caged;
         let resists = caged.rolling_resistance != RollingResistance::NONE;
@@ -418,27 +380,20 @@ impl Caged {
             .transpose()?;
         let promise = self.promise();
         let largest_load = LARGEST_BALL_LOAD * f64::from(caged.loaded_balls);
-        let moment = |(index, row): (usize, &CagedRow)| {
-            let friction = f64::from(row.outputs.friction_torque);
+        let moment = |(index, row): (usize, &Row<ScrewSample>)| {
+            let friction = f64::from(row.outputs.friction);
             let load = row.sample.axial_load;
             let slip = slips.as_ref().and_then(|(rows, _)| rows.get(index));
             Moment {
-                place: row.sample.time,
-                load,
-                side: None,
-                speed: row.sample.nut_speed,
                 motor: Some(f64::from(row.outputs.load_torque) + friction),
-                friction,
                 parts: slip.map(|slip| {
-                    let slip = f64::from(slip.outputs.friction_torque);
+                    let slip = f64::from(slip.outputs.friction);
                     [slip, friction - slip]
                 }),
                 error: promise
                     .filter(|_| load.abs() <= largest_load)
                     .map(|promise| promise.largest * friction.abs()),
-                reference: row.reference.map(|reference| reference.friction_torque),
-                regime: row.outputs.regime,
-                flagged: row.outputs.faults.any(),
+                ..row.moment(row.sample.time)
             }
         };
         Ok(rows.iter().enumerate().map(moment).collect())

@@ -33,7 +33,6 @@ pub struct ExactCaged {
 }
 
 impl ExactCaged {
-    /// That of a design, for the loads of a trace.
     pub fn new(caged: &CagedDesign, trace: &Trace<ScrewSample>) -> Result<Self, Failure> {
         let largest = trace
             .samples

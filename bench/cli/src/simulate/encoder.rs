@@ -92,9 +92,6 @@ impl EncoderStep {
 
 /// A sensor of an angle or a speed behind a dead band of its step and of a backlash, rad (m): plays in a row are one of the sum of their
 /// widths.
-///
-/// # Errors
-/// [`Error`] naming `half_width`.
 pub fn behind<A: Copy>(angle: A, step: f32, backlash: f32) -> Result<Deadband<A>, Error> {
     let step = if step > 0.0 { step + ROUNDED } else { 0.0 };
     Deadband::new(angle, 0.5 * (step + backlash))

@@ -3,12 +3,13 @@
 
 use epas_design::caged_scene::{CagedModel, CagedScene};
 use epas_design::files::Design;
+use epas_friction::Faults;
 use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters};
-use epas_friction::{Faults, Inputs, Outputs};
 use epas_page::failure::Failure;
 
 use super::reference::Moving;
 use super::remembering::scene;
+use crate::model::{Model, TickInputs, TickOutputs};
 
 /// The screw.
 pub struct Lawful {
@@ -21,10 +22,6 @@ pub struct Lawful {
 }
 
 impl Lawful {
-    /// That of a design.
-    ///
-    /// # Errors
-    /// What the crate refuses, or cannot be folded.
     pub fn new(design: &Design, law: &CoefficientParameters) -> Result<Self, Failure> {
         let scene = scene(design)?;
         let balls = f32::from(design.caged.loaded_balls);
@@ -43,18 +40,18 @@ impl Lawful {
     }
 
     /// One tick at a temperature, K: friction by the coefficient of speed and temperature, and the lubricant's drag.
-    pub fn step(&mut self, inputs: Inputs, temperature: f32) -> Outputs {
-        let now = self.law.at_temperature(temperature);
-        let known = self.model.set_friction(now.at(inputs.nut_speed));
-        let mut outputs = self.model.step(inputs);
-        let drag = now.drag_torque(inputs.nut_speed, inputs.axial_load.abs(), self.lift_off);
-        let friction = outputs.friction_torque + drag;
+    pub fn step(&mut self, inputs: &TickInputs) -> TickOutputs {
+        let now = self.law.at_temperature(inputs.temperature);
+        let known = self.model.set_friction(now.at(inputs.speed));
+        let mut outputs = Model::step(&mut self.model, inputs);
+        let drag = now.drag_torque(inputs.speed, inputs.load.abs(), self.lift_off);
+        let friction = outputs.friction + drag;
         let limited = friction.clamp(-self.largest_friction, self.largest_friction);
         let moving = Moving {
             load_torque: outputs.load_torque.into(),
-            stands: inputs.nut_speed.abs() < self.reversal_speed,
+            stands: inputs.speed.abs() < self.reversal_speed,
         };
-        outputs.friction_torque = limited;
+        outputs.friction = limited;
         outputs.efficiency = moving.friction(limited.into()).efficiency as f32;
         if known.is_err() {
             outputs.faults |= Faults::BEYOND_MODEL;

@@ -1,24 +1,22 @@
 //! A linear bearing whose balls press on each other.
 
-use epas_friction::{Error, LinearInputs, LinearOutputs};
+use epas_friction::Error;
 use epas_reference::promises;
 
-use super::balls::{Built, bearing};
 use super::beyond::Beyond;
 use super::encoder::EncoderStep;
 use super::manoeuvre::{Manoeuvre, linear_trace};
 use super::memory::{self, Remembered};
-use super::picture::{self, Form, Labels};
+use super::picture::{Form, Labels, Moment};
 use super::reference::ReferenceModel;
 use super::samples::LinearSample;
-use super::scene::Scene;
-use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
-use super::trace::{Sample, Trace};
-use super::train::{Train, TrainRow};
-use super::train_picture::{TrainPoint, draw};
+use super::scene::{Column, OF_EVERY, OF_ROW, Row, Scene};
+use super::summary::{Course, Lines, Pressing, Words};
+use super::trace::Trace;
+use super::train::{Train, draw};
+use crate::model::{self, Built};
 use epas_design::files::train::LinearDesign;
 use epas_page::failure::Failure;
-use epas_traces::flags;
 
 /// The scene.
 pub struct Linear {
@@ -28,13 +26,6 @@ pub struct Linear {
     pub memory: bool,
     /// Step of the encoder whose noise it does not follow.
     pub encoder: EncoderStep,
-}
-
-/// One sample with what the model says to it.
-pub struct LinearRow {
-    sample: LinearSample,
-    /// What the scene puts out.
-    pub train: TrainRow<LinearOutputs>,
 }
 
 /// What a linear bearing's quantities are called.
@@ -51,33 +42,21 @@ impl Linear {
         &self,
         trace: &Trace<LinearSample>,
         remembered: Option<&Remembered>,
-    ) -> Result<Train<LinearSample, LinearOutputs>, Failure> {
+    ) -> Result<Train, Failure> {
         let build = |tick| self.model(tick, remembered);
         Train::new(trace, build).map_err(|failure| failure.of(self.name()))
     }
 
     /// The model for a tick, s.
-    ///
-    /// # Errors
-    /// [`Error`] naming a field out of range.
-    pub fn model(
-        &self,
-        tick: f32,
-        remembered: Option<&Remembered>,
-    ) -> Built<LinearInputs, LinearOutputs> {
+    pub fn model(&self, tick: f32, remembered: Option<&Remembered>) -> Built {
         let mut configuration = self.design.configuration;
         configuration.tick = tick;
-        let friction = configuration.friction;
-        let whole = memory::whole(configuration, remembered, tick, friction)?;
-        bearing(&whole)
+        model::linear(configuration, remembered)
     }
 }
 
 impl Linear {
     /// Elements at a normal load, N.
-    ///
-    /// # Errors
-    /// [`Error`] naming a field out of range.
     pub fn remembered_at(&self, normal_load: f32) -> Result<Remembered, Error> {
         let configuration = &self.design.configuration;
         let loaded = configuration.loaded_length;
@@ -88,22 +67,19 @@ impl Linear {
 
     /// Elements at the trace's mean load, where friction remembers.
     fn remembered(&self, trace: &Trace<LinearSample>) -> Result<Option<Remembered>, Failure> {
-        let mut remembered = self
-            .memory
-            .then(|| self.remembered_at(memory::mean_load(trace)))
-            .transpose()
-            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
-        if let Some(remembered) = &mut remembered {
-            remembered.encoder_step = self.encoder.size();
-            remembered.lines.add_some("encoder", self.encoder.told("m"));
+        if !self.memory {
+            return Ok(None);
         }
-        Ok(remembered)
+        let sensor = (self.encoder, "m");
+        let remembered = memory::over(trace, sensor, |load| self.remembered_at(load));
+        remembered
+            .map(Some)
+            .map_err(|failure| failure.of(self.name()))
     }
 }
 
 impl Scene for Linear {
     type Sample = LinearSample;
-    type Row = LinearRow;
 
     fn name(&self) -> &str {
         &self.design.name
@@ -122,7 +98,7 @@ impl Scene for Linear {
         trace: &Trace<LinearSample>,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<LinearRow>, Lines), Failure> {
+    ) -> Result<(Vec<Row<LinearSample>>, Lines), Failure> {
         let remembered = self.remembered(trace)?;
         let mut train = self.train(trace, remembered.as_ref())?;
         if reference.is_some() {
@@ -132,79 +108,30 @@ impl Scene for Linear {
                     .into(),
             ));
         }
-        let rows = trace
-            .samples
-            .iter()
-            .map(|&sample| {
-                let row = LinearRow {
-                    sample,
-                    train: train.step(&sample),
-                };
-                done();
-                row
-            })
-            .collect();
+        let rows = train.rows(trace, &[], done);
         let lines = remembered.map_or_else(Lines::default, |remembered| remembered.lines);
         Ok((rows, lines))
     }
 
-    fn columns(_: bool) -> Vec<&'static str> {
-        let mut columns = LinearSample::COLUMNS.to_vec();
-        columns.extend([
-            "friction_force",
-            "regime",
-            "faults",
-            "fault_words",
-            "travel",
-            "groove_friction",
-            "ball_friction",
-            "contacts",
-            "largest_contact_force",
-        ]);
-        columns
+    fn outputs() -> Vec<Column> {
+        const FRICTION: Column = ("friction_force", |outputs, _| outputs.friction.to_string());
+        const TRAVEL: Column = ("travel", |_, motion| motion.to_string());
+        let common = [FRICTION].into_iter().chain(OF_EVERY);
+        common.chain([TRAVEL]).chain(OF_ROW).collect()
     }
 
-    fn record(row: &LinearRow) -> Vec<String> {
-        let TrainRow {
-            outputs, motion, ..
-        } = row.train;
-        let mut record = row.sample.record();
-        record.extend([
-            outputs.friction_force.to_string(),
-            regime_name(outputs.regime).into(),
-            outputs.faults.bits().to_string(),
-            flags::words(outputs.faults),
-            motion.to_string(),
-            outputs.groove_force.to_string(),
-            outputs.ball_force.to_string(),
-            outputs.contacts.to_string(),
-            outputs.largest_contact_force.to_string(),
-        ]);
-        record
-    }
-
-    fn summary(&self, trace: &Trace<LinearSample>, rows: &[LinearRow]) -> Lines {
+    fn summary(&self, trace: &Trace<LinearSample>, rows: &[Row<LinearSample>]) -> Lines {
         // The carriage's motion is its travel.
         let mut course = Course::new(1.0);
         let mut pressing = Pressing::default();
         let mut beyond = Beyond::bearing();
-        for LinearRow { sample, train } in rows {
-            let outputs = train.outputs;
+        for Row {
+            sample, outputs, ..
+        } in rows
+        {
             beyond.add(sample.speed, sample.normal_load, outputs.faults);
-            let travel = course.add(&Moment {
-                time: sample.time,
-                speed: sample.speed,
-                load: sample.normal_load,
-                friction: outputs.friction_force.into(),
-                regime: outputs.regime,
-                faults: outputs.faults,
-            });
-            pressing.add(
-                outputs.ball_force,
-                outputs.contacts,
-                outputs.largest_contact_force,
-                travel,
-            );
+            let travel = course.add(sample, outputs);
+            pressing.add(outputs, travel);
         }
         let configuration = &self.design.configuration;
         let mut settings = Lines::default();
@@ -230,40 +157,26 @@ impl Scene for Linear {
     fn picture(
         &self,
         trace: &Trace<LinearSample>,
-        rows: &[LinearRow],
+        rows: &[Row<LinearSample>],
         form: Form,
     ) -> Result<String, Failure> {
         // Where the motion turns back, a place on the rail stands for more than one moment.
         let reverses = trace.reverses();
-        let points: Vec<_> = rows
+        let error = promises::of("step_linear").largest;
+        let moments: Vec<_> = rows
             .iter()
             .map(|row| {
-                let outputs = row.train.outputs;
-                let friction = f64::from(outputs.friction_force);
-                TrainPoint {
-                    moment: picture::Moment {
-                        place: if reverses {
-                            row.sample.time
-                        } else {
-                            1e3 * row.train.motion
-                        },
-                        load: row.sample.normal_load,
-                        side: Some(row.sample.side_load),
-                        speed: row.sample.speed,
-                        motor: None,
-                        friction,
-                        parts: Some([outputs.groove_force, outputs.ball_force].map(f64::from)),
-                        error: Some(
-                            promises::of("step_linear").largest
-                                * f64::from(outputs.groove_force).abs(),
-                        ),
-                        reference: None,
-                        regime: outputs.regime,
-                        flagged: outputs.faults.any(),
-                    },
-                    contacts: outputs.contacts,
-                    largest_contact_force: outputs.largest_contact_force,
-                    pressing: row.train.pressing,
+                let place = if reverses {
+                    row.sample.time
+                } else {
+                    1e3 * row.motion
+                };
+                let parts = [row.outputs.groove, row.outputs.ball].map(f64::from);
+                Moment {
+                    side: Some(row.sample.side_load),
+                    parts: Some(parts),
+                    error: Some(error * parts[0].abs()),
+                    ..row.moment(place)
                 }
             })
             .collect();
@@ -276,10 +189,10 @@ impl Scene for Linear {
             parts: ["grooves", "ball to ball"],
             error: format!(
                 "largest error promised of the grooves, {:.1} %",
-                100.0 * promises::of("step_linear").largest
+                100.0 * error
             ),
             reference: "",
         };
-        draw(&labels, &points, form)
+        draw(&labels, &moments, rows, form)
     }
 }

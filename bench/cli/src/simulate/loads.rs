@@ -112,7 +112,6 @@ pub fn run(
     Ok(())
 }
 
-/// What tables are wanted for.
 enum Wanted {
     /// A table of this load, N.
     One(f64),
@@ -191,7 +190,6 @@ impl Wanted {
         })
     }
 
-    /// The tables, and what is to be said of them.
     fn answer(&self, case: &LoadCase) -> Result<Answer, String> {
         let tables = |[least, most]: [f64; 2], sign: f64| -> Result<Vec<ShareTable>, String> {
             let loads = loads_between(sign * least, sign * most).map_err(text)?;

@@ -98,10 +98,6 @@ const PARTS: [(&str, &str); 2] = [
     ("ball_friction", "friction between balls"),
 ];
 
-/// What columns are.
-///
-/// # Errors
-/// A column that has no description.
 pub fn described(columns: &[&'static str]) -> Result<Vec<Described>, String> {
     let part = if columns.contains(&"friction_force") {
         "N"
@@ -130,16 +126,16 @@ mod tests {
     use super::*;
     use crate::simulate::caged::Caged;
     use crate::simulate::linear::Linear;
-    use crate::simulate::scene::Scene;
+    use crate::simulate::scene::columns;
     use crate::simulate::summary::regime_name;
     use crate::simulate::uncaged::Uncaged;
 
     #[test]
     fn every_column_and_regime_has_a_place() {
         for columns in [
-            Caged::columns(true),
-            Uncaged::columns(true),
-            Linear::columns(false),
+            columns::<Caged>(true),
+            columns::<Uncaged>(true),
+            columns::<Linear>(false),
             crate::simulate::mechanism::columns(true),
         ] {
             assert_eq!(described(&columns).unwrap().len(), columns.len());

@@ -11,7 +11,6 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use epas_design::CagedDesign;
-use epas_friction::Outputs;
 
 use super::beyond::Beyond;
 use super::caged;
@@ -19,11 +18,12 @@ use super::memory;
 use super::nut::{Nut, STEPS};
 use super::output::write_table;
 use super::picture::Form;
-use super::remembering::{Remembers, Use, remembering};
+use super::remembering::remembering;
 use super::screw;
 use super::summary::Lines;
 use super::targets::targets;
 use super::trace::Temperature;
+use crate::model::{Model, TickOutputs};
 use acting::{Acting, Torque, Wanted, moments, tick};
 use epas_calibrate::controller::Controller;
 use epas_calibrate::mechanism::Mechanism;
@@ -89,7 +89,7 @@ struct Row {
     /// Friction at that time, N m.
     friction: f64,
     /// What the screw says of the tick that begins: torque of the load, flags.
-    outputs: Outputs,
+    outputs: TickOutputs,
 }
 
 /// Runs the mechanism of a design over a trace, and writes what is asked for.
@@ -158,7 +158,6 @@ pub fn run(
     Ok(())
 }
 
-/// Writes the table and the picture that are asked for.
 fn write_files(
     [trace, design]: [&str; 2],
     rows: &[Row],
@@ -190,7 +189,6 @@ fn write_files(
     Ok(())
 }
 
-/// Moves the nut of a design with friction that remembers.
 fn moved(course: Course<'_>) -> Result<(Vec<Row>, Lines), Failure> {
     let Course {
         design,
@@ -206,10 +204,10 @@ fn moved(course: Course<'_>) -> Result<(Vec<Row>, Lines), Failure> {
     let speed = memory::speed((tick / STEPS as f64) as f32)
         .map_err(|error| Failure::Data(format!("{}: {error}", design.name)))?;
     // The nut's own motion has no noise.
-    remembering(design, load as f32, (speed, 0.0), course)
+    let (model, lines) = remembering(design, load as f32, (speed, 0.0))?;
+    Ok((motion(model, &course), lines))
 }
 
-/// What moves the nut.
 struct Course<'a> {
     design: &'a Design,
     acting: &'a [Acting],
@@ -219,16 +217,7 @@ struct Course<'a> {
     tick: f64,
 }
 
-impl Use for Course<'_> {
-    type Made = Vec<Row>;
-
-    fn with(self, screw: impl Remembers + 'static) -> Vec<Row> {
-        motion(screw, &self)
-    }
-}
-
-/// Moves the nut.
-fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
+fn motion(model: Box<dyn Model>, course: &Course<'_>) -> Vec<Row> {
     let Course {
         design,
         acting,
@@ -254,7 +243,7 @@ fn motion(model: impl Remembers, course: &Course<'_>) -> Vec<Row> {
     for (sample, acting) in acting.iter().enumerate() {
         // A nut that has not moved yet feels no friction.
         let before = mechanism.resistance.outputs;
-        let friction = before.map_or(0.0, |outputs| outputs.friction_torque.into());
+        let friction = before.map_or(0.0, |outputs| outputs.friction.into());
         let (angle, speed) = (mechanism.position, mechanism.speed);
         let torque = controller.map_or(acting.command, |controller| {
             controller.effort(acting.command, angle, speed)

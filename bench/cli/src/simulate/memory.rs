@@ -6,15 +6,15 @@ use epas_design::breakaway::{
 };
 use epas_friction::law::coefficient::{CoefficientModel, OneCoefficient, TemperatureFade};
 use epas_friction::law::memory::{Hysteresis, SLIP_4, SPIN_4, SPIN_8};
-use epas_friction::law::motion::{SpeedOverTick, WrappedAngle, WrappedAngleParameters};
+use epas_friction::law::motion::{Deadband, SpeedOverTick, WrappedAngle, WrappedAngleParameters};
 use epas_friction::scene::{Freshness, WithMemoryConfiguration};
 use epas_friction::{BallScrew, Clearance, Error, LinearBearingConfiguration, RollingResistance};
 
-use super::balls::Configuration;
-pub use super::balls::{ELEMENTS, Elements, Remembering, Speed, TEMPERATURE, fresh};
-use super::encoder;
+use super::encoder::{self, EncoderStep};
 use super::summary::Lines;
 use super::trace::{Sample, Trace};
+use crate::model::{ELEMENTS, Elements, TEMPERATURE};
+use epas_page::failure::Failure;
 
 /// What stands in for a temperature that is too old: the same one.
 const FADE: TemperatureFade = match TemperatureFade::new(TEMPERATURE, 1.0, 1.0) {
@@ -27,21 +27,17 @@ const LEAST_LOAD: f32 = 0.1;
 
 /// What elements of a screw follow from.
 pub struct Screw<'a> {
-    /// Its design.
     pub design: &'a BallScrew,
     /// Friction coefficient of ball and groove.
     pub friction: f32,
     /// How its balls fit.
     pub clearance: Clearance,
-    /// Rolling resistance of its contacts.
     pub rolling_resistance: RollingResistance,
-    /// Balls that carry load.
     pub loaded_balls: f32,
 }
 
 /// Elements with the lines that tell of them.
 pub struct Remembered {
-    /// The elements.
     pub elements: Elements,
     /// Load at which they are designed, N.
     pub reference_load: f32,
@@ -57,11 +53,20 @@ pub fn mean_load<S: Sample>(trace: &Trace<S>) -> f32 {
     (sum / trace.samples.len() as f64) as f32
 }
 
+/// Elements over a trace behind the step of its encoder, rad or m, by those of a design at the trace's mean load.
+pub fn over<S: Sample>(
+    trace: &Trace<S>,
+    (encoder, unit): (EncoderStep, &str),
+    at: impl FnOnce(f32) -> Result<Remembered, Error>,
+) -> Result<Remembered, Failure> {
+    let mut remembered = at(mean_load(trace))?;
+    remembered.encoder_step = encoder.size();
+    remembered.lines.add_some("encoder", encoder.told(unit));
+    Ok(remembered)
+}
+
 impl Screw<'_> {
     /// Its elements at an axial load, N.
-    ///
-    /// # Errors
-    /// [`Error`] naming a field out of range.
     pub fn remembered(&self, axial_load: f32) -> Result<Remembered, Error> {
         let loaded_balls = self.loaded_balls.round().max(1.0) as u16;
         let contacts = ScrewContacts::of(self.design);
@@ -103,9 +108,6 @@ impl Screw<'_> {
 }
 
 /// Elements of a linear bearing under a normal load, N, shared by so many balls.
-///
-/// # Errors
-/// [`Error`] naming a field out of range.
 pub fn of_bearing(
     configuration: &LinearBearingConfiguration,
     loaded_balls: f32,
@@ -142,7 +144,6 @@ pub fn of_bearing(
     })
 }
 
-/// Lines on initial stiffness and breakaway.
 fn tell(
     lines: &mut Lines,
     (elements, sliding): (&Elements, f32),
@@ -178,9 +179,6 @@ fn tell(
 }
 
 /// A scene with these elements and one friction coefficient; balls turn round once the elements have.
-///
-/// # Errors
-/// [`Error`] naming the friction coefficient.
 pub fn configuration<C, A>(
     scene: C,
     remembered: &Remembered,
@@ -211,45 +209,17 @@ pub fn with_coefficient<C, E: Hysteresis, A, L: CoefficientModel>(
     }
 }
 
-/// A scene with the elements that are given, or without memory.
-///
-/// # Errors
-/// [`Error`] naming `tick` or the friction coefficient.
-pub fn whole<C: Copy>(
-    scene: C,
-    remembered: Option<&Remembered>,
-    tick: f32,
-    friction: f32,
-) -> Result<Configuration<C>, Error> {
-    Ok(match remembered {
-        None => Configuration::Plain(scene),
-        Some(remembered) => {
-            let speed = rows_speed(tick, remembered.encoder_step)?;
-            Configuration::Remembering(configuration(scene, remembered, speed, friction)?)
-        }
-    })
-}
-
 /// A sensor of a speed that has a tick, s.
-///
-/// # Errors
-/// [`Error`] naming `tick`.
 pub fn speed(tick: f32) -> Result<SpeedOverTick, Error> {
     SpeedOverTick::new(tick, 1e3)
 }
 
 /// The same behind a dead band of an encoder's step, rad (m), for a row of balls.
-///
-/// # Errors
-/// [`Error`] naming `tick` or `half_width`.
-pub fn rows_speed(tick: f32, step: f32) -> Result<Speed, Error> {
+pub fn rows_speed(tick: f32, step: f32) -> Result<Deadband<SpeedOverTick>, Error> {
     encoder::behind(speed(tick)?, step, 0.0)
 }
 
 /// A sensor of an angle of half a turn either way, rad.
-///
-/// # Errors
-/// None.
 pub fn angle() -> Result<WrappedAngle, Error> {
     WrappedAngle::new(WrappedAngleParameters {
         lowest: -std::f32::consts::PI,

@@ -1,13 +1,9 @@
 //! What turns with the nut of a mechanism, with the friction of the model.
 
-use epas_friction::{Inputs, Outputs};
-
-use super::memory;
-use super::remembering::Remembers;
+use crate::model::{Model, TEMPERATURE, TickInputs, TickOutputs};
 use epas_calibrate::mechanism::{Resistance, Step};
 use epas_design::files::Design;
 
-/// Steps in a tick.
 pub const STEPS: usize = 4;
 
 /// A nut with the model's friction.
@@ -26,7 +22,7 @@ pub struct Nut<M> {
     /// Temperature, K.
     pub temperature: f32,
     /// What the screw said last.
-    pub outputs: Option<Outputs>,
+    pub outputs: Option<TickOutputs>,
 }
 
 impl<M> Nut<M> {
@@ -40,25 +36,30 @@ impl<M> Nut<M> {
             drag: told(calibrated.and_then(|found| found.drag), 0.0),
             offset: told(calibrated.and_then(|found| found.offset), 0.0),
             axial_load: 0.0,
-            temperature: memory::TEMPERATURE,
+            temperature: TEMPERATURE,
             outputs: None,
         }
     }
 }
 
-impl<M: Remembers> Nut<M> {
+impl Nut<Box<dyn Model>> {
     fn step(&mut self, step: &Step) -> f64 {
-        let inputs = Inputs {
-            nut_speed: step.speed as f32,
-            axial_load: self.axial_load as f32,
-        };
         let speed = step.end_speed;
-        let outputs = self.model.step_at(inputs, speed as f32, self.temperature);
+        let outputs = self.model.step(&self.inputs(step.speed, speed));
         self.outputs = Some(outputs);
         self.gain * f64::from(outputs.load_torque)
-            + f64::from(outputs.friction_torque)
+            + f64::from(outputs.friction)
             + self.drag * speed
             + self.offset
+    }
+
+    /// Inputs at a speed with a reading of the speed, rad/s.
+    fn inputs(&self, speed: f64, reading: f64) -> TickInputs {
+        TickInputs {
+            reading: reading as f32,
+            temperature: self.temperature,
+            ..TickInputs::new(speed as f32, self.axial_load as f32)
+        }
     }
 }
 
@@ -74,18 +75,12 @@ const LEAST: f64 = 1e-14;
 /// it should rise, and a balance within that is not found.
 const STEPS_OFF: f64 = 4.0;
 
-impl<M: Remembers> Nut<M> {
+impl Nut<Box<dyn Model>> {
     /// Torque that the nut holds at rest after a reading of its speed, N m: without what a speed adds.
     fn at_rest(&self, reading: f64) -> f64 {
         let mut model = self.model.clone();
-        let inputs = Inputs {
-            nut_speed: 0.0,
-            axial_load: self.axial_load as f32,
-        };
-        let outputs = model.step_at(inputs, reading as f32, self.temperature);
-        self.gain * f64::from(outputs.load_torque)
-            + f64::from(outputs.friction_torque)
-            + self.offset
+        let outputs = model.step(&self.inputs(0.0, reading));
+        self.gain * f64::from(outputs.load_torque) + f64::from(outputs.friction) + self.offset
     }
 
     /// The difference that the first of the readings `from`, twice that, and so on, makes to `rest`, N m; 0 where none does.
@@ -107,7 +102,7 @@ impl<M: Remembers> Nut<M> {
     }
 }
 
-impl<M: Remembers> Resistance for Nut<M> {
+impl Resistance for Nut<Box<dyn Model>> {
     fn against(&self, step: &Step) -> f64 {
         self.clone().step(step)
     }

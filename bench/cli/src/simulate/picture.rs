@@ -16,26 +16,21 @@ const FINE: usize = 4 * BUCKETS;
 /// Width and height of a panel, pixels.
 const PANEL: (u32, u32) = (1000, 250);
 
-/// A run at one moment.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
     /// Place along the horizontal axis.
     pub place: f64,
-    /// Load.
     pub load: f64,
     /// Load across, where there is one.
     pub side: Option<f64>,
-    /// Speed.
     pub speed: f64,
     /// Motor torque without inertia, where a motor drives: that of the load and of friction.
     pub motor: Option<f64>,
-    /// Friction.
     pub friction: f64,
     /// Both parts of it, where they are known.
     pub parts: Option<[f64; 2]>,
     /// Promised largest error of the friction, where it holds.
     pub error: Option<f64>,
-    /// Friction by the reference.
     pub reference: Option<f64>,
     /// What holds.
     pub regime: Regime,
@@ -49,15 +44,10 @@ pub struct Labels {
     pub title: String,
     /// Horizontal axes.
     pub place: &'static str,
-    /// Load, and load across.
     pub loads: [&'static str; 2],
-    /// Speed.
     pub speed: &'static str,
-    /// Name of the friction, and its unit.
     pub friction: (&'static str, &'static str),
-    /// Names of its parts.
     pub parts: [&'static str; 2],
-    /// What the error is, in the legend.
     pub error: String,
     /// What the model is compared with, where it is.
     pub reference: &'static str,
@@ -66,7 +56,6 @@ pub struct Labels {
 /// How finely a picture is drawn, and as what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// One SVG picture.
     Svg,
     /// A page in which a reader looks closer.
     Page,
@@ -92,7 +81,6 @@ impl Form {
         thin_to(buckets, rows, place, value)
     }
 
-    /// The panels below each other.
     pub fn draw(self, title: &str, panels: &[Panel]) -> Result<String, Failure> {
         match self {
             Self::Svg => render(panels, 1, PANEL),
@@ -127,7 +115,6 @@ pub fn chart(
     })
 }
 
-/// The panels of a run.
 pub fn panels(labels: &Labels, moments: &[Moment], form: Form) -> Vec<Panel> {
     let curve = |value: &dyn Fn(&Moment) -> f64| form.curve(moments, &|row| row.place, value);
     let line = |name: &str, colour, value: &dyn Fn(&Moment) -> f64| {

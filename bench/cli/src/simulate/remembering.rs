@@ -6,136 +6,19 @@ use epas_design::caged::NODES;
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::CoefficientLaw;
 use epas_friction::law::memory::Hysteresis;
-use epas_friction::law::motion::NutAngle;
-use epas_friction::scene::{
-    CagedBallScrew, ClosedFormScrew, CoefficientFor, Sliding, StoredScene, WithMemory,
-    WithMemoryConfiguration, WithMemoryInputs,
-};
+use epas_friction::scene::{CagedBallScrew, ClosedFormScrew, WithMemory};
 use epas_friction::stored::{Fingerprinted, Stored};
-use epas_friction::{Error, FrictionModel, Inputs, Outputs, Refusal, Scene};
+use epas_friction::{Error, FrictionModel, Inputs, Scene};
 
 use super::encoder;
 use super::memory::{self, Remembered};
 use super::summary::Lines;
+use crate::model::{Built, HostScene, Model, Sensor};
 use epas_calibrate::outputs::firmware::{self, ELEMENTS, Numbers};
 use epas_design::caged_scene::CagedScene;
 use epas_design::files::Design;
 use epas_design::files::calibration::ElementsName;
 use epas_page::failure::Failure;
-
-/// A screw that remembers, whatever its elements, its sensor and its coefficient are.
-pub trait Remembers: Clone + Send + Sync {
-    /// What it says to a moment with a reading of its sensor, at a temperature, K.
-    fn step_at(&mut self, inputs: Inputs, reading: f32, temperature: f32) -> Outputs;
-
-    /// The same at the temperature of every simulation.
-    fn step(&mut self, inputs: Inputs, reading: f32) -> Outputs {
-        self.step_at(inputs, reading, memory::TEMPERATURE)
-    }
-
-    /// Its state as a block.
-    ///
-    /// # Errors
-    /// What the crate refuses.
-    fn export(&self) -> Result<Vec<u8>, Refusal>;
-
-    /// Takes the state of a block over, its sensor's last reading too.
-    ///
-    /// # Errors
-    /// What the crate refuses; the state is as it was.
-    fn import(&mut self, block: &[u8]) -> Result<(), Refusal>;
-    /// What it says to a reading between two moments.
-    fn between(&mut self, reading: f32) -> Outputs;
-    /// Back to the state before the first tick.
-    fn reset(&mut self);
-    /// Consecutive ticks with a fault.
-    fn faulted_ticks(&self) -> u32;
-}
-
-/// A screw whose balls do not touch, that a memory is put around: by a folded block or a closed form.
-pub trait CagedScrew:
-    StoredScene
-    + Sliding<
-        Inputs = Inputs,
-        Outputs = Outputs,
-        Constants: Copy + Send + Sync,
-        State: Send + Sync,
-        Friction: Stored + Default + Send + Sync,
-    > + Copy
-    + Send
-    + Sync
-    + 'static
-{
-}
-
-impl<const N: usize> CagedScrew for CagedBallScrew<N> {}
-
-impl CagedScrew for ClosedFormScrew {}
-
-impl<S, E, A, L> Remembers for FrictionModel<WithMemory<S, E, A, L>>
-where
-    S: CagedScrew,
-    E: Elements<State: Stored> + Fingerprinted + Copy,
-    A: Sensor,
-    L: CoefficientFor<Inputs>,
-    Self: Clone + Send + Sync,
-{
-    fn step_at(&mut self, inputs: Inputs, reading: f32, temperature: f32) -> Outputs {
-        let inputs = WithMemoryInputs {
-            temperature,
-            ..memory::fresh(inputs, reading)
-        };
-        Self::step(self, inputs)
-    }
-
-    fn between(&mut self, reading: f32) -> Outputs {
-        Self::between(self, reading)
-    }
-
-    fn reset(&mut self) {
-        Self::reset(self);
-    }
-
-    fn faulted_ticks(&self) -> u32 {
-        Self::faulted_ticks(self)
-    }
-
-    fn export(&self) -> Result<Vec<u8>, Refusal> {
-        let mut block = vec![0; Self::STATE_BYTES];
-        Self::export(self, &mut block)?;
-        Ok(block)
-    }
-
-    fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
-        self.import_with_reading(block)
-    }
-}
-
-/// A sensor of an angle or a speed whose last reading can be kept.
-pub trait Sensor:
-    NutAngle<Reading = f32, State: Stored + Send + Sync> + Fingerprinted + Copy + Send + Sync + 'static
-{
-}
-
-impl<
-    A: NutAngle<Reading = f32, State: Stored + Send + Sync>
-        + Fingerprinted
-        + Copy
-        + Send
-        + Sync
-        + 'static,
-> Sensor for A
-{
-}
-
-/// What is done with such a screw.
-pub trait Use {
-    /// What comes of it.
-    type Made;
-
-    /// Does it.
-    fn with(self, screw: impl Remembers + 'static) -> Self::Made;
-}
 
 /// A design with a sensor, its step, rad, and a mean size of the load, N.
 struct Wanted<'a, A> {
@@ -145,23 +28,14 @@ struct Wanted<'a, A> {
     step: f32,
 }
 
-/// Builds the screw of a design for a sensor behind a dead band of its step, rad, and a mean size of the load, N, and does something with it;
-/// what the summary tells of it beside that.
+/// The screw of a design for a sensor behind a dead band of its step, rad, and a mean size of the load, N, and what the summary tells of it.
 ///
 /// The screw is folded for the friction coefficients that its calibration has.
-///
-/// # Errors
-/// What the crate refuses, or cannot be folded.
-pub fn remembering<A, U>(
+pub fn remembering<A: Sensor>(
     design: &Design,
     mean_load: f32,
     (angle, step): (A, f32),
-    then: U,
-) -> Result<(U::Made, Lines), Failure>
-where
-    A: Sensor,
-    U: Use,
-{
+) -> Result<(Box<dyn Model>, Lines), Failure> {
     let wanted = Wanted {
         design,
         mean_load,
@@ -169,16 +43,13 @@ where
         step,
     };
     match scene(design)? {
-        CagedScene::One(block) => wanted.around::<CagedBallScrew, _>(block, then),
-        CagedScene::Range(block) => wanted.around::<CagedBallScrew<NODES>, _>(block, then),
-        CagedScene::ClosedForm(form) => wanted.around::<ClosedFormScrew, _>(form, then),
+        CagedScene::One(block) => wanted.around::<CagedBallScrew>(block),
+        CagedScene::Range(block) => wanted.around::<CagedBallScrew<NODES>>(block),
+        CagedScene::ClosedForm(form) => wanted.around::<ClosedFormScrew>(form),
     }
 }
 
 /// What a memory is put around: a scene for the friction coefficients of the design's calibration.
-///
-/// # Errors
-/// What the crate refuses, or cannot be folded.
 pub fn scene(design: &Design) -> Result<CagedScene, Failure> {
     Ok(CagedScene::with_coefficients(
         design,
@@ -187,9 +58,6 @@ pub fn scene(design: &Design) -> Result<CagedScene, Failure> {
 }
 
 /// Least and largest friction coefficient of a design with its calibration.
-///
-/// # Errors
-/// What the crate refuses.
 pub fn coefficients(design: &Design) -> Result<(f32, f32), Failure> {
     let friction = design.caged.friction;
     let Some(law) = firmware::law(design)? else {
@@ -200,7 +68,6 @@ pub fn coefficients(design: &Design) -> Result<(f32, f32), Failure> {
     Ok((least.min(friction), largest.max(friction)))
 }
 
-/// The friction coefficient of a calibrated design.
 fn law(design: &Design, numbers: &Numbers) -> Result<CoefficientLaw, Error> {
     match &numbers.law {
         Some(law) => CoefficientLaw::new(law),
@@ -213,13 +80,9 @@ fn refused(design: &Design, error: &Error) -> Failure {
 }
 
 impl<A: Sensor> Wanted<'_, A> {
-    fn around<S: CagedScrew, U: Use>(
-        &self,
-        scene: S::Configuration,
-        then: U,
-    ) -> Result<(U::Made, Lines), Failure>
+    fn around<S>(&self, scene: S::Configuration) -> Result<(Box<dyn Model>, Lines), Failure>
     where
-        S::Configuration: Copy,
+        S: HostScene<Configuration: Copy> + Scene<Inputs = Inputs>,
     {
         let Self {
             design,
@@ -237,65 +100,52 @@ impl<A: Sensor> Wanted<'_, A> {
             let whole = memory::configuration(scene, &remembered, angle, design.caged.friction);
             let model =
                 whole.and_then(|whole| FrictionModel::<WithMemory<S, _, _, _>>::new(&whole));
-            return Ok((then.with(model.map_err(refused)?), remembered.lines));
+            return Ok((Box::new(model.map_err(refused)?), remembered.lines));
         }
         let numbers = Numbers::of(design)?;
-        let built = Built {
-            scene,
-            angle,
-            law: law(design, &numbers).map_err(refused)?,
+        let law = law(design, &numbers).map_err(refused)?;
+        let Some(reference) = &numbers.reference else {
+            let remembered = by_design()?;
+            let elements = (remembered.elements, remembered.reference_load);
+            let model = calibrated_model::<S, _, _>(scene, elements, angle, law);
+            return Ok((model.map_err(refused)?, remembered.lines));
         };
-        match &numbers.reference {
-            None => {
-                let remembered = by_design()?;
-                let elements = (remembered.elements, remembered.reference_load);
-                Ok((
-                    built.with::<S, _, _>(elements, then).map_err(refused)?,
-                    remembered.lines,
-                ))
-            }
-            Some(reference) => {
-                let Numbers { screw, values, .. } = &numbers;
-                let load = reference.load;
-                let made = match screw.elements {
-                    ElementsName::Proportional => screw
-                        .proportional(values, reference)
-                        .and_then(|elements| built.with::<S, _, _>((elements, load), then)),
-                    ElementsName::LoadExact => screw
-                        .load_exact(values, reference)
-                        .and_then(|elements| built.with::<S, _, _>((elements, load), then)),
-                    ElementsName::Preloaded => screw
-                        .preloaded(values, reference)
-                        .and_then(|elements| built.with::<S, _, _>((elements, load), then)),
-                };
-                Ok((
-                    made.map_err(refused)?,
-                    lines(values.breakaway_angle, reference.torque),
-                ))
-            }
-        }
+        let Numbers { screw, values, .. } = &numbers;
+        let load = reference.load;
+        let made = match screw.elements {
+            ElementsName::Proportional => screw
+                .proportional(values, reference)
+                .and_then(|made| calibrated_model::<S, _, _>(scene, (made, load), angle, law)),
+            ElementsName::LoadExact => screw
+                .load_exact(values, reference)
+                .and_then(|made| calibrated_model::<S, _, _>(scene, (made, load), angle, law)),
+            ElementsName::Preloaded => screw
+                .preloaded(values, reference)
+                .and_then(|made| calibrated_model::<S, _, _>(scene, (made, load), angle, law)),
+        };
+        Ok((
+            made.map_err(refused)?,
+            lines(values.breakaway_angle, reference.torque),
+        ))
     }
 }
 
-/// A scene with a sensor and a friction coefficient.
-struct Built<C, A> {
-    scene: C,
+fn calibrated_model<S, E, A>(
+    scene: S::Configuration,
+    elements: (E, f32),
     angle: A,
     law: CoefficientLaw,
-}
-
-impl<C: Copy, A: Sensor> Built<C, A> {
-    fn with<S, E, U>(&self, elements: (E, f32), then: U) -> Result<U::Made, Error>
-    where
-        S: CagedScrew + Scene<Configuration = C>,
-        E: Hysteresis + Elements<State: Stored> + Fingerprinted + Copy + 'static,
-        U: Use,
-        FrictionModel<WithMemory<S, E, A, CoefficientLaw>>: Clone + Send + Sync,
-    {
-        let whole: WithMemoryConfiguration<C, E, A, CoefficientLaw> =
-            memory::with_coefficient(self.scene, elements, self.angle, self.law);
-        Ok(then.with(FrictionModel::<WithMemory<S, E, A, _>>::new(&whole)?))
-    }
+) -> Built
+where
+    S: HostScene + Scene<Inputs = Inputs>,
+    E: Hysteresis + Elements<State: Stored> + Fingerprinted + Copy + 'static,
+    A: Sensor,
+    FrictionModel<WithMemory<S, E, A, CoefficientLaw>>: Clone + Send + Sync,
+{
+    let whole = memory::with_coefficient(scene, elements, angle, law);
+    Ok(Box::new(FrictionModel::<WithMemory<S, E, A, _>>::new(
+        &whole,
+    )?))
 }
 
 /// Elements of a design under a load, N.

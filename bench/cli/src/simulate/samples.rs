@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use epas_friction::{Inputs, LinearInputs};
+use crate::model::TickInputs;
 
 use super::trace::{Sample, SceneSample};
 
@@ -114,13 +114,8 @@ impl Sample for LinearSample {
 }
 
 impl SceneSample for ScrewSample {
-    type Inputs = Inputs;
-
-    fn inputs(&self) -> Inputs {
-        Inputs {
-            nut_speed: self.nut_speed as f32,
-            axial_load: self.axial_load as f32,
-        }
+    fn inputs(&self) -> TickInputs {
+        TickInputs::new(self.nut_speed as f32, self.axial_load as f32)
     }
 
     fn position(&self) -> f64 {
@@ -129,13 +124,10 @@ impl SceneSample for ScrewSample {
 }
 
 impl SceneSample for LinearSample {
-    type Inputs = LinearInputs;
-
-    fn inputs(&self) -> LinearInputs {
-        LinearInputs {
-            speed: self.speed as f32,
-            normal_load: self.normal_load as f32,
+    fn inputs(&self) -> TickInputs {
+        TickInputs {
             side_load: self.side_load as f32,
+            ..TickInputs::new(self.speed as f32, self.normal_load as f32)
         }
     }
 }

@@ -3,26 +3,115 @@
 
 use super::encoder::EncoderStep;
 use super::manoeuvre::Manoeuvre;
-use super::picture::Form;
-use super::reference::ReferenceModel;
-use super::summary::Lines;
-use super::trace::{SceneSample, Temperature, Trace};
+use super::picture::{self, Form};
+use super::reference::{Friction, ReferenceModel};
+use super::summary::{Lines, regime_name};
+use super::trace::{Sample, SceneSample, Temperature, Trace};
+use crate::model::TickOutputs;
 use epas_page::failure::Failure;
+use epas_traces::flags;
+
+/// One sample with what the models say to it.
+#[derive(Clone, Copy, Debug)]
+pub struct Row<S> {
+    /// The moment of the trace.
+    pub sample: S,
+    /// Temperature of the tick, K.
+    pub temperature: f32,
+    /// What the scene puts out.
+    pub outputs: TickOutputs,
+    /// Balls that press on the one in front, one bit each.
+    pub pressing: u64,
+    /// Motion since the first sample: angle of the nut, rad, or travel of the carriage, m.
+    pub motion: f64,
+    /// What the float64 reference says.
+    pub reference: Option<Friction>,
+}
+
+impl<S: Sample> Row<S> {
+    /// What every scene shows of it in a picture, at a place along the horizontal axis.
+    pub fn moment(&self, place: f64) -> picture::Moment {
+        picture::Moment {
+            place,
+            load: self.sample.load(),
+            side: None,
+            speed: self.sample.speed(),
+            motor: None,
+            friction: self.outputs.friction.into(),
+            parts: None,
+            error: None,
+            reference: self.reference.map(|friction| friction.friction_torque),
+            regime: self.outputs.regime,
+            flagged: self.outputs.faults.any(),
+        }
+    }
+}
+
+/// A column of outputs: its name, and its text by the outputs of a tick and the motion since the first sample.
+pub type Column = (&'static str, fn(&TickOutputs, f64) -> String);
+
+/// What every ball screw puts out.
+pub const OF_SCREW: [Column; 3] = [
+    ("friction_torque", |outputs, _| outputs.friction.to_string()),
+    ("load_torque", |outputs, _| outputs.load_torque.to_string()),
+    ("efficiency", |outputs, _| outputs.efficiency.to_string()),
+];
+
+/// What every scene puts out.
+pub const OF_EVERY: [Column; 3] = [
+    ("regime", |outputs, _| regime_name(outputs.regime).into()),
+    ("faults", |outputs, _| outputs.faults.bits().to_string()),
+    ("fault_words", |outputs, _| flags::words(outputs.faults)),
+];
+
+/// What every row of balls puts out.
+pub const OF_ROW: [Column; 4] = [
+    ("groove_friction", |outputs, _| outputs.groove.to_string()),
+    ("ball_friction", |outputs, _| outputs.ball.to_string()),
+    ("contacts", |outputs, _| outputs.contacts.to_string()),
+    ("largest_contact_force", |outputs, _| {
+        outputs.largest_contact_force.to_string()
+    }),
+];
+
+/// Columns of the reference.
+const REFERENCE: [&str; 2] = ["reference_friction_torque", "reference_efficiency"];
+
+/// Columns of the table: those of the trace, the outputs, the reference.
+pub fn columns<S: Scene>(with_reference: bool) -> Vec<&'static str> {
+    let outputs = S::outputs().into_iter().map(|(name, _)| name);
+    let mut columns: Vec<_> = S::Sample::COLUMNS.iter().copied().chain(outputs).collect();
+    if with_reference {
+        columns.extend(REFERENCE);
+    }
+    columns
+}
+
+/// The values of [`columns`].
+pub fn record<S: Sample>(outputs: &[Column], row: &Row<S>) -> Vec<String> {
+    let mut record = row.sample.record();
+    record.truncate(S::COLUMNS.len());
+    record.extend(
+        outputs
+            .iter()
+            .map(|(_, text)| text(&row.outputs, row.motion)),
+    );
+    if let Some(friction) = row.reference {
+        record
+            .extend([friction.friction_torque, friction.efficiency].map(|value| value.to_string()));
+    }
+    record
+}
 
 /// A scene with its design.
 pub trait Scene {
     /// One moment of its traces.
     type Sample: SceneSample;
-    /// One sample with what the models say to it.
-    type Row;
 
     /// Name of the design, for headings and file names.
     fn name(&self) -> &str;
 
     /// A manoeuvre for this design.
-    ///
-    /// # Errors
-    /// A manoeuvre of another mechanism.
     fn manoeuvre(&self, manoeuvre: Manoeuvre) -> Result<Trace<Self::Sample>, Failure>;
 
     /// A manoeuvre's trace within the loads that the design is made for, and how it was changed where it was.
@@ -34,24 +123,18 @@ pub trait Scene {
     fn set_encoder(&mut self, encoder: EncoderStep);
 
     /// Refuses a design whose block is too far from the exact model, as `design` does.
-    ///
-    /// # Errors
-    /// What cannot be folded, with the reason.
     fn check_errors(&self) -> Result<(), Failure> {
         Ok(())
     }
 
     /// Runs the in-loop model over a trace, with the float64 reference where one is wanted; `done` is called
     /// after each sample. Lines tell what of the reference was computed.
-    ///
-    /// # Errors
-    /// A design or a trace that the models refuse.
     fn rows(
         &self,
         trace: &Trace<Self::Sample>,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<Self::Row>, Lines), Failure>;
+    ) -> Result<(Vec<Row<Self::Sample>>, Lines), Failure>;
 
     /// What a reference is, for the summary.
     fn reference_name(&self, _: ReferenceModel) -> String {
@@ -59,9 +142,6 @@ pub trait Scene {
     }
 
     /// Whether temperatures of a trace change anything beside a reference or without one; the reason where they do not.
-    ///
-    /// # Errors
-    /// The reason.
     fn follows_temperature(&self, _with_reference: bool) -> Result<(), &'static str> {
         Err("rows of balls have one friction coefficient; --scene caged follows it")
     }
@@ -70,36 +150,27 @@ pub trait Scene {
     fn follow_temperature(&mut self) {}
 
     /// The same as [`rows`](Self::rows) with a trace's temperatures, where it follows them.
-    ///
-    /// # Errors
-    /// A design or a trace that the models refuse.
     fn rows_at(
         &self,
         trace: &Trace<Self::Sample>,
         _: &Temperature,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<Self::Row>, Lines), Failure> {
+    ) -> Result<(Vec<Row<Self::Sample>>, Lines), Failure> {
         self.rows(trace, reference, done)
     }
 
-    /// Columns of the table: those of the trace, then the outputs.
-    fn columns(with_reference: bool) -> Vec<&'static str>;
-
-    /// A row of the table.
-    fn record(row: &Self::Row) -> Vec<String>;
+    /// Columns of the table behind those of the trace.
+    fn outputs() -> Vec<Column>;
 
     /// What a run comes to.
-    fn summary(&self, trace: &Trace<Self::Sample>, rows: &[Self::Row]) -> Lines;
+    fn summary(&self, trace: &Trace<Self::Sample>, rows: &[Row<Self::Sample>]) -> Lines;
 
     /// The run as a picture of some form.
-    ///
-    /// # Errors
-    /// A picture that cannot be drawn.
     fn picture(
         &self,
         trace: &Trace<Self::Sample>,
-        rows: &[Self::Row],
+        rows: &[Row<Self::Sample>],
         form: Form,
     ) -> Result<String, Failure>;
 }

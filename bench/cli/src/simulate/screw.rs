@@ -5,16 +5,15 @@ use std::f64::consts::TAU;
 use epas_design::breakaway::ScrewContacts;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
-use epas_friction::{Clearance, Limits, Outputs};
+use epas_friction::{Clearance, Limits};
 
 use super::beyond::Beyond;
-use super::reference::Friction;
 use super::samples::ScrewSample;
-use super::summary::{Course, Lines, Moment, Pressing, Words, regime_name};
-use super::trace::{Sample, Trace};
+use super::scene::Row;
+use super::summary::{Course, Lines, Pressing, Words};
+use super::trace::Trace;
 use epas_design::files::plausible::FASTEST;
 use epas_design::files::{Design, capacity};
-use epas_traces::flags;
 
 /// Settings that decide the friction of a scene, with what a design file leaves to the defaults.
 pub fn settings(design: &Design, friction: f32, clearance: Clearance) -> Lines {
@@ -102,45 +101,8 @@ pub const WORDS: Words = Words {
     unit: "N m",
 };
 
-/// Columns of the trace, and of what every ball screw puts out.
-pub fn columns() -> Vec<&'static str> {
-    let mut columns = ScrewSample::COLUMNS.to_vec();
-    columns.extend([
-        "friction_torque",
-        "load_torque",
-        "efficiency",
-        "regime",
-        "faults",
-        "fault_words",
-    ]);
-    columns
-}
-
 /// What the summary calls the difference from the reference.
 pub const DIFFERENCE: &str = "largest difference from f64";
-
-/// Columns of the reference.
-pub const REFERENCE_COLUMNS: [&str; 2] = ["reference_friction_torque", "reference_efficiency"];
-
-/// The values of [`columns`].
-pub fn record(sample: &ScrewSample, outputs: &Outputs) -> Vec<String> {
-    let mut record = sample.record();
-    record.truncate(ScrewSample::COLUMNS.len());
-    record.extend([
-        outputs.friction_torque.to_string(),
-        outputs.load_torque.to_string(),
-        outputs.efficiency.to_string(),
-        regime_name(outputs.regime).into(),
-        outputs.faults.bits().to_string(),
-        flags::words(outputs.faults),
-    ]);
-    record
-}
-
-/// The values of [`REFERENCE_COLUMNS`].
-pub fn reference_record(friction: &Friction) -> [String; 2] {
-    [friction.friction_torque, friction.efficiency].map(|value| value.to_string())
-}
 
 /// Sums and peaks of a run of a ball screw.
 #[derive(Clone, Debug)]
@@ -185,23 +147,14 @@ impl ScrewSummary {
     }
 
     /// Takes one more row in; the angle that it stands for, rad.
-    pub fn add(
-        &mut self,
-        sample: &ScrewSample,
-        outputs: &Outputs,
-        reference: Option<&Friction>,
-    ) -> f64 {
-        let friction = f64::from(outputs.friction_torque);
+    pub fn add(&mut self, row: &Row<ScrewSample>) -> f64 {
+        let Row {
+            sample, outputs, ..
+        } = row;
+        let friction = f64::from(outputs.friction);
         let load = f64::from(outputs.load_torque);
         let motor = friction + load;
-        let rotation = self.course.add(&Moment {
-            time: sample.time,
-            speed: sample.nut_speed,
-            load: sample.axial_load,
-            friction,
-            regime: outputs.regime,
-            faults: outputs.faults,
-        });
+        let rotation = self.course.add(sample, outputs);
         if let Some(beyond) = &mut self.beyond {
             beyond.add(sample.nut_speed, sample.axial_load, outputs.faults);
         }
@@ -213,7 +166,7 @@ impl ScrewSummary {
         };
         work.motor += motor * rotation;
         work.load += load * rotation;
-        if let Some(reference) = reference {
+        if let Some(reference) = row.reference {
             let difference = self.reference.get_or_insert_default();
             difference.torque = difference
                 .torque
@@ -301,12 +254,12 @@ impl ScrewSummary {
 
 #[cfg(test)]
 mod tests {
-    use epas_friction::{Faults, Regime};
+    use epas_friction::Outputs;
+    use epas_friction::scene::SceneOutputs as _;
 
     use super::*;
     use epas_design::files::read;
 
-    /// Peak pressure of a design under a load, GPa.
     fn pressure(preload: f32, axial_load: f64) -> f32 {
         let design = read(
             &format!(
@@ -317,14 +270,13 @@ mod tests {
         )
         .unwrap();
         let mut summary = ScrewSummary::new(&design, None);
-        summary.course.add(&Moment {
+        let sample = ScrewSample {
             time: 0.0,
-            speed: 1.0,
-            load: axial_load,
-            friction: 0.0,
-            regime: Regime::Driving,
-            faults: Faults::default(),
-        });
+            nut_speed: 1.0,
+            axial_load,
+            nut_position: 0.0,
+        };
+        summary.course.add(&sample, &Outputs::SAFE.into());
         1e-9 * summary.peak_pressure(&design, 71)
     }
 

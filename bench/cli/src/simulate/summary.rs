@@ -5,14 +5,13 @@ use std::io::{self, Write};
 use epas_friction::{Faults, Regime};
 
 use super::trace::{Sample, Trace};
+use crate::model::TickOutputs;
 use epas_traces::flags::FLAGS;
 
-/// Lines of a summary: a name and a text each.
 #[derive(Clone, Debug, Default)]
 pub struct Lines(Vec<(String, String)>);
 
 impl Lines {
-    /// One line more.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) {
         self.0.push((name.into(), text.into()));
     }
@@ -31,15 +30,10 @@ impl Lines {
         }
     }
 
-    /// Others after these.
     pub fn append(&mut self, mut others: Self) {
         self.0.append(&mut others.0);
     }
 
-    /// Prints them.
-    ///
-    /// # Errors
-    /// What cannot be written.
     pub fn print(&self, out: &mut impl Write) -> io::Result<()> {
         for (name, text) in &self.0 {
             writeln!(out, "{name:30} {text}")?;
@@ -51,33 +45,12 @@ impl Lines {
 /// What a scene calls its quantities.
 #[derive(Clone, Copy, Debug)]
 pub struct Words {
-    /// The load.
     pub load: &'static str,
-    /// The speed.
     pub speed: &'static str,
-    /// Its unit.
     pub speed_unit: &'static str,
     /// Torque or force.
     pub friction: &'static str,
-    /// Its unit.
     pub unit: &'static str,
-}
-
-/// One moment of a run, as every scene has it.
-#[derive(Clone, Copy, Debug)]
-pub struct Moment {
-    /// Time, s.
-    pub time: f64,
-    /// Speed, rad/s or m/s.
-    pub speed: f64,
-    /// Load, N.
-    pub load: f64,
-    /// Friction torque, N m, or force, N.
-    pub friction: f64,
-    /// What the mechanism does.
-    pub regime: Regime,
-    /// What was wrong.
-    pub faults: Faults,
 }
 
 /// Sums and peaks that every scene has.
@@ -112,7 +85,6 @@ const REGIMES: [Regime; 4] = [
     Regime::Locked,
 ];
 
-/// A regime in words.
 pub fn regime_name(regime: Regime) -> &'static str {
     match regime {
         Regime::Standing => "standing",
@@ -141,15 +113,10 @@ impl Course {
     }
 
     /// Takes one more moment in; the motion since the one before, which this one stands for.
-    pub fn add(&mut self, moment: &Moment) -> f64 {
-        let Moment {
-            time,
-            speed,
-            load,
-            friction,
-            regime,
-            faults,
-        } = *moment;
+    pub fn add(&mut self, sample: &impl Sample, outputs: &TickOutputs) -> f64 {
+        let (time, speed, load) = (sample.time(), sample.speed(), sample.load());
+        let friction = f64::from(outputs.friction);
+        let TickOutputs { regime, faults, .. } = *outputs;
         self.peak_load = self.peak_load.max(load.abs());
         self.peak_speed = self.peak_speed.max(speed.abs());
         self.peak_friction = self.peak_friction.max(friction.abs());
@@ -180,7 +147,6 @@ impl Course {
         self.peak_speed
     }
 
-    /// What was run, with its settings, and its peaks.
     pub fn peaks<S: Sample>(
         &self,
         trace: &Trace<S>,
@@ -245,7 +211,6 @@ impl Flags {
         }
     }
 
-    /// Their line.
     pub fn lines(&self, lines: &mut Lines) {
         let faults: Vec<_> = FLAGS
             .iter()
@@ -276,17 +241,17 @@ pub struct Pressing {
 
 impl Pressing {
     /// Takes in friction between balls, pairs that press and their largest force, N, over a motion.
-    pub fn add(&mut self, friction: f32, contacts: u8, force: f32, motion: f64) {
-        let friction = f64::from(friction);
+    pub fn add(&mut self, outputs: &TickOutputs, motion: f64) {
+        let friction = f64::from(outputs.ball);
         self.energy += friction * motion;
         self.peak = self.peak.max(friction.abs());
-        self.most_contacts = self.most_contacts.max(contacts);
-        if force > self.largest_force {
-            self.largest_force = force;
+        self.most_contacts = self.most_contacts.max(outputs.contacts);
+        // False for NaN.
+        if outputs.largest_contact_force > self.largest_force {
+            self.largest_force = outputs.largest_contact_force;
         }
     }
 
-    /// Their lines.
     pub fn lines(&self, lines: &mut Lines, words: &Words) {
         lines.add("of it from ball to ball", format!("{:.3} J", self.energy));
         lines.add(

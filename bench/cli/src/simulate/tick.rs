@@ -3,7 +3,6 @@
 use super::trace::{Sample, Temperature, Trace};
 use epas_page::failure::Failure;
 
-/// Most ticks of a run.
 const MOST: f64 = 5e6;
 
 /// A time between two ticks, s.
@@ -15,9 +14,6 @@ pub fn tick(text: &str) -> Result<f64, String> {
 }
 
 /// The trace at equal steps of a tick, from its first sample on, interpolated linearly between its samples.
-///
-/// # Errors
-/// More ticks than can be kept.
 pub fn resampled<S: Sample>(
     trace: &Trace<S>,
     temperature: &Temperature,

@@ -2,6 +2,7 @@
 
 use std::io::{Read, Seek};
 
+use crate::model::TickInputs;
 use epas_design::files::calibration::TEMPERATURES;
 use epas_page::aside::say;
 use epas_page::failure::Failure;
@@ -20,7 +21,6 @@ pub trait Sample: Copy {
     /// Columns that a trace may have; where it has none, each of their numbers is 0.
     const OPTIONAL: &'static [&'static str] = &[];
 
-    /// From the numbers in its columns.
     fn read<E>(column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E>;
 
     /// The numbers in the order of the columns, those that a trace may have behind those that it must have.
@@ -62,11 +62,7 @@ pub trait Sample: Copy {
 
 /// One moment of a trace that a scene follows.
 pub trait SceneSample: Sample {
-    /// Inputs of the scene.
-    type Inputs: Copy;
-
-    /// Its inputs at this moment.
-    fn inputs(&self) -> Self::Inputs;
+    fn inputs(&self) -> TickInputs;
 
     /// Position as its sensor reads it, rad (m); 0 where the trace has none.
     fn position(&self) -> f64 {
@@ -109,7 +105,6 @@ impl<S: SceneSample> Trace<S> {
 /// A column of temperatures beside the samples of a trace.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Temperature {
-    /// There is none.
     None,
     /// There is one, and nothing follows it, for this reason.
     Ignored(&'static str),
@@ -123,7 +118,6 @@ pub type Follows = Result<(), &'static str>;
 /// Reason where samples alone are wanted.
 pub const UNREAD: &str = "only its samples are read";
 
-/// Its name.
 const TEMPERATURE: &str = "temperature";
 
 impl Temperature {
@@ -150,7 +144,6 @@ impl Temperature {
         }
     }
 
-    /// Whether a table has temperatures, and whether they were taken.
     fn of(table: &Table, followed: Follows) -> Self {
         let named = |name: &String| matches!(heading(name), Ok(Some((Quantity::Temperature, _))));
         if table.column(Quantity::Temperature).is_some() {
@@ -203,7 +196,6 @@ pub fn read<S: Sample>(
     Ok((Trace { name, samples }, temperature))
 }
 
-/// The samples of a table.
 pub fn samples<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, String> {
     columns_of(input, Err(UNREAD)).map(|(samples, _)| samples)
 }
@@ -333,7 +325,6 @@ fn samples_of<S: Sample>(
     Ok((samples.collect::<Result<_, _>>()?, temperature))
 }
 
-/// Says what was done to the samples.
 fn tell(table: &Table) {
     let left_out = table.left_out.iter().map(LeftOut::told);
     for note in table.notes.iter().cloned().chain(left_out) {

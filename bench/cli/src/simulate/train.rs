@@ -1,37 +1,27 @@
-//! Models of scenes with a train, over a trace of equal steps.
+//! Rows of balls that press on each other, over a trace of equal steps, and which press in a picture (Lin 2019, Figures 3.24 and 3.25).
 
-use super::balls::{Balls, Built};
+use super::picture::{self, Form, Labels, Moment};
+use super::reference::Friction;
+use super::scene::Row;
 use super::trace::{Sample, SceneSample, Trace};
+use crate::model::{Built, Model, TickOutputs};
 use epas_page::failure::Failure;
+use epas_page::plot::{Mark, Panel, Series};
 
 /// Most ticks for each sample of a trace.
 const MOST_TICKS: u32 = 1 << 16;
 
-/// What a train does at a sample.
-#[derive(Clone, Copy, Debug)]
-pub struct TrainRow<Outputs> {
-    /// Its outputs.
-    pub outputs: Outputs,
-    /// Balls that press on the one in front, one bit each.
-    pub pressing: u64,
-    /// Motion since the first sample: angle of the nut, rad, or travel of the carriage, m.
-    pub motion: f64,
-}
-
 /// A model of a train over a trace of equal steps.
-pub struct Train<S: SceneSample, Outputs> {
-    model: Box<dyn Balls<S::Inputs, Outputs>>,
+pub struct Train {
+    model: Box<dyn Model>,
     ticks: u32,
     step: f64,
     motion: f64,
 }
 
-impl<S: SceneSample, Outputs> Train<S, Outputs> {
+impl Train {
     /// The model that `build` makes for a tick, s: as many ticks for each sample, doubled from one, as its limits need.
-    pub fn new(
-        trace: &Trace<S>,
-        build: impl Fn(f32) -> Built<S::Inputs, Outputs>,
-    ) -> Result<Self, Failure> {
+    pub fn new<S: Sample>(trace: &Trace<S>, build: impl Fn(f32) -> Built) -> Result<Self, Failure> {
         let step = equal_step(trace)?;
         let mut ticks = 1;
         loop {
@@ -72,17 +62,35 @@ impl<S: SceneSample, Outputs> Train<S, Outputs> {
         }
     }
 
-    /// What the train does at a sample, and then until the next one.
-    pub fn step(&mut self, sample: &S) -> TrainRow<Outputs> {
+    /// What it does at every sample, beside the reference.
+    pub fn rows<S: SceneSample>(
+        &mut self,
+        trace: &Trace<S>,
+        reference: &[Friction],
+        done: &dyn Fn(),
+    ) -> Vec<Row<S>> {
+        let samples = trace.samples.iter().enumerate();
+        let row = |(index, sample): (usize, &S)| {
+            let row = self.step(sample, reference.get(index).copied());
+            done();
+            row
+        };
+        samples.map(row).collect()
+    }
+
+    fn step<S: SceneSample>(&mut self, sample: &S, reference: Option<Friction>) -> Row<S> {
         let inputs = sample.inputs();
-        let outputs = self.model.step(inputs);
-        let row = TrainRow {
+        let outputs = self.model.step(&inputs);
+        let row = Row {
+            sample: *sample,
+            temperature: inputs.temperature,
             outputs,
             pressing: self.model.pressing(),
             motion: self.motion,
+            reference,
         };
         for _ in 1..self.ticks {
-            self.model.step(inputs);
+            self.model.step(&inputs);
         }
         self.motion += sample.speed() * self.step;
         row
@@ -111,4 +119,56 @@ pub fn equal_step<S: Sample>(trace: &Trace<S>) -> Result<f64, Failure> {
         }
     }
     Ok(step)
+}
+
+/// Moments at which contacts are marked, at most.
+const MOMENTS: usize = 500;
+
+/// Draws the panels of a run, then those of its balls.
+pub fn draw<S>(
+    labels: &Labels,
+    moments: &[Moment],
+    rows: &[Row<S>],
+    form: Form,
+) -> Result<String, Failure> {
+    let points: Vec<_> = moments.iter().zip(rows).collect();
+    let mut panels = picture::panels(labels, moments, form);
+    let ends = picture::ends(moments);
+    let curve = |value: &dyn Fn(&TickOutputs) -> f64| {
+        form.curve(&points, &|point| point.0.place, &|point| {
+            value(&point.1.outputs)
+        })
+    };
+    let panel = |label: &str, mark, points| -> Panel {
+        let series = vec![Series::new("", 0, mark, points)];
+        picture::chart("", labels.place, ends, label, series)
+    };
+    panels.extend([
+        panel("ball that presses on the next", Mark::Dots, marks(&points)),
+        panel(
+            "ball-to-ball contacts",
+            Mark::Line,
+            curve(&|outputs| outputs.contacts.into()),
+        ),
+        panel(
+            "largest force between balls (N)",
+            Mark::Line,
+            curve(&|outputs| outputs.largest_contact_force.into()),
+        ),
+    ]);
+    form.draw(&labels.title, &panels)
+}
+
+/// A mark for each ball that presses, counted from one.
+fn marks<S>(points: &[(&Moment, &Row<S>)]) -> Vec<(f64, f64)> {
+    let stride = points.len().div_ceil(MOMENTS).max(1);
+    points
+        .iter()
+        .step_by(stride)
+        .flat_map(|(moment, row)| {
+            (0..u64::BITS)
+                .filter(|ball| row.pressing >> ball & 1 == 1)
+                .map(|ball| (moment.place, f64::from(ball + 1)))
+        })
+        .collect()
 }

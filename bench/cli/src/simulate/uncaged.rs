@@ -3,24 +3,23 @@
 use std::f64::consts::TAU;
 
 use epas_design::UncagedFold;
-use epas_friction::{Error, Inputs, Outputs, UncagedOutputs};
+use epas_friction::Error;
 use epas_reference::promises;
 
-use super::balls::{Built, screw as screw_of};
 use super::beyond::Beyond;
 use super::encoder::EncoderStep;
 use super::exact_screw::exact_screw;
 use super::manoeuvre::{Manoeuvre, trace};
 use super::memory::{self, Remembered};
 use super::picture::{Form, Labels, Moment};
-use super::reference::{Friction, ReferenceModel, whole_screw};
+use super::reference::{ReferenceModel, whole_screw};
 use super::samples::ScrewSample;
-use super::scene::Scene;
+use super::scene::{Column, OF_EVERY, OF_ROW, OF_SCREW, Row, Scene};
 use super::screw::{self, ScrewSummary};
 use super::summary::{Lines, Pressing};
 use super::trace::{Sample, Trace};
-use super::train::{Train, TrainRow, equal_step};
-use super::train_picture::{TrainPoint, draw};
+use super::train::{Train, draw, equal_step};
+use crate::model::{self, Built};
 use epas_design::files::Design;
 use epas_design::files::train::UncagedDesign;
 use epas_design::uncaged_scene::ScrewConfiguration;
@@ -44,15 +43,6 @@ pub struct Uncaged {
     pub encoder: EncoderStep,
 }
 
-/// One sample with what the models say to it.
-pub struct UncagedRow {
-    sample: ScrewSample,
-    /// What the scene puts out.
-    pub train: TrainRow<UncagedOutputs>,
-    /// What the float64 reference says.
-    pub reference: Option<Friction>,
-}
-
 /// Largest size of the load of a trace, N.
 fn peak_load(trace: &Trace<ScrewSample>) -> f32 {
     let loads = trace.samples.iter().map(|sample| sample.load().abs());
@@ -64,7 +54,7 @@ impl Uncaged {
         &self,
         trace: &Trace<ScrewSample>,
         remembered: Option<&Remembered>,
-    ) -> Result<Train<ScrewSample, UncagedOutputs>, Failure> {
+    ) -> Result<Train, Failure> {
         // A trace that cannot be run is told before the screw is folded.
         equal_step(trace).map_err(|failure| failure.of(self.name()))?;
         let configuration = {
@@ -82,9 +72,6 @@ impl Uncaged {
     }
 
     /// What is folded of it for axial loads up to one, N.
-    ///
-    /// # Errors
-    /// What cannot be folded, with the reason.
     fn fold(&self, axial_load: f32) -> Result<UncagedFold, Failure> {
         let friction = self.balls.gear.friction;
         uncaged::fold_for(&self.design, &self.balls, (friction, friction), axial_load)
@@ -92,9 +79,6 @@ impl Uncaged {
     }
 
     /// What its model is made of, up to an axial load, N.
-    ///
-    /// # Errors
-    /// What cannot be folded, with the reason.
     pub fn folded(&self, axial_load: f32) -> Result<ScrewConfiguration, Failure> {
         let friction = self.balls.gear.friction;
         Ok(uncaged::configuration(
@@ -106,30 +90,22 @@ impl Uncaged {
     }
 
     /// The model for a tick, s.
-    ///
-    /// # Errors
-    /// [`Error`] naming a field out of range.
     pub fn model(
         &self,
         configuration: &ScrewConfiguration,
         tick: f32,
         remembered: Option<&Remembered>,
-    ) -> Built<Inputs, UncagedOutputs> {
+    ) -> Built {
         let configuration = ScrewConfiguration {
             tick,
             ..*configuration
         };
-        let friction = self.balls.gear.friction;
-        let whole = memory::whole(configuration, remembered, tick, friction)?;
-        screw_of(&whole)
+        model::uncaged(&configuration, remembered, self.balls.gear.friction)
     }
 }
 
 impl Uncaged {
     /// Elements at an axial load, N.
-    ///
-    /// # Errors
-    /// [`Error`] naming a field out of range.
     pub fn remembered_at(&self, axial_load: f32) -> Result<Remembered, Error> {
         let gear = &self.balls.gear;
         memory::Screw {
@@ -142,7 +118,6 @@ impl Uncaged {
         .remembered(axial_load)
     }
 
-    /// What decides its friction.
     fn settings(&self) -> Lines {
         let UncagedDesign {
             ref gear,
@@ -164,29 +139,22 @@ impl Uncaged {
 
     /// Elements at the trace's mean load, where friction remembers.
     fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
-        let told = self.design.calibrated.is_some();
-        let mut remembered = self
-            .memory
-            .then(|| self.remembered_at(memory::mean_load(trace)))
-            .transpose()
-            .map_err(|error| Failure::Data(format!("{}: {error}", self.name())))?;
-        if let Some(remembered) = &mut remembered {
-            remembered.encoder_step = self.encoder.size();
-            remembered
-                .lines
-                .add_some("encoder", self.encoder.told("rad"));
+        if !self.memory {
+            return Ok(None);
         }
-        if let (Some(remembered), true) = (&mut remembered, told) {
+        let sensor = (self.encoder, "rad");
+        let remembered = memory::over(trace, sensor, |load| self.remembered_at(load));
+        let mut remembered = remembered.map_err(|failure| failure.of(self.name()))?;
+        if self.design.calibrated.is_some() {
             let text = "left out: what a trace has told is that of the scene caged";
             remembered.lines.add("calibration", text);
         }
-        Ok(remembered)
+        Ok(Some(remembered))
     }
 }
 
 impl Scene for Uncaged {
     type Sample = ScrewSample;
-    type Row = UncagedRow;
 
     fn name(&self) -> &str {
         &self.design.name
@@ -216,7 +184,7 @@ impl Scene for Uncaged {
         trace: &Trace<ScrewSample>,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<UncagedRow>, Lines), Failure> {
+    ) -> Result<(Vec<Row<ScrewSample>>, Lines), Failure> {
         let remembered = self.remembered(trace)?;
         let measured = self.is_measured(trace);
         let mut train = self.train(trace, remembered.as_ref())?;
@@ -229,20 +197,7 @@ impl Scene for Uncaged {
                 (whole_screw(&self.balls, trace)?, lines)
             }
         };
-        let rows = trace
-            .samples
-            .iter()
-            .enumerate()
-            .map(|(index, &sample)| {
-                let row = UncagedRow {
-                    sample,
-                    train: train.step(&sample),
-                    reference: reference.get(index).copied(),
-                };
-                done();
-                row
-            })
-            .collect();
+        let rows = train.rows(trace, &reference, done);
         if !measured {
             lines.add("block", NOT_MEASURED);
         }
@@ -262,53 +217,21 @@ impl Scene for Uncaged {
         format!("{form}{without}")
     }
 
-    fn columns(with_reference: bool) -> Vec<&'static str> {
-        let mut columns = screw::columns();
-        columns.extend([
-            "nut_angle",
-            "groove_friction",
-            "ball_friction",
-            "contacts",
-            "largest_contact_force",
-        ]);
-        if with_reference {
-            columns.extend(screw::REFERENCE_COLUMNS);
-        }
-        columns
+    fn outputs() -> Vec<Column> {
+        const ANGLE: Column = ("nut_angle", |_, motion| motion.to_string());
+        let screw = OF_SCREW.into_iter().chain(OF_EVERY);
+        screw.chain([ANGLE]).chain(OF_ROW).collect()
     }
 
-    fn record(row: &UncagedRow) -> Vec<String> {
-        let TrainRow {
-            outputs, motion, ..
-        } = row.train;
-        let mut record = screw::record(&row.sample, &outputs.into());
-        record.extend([
-            motion.to_string(),
-            outputs.groove_torque.to_string(),
-            outputs.ball_torque.to_string(),
-            outputs.contacts.to_string(),
-            outputs.largest_contact_force.to_string(),
-        ]);
-        record.extend(row.reference.iter().flat_map(screw::reference_record));
-        record
-    }
-
-    fn summary(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Lines {
+    fn summary(&self, trace: &Trace<ScrewSample>, rows: &[Row<ScrewSample>]) -> Lines {
         // What has run was folded: nothing is refused here.
         let fold = self.fold(peak_load(trace));
         let beyond = fold.map(|fold| Beyond::uncaged(&self.balls, &fold)).ok();
         let mut summary = ScrewSummary::new(&self.design, beyond);
         let mut pressing = Pressing::default();
         for row in rows {
-            let outputs = row.train.outputs;
-            let common = Outputs::from(outputs);
-            let rotation = summary.add(&row.sample, &common, row.reference.as_ref());
-            pressing.add(
-                outputs.ball_torque,
-                outputs.contacts,
-                outputs.largest_contact_force,
-                rotation,
-            );
+            let rotation = summary.add(row);
+            pressing.add(&row.outputs, rotation);
         }
         summary.lines(trace, &self.design, self.settings(), Some(&pressing))
     }
@@ -316,49 +239,35 @@ impl Scene for Uncaged {
     fn picture(
         &self,
         trace: &Trace<ScrewSample>,
-        rows: &[UncagedRow],
+        rows: &[Row<ScrewSample>],
         form: Form,
     ) -> Result<String, Failure> {
-        draw(&self.labels(trace), &self.points(trace, rows), form)
+        // Where the motion turns back, an angle stands for more than one moment.
+        let reverses = trace.reverses();
+        let reduced_lead = f64::from(self.design.screw().lead()) / TAU;
+        let moments: Vec<_> = rows
+            .iter()
+            .map(|row| {
+                let outputs = row.outputs;
+                let friction = f64::from(outputs.friction);
+                let place = if reverses {
+                    row.sample.time
+                } else {
+                    row.motion.to_degrees()
+                };
+                Moment {
+                    motor: Some(row.sample.axial_load * reduced_lead + friction),
+                    parts: Some([outputs.groove, outputs.ball].map(f64::from)),
+                    error: Some(promises::of("step_uncaged").rms * friction.abs()),
+                    ..row.moment(place)
+                }
+            })
+            .collect();
+        draw(&self.labels(trace), &moments, rows, form)
     }
 }
 
 impl Uncaged {
-    /// Every sample for the picture.
-    pub fn points(&self, trace: &Trace<ScrewSample>, rows: &[UncagedRow]) -> Vec<TrainPoint> {
-        // Where the motion turns back, an angle stands for more than one moment.
-        let reverses = trace.reverses();
-        let reduced_lead = f64::from(self.design.screw().lead()) / TAU;
-        rows.iter()
-            .map(|row| {
-                let outputs = row.train.outputs;
-                let friction = f64::from(outputs.friction_torque);
-                TrainPoint {
-                    moment: Moment {
-                        place: if reverses {
-                            row.sample.time
-                        } else {
-                            row.train.motion.to_degrees()
-                        },
-                        load: row.sample.axial_load,
-                        side: None,
-                        speed: row.sample.nut_speed,
-                        motor: Some(row.sample.axial_load * reduced_lead + friction),
-                        friction,
-                        parts: Some([outputs.groove_torque, outputs.ball_torque].map(f64::from)),
-                        error: Some(promises::of("step_uncaged").rms * friction.abs()),
-                        reference: row.reference.map(|friction| friction.friction_torque),
-                        regime: outputs.regime,
-                        flagged: outputs.faults.any(),
-                    },
-                    contacts: outputs.contacts,
-                    largest_contact_force: outputs.largest_contact_force,
-                    pressing: row.train.pressing,
-                }
-            })
-            .collect()
-    }
-
     fn labels(&self, trace: &Trace<ScrewSample>) -> Labels {
         Labels {
             title: format!("{} on {}", trace.name, self.name()),

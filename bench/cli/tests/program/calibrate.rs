@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 
-use super::run_in;
+use super::{run_in, words};
 
 /// Truth: mass, kg; viscous friction, N s/m; Coulomb friction, N; offset, N.
 const MASS: f64 = 40.0;
@@ -162,14 +162,7 @@ fn what_cannot_be_is_refused_with_a_word() {
         ),
         (&["calibrate", "slide.csv", "--ratio", "2"], 1, "--design"),
         (
-            &[
-                "calibrate",
-                "slide.csv",
-                "--design",
-                "lin-4.1",
-                "--fix",
-                "friction",
-            ],
+            &words("calibrate slide.csv --design lin-4.1 --fix friction"),
             2,
             "NAME=VALUE",
         ),
@@ -179,14 +172,7 @@ fn what_cannot_be_is_refused_with_a_word() {
             "none.csv",
         ),
         (
-            &[
-                "calibrate",
-                "screw.csv",
-                "--design",
-                "lin-4.1",
-                "--validate",
-                "none.csv",
-            ],
+            &words("calibrate screw.csv --design lin-4.1 --validate none.csv"),
             1,
             "none.csv",
         ),

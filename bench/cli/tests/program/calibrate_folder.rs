@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::Value;
 use tempfile::tempdir;
 
-use super::{Run, run_in};
+use super::{Run, run_in, words};
 
 /// A carriage of so many kilograms with 200 N s/m of drag and 20 N of friction, moved to and fro for ten seconds; noise of 0.5 N
 /// that looks random.
@@ -79,13 +79,7 @@ fn a_folder_is_the_sum_of_its_parts() {
         (spread - 10.0).abs() < 1.0 || (spread - 0.1).abs() < 0.01,
         "{mass}"
     );
-    for name in [
-        "report.html",
-        "report.md",
-        "population.csv",
-        "refused.csv",
-        "by_trace.svg",
-    ] {
+    for name in words("report.html report.md population.csv refused.csv by_trace.svg") {
         assert!(place.path().join("whole").join(name).is_file(), "{name}");
     }
 
@@ -141,15 +135,7 @@ fn a_folder_that_tells_nothing_ends_with_code_1() {
     // A name that is wrong is no word of a trace.
     let run = calibrate(
         place.path(),
-        &[
-            ".",
-            "--design",
-            "lin-4.1",
-            "--estimate",
-            "foo",
-            "--output",
-            "out",
-        ],
+        &words(". --design lin-4.1 --estimate foo --output out"),
     );
     assert_eq!(run.code, 1, "{}", run.stdout);
     assert!(

@@ -15,7 +15,6 @@ use tempfile::tempdir;
 
 use super::simulated_design;
 
-/// As the program writes them.
 #[rustfmt::skip]
 #[expect(dead_code, reason = "firmware takes what it needs")]
 #[path = "calibrated_constants.rs"]
@@ -65,7 +64,6 @@ const ROUNDED: f32 = 2.0 * f32::EPSILON;
 /// Friction coefficients of the block.
 const NODES: usize = 5;
 
-/// It stands in flash.
 static GEAR: WithMemoryConstants<
     CagedConstants<NODES>,
     ProportionalElements<8>,

@@ -6,7 +6,6 @@ use std::path::{Path, PathBuf};
 
 use crate::{Run, run_in};
 
-/// Folder of the files, in the tree.
 fn designs() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../designs")
 }

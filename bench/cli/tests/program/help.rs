@@ -5,7 +5,6 @@ use crate::run;
 /// Most words of a paragraph.
 const MOST: usize = 60;
 
-/// Subcommands, as the help of the program lists them.
 fn subcommands() -> Vec<String> {
     let help = run(&["--help"], "").stdout;
     let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1);

@@ -7,7 +7,7 @@ use std::path::Path;
 use epas_friction::LoadShare;
 use tempfile::tempdir;
 
-use super::{Run, STORED_UNCAGED, run, run_in};
+use super::{Run, STORED_UNCAGED, ran, run, run_in, words};
 
 mod pasted {
     include!("load_shares.rs");
@@ -85,8 +85,10 @@ fn a_table_goes_into_the_design_file() {
     let folder = tempdir().unwrap();
     let path = folder.path();
     fs::write(path.join("screw.toml"), format!("{DESIGN}{LOADS}")).unwrap();
-    let made = loads(path, &["--design", "screw.toml", "--output", "shares.toml"]);
-    assert_eq!(made.code, 0, "{}", made.stderr);
+    ran(
+        path,
+        "simulate --loads --design screw.toml --output shares.toml",
+    );
     let table = fs::read_to_string(path.join("shares.toml")).unwrap();
     let built_in = run(&["simulate", "--loads", "--design", "lin-2.1"], "").stdout;
     let (own, built_in) = (shares(&table), shares(&built_in));
@@ -96,34 +98,17 @@ fn a_table_goes_into_the_design_file() {
         assert!((own - built_in).abs() < 1e-5, "{own} {built_in}");
     }
     let again = loads(path, &["--design", "screw.toml", "--output", "shares.toml"]);
-    assert!(
-        again.code == 1 && again.stderr.contains("--force"),
-        "{}",
-        again.stderr
-    );
+    again.refused("--force");
 
     // The scene takes the table of its own balls.
-    let made = loads(path, &["--design", "lin-3.6", "--output", "37.toml"]);
-    assert_eq!(made.code, 0, "{}", made.stderr);
+    ran(path, "simulate --loads --design lin-3.6 --output 37.toml");
     let table = fs::read_to_string(path.join("37.toml")).unwrap();
     let list = table.split_once("[uncaged]\n").unwrap().1;
     fs::write(path.join("whole.toml"), format!("{STORED_UNCAGED}{list}")).unwrap();
-    let run = run_in(
+    ran(
         path,
-        &[
-            "simulate",
-            "--scene",
-            "uncaged",
-            "--design",
-            "whole.toml",
-            "--manoeuvre",
-            "turns",
-            "--output",
-            "out.csv",
-        ],
-        "",
+        "simulate --scene uncaged --design whole.toml --manoeuvre turns --output out.csv",
     );
-    assert_eq!(run.code, 0, "{}", run.stderr);
 }
 
 #[test]
@@ -152,7 +137,7 @@ fn other_loads_and_errors_change_the_table() {
 }
 
 /// Text without the marks of comments and the breaks of lines.
-fn words(text: &str) -> String {
+fn folded_words(text: &str) -> String {
     text.split_whitespace()
         .filter(|word| *word != "#" && *word != "///" && *word != "//")
         .collect::<Vec<_>>()
@@ -164,7 +149,7 @@ fn words(text: &str) -> String {
 #[test]
 fn a_table_says_which_loads_it_serves() {
     let made = run(&["simulate", "--loads", "--design", "lin-2.1"], "");
-    let said = words(&made.stdout);
+    let said = folded_words(&made.stdout);
     assert!(
         said.contains(
             "It serves loads of 667 to 9600 N and, the other way, of -552 to -9600 N within 1 % of"
@@ -199,7 +184,7 @@ fn a_table_says_which_loads_it_serves() {
             ],
         );
         assert_eq!(made.code, 0, "{}", made.stderr);
-        let said = words(&made.stdout);
+        let said = folded_words(&made.stdout);
         assert!(said.contains(expected), "{axial_load}: {said}");
     }
 }
@@ -224,7 +209,7 @@ fn a_trace_gets_the_tables_it_needs() {
     let of = |name: &str| {
         let made = loads(path, &["--design", "screw.toml", "--input", name]);
         assert_eq!(made.code, 0, "{name}: {}", made.stderr);
-        (words(&made.stdout), made.stdout)
+        (folded_words(&made.stdout), made.stdout)
     };
     // A hundredth of the largest load does not count: 20 N of 3000 N.
     let (said, _) = of("one.csv");
@@ -256,7 +241,7 @@ fn a_trace_gets_the_tables_it_needs() {
     let arguments = "--design uncaged.toml --input wide.csv --output shares.toml";
     let made = loads(path, &arguments.split(' ').collect::<Vec<_>>());
     assert!(
-        words(&made.stdout).contains("one table does not serve"),
+        folded_words(&made.stdout).contains("one table does not serve"),
         "{}",
         made.stdout
     );
@@ -294,20 +279,13 @@ fn a_trace_gets_the_tables_it_needs() {
 #[test]
 fn several_loads_and_the_other_end() {
     let several = run(
-        &[
-            "simulate",
-            "--loads",
-            "--design",
-            "lin-3.6",
-            "--axial-load",
-            "-11100,200,11100,-200",
-            "--format",
-            "rust",
-        ],
+        &words(
+            "simulate --loads --design lin-3.6 --axial-load -11100,200,11100,-200 --format rust",
+        ),
         "",
     );
     assert_eq!(several.code, 0, "{}", several.stderr);
-    let said = words(&several.stdout);
+    let said = folded_words(&several.stdout);
     assert!(
         said.contains("Loads of --axial-load: 200 to 11100 N and -200 to -11100 N."),
         "{said}"
@@ -321,12 +299,11 @@ fn several_loads_and_the_other_end() {
     for (end, way) in [("left", "from"), ("right", "towards")] {
         let file = format!("{DESIGN}{LOADS}loaded_end = \"{end}\"\n");
         fs::write(path.join("end.toml"), file).unwrap();
-        let made = loads(path, &["--design", "end.toml", "--output", "-"]);
-        assert_eq!(made.code, 0, "{}", made.stderr);
+        let made = ran(path, "simulate --loads --design end.toml --output -");
         // The table alone, as it goes into a design file.
         let table: Result<toml::Table, _> = made.stdout.parse();
         assert!(table.is_ok(), "{}", made.stdout);
-        let said = words(&made.stdout);
+        let said = folded_words(&made.stdout);
         assert!(
             said.contains(&format!("along the loaded track {way} the end where")),
             "{said}"
@@ -342,11 +319,7 @@ fn what_gives_no_table_says_why() {
     let path = folder.path();
     fs::write(path.join("bare.toml"), DESIGN).unwrap();
     let bare = loads(path, &["--design", "bare.toml"]);
-    assert!(
-        bare.code == 1 && bare.stderr.contains("[loads]"),
-        "{}",
-        bare.stderr
-    );
+    bare.refused("[loads]");
     for (from, to, said) in [
         ("turns = 2\n", "", "turns"),
         ("turns = 2\n", "turns = 2\nball_spacing = 0.4\n", "turns"),
@@ -413,32 +386,9 @@ fn what_gives_no_table_says_why() {
     for arguments in [
         &["--loads"][..],
         &["--loads", "--design", "lin-2.1", "--plot", "p.svg"],
-        &[
-            "--loads",
-            "--design",
-            "lin-2.1",
-            "--manoeuvre",
-            "parking",
-            "--axial-load",
-            "5",
-        ],
-        &[
-            "--loads",
-            "--design",
-            "lin-2.1",
-            "--manoeuvre",
-            "parking",
-            "--input",
-            "t.csv",
-        ],
-        &[
-            "--design",
-            "lin-2.1",
-            "--manoeuvre",
-            "parking",
-            "--format",
-            "rust",
-        ],
+        &words("--loads --design lin-2.1 --manoeuvre parking --axial-load 5"),
+        &words("--loads --design lin-2.1 --manoeuvre parking --input t.csv"),
+        &words("--design lin-2.1 --manoeuvre parking --format rust"),
     ] {
         let all: Vec<_> = ["simulate"].iter().chain(arguments).copied().collect();
         assert_eq!(run(&all, "").code, 2, "{arguments:?}");

@@ -51,14 +51,12 @@ turns = 2
 screw_deviation = [{ order = 2, sine = 0.040143 }]
 ";
 
-/// How a run of the program ended.
 struct Run {
     code: i32,
     stdout: String,
     stderr: String,
 }
 
-/// Runs the program in a folder with some input.
 fn run_in(folder: &Path, arguments: &[&str], input: &str) -> Run {
     run_with(folder, arguments, input, &[])
 }
@@ -114,6 +112,25 @@ fn run(arguments: &[&str], input: &str) -> Run {
     run_in(Path::new("."), arguments, input)
 }
 
+fn words(line: &str) -> Vec<&str> {
+    line.split(' ').collect()
+}
+
+/// A run of a line in a folder that succeeds.
+fn ran(folder: &Path, line: &str) -> Run {
+    let run = run_in(folder, &words(line), "");
+    assert_eq!(run.code, 0, "{line}: {}", run.stderr);
+    run
+}
+
+impl Run {
+    /// It ended with code 1 and these words.
+    fn refused(&self, words: &str) {
+        assert_eq!(self.code, 1, "{words}: {}", self.stderr);
+        assert!(self.stderr.contains(words), "{words}: {}", self.stderr);
+    }
+}
+
 #[test]
 fn help_names_every_subcommand() {
     let help = run(&["--help"], "");
@@ -154,8 +171,7 @@ fn foreign_endings_are_refused() {
         ("calibrate a.csv --design lin-4.1 --constants a.csv", ".rs"),
         ("simulate --manoeuvre kerb --design gear.TOML", "gear.TOML"),
     ] {
-        let all: Vec<_> = arguments.split(' ').collect();
-        let run = run_in(folder.path(), &all, "");
+        let run = run_in(folder.path(), &words(arguments), "");
         assert_eq!(run.code, 1, "{arguments}: {}", run.stderr);
         assert!(run.stderr.contains(word), "{}", run.stderr);
     }
@@ -173,7 +189,7 @@ fn numbers_below_zero_are_told_their_range() {
             "allowed: friction, ",
         ),
     ] {
-        let run = run(&arguments.split(' ').collect::<Vec<_>>(), "");
+        let run = run(&words(arguments), "");
         assert_eq!(run.code, 2, "{arguments}");
         assert!(run.stderr.contains("invalid value"), "{}", run.stderr);
         assert!(run.stderr.contains(word), "{}", run.stderr);
@@ -196,36 +212,21 @@ fn a_full_error_output_is_no_panic() {
 #[test]
 fn wrong_usage_ends_with_code_2() {
     for arguments in [
-        &["fly"][..],
-        &["eval", "--fast"],
-        &["simulate"],
-        &[
-            "simulate",
-            "--design",
-            "33x20x6.35",
-            "--manoeuvre",
-            "parking",
-        ],
-        &["simulate", "--manoeuvre", "jump"],
-        &["simulate", "--input", "trace.csv"],
-        &["simulate", "--input", "trace.csv", "--manoeuvre", "kerb"],
-        &["simulate", "--list", "--force"],
-        &["simulate", "--manoeuvre", "kerb", "--channels", "nope.toml"],
-        &["simulate", "--manoeuvre", "kerb", "--inertia", "1e-3"],
-        &["simulate", "--loads", "--design", "lin-4.1", "--memory"],
-        &[
-            "simulate",
-            "--mechanism",
-            "--design",
-            "lin-3.6",
-            "--input",
-            "trace.csv",
-            "--scene",
-            "uncaged",
-        ],
+        "fly",
+        "eval --fast",
+        "simulate",
+        "simulate --design 33x20x6.35 --manoeuvre parking",
+        "simulate --manoeuvre jump",
+        "simulate --input trace.csv",
+        "simulate --input trace.csv --manoeuvre kerb",
+        "simulate --list --force",
+        "simulate --manoeuvre kerb --channels nope.toml",
+        "simulate --manoeuvre kerb --inertia 1e-3",
+        "simulate --loads --design lin-4.1 --memory",
+        "simulate --mechanism --design lin-3.6 --input trace.csv --scene uncaged",
     ] {
-        let run = run(arguments, "");
-        assert_eq!(run.code, 2, "{arguments:?}: {}", run.stderr);
+        let run = run(&words(arguments), "");
+        assert_eq!(run.code, 2, "{arguments}: {}", run.stderr);
         assert!(!run.stderr.is_empty() && run.stdout.is_empty());
     }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use tempfile::tempdir;
 
-use super::{Run, STORED_UNCAGED as SCREW, run_in};
+use super::{Run, STORED_UNCAGED as SCREW, ran, run_in, words};
 
 const BEARING: &str = "\
 ball_diameter = 0.01
@@ -26,7 +26,6 @@ fn simulate(folder: &Path, arguments: &[&str]) -> Run {
     run_in(folder, &all, "")
 }
 
-/// Columns of a written table by name.
 fn column(folder: &Path, name: &str) -> Vec<f64> {
     let mut reader = csv::Reader::from_path(folder.join("out.csv")).unwrap();
     let place = reader
@@ -139,21 +138,10 @@ fn ticks_follow_the_limit_of_the_speed() {
             writeln!(trace, "{},{speed},1000", f64::from(i) * 1e-3).unwrap();
         }
         fs::write(folder.path().join("trace.csv"), trace).unwrap();
-        let run = simulate(
+        let run = ran(
             folder.path(),
-            &[
-                "--scene",
-                "uncaged",
-                "--design",
-                "screw.toml",
-                "--input",
-                "trace.csv",
-                "--output",
-                "out.csv",
-                "--force",
-            ],
+            "simulate --scene uncaged --design screw.toml --input trace.csv --output out.csv --force",
         );
-        assert_eq!(run.code, 0, "{}", run.stderr);
         let said = format!("{ticks} a sample");
         assert!(run.stdout.contains(&said), "{speed}: {}", run.stdout);
         assert!(!run.stdout.contains("beyond"), "{speed}: {}", run.stdout);
@@ -201,22 +189,10 @@ fn a_linear_bearing_runs_there_and_back() {
         writeln!(trace, "{time},{speed},800,500").unwrap();
     }
     fs::write(folder.path().join("trace.csv"), trace).unwrap();
-    let run = simulate(
+    ran(
         folder.path(),
-        &[
-            "--scene",
-            "linear",
-            "--design",
-            "bearing.toml",
-            "--input",
-            "trace.csv",
-            "--output",
-            "out.csv",
-            "--plot",
-            "out.svg",
-        ],
+        "simulate --scene linear --design bearing.toml --input trace.csv --output out.csv --plot out.svg",
     );
-    assert_eq!(run.code, 0, "{}", run.stderr);
     let [friction, speed, ball] =
         ["friction_force", "speed", "ball_friction"].map(|name| column(folder.path(), name));
     assert!(friction.iter().zip(&speed).all(|(f, v)| f * v >= 0.0));
@@ -224,8 +200,7 @@ fn a_linear_bearing_runs_there_and_back() {
     let peak = largest(&friction);
     assert!(peak > 1.0 && peak < 20.0, "{peak}");
     assert!(largest(&ball) > 0.0);
-    let built_in = simulate(folder.path(), &["--manoeuvre", "stroke"]);
-    assert_eq!(built_in.code, 0, "{}", built_in.stderr);
+    ran(folder.path(), "simulate --manoeuvre stroke");
 }
 
 #[test]
@@ -247,112 +222,49 @@ fn what_a_train_cannot_run_is_named() {
     .unwrap();
     for (arguments, word) in [
         (
-            &[
-                "--scene",
-                "uncaged",
-                "--design",
-                "screw.toml",
-                "--input",
-                "uneven.csv",
-            ][..],
+            "--scene uncaged --design screw.toml --input uneven.csv",
             "equal steps",
         ),
         (
-            &[
-                "--scene",
-                "uncaged",
-                "--design",
-                "screw.toml",
-                "--input",
-                "fast.csv",
-            ],
+            "--scene uncaged --design screw.toml --input fast.csv",
             "the trace's step of 0.0000005 s",
         ),
         (
-            &[
-                "--scene",
-                "uncaged",
-                "--design",
-                "screw.toml",
-                "--input",
-                "single.csv",
-            ],
+            "--scene uncaged --design screw.toml --input single.csv",
             "single sample",
         ),
         (
-            &[
-                "--scene",
-                "uncaged",
-                "--design",
-                "lin-4.1",
-                "--manoeuvre",
-                "weave",
-            ],
+            "--scene uncaged --design lin-4.1 --manoeuvre weave",
             "[uncaged]",
         ),
         (
-            &[
-                "--scene",
-                "linear",
-                "--design",
-                "lin-4.1",
-                "--manoeuvre",
-                "stroke",
-            ],
+            "--scene linear --design lin-4.1 --manoeuvre stroke",
             "lin-3.3",
         ),
         (
-            &[
-                "--scene",
-                "linear",
-                "--design",
-                "screw.toml",
-                "--manoeuvre",
-                "stroke",
-            ],
+            "--scene linear --design screw.toml --manoeuvre stroke",
             "screw.toml",
         ),
-        (&["--design", "lin-3.3", "--manoeuvre", "weave"], "stroke"),
+        ("--design lin-3.3 --manoeuvre weave", "stroke"),
         (
-            &[
-                "--design",
-                "lin-4.1",
-                "--scene",
-                "caged",
-                "--manoeuvre",
-                "stroke",
-            ],
+            "--design lin-4.1 --scene caged --manoeuvre stroke",
             "linear bearing",
         ),
         (
-            &[
-                "--scene",
-                "uncaged",
-                "--manoeuvre",
-                "weave",
-                "--reference=closed-form",
-            ],
+            "--scene uncaged --manoeuvre weave --reference=closed-form",
             "one speed",
         ),
-        (&["--manoeuvre", "stroke", "--reference"], "--reference"),
+        ("--manoeuvre stroke --reference", "--reference"),
         (
-            &[
-                "--scene",
-                "linear",
-                "--design",
-                "bearing.toml",
-                "--input",
-                "uneven.csv",
-            ],
+            "--scene linear --design bearing.toml --input uneven.csv",
             "speed",
         ),
     ] {
         let run = simulate(
             folder.path(),
-            &[arguments, &["--output", "out.csv"]].concat(),
+            &words(&format!("{arguments} --output out.csv")),
         );
-        assert_eq!(run.code, 1, "{arguments:?}");
-        assert!(run.stderr.contains(word), "{arguments:?}: {}", run.stderr);
+        run.refused(word);
         assert!(!folder.path().join("out.csv").exists());
     }
     for (from, to, field) in [
@@ -395,19 +307,9 @@ fn what_a_train_cannot_run_is_named() {
         fs::write(folder.path().join("bad.toml"), SCREW.replace(from, to)).unwrap();
         let run = simulate(
             folder.path(),
-            &[
-                "--scene",
-                "uncaged",
-                "--design",
-                "bad.toml",
-                "--manoeuvre",
-                "turns",
-                "--output",
-                "out.csv",
-            ],
+            &words("--scene uncaged --design bad.toml --manoeuvre turns --output out.csv"),
         );
-        assert_eq!(run.code, 1, "{to}");
-        assert!(run.stderr.contains(field), "{to}: {}", run.stderr);
+        run.refused(field);
         assert!(!folder.path().join("out.csv").exists());
     }
 }
@@ -439,20 +341,10 @@ fn maps_as_measured_run() {
         "time,nut_speed,axial_load\n0,6,1000\n0.001,6,1000\n0.002,6,1000\n",
     )
     .unwrap();
-    let run = simulate(
+    ran(
         folder,
-        &[
-            "--scene",
-            "uncaged",
-            "--design",
-            "gears/gear.toml",
-            "--input",
-            "trace.csv",
-            "--output",
-            "out.csv",
-        ],
+        "simulate --scene uncaged --design gears/gear.toml --input trace.csv --output out.csv",
     );
-    assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(
         column(folder, "friction_torque")
             .iter()
@@ -463,6 +355,5 @@ fn maps_as_measured_run() {
         folder,
         &["--design", "gears/gear.toml", "--input", "trace.csv"],
     );
-    assert_eq!(missing.code, 1);
-    assert!(missing.stderr.contains("screw.csv"), "{}", missing.stderr);
+    missing.refused("screw.csv");
 }

@@ -8,13 +8,14 @@ use epas_reference::friction::linear_ball::contact_forces;
 use epas_reference::hertz::{Hertz, contact_modulus};
 use serde_json::{Value, json};
 
-use super::eval::{ask, golden, number, relative};
+use super::eval::{
+    ENDS, NO_NUMBERS, ask, changed, golden, number, refused, relative, with, without,
+};
 
 fn numbers(value: &Value) -> Vec<f64> {
     value.as_array().unwrap().iter().map(number).collect()
 }
 
-/// Largest difference of two lists of the same length.
 fn difference(found: &Value, truth: &[f64]) -> f64 {
     let found = numbers(found);
     assert_eq!(found.len(), truth.len());
@@ -171,7 +172,6 @@ fn screw_row(groove_radius: f64, friction: f64, nut_speed: f64, balls: &[Value])
     })
 }
 
-/// A ball whose contacts hold load and angle (rad) in an array.
 fn ball_of_arrays(contacts: &Value) -> Value {
     let contacts: serde_json::Map<_, _> = contacts
         .as_object()
@@ -179,6 +179,21 @@ fn ball_of_arrays(contacts: &Value) -> Value {
         .iter()
         .map(|(name, pair)| {
             let contact = json!({"load": pair[0], "contact_angle": pair[1]});
+            (name.clone(), contact)
+        })
+        .collect();
+    json!({"contacts": contacts})
+}
+
+/// A ball of a case whose contacts hold load and angle (degrees) by name.
+fn ball_of_degrees(case: &Value) -> Value {
+    let contacts: serde_json::Map<_, _> = case["contacts"]
+        .as_object()
+        .unwrap()
+        .iter()
+        .map(|(name, contact)| {
+            let angle = number(&contact["angle"]).to_radians();
+            let contact = json!({"load": number(&contact["N"]), "contact_angle": angle});
             (name.clone(), contact)
         })
         .collect();
@@ -232,21 +247,11 @@ fn single_balls_of_a_ball_screw_are_those_of_the_golden_cases() {
     let requests: Vec<_> = cases
         .iter()
         .map(|case| {
-            let contacts: serde_json::Map<_, _> = case["contacts"]
-                .as_object()
-                .unwrap()
-                .iter()
-                .map(|(name, contact)| {
-                    let angle = number(&contact["angle"]).to_radians();
-                    let contact = json!({"load": number(&contact["N"]), "contact_angle": angle});
-                    (name.clone(), contact)
-                })
-                .collect();
             screw_row(
                 1e-3 * number(&case["rG"]),
                 number(&case["mu"]),
                 std::f64::consts::TAU,
-                &[json!({"contacts": contacts})],
+                &[ball_of_degrees(case)],
             )
             .to_string()
         })
@@ -284,21 +289,11 @@ fn regression_closed_form_finds_the_contacts() {
         requests.push(screw_row(3.254e-3, 0.1, 5.0, &balls));
     }
     for case in stored["single_ball"].as_array().unwrap() {
-        let contacts: serde_json::Map<_, _> = case["contacts"]
-            .as_object()
-            .unwrap()
-            .iter()
-            .map(|(name, contact)| {
-                let angle = number(&contact["angle"]).to_radians();
-                let contact = json!({"load": number(&contact["N"]), "contact_angle": angle});
-                (name.clone(), contact)
-            })
-            .collect();
         requests.push(screw_row(
             1e-3 * number(&case["rG"]),
             number(&case["mu"]),
             5.0,
-            &[json!({"contacts": contacts})],
+            &[ball_of_degrees(case)],
         ));
     }
     let lines: Vec<_> = requests.iter().map(Value::to_string).collect();
@@ -517,59 +512,21 @@ fn places_of_numbers() -> Vec<(Value, String, &'static str)> {
     places
 }
 
-/// The request with other text at one place.
-fn with(request: &Value, pointer: &str, text: &str) -> String {
-    let mut request = request.clone();
-    *request.pointer_mut(pointer).unwrap() = json!("REPLACED");
-    request.to_string().replace("\"REPLACED\"", text)
-}
-
 #[test]
 fn numbers_of_trains_that_are_none_name_their_field() {
-    let mut requests = Vec::new();
-    let mut fields = Vec::new();
+    let mut bad = Vec::new();
     for (good, pointer, field) in places_of_numbers() {
-        for text in [
-            "\"NaN\"", "\"1\"", "null", "true", "[1]", "{}", "1e999", "-1e999", "1e300", "-1e300",
-        ] {
-            requests.push(with(&good, &pointer, text));
-            fields.push(field);
-        }
+        bad.extend(NO_NUMBERS.map(|text| (with(&good, &pointer, text), field.into())));
     }
-    let (code, answers) = ask(&requests);
-    assert_eq!((code, answers.len()), (1, requests.len()));
-    for ((request, answer), field) in requests.iter().zip(&answers).zip(fields) {
-        assert_eq!(answer["error"]["field"], field, "{request}: {answer}");
-        assert!(!answer["error"]["message"].as_str().unwrap().is_empty());
-    }
+    refused(&bad);
 }
 
-/// Zero, negative, huge and tiny numbers: an error that names a field of the request, or finite numbers.
+/// Numbers at the ends: an error that names a field of the request, or finite numbers.
 #[test]
 fn numbers_of_trains_at_the_ends_are_refused_or_answered() {
     let mut requests = Vec::new();
     for (good, pointer, _) in places_of_numbers() {
-        for text in [
-            "0",
-            "-0.0",
-            "-1",
-            "-1e-30",
-            "1e-45",
-            "1e-30",
-            "1e-300",
-            "1e30",
-            "3.5e38",
-            "1.5",
-            "1.5707963267948966",
-            "0.5",
-            "1",
-            "1e9",
-            "1e6",
-            "1e-9",
-            "1e-6",
-        ] {
-            requests.push(with(&good, &pointer, text));
-        }
+        requests.extend(ENDS.map(|text| with(&good, &pointer, text)));
     }
     let (_, answers) = ask(&requests);
     assert_eq!(answers.len(), requests.len());
@@ -594,31 +551,11 @@ fn numbers_of_trains_at_the_ends_are_refused_or_answered() {
 #[test]
 fn balls_that_are_none_are_refused_by_name() {
     let (linear, screw) = (good_linear(), good_screw());
-    let change = |good: &Value, change: &dyn Fn(&mut Value)| {
-        let mut request = good.clone();
-        change(&mut request);
-        request
-    };
-    let edit = |pointer: &'static str, value: Value| {
-        move |request: &mut Value| *request.pointer_mut(pointer).unwrap() = value.clone()
-    };
-    let insert = |pointer: &'static str, name: &'static str, value: Value| {
-        move |request: &mut Value| request.pointer_mut(pointer).unwrap()[name] = value.clone()
-    };
-    let remove = |pointer: &'static str, name: &'static str| {
-        move |request: &mut Value| {
-            let object = request.pointer_mut(pointer).unwrap().as_object_mut();
-            object.unwrap().remove(name);
-        }
-    };
-    let mut cases = Vec::new();
-    for (good, first) in [
-        (&linear, linear["balls"][0].clone()),
-        (&screw, screw["balls"][0].clone()),
-    ] {
-        for bad in [
+    let mut bad = Vec::new();
+    for good in [&linear, &screw] {
+        for value in [
             json!([]),
-            json!(vec![first; 65]),
+            json!(vec![good["balls"][0].clone(); 65]),
             json!({}),
             json!(3),
             json!("none"),
@@ -626,117 +563,71 @@ fn balls_that_are_none_are_refused_by_name() {
             json!([[]]),
             json!(null),
         ] {
-            cases.push((change(good, &edit("/balls", bad)), "balls"));
+            bad.push((changed(good, "/balls", value), "balls".into()));
         }
-        cases.push((change(good, &remove("", "balls")), "balls"));
-        cases.push((
-            change(good, &insert("/balls/1", "colour", json!(1))),
-            "colour",
-        ));
-        cases.push((change(good, &insert("", "colour", json!(1))), "colour"));
-        cases.push((change(good, &remove("", "friction")), "friction"));
+        bad.push((without(good, "/balls"), "balls".into()));
+        bad.push((without(good, "/friction"), "friction".into()));
+        for pointer in ["/balls/1/colour", "/colour"] {
+            bad.push((changed(good, pointer, json!(1)), "colour".into()));
+        }
     }
-    for bad in [
-        json!([0.7, 0.7, 0.7]),
-        json!(vec![0.7; 5]),
-        json!(0.7),
-        json!(["a", 0, 0, 0]),
-        json!({}),
+    for (pointer, value, field) in [
+        ("contact_angles", json!([0.7, 0.7, 0.7]), "contact_angles"),
+        ("contact_angles", json!(vec![0.7; 5]), "contact_angles"),
+        ("contact_angles", json!(0.7), "contact_angles"),
+        ("contact_angles", json!(["a", 0, 0, 0]), "contact_angles"),
+        ("contact_angles", json!({}), "contact_angles"),
+        ("contact_angles/1", json!(1.2), "contact_angles"),
+        ("contact_forces/0", json!(-1), "contact_forces"),
     ] {
-        cases.push((
-            change(&linear, &edit("/balls/0/contact_angles", bad)),
-            "contact_angles",
-        ));
+        let pointer = format!("/balls/0/{pointer}");
+        bad.push((changed(&linear, &pointer, value), field.into()));
     }
-    cases.push((
-        change(&linear, &remove("/balls/2", "contact_forces")),
-        "contact_forces",
-    ));
-    cases.push((
-        change(&linear, &edit("/balls/2/contact_angles/1", json!(1.2))),
-        "contact_angles",
-    ));
-    cases.push((
-        change(&linear, &edit("/balls/1/contact_forces/0", json!(-1))),
-        "contact_forces",
-    ));
-    cases.push((
-        change(&linear, &edit("/poisson_ratio", json!(0.6))),
-        "poisson_ratio",
-    ));
-    for bad in [
-        json!([]),
-        json!({}),
-        json!(1),
-        json!({"SL": {"load": 1, "contact_angle": 0.7}}),
+    let contact = json!({"SL": {"load": 1, "contact_angle": 0.7}});
+    for (pointer, value, field) in [
+        ("contacts", json!([]), "contacts"),
+        ("contacts", json!({}), "contacts"),
+        ("contacts", json!(1), "contacts"),
+        ("contacts", contact, "contacts"),
+        ("contacts/XL", json!({}), "XL"),
+        ("contacts/NR", json!(3), "NR"),
+        ("contacts/NR", json!({}), "load"),
+        ("contacts/SL/angle", json!(1), "angle"),
+        ("contacts/SL/load", json!(-1), "load"),
     ] {
-        cases.push((change(&screw, &edit("/balls/0/contacts", bad)), "contacts"));
+        let pointer = format!("/balls/0/{pointer}");
+        bad.push((changed(&screw, &pointer, value), field.into()));
     }
-    cases.push((change(&screw, &remove("/balls/0", "contacts")), "contacts"));
-    cases.push((
-        change(&screw, &insert("/balls/0/contacts", "XL", json!({}))),
-        "XL",
-    ));
-    cases.push((
-        change(&screw, &insert("/balls/0/contacts", "NR", json!(3))),
-        "NR",
-    ));
-    cases.push((
-        change(&screw, &insert("/balls/0/contacts", "NR", json!({}))),
-        "load",
-    ));
-    cases.push((
-        change(&screw, &insert("/balls/0/contacts/SL", "angle", json!(1))),
-        "angle",
-    ));
-    cases.push((
-        change(&screw, &remove("/balls/0/contacts/SL", "load")),
-        "load",
-    ));
-    cases.push((
-        change(&screw, &edit("/balls/0/contacts/SL/load", json!(-1))),
-        "load",
-    ));
-    cases.push((
-        change(&screw, &edit("/groove_radius", json!(2.7e-3))),
-        "groove_radius",
-    ));
-    cases.push((
-        change(&screw, &edit("/ball_radius", json!(0.1))),
-        "ball_radius",
-    ));
-
-    let mut requests: Vec<_> = cases
-        .iter()
-        .map(|(request, _)| request.to_string())
-        .collect();
-    let mut fields: Vec<_> = cases.iter().map(|(_, field)| *field).collect();
-    for (good, given, twice, field) in [
-        (
-            &linear,
-            "\"friction\":",
-            "\"friction\":1,\"friction\":",
-            "friction",
-        ),
-        (
-            &linear,
-            "{\"contact_angles\":",
-            "{\"contact_angles\":1,\"contact_angles\":",
-            "contact_angles",
-        ),
-        (&screw, "\"SR\":", "\"SR\":{},\"SR\":", "SR"),
+    for (good, pointer, field) in [
+        (&linear, "/balls/2/contact_forces", "contact_forces"),
+        (&screw, "/balls/0/contacts", "contacts"),
+        (&screw, "/balls/0/contacts/SL/load", "load"),
     ] {
-        requests.push(good.to_string().replacen(given, twice, 1));
-        fields.push(field);
+        bad.push((without(good, pointer), field.into()));
     }
-    let (code, answers) = ask(&requests);
-    assert_eq!((code, answers.len()), (1, requests.len()));
-    for ((request, answer), field) in requests.iter().zip(&answers).zip(fields) {
-        assert_eq!(answer["error"]["field"], field, "{request}: {answer}");
+    for (good, field, value) in [
+        (&linear, "poisson_ratio", 0.6),
+        (&screw, "groove_radius", 2.7e-3),
+        (&screw, "ball_radius", 0.1),
+    ] {
+        let pointer = format!("/{field}");
+        bad.push((changed(good, &pointer, json!(value)), field.into()));
     }
+    for (good, field, twice) in [
+        (&linear, "friction", "\"friction\":1,"),
+        (&linear, "contact_angles", "\"contact_angles\":1,"),
+        (&screw, "SR", "\"SR\":{},"),
+    ] {
+        let given = format!("\"{field}\":");
+        let text = good
+            .to_string()
+            .replacen(&given, &format!("{twice}{given}"), 1);
+        bad.push((text, field.into()));
+    }
+    refused(&bad);
     // The number of the ball helps to find it.
-    let bad = change(&linear, &edit("/balls/2/contact_forces/0", json!(-1)));
-    let (_, answers) = ask(&[bad.to_string()]);
+    let force = changed(&linear, "/balls/2/contact_forces/0", json!(-1));
+    let (_, answers) = ask(&[force]);
     let message = answers[0]["error"]["message"].as_str().unwrap();
     assert!(message.contains("ball 2"), "{message}");
 }

@@ -11,7 +11,6 @@ use epas_friction::ranges;
 /// Load of a contact, N.
 const CONTACT_LOAD: Range = Range::new(0.0, 1e6);
 
-/// Balls that carry load.
 const LOADED_BALLS: Range = Range::new(1.0, 65_535.0);
 
 /// A ball of a linear bearing on four contacts, and how far they move with the carriage.
@@ -91,9 +90,6 @@ pub struct BearingBreakaway {
 impl BearingBreakaway {
     /// The breakaway of so many balls, 1 to 65535, whose contacts carry these loads, N, 0 to 1e6: each of the two contacts of
     /// one diagonal, and each of the two of the other; with the friction coefficient of ball and groove, 1e-6 to 1.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`, `hysteresis_loss`, `lubricant_drag`, `loaded_balls` or `contact_load`.
     pub fn of(
         design: &LinearBearing,
         friction: f32,

@@ -60,7 +60,6 @@ pub struct ContactStiffness {
     spin_arm: f32,
 }
 
-/// Shear of two bodies in contact.
 struct Shear {
     /// `2/G = 1/G_1 + 1/G_2`, Pa.
     modulus: f32,

@@ -93,9 +93,6 @@ impl Breakaway {
     /// })?;
     /// # Ok::<(), epas_friction::Error>(())
     /// ```
-    ///
-    /// # Errors
-    /// As [`ProportionalElements::new`]: `parts` where the tables have not `N` elements together.
     pub fn elements<const N: usize>(
         &self,
         tables: &Tables<'_>,
@@ -105,10 +102,6 @@ impl Breakaway {
 
     /// The seat as an element of its own, with the share of slip: for a screw with play, in
     /// [`ParallelElements`](epas_friction::law::memory::ParallelElements) with [`Self::elements_beside_seat`].
-    ///
-    /// # Errors
-    /// As [`SeatElement::new`]: `reference_limit` where nothing slips, `breakaway_angle` where the grooves' slope holds the ball
-    /// before it comes to its seat.
     pub fn seat_element(&self) -> Result<SeatElement, Error> {
         let slip = self.part(Mechanism::Slip);
         let play = self.seat.free_play();
@@ -116,9 +109,6 @@ impl Breakaway {
     }
 
     /// `N` elements of the other parts, to stand beside [`Self::seat_element`]; the table of slip is not used.
-    ///
-    /// # Errors
-    /// As [`ProportionalElements::new`].
     pub fn elements_beside_seat<const N: usize>(
         &self,
         tables: &Tables<'_>,
@@ -134,9 +124,6 @@ impl Breakaway {
 
 impl BearingBreakaway {
     /// `N` elements in these tables; that of slip is to be empty.
-    ///
-    /// # Errors
-    /// As [`ProportionalElements::new`].
     pub fn elements<const N: usize>(
         &self,
         tables: &Tables<'_>,

@@ -224,9 +224,6 @@ impl ScrewContacts {
 
     /// Rolling resistance of both contacts of a ball under a load of each, N, above 0: limit, N m, that of [`RollingContact::force`]
     /// times the rolled path, stiffness, N m/rad, such that it builds up over a path of `2 b`, the length of the contact. Set-up.
-    ///
-    /// # Errors
-    /// [`Error`] naming `hysteresis_loss` or `lubricant_drag`.
     pub fn rolling(
         &self,
         design: &BallScrew,

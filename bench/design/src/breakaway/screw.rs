@@ -16,7 +16,6 @@ const CONTACT_LOAD: Range = Range::new(1e-3, 1e6);
 /// Halvings with which a spin is found: one for each digit of an f32. The ends of the interval are apart by a factor of some ten.
 const HALVINGS: u8 = 24;
 
-/// Balls that carry load.
 const LOADED_BALLS: Range = Range::new(1.0, 65_535.0);
 
 /// What the breakaway of a screw follows from, beside its design; unchecked.
@@ -98,7 +97,6 @@ impl Gross {
     }
 }
 
-/// A ball that rolls with a spin of its loaded contacts.
 struct Held {
     slip: Resistance,
     spin: Resistance,
@@ -178,9 +176,6 @@ pub struct Breakaway {
 
 impl BreakawayConfiguration {
     /// Checks every field against a design.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`, `clearance`, `hysteresis_loss`, `lubricant_drag`, `loaded_balls` or `contact_load`.
     pub fn checked(&self, design: &BallScrew) -> Result<Self, Error> {
         ranges::FRICTION_OF_A_ROW.checked("friction", self.friction)?;
         self.clearance.checked(design)?;
@@ -193,9 +188,6 @@ impl BreakawayConfiguration {
 
 impl Breakaway {
     /// The breakaway of a screw. At set-up, or in a constant.
-    ///
-    /// # Errors
-    /// As [`BreakawayConfiguration::checked`].
     pub fn of(design: &BallScrew, configuration: &BreakawayConfiguration) -> Result<Self, Error> {
         let BreakawayConfiguration {
             friction,
@@ -260,9 +252,6 @@ impl Breakaway {
     }
 
     /// This breakaway with an identified angle of slip, rad, 1e-6 to 10.
-    ///
-    /// # Errors
-    /// [`Error`] naming `breakaway_angle`.
     pub fn with_slip_angle(self, breakaway_angle: f32) -> Result<Self, Error> {
         const ANGLE: Range = Range::new(1e-6, 10.0);
         Ok(self.slipping_within(ANGLE.checked("breakaway_angle", breakaway_angle)?))

@@ -14,7 +14,6 @@ const REVERSAL_SPEED: Range = Range::new(1e-6, 1e3);
 /// Range of a friction coefficient that is folded.
 pub(crate) const FRICTION: Range = Range::new(1e-3, 0.5);
 
-/// Range of the number of loaded balls.
 const LOADED_BALLS: Range = Range::new(1.0, 1e3);
 
 /// A ball screw whose balls do not touch (caged, or with spacer balls), with its numbers; unchecked.
@@ -38,9 +37,6 @@ pub struct CagedDesign {
 
 impl CagedDesign {
     /// The design, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub fn checked(self) -> Result<Self, Error> {
         let contact_angle = self.design.parameters().contact_angle;
         in_range("contact_angle", contact_angle, ROLLING_CONTACT_ANGLE)?;

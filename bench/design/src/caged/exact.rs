@@ -14,7 +14,6 @@ const WEIGHT_BELOW: f64 = 0.25;
 /// States that may be left without an exact answer, as a share.
 const UNSOLVED: f64 = 0.01;
 
-/// The exact ball of a design.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exact {
     /// The ball, whatever its friction coefficient.
@@ -24,10 +23,6 @@ pub(crate) struct Exact {
 }
 
 impl Exact {
-    /// The exact ball of a gear.
-    ///
-    /// # Errors
-    /// [`Failure::Reference`] where a groove describes no contact.
     pub fn of(gear: &CagedDesign) -> Result<Self, Failure> {
         let ball = gear.exact_ball(gear.friction);
         let design = &ball.design;
@@ -41,7 +36,6 @@ impl Exact {
         })
     }
 
-    /// The ball with a friction coefficient.
     pub fn ball(&self, friction: f32) -> CagedBall {
         CagedBall {
             friction: friction.into(),

@@ -145,7 +145,6 @@ struct Shifted {
     error: f64,
 }
 
-/// Torques of one branch at the coefficients that are tried.
 struct Table {
     solved: Vec<Vec<Sample>>,
     /// Octaves from which on loads are shifted, and those of the largest load.
@@ -205,7 +204,6 @@ fn blended([low, high]: [&[Sample]; 2], place: f64, share: f64, shift: f64, from
     low + share * (at(high, place + (1.0 - share) * shift) - low)
 }
 
-/// Value at a place, linear between samples.
 fn at(samples: &[Sample], place: f64) -> f64 {
     let above = samples.partition_point(|sample| sample.at < place);
     let [below, above] =

@@ -29,9 +29,6 @@ pub struct OptimumContactAngle {
 /// assert!((best.contact_angle.unwrap().to_degrees() - 48.106).abs() < 1e-3);
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
-///
-/// # Errors
-/// [`Error`] naming `lead_angle` or `friction`.
 pub fn optimum_contact_angle(
     drive: Drive,
     lead_angle: f32,

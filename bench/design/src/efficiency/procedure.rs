@@ -111,10 +111,6 @@ impl DesignRequest {
     /// assert!((figures.sliding_efficiency - 0.8608).abs() < 1e-4);
     /// # Ok::<(), epas_friction::Error>(())
     /// ```
-    ///
-    /// # Errors
-    /// [`Error`] naming the field of the request that is out of range, or those of
-    /// [`BallScrew::new`].
     pub fn figures(&self) -> Result<DesignFigures, Error> {
         let (drive, demand) = self.checked_duty()?;
         let balls = self.checked_balls()?;
@@ -187,7 +183,6 @@ impl DesignRequest {
         Ok(balls)
     }
 
-    /// The design that the choices make.
     fn design(&self, contact_angle: f32, tan_lead: f32) -> Result<BallScrew, Error> {
         let groove = GrooveSize::Conformity(0.5 / self.osculation);
         BallScrew::new(BallScrewParameters {

@@ -36,7 +36,6 @@ impl Settings {
         ..Self::PAPERS
     };
 
-    /// Those of a built-in design.
     pub fn of(name: &str) -> Self {
         let mut usual = FINE_LEAD_SIZES.iter().chain(&STEERING_SIZES);
         match name {

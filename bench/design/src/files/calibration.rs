@@ -94,9 +94,6 @@ pub const TEMPERATURES: (f32, f32) = (160.0, 500.0);
 
 impl Calibrated {
     /// The same, checked.
-    ///
-    /// # Errors
-    /// The field that is out of range, or missing beside another.
     pub fn checked(self) -> Result<Self, String> {
         let ranges = [
             ("full_film_ratio", self.full_film_ratio, (1e-3, 1e3)),

@@ -38,9 +38,6 @@ pub fn half_share_speed(screw: &BallScrew) -> f32 {
 
 impl Design {
     /// The default law with the design's friction coefficient at standstill.
-    ///
-    /// # Errors
-    /// [`Error`] naming `loaded_balls`.
     pub fn default_coefficient(&self) -> Result<CoefficientParameters, Error> {
         let law = defaults::COEFFICIENT;
         let caged = &self.caged;
@@ -54,9 +51,6 @@ impl Design {
     }
 
     /// Whether a trace's temperature moves its friction, and if not, why.
-    ///
-    /// # Errors
-    /// The reason.
     pub fn follows_temperature(&self) -> Result<(), &'static str> {
         match (&self.calibrated, self.friction_law) {
             (Some(calibrated), _) if calibrated.follows_temperature() => Ok(()),

@@ -44,14 +44,11 @@ pub struct Wavelet {
     pub sine: f32,
 }
 
-/// A deviation as it is given.
 #[derive(Clone, Debug)]
 pub enum Given {
-    /// A sum of waves.
     Waves(Vec<Wavelet>),
     /// Deviations at equal distances along the period, from its start, rad.
     Samples(Vec<f32>),
-    /// Name of a chart, a CSV file.
     Chart(String),
 }
 
@@ -62,9 +59,6 @@ impl Given {
     }
 
     /// The map over a period of `turns` turns.
-    ///
-    /// # Errors
-    /// `field`, and what is wrong with its value.
     pub fn map(&self, field: &str, turns: u16) -> Result<&'static DeviationMap, String> {
         match self {
             Self::Waves(waves) => of_waves(field, turns, waves),
@@ -85,9 +79,6 @@ impl Given {
 }
 
 /// A map of waves that lives as long as the program, which reads one design and ends: in firmware it lies in flash.
-///
-/// # Errors
-/// `field`, and the wave that is out of range.
 pub fn of_waves(
     field: &str,
     turns: u16,
@@ -234,9 +225,6 @@ impl Lines {
 }
 
 /// The text of a design file with lists of [`SAMPLES`] samples in the place of charts' names.
-///
-/// # Errors
-/// A chart that cannot be read, or what is wrong with it. What is wrong with the design file is said where it is read.
 pub fn with_charts(path: &Path, text: String) -> Result<String, Failure> {
     let folder = path.parent().unwrap_or(Path::new(""));
     let mut text = text;
@@ -254,10 +242,8 @@ pub fn with_charts(path: &Path, text: String) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// A chart that a design file names.
 struct Named {
     name: String,
-    /// Turns of its period.
     turns: u16,
     /// Where in the text its name stands.
     span: std::ops::Range<usize>,
@@ -345,7 +331,6 @@ fn column(headings: &StringRecord, quantity: &str) -> Result<(usize, f64), Strin
     }
 }
 
-/// An entry of a list.
 enum Entry {
     Wave(Wavelet),
     Sample(f32),

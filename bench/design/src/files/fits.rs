@@ -19,7 +19,6 @@ pub struct Fits {
 }
 
 impl Fits {
-    /// The keys that a file gives.
     fn given(&self) -> Vec<&'static str> {
         [
             ("clearance", self.clearance),
@@ -38,10 +37,6 @@ impl Fits {
     }
 
     /// The clearance that they say, or the default.
-    ///
-    /// # Errors
-    /// Two keys, a value out of its range, a preload beyond what a contact bears, a preload of a nut whose balls are not counted, a force of
-    /// a contact that preloads the nut beyond its largest load.
     pub fn of(
         &self,
         design: &BallScrew,
@@ -111,7 +106,6 @@ impl Fits {
     }
 }
 
-/// What is missing where a preload of a nut is given.
 const COUNT: &str = "loaded_balls is missing: all of them press on the flanks of a preloaded nut";
 
 /// Refuses a force of one contact that preloads the nut beyond its largest axial load, N: a number of the nut in the key of a contact.
@@ -182,7 +176,6 @@ mod tests {
         fits.of(&screw(), Some(71), &LIMITS)
     }
 
-    /// Each key gives the clearance whose number it is.
     #[test]
     fn four_keys_say_one_clearance() {
         let screw = screw();

@@ -73,9 +73,6 @@ impl FoldTable {
     }
 
     /// Refuses a domain that no fold of the design can have, before anything is solved.
-    ///
-    /// # Errors
-    /// The field out of range, or what contradicts the design.
     pub fn check(&self, design: &Design) -> Result<(), String> {
         let said = |failure: Failure| failure.to_string();
         if let Some(Loads::Range([least, most])) = self.axial_load
@@ -111,9 +108,6 @@ impl FoldTable {
     }
 
     /// A caged design with the domain of this table.
-    ///
-    /// # Errors
-    /// What of it cannot be folded.
     pub fn fold(&self, design: &Design) -> Result<CagedFold, String> {
         if design.branch.is_some() {
             return Err("a closed form (branch = \"rolling\" or \"sliding\") needs no fold".into());
@@ -129,9 +123,6 @@ impl FoldTable {
 
     /// A design without cage with the domain of this table: deviations of a groove are this table's, or those of its map, at least the least that
     /// a law is folded for. Its balls are those of `row`, or where it has none those of the design.
-    ///
-    /// # Errors
-    /// What of it cannot be folded.
     pub fn fold_uncaged(
         &self,
         design: &Design,

@@ -8,14 +8,12 @@ use rand_pcg::Pcg64;
 
 use super::*;
 
-/// Files, each from its number.
 const FILES: u32 = 1_000;
 const STREAM: u128 = 36;
 
 /// A line of a file: table ("" for none), key, value.
 type Line = (&'static str, &'static str, String);
 
-/// A valid file that uses every kind of key.
 fn lines(random: &mut Pcg64) -> Vec<Line> {
     let mut between = |least: f64, most: f64| random.random_range(least..=most);
     let diameter = between(0.016, 0.063);
@@ -59,7 +57,6 @@ fn lines(random: &mut Pcg64) -> Vec<Line> {
     lines
 }
 
-/// The text of a file.
 fn text(lines: &[Line]) -> String {
     let mut text = String::new();
     for table in ["", "limits", "uncaged", "fold"] {
@@ -73,16 +70,13 @@ fn text(lines: &[Line]) -> String {
     text
 }
 
-/// What was done to a valid file.
 #[derive(Clone, Debug, PartialEq)]
 enum Done {
-    /// Nothing.
     Nothing,
     /// A key has another number.
     Number(&'static str, String),
     /// A key has what is no number.
     Type(&'static str),
-    /// A key has another name.
     Key(String),
     /// A key that is needed is missing.
     Missing(&'static str),
@@ -136,7 +130,6 @@ fn hostile(value: &str, choice: usize) -> String {
     }
 }
 
-/// A file whose key at a place has another letter.
 fn renamed(lines: &[Line], place: usize, at: usize, letter: char) -> (String, Done) {
     let (_, key, value) = &lines[place];
     let mut name = (*key).to_owned();
@@ -145,7 +138,6 @@ fn renamed(lines: &[Line], place: usize, at: usize, letter: char) -> (String, Do
     (text, Done::Key(name))
 }
 
-/// The file of a number, and what was done to it.
 fn file(number: u32) -> (String, Done) {
     let mut random = Pcg64::new(number.into(), STREAM);
     let mut lines = lines(&mut random);
@@ -234,7 +226,6 @@ fn wrong(text: &str, done: &Done) -> Option<String> {
     }
 }
 
-/// A design that was taken and has numbers out of their range.
 fn unsound(design: &Design) -> Option<String> {
     let caged = design.check().map_err(|error| error.to_string());
     let asked = design.fold.says_axial_load() || design.fold.says_deviations();

@@ -66,9 +66,6 @@ pub struct LoadCase {
 
 impl LoadsTable {
     /// The load case of a checked geometry.
-    ///
-    /// # Errors
-    /// The key that is missing or out of range.
     pub fn case(self, screw: &BallScrew, loaded_balls: Option<u16>) -> Result<LoadCase, String> {
         let parameters = screw.parameters();
         let radius = |groove: GrooveSize| match groove {
@@ -200,9 +197,6 @@ impl LoadCase {
     }
 
     /// The load case, checked.
-    ///
-    /// # Errors
-    /// The number that the static model refuses.
     pub fn load(&self) -> Result<StaticLoad, ReferenceError> {
         let mut setup = self.case.setup()?;
         let geometry = setup.geometry;

@@ -76,9 +76,6 @@ impl Given {
 
     /// Refuses what no screw has: turns of the groove that cross, balls of another size, a lead angle beyond 60 degrees, grooves that hardly
     /// guide a ball.
-    ///
-    /// # Errors
-    /// The numbers, and the unit that one of them may be in.
     pub fn plausible(self, parameters: &BallScrewParameters) -> Result<(), String> {
         let BallScrewParameters {
             pitch_radius,
@@ -147,9 +144,6 @@ fn narrowed(error: Error) -> Error {
 }
 
 /// Refuses a groove that is much wider than its ball.
-///
-/// # Errors
-/// The number, and what it may be in the place of the conformity.
 pub fn conformity(groove: &str, size: GrooveSize, ball_radius: f32) -> Result<(), String> {
     let (said, ratio) = match size {
         GrooveSize::Conformity(ratio) => (format!("conformity = {ratio}"), ratio),
@@ -188,9 +182,6 @@ fn other_conformity(value: f32) -> String {
 }
 
 /// Refuses turns that no circuit has.
-///
-/// # Errors
-/// The number, and its range.
 pub fn turns(turns: f32) -> Result<(), String> {
     let [least, most] = TURNS;
     if (least..=most).contains(&turns) {
@@ -220,13 +211,11 @@ impl Meant {
     }
 }
 
-/// Six digits: what a file's number has.
 fn shown(value: f64) -> String {
     let digits = format!("{value:.6}");
     digits.trim_end_matches('0').trim_end_matches('.').into()
 }
 
-/// The unit in which the value would be allowed.
 fn hint(error: &Error) -> Option<Meant> {
     let (value, allowed) = (error.value(), error.allowed());
     if ["clearance", "axial_play"].contains(&error.field()) && allowed.contains(value * 1e-6) {

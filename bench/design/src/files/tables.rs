@@ -16,16 +16,13 @@ use crate::Failure;
 pub struct MaterialTable {
     /// Young's modulus, Pa.
     pub youngs_modulus: Option<f32>,
-    /// Poisson's ratio.
     pub poisson_ratio: Option<f32>,
-    /// Density, kg/m³.
     pub density: Option<f32>,
 }
 
 /// Largest design file, bytes: a hundred times what one needs.
 const LARGEST_FILE: u64 = 1 << 18;
 
-/// The text of a design file.
 pub fn text_of(path: &Path) -> Result<String, Failure> {
     let name = path.display();
     let opened = if standard(path) {
@@ -59,7 +56,6 @@ pub fn ends(path: &Path, endings: &[&str]) -> bool {
         .is_some_and(|own| endings.iter().any(|one| own.eq_ignore_ascii_case(one)))
 }
 
-/// Makes a design of what a design file says and of its own name.
 pub fn from_text<Table: DeserializeOwned, Made>(
     path: &Path,
     text: &str,
@@ -83,7 +79,6 @@ pub fn parsed<Table: DeserializeOwned>(text: &str) -> Result<Table, String> {
     toml::from_str(text).map_err(|error| in_words(&error))
 }
 
-/// Keys whose values are tables.
 const TABLES: [&str; 9] = [
     "screw_groove",
     "nut_groove",
@@ -145,7 +140,6 @@ const TYPES: [(&str, &str); 8] = [
     ("a string", "a text in quotes"),
 ];
 
-/// An error of the parser in the words of a file.
 fn in_words(error: &toml::de::Error) -> String {
     let said = error.to_string();
     let said = said.trim_end().replace("`fit`, ", "");
@@ -193,7 +187,6 @@ pub fn mark(defaulted: &[&str], key: &str) -> &'static str {
     }
 }
 
-/// A radius that may be given as a diameter instead.
 pub fn radius(
     (radius_field, radius): (&str, Option<f32>),
     (diameter_field, diameter): (&str, Option<f32>),
@@ -208,7 +201,6 @@ pub fn radius(
     }
 }
 
-/// A groove's size by the one or the other number.
 pub fn groove_size(
     name: &str,
     conformity: Option<f32>,

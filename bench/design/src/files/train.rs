@@ -56,9 +56,6 @@ impl UncagedDesign {
     }
 
     /// Refuses another number of loaded balls than those on the loaded track, beyond one ball and a twentieth of them: balls are not placed evenly.
-    ///
-    /// # Errors
-    /// Both numbers, and which are allowed.
     pub fn check_loaded(&self, loaded_balls: u16) -> Result<(), String> {
         let own = self.loaded_balls();
         let apart = (0.05 * own).max(1.0);
@@ -79,9 +76,6 @@ impl UncagedDesign {
     }
 
     /// Refuses more balls than there is track for.
-    ///
-    /// # Errors
-    /// How much track they need, and how many go in.
     pub fn check_room(&self) -> Result<(), String> {
         let screw = &self.gear.design;
         let radius = f64::from(screw.pitch_radius());
@@ -185,9 +179,6 @@ pub struct UncagedTable {
 }
 
 /// Says what stands in the place of a key that files have had.
-///
-/// # Errors
-/// The key is there.
 pub fn refuse_fit(fit: Option<&toml::Value>) -> Result<(), String> {
     match fit {
         None => Ok(()),
@@ -197,7 +188,6 @@ pub fn refuse_fit(fit: Option<&toml::Value>) -> Result<(), String> {
     }
 }
 
-/// Design file of a linear bearing.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LinearFile {
@@ -265,9 +255,6 @@ impl UncagedTable {
     }
 
     /// The screw with its balls.
-    ///
-    /// # Errors
-    /// The key that is missing or out of range.
     pub fn design(&self, gear: CagedDesign) -> Result<UncagedDesign, String> {
         refuse_fit(self.fit.as_ref())?;
         plausible::turns(self.turns)?;
@@ -327,9 +314,6 @@ impl LinearDesign {
 
     /// The bearing of Lin 2019, Table 3.3; number of balls, length and deviation are this program's: the
     /// text has two balls.
-    ///
-    /// # Errors
-    /// Numbers that no bearing can have; none of the built-in one.
     pub fn built_in() -> Result<Self, Failure> {
         let file = LinearFile {
             name: Some(LINEAR.into()),
@@ -364,18 +348,12 @@ impl LinearDesign {
     }
 
     /// The bearing of a design file's text; its name where it has none.
-    ///
-    /// # Errors
-    /// What is wrong.
     pub fn parse(text: &str, name: &str) -> Result<Self, String> {
         let file: LinearFile = parsed(text)?;
         file.design(name)
     }
 
     /// The bearing of a design file with this text.
-    ///
-    /// # Errors
-    /// What is wrong with it.
     pub fn read(path: &Path, text: &str) -> Result<Self, Failure> {
         from_text(path, text, LinearFile::design)
     }
@@ -444,7 +422,6 @@ impl LinearFile {
     }
 }
 
-/// Shares that live as long as the program.
 fn shares(field: &str, given: Option<&[f32]>) -> Result<&'static [LoadShare], String> {
     let Some(given) = given else {
         return Ok(&[LoadShare::MEAN]);

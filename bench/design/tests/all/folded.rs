@@ -57,7 +57,6 @@ fn folded(size: &str, clearance: f32, friction: f32) -> Folded {
 /// A steering gear with preload, for one friction coefficient.
 static STEERING: LazyLock<Folded> = LazyLock::new(|| folded("lin-4.1", -1e-6, 0.1));
 
-/// The same for a range of them.
 static STEERING_RANGE: LazyLock<Folded> = LazyLock::new(|| {
     CagedFold {
         friction: Some([0.05, 0.15]),
@@ -338,7 +337,6 @@ fn a_block_is_read_as_it_was_written() {
     );
 }
 
-/// Text forms hold the words and say what they are.
 #[test]
 fn text_forms_hold_the_words() {
     let words = STEERING.words().unwrap();
@@ -417,7 +415,6 @@ fn friction_that_was_set_outlasts_ignition() {
     assert_eq!(single.step(sliding(900.0)), before);
 }
 
-/// What cannot be folded is refused by name, or with its reason.
 #[test]
 fn what_cannot_be_folded_is_refused() {
     let refused = |change: fn(&mut CagedFold)| {

@@ -19,7 +19,6 @@ use super::super::fields::BadField;
 use super::super::train::{LARGEST_TRAIN, contact_forces, pressed, room_of_a_row};
 use super::request::{Request, Row};
 
-/// What the closed form finds.
 pub fn row(request: &Request, design: &BallScrew) -> Result<Row, BadField> {
     let (friction, nut_speed) = (request.friction as f32, request.nut_speed as f32);
     let row = fitted(request, design, friction, nut_speed)?;
@@ -63,7 +62,6 @@ pub fn row(request: &Request, design: &BallScrew) -> Result<Row, BadField> {
     })
 }
 
-/// The closed form with the fit that is nearest to the clearance.
 fn fitted(
     request: &Request,
     design: &BallScrew,

@@ -45,7 +45,6 @@ pub fn row(request: &Request, design: &BallScrew) -> FoldedRow {
     found.flatten().unwrap_or_default()
 }
 
-/// The law of the request's box.
 fn law(request: &Request, design: &BallScrew) -> Option<&'static FoldedBall> {
     let clearance = Clearance::new(request.clearance as f32).ok()?;
     let largest = |of: fn(&Ball) -> f64| {

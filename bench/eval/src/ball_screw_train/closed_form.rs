@@ -20,7 +20,6 @@ const LARGEST_ANGLE_MISMATCH: f32 = 0.01;
 /// Steps of the axial load towards the main contacts' load, which is nearly in proportion to it.
 const STEPS: usize = 12;
 
-/// What the closed form finds.
 #[derive(Default, Serialize)]
 pub struct ClosedRow {
     #[serde(flatten)]
@@ -32,7 +31,6 @@ pub struct ClosedRow {
 }
 
 impl From<Found> for ClosedRow {
-    /// Without looking for contacts.
     fn from(found: Found) -> Self {
         Self {
             found,
@@ -41,7 +39,6 @@ impl From<Found> for ClosedRow {
     }
 }
 
-/// A ball as the closed form takes it.
 #[derive(Clone, Copy)]
 struct State {
     /// Axial load of the screw on the ball, N.

@@ -16,10 +16,8 @@ pub type Given = [Option<(f32, f32)>; 4];
 /// elastic grooves without play; twice that is let pass.
 pub const LARGEST_LOAD_MISMATCH: f32 = 0.1;
 
-/// How balls slide.
 #[derive(Clone, Copy)]
 pub struct Ways {
-    /// Friction coefficient.
     pub friction: f32,
     /// Speed of the nut, rad/s.
     pub nut_speed: f32,
@@ -76,7 +74,6 @@ impl Row {
         })
     }
 
-    /// The main contacts of a ball.
     pub fn loaded(&self, ball: &Given) -> Option<[(f32, f32); 2]> {
         let [screw, nut] = self.main.map(|place| ball[place]);
         Some([screw?, nut?])

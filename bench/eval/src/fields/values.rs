@@ -5,15 +5,12 @@ use serde_json::value::RawValue;
 use super::{BadField, Fields, shown};
 use crate::train::LARGEST_TRAIN;
 
-/// A number for all, or one for each.
 pub enum OneOrMany {
     One(f64),
     Many(Vec<f64>),
 }
 
-/// What a field may hold.
 pub trait Value<'a>: Sized {
-    /// Takes it.
     fn take(fields: &mut Fields<'a>, field: &str) -> Result<Self, BadField>;
 }
 

@@ -209,7 +209,6 @@ access!(
     Wanted::Other("Boolean")
 );
 
-/// No variable here is a text.
 unsafe fn no_text(component: Component, references: *const u32, count: usize) -> Status {
     on(component, |instance, _| {
         // SAFETY: as the module says.

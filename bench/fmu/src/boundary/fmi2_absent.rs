@@ -4,7 +4,6 @@ use std::ffi::c_char;
 
 use super::fmi2::{Boolean, Component, Status, on};
 
-/// What this unit does not have.
 fn absent(component: Component, name: &str) -> Status {
     on(component, |_, _| {
         Err(format!("{name} is called, which this unit does not have"))

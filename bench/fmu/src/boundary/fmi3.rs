@@ -134,7 +134,6 @@ pub extern "C" fn fmi3Reset(handle: Handle) -> Status {
     })
 }
 
-/// Every variable here is one number.
 fn refuse_lengths(references: usize, values: usize) -> Result<(), String> {
     if references == values {
         Ok(())

@@ -50,7 +50,6 @@ pub struct Logger {
     wanted: [bool; 2],
 }
 
-/// A text for C, up to its first zero.
 fn c_text(text: &str) -> CString {
     let bytes: Vec<u8> = text.bytes().take_while(|byte| *byte != 0).collect();
     CString::new(bytes).unwrap_or_default()

@@ -40,7 +40,6 @@ pub fn markdown(text: &str) -> String {
         .join("  \n")
 }
 
-/// The text for a page, in its paragraph.
 pub fn html(text: &str) -> String {
     let lines: Vec<String> = text
         .lines()

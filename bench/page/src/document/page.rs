@@ -11,7 +11,6 @@ use super::table::Table;
 use crate::failure::Failure;
 use crate::plot::{Panel, narrow, render_one, themed};
 
-/// Style of the page.
 const STYLE: &str = include_str!("page.css");
 /// What the page does: the menu, links that unfold what they lead to, and the place in the contents.
 const SCRIPT: &str = include_str!("page.js");
@@ -33,7 +32,6 @@ pub struct Page {
 }
 
 impl Page {
-    /// The page of a document.
     pub fn of(document: &Document) -> Result<String, Failure> {
         let title = escaped(&document.title);
         let mut page = Self {
@@ -257,7 +255,6 @@ fn sentence(text: &str) -> (&str, &str) {
     }
 }
 
-/// A heading as the name of its place.
 fn id(title: &str) -> String {
     title
         .chars()

@@ -10,7 +10,6 @@ use super::words::{Area, Drawn, tick_style};
 /// An entry of a legend: its place, its series where its sample stands before it, and its words.
 pub type Entry<'a> = (i32, Option<&'a Series>, String);
 
-/// Entries of a legend with their places, in lines.
 pub type Lines<'a> = Vec<Vec<Entry<'a>>>;
 
 /// Width of the sample before a name.

@@ -5,11 +5,9 @@ use super::style::{TICK_SIZE, px, text_width};
 /// A rectangle, pixels as drawn: left, top, right, bottom.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Rect {
-    /// Left edge.
     pub left: i32,
     /// Upper edge.
     pub top: i32,
-    /// Right edge.
     pub right: i32,
     /// Lower edge.
     pub bottom: i32,
@@ -73,13 +71,11 @@ impl Rect {
 pub struct Ground<'a> {
     /// The area between the axes.
     pub area: Rect,
-    /// Points with their marks.
     pub points: &'a [(i32, i32)],
     /// Lines; a text crosses them only where there is no other place.
     pub lines: &'a [Vec<(i32, i32)>],
 }
 
-/// A text with its place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Placed {
     /// Where it stands.

@@ -99,7 +99,6 @@ pub fn render_one(panel: &Panel, (width, height): (u32, u32)) -> Result<String, 
     draw((width, height), &[(panel, (0, 0), (width, height))])
 }
 
-/// Panels with their places and sizes.
 type Place<'a> = (&'a Panel, (u32, u32), (u32, u32));
 
 fn draw(size: (u32, u32), places: &[Place<'_>]) -> Result<String, Failure> {

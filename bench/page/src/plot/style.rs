@@ -22,9 +22,7 @@ pub const fn px(pixels: i32) -> i32 {
     pixels * SCALE
 }
 
-/// Colour of texts.
 pub const TEXT: RGBColor = RGBColor(40, 40, 40);
-/// The viewer's sans-serif font.
 pub const FONT: &str = "sans-serif";
 /// Height of letters of a title. The drawing library draws letters a fifth smaller.
 pub const TITLE_SIZE: i32 = px(19);

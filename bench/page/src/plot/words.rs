@@ -8,7 +8,6 @@ use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::style::{FONT, LABEL_SIZE, LINE_HEIGHT, TEXT, TICK_SIZE, TITLE_SIZE, lines, px};
 
-/// An area of a picture.
 pub type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 /// Whether something was drawn.
 pub type Drawn = Result<(), Box<dyn Error>>;
@@ -44,7 +43,6 @@ pub fn tick_style() -> TextStyle<'static> {
     TextStyle::from((FONT, TICK_SIZE).into_font()).color(&TEXT)
 }
 
-/// Style of an axis' label.
 pub fn label_style() -> TextStyle<'static> {
     TextStyle::from((FONT, LABEL_SIZE).into_font()).color(&TEXT)
 }

@@ -16,9 +16,6 @@ const SCRIPT: &str = include_str!("zoom.js");
 const SIZE: (u32, u32) = (1000, 250);
 
 /// The page: points of every panel, and the script that draws them.
-///
-/// # Errors
-/// What drawing refuses.
 pub fn zoomable(title: &str, panels: &[Panel]) -> Result<String, Failure> {
     let data: Vec<Value> = panels.iter().filter_map(data).collect();
     let data = serde_json::to_string(&data).map_err(|error| Failure::Data(error.to_string()))?;

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use epas_cli::bindings::{self, Design as Inner, Failure};
+use epas_cli::bindings::{self, Design as Inner, Failure, Model, TickInputs};
 use epas_design::caged_scene::{self as caged, CagedModel, CagedScene, fold_for};
-use epas_friction::{FrictionBranch, Inputs};
+use epas_friction::FrictionBranch;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -160,11 +160,8 @@ impl CagedBallScrew {
         nut_speed: f32,
         axial_load: f32,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let outputs = self.model.step(Inputs {
-            nut_speed,
-            axial_load,
-        });
-        ScrewColumns::tick(py, &outputs)
+        let inputs = TickInputs::new(nut_speed, axial_load);
+        ScrewColumns::tick(py, &Model::step(&mut self.model, &inputs))
     }
 
     /// A whole trace, tick after tick, from the present state on. Other threads run meanwhile.
@@ -191,14 +188,9 @@ impl CagedBallScrew {
     ) -> PyResult<Bound<'py, PyAny>> {
         let names = ["nut_speed", "axial_load"];
         let trace = arguments(py, names, [&nut_speed, &axial_load])?.trace(py, allow_faults)?;
-        let mut columns = ScrewColumns::with_capacity(trace.len())?;
         let mut model = self.model;
-        trace.each(py, |[nut_speed, axial_load]| {
-            columns.push(&model.step(Inputs {
-                nut_speed,
-                axial_load,
-            }));
-            Ok(())
+        let columns = ScrewColumns::of(py, &trace, |[nut_speed, axial_load]| {
+            Model::step(&mut model, &TickInputs::new(nut_speed, axial_load))
         })?;
         self.model = model;
         columns.run(py)

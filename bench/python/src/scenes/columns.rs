@@ -1,9 +1,11 @@
 //! What scenes put out over a trace, as one list for each name.
 
-use epas_friction::{LinearOutputs, Outputs, Regime, UncagedOutputs};
+use epas_cli::bindings::TickOutputs;
+use epas_friction::Regime;
 use pyo3::prelude::*;
 
-use crate::arrays::shaped;
+use crate::arrays::{Arguments, shaped};
+use crate::blocks::Real;
 use crate::memory::room;
 use crate::results::result;
 
@@ -19,29 +21,31 @@ pub const fn regime(regime: Regime) -> u8 {
 
 /// Outputs of a scene, which Python has as a tuple for one tick and as arrays for a trace.
 pub trait Columns: Send + Sized {
-    /// Outputs of a tick.
-    type Outputs: Copy + Send;
-
     /// Room for so many ticks.
-    ///
-    /// # Errors
-    /// `MemoryError` where there is none.
     fn with_capacity(ticks: usize) -> PyResult<Self>;
 
     /// A tick more.
-    fn push(&mut self, outputs: &Self::Outputs);
+    fn push(&mut self, outputs: &TickOutputs);
 
     /// As arrays.
-    ///
-    /// # Errors
-    /// None that is known.
     fn run(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>>;
 
     /// One tick.
-    ///
-    /// # Errors
-    /// None that is known.
-    fn tick<'py>(py: Python<'py>, outputs: &Self::Outputs) -> PyResult<Bound<'py, PyAny>>;
+    fn tick<'py>(py: Python<'py>, outputs: &TickOutputs) -> PyResult<Bound<'py, PyAny>>;
+
+    /// Every tick of a trace, without the interpreter's lock.
+    fn of<T: Real, const I: usize>(
+        py: Python<'_>,
+        trace: &Arguments<'_, I>,
+        mut step: impl FnMut([T; I]) -> TickOutputs + Send,
+    ) -> PyResult<Self> {
+        let mut columns = Self::with_capacity(trace.len())?;
+        trace.each(py, |values| {
+            columns.push(&step(values));
+            Ok(())
+        })?;
+        Ok(columns)
+    }
 }
 
 /// A regime and a set of faults as Python knows them.
@@ -58,7 +62,7 @@ fn flags(
 
 /// Lists of one scene's outputs: name, type, and how each is taken from a tick.
 macro_rules! columns {
-    ($(#[$doc:meta])* $name:ident of $outputs:ty, $run:literal, $tick:literal:
+    ($(#[$doc:meta])* $name:ident, $run:literal, $tick:literal:
      $($field:ident: $kind:ty,)*) => {
         $(#[$doc])*
         pub struct $name {
@@ -68,8 +72,6 @@ macro_rules! columns {
         }
 
         impl Columns for $name {
-            type Outputs = $outputs;
-
             fn with_capacity(ticks: usize) -> PyResult<Self> {
                 Ok(Self {
                     $($field: room(ticks)?,)*
@@ -78,7 +80,7 @@ macro_rules! columns {
                 })
             }
 
-            fn push(&mut self, outputs: &$outputs) {
+            fn push(&mut self, outputs: &TickOutputs) {
                 $(self.$field.push(outputs.$field);)*
                 self.regime.push(regime(outputs.regime));
                 self.faults.push(outputs.faults.bits());
@@ -93,7 +95,7 @@ macro_rules! columns {
                 ))
             }
 
-            fn tick<'py>(py: Python<'py>, outputs: &$outputs) -> PyResult<Bound<'py, PyAny>> {
+            fn tick<'py>(py: Python<'py>, outputs: &TickOutputs) -> PyResult<Bound<'py, PyAny>> {
                 let [regime, faults] = flags(py, outputs.regime, outputs.faults)?;
                 result(py, $tick, ($(outputs.$field,)* regime, faults))
             }
@@ -103,18 +105,18 @@ macro_rules! columns {
 
 columns! {
     /// Of a ball screw.
-    ScrewColumns of Outputs, "Run", "Outputs":
-    friction_torque: f32,
+    ScrewColumns, "Run", "Outputs":
+    friction: f32,
     load_torque: f32,
     efficiency: f32,
 }
 
 columns! {
     /// Of a ball screw whose balls press on each other.
-    UncagedColumns of UncagedOutputs, "UncagedRun", "UncagedOutputs":
-    friction_torque: f32,
-    groove_torque: f32,
-    ball_torque: f32,
+    UncagedColumns, "UncagedRun", "UncagedOutputs":
+    friction: f32,
+    groove: f32,
+    ball: f32,
     load_torque: f32,
     contacts: u8,
     largest_contact_force: f32,
@@ -122,10 +124,10 @@ columns! {
 
 columns! {
     /// Of a linear bearing.
-    LinearColumns of LinearOutputs, "LinearRun", "LinearOutputs":
-    friction_force: f32,
-    groove_force: f32,
-    ball_force: f32,
+    LinearColumns, "LinearRun", "LinearOutputs":
+    friction: f32,
+    groove: f32,
+    ball: f32,
     contacts: u8,
     largest_contact_force: f32,
 }

@@ -2,9 +2,8 @@
 
 use std::sync::Arc;
 
-use epas_cli::bindings::{self, Failure, Remembers, Use, coefficients, remembering, wrapped};
+use epas_cli::bindings::{self, Failure, Model, TickInputs, coefficients, remembering, wrapped};
 use epas_design::caged_scene as caged;
-use epas_friction::{Inputs, Outputs, Refusal};
 use pyo3::prelude::*;
 
 use super::caged::words;
@@ -21,55 +20,11 @@ const LARGEST_LOAD: f64 = 1e6;
 /// Largest step of an encoder, rad.
 const LARGEST_STEP: f64 = 0.1;
 
-/// A screw that remembers, whatever its elements and its friction coefficient are.
-trait Memory: Send + Sync {
-    fn step(&mut self, inputs: Inputs, angle: f32) -> Outputs;
-    fn between(&mut self, angle: f32) -> Outputs;
-    fn reset(&mut self);
-    fn faulted_ticks(&self) -> u32;
-    fn export(&self) -> Result<Vec<u8>, Refusal>;
-    fn import(&mut self, block: &[u8]) -> Result<(), Refusal>;
-    fn copied(&self) -> Box<dyn Memory>;
-}
-
-impl<R: Remembers + 'static> Memory for R {
-    fn step(&mut self, inputs: Inputs, angle: f32) -> Outputs {
-        Remembers::step(self, inputs, angle)
-    }
-
-    fn between(&mut self, angle: f32) -> Outputs {
-        Remembers::between(self, angle)
-    }
-
-    fn reset(&mut self) {
-        Remembers::reset(self);
-    }
-
-    fn faulted_ticks(&self) -> u32 {
-        Remembers::faulted_ticks(self)
-    }
-
-    fn export(&self) -> Result<Vec<u8>, Refusal> {
-        Remembers::export(self)
-    }
-
-    fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
-        Remembers::import(self, block)
-    }
-
-    fn copied(&self) -> Box<dyn Memory> {
-        Box::new(self.clone())
-    }
-}
-
-/// Boxes it.
-struct Boxed;
-
-impl Use for Boxed {
-    type Made = Box<dyn Memory>;
-
-    fn with(self, screw: impl Remembers + 'static) -> Self::Made {
-        Box::new(screw)
+/// A tick at an angle of the nut, rad.
+fn inputs(nut_speed: f32, axial_load: f32, nut_angle: f64) -> TickInputs {
+    TickInputs {
+        reading: wrapped(nut_angle),
+        ..TickInputs::new(nut_speed, axial_load)
     }
 }
 
@@ -88,7 +43,7 @@ impl Use for Boxed {
 ///     Error: a value out of its range.
 #[pyclass(module = "epas_friction")]
 pub struct CagedBallScrewWithMemory {
-    model: Box<dyn Memory>,
+    model: Box<dyn Model>,
     recipe: Recipe,
     reference_load: f32,
     encoder_step: f32,
@@ -119,7 +74,7 @@ impl CagedBallScrewWithMemory {
         let angle = bindings::angle().map_err(|error| refused(py, error))?;
         let inner = design.inner.clone();
         let made = interruptible(py, move |_| {
-            let (model, _) = remembering(&inner, reference_load, (angle, encoder_step), Boxed)?;
+            let (model, _) = remembering(&inner, reference_load, (angle, encoder_step))?;
             // Solved before: its words are at hand.
             let words = caged::words(&inner, coefficients(&inner)?)?;
             Ok::<_, Failure>((model, words.unwrap_or_default()))
@@ -150,11 +105,8 @@ impl CagedBallScrewWithMemory {
         axial_load: f32,
         nut_angle: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
-        let inputs = Inputs {
-            nut_speed,
-            axial_load,
-        };
-        ScrewColumns::tick(py, &self.model.step(inputs, wrapped(nut_angle)))
+        let inputs = inputs(nut_speed, axial_load, nut_angle);
+        ScrewColumns::tick(py, &self.model.step(&inputs))
     }
 
     /// Friction at an angle between two steps, under the limits of the last one: for a current loop that runs faster.
@@ -165,7 +117,9 @@ impl CagedBallScrewWithMemory {
     /// Returns:
     ///     Outputs: torques in N m, efficiency, regime, faults.
     fn between<'py>(&mut self, py: Python<'py>, nut_angle: f64) -> PyResult<Bound<'py, PyAny>> {
-        ScrewColumns::tick(py, &self.model.between(wrapped(nut_angle)))
+        let outputs = self.model.between(wrapped(nut_angle));
+        let outputs = outputs.ok_or_else(|| refused(py, Refused::message("no memory")))?;
+        ScrewColumns::tick(py, &outputs)
     }
 
     /// A whole trace, tick after tick, from the present state on. Other threads run meanwhile.
@@ -195,16 +149,9 @@ impl CagedBallScrewWithMemory {
         let names = ["nut_speed", "axial_load", "nut_angle"];
         let trace =
             arguments(py, names, [&nut_speed, &axial_load, &nut_angle])?.trace(py, allow_faults)?;
-        let mut columns = ScrewColumns::with_capacity(trace.len())?;
         let mut model = self.model.copied();
-        let next = &mut model;
-        trace.each(py, |[nut_speed, axial_load, angle]: [f64; 3]| {
-            let inputs = Inputs {
-                nut_speed: nut_speed as f32,
-                axial_load: axial_load as f32,
-            };
-            columns.push(&next.step(inputs, wrapped(angle)));
-            Ok(())
+        let columns = ScrewColumns::of(py, &trace, |[speed, load, angle]: [f64; 3]| {
+            model.step(&inputs(speed as f32, load as f32, angle))
         })?;
         self.model = model;
         columns.run(py)

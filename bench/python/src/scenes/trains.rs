@@ -3,12 +3,12 @@
 use std::sync::Arc;
 
 use epas_cli::bindings::{
-    self, Balls, Built, EncoderStep, Failure, Folded, Linear, ScrewConfiguration, Uncaged,
-    UncagedDesign,
+    self, Built, EncoderStep, Failure, Folded, Linear, Model, ScrewConfiguration, TickInputs,
+    Uncaged, UncagedDesign,
 };
 use epas_design::uncaged::UncagedBlock;
 use epas_design::uncaged_scene::{configuration_with, fold_for, folded, read};
-use epas_friction::{Error, Inputs, LinearInputs, LinearOutputs, UncagedOutputs};
+use epas_friction::Error;
 use pyo3::prelude::*;
 
 use super::caged::words;
@@ -20,11 +20,7 @@ use crate::numbers::{arguments, range_or, single};
 use crate::restored::{self, Recipe, Reduced, reduced};
 
 /// A model as it was built; `limit` is the field of the design that decides the longest tick, with its value.
-fn model<I, O>(
-    py: Python<'_>,
-    built: Built<I, O>,
-    limit: (&str, f32),
-) -> PyResult<Box<dyn Balls<I, O>>> {
+fn model(py: Python<'_>, built: Built, limit: (&str, f32)) -> PyResult<Box<dyn Model>> {
     built.map_err(|error| {
         let (limit, value) = limit;
         refused(py, Refused::from(error).tick_of(limit, value))
@@ -80,9 +76,9 @@ impl Made {
 }
 
 /// Puts a model back into a state, after the coefficient that was set.
-fn resumed<I, O>(
+fn resumed(
     py: Python<'_>,
-    model: &mut dyn Balls<I, O>,
+    model: &mut dyn Model,
     friction: Option<f32>,
     state: &[u8],
 ) -> PyResult<()> {
@@ -112,7 +108,7 @@ fn resumed<I, O>(
 ///     Error: a value out of its range, a design that says nothing of its circuit, or one whose ball cannot be folded.
 #[pyclass(module = "epas_friction")]
 pub struct UncagedBallScrew {
-    model: Box<dyn Balls<Inputs, UncagedOutputs>>,
+    model: Box<dyn Model>,
     balls: u8,
     made: Made,
     /// The words of its ball's block.
@@ -120,11 +116,8 @@ pub struct UncagedBallScrew {
 }
 
 /// Inputs of a tick.
-const fn screw_inputs([nut_speed, axial_load]: [f64; 2]) -> Inputs {
-    Inputs {
-        nut_speed: nut_speed as f32,
-        axial_load: axial_load as f32,
-    }
+const fn screw_inputs([nut_speed, axial_load]: [f64; 2]) -> TickInputs {
+    TickInputs::new(nut_speed as f32, axial_load as f32)
 }
 
 #[pymethods]
@@ -201,7 +194,7 @@ impl UncagedBallScrew {
         axial_load: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let inputs = screw_inputs([nut_speed, axial_load]);
-        UncagedColumns::tick(py, &self.model.step(inputs))
+        UncagedColumns::tick(py, &self.model.step(&inputs))
     }
 
     /// A whole trace, tick after tick, from the present state on. Other threads run meanwhile.
@@ -228,13 +221,8 @@ impl UncagedBallScrew {
     ) -> PyResult<Bound<'py, PyAny>> {
         let names = ["nut_speed", "axial_load"];
         let trace = arguments(py, names, [&nut_speed, &axial_load])?.trace(py, allow_faults)?;
-        let mut columns = UncagedColumns::with_capacity(trace.len())?;
         let mut model = self.model.copied();
-        let next = &mut model;
-        trace.each(py, |values| {
-            columns.push(&next.step(screw_inputs(values)));
-            Ok(())
-        })?;
+        let columns = UncagedColumns::of(py, &trace, |values| model.step(&screw_inputs(values)))?;
         self.model = model;
         columns.run(py)
     }
@@ -440,17 +428,16 @@ fn bits(set: u64) -> Vec<u8> {
 ///     Error: a value out of its range.
 #[pyclass(module = "epas_friction")]
 pub struct LinearBearingTrain {
-    model: Box<dyn Balls<LinearInputs, LinearOutputs>>,
+    model: Box<dyn Model>,
     balls: u8,
     made: Made,
 }
 
 /// Inputs of a tick.
-const fn linear_inputs([speed, normal_load, side_load]: [f64; 3]) -> LinearInputs {
-    LinearInputs {
-        speed: speed as f32,
-        normal_load: normal_load as f32,
+const fn linear_inputs([speed, normal_load, side_load]: [f64; 3]) -> TickInputs {
+    TickInputs {
         side_load: side_load as f32,
+        ..TickInputs::new(speed as f32, normal_load as f32)
     }
 }
 
@@ -493,7 +480,7 @@ impl LinearBearingTrain {
         side_load: f64,
     ) -> PyResult<Bound<'py, PyAny>> {
         let inputs = linear_inputs([speed, normal_load, side_load]);
-        LinearColumns::tick(py, &self.model.step(inputs))
+        LinearColumns::tick(py, &self.model.step(&inputs))
     }
 
     /// A whole trace, tick after tick, from the present state on. Other threads run meanwhile.
@@ -524,13 +511,8 @@ impl LinearBearingTrain {
         let side_load = side_load.unwrap_or_else(|| crate::numbers::zero(py));
         let trace =
             arguments(py, names, [&speed, &normal_load, &side_load])?.trace(py, allow_faults)?;
-        let mut columns = LinearColumns::with_capacity(trace.len())?;
         let mut model = self.model.copied();
-        let next = &mut model;
-        trace.each(py, |values| {
-            columns.push(&next.step(linear_inputs(values)));
-            Ok(())
-        })?;
+        let columns = LinearColumns::of(py, &trace, |values| model.step(&linear_inputs(values)))?;
         self.model = model;
         columns.run(py)
     }

@@ -7,7 +7,6 @@ use crate::fmu::variables::Variable;
 use epas_design::files::plausible;
 use epas_design::files::train::LinearDesign;
 
-/// Parameters of a linear bearing.
 pub fn of_bearing(design: &LinearDesign) -> Vec<Variable> {
     let own = &design.configuration;
     let bearing = own.bearing.parameters();
@@ -58,10 +57,6 @@ pub fn of_bearing(design: &LinearDesign) -> Vec<Variable> {
     l
 }
 
-/// A linear bearing's design with other numbers.
-///
-/// # Errors
-/// The parameter that is wrong, its value and what is allowed.
 pub fn changed_bearing(design: &LinearDesign, values: &Values<'_>) -> Result<LinearDesign, String> {
     let parameters = LinearBearingParameters {
         ball_radius: values.single("ball_radius"),

@@ -4,11 +4,8 @@ use epas_friction::{Error, GrooveSize, Material};
 
 use crate::fmu::variables::{Causality, Kind, Variable, parameter};
 
-/// Values of parameters by their names.
 pub struct Values<'a> {
-    /// The variables.
     pub variables: &'a [Variable],
-    /// Their values.
     pub values: &'a [f64],
 }
 
@@ -29,9 +26,6 @@ impl Values<'_> {
     }
 
     /// The same within a range.
-    ///
-    /// # Errors
-    /// Name, value and range.
     pub fn within(&self, name: &str, low: f64, high: f64) -> Result<f64, String> {
         let value = self.of(name);
         if (low..=high).contains(&value) {
@@ -57,10 +51,8 @@ pub fn single(
     list.push(parameter(Kind::Float32, name, unit, about, start));
 }
 
-/// Names of a material's fields.
 pub struct MaterialNames([&'static str; 3]);
 
-/// Of the balls.
 pub const BALL: MaterialNames = MaterialNames([
     "ball_material.youngs_modulus",
     "ball_material.poisson_ratio",
@@ -113,11 +105,8 @@ impl MaterialNames {
 /// Names of a groove's size, as conformity and as radius.
 pub struct GrooveNames([&'static str; 2]);
 
-/// Of the screw.
 pub const SCREW: GrooveNames = GrooveNames(["screw_conformity", "screw_groove_radius"]);
-/// Of the nut.
 pub const NUT: GrooveNames = GrooveNames(["nut_conformity", "nut_groove_radius"]);
-/// Of both grooves of a bearing.
 pub const BOTH: GrooveNames = GrooveNames(["conformity", "groove_radius"]);
 
 impl GrooveNames {
@@ -154,7 +143,6 @@ impl GrooveNames {
 /// A parameter's name, unit, meaning with its range, and start.
 pub type Row = (&'static str, Option<&'static str>, &'static str, f32);
 
-/// Lists parameters.
 pub fn list<const N: usize>(l: &mut Vec<Variable>, rows: [Row; N]) {
     for (name, unit, about, start) in rows {
         single(l, name, unit, about, start);

@@ -37,7 +37,6 @@ impl Common {
     }
 }
 
-/// Parameters of a ball screw's scene.
 pub fn of_screw(design: &Design, scene: SceneName) -> Vec<Variable> {
     let common = Common::of(design, scene);
     let mut l = Vec::new();
@@ -101,7 +100,6 @@ impl Common {
     }
 }
 
-/// What only a screw with a row of balls has.
 fn row(l: &mut Vec<Variable>, train: &UncagedDesign) {
     let friction = "Coulomb friction coefficient of ball and ball, 0 to 1";
     let turns = "turns of the loaded track, 0.1 to 10";
@@ -185,10 +183,6 @@ fn caged(l: &mut Vec<Variable>, design: &Design) {
     ));
 }
 
-/// A ball screw's design with other numbers.
-///
-/// # Errors
-/// The parameter that is wrong, its value and what is allowed.
 pub fn changed_screw(
     design: &Design,
     scene: SceneName,
@@ -239,7 +233,6 @@ pub fn changed_screw(
     Ok(changed)
 }
 
-/// The numbers of its row of balls.
 fn changed_row(design: &mut Design, values: &Values<'_>) -> Result<(), String> {
     let caged = design.caged;
     if let Some(train) = &mut design.uncaged {

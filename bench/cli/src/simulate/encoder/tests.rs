@@ -3,8 +3,9 @@ use std::f64::consts::TAU;
 use super::*;
 use crate::simulate::caged::Caged;
 use crate::simulate::samples::ScrewSample;
+use crate::simulate::scene::Row;
 use crate::simulate::scene::Scene as _;
-use crate::simulate::uncaged::{Uncaged, UncagedRow};
+use crate::simulate::uncaged::Uncaged;
 use epas_design::files::DesignSource;
 
 /// Of an encoder of 14 bits on a motor that makes 2.5 turns in one of the nut, rad of the nut.
@@ -60,7 +61,7 @@ fn friction(trace: &Trace<ScrewSample>, asked: Option<f64>) -> Vec<f32> {
     };
     scene.set_encoder(EncoderStep::of(asked, trace));
     let (rows, _) = scene.rows(trace, None, &|| ()).unwrap();
-    rows.iter().map(|row| row.outputs.friction_torque).collect()
+    rows.iter().map(|row| row.outputs.friction).collect()
 }
 
 /// The same of a row of balls, which follows the speed of its ticks.
@@ -75,7 +76,7 @@ fn friction_of_row(trace: &Trace<ScrewSample>, asked: Option<f64>) -> Vec<f32> {
     };
     scene.set_encoder(EncoderStep::of(asked, trace));
     let (rows, _) = scene.rows(trace, None, &|| ()).unwrap();
-    let torque = |row: &UncagedRow| row.train.outputs.friction_torque;
+    let torque = |row: &Row<ScrewSample>| row.outputs.friction;
     rows.iter().map(torque).collect()
 }
 

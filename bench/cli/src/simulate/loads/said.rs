@@ -11,7 +11,6 @@ pub const BALL_LOADS: [f64; 2] = [5.0, 300.0];
 /// What a table may be off where it serves.
 const TOLERANCE: ShareError = ShareError::TOLERANCE;
 
-/// What is written, and said of it.
 pub struct Answer {
     /// Lines of text.
     pub said: Vec<String>,
@@ -20,7 +19,6 @@ pub struct Answer {
 }
 
 impl Answer {
-    /// One table, of a load that was asked for.
     pub fn one(case: &LoadCase, said: Vec<String>, table: ShareTable) -> Self {
         Self {
             said,
@@ -103,7 +101,6 @@ pub fn answer(
     Ok(Answer { said, tables })
 }
 
-/// Which loads these are.
 fn heading(
     case: &LoadCase,
     name: &str,
@@ -138,7 +135,6 @@ fn best_alone(loads: &[ShareTable]) -> Result<Served, String> {
         .ok_or_else(|| "no load along the axis".into())
 }
 
-/// The best table of loads of one sign, and what is to be said of it.
 fn of_one_sign(said: &mut Vec<String>, loads: &[ShareTable]) -> Result<ShareTable, String> {
     let alone = best_alone(loads)?;
     let range = between(alone.from, alone.to);
@@ -191,10 +187,8 @@ fn of_one_sign(said: &mut Vec<String>, loads: &[ShareTable]) -> Result<ShareTabl
     Ok(alone.table)
 }
 
-/// Why a load has no table.
 const NO_TABLE: &str = "Grooves press on the balls without any load, and some push against it.";
 
-/// An error in words.
 fn of(error: &ShareError) -> String {
     format!(
         "{} % of the grooves' friction and {} % of the largest ball load",
@@ -211,7 +205,6 @@ fn count(number: usize, name: &str) -> String {
     }
 }
 
-/// A part in percent, to a tenth of one.
 fn percent(part: f64) -> f64 {
     (1e3 * part).round() / 10.0
 }
@@ -229,7 +222,6 @@ fn unit(load: f64) -> String {
     format!("{} N", newtons(load))
 }
 
-/// A load to whole newtons, or to three digits.
 fn newtons(load: f64) -> String {
     let above_one = load.abs().max(1e-6).log10().floor() as i32;
     let digits = usize::try_from(2 - above_one).unwrap_or(0);

@@ -87,7 +87,6 @@ pub fn text(
     Ok(text)
 }
 
-/// Shares over the mean, in equal parts of the loaded track.
 fn entries(table: &ShareTable) -> Result<Vec<f32>, String> {
     let positive = table.positive();
     spread(&positive, positive.len().min(MOST_ENTRIES))

@@ -7,7 +7,6 @@ use epas_page::failure::Failure;
 use epas_traces::mdf4::Mapping;
 use epas_traces::source::Source;
 
-/// One moment of what acts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Acting {
     /// Time, s.
@@ -30,7 +29,6 @@ impl Acting {
     }
 }
 
-/// A moment of a torque.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torque(pub Acting);
 
@@ -87,9 +85,6 @@ sample!(Torque, "motor_torque");
 sample!(Wanted, "reference_position");
 
 /// What acts over a trace: its name, its moments, its temperatures.
-///
-/// # Errors
-/// A file that cannot be read, or what is wrong with it.
 pub fn moments<S: Sample>(
     source: &Source<'_>,
     channels: Option<&Mapping>,
@@ -102,9 +97,6 @@ pub fn moments<S: Sample>(
 }
 
 /// The tick of a trace of equal steps of time, s.
-///
-/// # Errors
-/// A trace of fewer than two samples, of uneven steps, or of a tick out of range.
 pub fn tick(acting: &[Acting]) -> Result<f64, Failure> {
     let refused = |message: &str| Err(Failure::Data(message.into()));
     let [first, .., last] = acting else {

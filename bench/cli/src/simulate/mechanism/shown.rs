@@ -10,7 +10,6 @@ use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Panel, Series};
 use epas_traces::flags;
 
-/// Columns of the table.
 const COLUMNS: [&str; 9] = [
     "time",
     "motor_torque",
@@ -125,9 +124,6 @@ pub fn summary(rows: &[Row], inertia: f64, tick: f64, mut beyond: Option<Beyond>
 }
 
 /// The picture: torques, angle and speed over time.
-///
-/// # Errors
-/// A plot that cannot be drawn.
 pub fn drawn(trace: &str, design: &str, rows: &[Row], form: Form) -> Result<String, Failure> {
     let title = format!("{trace} on {design}");
     let curve = |value: &dyn Fn(&Row) -> f64| form.curve(rows, &|row| row.acting.time, value);

@@ -91,7 +91,6 @@ fn released_a_nut_comes_to_rest() {
     }
 }
 
-/// A day of it.
 #[test]
 fn a_day_below_breakaway_is_a_day_at_rest() {
     let rows = held(1.0, 86_400);

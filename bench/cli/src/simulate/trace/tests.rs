@@ -73,12 +73,10 @@ fn headings_say_their_units() {
     );
 }
 
-/// A table of these lines, of these columns.
 fn of(lines: &str) -> String {
     format!("time,nut_speed,axial_load\n{lines}")
 }
 
-/// Samples a millisecond apart, each line by its number.
 fn long(line: impl Fn(usize) -> String) -> String {
     of(&(0..400).map(line).collect::<String>())
 }
@@ -190,7 +188,6 @@ fn lines_above_units_below_and_empty_cells() {
     );
 }
 
-/// A moment with a column that a trace may have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Pushed([f64; 3]);
 

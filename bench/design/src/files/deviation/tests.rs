@@ -86,7 +86,6 @@ fn lines(points: impl Iterator<Item = (f64, f64)>) -> String {
     rows.concat()
 }
 
-/// Second and third wave of a degree and a half.
 fn deviation(angle: f64) -> f64 {
     0.02 * (2.0 * angle).sin() - 0.006 * (3.0 * angle).cos()
 }
