@@ -10,6 +10,7 @@ pub mod errors;
 pub mod folded;
 pub mod gears;
 pub mod given;
+pub mod golden;
 pub mod measured;
 pub mod promised;
 pub mod random;

@@ -3,7 +3,6 @@
 //! `cargo test -p epas-reference --test all scenes::caged` runs one part. A test whose name ends in `_whole` is the whole sweep of a test that by
 //! default runs a sample; all of them run with `cargo test -p epas-reference --test all -- --ignored _whole`.
 
-mod golden;
 mod objects;
 mod recorded;
 mod refusals;

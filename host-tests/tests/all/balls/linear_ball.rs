@@ -1,13 +1,13 @@
 //! One ball and pairs of balls in a linear bearing: published tables, tabulated cases, and the
 //! exact ball of the reference.
 
-use crate::golden;
 use crate::reference::linear_cases;
 use crate::refusals::assert_refused;
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_reference::friction::linear_ball::LinearBall;
 use epas_reference::promises;
 use epas_testkit::errors::Errors;
+use epas_testkit::golden;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 use std::f64::consts::FRAC_PI_4;

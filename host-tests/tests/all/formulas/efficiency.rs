@@ -1,7 +1,6 @@
 //! Closed-form efficiency: the reference against 17-digit values, the crate against both, and the laws
 //! that bind efficiency, torque and self-locking.
 
-use crate::golden::cases;
 use crate::refusals::assert_refused;
 use epas_design::efficiency::{
     DesignRequest, Duty, DynamicCorrection, optimum_contact_angle, optimum_efficiency,
@@ -10,6 +9,7 @@ use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::{CATALOGUE, Material};
 use epas_reference::efficiency::{self as reference, Screw};
 use epas_testkit::designs::SCREW_TRACK;
+use epas_testkit::golden::cases;
 use epas_testkit::measured;
 use proptest::prelude::*;
 use serde_json::Value;

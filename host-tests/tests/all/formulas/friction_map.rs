@@ -1,10 +1,10 @@
 //! Friction of one contact: the library's maps against quadrature and against tabulated cases.
 
-use crate::golden;
 use epas_friction::contact::FrictionMap;
 use epas_reference::friction::maps;
 use epas_reference::promises;
 use epas_testkit::errors::Errors;
+use epas_testkit::golden;
 use epas_testkit::measured;
 
 fn offsets() -> Vec<f32> {

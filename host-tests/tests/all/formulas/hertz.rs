@@ -1,6 +1,5 @@
 //! The contact ellipse: the reference against tabulated values, the crate against the reference.
 
-use crate::golden::file;
 use crate::refusals::assert_refused;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
@@ -9,6 +8,7 @@ use epas_reference::curvature;
 use epas_reference::hertz::{self, Hertz};
 use epas_testkit::designs::LINEAR_BEARING;
 use epas_testkit::given;
+use epas_testkit::golden::file;
 use epas_testkit::measured;
 
 #[test]

@@ -12,9 +12,9 @@ use epas_reference::presliding::backbone::Backbone as Curve;
 use epas_reference::presliding::masing::Masing;
 use serde_json::Value;
 
-use crate::golden::{number, numbers};
 use crate::law::transcription;
 use epas_testkit::errors::Errors;
+use epas_testkit::golden::{number, numbers};
 use epas_testkit::random::Random;
 
 fn golden() -> Value {

@@ -1,6 +1,5 @@
 //! Ball of a ball screw: stored single balls and pairs, given contacts, and the laws of the model.
 
-use crate::golden::file as golden;
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_ball::{
     Groove, ScrewContact, ScrewMotion, ScrewTrack, motion_from, motion_with_contacts,
@@ -16,6 +15,7 @@ use epas_reference::friction::ball_screw_train::{ScrewTrain, solve_screw_train};
 use epas_reference::friction::contact_law::HertzLaw;
 use epas_reference::friction::linear_ball::EllipseLaw;
 use epas_testkit::designs::SCREW_TRACK as TRACK;
+use epas_testkit::golden::file as golden;
 use epas_testkit::measured;
 use serde_json::Value;
 use std::f64::consts::{FRAC_PI_4, TAU};

@@ -1,6 +1,5 @@
 //! Rows of balls in elastic grooves: stored pairs with play and oversize, and the laws of the model.
 
-use crate::golden::file;
 use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
 use epas_reference::design::BallScrewDesign;
@@ -10,6 +9,7 @@ use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
 use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
+use epas_testkit::golden::file;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 use serde_json::Value;

@@ -1,7 +1,7 @@
 //! Chains of touching balls: stored chains, the linear model by two methods, and the laws of contact.
 
 use super::linear_cases::{ball, tilted};
-use crate::golden::{file as golden, list_of as list};
+use epas_testkit::golden::{file as golden, list_of as list};
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 use std::f64::consts::FRAC_PI_4;

@@ -1,8 +1,8 @@
 //! The reference's curvatures against 65-digit values and against each other.
 
-use crate::golden::cases;
 use crate::refusals::assert_refused;
 use epas_reference::curvature::{Groove, Surface, profile};
+use epas_testkit::golden::cases;
 use proptest::prelude::*;
 use serde_json::Value;
 

@@ -1,9 +1,9 @@
 //! Force, moment and power of one contact: three evaluations of the same integrals, and the laws they obey.
 
 use super::area::friction_over_area;
-use crate::golden::{file as golden, list_of as list};
 use epas_reference::friction::maps::FrictionMap;
 use epas_reference::friction::patch::{Patch, PatchVelocity};
+use epas_testkit::golden::{file as golden, list_of as list};
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 

@@ -10,7 +10,7 @@ use epas_testkit::random::Random;
 const DEGREE: f64 = PI / 180.0;
 
 pub fn cases() -> Vec<Value> {
-    crate::golden::cases("kinematics", "cases")
+    epas_testkit::golden::cases("kinematics", "cases")
 }
 
 pub fn number(value: &Value, path: &[&str]) -> f64 {

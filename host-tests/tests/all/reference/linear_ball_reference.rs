@@ -1,10 +1,10 @@
 //! Ball of a linear bearing: stored cases and the laws of the model.
 
 use super::linear_cases::tilted;
-use crate::golden::{file as golden, list_of as list};
 use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
 use epas_reference::friction::linear_ball::{LinearBall, LinearMotion};
+use epas_testkit::golden::{file as golden, list_of as list};
 use epas_testkit::measured;
 use std::f64::consts::FRAC_PI_4;
 

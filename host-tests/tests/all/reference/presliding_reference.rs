@@ -1,6 +1,6 @@
 //! Friction before gross sliding: the exact hysteresis, its elements and the brush against stored cases, each other and the literature.
 
-use crate::golden::file;
+use epas_testkit::golden::file;
 use std::f64::consts::TAU;
 use std::num::NonZeroUsize;
 

@@ -1,7 +1,7 @@
 //! Static load distribution: the case studies of Lin 2019, laws, and extreme starts.
 
-use crate::golden::{file, list_of as list};
 use crate::refusals::assert_refused;
+use epas_testkit::golden::{file, list_of as list};
 use epas_testkit::measured;
 use epas_testkit::random::Random;
 use std::sync::Arc;

@@ -1,10 +1,10 @@
 //! The exact steady state against 17-digit values, its own equations, and the closed form it leads to.
 
-use crate::golden::cases;
 use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
 use epas_reference::efficiency::Screw;
 use epas_reference::steady_state::BallScrewState;
+use epas_testkit::golden::cases;
 use epas_testkit::measured;
 use serde_json::Value;
 

@@ -1,12 +1,12 @@
 //! Whole ball screw with recirculation: stored runs, the features of Figure 3.24, and the laws of contact.
 
 use super::ball_screw_reference::law;
-use crate::golden::{file as golden, list_of as list};
 use crate::refusals::assert_refused;
 use epas_reference::friction::ball_screw_closed::ThreePointModel;
 use epas_reference::friction::ball_screw_elastic::BallSlip;
 use epas_reference::friction::whole_screw::WholeScrew;
 use epas_testkit::designs::SCREW_TRACK;
+use epas_testkit::golden::{file as golden, list_of as list};
 use epas_testkit::measured;
 use std::f64::consts::{FRAC_PI_4, TAU};
 

@@ -1,7 +1,7 @@
 //! A ball screw and a linear bearing: torques, stiffnesses, breakaway angles, the ball's seat, shares.
 
-use crate::golden::cases;
 use crate::refusals::assert_refused;
+use epas_testkit::golden::cases;
 use std::f64::consts::PI;
 
 use epas_design::breakaway::{
