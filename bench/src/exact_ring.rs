@@ -23,8 +23,9 @@ use epas_reference::material::Elastic;
 
 use epas_design::uncaged_scene::{LEAST_DEVIATION, MARGIN, folded, loads_holding};
 
-/// Part of the track that the balls fill, where a case does not say its length.
-const OCCUPATION: f64 = 0.978;
+/// Slack of the track, where a case does not say its length, over the distance of two balls that touch: as such screws are filled, half of all pairs
+/// press.
+const SLACK: f64 = 0.1;
 
 const YOUNGS_MODULUS: f64 = 210e9;
 const POISSON_RATIO: f64 = 0.28;
@@ -50,7 +51,7 @@ pub struct Case {
     pub clearance: f64,
     /// Axial load of a ball, N.
     pub load_per_ball: f64,
-    /// Length of the whole track in turns; without it as long as lets the balls fill 97.8 % of it.
+    /// Length of the whole track in turns; without it as long as the row of its balls with a slack of a tenth of a ball.
     pub track: Option<f64>,
     /// Part of the track that carries load.
     pub loaded: f64,
@@ -172,6 +173,15 @@ pub struct Comparison {
     pub largest_force: f64,
     /// Every state.
     pub course: Vec<Moment>,
+}
+
+impl Comparison {
+    /// Mean number of pairs that press in the exact screw.
+    #[must_use]
+    pub fn pressing(&self) -> f64 {
+        let pairs = self.course.iter().map(|moment| moment.exact[3]);
+        pairs.sum::<f64>() / self.course.len() as f64
+    }
 }
 
 /// A wave that lives as long as the program: in firmware it lies in flash.
@@ -378,10 +388,7 @@ impl Case {
         let path = self.pitch_radius.hypot(self.lead / TAU);
         let pitch = 2.0 * (self.ball_radius / path).asin();
         let turns = self.track;
-        (
-            path,
-            turns.unwrap_or(balls as f64 * pitch / OCCUPATION / TAU),
-        )
+        (path, turns.unwrap_or((balls as f64 + SLACK) * pitch / TAU))
     }
 }
 

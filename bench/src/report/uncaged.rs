@@ -61,13 +61,13 @@ fn flagship(context: &Context) -> Result<Table, Failure> {
     Ok(table(
         "flagship",
         format!(
-            "37 balls of Table 3.6's screw, 50 N a ball, deviations of 1 degree on the screw and 0.5 degrees in the nut, one turn a second: largest \
+            "37 balls of Table 3.6's screw, filled but for a tenth of a ball, 50 N a ball, deviations of 1 degree on the screw and 0.5 degrees in the nut, one turn a second: largest \
              and rms error at the same state over {turns} turns, groove torque over its own exact value, the others over the largest exact one. {}",
             refused.as_ref().map_or_else(
                 || {
                     format!(
-                        "{} states are compared, {} of them flagged; {} have no exact solution",
-                        comparison.compared, comparison.flagged, comparison.failed
+                        "{:.0} pairs press in the mean; {} states are compared, {} of them flagged; {} have no exact solution",
+                        comparison.pressing(), comparison.compared, comparison.flagged, comparison.failed
                     )
                 },
                 |reason| format!("Not folded: {reason}"),

@@ -130,7 +130,7 @@ pub fn blocks(quick: bool) -> Vec<Block> {
         format!(
             "The scene against the exact whole screw: {BALLS} balls over two turns, errors at the same state in per cent, of torque and groove torque over their own exact value, of the others over \
              the largest exact one; 45 degrees contact angle \
-             (26 x 10: 48), friction 0.1 and 0.1 between balls, no clearance, deviations of 1 degree on the screw and 0.5 degrees in the nut, 5 % of the track a \
+             (26 x 10: 48), friction 0.1 and 0.1 between balls, no clearance, deviations of 1 degree on the screw and 0.5 degrees in the nut, the track filled but for a tenth of a ball, 5 % of it a \
              return, one turn a second, ticks of at most 1 ms unless said otherwise. \
              Each law is folded for the deviations of its row and for 5 to 300 N a ball, or up to the power of two above {MARGIN} times the row's load where that is more. States \
              that the scene flags are compared like all others; a state without an exact solution is not. The last column says why a screw is not folded"
