@@ -366,7 +366,7 @@ impl Model for CagedModel {
 
 impl<S: HostScene + ChangingFriction> Model for FrictionModel<S>
 where
-    Self: Clone + Send + Sync + 'static,
+    Self: Copy + Send + Sync + 'static,
 {
     fn step(&mut self, inputs: &TickInputs) -> TickOutputs {
         Self::step(self, S::inputs(inputs)).into()
@@ -401,7 +401,7 @@ where
     }
 
     fn copied(&self) -> Box<dyn Model> {
-        Box::new(self.clone())
+        Box::new(*self)
     }
 }
 
@@ -445,7 +445,7 @@ where
     E: MemoryElements<State: Stored> + Fingerprinted + Copy,
     A: Sensor,
     L: Coefficient + CoefficientFor<<S as Scene>::Inputs>,
-    Self: Clone + Send + Sync + 'static,
+    Self: Copy + Send + Sync + 'static,
 {
     fn step(&mut self, inputs: &TickInputs) -> TickOutputs {
         let inputs = WithMemoryInputs {
@@ -491,6 +491,6 @@ where
     }
 
     fn copied(&self) -> Box<dyn Model> {
-        Box::new(self.clone())
+        Box::new(*self)
     }
 }

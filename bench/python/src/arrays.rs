@@ -97,6 +97,8 @@ impl<'py, const I: usize> Arguments<'py, I> {
         if self.shape.is_empty() {
             self.shape.push(1);
         }
+        // A trace whose results have no room is refused before its samples are read.
+        drop(memory::room::<f64>(self.len())?);
         if !allow_faults {
             let names = self.arguments.each_ref().map(|argument| argument.name);
             self.each(py, |values: [f64; I]| {

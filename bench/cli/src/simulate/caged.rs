@@ -14,7 +14,7 @@ use super::picture::{self, Form, Labels, Moment};
 use super::reference::{CagedReference, Friction, ReferenceModel};
 use super::remembering::{coefficients, remembering};
 use super::samples::ScrewSample;
-use super::scene::{Column, OF_EVERY, OF_SCREW, Row, Scene};
+use super::scene::{Column, OF_EVERY, OF_SCREW, Row, Rows, Scene};
 use super::screw::{self, ScrewSummary};
 use super::summary::Lines;
 use super::trace::{SceneSample, Temperature, Trace};
@@ -113,7 +113,7 @@ impl Caged {
         temperature: impl Fn(usize) -> Option<f32>,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<Row<ScrewSample>>, Lines), Failure> {
+    ) -> Rows<ScrewSample> {
         let (mut model, mut lines) = self.model(trace)?;
         let reference = reference
             .map(|model| Reference::new(model, &self.design, trace))
@@ -233,7 +233,7 @@ impl Scene for Caged {
         trace: &Trace<ScrewSample>,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<Row<ScrewSample>>, Lines), Failure> {
+    ) -> Rows<ScrewSample> {
         self.follow(trace, |_| None, reference, done)
     }
 
@@ -275,7 +275,7 @@ impl Scene for Caged {
         temperature: &Temperature,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<Row<ScrewSample>>, Lines), Failure> {
+    ) -> Rows<ScrewSample> {
         self.follow(trace, |sample| temperature.at(sample), reference, done)
     }
 

@@ -10,7 +10,7 @@ use super::memory::{self, Remembered};
 use super::picture::{Form, Labels, Moment};
 use super::reference::ReferenceModel;
 use super::samples::LinearSample;
-use super::scene::{Column, OF_EVERY, OF_ROW, Row, Scene};
+use super::scene::{Column, OF_EVERY, OF_ROW, Row, Rows, Scene};
 use super::summary::{Course, Lines, Pressing, Words};
 use super::trace::Trace;
 use super::train::{Train, draw};
@@ -98,7 +98,7 @@ impl Scene for Linear {
         trace: &Trace<LinearSample>,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<Row<LinearSample>>, Lines), Failure> {
+    ) -> Rows<LinearSample> {
         let remembered = self.remembered(trace)?;
         let mut train = self.train(trace, remembered.as_ref())?;
         if reference.is_some() {

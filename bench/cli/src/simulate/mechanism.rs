@@ -134,7 +134,7 @@ pub fn run(
         tick,
     };
     caged::check_errors(design, true)?;
-    let (rows, mut lines) = moved(course)?;
+    let (rows, mut lines) = moved(&course)?;
     if let Some(told) = temperature.told() {
         lines.add("temperature", told);
     }
@@ -189,13 +189,13 @@ fn write_files(
     Ok(())
 }
 
-fn moved(course: Course<'_>) -> Result<(Vec<Row>, Lines), Failure> {
+fn moved(course: &Course<'_>) -> Result<(Vec<Row>, Lines), Failure> {
     let Course {
         design,
         acting,
         tick,
         ..
-    } = course;
+    } = *course;
     let load = acting
         .iter()
         .map(|acting| acting.axial_load.abs())
@@ -205,7 +205,7 @@ fn moved(course: Course<'_>) -> Result<(Vec<Row>, Lines), Failure> {
         .map_err(|error| Failure::Data(format!("{}: {error}", design.name)))?;
     // The nut's own motion has no noise.
     let (model, lines) = remembering(design, load as f32, (speed, 0.0))?;
-    Ok((motion(model, &course), lines))
+    Ok((motion(model, course), lines))
 }
 
 struct Course<'a> {

@@ -140,7 +140,7 @@ where
     S: HostScene + Scene<Inputs = Inputs>,
     E: Hysteresis + Elements<State: Stored> + Fingerprinted + Copy + 'static,
     A: Sensor,
-    FrictionModel<WithMemory<S, E, A, CoefficientLaw>>: Clone + Send + Sync,
+    FrictionModel<WithMemory<S, E, A, CoefficientLaw>>: Copy + Send + Sync,
 {
     let whole = memory::with_coefficient(scene, elements, angle, law);
     Ok(Box::new(FrictionModel::<WithMemory<S, E, A, _>>::new(

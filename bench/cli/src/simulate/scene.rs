@@ -28,6 +28,9 @@ pub struct Row<S> {
     pub reference: Option<Friction>,
 }
 
+/// Every sample of a run, and lines that tell of it.
+pub type Rows<S> = Result<(Vec<Row<S>>, Lines), Failure>;
+
 impl<S: Sample> Row<S> {
     /// What every scene shows of it in a picture, at a place along the horizontal axis.
     pub fn moment(&self, place: f64) -> picture::Moment {
@@ -134,7 +137,7 @@ pub trait Scene {
         trace: &Trace<Self::Sample>,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<Row<Self::Sample>>, Lines), Failure>;
+    ) -> Rows<Self::Sample>;
 
     /// What a reference is, for the summary.
     fn reference_name(&self, _: ReferenceModel) -> String {
@@ -156,7 +159,7 @@ pub trait Scene {
         _: &Temperature,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<Row<Self::Sample>>, Lines), Failure> {
+    ) -> Rows<Self::Sample> {
         self.rows(trace, reference, done)
     }
 

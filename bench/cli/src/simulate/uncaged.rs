@@ -14,7 +14,7 @@ use super::memory::{self, Remembered};
 use super::picture::{Form, Labels, Moment};
 use super::reference::{ReferenceModel, whole_screw};
 use super::samples::ScrewSample;
-use super::scene::{Column, OF_EVERY, OF_ROW, OF_SCREW, Row, Scene};
+use super::scene::{Column, OF_EVERY, OF_ROW, OF_SCREW, Row, Rows, Scene};
 use super::screw::{self, ScrewSummary};
 use super::summary::{Lines, Pressing};
 use super::trace::{Sample, Trace};
@@ -184,7 +184,7 @@ impl Scene for Uncaged {
         trace: &Trace<ScrewSample>,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
-    ) -> Result<(Vec<Row<ScrewSample>>, Lines), Failure> {
+    ) -> Rows<ScrewSample> {
         let remembered = self.remembered(trace)?;
         let measured = self.is_measured(trace);
         let mut train = self.train(trace, remembered.as_ref())?;

@@ -219,6 +219,14 @@ impl CagedBallScrew {
         self.model.faulted_ticks()
     }
 
+    fn __repr__(&self) -> String {
+        let of = match &self.origin {
+            Origin::Block(words) => format!("block of {} words", words.len()),
+            Origin::ClosedForm(_) => "closed form".into(),
+        };
+        format!("<CagedBallScrew: {of}>")
+    }
+
     fn __copy__(&self) -> Self {
         self.copy()
     }

@@ -168,6 +168,12 @@ impl CagedBallScrewWithMemory {
         self.model.faulted_ticks()
     }
 
+    fn __repr__(&self) -> String {
+        let (design, _) = self.recipe.arguments();
+        let load = self.reference_load;
+        format!("<CagedBallScrewWithMemory: {design}, reference_load={load}>")
+    }
+
     fn __copy__(&self) -> Self {
         self.copy()
     }

@@ -63,6 +63,11 @@ impl Made {
         }
     }
 
+    fn shown(&self, class: &str, balls: u8) -> String {
+        let (design, _) = self.recipe.arguments();
+        format!("<{class}: {design}, balls={balls}, tick={}>", self.tick)
+    }
+
     fn arguments(&self) -> MadeArguments {
         (
             self.recipe.arguments(),
@@ -278,6 +283,10 @@ impl UncagedBallScrew {
     #[getter]
     fn faulted_ticks(&self) -> u32 {
         self.model.faulted_ticks()
+    }
+
+    fn __repr__(&self) -> String {
+        self.made.shown("UncagedBallScrew", self.balls)
     }
 
     fn __copy__(&self) -> Self {
@@ -571,6 +580,10 @@ impl LinearBearingTrain {
     #[getter]
     fn faulted_ticks(&self) -> u32 {
         self.model.faulted_ticks()
+    }
+
+    fn __repr__(&self) -> String {
+        self.made.shown("LinearBearingTrain", self.balls)
     }
 
     fn __copy__(&self) -> Self {

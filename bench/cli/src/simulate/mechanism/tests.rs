@@ -18,7 +18,7 @@ fn moved_by(acting: &[Acting], controller: Option<Controller>, tick: f64) -> Vec
         controller,
         tick,
     };
-    moved(course).unwrap().0
+    moved(&course).unwrap().0
 }
 
 /// A nut of 4e-4 kg m^2 under 3 kN and a motor torque that rises within two seconds to what holds the load and 0.18 N m beyond: below the
