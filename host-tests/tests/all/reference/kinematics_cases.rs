@@ -10,7 +10,9 @@ use epas_testkit::random::Random;
 const DEGREE: f64 = PI / 180.0;
 
 pub fn cases() -> Vec<Value> {
-    crate::golden::cases("kinematics", "cases")
+    let text = include_str!("../../../golden/kinematics.json");
+    let file: Value = serde_json::from_str(text).unwrap();
+    file["cases"].as_array().unwrap().clone()
 }
 
 pub fn number(value: &Value, path: &[&str]) -> f64 {
@@ -20,9 +22,13 @@ pub fn number(value: &Value, path: &[&str]) -> f64 {
         .unwrap()
 }
 
-/// Lengths are millimetres times `unit`. The model is homogeneous in length: with 1 every number of the case is the one that it was
-/// computed from.
-pub fn input(case: &Value, unit: f64) -> KinematicsInput {
+/// Lengths stay in millimetres: the model is homogeneous in length, and every number of the case is the one that it was computed from.
+pub fn input(case: &Value) -> KinematicsInput {
+    input_in(case, 1.0)
+}
+
+/// Lengths are millimetres times `unit`.
+pub fn input_in(case: &Value, unit: f64) -> KinematicsInput {
     let length = |group, key| unit * number(case, &[group, key]);
     let angle = |key| number(case, &["state", key]);
     KinematicsInput {
