@@ -20,7 +20,7 @@ fn material_points_slip_as_the_revised_formulas_say() {
     let mut random = Random(0x5EED_0001);
     let mut worst = [0.0_f64; 4];
     let golden = cases();
-    let golden_inputs = golden.iter().map(|case| input(case, 1.0));
+    let golden_inputs = golden.iter().map(input);
     let random_inputs = (0..5000)
         .map(|_| random_input(&mut random))
         .collect::<Vec<_>>();
@@ -138,7 +138,7 @@ fn golden_mean_slip() {
     let rule = HertzMean::new(80, 160);
     let mut worst = 0.0_f64;
     for case in cases() {
-        let input = input(&case, 1.0);
+        let input = input(&case);
         let revised = Revised::new(&input).unwrap();
         let speed = input.speed;
         for raceway in Raceway::BOTH {
@@ -290,7 +290,7 @@ fn published_pitch_angles() {
 #[test]
 fn raceway_controls_of_the_golden_cases() {
     for case in cases() {
-        let input = input(&case, 1.0);
+        let input = input(&case);
         for (key, found) in [
             (
                 "beta_zero_spin_i",

@@ -232,7 +232,7 @@ fn golden_cases_within_the_promise() {
     let mut sweep = Sweep::default();
     for case in kinematics_cases::cases() {
         let tag = case["tag"].as_str().unwrap().to_owned();
-        let input = kinematics_cases::input(&case, 1e-3);
+        let input = kinematics_cases::input_in(&case, 1e-3);
         sweep.add(&input, &tag);
         sweep.add(
             &KinematicsInput {

@@ -20,9 +20,13 @@ pub fn number(value: &Value, path: &[&str]) -> f64 {
         .unwrap()
 }
 
-/// Lengths are millimetres times `unit`. The model is homogeneous in length: with 1 every number of the case is the one that it was
-/// computed from.
-pub fn input(case: &Value, unit: f64) -> KinematicsInput {
+/// Lengths stay in millimetres: the model is homogeneous in length, and every number of the case is the one that it was computed from.
+pub fn input(case: &Value) -> KinematicsInput {
+    input_in(case, 1.0)
+}
+
+/// Lengths are millimetres times `unit`.
+pub fn input_in(case: &Value, unit: f64) -> KinematicsInput {
     let length = |group, key| unit * number(case, &[group, key]);
     let angle = |key| number(case, &["state", key]);
     KinematicsInput {

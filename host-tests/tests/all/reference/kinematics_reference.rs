@@ -20,7 +20,7 @@ fn turn(left: f64, right: f64) -> f64 {
 fn golden_cases_within_1e_12() {
     for case in cases() {
         let tag = case["tag"].as_str().unwrap();
-        let revised = Revised::new(&input(&case, 1.0)).unwrap();
+        let revised = Revised::new(&input(&case)).unwrap();
         let ball = revised.evaluate();
         let check = |name: &str, found: f64, wanted: f64, scale: f64| {
             let error = (found - wanted).abs() / scale;
@@ -68,7 +68,7 @@ fn golden_cases_within_1e_12() {
 #[test]
 fn rolling_slip_keeps_its_own_digits() {
     for case in cases() {
-        let revised = Revised::new(&input(&case, 1.0)).unwrap();
+        let revised = Revised::new(&input(&case)).unwrap();
         for raceway in Raceway::BOTH {
             let golden = number(&case, &[side_of(raceway), "roll_over_omega"]);
             let contact = revised.input().contact(raceway);
