@@ -9,8 +9,8 @@ use std::fmt::Debug;
 use epas_friction::scene::{CagedBallScrew, StoredScene};
 use epas_friction::stored::crc32;
 use epas_friction::{ClosedFormScrew, FrictionModel, LinearBearingTrain, UncagedBallScrew};
-use epas_testkit::random_scenes::{Trial, accepted};
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{Trial, accepted};
 use libfuzzer_sys::fuzz_target;
 
 /// Bytes of a block before its state.

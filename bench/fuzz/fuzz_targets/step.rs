@@ -6,8 +6,8 @@
 
 use epas_friction::scene::CagedBallScrew;
 use epas_friction::{ClosedFormScrew, LinearBearingTrain, UncagedBallScrew};
-use epas_testkit::random_scenes::{Trial, accepted};
 use epas_testkit::random::Random;
+use epas_testkit::random_scenes::{Trial, accepted};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|data: &[u8]| {
