@@ -442,15 +442,14 @@ pub(crate) const fn refused(refusal: Refusal) -> u32 {
 /// Number of a field that the crate names.
 fn field_number(name: &str) -> u32 {
     let other = CRATE_NAMES.iter().find(|(own, _)| *own == name);
-    let same = || {
-        FIELD_NAMES
-            .iter()
-            .position(|own| own.to_bytes() == name.as_bytes())
-    };
-    match other {
-        Some((_, number)) => *number,
-        None => same().map_or(EPAS_FIELD_OTHER, |number| number as u32),
-    }
+    other.map_or_else(
+        || {
+            let mut own = (0..).zip(FIELD_NAMES);
+            own.find(|(_, own)| own.to_bytes() == name.as_bytes())
+                .map_or(EPAS_FIELD_OTHER, |(number, _)| number)
+        },
+        |(_, number)| *number,
+    )
 }
 
 /// What was wrong with a configuration, a table or a request.
