@@ -6,6 +6,7 @@
 use epas_friction::law::{coefficient, memory, motion};
 use epas_friction::{Error, scene};
 
+/// The value; a refused one stops the compiler here.
 const fn sound<T: Copy>(checked: Result<T, Error>) -> T {
     match checked {
         Ok(value) => value,
