@@ -876,7 +876,7 @@ extern "C" {
 /**
  * Size of `epas_screw_t` in words of eight bytes.
  */
-#define EPAS_SCREW_WORDS 319
+#define EPAS_SCREW_WORDS 447
 
 /**
  * Friction coefficients of a folded ball for a range of them.
@@ -891,7 +891,7 @@ extern "C" {
 /**
  * Size of `epas_screw_range_t` in words of eight bytes.
  */
-#define EPAS_SCREW_RANGE_WORDS 320
+#define EPAS_SCREW_RANGE_WORDS 448
 
 /**
  * Bytes of a state of `epas_linear_t`; as `EPAS_SCREW_STATE_BYTES`.
@@ -901,7 +901,7 @@ extern "C" {
 /**
  * Size of `epas_linear_t` in words of eight bytes.
  */
-#define EPAS_LINEAR_WORDS 318
+#define EPAS_LINEAR_WORDS 286
 
 /**
  * Version of the structures and functions of this header; `epas_abi_version` returns the library's. It rises

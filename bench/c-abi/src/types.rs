@@ -273,7 +273,7 @@ pub struct ScrewRangeConfiguration {
 pub const EPAS_SCREW_STATE_BYTES: u32 = 613u32;
 
 /// Size of `epas_screw_t` in words of eight bytes.
-pub const EPAS_SCREW_WORDS: usize = 319;
+pub const EPAS_SCREW_WORDS: usize = 447;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other, with one friction coefficient; as
 /// `epas_caged_t`.
@@ -291,7 +291,7 @@ pub const EPAS_SCREW_RANGE_NODES: usize = 3;
 pub const EPAS_SCREW_RANGE_STATE_BYTES: u32 = 613u32;
 
 /// Size of `epas_screw_range_t` in words of eight bytes.
-pub const EPAS_SCREW_RANGE_WORDS: usize = 320;
+pub const EPAS_SCREW_RANGE_WORDS: usize = 448;
 
 /// Place for the constants and the state of a ball screw whose balls press on each other and whose friction coefficient changes; as
 /// `epas_caged_t`.
@@ -427,7 +427,7 @@ pub struct LinearOutputs {
 pub const EPAS_LINEAR_STATE_BYTES: u32 = 613u32;
 
 /// Size of `epas_linear_t` in words of eight bytes.
-pub const EPAS_LINEAR_WORDS: usize = 318;
+pub const EPAS_LINEAR_WORDS: usize = 286;
 
 /// Place for the constants and the state of a linear bearing; as `epas_caged_t`.
 #[derive(Clone, Copy, Debug)]
