@@ -104,7 +104,7 @@ impl Curve {
         let stored = table
             .elements
             .map(|element| (f64::from(element.angle), f64::from(element.weight)));
-        let (least, corners) = self.best(N);
+        let (least, _) = self.best(N);
         let error = self.error(&stored);
         let sum: f64 = stored.iter().map(|element| element.1).sum();
         // Derived: rounded to f32 one by one, each by 6e-8 of less than one.

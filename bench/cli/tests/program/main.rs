@@ -183,7 +183,10 @@ fn numbers_below_zero_are_told_their_range() {
     for (arguments, word) in [
         ("simulate --inertia -1", "an inertia is"),
         ("calibrate a.csv --ratio -2", "a ratio is"),
-        ("calibrate a.csv --rated-torque -2e1", "a rated torque in N m is"),
+        (
+            "calibrate a.csv --rated-torque -2e1",
+            "a rated torque in N m is",
+        ),
         (
             "calibrate --wanted nonsense --design lin-4.1",
             "allowed: friction, ",
