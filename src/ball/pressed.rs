@@ -59,20 +59,6 @@ pub struct RowConstants {
     pub half_speed: f32,
 }
 
-/// Friction coefficient times load, N, within what keeps impedances within those of a train.
-#[inline(always)]
-fn sliding_load(friction: FrictionInterval, load: f32) -> f32 {
-    let [least, most] = SLIDING_LOADS;
-    let sliding = friction.friction() * load;
-    if sliding > most {
-        most
-    } else if sliding > least {
-        sliding
-    } else {
-        least
-    }
-}
-
 impl<const NODES: usize> BallLaw<NODES> {
     /// Refuses numbers that are no law.
     ///
@@ -142,7 +128,7 @@ impl<const NODES: usize> BallLaw<NODES> {
     #[must_use]
     pub fn numbers(&self, load: f32, branch: usize, friction: FrictionInterval) -> BallNumbers {
         self.per_sliding(load, branch, friction)
-            .under(sliding_load(friction, load))
+            .under(self.sliding(load, friction))
     }
 
     /// The same over `mu W`.
@@ -192,7 +178,7 @@ impl<const NODES: usize> BallLaw<NODES> {
                 friction.fraction(),
             )
         };
-        let sliding = sliding_load(friction, part * load);
+        let sliding = self.sliding(part * load, friction);
         let ball = BallOfRow {
             speed: motion.speed,
             impedance: motion.impedance,
@@ -269,11 +255,19 @@ impl<const NODES: usize> BallLaw<NODES> {
         )
     }
 
-    /// `mu W` of a ball, N, under a load `W`, N, within what a law counts.
+    /// `mu W` of a ball, N, under a load `W`, N, within what keeps impedances within those of a train.
     #[inline(always)]
     #[must_use]
     pub fn sliding(&self, load: f32, friction: FrictionInterval) -> f32 {
-        sliding_load(friction, load)
+        let [least, most] = SLIDING_LOADS;
+        let sliding = friction.friction() * load;
+        if sliding > most {
+            most
+        } else if sliding > least {
+            sliding
+        } else {
+            least
+        }
     }
 
     /// Whether the torque is accurate by the friction of both neighbours on the ball that is rubbed most, N, and its `mu W`, N: up to 0.3 of it.

@@ -3,7 +3,7 @@
 use super::ball::Ball;
 use super::grip::FreeBall;
 use super::pool::pool;
-use super::settle::{Pressing, Settled, balance, settle};
+use super::settle::{BallState, Pressing, balance, settle};
 use crate::error::{Error, attempt, in_range};
 
 /// Largest free speed that counts, a relative deviation: that of a ball that stands, or runs twice as fast as a nominal one.
@@ -249,7 +249,10 @@ impl<const N: usize> Press<N> {
 
     /// Leaves in all balls their speeds and forces, and passes each on as [`settle`] does.
     #[inline(always)]
-    pub(super) fn settle(&mut self, mut each: impl FnMut(usize, &mut Ball, &Settled)) -> Pressing {
+    pub(super) fn settle(
+        &mut self,
+        mut each: impl FnMut(usize, &mut Ball, &BallState),
+    ) -> Pressing {
         let foremost = self.foremost();
         let balls = self.balls_mut();
         let pressing = settle(balls, foremost, |index, ball, settled| {

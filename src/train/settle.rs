@@ -7,7 +7,7 @@ use super::ball::Ball;
 const ROUNDING: f32 = 1e-6;
 
 /// What a ball does in a tick.
-pub(super) struct Settled {
+pub(super) struct BallState {
     /// Actual speed.
     pub(super) speed: f32,
     /// Force of the ball behind, and the one on the ball in front.
@@ -39,7 +39,7 @@ pub(crate) struct Pressing {
 pub(super) fn settle(
     balls: &mut [Ball],
     foremost: usize,
-    mut each: impl FnMut(usize, &mut Ball, &Settled),
+    mut each: impl FnMut(usize, &mut Ball, &BallState),
 ) -> Pressing {
     let last = balls.len().wrapping_sub(1);
     let mut index = foremost;
@@ -89,7 +89,7 @@ pub(super) fn settle(
                 bits = 0;
             }
         }
-        let settled = Settled {
+        let settled = BallState {
             speed: ball.speed + change,
             behind: f32::from_bits(bits as u32),
             force,

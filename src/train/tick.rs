@@ -4,7 +4,7 @@ use super::ball::Ball;
 use super::grip::FreeBall;
 use super::positions::Train;
 use super::press::InputCheck;
-use super::settle::{Pressing, Settled, settle};
+use super::settle::{BallState, Pressing, settle};
 use super::track::{Motion, SIXTEENTHS, Slacks};
 
 /// What the balls beside one do to it.
@@ -116,7 +116,7 @@ impl<const N: usize> Train<N> {
     fn settle(
         &mut self,
         travel: f32,
-        mut each: impl FnMut(usize, &Ball, &Settled, &mut f32),
+        mut each: impl FnMut(usize, &Ball, &BallState, &mut f32),
     ) -> Pressing {
         let motion = self.motion(travel);
         let foremost = self.press.foremost();
@@ -159,7 +159,7 @@ impl<const N: usize> Train<N> {
 impl Neighbours {
     /// Of a ball, with the part of the force in front that rubs, which then is that of the ball behind.
     #[inline(always)]
-    fn of(ball: &Ball, settled: &Settled, rubs_ahead: &mut f32) -> Self {
+    fn of(ball: &Ball, settled: &BallState, rubs_ahead: &mut f32) -> Self {
         let rubs_behind = ball.rubs() * settled.behind;
         let rubbing = *rubs_ahead + rubs_behind;
         *rubs_ahead = rubs_behind;

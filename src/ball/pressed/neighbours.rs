@@ -1,5 +1,6 @@
 //! What its neighbours change in a ball that they press and rub on.
 
+use super::numbers::{between, blended};
 use crate::error::{Error, attempt, in_range};
 
 /// Knots of a branch for what neighbours change.
@@ -85,8 +86,7 @@ impl NeighbourNumbers {
                 third.towards(other_third, fraction),
             ],
             outward: blended(&self.outward, &others.outward, fraction),
-            outward_torque: self.outward_torque
-                + fraction * (others.outward_torque - self.outward_torque),
+            outward_torque: between(self.outward_torque, others.outward_torque, fraction),
         }
     }
 
@@ -103,16 +103,6 @@ impl NeighbourNumbers {
         attempt!(check("outward_torque", &[self.outward_torque]));
         Ok(())
     }
-}
-
-/// Three numbers, interpolated towards others by a fraction.
-#[inline(always)]
-fn blended([a, b, c]: &[f32; 3], [d, e, f]: &[f32; 3], fraction: f32) -> [f32; 3] {
-    [
-        a + fraction * (d - a),
-        b + fraction * (e - b),
-        c + fraction * (f - c),
-    ]
 }
 
 /// Refuses numbers beyond a size.

@@ -67,21 +67,12 @@ impl BallNumbers {
     /// These numbers, interpolated towards others by a fraction, 0 to 1.
     #[inline(always)]
     pub(super) fn towards(&self, others: &Self, fraction: f32) -> Self {
-        #[inline(always)]
-        fn all<const M: usize>(from: &[f32; M], to: &[f32; M], fraction: f32) -> [f32; M] {
-            let mut all = *from;
-            for (number, to) in all.iter_mut().zip(to) {
-                *number += fraction * (to - *number);
-            }
-            all
-        }
-        let one = |from: f32, to: f32| from + fraction * (to - from);
         Self {
-            free: all(&self.free, &others.free, fraction),
-            impedance: all(&self.impedance, &others.impedance, fraction),
-            torque: all(&self.torque, &others.torque, fraction),
-            slope: one(self.slope, others.slope),
-            work: one(self.work, others.work),
+            free: blended(&self.free, &others.free, fraction),
+            impedance: blended(&self.impedance, &others.impedance, fraction),
+            torque: blended(&self.torque, &others.torque, fraction),
+            slope: between(self.slope, others.slope, fraction),
+            work: between(self.work, others.work, fraction),
         }
     }
 
@@ -179,13 +170,28 @@ impl FreeMotion {
     /// This motion, interpolated towards another by a fraction, 0 to 1.
     #[inline(always)]
     pub(super) fn towards(self, other: Self, fraction: f32) -> Self {
-        let one = |from: f32, to: f32| from + fraction * (to - from);
         Self {
-            speed: one(self.speed, other.speed),
-            impedance: one(self.impedance, other.impedance),
-            torque: one(self.torque, other.torque),
+            speed: between(self.speed, other.speed, fraction),
+            impedance: between(self.impedance, other.impedance, fraction),
+            torque: between(self.torque, other.torque, fraction),
         }
     }
+}
+
+/// A number, interpolated towards another by a fraction.
+#[inline(always)]
+pub(super) fn between(from: f32, to: f32, fraction: f32) -> f32 {
+    from + fraction * (to - from)
+}
+
+/// Numbers, each interpolated towards another.
+#[inline(always)]
+pub(super) fn blended<const M: usize>(from: &[f32; M], to: &[f32; M], fraction: f32) -> [f32; M] {
+    let mut all = *from;
+    for (number, &to) in all.iter_mut().zip(to) {
+        *number = between(*number, to, fraction);
+    }
+    all
 }
 
 /// A polynomial of two deviations.

@@ -166,12 +166,13 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             friction,
         } = state;
         circuit.train.take_in(travel, |index, position| {
-            let found = self.circuit.loaded_ball(position, phase);
-            let (Some(place), Some(loaded)) = (balls.get_mut(index), found) else {
-                if let Some(place) = balls.get_mut(index) {
-                    *place = BallOfRow::UNLOADED;
-                }
-                return FreeBall::smooth(numbers.free[0], UNLOADED);
+            let idle = FreeBall::smooth(numbers.free[0], UNLOADED);
+            let Some(place) = balls.get_mut(index) else {
+                return idle;
+            };
+            let Some(loaded) = self.circuit.loaded_ball(position, phase) else {
+                *place = BallOfRow::UNLOADED;
+                return idle;
             };
             let deviations = [units[0] * loaded.passing, units[1] * loaded.recirculating];
             let part = loaded.run_in;

@@ -78,12 +78,17 @@ pub trait Separable: Sync {
 }
 
 /// The model at values of the nonlinear parameters.
-pub(crate) type Evaluate<'a> = Box<dyn Fn(&[f64]) -> Evaluation + Sync + 'a>;
+pub type Evaluate<'a> = Box<dyn Fn(&[f64]) -> Evaluation + Sync + 'a>;
 
-pub(crate) struct Model<'a> {
+/// A problem of given parts.
+pub struct Model<'a> {
+    /// As [`Separable::nonlinear`].
     pub nonlinear: Vec<Parameter>,
+    /// As [`Separable::linear`].
     pub linear: Vec<LinearParameter>,
+    /// As [`Separable::target`].
     pub target: Vec<f64>,
+    /// As [`Separable::evaluate`].
     pub evaluate: Evaluate<'a>,
 }
 

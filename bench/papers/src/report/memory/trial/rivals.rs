@@ -7,7 +7,7 @@ use epas_friction::Clearance;
 
 use super::gear::Gear;
 use epas_calibrate::bristle::{bristle, stribeck};
-use epas_calibrate::fit::problem::{Evaluation, LinearParameter, Parameter, Scale, Separable};
+use epas_calibrate::fit::problem::{Evaluation, LinearParameter, Model, Parameter, Scale};
 use epas_calibrate::fit::search::fit;
 use epas_calibrate::screw::exact::{Grid, Spacing};
 use epas_calibrate::trace::Trace;
@@ -127,8 +127,7 @@ impl Rival {
 
     /// The model, fitted, over the trace that was not: friction at every tick, N m.
     pub fn tried(self, gear: &Gear) -> Result<Vec<f64>, Failure> {
-        let problem = Fitted::new(self, gear)?;
-        let fit = fit(&problem)?;
+        let fit = fit(&problem(self, gear)?)?;
         let (trace, speed) = &gear.in_loop;
         let course = Course {
             trace,
@@ -178,96 +177,70 @@ fn by_speed(
 }
 
 /// A rival on the measured trace, with the same linear parameters as the crate's calibration.
-struct Fitted<'a> {
-    rival: Rival,
-    gear: &'a Gear,
-    course: Course<'a>,
-    nonlinear: Vec<Parameter>,
-    linear: Vec<LinearParameter>,
-    columns: Vec<Vec<f64>>,
-    target: Vec<f64>,
-}
-
-impl<'a> Fitted<'a> {
-    fn new(rival: Rival, gear: &'a Gear) -> Result<Self, Failure> {
-        let Gear {
-            trace,
-            record,
-            speed,
-            rows,
-            ..
-        } = gear;
-        let target = rows.sums(0, &trace.effort);
-        let reduced_lead = f64::from(gear.design.caged.design.lead()) / TAU;
-        let load: Vec<f64> = trace
-            .load
-            .iter()
-            .flatten()
-            .map(|load| reduced_lead * load)
-            .collect();
-        let wave = |of: fn(f64) -> f64, order: f64| {
-            let angles = record.motion.iter();
-            let wave: Vec<f64> = angles.map(|angle| of(order * angle)).collect();
-            rows.sums(0, &wave)
-        };
-        let columns = vec![
-            ("inertia", rows.sums(2, &record.motion)),
-            ("drag", rows.sums(1, &record.motion)),
-            ("offset", vec![1.0; target.len()]),
-            ("gain", rows.sums(0, &load)),
-            ("harmonic_1_cosine", wave(f64::cos, 1.0)),
-            ("harmonic_1_sine", wave(f64::sin, 1.0)),
-            ("harmonic_2_cosine", wave(f64::cos, 2.0)),
-            ("harmonic_2_sine", wave(f64::sin, 2.0)),
-        ];
-        Ok(Self {
-            rival,
-            gear,
-            course: Course {
-                trace,
-                position: &record.motion,
-                speed,
-                factors: rival.factors(gear, trace)?,
-            },
-            nonlinear: rival.parameters(),
-            linear: columns
-                .iter()
-                .map(|(name, _)| LinearParameter {
-                    name,
-                    unit: "",
-                    // Friction must not hide behind a drag that drives.
-                    low: if matches!(*name, "inertia" | "drag") {
-                        0.0
-                    } else {
-                        f64::NEG_INFINITY
-                    },
-                    high: f64::INFINITY,
-                })
-                .collect(),
-            columns: columns.into_iter().map(|(_, column)| column).collect(),
-            target,
+fn problem(rival: Rival, gear: &Gear) -> Result<Model<'_>, Failure> {
+    let Gear {
+        trace,
+        record,
+        speed,
+        rows,
+        ..
+    } = gear;
+    let target = rows.sums(0, &trace.effort);
+    let reduced_lead = f64::from(gear.design.caged.design.lead()) / TAU;
+    let load: Vec<f64> = trace
+        .load
+        .iter()
+        .flatten()
+        .map(|load| reduced_lead * load)
+        .collect();
+    let wave = |of: fn(f64) -> f64, order: f64| {
+        let angles = record.motion.iter();
+        let wave: Vec<f64> = angles.map(|angle| of(order * angle)).collect();
+        rows.sums(0, &wave)
+    };
+    let columns = vec![
+        ("inertia", rows.sums(2, &record.motion)),
+        ("drag", rows.sums(1, &record.motion)),
+        ("offset", vec![1.0; target.len()]),
+        ("gain", rows.sums(0, &load)),
+        ("harmonic_1_cosine", wave(f64::cos, 1.0)),
+        ("harmonic_1_sine", wave(f64::sin, 1.0)),
+        ("harmonic_2_cosine", wave(f64::cos, 2.0)),
+        ("harmonic_2_sine", wave(f64::sin, 2.0)),
+    ];
+    let course = Course {
+        trace,
+        position: &record.motion,
+        speed,
+        factors: rival.factors(gear, trace)?,
+    };
+    let (linear, columns): (Vec<_>, Vec<_>) = columns
+        .into_iter()
+        .map(|(name, column)| {
+            let parameter = LinearParameter {
+                name,
+                unit: "",
+                // Friction must not hide behind a drag that drives.
+                low: if matches!(name, "inertia" | "drag") {
+                    0.0
+                } else {
+                    f64::NEG_INFINITY
+                },
+                high: f64::INFINITY,
+            };
+            (parameter, column)
         })
-    }
-}
-
-impl Separable for Fitted<'_> {
-    fn nonlinear(&self) -> &[Parameter] {
-        &self.nonlinear
-    }
-
-    fn linear(&self) -> &[LinearParameter] {
-        &self.linear
-    }
-
-    fn target(&self) -> &[f64] {
-        &self.target
-    }
-
-    fn evaluate(&self, values: &[f64]) -> Evaluation {
-        let torque = self.rival.torque(self.gear, values, &self.course);
-        Evaluation {
-            fixed: self.gear.rows.sums(0, &torque),
-            columns: self.columns.clone(),
-        }
-    }
+        .unzip();
+    Ok(Model {
+        nonlinear: rival.parameters(),
+        linear,
+        target,
+        evaluate: Box::new(move |values| {
+            let torque = rival.torque(gear, values, &course);
+            Evaluation {
+                fixed: rows.sums(0, &torque),
+                columns: columns.clone(),
+            }
+        }),
+    })
 }
