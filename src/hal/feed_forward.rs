@@ -109,7 +109,7 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
         Self::new(pwm, configuration)
     }
 
-    /// Puts out the friction torque of a tick.
+    /// Outputs the friction torque of a tick.
     ///
     /// # Errors
     /// The channel's own error.
@@ -117,7 +117,7 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
         self.apply_torque(outputs.friction_torque, outputs.faults)
     }
 
-    /// Puts out the friction torque of a tick of a screw without cage.
+    /// Outputs the friction torque of a tick of a screw without cage.
     ///
     /// # Errors
     /// The channel's own error.
@@ -149,7 +149,7 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
         })
     }
 
-    /// Puts out no torque.
+    /// Outputs no torque.
     ///
     /// # Errors
     /// The channel's own error.
@@ -174,7 +174,7 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
         }
     }
 
-    /// Puts out a torque, -1/2 to 1/2 of the scale.
+    /// Outputs a torque, -1/2 to 1/2 of the scale.
     fn put(&mut self, value: f32) -> Result<u16, PWM::Error> {
         let scale = self.pwm.max_duty_cycle();
         // The cast rounds down and saturates, so that the half rounds to nearest and an uneven scale

@@ -757,7 +757,7 @@ extern "C" {
 #define EPAS_REGIME_LOCKED 3u
 
 /**
- * The speed is NaN or infinite: no friction is put out; in `epas_memory_t` the last sound speed and load stand in.
+ * The speed is NaN or infinite: the friction output is 0; in `epas_memory_t` the last sound speed and load stand in.
  */
 #define EPAS_FAULT_SPEED_NOT_FINITE 1u
 
@@ -814,7 +814,7 @@ extern "C" {
 #define EPAS_FAULT_TEMPERATURE_STALE 1024u
 
 /**
- * The call itself was refused (its status says why): no friction is put out.
+ * The call itself was refused (its status says why): the friction output is 0.
  */
 #define EPAS_FAULT_CALL 2147483648u
 
@@ -1479,7 +1479,7 @@ typedef struct epas_limits_t {
      */
     float axial_load;
     /**
-     * Largest friction torque that is put out, N m, 1e-6 to 1e6.
+     * Largest friction torque output, N m, 1e-6 to 1e6.
      */
     float friction_torque;
 } epas_limits_t;
@@ -1754,7 +1754,7 @@ typedef struct epas_linear_limits_t {
      */
     float load;
     /**
-     * Largest friction force that is put out, N, 1e-6 to 1e6.
+     * Largest friction force output, N, 1e-6 to 1e6.
      */
     float friction_force;
 } epas_linear_limits_t;

@@ -167,7 +167,7 @@ impl PlacedAdaptation {
 }
 
 impl AdaptationOutputs {
-    /// What a refused call puts out: the model as it is.
+    /// Outputs of a refused call: the model as it is.
     pub(crate) const REFUSED: Self = Self {
         forward: 1.0,
         backward: 1.0,

@@ -17,7 +17,7 @@ pub(crate) struct Caged<const NODES: usize>;
 /// `epas_caged_range_t`
 pub(crate) type CagedRange = Caged<EPAS_RANGE_NODES>;
 
-/// What a refused call puts out.
+/// Outputs of a refused call.
 pub(crate) const REFUSED: Outputs = Outputs {
     friction_torque: 0.0,
     load_torque: 0.0,
@@ -34,7 +34,7 @@ pub(crate) fn block<const N: usize>(
     CagedBallScrewConfiguration::read(tables.block.ok_or_else(none)?).map_err(Failure::of_block)
 }
 
-/// What a screw puts out.
+/// Outputs of a screw.
 #[inline]
 pub(crate) fn outputs(outputs: epas_friction::Outputs) -> Outputs {
     Outputs {

@@ -111,7 +111,7 @@ pub(crate) trait CScene: InHeader {
     /// What a tick returns.
     type Outputs: Copy;
 
-    /// What a refused call puts out: no friction, flagged.
+    /// Outputs of a refused call: no friction, flagged.
     const REFUSED: Self::Outputs;
 
     /// The place is large enough; that it is no larger than it has to be is checked from outside.

@@ -24,7 +24,7 @@ pub const EPAS_REGIME_BACK_DRIVING: u32 = 2u32;
 /// No torque moves the load, or the load alone does not sustain the motion.
 pub const EPAS_REGIME_LOCKED: u32 = 3u32;
 
-/// The speed is NaN or infinite: no friction is put out; in `epas_memory_t` the last sound speed and load stand in.
+/// The speed is NaN or infinite: the friction output is 0; in `epas_memory_t` the last sound speed and load stand in.
 pub const EPAS_FAULT_SPEED_NOT_FINITE: u32 = 1u32;
 /// A load is NaN or infinite: as for the speed.
 pub const EPAS_FAULT_LOAD_NOT_FINITE: u32 = 2u32;
@@ -48,7 +48,7 @@ pub const EPAS_FAULT_TEMPERATURE_RANGE: u32 = 256u32;
 pub const EPAS_FAULT_LOAD_STALE: u32 = 512u32;
 /// A temperature is older than it may be: the fallback stands in for it.
 pub const EPAS_FAULT_TEMPERATURE_STALE: u32 = 1024u32;
-/// The call itself was refused (its status says why): no friction is put out.
+/// The call itself was refused (its status says why): the friction output is 0.
 pub const EPAS_FAULT_CALL: u32 = 0x80000000u32;
 
 /// An isotropic elastic material.
@@ -94,7 +94,7 @@ pub struct Limits {
     pub nut_speed: f32,
     /// Largest axial load that is believed, N, 1e-3 to 1e7.
     pub axial_load: f32,
-    /// Largest friction torque that is put out, N m, 1e-6 to 1e6.
+    /// Largest friction torque output, N m, 1e-6 to 1e6.
     pub friction_torque: f32,
 }
 
@@ -349,7 +349,7 @@ pub struct LinearLimits {
     pub speed: f32,
     /// Largest normal and side load that is believed, N, 1e-3 to 1e7.
     pub load: f32,
-    /// Largest friction force that is put out, N, 1e-6 to 1e6.
+    /// Largest friction force output, N, 1e-6 to 1e6.
     pub friction_force: f32,
 }
 

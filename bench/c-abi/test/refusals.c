@@ -97,7 +97,7 @@ static void inputs(void)
     uint32_t ticks = 0u;
 
     (void)test_setup_caged(&caged);
-    check(epas_caged_step(&caged, &bad, &outputs) == EPAS_OK, "an input that is no number is no refusal");
+    check(epas_caged_step(&caged, &bad, &outputs) == EPAS_OK, "an input that is NaN or infinite is no refusal");
     check((outputs.faults == EPAS_FAULT_SPEED_NOT_FINITE) && (outputs.friction_torque == 0.0f),
           "but a fault");
     check((epas_caged_faulted_ticks(&caged, &ticks) == EPAS_OK) && (ticks == 1u), "one faulted tick");
@@ -112,7 +112,7 @@ static void inputs(void)
           "the torque of the limits");
 
     (void)test_setup_linear(&linear);
-    check(epas_linear_step(&linear, &bad_load, &linear_outputs) == EPAS_OK, "a load that is no number");
+    check(epas_linear_step(&linear, &bad_load, &linear_outputs) == EPAS_OK, "a load that is NaN or infinite");
     check((linear_outputs.faults == EPAS_FAULT_LOAD_NOT_FINITE) && (linear_outputs.friction_force == 0.0f),
           "no force, flagged");
 }

@@ -128,7 +128,7 @@ fn setting(text: &str) -> Result<(String, f64), String> {
     let number: f64 = value
         .trim()
         .parse()
-        .map_err(|_| format!("{value} is no number"))?;
+        .map_err(|_| format!("{value} is not a number"))?;
     if !number.is_finite() {
         return Err(format!("{value} is not finite"));
     }

@@ -37,7 +37,7 @@ use made::Made;
 /// For --scene uncaged it may also have screw_deviation and nut_deviation (largest, rad; without, what the maps of [uncaged] reach, at
 /// least 1e-4).
 ///
-/// A closed form (branch = "rolling" or "sliding") is refused, because it needs no fold: simulate --reference compares it with the exact ball. So is a domain over which the torque is not held to
+/// A closed form (branch = "rolling" or "sliding") is refused, because it needs no fold: simulate --reference compares it with the exact ball. So is a domain over which the torque is not accurate to
 /// 3 %: the exit code is 1, and the message says where.
 ///
 /// Firmware without a host needs no fold: built_in("25x5x3.175") of the crate's module scene has the block of any built-in design.

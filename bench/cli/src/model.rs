@@ -63,7 +63,7 @@ impl TickInputs {
     }
 }
 
-/// What a tick puts out; 0 where a scene has no such quantity.
+/// Outputs of a tick; 0 where a scene has no such quantity.
 #[derive(Clone, Copy, Debug)]
 pub struct TickOutputs {
     /// Friction torque of a screw, N m; friction force of a bearing, N.

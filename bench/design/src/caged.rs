@@ -123,7 +123,7 @@ impl CagedFold {
         let [torque] = &certificate.figures;
         if torque.largest > LARGEST_ERROR {
             return Err(Failure::Domain(format!(
-                "the torque over the load is held to {:.1} % only, largest at {:.3} N a ball, friction coefficient {:.4}; narrow the \
+                "the torque over the load is accurate to {:.1} % only, largest at {:.3} N a ball, friction coefficient {:.4}; narrow the \
                  domain there",
                 100.0 * torque.largest,
                 torque.worst_load,

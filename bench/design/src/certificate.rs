@@ -54,7 +54,7 @@ pub struct Figure {
     pub worst_friction: f64,
 }
 
-/// What the step puts out at a state, N m, beside the exact torque.
+/// Outputs of the step at a state, N m, beside the exact torque.
 struct Found {
     torque: f64,
     exact: f64,
@@ -151,7 +151,7 @@ pub fn one_ball<const N: usize>(
     Ok(model)
 }
 
-/// What `step()` puts out under these loads, against the exact torque; and how many of these there are not.
+/// What `step()` outputs under these loads, against the exact torque; and how many of these there are not.
 fn errors<const N: usize>(
     exact: &Exact,
     block: &CagedBallScrewConfiguration<N>,

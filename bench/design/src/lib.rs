@@ -5,7 +5,7 @@
 //! ```
 //!
 //! [`CagedFold`] takes a [`CagedDesign`] and gives a [`Folded`] block: the constants of an
-//! [`epas_friction::scene::CagedBallScrew`], and the error of every torque that it puts out, against the exact solver, on states that were not
+//! [`epas_friction::scene::CagedBallScrew`], and the error of every torque that it outputs, against the exact solver, on states that were not
 //! fitted. The same inputs give the same bits.
 //!
 //! In a `build.rs`, where `gear()` is the design; the firmware then has `include!(concat!(env!("OUT_DIR"), "/gear.rs"));`:

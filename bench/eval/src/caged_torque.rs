@@ -132,7 +132,7 @@ impl Request {
         }
     }
 
-    /// What a step puts out under each load; none where the clearance is not one of the crate's, or the design cannot be folded.
+    /// Outputs of a step under each load; none where the clearance is not one of the crate's, or the design cannot be folded.
     fn in_loop(&self) -> Result<Torques, BadField> {
         const NONE: Torques = Torques { torque: None };
         let design = self

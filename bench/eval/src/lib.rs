@@ -160,7 +160,7 @@ pub use train::ScrewNumbers;
 /// answer, the list holds null. Where two torques are exact, because a contact opens later than it closes, it is that under a falling load.
 /// Under no load the torque is 0, or that of the preload.
 ///
-/// in_loop of caged_torque is what a step of the scene CagedBallScrew puts out, with a block folded for the request: over 5 to
+/// in_loop of caged_torque is what a step of the scene CagedBallScrew outputs, with a block folded for the request: over 5 to
 /// 300 N a ball, or the range of the list where that is wider (from 0.01 N).
 ///
 /// It is null for a clearance outside -0.02 to 0.05 ball radii, and for a design that cannot be folded. A request takes about a

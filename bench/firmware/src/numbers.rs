@@ -52,7 +52,7 @@ pub fn adapted(adapted: &Adapted) -> [f32; 8] {
     ]
 }
 
-/// What a caged ball screw puts out, as numbers.
+/// Outputs of a caged ball screw, as numbers.
 pub fn outputs(outputs: &Outputs) -> [f32; 4] {
     [
         outputs.friction_torque,
@@ -62,7 +62,7 @@ pub fn outputs(outputs: &Outputs) -> [f32; 4] {
     ]
 }
 
-/// What a ball screw without cage puts out, as numbers.
+/// Outputs of a ball screw without cage, as numbers.
 pub fn uncaged_outputs(outputs: &UncagedOutputs) -> [f32; 7] {
     [
         outputs.friction_torque,
@@ -75,7 +75,7 @@ pub fn uncaged_outputs(outputs: &UncagedOutputs) -> [f32; 7] {
     ]
 }
 
-/// What a linear bearing puts out, as numbers.
+/// Outputs of a linear bearing, as numbers.
 pub fn linear_outputs(outputs: &LinearOutputs) -> [f32; 7] {
     [
         outputs.friction_force,

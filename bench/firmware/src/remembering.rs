@@ -146,7 +146,7 @@ pub fn pressing(mut model: FrictionModel<Gear>) -> FrictionModel<Gear> {
     model
 }
 
-/// The encoder's count after a time, s, at a speed, rad/s; a speed that is no number leaves it where it is.
+/// The encoder's count after a time, s, at a speed, rad/s; a speed that is NaN or infinite leaves it where it is.
 #[must_use]
 pub fn counted_on(count: u32, nut_speed: f32, time: f32) -> u32 {
     const PER_RADIAN: f32 = COUNTS as f32 / core::f32::consts::TAU;

@@ -26,7 +26,7 @@ enum Kind {
     /// A value.
     #[default]
     Value,
-    /// What is no number.
+    /// What is not a number.
     Type,
     /// Arrays that do not fit to each other.
     Shape,
@@ -116,7 +116,7 @@ impl Refused {
         this
     }
 
-    /// An argument that is no number.
+    /// An argument that is not a number.
     pub fn type_of(field: &str, message: impl Into<String>) -> Self {
         let mut this = Self::value(field, message);
         this.0.kind = Kind::Type;

@@ -174,7 +174,7 @@ fn functions([folder, small]: [&Path; 2]) -> Result<(Vec<FunctionFigures>, Vec<S
     Ok((figures, counts.broken))
 }
 
-/// Longest paths of an image's functions, then counts that are held to the limits on which they rest.
+/// Longest paths of an image's functions, then counts, checked against the limits on which they rest.
 fn bounded(path: &Path) -> Result<(Vec<Result<u32, String>>, Counts), Failure> {
     let counted = Counted::of(path)?;
     let longest = longest(path, &counted.addresses)?;

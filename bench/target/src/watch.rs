@@ -1,4 +1,4 @@
-//! Limits that counted calls are held to: those on which a longest path rests.
+//! Limits of counted calls: those on which a longest path rests.
 
 use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;

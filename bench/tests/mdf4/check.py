@@ -190,7 +190,7 @@ def names():
     nan = load.copy()
     nan[17] = np.nan
     _, err = simulated(measurement("nan.mf4", [*speeds, signal("axial_load", nan, time, "N")]))
-    assert "channel axial_load: 1 of 500 samples are marked invalid or are no numbers" in err, err
+    assert "channel axial_load: 1 of 500 samples are marked invalid or are NaN or infinite" in err, err
     refused(*command, FOLDER / "mapped.csv", "--channels", mapping, word="is a table")
     print("names: mapping with group and unit; missing, twice, without unit, with one that does not convert; NaN is missing")
 

@@ -41,18 +41,18 @@ pub fn no_number(text: &[u8]) -> &'static str {
             .all(|letter| letter.is_ascii_digit() || letters.contains(letter))
     };
     if text.contains(&b',') && only(b",-+eE") {
-        "is no number: a decimal point is needed in place of the comma"
+        "is not a number: a decimal point is needed in place of the comma"
     } else if text.contains(&b',') && only(b",.-+eE") {
-        "is no number: no commas between thousands"
+        "is not a number: no commas between thousands"
     } else if text.starts_with("\u{2212}".as_bytes()) {
-        "is no number: a hyphen is needed in place of the minus sign"
+        "is not a number: a hyphen is needed in place of the minus sign"
     } else if text.first().is_some_and(u8::is_ascii_digit)
         && text.iter().any(|letter| b":-".contains(letter))
         && only(b"-:.TZ +")
     {
-        "is no number: a date or a clock's time; seconds are needed"
+        "is not a number: a date or a clock's time; seconds are needed"
     } else {
-        "is no number"
+        "is not a number"
     }
 }
 
@@ -60,7 +60,7 @@ pub fn no_number(text: &[u8]) -> &'static str {
 mod tests {
     use super::no_number;
 
-    /// What a spreadsheet writes is named; what is no number at all is not guessed at.
+    /// What a spreadsheet writes is named; what is not a number at all is not guessed at.
     #[test]
     fn what_is_no_number_says_what_is_needed() {
         for (text, words) in [
@@ -74,7 +74,7 @@ mod tests {
             assert!(said.contains(words), "{text}: {said}");
         }
         for text in ["-", "", "abc", "1e5x", "--5"] {
-            assert_eq!(no_number(text.as_bytes()), "is no number");
+            assert_eq!(no_number(text.as_bytes()), "is not a number");
         }
     }
 }

@@ -153,7 +153,9 @@ pub fn check_names(wanted: &Wanted) -> Result<(), Failure> {
             return Err(unknown(name));
         }
         if !value.is_finite() {
-            return Err(Failure::Data(format!("{name} = {value} is no number")));
+            return Err(Failure::Data(format!(
+                "{name} = {value} is NaN or infinite"
+            )));
         }
     }
     Ok(())

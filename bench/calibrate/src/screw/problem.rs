@@ -245,7 +245,7 @@ impl<'a> ScrewProblem<'a> {
         let mut values = self.values;
         let parameters = self.nonlinear.iter().zip(&self.parameters);
         for ((of, Parameter { low, high, .. }), value) in parameters.zip(nonlinear) {
-            // What is no number becomes the low bound.
+            // What is NaN or infinite becomes the low bound.
             *(of.of)(&mut values) = value.max(*low).min(*high);
         }
         let free = self.terms.iter().filter(|term| term.estimated);

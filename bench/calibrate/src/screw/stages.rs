@@ -435,7 +435,7 @@ fn few() -> Failure {
     Failure::Data("too few rows of one direction for what is estimated: measure longer, or with longer strokes".into())
 }
 
-/// A problem linearised at values. `None` where a slope is no number.
+/// A problem linearised at values. `None` where a slope is NaN or infinite.
 pub fn linearised(problem: &ScrewProblem<'_>, values: &Values) -> Option<Linearised> {
     let (nonlinear, linear) = problem.coordinates(values);
     let columns = slopes(problem, &nonlinear, &linear);

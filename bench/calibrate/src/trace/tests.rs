@@ -393,7 +393,7 @@ fn what_cannot_be_read_is_refused_with_its_cause() {
         (refused(&of("time,position,motor_force,temperature", "t,1,1,20")), "temperature_C"),
         (refused(&of(plain, "t,NaN,1")), "column position: it has fewer than two numbers"),
         (refused(&of(plain, "t,-inf,1")), "is not finite"),
-        (refused(&of(plain, "t,-,1")), "is no number"),
+        (refused(&of(plain, "t,-,1")), "is not a number"),
         (refused(&of(plain, "t,1e39,1")), "float32"),
         (refused(&of(plain, "t,1")), "line 2: 2 columns"),
         (refused(&of(plain, "-t,1,1")), "line 3: time goes back"),

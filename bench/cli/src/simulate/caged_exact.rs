@@ -21,7 +21,7 @@ const SPAN: f64 = 1e4;
 const NAMED: usize = 3;
 
 /// Friction torque over the load, between loads for which one ball is solved exactly: within 2e-4 where no contact opens
-/// between two of them. Where a load has no solution, friction is no number from the load below it to the one above.
+/// between two of them. Where a load has no solution, friction is NaN or infinite from the load below it to the one above.
 pub struct ExactCaged {
     /// Loads, N, from the smallest, with the friction torque, N m, of one that opposes the motion and of one that assists it; no number
     /// where the solver does not converge.

@@ -229,7 +229,7 @@ impl Wanted {
     }
 }
 
-/// Smallest and largest of the loads above zero; what is no number is none.
+/// Smallest and largest of the loads above zero; what is NaN or infinite is none.
 fn ends(loads: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
     loads.filter(|load| *load > 0.0).fold(None, |ends, load| {
         let [least, most] = ends.unwrap_or([load, load]);

@@ -23,7 +23,7 @@ const fn count(name: &'static str, comment: &'static str) -> Described {
 /// Words of [`super::summary::regime_name`].
 const REGIMES: &[&str] = &["standing", "driving", "back-driving", "locked"];
 
-/// Every column that a scene or a mechanism puts out, whose unit is the same in all of them.
+/// Every column of a scene or a mechanism, whose unit is the same in all of them.
 const COLUMNS: &[Described] = &[
     number("time", "s", "time"),
     number("nut_speed", "rad/s", "speed of the nut"),

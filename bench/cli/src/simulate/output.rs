@@ -23,7 +23,7 @@ pub fn write_table(
     let mut table = csv::Writer::from_writer(writer);
     table.write_record(columns).map_err(failure)?;
     for row in rows {
-        // What is no number is left open, as spreadsheets and data frames read it.
+        // What is NaN or infinite is left open, as spreadsheets and data frames read it.
         let cells = row.iter().map(|cell| if cell == "NaN" { "" } else { cell });
         table.write_record(cells).map_err(failure)?;
     }

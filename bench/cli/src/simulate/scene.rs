@@ -18,7 +18,7 @@ pub struct Row<S> {
     pub sample: S,
     /// Temperature of the tick, K.
     pub temperature: f32,
-    /// What the scene puts out.
+    /// Outputs of the scene.
     pub outputs: TickOutputs,
     /// Balls that press on the one in front, one bit each.
     pub pressing: u64,
@@ -53,21 +53,21 @@ impl<S: Sample> Row<S> {
 /// A column of outputs: its name, and its text by the outputs of a tick and the motion since the first sample.
 pub type Column = (&'static str, fn(&TickOutputs, f64) -> String);
 
-/// What every ball screw puts out.
+/// Outputs of every ball screw.
 pub const OF_SCREW: [Column; 3] = [
     ("friction_torque", |outputs, _| outputs.friction.to_string()),
     ("load_torque", |outputs, _| outputs.load_torque.to_string()),
     ("efficiency", |outputs, _| outputs.efficiency.to_string()),
 ];
 
-/// What every scene puts out.
+/// Outputs of every scene.
 pub const OF_EVERY: [Column; 3] = [
     ("regime", |outputs, _| regime_name(outputs.regime).into()),
     ("faults", |outputs, _| outputs.faults.bits().to_string()),
     ("fault_words", |outputs, _| flags::words(outputs.faults)),
 ];
 
-/// What every row of balls puts out.
+/// Outputs of every row of balls.
 pub const OF_ROW: [Column; 4] = [
     ("groove_friction", |outputs, _| outputs.groove.to_string()),
     ("ball_friction", |outputs, _| outputs.ball.to_string()),

@@ -126,7 +126,7 @@ fn a_new_file_is_there_to_start_from() {
 
 /// A catalogue's preload of the nut is none of a contact, two keys are refused, and so is a clearance that crushes the balls.
 #[test]
-fn absurd_fits_are_refused_with_a_word() {
+fn extreme_fits_are_refused_with_a_word() {
     let place = tempfile::tempdir().unwrap();
     let text = fs::read_to_string(designs().join("rack-29x7.toml")).unwrap();
     for (key, words) in [

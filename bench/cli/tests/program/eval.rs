@@ -92,7 +92,7 @@ pub fn number(value: &Value) -> f64 {
         Value::String(text) => text.parse().unwrap(),
         other => other
             .as_f64()
-            .unwrap_or_else(|| panic!("{other} is no number")),
+            .unwrap_or_else(|| panic!("{other} is not a number")),
     }
 }
 

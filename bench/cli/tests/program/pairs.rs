@@ -80,7 +80,7 @@ fn stored_pairs() {
         ] {
             let sum: f64 = (0..2).map(|i| number(&case[stored][i])).sum();
             assert!(relative(&reference[name], sum) < 2e-8, "{case}: {answer}");
-            // No block is written whose rows of balls are not held to 3 %.
+            // No block is written whose rows of balls are not accurate to 3 %.
             assert!(relative(&in_loop[name], sum) < 0.03, "{case}: {answer}");
         }
         assert!(in_loop["loads"].is_null() && in_loop["flagged"].is_boolean());

@@ -79,7 +79,7 @@ fn a_line_that_never_ends_is_not_kept() {
 }
 
 #[test]
-fn hostile_traces_are_refused() {
+fn invalid_traces_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let header = "time,nut_speed,axial_load\n";
     for (name, text) in [

@@ -75,7 +75,7 @@ enum Done {
     Nothing,
     /// A key has another number.
     Number(&'static str, String),
-    /// A key has what is no number.
+    /// A key has what is not a number.
     Type(&'static str),
     Key(String),
     /// A key that is needed is missing.
@@ -105,7 +105,7 @@ const TYPES: [&str; 7] = [
 ];
 
 /// A number that is wrong, at a border, or in another unit.
-fn hostile(value: &str, choice: usize) -> String {
+fn spoiled(value: &str, choice: usize) -> String {
     let number: f64 = value.parse().unwrap_or(1.0);
     let scaled = |factor: f64| format!("{:e}", number * factor);
     match choice {
@@ -149,7 +149,7 @@ fn file(number: u32) -> (String, Done) {
     let done = match kind {
         0 | 1 => Done::Nothing,
         2..=5 if single(&lines) => {
-            let value = hostile(&lines[place].2, below(16));
+            let value = spoiled(&lines[place].2, below(16));
             lines[place].2.clone_from(&value);
             Done::Number(key, value)
         }

@@ -204,7 +204,7 @@ fn friction_opposes_motion() {
 
 /// Whatever comes in, what goes out is finite and flagged.
 #[test]
-fn absurd_inputs_are_flagged() {
+fn extreme_inputs_are_flagged() {
     let mut model = One::new(&one(&STEERING)).unwrap();
     for wrong in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         let speed = model.step(Inputs {

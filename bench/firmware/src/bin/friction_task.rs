@@ -48,7 +48,7 @@ static SLOW: TryLock<Option<SlowTask>> = TryLock::new(None);
 static READING: Mutex<Cell<Reading>> = Mutex::new(Cell::new(Reading::NONE));
 static TORQUE: AtomicU32 = AtomicU32::new(0);
 
-/// From the friction task to the current loop: ticks so far, and how torque is put out.
+/// From the friction task to the current loop: ticks so far, and how torque is output.
 static STEPS_DONE: AtomicU32 = AtomicU32::new(0);
 static REACTION: Mutex<Cell<ReactionParameters>> =
     Mutex::new(Cell::new(ReactionParameters::of(&Calibration::REFERENCE)));

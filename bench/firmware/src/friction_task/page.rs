@@ -29,7 +29,7 @@ table! {
         breakaway_angle: f32, "rad", 0.0005 to 0.05;
         /// Reversal: half width of the play that keeps the noise of the encoder from the friction
         angle_play: f32, "rad", 0.0001 to 0.01;
-        /// Share of the friction torque that the motor puts out
+        /// Share of the friction torque that the motor outputs
         share: f32, "", 0.0 to 0.95;
         /// Age up to which a rack force counts as it is
         load_hold: f32, "s", 0.001 to 0.1;
@@ -45,7 +45,7 @@ table! {
         torque_hold: f32, "s", 0.0 to 0.05;
         /// Time after that in which the torque fades to none, and in which it comes back
         torque_fade: f32, "s", 0.02 to 1.0;
-        /// Fastest change of the torque that is put out
+        /// Fastest change of the torque output
         torque_slew: f32, "N m/s", 10.0 to 5_000.0;
         /// Least friction level that the adaptation may set
         least_level: f32, "", 0.1 to 1.0;

@@ -3,10 +3,10 @@
 use super::FAST_TICK;
 use super::page::Calibration;
 
-/// How the torque is put out.
+/// How the torque is output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ReactionParameters {
-    /// Share of the friction torque that is put out, 0 to 0.95.
+    /// Share of the friction torque that is output, 0 to 0.95.
     pub share: f32,
     /// Time for which a torque stays that is not renewed, s.
     pub hold: f32,
@@ -29,7 +29,7 @@ impl ReactionParameters {
     }
 }
 
-/// The torque that is put out, with what it remembers from tick to tick.
+/// The torque output, with what it remembers from tick to tick.
 ///
 /// A value at its limit (load, speed, friction) is no reason to take the torque away: that would drop it where it is largest.
 /// Only where nobody knows which way the nut turns, or the friction task has stopped, the torque is held for a while and fades then.
@@ -39,9 +39,9 @@ pub struct Reaction {
     friction: f32,
     /// Time since it was known, s.
     missing: f32,
-    /// Part that is put out, 0 to 1.
+    /// Share of the torque that is output, 0 to 1.
     part: f32,
-    /// What is put out, N m.
+    /// The torque output, N m.
     torque: f32,
 }
 

@@ -26,7 +26,7 @@ pub struct Message {
 struct Aged(Message);
 
 impl Aged {
-    /// A tick, with or without a message. A value that is no number is no message.
+    /// A tick, with or without a message. A value that is NaN or infinite is no message.
     fn tick(&mut self, message: Option<Message>) -> Message {
         match message {
             Some(message) if message.value.is_finite() => self.0 = message,
@@ -213,7 +213,7 @@ impl SlowTask {
         self.level = adapted.estimates.level();
     }
 
-    /// What the task shows to a tool, with the torque that is put out and what was found of the calibration page.
+    /// What the task shows to a tool, with the torque output and what was found of the calibration page.
     #[must_use]
     pub fn measured(&self, torque: f32, page: &PageReport) -> Measured {
         let level = gear::bounded(self.level, &self.calibration);

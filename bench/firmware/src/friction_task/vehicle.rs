@@ -21,7 +21,7 @@ pub enum Event {
     LongGap,
     /// The last temperature is nearly a minute old, and none comes after it.
     NoTemperature,
-    /// A rack force that is no number, no angle for a millisecond.
+    /// A rack force that is NaN or infinite, no angle for a millisecond.
     Broken,
 }
 

@@ -116,7 +116,7 @@ impl ColourMap {
             })
     }
 
-    /// Index of the band of a value; none where it is no number.
+    /// Index of the band of a value; none where it is NaN or infinite.
     fn band(&self, value: f64) -> Option<usize> {
         (!value.is_nan()).then(|| {
             self.bounds

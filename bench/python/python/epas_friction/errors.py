@@ -10,7 +10,7 @@ class Error(ValueError):
 
     Attributes:
         field: name of the argument, or of the key in a design; ``None`` where no single one is to blame.
-        value: the value found, in the field's own unit; ``None`` where it is no number.
+        value: the value found, in the field's own unit; ``None`` where it is not a number.
         range: smallest and largest allowed value; ``None`` where the reason is another.
         index: place in the broadcast arrays; ``None`` outside arrays.
     """
@@ -40,7 +40,7 @@ class Error(ValueError):
 
 
 class NumberTypeError(Error, TypeError):
-    """An argument that is no number and no array of numbers."""
+    """An argument that is not a number and no array of numbers."""
 
 
 class ShapeError(Error):

@@ -205,7 +205,7 @@ class FrictionMap:
 
 
 class Outputs(NamedTuple):
-    """What a ball screw puts out at one tick.
+    """Outputs of a ball screw at one tick.
 
     Attributes:
         friction_torque: torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign of the speed; with
@@ -226,7 +226,7 @@ class Outputs(NamedTuple):
 
 @dataclass(frozen=True)
 class Run(_Flagged):
-    """What a ball screw puts out over a trace of ``n`` samples; every array has the shape ``(n,)``.
+    """Outputs of a ball screw over a trace of ``n`` samples; every array has the shape ``(n,)``.
 
     Attributes:
         friction_torque: torque about the nut's axis that the motor has to add to overcome friction, N m, with the sign of the speed; with
@@ -246,7 +246,7 @@ class Run(_Flagged):
 
 
 class UncagedOutputs(NamedTuple):
-    """What a ball screw whose balls press on each other puts out at one tick.
+    """Outputs of a ball screw whose balls press on each other at one tick.
 
     Attributes:
         friction_torque: the sum of the next two within its limit, N m, with the sign of the speed; with memory the
@@ -272,7 +272,7 @@ class UncagedOutputs(NamedTuple):
 
 @dataclass(frozen=True)
 class UncagedRun(_Flagged):
-    """What a ball screw whose balls press on each other puts out over a trace; every array has the shape ``(n,)``.
+    """Outputs of a ball screw whose balls press on each other over a trace; every array has the shape ``(n,)``.
 
     Attributes:
         friction_torque: the sum of the next two within its limit, N m, with the sign of the speed; with memory the
@@ -297,7 +297,7 @@ class UncagedRun(_Flagged):
 
 
 class LinearOutputs(NamedTuple):
-    """What a linear bearing puts out at one tick.
+    """Outputs of a linear bearing at one tick.
 
     Attributes:
         friction_force: the sum of the next two within its limit, N, with the sign of the speed; with memory the
@@ -321,7 +321,7 @@ class LinearOutputs(NamedTuple):
 
 @dataclass(frozen=True)
 class LinearRun(_Flagged):
-    """What a linear bearing puts out over a trace; every array has the shape ``(n,)``.
+    """Outputs of a linear bearing over a trace; every array has the shape ``(n,)``.
 
     Attributes:
         friction_force: the sum of the next two within its limit, N, with the sign of the speed; with memory the

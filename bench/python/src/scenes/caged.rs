@@ -310,7 +310,7 @@ pub fn restored_caged(
 ///     FoldedDesign: the block's bytes, and its certificate.
 ///
 /// Raises:
-///     Error: what cannot be folded, or a domain over which the torque is not held to 3 %, with the place.
+///     Error: what cannot be folded, or a domain over which the torque is not accurate to 3 %, with the place.
 #[pyfunction]
 #[pyo3(signature = (design, *, friction_range=None, axial_load=None, seed=None))]
 pub fn fold_design<'py>(

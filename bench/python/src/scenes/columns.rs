@@ -1,4 +1,4 @@
-//! What scenes put out over a trace, as one list for each name.
+//! Outputs of scenes over a trace, as one list for each name.
 
 use epas_cli::bindings::TickOutputs;
 use epas_friction::Regime;

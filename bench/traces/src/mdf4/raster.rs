@@ -105,7 +105,7 @@ fn valid_rows(samples: &Samples, name: &str, notes: &mut Vec<String>) -> Result<
         return Ok(vec![true; all]);
     }
     let said = format!(
-        "channel {}: {invalid} of {all} samples are marked invalid or are no numbers",
+        "channel {}: {invalid} of {all} samples are marked invalid or are NaN or infinite",
         cut(name)
     );
     if invalid as f64 > MOST_INVALID * all as f64 {

@@ -120,7 +120,7 @@ fn time_unit(file: &File, group: &Group) -> Result<Unit, String> {
     })
 }
 
-/// Values in SI units, those that are valid within the range of f32. What is no number counts as invalid.
+/// Values in SI units, those that are valid within the range of f32. What is NaN or infinite counts as invalid.
 fn in_si(mut samples: Samples, unit: Unit, name: &str) -> Result<Samples, String> {
     let mut missing = Vec::new();
     for (sample, value) in samples.values.iter_mut().enumerate() {

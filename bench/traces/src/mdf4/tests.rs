@@ -264,7 +264,7 @@ fn any_file_cut_off_or_changed_is_read_or_refused() {
     }
 }
 
-/// A sample that is no number is left out with its row.
+/// A sample that is NaN or infinite is left out with its row.
 #[test]
 fn no_number_is_a_missing_sample() {
     for (place, rows) in [(1, 99), (2, 99)] {
@@ -288,7 +288,7 @@ fn no_number_is_a_missing_sample() {
                 .all(|column| column.values.iter().all(|x| x.is_finite()))
         );
         assert!(
-            table.notes[0].contains("are no numbers"),
+            table.notes[0].contains("are NaN or infinite"),
             "{:?}",
             table.notes
         );

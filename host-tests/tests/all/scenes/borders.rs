@@ -99,7 +99,7 @@ fn back_driving_ends_where_the_efficiency_does() {
     });
     let (turned, held) = (lowered(turns), lowered(holds));
     assert!(turned.regime == Regime::BackDriving && turned.efficiency > 0.0);
-    // The regime is that of the full friction; what is put out is less by the passage through standstill, w_s^2 / 2 w^2.
+    // The regime is that of the full friction; the output is less by the passage through standstill, w_s^2 / 2 w^2.
     assert!(held.efficiency < 1e-3);
     assert!(
         turned.efficiency - held.efficiency < 3.6e-7,

@@ -600,8 +600,8 @@ fn every_scale_is_kept() {
 }
 
 proptest::proptest! {
-    /// Whatever the model puts out, the duty stays within the authority about the middle, and is neutral
-    /// where a flag asks for it or the torque is no number.
+    /// Whatever the model outputs, the duty stays within the authority about the middle, and is neutral
+    /// where a flag asks for it or the torque is NaN or infinite.
     #[test]
     fn the_authority_bounds_every_duty(
         bits: u32,

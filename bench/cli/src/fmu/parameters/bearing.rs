@@ -34,7 +34,7 @@ pub fn of_bearing(design: &LinearDesign) -> Vec<Variable> {
     let reversal = "speed over which friction changes its direction, 1e-9 to 10";
     let speed = "largest speed that is believed, 1e-6 to 1e3";
     let load = "largest normal and side load that is believed, 1e-3 to 1e7";
-    let force = "largest friction force that is put out, 1e-6 to 1e6";
+    let force = "largest friction force output, 1e-6 to 1e6";
     list(
         &mut l,
         [

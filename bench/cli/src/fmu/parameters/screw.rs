@@ -83,7 +83,7 @@ impl Common {
         } = self.limits;
         let speed = "largest nut speed that is believed, 1e-3 to 1e6";
         let load = "largest axial load that is believed, 1e-3 to 1e7";
-        let torque = "largest friction torque that is put out, 1e-6 to 1e6";
+        let torque = "largest friction torque output, 1e-6 to 1e6";
         list(
             l,
             [

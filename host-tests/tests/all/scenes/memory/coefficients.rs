@@ -112,7 +112,7 @@ fn coefficients_beyond_the_scene_are_refused() {
     assert_ne!(*model.state(), before);
 }
 
-/// Full friction in a direction is what the scene puts out where all of it passes that way: grooves go with their direction's coefficient, and
+/// Full friction in a direction is what the scene outputs where all of it passes that way: grooves go with their direction's coefficient, and
 /// balls press in the direction in which they go.
 #[test]
 fn full_friction_is_what_passes_in_its_direction() {

@@ -430,7 +430,7 @@ fn random_blocks_are_refused_or_harmless() {
                 }
                 let mut block = vec![0; FrictionModel::<S>::STATE_BYTES];
                 if let Err(refusal) = model.export(&mut block) {
-                    // Under some hundred kN on a ball its place is no number until the load falls.
+                    // Under some hundred kN on a ball its place is NaN or infinite until the load falls.
                     let state = format!("{:?}", model.state());
                     assert!(state.contains("NaN"), "{refusal}: {state}");
                     lost += 1;

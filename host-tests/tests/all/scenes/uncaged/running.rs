@@ -184,7 +184,7 @@ fn invalid_inputs_are_flagged_and_leave_no_trace() {
         );
         assert!(output.friction_torque.abs() <= 50.0 && output.largest_contact_force.is_finite());
     }
-    // The torque limit holds and says so; parts are put out as they are.
+    // The torque limit holds and says so; parts are output as they are.
     let full = configuration(1.0);
     let tight = UncagedBallScrewConfiguration {
         folded: changed(full.folded, |folded| {

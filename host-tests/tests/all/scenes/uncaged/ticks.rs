@@ -79,7 +79,7 @@ impl<const NODES: usize> Case<NODES> {
     }
 }
 
-/// All ticks of some cases. In each event by itself the ticks are held to what is accepted of all: none is worse than the whole.
+/// All ticks of some cases. In each event by itself the ticks are within what is accepted of all: none is worse than the whole.
 ///
 /// Where two balls meet within a tick the crate lets them press with the part of their force that the tick has left, and the exact ring, which
 /// stands where the tick begins, not at all: these ticks count by themselves, and their share is printed.
