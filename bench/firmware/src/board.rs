@@ -8,9 +8,11 @@ use core::mem::MaybeUninit;
 
 use cortex_m::peripheral::scb::SystemHandler;
 use cortex_m::peripheral::{DWT, SCB};
+pub use cortex_m_rt::entry;
 use cortex_m_semihosting::debug::{self, EXIT_FAILURE, EXIT_SUCCESS};
 use cortex_m_semihosting::hio::{HostStream, hstdout};
 
+use crate::check::Screen;
 use crate::scenes::{Digest, Run, TICKS, course};
 
 /// The host's screen, through the debugger.
@@ -26,31 +28,9 @@ impl Console {
             stream: hstdout().ok(),
         }
     }
+}
 
-    /// Writes a text.
-    pub fn text(&mut self, text: &str) {
-        self.bytes(text.as_bytes());
-    }
-
-    /// Writes a number in decimals.
-    #[inline(never)]
-    pub fn number(&mut self, number: u32) {
-        let mut left = number;
-        let mut digits = [0; 10];
-        let mut written = 0;
-        for digit in digits.iter_mut().rev() {
-            *digit = b'0' + (left % 10) as u8;
-            left /= 10;
-            written += 1;
-            if left == 0 {
-                break;
-            }
-        }
-        if let Some(digits) = digits.get(digits.len() - written..) {
-            self.bytes(digits);
-        }
-    }
-
+impl Screen for Console {
     #[inline(never)]
     fn bytes(&mut self, bytes: &[u8]) {
         if let Some(stream) = &mut self.stream {

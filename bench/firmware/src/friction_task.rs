@@ -25,7 +25,7 @@ pub mod table;
 pub mod vehicle;
 pub mod watch;
 
-#[cfg(target_arch = "arm")]
+#[cfg(all(target_arch = "arm", not(target_has_atomic = "64")))]
 pub mod memory;
 
 /// Time between two ticks of the current loop, s.

@@ -6,6 +6,7 @@
 //! by name what it counts.
 
 pub mod cases;
+pub mod check;
 pub mod contexts;
 pub mod control_loop;
 pub mod counted;
@@ -28,7 +29,11 @@ pub mod scenes;
 pub mod spread;
 pub mod subjects;
 
-#[cfg(target_arch = "arm")]
+// Cortex-M has no atomic operations of 64 bits, Cortex-R has.
+#[cfg(all(target_arch = "arm", not(target_has_atomic = "64")))]
+pub mod board;
+#[cfg(all(target_arch = "arm", target_has_atomic = "64"))]
+#[path = "board_cortex_r.rs"]
 pub mod board;
 #[cfg(target_arch = "arm")]
 mod panic;

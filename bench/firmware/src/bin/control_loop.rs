@@ -9,6 +9,7 @@ use cortex_m::interrupt::{Mutex, free};
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_rt::{entry, exception};
 use epas_firmware::board::{Console, clock, finish};
+use epas_firmware::check::Screen as _;
 use epas_firmware::control_loop::{ControlLoop, RECORDED};
 
 /// Clock of the core, Hz: that of the reference board, or of the board at hand.

@@ -15,6 +15,7 @@ use cortex_m::peripheral::SCB;
 use cortex_m::peripheral::syst::SystClkSource;
 use cortex_m_rt::{entry, exception};
 use epas_firmware::board::{Console, finish, give_pend_sv_the_lowest_priority};
+use epas_firmware::check::Screen as _;
 use epas_firmware::friction_task::fast::FastTask;
 use epas_firmware::friction_task::gear::Gear;
 use epas_firmware::friction_task::judge::Judge;
