@@ -1,6 +1,5 @@
-//! The law of one ball, solved on a host and folded into constants: friction torque over its load.
-//!
-//! The control interrupt evaluates it: one logarithm, one search among eight parts, one cubic.
+//! The law of one ball, solved on a host and folded into constants: friction torque over its load by one logarithm, one search among
+//! eight parts, one cubic.
 
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
@@ -15,12 +14,11 @@ const SAME_FRICTION: f32 = 1e-3;
 const BIAS: u32 = 127;
 const MANTISSA: u32 = 23;
 
-/// Coefficients of `log2(1 + m)` by the powers 1 to 4 of `m`: value and slope are continuous where the exponent changes (they add up to 1, and
-/// the slope at 0 is twice that at 1); of the two that this leaves free the error is least.
+/// Coefficients of `log2(1 + m)` by the powers 1 to 4 of `m`, of least error where value and slope are continuous where the exponent
+/// changes (they add up to 1, and the slope at 0 is twice that at 1).
 const LOGARITHM: [f32; 4] = [1.438_308_4, -0.674_842_3, 0.315_605_3, -0.079_071_4];
 
-/// `log2(x) + 127` of a positive number, within 1.3e-4: the biased exponent and a polynomial of the mantissa. Value and slope are continuous.
-/// 0 gives 0.
+/// `log2(x) + 127` of a positive number, within 1.3e-4: the biased exponent and a polynomial of the mantissa. 0 gives 0.
 #[inline(always)]
 #[must_use]
 pub const fn log2_biased(number: f32) -> f32 {
@@ -68,11 +66,12 @@ impl LoadCurve {
                 self.starts[part - 1]
             };
             attempt!(in_range("starts", self.starts[part], least, f32::MAX));
-            let [a, b, c, d] = self.cubics[part];
-            attempt!(in_range("cubics", a, 0.0, 1e9));
-            attempt!(in_range("cubics", b, -1e9, 1e9));
-            attempt!(in_range("cubics", c, -1e9, 1e9));
-            attempt!(in_range("cubics", d, -1e9, 1e9));
+            attempt!(in_range("cubics", self.cubics[part][0], 0.0, 1e9));
+            let mut power = 1;
+            while power < 4 {
+                attempt!(in_range("cubics", self.cubics[part][power], -1e9, 1e9));
+                power += 1;
+            }
             part += 1;
         }
         Ok(self)
@@ -131,13 +130,12 @@ impl FrictionInterval {
         self.node as usize
     }
 
-    /// Its fraction of the distance to the next node.
     #[inline(always)]
     pub(crate) const fn fraction(&self) -> f32 {
         self.fraction
     }
 
-    /// The same interval for another friction coefficient, until [`LoadLaw::interval`] has found its own.
+    /// This interval with another friction coefficient, until its own is found.
     pub(crate) const fn with_friction(self, friction: f32) -> Self {
         Self { friction, ..self }
     }
@@ -199,7 +197,7 @@ pub struct LoadLaw<const NODES: usize> {
 }
 
 impl<const NODES: usize> LoadLaw<NODES> {
-    /// Refuses numbers that are no law.
+    /// Checks the law.
     ///
     /// # Errors
     /// [`Error`] naming `friction`, `starts`, `cubics`, `shift`, `ends`, `lift_off` or `shifted_from`.
@@ -269,7 +267,7 @@ impl<const NODES: usize> LoadLaw<NODES> {
     }
 
     /// Friction torque of a ball over its load `W`, N, under an axial load that opposes or assists the motion, m, not negative; and whether `W`
-    /// is above the law's largest, at which the law then stays.
+    /// is above the law's largest, at which the law stays.
     #[inline(always)]
     pub(crate) const fn torque_over_load(
         &self,

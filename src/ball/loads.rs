@@ -1,4 +1,4 @@
-//! What a ball is loaded with: its load, bounded, and its share of the mean load.
+//! A ball's load, and its share of the mean load.
 
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
@@ -30,9 +30,7 @@ impl LoadShare {
         root: 1.0,
     };
 
-    /// Powers of a ball's load over the mean load of all balls, 0.01 to 100; a table of them is a constant.
-    ///
-    /// Largest error of a power 2.1e-7, relative.
+    /// Powers of a ball's load over the mean load of all balls, 0.01 to 100, within 2.1e-7; for constants too.
     ///
     /// # Errors
     /// [`Error`] naming `share`.
@@ -86,16 +84,12 @@ impl LoadShare {
     }
 }
 
-/// Loads of the balls over their mean along the loaded track, a table for each sign of the load.
+/// Loads of the balls over their mean along the loaded track, a table for each sign of the load: a screw that bends, or with errors of its
+/// groove, shares a push and a pull differently. Entries stand for the middles of equal parts of the loaded track, from its start, and are
+/// linear between. `simulate --loads` of the bench program writes them.
 ///
-/// A screw that bends shares a push and a pull differently, and so does one with errors of its groove: the other flank
-/// carries. Both tables are constants for the middles of equal parts of the loaded track, from its start, and linear between them; where only one
-/// is known, [`LoadShares::same`] takes it for both signs. `simulate --loads` of the bench program writes them.
-///
-/// They are weights: what a ball carries is its share over the sum of those of all loaded balls, so that all loads add up to the axial load.
-///
-/// Where the load changes its sign, the shares jump from one table to the other; with a preload friction jumps by as much as the sums of `share^(4/3)`
-/// over both tables differ.
+/// They are weights: a ball carries its share over the sum of those of all loaded balls. Where the load changes its sign, the shares jump from
+/// one table to the other; with a preload friction jumps by as much as the sums of `share^(4/3)` differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadShares {

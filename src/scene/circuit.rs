@@ -1,13 +1,230 @@
-//! The circuit of balls that both trains have: its track, the loaded zone, the phase of the groove that passes by, and
-//! their checks.
+//! The circuit of balls that both trains have: its track, the loaded zone and the phase of the groove that passes by.
 
-mod configuration;
 pub(crate) mod deviation;
 mod phase;
-mod stored;
 mod zone;
 
-pub use configuration::CircuitState;
-pub(super) use configuration::{Circuit, CircuitConfiguration, LONGEST_TRACK, UNLOADED};
 pub use deviation::{DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
+use phase::Phase;
 pub(super) use zone::Sharing;
+use zone::{Lengths, LoadedBall, LoadedZone};
+
+use crate::ball::{LoadShare, LoadShares};
+use crate::error::{Error, attempt, in_range};
+use crate::stored::{Fingerprint, Port, Refusal, Stored};
+use crate::train::{IMPEDANCE_RANGE, LARGEST_TRAVEL, Track, Train};
+/// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours. Not zero, because a train divides
+/// by it; a loaded ball has some 500 N (100 N of load in the bearing of Lin 2019, Table 3.3), which such a ball does not feel.
+pub(crate) const UNLOADED: f32 = 1e-6;
+const _: () = assert!(UNLOADED >= IMPEDANCE_RANGE.0);
+
+/// Longest track, in turns of the maps: ratios of phases fit into 32 bits.
+pub(crate) const LONGEST_TRACK: f32 = 1000.0;
+
+/// Longest return over the loaded part: positions in the load table fit into 32 bits.
+const LONGEST_RETURN: f32 = 250.0;
+
+/// Largest part of a map's period by which the passing groove may advance in a tick: its sense would be
+/// lost beyond.
+const LARGEST_ADVANCE: f32 = 0.499;
+
+/// Configuration of a circuit. "Motion" is the nut's angle, rad, or the carriage's travel, m.
+pub(crate) struct CircuitConfiguration {
+    pub(crate) balls: u16,
+    /// Loaded part of the track, m.
+    pub(crate) loaded_length: f32,
+    /// The same in turns of the maps.
+    pub(crate) loaded_turns: f32,
+    /// Return, m: there balls carry no load.
+    pub(crate) return_length: f32,
+    /// Length of the track in one turn of the maps, m.
+    pub(crate) turn_length: f32,
+    /// Distance of the centres of two balls in contact, along the track, m.
+    pub(crate) pitch: f32,
+    /// Travel of a nominal ball along the track, m per unit of motion; above zero.
+    pub(crate) travel_per_motion: f32,
+    /// Motion in which the passing groove advances by one turn of the maps, rad or m.
+    pub(crate) motion_per_turn: f32,
+    /// Deviation of the groove that passes by: screw, rail.
+    pub(crate) passing_deviation: &'static DeviationMap,
+    /// Deviation of the groove of the body in which balls recirculate: nut, carriage.
+    pub(crate) recirculating_deviation: &'static DeviationMap,
+    /// Load of a ball over the mean load, along the loaded part.
+    pub(crate) load_shares: LoadShares,
+    /// Time between two ticks, s.
+    pub(crate) tick: f32,
+    /// Largest speed of the motion, rad/s or m/s.
+    pub(crate) largest_speed: f32,
+}
+
+/// Constants of a closed track of balls with its loaded zone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub(crate) struct Circuit {
+    pub(super) zone: LoadedZone,
+    pub(super) track: Track,
+    balls: u16,
+    /// 1 / mean number of loaded balls.
+    per_loaded_ball: f32,
+    /// Travel of the balls along the track in a tick, over the speed of the motion; negative.
+    travel: f32,
+    /// Advance of the passing groove's phase in a tick, in units of it, over the speed of the motion.
+    advance: f32,
+}
+
+/// State of a circuit of up to `N` balls.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct CircuitState<const N: usize> {
+    /// The balls on the track.
+    pub train: Train<N>,
+    pub(super) phase: Phase,
+}
+
+impl CircuitConfiguration {
+    /// Checks and folds a circuit of up to so many balls.
+    ///
+    /// # Errors
+    /// [`Error`] naming `return_length`, `length`, `pitch`, `load_shares` or `tick`.
+    pub(crate) const fn folded(&self, most: usize) -> Result<Circuit, Error> {
+        let longest = LONGEST_RETURN * self.loaded_length;
+        attempt!(in_range("return_length", self.return_length, 0.0, longest));
+        let length = self.loaded_length + self.return_length;
+        attempt!(in_range("balls", self.balls as f32, 1.0, most as f32));
+        let track = attempt!(Track::new(length, self.pitch, self.balls as usize));
+        let zone = attempt!(LoadedZone::new(
+            &Lengths {
+                loaded: self.loaded_turns,
+                returning: self.return_length / self.turn_length,
+                length: length / self.turn_length,
+                pitch: self.pitch / self.turn_length,
+            },
+            self.passing_deviation,
+            self.recirculating_deviation,
+            self.load_shares,
+        ));
+        let fastest = LARGEST_TRAVEL * length / (self.travel_per_motion * self.largest_speed);
+        let tick = attempt!(in_range("tick", self.tick, 0.0, fastest));
+        let period = self.motion_per_turn * self.passing_deviation.turns() as f32;
+        let sensed = LARGEST_ADVANCE * period / self.largest_speed;
+        attempt!(in_range("tick", tick, 0.0, sensed));
+        Ok(Circuit {
+            zone,
+            track,
+            balls: self.balls,
+            per_loaded_ball: length / (self.loaded_length * self.balls as f32),
+            travel: -self.travel_per_motion * tick,
+            advance: zone.phase_per_turn() * tick / self.motion_per_turn,
+        })
+    }
+}
+
+impl Circuit {
+    /// Units of the deviations of the passing groove and of the recirculating one, rad.
+    #[inline(always)]
+    pub(crate) const fn deviation_units(&self) -> (f32, f32) {
+        self.zone.units()
+    }
+
+    pub(crate) const fn per_loaded_ball(&self) -> f32 {
+        self.per_loaded_ball
+    }
+
+    /// Travel of a nominal ball along the track in a tick at a speed of the motion, m.
+    #[inline(always)]
+    pub(crate) fn travel(&self, speed: f32) -> f32 {
+        speed * self.travel
+    }
+
+    /// Shares of the balls under a load of this sign.
+    #[inline(always)]
+    pub(crate) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
+        self.zone.shares(negative)
+    }
+
+    /// How the balls share a load where they are, by the [`Circuit::shares`] of this tick.
+    #[inline(never)]
+    pub(crate) fn sharing<const N: usize>(
+        &self,
+        state: &CircuitState<N>,
+        shares: &'static [LoadShare],
+    ) -> Sharing {
+        self.zone
+            .sharing(state.train.positions(), self.balls, shares)
+    }
+
+    /// Whether the track has no return, and no run-in.
+    #[inline(always)]
+    pub(crate) const fn is_closed(&self) -> bool {
+        self.zone.is_closed()
+    }
+
+    /// Part of its load that a ball carries at a position: below 1 on a run-in, 0 in the return.
+    #[inline(never)]
+    pub(crate) fn part(&self, position: u32) -> f32 {
+        self.zone.part(position)
+    }
+
+    /// The ball at a position of the track, if it is loaded there.
+    #[inline(always)]
+    pub(crate) fn loaded_ball(&self, position: u32, phase: u32) -> Option<LoadedBall> {
+        self.zone.at(position, phase)
+    }
+
+    /// Load over the mean load of a ball at a position, by the [`Circuit::shares`] of this tick, beyond the run-ins.
+    #[inline(always)]
+    pub(crate) fn share(&self, position: u32, shares: &'static [LoadShare]) -> f32 {
+        self.zone.share(position, shares)
+    }
+
+    /// Track and period of the passing groove.
+    pub(crate) fn fingerprint(&self, fingerprint: &mut Fingerprint) {
+        self.track.fingerprint(fingerprint);
+        fingerprint.number(self.zone.passing_turns());
+    }
+}
+
+impl<const N: usize> CircuitState<N> {
+    /// Balls at equal distances, before the first tick.
+    #[inline(always)]
+    pub(crate) fn new(circuit: &Circuit) -> Self {
+        Self {
+            train: Train::spread(circuit.track, usize::from(circuit.balls)),
+            phase: Phase::default(),
+        }
+    }
+
+    /// Whether its balls stand on the track of this circuit.
+    ///
+    /// # Errors
+    /// [`Error`] naming `length` or `pitch`, m.
+    pub(crate) const fn is_on(&self, circuit: &Circuit) -> Result<(), Error> {
+        self.train.is_on(&circuit.track, circuit.balls)
+    }
+
+    /// Phase of the passing groove, in units of 2^-32 of its period.
+    #[inline(always)]
+    pub(crate) const fn phase(&self) -> u32 {
+        self.phase.units()
+    }
+
+    /// Moves the passing groove on by a tick, at a speed of the motion.
+    #[inline(always)]
+    pub(crate) fn advance(&mut self, circuit: &Circuit, speed: f32) {
+        self.phase.advance(speed * circuit.advance);
+    }
+
+    /// Sets the motion from which the passing groove's deviations are counted, in turns of the maps.
+    pub(crate) fn set_turns(&mut self, circuit: &Circuit, turns: f32) {
+        self.phase.set(turns / circuit.zone.passing_turns());
+    }
+}
+
+impl<const N: usize> Stored for CircuitState<N> {
+    const BYTES: usize = <Train<N> as Stored>::BYTES + 8;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        self.train.exchange(port)?;
+        self.phase.exchange(port)
+    }
+}

@@ -1,12 +1,11 @@
 //! The trait that every mechanism implements, and what scenes have in common: inputs, limits, reversal, regimes.
 
-use super::faults::Faults;
+use super::faults::{Faults, bounded};
 use crate::error::{Error, attempt, in_range};
 use crate::math;
 
 /// A mechanism with its configuration, its constants, its state and its outputs.
 ///
-/// Constants are folded once and never change; the state is small and is all that a step changes.
 pub trait Scene {
     /// Set-up parameters.
     type Configuration;
@@ -34,7 +33,7 @@ pub trait Scene {
     /// [`Error`] naming what does not fit to the state, which then is as it was.
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error>;
 
-    /// One step: inputs within their limits, friction within its limit, faults flagged; bounded time, no panic. Where an input is NaN or infinite
+    /// One step: inputs and friction within their limits, faults flagged; bounded time, no panic. Where an input is NaN or infinite
     /// the outputs are [`SceneOutputs::safe`] and the state stays (but for [`WithMemory`](super::WithMemory)).
     fn step(
         constants: &Self::Constants,
@@ -155,16 +154,8 @@ impl Limits {
         }
         if nut_speed.is_finite() && axial_load.is_finite() {
             let limited = Inputs {
-                nut_speed: if speed_beyond {
-                    self.nut_speed.copysign(nut_speed)
-                } else {
-                    nut_speed
-                },
-                axial_load: if load_beyond {
-                    self.axial_load.copysign(axial_load)
-                } else {
-                    axial_load
-                },
+                nut_speed: bounded(nut_speed, self.nut_speed),
+                axial_load: bounded(axial_load, self.axial_load),
             };
             CheckedInputs {
                 inputs: Some(limited),
@@ -183,15 +174,14 @@ impl Limits {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Regime {
-    /// The mechanism is slower than the reversal speed, or with memory its elements still stick or the nut has just turned back: friction is
-    /// between its two directions.
+    /// Slower than the reversal speed, or with memory elements still stick or the nut has just turned back: friction is between its
+    /// two directions.
     Standing,
     /// The motor moves the load (or turns against friction alone).
     Driving,
     /// The load turns the nut.
     BackDriving,
-    /// The efficiency of the present direction is not positive: driving, no torque moves the load;
-    /// back-driving, the load alone does not sustain the motion and the motor has to push.
+    /// The efficiency of the present direction is not positive: driving, no torque moves the load; back-driving, the motor has to push.
     Locked,
 }
 
@@ -199,11 +189,10 @@ pub enum Regime {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ReversalState {
-    /// Factor on sliding friction, with the sign of the direction in which friction opposes motion: -1 to 1, times the
-    /// [level](crate::law::FrictionLevel) of that direction where one is set.
+    /// Factor on sliding friction, -1 to 1 with the sign of the direction in which friction opposes motion, times the
+    /// [level](crate::law::FrictionLevel) of that direction.
     pub factor: f32,
-    /// Part of the forces between balls that friction of the grooves carries, 0 to 1: with memory the size of the factor, without its
-    /// level; 1 in a scene without memory, whose forces are those of sliding at any speed.
+    /// Part of the forces between balls that friction of the grooves carries, 0 to 1: with memory the factor's size without its level; else 1.
     pub carried: f32,
     /// -1 where the motion goes, or went last, in the negative direction, else 1.
     pub direction: f32,

@@ -36,7 +36,7 @@ use crate::error::{Error, attempt, in_range};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadProportionalScrew;
 
-/// What the engineer sets for a drive without a drawing; unchecked.
+/// Configuration of a drive without a drawing; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadProportionalConfiguration {
@@ -62,22 +62,17 @@ pub struct LoadProportionalConfiguration {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadProportionalConstants {
-    load_lever: f32,
-    coulomb_friction: f32,
-    viscous_friction: f32,
-    driving_loss: f32,
-    back_driving_loss: f32,
+    checked: LoadProportionalConfiguration,
     reversal: Reversal,
-    limits: Limits,
 }
 
-/// What a tick changes in a drive without a drawing: nothing.
+/// State of a drive without a drawing: none.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadProportionalState;
 
 impl LoadProportionalConstants {
-    /// Checks a configuration: at set-up, or in a constant when firmware is compiled.
+    /// Checks a configuration.
     ///
     /// # Errors
     /// [`Error`] naming the field out of range.
@@ -96,14 +91,10 @@ impl LoadProportionalConstants {
         attempt!(in_range("viscous_friction", viscous_friction, 0.0, 1e6));
         attempt!(in_range("driving_loss", driving_loss, 0.0, 10.0));
         attempt!(in_range("back_driving_loss", back_driving_loss, 0.0, 10.0));
+        attempt!(limits.checked());
         Ok(Self {
-            load_lever,
-            coulomb_friction,
-            viscous_friction,
-            driving_loss,
-            back_driving_loss,
+            checked: *configuration,
             reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
-            limits: attempt!(limits.checked()),
         })
     }
 }
@@ -115,30 +106,22 @@ impl Scene for LoadProportionalScrew {
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn constants(
-        configuration: &LoadProportionalConfiguration,
-    ) -> Result<LoadProportionalConstants, Error> {
+    fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
         LoadProportionalConstants::new(configuration)
     }
 
-    fn initial_state(_: &LoadProportionalConstants) -> LoadProportionalState {
+    fn initial_state(_: &Self::Constants) -> Self::State {
         LoadProportionalState
     }
 
-    fn take_over(
-        _: &LoadProportionalConstants,
-        _: &mut LoadProportionalState,
-    ) -> Result<(), Error> {
+    fn take_over(_: &Self::Constants, _: &mut Self::State) -> Result<(), Error> {
         Ok(())
     }
 
     #[inline]
-    fn step(
-        constants: &LoadProportionalConstants,
-        _: &mut LoadProportionalState,
-        inputs: Inputs,
-    ) -> Outputs {
-        let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
+    fn step(constants: &Self::Constants, _: &mut Self::State, inputs: Inputs) -> Outputs {
+        let drive = &constants.checked;
+        let CheckedInputs { inputs, faults } = drive.limits.check_inputs(inputs);
         let Some(Inputs {
             nut_speed,
             axial_load,
@@ -150,21 +133,21 @@ impl Scene for LoadProportionalScrew {
         let ReversalState {
             factor, direction, ..
         } = reversal;
-        let load_torque = constants.load_lever * axial_load;
+        let load_torque = drive.load_lever * axial_load;
         let loss = if direction * load_torque < 0.0 {
-            constants.back_driving_loss
+            drive.back_driving_loss
         } else {
-            constants.driving_loss
+            drive.driving_loss
         };
-        let sliding = constants.coulomb_friction + loss * load_torque.abs();
-        let viscous = constants.viscous_friction * nut_speed;
+        let sliding = drive.coulomb_friction + loss * load_torque.abs();
+        let viscous = drive.viscous_friction * nut_speed;
         Outputs::new(
             factor * sliding + viscous,
             sliding + direction * viscous,
             load_torque,
             &reversal,
             faults,
-            constants.limits.friction_torque,
+            drive.limits.friction_torque,
         )
     }
 }

@@ -25,7 +25,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Refuses words that begin with no block of this layout.
+    /// Checks the header and the checksum of words.
     #[inline]
     pub(super) const fn check(&self, words: &[u32]) -> Result<(), Error> {
         let length = self.words as f32;

@@ -8,10 +8,8 @@ use crate::error::{Error, attempt};
 /// Fraction bits of the ratio of the load table's entries.
 const FRACTION_BITS: u32 = 16;
 
-/// Deviation maps of both grooves and the shares of the load, in integers along the track.
-///
-/// The track runs through the body in which balls recirculate (nut, carriage): first the loaded part,
-/// then the return. The other groove (screw, rail) passes by.
+/// Deviation maps of both grooves and the shares of the load, in integers along the track: first the loaded part of the body in which balls
+/// recirculate (nut, carriage), then the return. The other groove (screw, rail) passes by.
 ///
 /// Between load and return is a run-in of one pitch, half of it on either side of the border (of the whole return where that is shorter):
 /// on it a ball takes up its load in proportion to the way, so that as many balls carry in the mean as stand on the loaded part, and where
@@ -39,18 +37,16 @@ pub(super) struct LoadedZone {
     shares: LoadShares,
 }
 
-/// A loaded ball: deviations of the grooves at its contacts.
+/// Deviations of the grooves at the contacts of a loaded ball, as multiples of [`LoadedZone::units`].
 pub(crate) struct LoadedBall {
-    /// Deviation of the groove that passes by, as a multiple of the first of [`LoadedZone::units`].
     pub(crate) passing: f32,
-    /// Deviation of the groove of the body in which balls recirculate, as a multiple of the second.
     pub(crate) recirculating: f32,
     /// Part of its load which it carries on the run-in, above 0; 1 between the run-ins.
     pub(crate) run_in: f32,
 }
 
-/// How the balls share a load at their present positions. The load of a ball is `F w/sum(w)`, with its weight `w`: its share of the mean load
-/// times its part on the run-in. All loads add up to `F` at every position.
+/// How the balls share a load `F` at their present positions: a ball carries `F w/sum(w)`, with its share of the mean load times its part on
+/// the run-in as weight `w`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sharing {
     /// Sum of all weights, and 1 / it; both 0 where no ball is loaded.
@@ -62,18 +58,14 @@ pub(crate) struct Sharing {
 
 /// Lengths of a track, in turns or wavelengths of the maps.
 pub(super) struct Lengths {
-    /// Loaded part.
     pub(super) loaded: f32,
-    /// Return.
     pub(super) returning: f32,
-    /// Whole track.
     pub(super) length: f32,
     /// Distance of the centres of two balls in contact.
     pub(super) pitch: f32,
 }
 
 impl LoadedZone {
-    /// A track of these lengths.
     pub(super) const fn new(
         lengths: &Lengths,
         passing: &'static DeviationMap,
@@ -90,12 +82,7 @@ impl LoadedZone {
         let entries =
             shares.positive.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32;
         // Half of it on either side of a border: one is no longer than the return, in which both meet, nor than the loaded part.
-        let shorter = if returning < loaded {
-            returning
-        } else {
-            loaded
-        };
-        let run_in = if pitch < shorter { pitch } else { shorter };
+        let run_in = pitch.min(returning).min(loaded);
         let half_run_in = (0.5 * run_in / length * UNITS) as u32;
         let run_in = 2 * half_run_in;
         // Without a return the whole track, but for the unit that does not fit into 32 bits.
@@ -120,7 +107,7 @@ impl LoadedZone {
         })
     }
 
-    /// Shares of the balls where the load is below zero, or else where it is not.
+    /// Shares of the balls where the load is below zero, or where it is not.
     #[inline(always)]
     pub(super) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
         self.shares.of(negative)
@@ -214,8 +201,7 @@ impl LoadedZone {
         }
     }
 
-    /// The share at a position: linear between the middles of the table's parts. Beyond the first and the last of them it is theirs; on a track
-    /// without return, the one follows on the other.
+    /// Share at a position: linear between the middles of the table's parts; beyond the first and the last it is theirs, unless the track closes.
     #[inline(always)]
     pub(super) fn share(&self, position: u32, shares: &'static [LoadShare]) -> f32 {
         const ONE: u32 = 1 << FRACTION_BITS;
@@ -316,7 +302,7 @@ mod tests {
         loads
     }
 
-    /// At every angle, under shares of their own too; and in the mean as many balls carry as stand on the loaded part.
+    /// At every angle; and in the mean as many balls carry as stand on the loaded part.
     #[test]
     fn loads_add_up() {
         for (balls, lengths) in [
@@ -370,8 +356,7 @@ mod tests {
         }
     }
 
-    /// A step of a 2000th of the balls' distance changes each load by no more than that part of the largest one; where balls touch, the
-    /// sum of their weights stays, and a track without return loads all alike.
+    /// A step changes each load by no more than its part of the largest one; where balls touch, the sum of their weights stays.
     #[test]
     fn loads_change_with_the_way() {
         let zone = zone([36.5, 2.5, 1.0], LoadShares::EVEN);

@@ -1,4 +1,4 @@
-//! What a tick computes: both diagonals, every ball at its position, then how they press.
+//! A step of a linear bearing.
 
 use super::{LinearConstants, LinearInputs};
 use crate::ball::GrooveLoss;
@@ -8,9 +8,8 @@ use crate::scene::contract::direction;
 use crate::scene::sliding::TrainFriction;
 use crate::train::FreeBall;
 
-/// Force of a diagonal below which it does not count, N: the sum of two contacts of 1e-6 N. A numerical floor, which keeps cube roots
-/// and impedances above zero. In the bearing of Lin 2019, Table 3.3, the latter stay above the least that a train takes, 1e-9 N, also
-/// with a friction coefficient of 1e-6 and a hundredth of the mean load.
+/// Least force of a diagonal, N: the sum of two contacts of 1e-6 N. It keeps cube roots and impedances above zero: in the bearing of
+/// Lin 2019, Table 3.3, also with a friction coefficient of 1e-6 and a hundredth of the mean load.
 const SMALLEST_FORCE: f32 = 2e-6;
 
 /// Sliding friction of a linear bearing, which is the same in both directions.
@@ -38,6 +37,7 @@ struct Diagonals {
 
 impl<const N: usize> LinearConstants<N> {
     #[inline(always)]
+    /// What a tick computes: both diagonals, every ball at its position, then how they press.
     pub(super) fn friction_of_balls(
         &self,
         state: &mut CircuitState<N>,
@@ -79,8 +79,8 @@ impl<const N: usize> LinearConstants<N> {
         }
     }
 
-    /// Takes in each ball by its free speed and its impedance, and gives the sum of the powers of 4/3 of their weights; both grooves' units of speed and the
-    /// impedance of a ball whose weight is 1. Not inlined: what the rest of a step holds would take its registers.
+    /// Takes in each ball by its free speed and its impedance, and gives the sum of the powers of 4/3 of their weights. Not inlined: what the
+    /// rest of a step holds would take its registers.
     #[inline(never)]
     fn take_in(
         &self,
@@ -120,7 +120,7 @@ impl<const N: usize> LinearConstants<N> {
         let (up_root, up_squared) = math::cbrt_and_squared(up);
         let (down_root, down_squared) = math::cbrt_and_squared(down);
 
-        // Speed deviation for one radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear.
+        // For one radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear.
         let diagonals = [up_squared, down_squared];
         let mean = self.ball.closed_form(diagonals, [1.0, -1.0]);
         let spins = [up * up_root, down * down_root];

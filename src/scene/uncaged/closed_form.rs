@@ -10,7 +10,7 @@ use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::scene::contract::Limits;
 
-/// What catalogue numbers say of a ball screw without cage; unchecked.
+/// Catalogue numbers of a ball screw without cage; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CatalogueBall {
@@ -34,14 +34,13 @@ pub struct CatalogueBall {
 const LEAST: f32 = 1e-3;
 
 impl FoldedBall<1> {
-    /// The law of a ball by the closed form [`ScrewRow`] at 32 loads, for those who have no host that folds: in a constant when firmware is
-    /// compiled, or at set-up.
+    /// The law of a ball by the closed form [`ScrewRow`] at 32 loads, for those who have no host that folds.
     ///
     /// Speeds and torques follow deviations by a parabola through the closed form's at the middle and the ends of their range. Rolling
-    /// resistance, and what friction between balls does to a ball's speed, are left out.
+    /// resistance, and the change of a ball's speed by friction between balls, are left out.
     ///
-    /// Accuracy: that of [`ScrewRow`] against balls in elastic grooves: torque up to a factor of 2 too large on the side of the load on which
-    /// the third contact opens, some per cent on the other; forces between balls accordingly. `epas-design` folds the exact ball instead.
+    /// Accuracy against balls in elastic grooves, that of [`ScrewRow`]: torque up to a factor of 2 too large on the side of the load on which
+    /// the third contact opens, some per cent on the other; forces between balls accordingly.
     ///
     /// Source: Lin 2019, eqs. (3.56) to (3.68), (3.73).
     ///
@@ -97,7 +96,6 @@ impl FoldedBall<1> {
     }
 }
 
-/// The knots of both branches.
 const fn knots(
     row: &ScrewRow,
     ball: &CatalogueBall,
@@ -164,8 +162,7 @@ const fn numbers(
     }
 }
 
-/// What neighbours change under the least load and under the largest, of both branches: the closed form knows what is lost between balls, and
-/// nothing of what that does to their motion.
+/// Changes by neighbours under the least load and the largest, of both branches: the closed form knows only what is lost between balls.
 const fn neighbours(
     row: &ScrewRow,
     axial_load: f32,

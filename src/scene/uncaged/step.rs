@@ -1,4 +1,4 @@
-//! What a tick computes: every ball at its position, then how they press.
+//! A step of a ball screw without cage: every ball at its position, then how they press.
 
 use super::{UncagedConstants, UncagedState};
 use crate::ball::LoadShare;
@@ -17,7 +17,7 @@ pub struct UncagedFriction {
     pub(in crate::scene) faults: Faults,
 }
 
-/// What all balls have in common in a tick. Speeds and pushes are counted along the track.
+/// Numbers of a tick that are the same for all balls. Speeds and pushes are counted along the track.
 struct Common {
     shares: &'static [LoadShare],
     /// Axial load of a ball whose weight is 1, N.
@@ -146,8 +146,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
     }
 
-    /// Takes in each ball by what it does alone under its part of the load with its deviations, and keeps that; returns the sum of the friction torques,
-    /// N m.
+    /// Takes in each ball, and keeps what it does alone under its part of the load with its deviations; returns the sum of the friction
+    /// torques, N m.
     #[inline(never)]
     fn take_in(&self, state: &mut UncagedState<N>, common: &Common, travel: f32) -> f32 {
         let Common {

@@ -87,7 +87,7 @@ pub const LOOPS: &[Row] = &[
         BALLS,
     ),
     row(
-        "epas_friction::scene::circuit::configuration::Circuit::sharing",
+        "epas_friction::scene::circuit::Circuit::sharing",
         BALLS,
     ),
     row("epas_friction::scene::linear::LinearConstants", BALLS),
