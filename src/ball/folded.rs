@@ -28,6 +28,23 @@ pub const fn log2_biased(number: f32) -> f32 {
     (bits >> MANTISSA) as f32 + mantissa * (a + mantissa * (b + mantissa * (c + mantissa * d)))
 }
 
+/// Index of the last of `M` rising starts that is not above a number, or 0; `M` is a power of two. `start` takes the remainder of its
+/// index by `M`, which tells the compiler what the halving ensures.
+#[inline(always)]
+pub(super) fn last_not_above<const M: usize>(number: f32, start: impl Fn(usize) -> f32) -> usize {
+    // Starts are not negative: their bits rise with them, and integers are compared in half the cycles.
+    let bits = number.to_bits().cast_signed();
+    let mut index = 0;
+    let mut step = M / 2;
+    while step > 0 {
+        if bits >= start(index + step).to_bits().cast_signed() {
+            index += step;
+        }
+        step /= 2;
+    }
+    index
+}
+
 /// A function of [`log2_biased`] of a load: a cubic in each part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -40,18 +57,8 @@ pub struct LoadCurve {
 
 impl LoadCurve {
     #[inline(always)]
-    const fn at(&self, log2: f32) -> f32 {
-        // Begins are not negative: their bits rise with them, and integers are compared in half the cycles.
-        let bits = log2.to_bits().cast_signed();
-        let mut part = 0;
-        let mut step = PARTS / 2;
-        while step > 0 {
-            // The remainder proves to the compiler that the index is in the array.
-            if bits >= self.starts[(part + step) % PARTS].to_bits().cast_signed() {
-                part += step;
-            }
-            step /= 2;
-        }
+    fn at(&self, log2: f32) -> f32 {
+        let part = last_not_above::<PARTS>(log2, |part| self.starts[part % PARTS]);
         let [a, b, c, d] = self.cubics[part % PARTS];
         let along = log2 - self.starts[part % PARTS];
         a + along * (b + along * (c + along * d))
@@ -269,7 +276,7 @@ impl<const NODES: usize> LoadLaw<NODES> {
     /// Friction torque of a ball over its load `W`, N, under an axial load that opposes or assists the motion, m, not negative; and whether `W`
     /// is above the law's largest, at which the law stays.
     #[inline(always)]
-    pub(crate) const fn torque_over_load(
+    pub(crate) fn torque_over_load(
         &self,
         load: f32,
         assists: bool,
