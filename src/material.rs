@@ -15,8 +15,7 @@ pub struct Material {
 }
 
 impl Material {
-    /// Bearing steel as in Lin 2019, Tables 2.1, 3.6 and 4.1 (210 GPa, 0.28), with the density
-    /// 7800 kg/m³ of Lin, Velinsky, Ravani 1994.
+    /// Bearing steel of Lin 2019, Tables 2.1, 3.6 and 4.1, with the density of Lin, Velinsky, Ravani 1994.
     pub const STEEL: Self = Self {
         youngs_modulus: 210e9,
         poisson_ratio: 0.28,
@@ -30,11 +29,10 @@ impl Material {
         density: 3200.0,
     };
 
-    /// The material, or the error that names the first field out of range.
+    /// The material, checked.
     ///
     /// # Errors
-    /// [`Error::NotFinite`] or [`Error::OutOfRange`] naming `youngs_modulus`, `poisson_ratio` or
-    /// `density`.
+    /// [`Error`] naming `youngs_modulus`, `poisson_ratio` or `density`.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(in_range("youngs_modulus", self.youngs_modulus, 1e6, 1e13));
         attempt!(in_range("poisson_ratio", self.poisson_ratio, 0.0, 0.5));
@@ -51,8 +49,7 @@ impl Material {
 
 /// Contact modulus of two bodies, Pa: `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2` (Lin 2019, eq. (B.6)).
 ///
-/// For steel on steel with `E = 210 GPa`, `nu = 0.28` it is 113.9 GPa. Some texts, Alberdi et al.
-/// among them, print twice this value as `E'`.
+/// Steel on steel: 113.9 GPa. Some texts, Alberdi et al. among them, print twice this value as `E'`.
 ///
 /// ```
 /// use epas_friction::Material;

@@ -4,17 +4,12 @@ use super::constants::{HealthConfiguration, average_times};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::stored::{Port, Refusal, Stored};
 
-/// Slow drift of the friction level, against the value at commissioning.
+/// Slow drift of the friction level against the value at commissioning: the mean level of both directions, averaged over minutes or hours of sliding.
 ///
-/// The mean level of both directions, averaged over minutes or hours of sliding. What the estimate follows within seconds
-/// (temperature, a load sensor that drifts) passes through the average; what stays is the mechanism.
-///
-/// | | what it may be | what to do |
+/// | | possible causes | what to do |
 /// |---|---|---|
 /// | `fallen` | worn grooves or balls, lost preload: play comes next | check backlash and noise |
 /// | `risen` | lost, aged or soaked lubricant, dirt, a tight return; a friction coefficient that was set too low | check the lubricant, lower the assist's reliance on the compensation |
-///
-/// A drift is a symptom: which of them it is a level alone does not tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Health {

@@ -15,15 +15,14 @@ pub enum Drive {
     BackDriving,
 }
 
-/// The geometry that the efficiency depends on, with its constants folded; friction comes per call.
+/// The geometry that the efficiency depends on; friction comes per call.
 ///
 /// `Sb`, `Cb` are sine and cosine of the contact angle, `ta` the tangent of the lead angle, `a` the
 /// ball radius over the pitch radius, `R = sqrt(Cb² + ta²)`, `f` the friction coefficient (0 to 1), `t` the rolling tangent, eq. (2):
 /// `t = f_r / (r_b Sb)` with the lever arm `f_r` of rolling friction, m.
 ///
-/// Each efficiency is the raw value of its formula, negative where the screw locks; each loss, one less the efficiency, has its own formula, which keeps
-/// the digits of a small loss. Errors over friction 0.001 to 0.3, lead angles 0.5 to 60 and contact angles 5 to 85 degrees: 3e-7 absolute for an
-/// efficiency between 0 and 1, 4e-7 relative for a loss.
+/// Each efficiency is the raw value of its formula, negative where the screw locks; each loss, one less the efficiency, has its own formula. Errors over
+/// friction 0.001 to 0.3, lead angles 0.5 to 60 and contact angles 5 to 85 degrees: 3e-7 absolute for an efficiency between 0 and 1, 4e-7 relative for a loss.
 ///
 /// ```
 /// use epas_friction::efficiency::EfficiencyGeometry;
@@ -54,9 +53,8 @@ pub struct EfficiencyGeometry {
     rolling: Rolling,
 }
 
-/// Constants of [`EfficiencyGeometry::rolling_loss`], in which `ta` is at least [`LEAST_TANGENT`]. With a lead of zero
-/// the formula would be 0/0 where there is no rolling resistance: so small a `ta` cancels there, and is lost in rounding
-/// beside any rolling resistance.
+/// Constants of [`EfficiencyGeometry::rolling_loss`], in which `ta` is at least [`LEAST_TANGENT`]: with a lead of zero the formula would be 0/0
+/// without rolling resistance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Rolling {
@@ -74,8 +72,7 @@ struct Rolling {
 const LEAST_TANGENT: f32 = 1e-20;
 
 impl EfficiencyGeometry {
-    /// Constants from the lead angle `alpha` (rad, 0 to 1.5), the contact angle `beta` (rad, 0.001 to
-    /// pi/2) and the ball ratio `a` (0 to 1). Set-up only; a constant can take them.
+    /// Constants from the lead angle `alpha` (rad, 0 to 1.5), the contact angle `beta` (rad, 0.001 to pi/2) and the ball ratio `a` (0 to 1).
     ///
     /// # Errors
     /// [`Error`] naming `lead_angle`, `contact_angle` or `ball_ratio`.
@@ -91,7 +88,7 @@ impl EfficiencyGeometry {
         ))
     }
 
-    /// Constants of a validated design at its nominal contact angle; a constant can take them.
+    /// Constants of a validated design at its nominal contact angle; for constants too.
     #[must_use]
     pub const fn of(design: &BallScrew) -> Self {
         Self::from_parts(
@@ -106,11 +103,7 @@ impl EfficiencyGeometry {
         let secant_squared = 1.0 + tan_lead * tan_lead;
         // Not from 1/Ca² - Sb², a difference that loses digits where R is small.
         let root = constant::sqrt(cos * cos + tan_lead * tan_lead);
-        let tangent = if tan_lead > LEAST_TANGENT {
-            tan_lead
-        } else {
-            LEAST_TANGENT
-        };
+        let tangent = tan_lead.max(LEAST_TANGENT);
         Self {
             sin_contact: sin,
             cos_contact: cos,
@@ -132,9 +125,8 @@ impl EfficiencyGeometry {
     /// Rolling efficiency, eq. (3), for a driven screw and for a driven nut alike:
     /// `1 - eta = [f a ta + t (1 + ta²)] / [ta (Sb + f (a - Cb)) + t]`.
     ///
-    /// Equation (4), printed for a driven nut, breaks the energy balance by `2 f Cb`; the balance
-    /// gives eq. (3) for either, as the paper's conclusion says. Cost: one division, 8 other
-    /// operations.
+    /// Equation (4), printed for a driven nut, breaks the energy balance by `2 f Cb`; the balance gives eq. (3) for either. Cost: one division, 8
+    /// other operations.
     #[inline]
     #[must_use]
     pub const fn rolling_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
@@ -145,8 +137,7 @@ impl EfficiencyGeometry {
     #[inline]
     #[must_use]
     pub const fn rolling_loss(&self, friction: f32, rolling_tangent: f32) -> f32 {
-        // False for NaN. The branch for a tangent that is NaN or negative is a call of its own: the usual branch
-        // then needs no stack frame.
+        // False for NaN. The other branch is a call, so that the usual one needs no stack frame.
         if rolling_tangent >= 0.0 {
             let Rolling {
                 slide,
@@ -168,11 +159,8 @@ impl EfficiencyGeometry {
         slide / (self.sin_contact + friction * (self.ball_ratio - self.cos_contact))
     }
 
-    /// Rolling efficiency where the load back-drives the screw:
-    /// `1 - eta = [f a ta + t (1 + ta²)] / [ta (Sb + f Cb + t ta)]`, eq. (3) with the friction forces
-    /// reversed.
-    ///
-    /// Negative infinity with rolling resistance and without lead: no load moves the screw.
+    /// Rolling efficiency where the load back-drives the screw, eq. (3) with the friction forces reversed:
+    /// `1 - eta = [f a ta + t (1 + ta²)] / [ta (Sb + f Cb + t ta)]`; negative infinity with rolling resistance and without lead.
     #[inline]
     #[must_use]
     pub const fn rolling_backdrive_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
@@ -186,10 +174,8 @@ impl EfficiencyGeometry {
         1.0 - loss
     }
 
-    /// Full-sliding efficiency of driving, eq. (14): `1 - eta = f / (Ca² Sb (R + f Sb))`.
-    ///
-    /// The ball ratio cancels. As printed the radical seems to span `f Sb` too; it ends before. Cost:
-    /// one division, 4 other operations.
+    /// Full-sliding efficiency of driving, eq. (14): `1 - eta = f / (Ca² Sb (R + f Sb))`. As printed the radical seems to span `f Sb` too; it ends
+    /// before. Cost: one division, 4 other operations.
     #[inline]
     #[must_use]
     pub const fn sliding_efficiency(&self, friction: f32) -> f32 {
@@ -203,8 +189,7 @@ impl EfficiencyGeometry {
         friction * self.drive_scale / (self.root + friction * self.sin_contact)
     }
 
-    /// Full-sliding efficiency of back-driving, eq. (17): `1 - eta = f / (Ca² R (Sb + f R))`. As in (14) the printed radical
-    /// seems to span the term with `f` too; it ends before.
+    /// Full-sliding efficiency of back-driving, eq. (17): `1 - eta = f / (Ca² R (Sb + f R))`; the radical as in (14).
     #[inline]
     #[must_use]
     pub const fn sliding_backdrive_efficiency(&self, friction: f32) -> f32 {
@@ -218,8 +203,7 @@ impl EfficiencyGeometry {
         friction * self.backdrive_scale / (self.sin_contact + friction * self.root)
     }
 
-    /// Whether full sliding locks this direction: eq. (16) `f R >= Sb` for driving, eq. (19)
-    /// `f Sb >= R` for back-driving. Exactly where the efficiency of that direction is not positive.
+    /// Whether full sliding locks this direction: eq. (16) `f R >= Sb` for driving, eq. (19) `f Sb >= R` for back-driving.
     #[inline]
     #[must_use]
     pub const fn locks(&self, drive: Drive, friction: f32) -> bool {
@@ -263,29 +247,24 @@ impl EfficiencyGeometry {
     pub const fn root(&self) -> f32 {
         self.root
     }
-}
 
-impl EfficiencyGeometry {
-    /// Normal load of a contact per axial load on one ball, friction neglected: `Q / Fa = 1 / (Ca
-    /// Sb)`, eq. (20) (printed with `C_ci` for `C_alpha`). Set-up only.
+    /// Normal load of a contact per axial load on one ball, friction neglected: `Q / Fa = 1 / (Ca Sb)`, eq. (20) (printed with `C_ci` for
+    /// `C_alpha`).
     #[must_use]
     pub const fn normal_per_axial_load(&self) -> f32 {
         constant::sqrt(self.secant_squared) / self.sin_contact
     }
 
     /// Normal load of a contact per torque on one ball, friction neglected, times the pitch radius:
-    /// `Q r_m / M = 1 / (Sa Sb)`, eq. (21). Infinite without lead. Set-up only.
+    /// `Q r_m / M = 1 / (Sa Sb)`, eq. (21). Infinite without lead.
     #[must_use]
     pub const fn normal_per_torque(&self) -> f32 {
         constant::sqrt(self.secant_squared) / (self.tan_lead * self.sin_contact)
     }
 
-    /// Friction torque per axial load, m, of a rolling screw: `r_m [f a ta + t (1 + ta²)] / (Sb -+ f
-    /// Cb -+ t ta)`, upper sign driving. Finite at zero lead.
-    ///
-    /// It is the torque of eq. (1) over its axial force, less the load's own, with the `a` that its first line prints as `alpha`;
-    /// and eq. (3) as a torque, `r_m ta (1/eta - 1)` driving and `r_m ta (1 - eta)` back-driving,
-    /// without the division by a vanishing lead. Infinite or negative where driving locks.
+    /// Friction torque per axial load, m, of a rolling screw: `r_m [f a ta + t (1 + ta²)] / (Sb -+ f Cb -+ t ta)`, upper sign driving. It is the
+    /// torque of eq. (1) over its axial force, less the load's own, with the `a` that its first line prints as `alpha`. Infinite or negative where
+    /// driving locks.
     #[must_use]
     pub const fn rolling_torque_per_load(
         &self,

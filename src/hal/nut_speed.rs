@@ -55,24 +55,16 @@ impl NutSpeed {
         // The sign is the direction in which the sensor counts; the size may not vanish.
         in_range("gear_ratio", ratio, 0.01, 100.0)?;
         let quarter_turn_speed = FRAC_PI_2 / (ratio * tick);
-        in_range(
-            "largest_nut_speed",
-            largest_nut_speed,
-            1e-3,
-            quarter_turn_speed,
-        )?;
+        let speed = largest_nut_speed;
+        in_range("largest_nut_speed", speed, 1e-3, quarter_turn_speed)?;
         in_range("smoothing_time", smoothing_time, 0.0, 10.0)?;
         let gap = quarter_turn_speed / largest_nut_speed;
         Ok(Self {
             speed_per_count: TAU / (COUNTS * gear_ratio * tick),
             largest_step: largest_nut_speed * ratio * tick * (COUNTS / TAU) + 1.0,
-            longest_gap: if gap < LONGEST_GAP {
-                gap as u32
-            } else {
-                LONGEST_GAP as u32
-            },
+            longest_gap: gap.min(LONGEST_GAP) as u32,
             gain: tick / (smoothing_time + tick),
-            stuck_ticks: if stuck_ticks == 0 { 1 } else { stuck_ticks },
+            stuck_ticks: stuck_ticks.max(1),
             last: None,
             gap: 0,
             unchanged: 0,
@@ -127,7 +119,6 @@ impl NutSpeed {
         } else {
             step * self.speed_per_count / ticks
         };
-        // The first speed after a fault is not mixed with one from before it.
         let before = self.speed.unwrap_or(speed);
         let smoothed = before + self.gain * (speed - before);
         self.speed = Some(smoothed);

@@ -1,4 +1,4 @@
-//! What is given of a ball between its grooves: parameters, path of its centre, direction of rolling.
+//! Parameters of a ball between its grooves, path of its centre, direction of rolling.
 
 use crate::error::{Error, Range, attempt, in_range};
 use crate::geometry::{BallScrew, Groove};
@@ -7,9 +7,7 @@ use crate::math::{self, constant};
 use crate::ranges;
 use core::f32::consts::FRAC_PI_2;
 
-/// Geometry and state of one ball with a contact on the screw and one on the nut.
-///
-/// The fields are the symbols of Alberdi et al., section 2, in SI units.
+/// Geometry and state of one ball with a contact on the screw and one on the nut; symbols of Alberdi et al., section 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct KinematicsParameters {
@@ -17,24 +15,21 @@ pub struct KinematicsParameters {
     pub ball_diameter: f32,
     /// Radius of the helix of ball centres (`r_m`), m; 1e-4 to 10.
     pub pitch_radius: f32,
-    /// Lead angle of that helix (`psi`), rad; -1.2 to 1.2. Positive for a right-hand thread, 0 for a
-    /// ball bearing.
+    /// Lead angle of that helix (`psi`), rad; -1.2 to 1.2, positive for a right-hand thread.
     pub lead_angle: f32,
     /// Radius of the groove's profile on the screw (`r_i`), m; 0.5 to 2 ball diameters.
     pub groove_radius_screw: f32,
     /// Radius of the groove's profile on the nut (`r_o`), m; 0.5 to 2 ball diameters.
     pub groove_radius_nut: f32,
-    /// Contact angle on the screw (`alpha_i`), rad, from the radial direction; -pi/2 to pi/2.
-    /// Positive where the screw pushes the ball along its axis (the paper's case).
+    /// Contact angle on the screw (`alpha_i`), rad, from the radial direction; -pi/2 to pi/2, positive where the screw pushes the ball along its axis.
     pub contact_angle_screw: f32,
     /// Contact angle on the nut (`alpha_o`), rad; -pi/2 to pi/2.
     pub contact_angle_nut: f32,
     /// Pitch angle of the ball's axis of rotation (`beta`), rad; -pi/2 to pi/2.
     pub pitch_angle: f32,
-    /// Yaw angle of the ball's axis of rotation (`beta'`), rad; -0.5 to 0.5. Customary: 0.
+    /// Yaw angle of the ball's axis of rotation (`beta'`), rad; -0.5 to 0.5.
     pub yaw_angle: f32,
-    /// Distance from the ball's centre at which rolling slip vanishes at the screw (`r'_i`), m; 0.5
-    /// to 2 ball radii. Customary: the ball's radius.
+    /// Distance from the ball's centre at which rolling slip vanishes at the screw (`r'_i`), m; 0.5 to 2 ball radii.
     pub rolling_radius_screw: f32,
     /// The same at the nut (`r'_o`), m; 0.5 to 2 ball radii.
     pub rolling_radius_nut: f32,
@@ -49,12 +44,8 @@ pub struct KinematicsParameters {
 }
 
 impl KinematicsParameters {
-    /// Those of a validated design whose balls carry the contact forces `load_screw` and `load_nut`, N, 0 to 1e7, at its
-    /// nominal contact angle. For set-up; a constant can take them.
-    ///
-    /// Ellipses are those of [`HertzContact`] under these forces. The ball's rotation is the customary one: pitch angle
-    /// equal to the contact angle, no yaw, rolling radii equal to the
-    /// ball's radius. Any field may be changed afterwards.
+    /// Those of a validated design whose balls carry the contact forces `load_screw` and `load_nut`, N, 0 to 1e7, at its nominal contact angle, with
+    /// ellipses of [`HertzContact`] and the customary rotation; for constants too.
     ///
     /// ```
     /// use epas_friction::CATALOGUE;
@@ -67,8 +58,7 @@ impl KinematicsParameters {
     /// ```
     ///
     /// # Errors
-    /// [`Error`] naming `load_screw` or `load_nut`. A load whose ellipse is too large for the ball, or a lead that is too
-    /// steep, is refused by [`ContactKinematics::new`](super::ContactKinematics::new).
+    /// [`Error`] naming `load_screw` or `load_nut`.
     pub const fn of(design: &BallScrew, load_screw: f32, load_nut: f32) -> Result<Self, Error> {
         let load_screw = attempt!(ranges::LOAD.checked("load_screw", load_screw));
         let load_nut = attempt!(ranges::LOAD.checked("load_nut", load_nut));
@@ -112,7 +102,7 @@ impl KinematicsParameters {
     }
 }
 
-/// What load changes at one contact.
+/// Contact angle and ellipse under a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EllipticContact {
@@ -130,10 +120,10 @@ const BALL_DIAMETER: Range = Range::new(
     2.0 * ranges::BALL_RADIUS.maximum,
 );
 
-/// Hertz' half-space holds for ellipses small beside the ball: the share of the ball's radius that
-/// the semi-major axis may have.
+/// Largest semi-major axis over the ball's radius, for Hertz' half-space.
 #[doc(hidden)]
 pub const LARGEST_ELLIPSE: f32 = 0.3;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct GroovePath {
@@ -149,8 +139,8 @@ pub(super) struct GroovePath {
     pub deficit: [f32; 3],
 }
 
-/// `z^4` for `z` from 0 to 0.09, the square of [`LARGEST_ELLIPSE`], by `z`, `z^2` and `z^3`: what Chebyshev's
-/// polynomial of the fourth degree leaves, with its first zero at 0. Within 6e-7, which is 1e-8 ball radii of sagitta.
+/// `z^4` for `z` from 0 to 0.09, the square of [`LARGEST_ELLIPSE`], by `z`, `z^2` and `z^3`: Chebyshev's polynomial of the fourth degree with its
+/// first zero at 0, within 6e-7.
 #[doc(hidden)]
 pub const FOURTH_POWER: [f32; 3] = {
     // Half the interval, and its middle.
@@ -171,8 +161,7 @@ impl GroovePath {
         rolling_radius: f32,
     ) -> Self {
         let ball_diameter = 2.0 * ball_radius;
-        // rho = (D/2) / R = (2 r + D) / (4 r); 1 - rho from 2 r - D, which is exact for
-        // D/2 <= 2 r <= 2 D: conformity would otherwise lose 1 / (2 r / D - 1) = 20 fold.
+        // rho = (D/2) / R = (2 r + D) / (4 r); 1 - rho from 2 r - D, which is exact for D/2 <= 2 r <= 2 D.
         let gap = (2.0 * groove_radius - ball_diameter) / (4.0 * groove_radius);
         let rho = (2.0 * groove_radius + ball_diameter) / (4.0 * groove_radius);
         let rho_2 = rho * rho;
@@ -272,18 +261,15 @@ impl Path {
         })
     }
 
-    /// True where contact angle and ellipse are within their own ranges.
     #[inline]
     pub fn accepts(&self, contact: EllipticContact) -> bool {
-        // Positive numbers are in the order of their bits, with NaN and negative numbers beyond them: the lower
-        // bound needs no comparison.
+        // Bits of positive numbers are in their order, with NaN and negative numbers beyond them.
         let (semi_major, semi_minor) = (contact.semi_major.to_bits(), contact.semi_minor.to_bits());
         contact.contact_angle.abs().to_bits() <= FRAC_PI_2.to_bits()
             && (semi_major <= self.largest_ellipse.to_bits() && semi_minor <= semi_major
                 || self.accepts_zeros(contact))
     }
 
-    /// True where the ellipse is within its range, zeros of either sign included.
     #[cold]
     #[inline(never)]
     fn accepts_zeros(&self, contact: EllipticContact) -> bool {
@@ -294,9 +280,8 @@ impl Path {
     }
 }
 
-/// Least `b_k`, the speed of the ball's surface at the contact in units of `omega_R r'_k`. Below it
-/// (an axis of rotation within 15° of the contact normal) the ball drills more than it rolls, and
-/// spin speed loses digits as `1 / b_k`.
+/// Least `b_k`, the speed of the ball's surface at the contact in units of `omega_R r'_k`: below it (an axis of rotation within 15° of the contact
+/// normal) the ball drills more than it rolls.
 pub(super) const LEAST_GRIP: f32 = 0.25;
 /// Least part of `q = r_m / cos psi` that `A_k` may keep.
 const LEAST_REACH: f32 = 0.1;
@@ -341,7 +326,7 @@ impl Path {
         self.resolved(sin_cos, groove_path, contact, groove)
     }
 
-    /// The same for set-up, by the kernel that a constant can take.
+    /// [`Self::direction`] by the kernel that a constant can take.
     pub const fn constant_direction(
         &self,
         groove_path: &GroovePath,
@@ -425,11 +410,8 @@ impl Path {
         Ok(())
     }
 
-    /// The contact angle, rad, next to `bound` at which the ball still grips.
-    ///
-    /// `b = h cos(alpha) + sin(beta) sin(alpha)` is a cosine about the pitch angle, which yaw narrows but
-    /// leaves above 0.87 there: halving the way from it to the bound finds the one place where the grip ends,
-    /// by the numbers that a check of the angle would form.
+    /// The contact angle, rad, next to `bound` at which the ball still grips: `b = h cos(alpha) + sin(beta) sin(alpha)` is a cosine about the pitch
+    /// angle, above 0.87 there, and halving the way to the bound finds the one end.
     const fn last_grip(&self, pitch_angle: f32, bound: f32) -> f32 {
         const HALVINGS: u32 = 24;
         if self.grip_at(bound) >= LEAST_GRIP {

@@ -1,16 +1,14 @@
 //! The circuit of balls that both trains have: its track, the loaded zone and the phase of the groove that passes by.
 
 pub(crate) mod deviation;
-mod phase;
 mod zone;
 
 pub use deviation::{DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
-use phase::Phase;
 pub(super) use zone::Sharing;
 use zone::{Lengths, LoadedBall, LoadedZone};
 
 use crate::ball::{LoadShare, LoadShares};
-use crate::error::{Error, attempt, in_range};
+use crate::error::{Error, Range, attempt, in_range};
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
 use crate::train::{IMPEDANCE_RANGE, LARGEST_TRAVEL, Track, Train};
 /// Impedance of a ball that no load presses into its grooves, N: it goes along with its neighbours. Not zero, because a train divides
@@ -61,7 +59,7 @@ pub(crate) struct CircuitConfiguration {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Circuit {
-    pub(super) zone: LoadedZone,
+    zone: LoadedZone,
     pub(super) track: Track,
     balls: u16,
     /// 1 / mean number of loaded balls.
@@ -78,7 +76,7 @@ pub(crate) struct Circuit {
 pub struct CircuitState<const N: usize> {
     /// The balls on the track.
     pub train: Train<N>,
-    pub(super) phase: Phase,
+    phase: Phase,
 }
 
 impl CircuitConfiguration {
@@ -226,5 +224,57 @@ impl<const N: usize> Stored for CircuitState<N> {
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         self.train.exchange(port)?;
         self.phase.exchange(port)
+    }
+}
+
+/// Units of a period of the passing groove, and of a track.
+const UNITS: f32 = 4_294_967_296.0;
+
+/// A phase that advances by parts of a unit and wraps around.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+struct Phase {
+    /// Units of 2^-32 of a period.
+    units: u32,
+    /// Part of the advance so far that is not yet a whole unit.
+    remainder: f32,
+}
+
+impl Phase {
+    #[inline(always)]
+    const fn units(&self) -> u32 {
+        self.units
+    }
+
+    #[inline(always)]
+    fn advance(&mut self, units: f32) {
+        let units = units + self.remainder;
+        let whole = units as i32;
+        self.units = self.units.wrapping_add_signed(whole);
+        self.remainder = units - whole as f32;
+    }
+
+    /// Sets the phase to a number of periods, of which only the fraction counts; NaN, and what is beyond 8e6 periods,
+    /// counts as 0.
+    fn set(&mut self, periods: f32) {
+        let periods = if periods.abs() < 8_388_608.0 {
+            periods
+        } else {
+            0.0
+        };
+        let fraction = periods - periods as i32 as f32;
+        // In half periods, because a whole one does not fit into 31 bits and a sign.
+        let half = (fraction * (0.5 * UNITS)) as i32;
+        self.units = (half as u32).wrapping_mul(2);
+        self.remainder = 0.0;
+    }
+}
+
+impl Stored for Phase {
+    const BYTES: usize = 8;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.word(&mut self.units)?;
+        port.number("remainder", &mut self.remainder, Range::new(-1.0, 1.0))
     }
 }

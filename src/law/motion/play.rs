@@ -1,14 +1,11 @@
-//! A backlash, and a sensor behind one: what follows a turn only beyond it.
+//! A backlash, and a sensor behind one.
 
 use super::sensors::{NutAngle, Turn};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 
-/// A play of `half_width` to either side: the output follows the turn only after it has gone through the play.
-///
-/// `p <- clamp(p + dtheta, -h, h)`, moved `= dtheta - dp`. As wide as the noise of an encoder, it keeps a row of balls from
-/// turning round with every count. What has moved and what is in the play add up to the turn, to rounding. A NaN
-/// counts as no turn. Cost: 40 modelled cycles.
+/// A play of `half_width` to either side: the output follows the turn only beyond it, `p <- clamp(p + dtheta, -h, h)`, moved `= dtheta - dp`. As
+/// wide as the noise of an encoder, it keeps a row of balls from turning round with every count. NaN counts as no turn. Cost: 40 modelled cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Play {
@@ -23,11 +20,11 @@ pub struct PlayState {
     pub(super) direction: f32,
 }
 
-/// What the output does.
+/// Motion of the output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Moved {
-    /// How far it moves, rad (m).
+    /// Turn, rad (m).
     pub turn: f32,
     /// Direction of its last motion: 1 or -1; 0 before the first.
     pub direction: f32,
@@ -57,26 +54,25 @@ impl Play {
     /// A play of `half_width`, rad (m): 0 to 1e3. Without width the output follows every turn.
     ///
     /// # Errors
-    /// `half_width` out of range.
+    /// [`Error`] naming `half_width`.
     pub const fn new(half_width: f32) -> Result<Self, Error> {
         let half_width = attempt!(in_range("half_width", half_width, 0.0, 1e3));
         Ok(Self { half_width })
     }
 
-    /// Half its width, rad (m).
     #[inline]
     pub(crate) const fn half_width(&self) -> f32 {
         self.half_width
     }
 
-    /// Makes a state that another play left one of this play.
+    /// Cuts a state of another play to this one.
     pub(crate) const fn take_over(&self, state: &mut PlayState) {
         if state.position.abs() > self.half_width {
             state.position = self.half_width.copysign(state.position);
         }
     }
 
-    /// What the output does under a turn, rad (m).
+    /// Motion of the output under a turn, rad (m).
     #[inline]
     pub fn follow(&self, state: &mut PlayState, turn: f32) -> Moved {
         let position = state.position + turn;
@@ -121,12 +117,9 @@ impl Play {
     }
 }
 
-/// An angle sensor `A` behind a [`Play`]: noise within the play turns nothing.
-///
-/// For friction that is compensated. Elements that follow a noisy angle are shaken: springs with short travel slip to and fro,
-/// friction sets in earlier than it should, and the compensation drives what it ought to follow
-/// ([`compensation`](crate::law::compensation)). Behind a play as wide as the noise they stand still with the nut; after a reversal they
-/// are late by its width, `2 half_width`. 30 cycles beyond the sensor's.
+/// An angle sensor `A` behind a [`Play`] as wide as its noise, for friction that is compensated
+/// ([`compensation`](crate::law::compensation)): elements stand still with the nut, and after a reversal are late by `2 half_width`. 30 cycles
+/// beyond the sensor's.
 ///
 /// ```
 /// use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Deadband, Turn};
@@ -151,7 +144,7 @@ pub struct Deadband<A> {
     pub(super) play: Play,
 }
 
-/// The last good reading, and where the play is.
+/// The last good reading, and the state of the play.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DeadbandReading<S> {
@@ -160,7 +153,7 @@ pub struct DeadbandReading<S> {
 }
 
 impl<A: Copy> Deadband<A> {
-    /// A sensor behind a play of `half_width`, rad (m): 0 to 1e3; at least half the width of the noise, counts included.
+    /// A sensor behind a play of `half_width`, rad (m), 0 to 1e3: at least half the width of the noise, counts included.
     ///
     /// # Errors
     /// [`Error`] naming `half_width`.

@@ -1,7 +1,7 @@
 //! Where on the track balls carry load, and what they find there.
 
+use super::UNITS;
 use super::deviation::{DeviationMap, PHASE_BITS};
-use super::phase::UNITS;
 use crate::ball::{LoadShare, LoadShares};
 use crate::error::{Error, attempt};
 
