@@ -14,12 +14,10 @@ const FORGETTING_TICKS: Range = Range::new(200.0, 1e5);
 /// Ticks of the slow average's time constant: with 1e7 rounding stops an average of 0.1 within 8e-4 of the level that it follows.
 const AVERAGE_TICKS: Range = Range::new(400.0, 1e7);
 
-/// Times to forget, s, that a tick, s, allows.
 pub(super) const fn forgetting_times(tick: f32) -> Range {
     times(FORGETTING_TICKS, tick)
 }
 
-/// Time constants of the slow average, s, that a tick, s, allows.
 pub(super) const fn average_times(tick: f32) -> Range {
     times(AVERAGE_TICKS, tick)
 }
@@ -221,7 +219,6 @@ impl AdaptationConstants {
         })
     }
 
-    /// True where an estimate is at its bound, or beyond it.
     pub(super) const fn binds(&self, estimates: &[f32; ESTIMATES]) -> bool {
         let mut index = 0;
         while index < ESTIMATES {
@@ -234,7 +231,6 @@ impl AdaptationConstants {
         false
     }
 
-    /// True where an adaptation with these constants may have found the estimates.
     pub(super) fn allows(&self, estimates: &[f32; ESTIMATES]) -> bool {
         let bounds = self.least.iter().zip(&self.largest);
         let starts = START.iter().zip(&self.deviations);
@@ -372,12 +368,10 @@ const fn over(mut values: [f32; ESTIMATES], divisor: f32) -> [f32; ESTIMATES] {
     values
 }
 
-/// `(1 + x)^5 - 1` of a small number.
 const fn fifth_power_less_one(x: f32) -> f32 {
     x * (5.0 + x * (10.0 + x * (10.0 + x * (5.0 + x))))
 }
 
-/// Entries of `U` above its diagonal.
 const ABOVE: usize = ESTIMATES * (ESTIMATES - 1) / 2;
 
 impl Fingerprinted for AdaptationConstants {
@@ -394,7 +388,6 @@ impl Fingerprinted for AdaptationConstants {
 mod tests {
     use super::fifth_power_less_one;
 
-    /// Exact in f32: multiples of 2^-5.
     #[test]
     fn a_fifth_power() {
         assert_eq!(fifth_power_less_one(0.5), 1.5_f32.powi(5) - 1.0);

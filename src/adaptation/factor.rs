@@ -58,7 +58,6 @@ impl<const N: usize> Factor<N> {
         Projection { along, variance }
     }
 
-    /// Of a reading of one number alone, times `h`.
     #[inline(always)]
     pub(super) fn project_one(&self, number: usize, h: f32) -> Projection<N> {
         let mut along = [[0.0; 2]; N];
@@ -105,7 +104,6 @@ impl<const N: usize> Factor<N> {
         gain
     }
 
-    /// Lets all readings so far count by `1/growth`.
     #[inline(always)]
     pub(super) fn forget(&mut self, growth: f32) {
         for entry in &mut self.diagonal {
@@ -113,7 +111,6 @@ impl<const N: usize> Factor<N> {
         }
     }
 
-    /// Variances: the diagonal of `P`.
     pub(super) fn variances(&self) -> [f32; N] {
         let mut variances = self.diagonal;
         for (column, entry) in self.columns.iter().zip(&self.diagonal) {

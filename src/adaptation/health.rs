@@ -35,13 +35,11 @@ pub(super) struct HealthConstants {
 pub(super) struct HealthState {
     /// Slow average of the level, less 1: of a small number a small change is not lost to rounding.
     pub(super) average: f32,
-    /// The average at commissioning, less 1.
     pub(super) commissioned: f32,
     pub(super) health: Health,
 }
 
 impl HealthConstants {
-    /// Thresholds for an average that is taken every `round`, s.
     pub(super) const fn new(
         configuration: &HealthConfiguration,
         tick: f32,
@@ -78,7 +76,6 @@ impl HealthState {
         },
     };
 
-    /// Takes a level, less 1, into the average.
     #[inline(always)]
     pub(super) fn follow(&mut self, constants: &HealthConstants, level: f32) {
         self.average += constants.share * (level - self.average);
@@ -92,7 +89,6 @@ impl HealthState {
         };
     }
 
-    /// Counts drift from a level, less 1.
     pub(super) fn commission(&mut self, level: f32) {
         *self = Self {
             average: level,

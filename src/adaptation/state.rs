@@ -31,7 +31,6 @@ pub struct AdaptationState {
     pub(super) health: HealthState,
 }
 
-/// Estimates before the first tick: the model as it is.
 pub(super) const START: [f32; ESTIMATES] = [1.0, 1.0, 0.0, 0.0, 0.0];
 
 impl AdaptationState {
@@ -135,7 +134,6 @@ impl AdaptationState {
         cut
     }
 
-    /// Moves the estimates, within their bounds.
     #[inline(always)]
     fn apply(&mut self, constants: &AdaptationConstants) {
         let mut at_bound = false;
@@ -192,7 +190,6 @@ impl AdaptationState {
         self.health.commission(self.level_less_one());
     }
 
-    /// Standard deviations, in the estimates' own units.
     pub(super) fn deviations(&self, constants: &AdaptationConstants) -> Estimates {
         let mut deviations = self.covariance.variances();
         for (entry, deviation) in deviations.iter_mut().zip(&constants.deviations) {

@@ -132,7 +132,6 @@ impl AdaptationFlags {
         self.0
     }
 
-    /// This set with `other` added where `condition` holds.
     #[inline(always)]
     pub(super) const fn with(self, condition: bool, other: Self) -> Self {
         Self(self.0 | if condition { other.0 } else { 0 })

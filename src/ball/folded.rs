@@ -10,7 +10,6 @@ pub const PARTS: usize = 8;
 /// Change of a friction coefficient, over it, below which it counts as the same: rounding.
 const SAME_FRICTION: f32 = 1e-3;
 
-/// Exponent's bias and mantissa's bits of an `f32`.
 const BIAS: u32 = 127;
 const MANTISSA: u32 = 23;
 
@@ -102,7 +101,6 @@ impl FrictionInterval {
         self.friction
     }
 
-    /// The interval that holds a friction coefficient, among nodes with these coefficients, rising, and their logarithms.
     #[inline(always)]
     pub(crate) const fn among<const NODES: usize>(
         frictions: &[f32; NODES],
@@ -154,7 +152,6 @@ pub(crate) const fn holds((least, largest): (f32, f32), friction: f32) -> bool {
     friction >= (1.0 - SAME_FRICTION) * least && friction <= (1.0 + SAME_FRICTION) * largest
 }
 
-/// [`log2_biased`] of friction coefficients.
 pub(crate) const fn node_octaves<const NODES: usize>(frictions: &[f32; NODES]) -> [f32; NODES] {
     let mut all = [0.0; NODES];
     let mut number = 0;
@@ -242,7 +239,6 @@ impl<const NODES: usize> LoadLaw<NODES> {
         (self.nodes[0].friction, self.nodes[NODES - 1].friction)
     }
 
-    /// Whether the law is folded for a friction coefficient.
     #[inline(always)]
     pub(crate) const fn holds(&self, friction: f32) -> bool {
         holds(self.friction_range(), friction)
@@ -258,7 +254,6 @@ impl<const NODES: usize> LoadLaw<NODES> {
         all
     }
 
-    /// [`log2_biased`] of the nodes' friction coefficients, for [`Self::interval`].
     pub(crate) const fn node_octaves(&self) -> [f32; NODES] {
         node_octaves(&self.frictions())
     }
@@ -335,7 +330,6 @@ mod tests {
         }
     }
 
-    /// A curve of four parts with these values at their begins, which rises by half a unit an octave.
     fn curve(of: [f32; 4]) -> LoadCurve {
         let mut starts = [f32::MAX; PARTS];
         let mut cubics = [[0.0; 4]; PARTS];
@@ -346,7 +340,6 @@ mod tests {
         LoadCurve { starts, cubics }
     }
 
-    /// Each load meets the part in which it lies, its begin included.
     #[test]
     fn a_load_meets_its_part() {
         let curve = curve([1.0, 2.0, 3.0, 4.0]).checked().unwrap();

@@ -46,12 +46,10 @@ impl LoadShare {
         Ok(Self { share, root })
     }
 
-    /// The share's power of 1/3.
     pub(crate) const fn root(&self) -> f32 {
         self.root
     }
 
-    /// The lightest and the heaviest of some shares; of none the mean load.
     pub(crate) const fn extremes(shares: &[Self]) -> (Self, Self) {
         let (mut lightest, mut heaviest) = match shares.first() {
             Some(first) => (*first, *first),
@@ -71,7 +69,6 @@ impl LoadShare {
         (lightest, heaviest)
     }
 
-    /// The share's power of 2/3.
     #[inline]
     pub(crate) const fn two_thirds(&self) -> f32 {
         self.root * self.root

@@ -100,7 +100,6 @@ impl<const NODES: usize> BallLaw<NODES> {
         (self.nodes[0].friction, self.nodes[NODES - 1].friction)
     }
 
-    /// Whether a friction coefficient is one of those that the law is folded for.
     #[inline(always)]
     pub(crate) const fn holds(&self, friction: f32) -> bool {
         holds(self.friction_range(), friction)

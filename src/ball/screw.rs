@@ -51,7 +51,6 @@ pub struct ScrewRow {
     speeds: Speeds,
     /// `1/(4 mu)`.
     quarter_per_friction: f32,
-    /// Nominal contact angle, rad.
     contact_angle: f32,
     /// Normal force of a contact over the axial load, `1/(sin beta cos alpha)`.
     normal: f32,
@@ -295,7 +294,6 @@ const LEAST_LOAD: f32 = 1e-6;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Contacts {
-    /// Friction coefficient of ball and groove.
     friction: f32,
     screw: Raceway,
     nut: Raceway,
@@ -379,7 +377,6 @@ const fn larger(first: f32, second: f32) -> f32 {
     if first > second { first } else { second }
 }
 
-/// Contact of a ball that slips across the track by a given speed and spins.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Raceway {
@@ -398,7 +395,6 @@ impl Raceway {
         })
     }
 
-    /// The contact under a load of which this is the cube root.
     #[inline]
     const fn under(&self, root: f32) -> Across {
         self.table.at(self.end_speed * root)

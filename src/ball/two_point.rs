@@ -42,13 +42,10 @@ pub(crate) struct GrooveFriction {
     pressing: f32,
 }
 
-/// Parameters of the border of two-point rolling beside the loads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BorderParameters {
     pub(crate) angle: (f32, f32),
-    /// Friction coefficient of ball and groove.
     pub(crate) friction: f32,
-    /// Friction coefficient of ball and ball.
     pub(crate) ball_friction: f32,
     /// Loss of a ball that spins at four contacts over `U^(4/3) + D^(4/3)`, N^(-1/3).
     pub(crate) spin: f32,

@@ -196,7 +196,6 @@ const SMALLEST_AXIS_RATIO: f32 = 0.02;
 /// Largest axis ratio; beyond it differences of the elliptic integrals lose too many digits.
 const LARGEST_AXIS_RATIO: f32 = 0.95;
 
-/// An axis ratio for which the integrals are accurate.
 pub(super) const fn checked_axis_ratio(axis_ratio: f32) -> Result<f32, Error> {
     let (least, largest) = (SMALLEST_AXIS_RATIO, LARGEST_AXIS_RATIO);
     in_range("axis_ratio", axis_ratio, least, largest)
@@ -221,7 +220,6 @@ mod tests {
     extern crate std;
     use super::*;
 
-    /// Largest errors against the integrals.
     fn errors(k: f32) -> [f32; 5] {
         let Ok(table) = AcrossTable::new(k, 1.0) else {
             panic!("{k}")
@@ -268,7 +266,6 @@ mod tests {
         }
     }
 
-    /// Without slip a contact rolls, and no friction acts across the track.
     #[test]
     fn without_slip_a_contact_rolls() {
         let Ok(table) = AcrossTable::new(0.2, 0.0) else {

@@ -7,7 +7,6 @@ use crate::math::constant;
 /// Contact angle, rad (72 degrees), up to which [`FittedCurvature::of`] fits.
 pub const DEFAULT_FIT_RANGE: f32 = 1.256_637_1;
 
-/// Number of coefficients, and of nodes where the fit is exact.
 const NODES: usize = 5;
 
 /// `cos((2 i + 1) pi / 10)`: the Chebyshev nodes on -1 to 1.

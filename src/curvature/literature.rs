@@ -85,7 +85,6 @@ impl CircularGrooveCurvature {
 }
 
 impl From<&GothicArch> for CircularGrooveCurvature {
-    /// The same groove with its offsets left out.
     fn from(arch: &GothicArch) -> Self {
         Self::new(arch.groove(), &arch.path(), arch.groove_radius())
     }

@@ -114,7 +114,6 @@ impl<SPI: SpiDevice> MagneticEncoder<SPI> {
         self.spi
     }
 
-    /// The angle in counts, and the diagnostics asked for before it.
     fn sample(&mut self) -> Result<(u16, Diagnostics), EncoderError<SPI::Error>> {
         if !self.asked {
             self.exchange(READ_DIAGNOSTICS)?;
@@ -150,7 +149,6 @@ impl<SPI: SpiDevice> MagneticEncoder<SPI> {
     }
 }
 
-/// The frame, if its parity is even.
 fn checked<E>(frame: u16) -> Result<u16, EncoderError<E>> {
     if even(frame) {
         Ok(frame)
@@ -169,7 +167,6 @@ pub(super) const READ_DIAGNOSTICS: u16 = read(0x3FFC);
 /// Reads the errors of the interface (ERRFL, 0x0001); the sensor clears them by it.
 pub(super) const READ_ERRORS: u16 = read(0x0001);
 
-/// The command that reads a register, with its parity.
 const fn read(address: u16) -> u16 {
     let command = 1 << 14 | address;
     if even(command) {
@@ -285,7 +282,6 @@ mod tests {
         assert_eq!(READ_ERRORS, 0x4001);
     }
 
-    /// Each error and each finding has its bit, as the data sheet numbers them, and none reads as another.
     #[test]
     fn every_bit_is_its_own() {
         for bit in 0..16 {

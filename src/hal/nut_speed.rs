@@ -20,7 +20,6 @@ pub(super) enum NoSpeed {
     Stuck(u32),
 }
 
-/// The last angle and the smoothed speed, with the constants of both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct NutSpeed {
@@ -131,7 +130,6 @@ impl NutSpeed {
         f32::from(angle) * (TAU / COUNTS)
     }
 
-    /// Nut speed of one count in one tick, rad/s.
     pub(super) fn resolution(&self) -> f32 {
         self.speed_per_count.abs()
     }

@@ -222,7 +222,6 @@ pub struct BallKinematics {
 }
 
 impl BallKinematics {
-    /// From the motion per speed to that at a speed.
     #[inline]
     pub(super) fn at_speed(&self, speed: f32) -> Self {
         let magnitude = speed.abs();
@@ -264,7 +263,6 @@ impl BallKinematics {
     }
 }
 
-/// Largest speed of a screw, rad/s.
 const SPEED_LIMIT: f32 = 1.0e6;
 
 #[inline]

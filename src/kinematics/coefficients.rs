@@ -66,7 +66,6 @@ pub struct ContactCoefficients {
 }
 
 impl ContactCoefficients {
-    /// Constants of the groove alone, before a contact is known.
     pub(super) const fn new(groove_path: &GroovePath) -> Self {
         Self {
             slip: ContactSlip {

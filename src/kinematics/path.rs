@@ -114,7 +114,6 @@ pub struct EllipticContact {
     pub semi_minor: f32,
 }
 
-/// Diameter of a ball, m.
 const BALL_DIAMETER: Range = Range::new(
     2.0 * ranges::BALL_RADIUS.minimum,
     2.0 * ranges::BALL_RADIUS.maximum,
@@ -187,7 +186,6 @@ impl GroovePath {
     }
 }
 
-/// Constants of the ball: helix, axis of rotation, both grooves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Path {
@@ -431,7 +429,6 @@ impl Path {
         inside
     }
 
-    /// `b` at a contact angle, rad.
     const fn grip_at(&self, contact_angle: f32) -> f32 {
         let (sine, cosine) = constant::sin_cos(contact_angle);
         self.axis_binormal * cosine + self.axis_normal * sine

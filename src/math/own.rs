@@ -154,7 +154,6 @@ pub const SIN_THIRD: f32 = -1.666_500_3e-1;
 #[doc(hidden)]
 pub const COS_FOURTH: f32 = 4.166_666_8e-2;
 
-/// Directions of a turn.
 const STEPS: usize = 64;
 
 /// Sines of 0, pi/32, 2 pi/32 and so on to pi/2.

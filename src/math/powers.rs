@@ -57,7 +57,6 @@ mod tests {
         assert_eq!(0.0 * inverse_cube_roots([0.0, 1.0])[0], 0.0);
     }
 
-    /// What no caller gives has no meaning, and does no harm to the number beside it.
     #[test]
     fn numbers_of_no_meaning_do_not_panic() {
         let [_, two] = inverse_cube_roots([1.0, 2.0]);

@@ -118,7 +118,6 @@ impl CircuitConfiguration {
 }
 
 impl Circuit {
-    /// Units of the deviations of the passing groove and of the recirculating one, rad.
     #[inline(always)]
     pub(crate) const fn deviation_units(&self) -> (f32, f32) {
         self.zone.units()
@@ -134,13 +133,11 @@ impl Circuit {
         speed * self.travel
     }
 
-    /// Shares of the balls under a load of this sign.
     #[inline(always)]
     pub(crate) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
         self.zone.shares(negative)
     }
 
-    /// How the balls share a load where they are, by the [`Circuit::shares`] of this tick.
     #[inline(never)]
     pub(crate) fn sharing<const N: usize>(
         &self,
@@ -151,31 +148,26 @@ impl Circuit {
             .sharing(state.train.positions(), self.balls, shares)
     }
 
-    /// Whether the track has no return, and no run-in.
     #[inline(always)]
     pub(crate) const fn is_closed(&self) -> bool {
         self.zone.is_closed()
     }
 
-    /// Part of its load that a ball carries at a position: below 1 on a run-in, 0 in the return.
     #[inline(never)]
     pub(crate) fn part(&self, position: u32) -> f32 {
         self.zone.part(position)
     }
 
-    /// The ball at a position of the track, if it is loaded there.
     #[inline(always)]
     pub(crate) fn loaded_ball(&self, position: u32, phase: u32) -> Option<LoadedBall> {
         self.zone.at(position, phase)
     }
 
-    /// Load over the mean load of a ball at a position, by the [`Circuit::shares`] of this tick, beyond the run-ins.
     #[inline(always)]
     pub(crate) fn share(&self, position: u32, shares: &'static [LoadShare]) -> f32 {
         self.zone.share(position, shares)
     }
 
-    /// Track and period of the passing groove.
     pub(crate) fn fingerprint(&self, fingerprint: &mut Fingerprint) {
         self.track.fingerprint(fingerprint);
         fingerprint.number(self.zone.passing_turns());
@@ -206,7 +198,6 @@ impl<const N: usize> CircuitState<N> {
         self.phase.units()
     }
 
-    /// Moves the passing groove on by a tick, at a speed of the motion.
     #[inline(always)]
     pub(crate) fn advance(&mut self, circuit: &Circuit, speed: f32) {
         self.phase.advance(speed * circuit.advance);
@@ -230,7 +221,6 @@ impl<const N: usize> Stored for CircuitState<N> {
 /// Units of a period of the passing groove, and of a track.
 const UNITS: f32 = 4_294_967_296.0;
 
-/// A phase that advances by parts of a unit and wraps around.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 struct Phase {

@@ -137,7 +137,6 @@ impl Limits {
         Ok(self)
     }
 
-    /// The inputs within these limits, with what was wrong.
     #[inline(always)]
     pub(super) fn check_inputs(&self, inputs: Inputs) -> CheckedInputs<Inputs> {
         let Inputs {
@@ -264,7 +263,6 @@ impl Reversal {
     }
 }
 
-/// -1 where a speed is negative, else 1.
 #[inline(always)]
 pub(super) const fn direction(speed: f32) -> f32 {
     if speed < 0.0 { -1.0 } else { 1.0 }

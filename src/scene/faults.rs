@@ -81,7 +81,6 @@ impl Faults {
         Self(bits)
     }
 
-    /// Flags of inputs beyond their limits: the speed, a load.
     #[inline(always)]
     pub(super) const fn beyond(speed: bool, load: bool) -> Self {
         Self::NONE
@@ -89,7 +88,6 @@ impl Faults {
             .with(load, Self::LOAD_RANGE)
     }
 
-    /// Flags of inputs that are NaN or infinite: the speed, a load.
     #[inline(always)]
     pub(super) const fn not_finite(speed: bool, load: bool) -> Self {
         Self::NONE
@@ -97,7 +95,6 @@ impl Faults {
             .with(load, Self::LOAD_NOT_FINITE)
     }
 
-    /// This set with `other` added where `condition` holds.
     #[inline]
     #[must_use]
     pub(crate) const fn with(self, condition: bool, other: Self) -> Self {

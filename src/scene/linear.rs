@@ -55,7 +55,6 @@ pub struct LinearState<const N: usize> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearConstants<const N: usize> {
     circuit: Circuit,
-    /// Friction coefficient of the configuration.
     friction: f32,
     /// Time between two ticks, s, and 1 / it.
     tick: f32,
@@ -225,7 +224,6 @@ impl<const N: usize> LinearConstants<N> {
         })
     }
 
-    /// See [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position).
     pub(crate) fn set_carriage_position(&self, state: &mut LinearState<N>, position: f32) {
         state
             .circuit

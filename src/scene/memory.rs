@@ -235,7 +235,6 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         &self.scene
     }
 
-    /// The friction coefficient's law at the temperature of this step.
     #[inline(always)]
     fn take_temperature<S: Sliding>(
         &self,
@@ -275,7 +274,6 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         (turn, faults)
     }
 
-    /// See [`FrictionModel::between`](crate::FrictionModel::between).
     #[inline(always)]
     pub(crate) fn between<S: Sliding<Constants = C>>(
         &self,
@@ -286,7 +284,6 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         self.follow(remembered, turn, remembered.inputs, faults)
     }
 
-    /// Friction after a turn, between the limits of the last sliding friction.
     #[inline(always)]
     fn follow<S: Sliding<Constants = C>>(
         &self,

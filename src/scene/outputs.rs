@@ -197,7 +197,6 @@ impl Outputs {
 }
 
 impl From<UncagedOutputs> for Outputs {
-    /// The outputs that every scene of a ball screw has.
     fn from(outputs: UncagedOutputs) -> Self {
         let reversal = ReversalState {
             standing: matches!(outputs.regime, Regime::Standing),

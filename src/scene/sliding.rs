@@ -145,7 +145,6 @@ pub(super) struct TrainFriction {
     /// Load, preload counted, N.
     pub(super) load: f32,
     pub(super) contacts: u8,
-    /// Largest force between two balls, N.
     pub(super) largest_contact_force: f32,
 }
 
@@ -156,7 +155,6 @@ pub(super) struct RowOutputs {
     pub(super) groove: f32,
     pub(super) ball: f32,
     pub(super) contacts: u8,
-    /// Largest force between two balls, N.
     pub(super) largest_contact_force: f32,
 }
 
@@ -178,7 +176,6 @@ impl TrainFriction {
         groove + ball
     }
 
-    /// Parts of the sliding friction: grooves, balls that rub.
     #[inline(always)]
     fn parts(&self, direction: f32) -> [f32; 2] {
         let ratio = of_direction(self.ratios, direction);
@@ -253,7 +250,6 @@ impl TrainFriction {
     }
 }
 
-/// The one of the numbers forward and backward that belongs to a sign.
 #[inline(always)]
 const fn of_direction([forward, backward]: [f32; 2], direction: f32) -> f32 {
     if direction < 0.0 { backward } else { forward }

@@ -70,7 +70,6 @@ pub struct UncagedConstants<const N: usize, const NODES: usize = 1> {
     /// The configuration's friction coefficient.
     friction: FrictionInterval,
     circuit: Circuit,
-    /// What the balls have in common beside their law.
     row: RowConstants,
     /// Deviations of one unit of the maps of screw and nut, over the law's largest.
     units: [f32; 2],
@@ -199,13 +198,11 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         self.circuit.shares(axial_load < 0.0)
     }
 
-    /// See [`FrictionModel::set_nut_angle`](crate::FrictionModel::set_nut_angle).
     pub(crate) fn set_nut_angle(&self, state: &mut UncagedState<N>, angle: f32) {
         state.circuit.set_turns(&self.circuit, angle / TAU);
     }
 }
 
-/// Refuses friction coefficients that a law does not hold.
 const fn check_friction<const NODES: usize>(
     law: &BallLaw<NODES>,
     friction: f32,

@@ -47,7 +47,6 @@ impl Stored for Header {
     }
 }
 
-/// A block of a fixed length around a state of type `T`.
 pub(crate) struct Block {
     label: Label,
     bytes: usize,

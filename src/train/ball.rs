@@ -42,7 +42,6 @@ pub(super) struct Ball {
 const _: () = assert!(size_of::<Ball>() == 32);
 
 impl Ball {
-    /// At the nominal speed, without any force.
     pub(super) const IDLE: Self = Self {
         speed: 0.0,
         impedance: 1.0,
@@ -91,13 +90,11 @@ impl Ball {
         (self.slack.to_bits() as i32) < 0
     }
 
-    /// Makes the ball a cluster of its own.
     #[inline(always)]
     pub(super) fn stand_alone(&mut self) {
         self.others = 0;
     }
 
-    /// Makes the ball the rear one of a cluster with `others` more balls.
     #[inline(always)]
     pub(super) fn set_rear(&mut self, others: usize, growth: f32, inner_slack: f32) {
         self.force = inner_slack;
@@ -105,7 +102,6 @@ impl Ball {
         self.others = others as u8;
     }
 
-    /// Makes the ball the front one of a cluster with `others` more balls.
     #[inline(always)]
     pub(super) fn set_front(&mut self, others: usize, impedance: f32, push: f32) {
         self.force = push;
@@ -211,7 +207,6 @@ mod tests {
 
     const BALLS: usize = 9;
 
-    /// Numbers between 0 and 1, the same in every run.
     fn random(seed: &mut u32) -> f32 {
         *seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
         (*seed >> 8) as f32 / 16_777_216.0

@@ -79,7 +79,6 @@ fn close(balls: &mut [Ball]) -> usize {
 /// The cluster of the last ball, which may grow around the place where the ring closes.
 struct Closing {
     cluster: Cluster,
-    /// Index of the last ball.
     last: usize,
     rear: usize,
     front: usize,
@@ -100,7 +99,6 @@ impl Closing {
         }
     }
 
-    /// Index of the ball ahead.
     #[inline(always)]
     fn ahead(&self) -> usize {
         if self.front == self.last {
@@ -152,7 +150,6 @@ impl Closing {
     }
 }
 
-/// Balls of a cluster besides the one at its rear or front.
 #[inline(always)]
 fn others(balls: &[Ball], end: usize) -> usize {
     balls.get(end).map_or(0, Ball::others)
@@ -235,7 +232,6 @@ impl Cluster {
         }
     }
 
-    /// The cluster with this front ball.
     #[inline(always)]
     pub(super) fn at(balls: &[Ball], front: usize) -> Self {
         let Some(front_ball) = balls.get(front) else {

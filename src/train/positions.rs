@@ -6,7 +6,6 @@ use super::track::{OVERLAP, Track};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::stored::{Port, Refusal, Stored};
 
-/// Bytes that a ball takes.
 pub(crate) const BALL_BYTES: usize = Ball::BYTES;
 
 /// Up to `N` balls on a closed track, which they fill in part: positions, distances, forces, from tick to tick.
@@ -214,7 +213,6 @@ impl<const N: usize> Stored for Train<N> {
 mod tests {
     use super::*;
 
-    /// Rounding may leave balls a few units into each other: a gap just below zero.
     #[test]
     fn an_overlap_by_rounding_is_a_gap_just_below_zero() {
         let mut train = Train::<2>::new(1.0, 0.01, &[0.0; 2]).unwrap();

@@ -228,7 +228,6 @@ impl<const N: usize> Press<N> {
         self.foremost = self.last();
     }
 
-    /// Leaves in all balls their speeds and forces, and passes each on as [`settle`] does.
     #[inline(always)]
     pub(super) fn settle(
         &mut self,

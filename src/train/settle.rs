@@ -5,21 +5,16 @@ use super::ball::Ball;
 /// Part of the largest force that rounding may leave of the sum of a cluster's net pushes.
 const ROUNDING: f32 = 1e-6;
 
-/// State of a ball in a tick.
 pub(super) struct BallState {
-    /// Actual speed.
     pub(super) speed: f32,
     /// Force of the ball behind, and the one on the ball in front.
     pub(super) behind: f32,
     pub(super) force: f32,
-    /// Whether it touches the ball in front.
     pub(super) touches: bool,
 }
 
-/// Sums over the contacts between balls in a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Pressing {
-    /// Pairs that press on each other.
     pub(crate) contacts: u8,
     /// Largest force, in the unit of speed times impedance.
     pub(crate) largest: f32,

@@ -102,7 +102,6 @@ impl<const N: usize> Train<N> {
         })
     }
 
-    /// Settles and moves all balls.
     #[inline(always)]
     fn settle(
         &mut self,
@@ -165,7 +164,6 @@ impl Neighbours {
 mod tests {
     use super::*;
 
-    /// Five balls in contact, the fastest at the rear.
     fn train() -> Train<5> {
         Train::new(1.0, 0.01, &[0.0; 5]).unwrap()
     }

@@ -96,7 +96,6 @@ impl Track {
         ahead.wrapping_sub(self.pitch).wrapping_sub(position)
     }
 
-    /// Length and pitch, to the bit.
     pub(crate) fn fingerprint(&self, fingerprint: &mut Fingerprint) {
         fingerprint.count(self.pitch);
         fingerprint.number(self.units_per_metre);
@@ -165,7 +164,6 @@ mod tests {
     }
 }
 
-/// Motion of a ball in a tick.
 #[derive(Clone, Copy)]
 pub(super) struct Motion {
     /// Whole units that the nominal speed moves every ball, signed along the track.

@@ -64,17 +64,14 @@ pub struct BallNode {
     pub unheld: [u32; 2],
 }
 
-/// The knots between which a load lies.
 #[derive(Clone, Copy)]
 pub(super) struct KnotInterval {
-    /// The knot below the load.
     pub(super) knot: usize,
     /// Fraction of the distance to the next knot, 0 to 1.
     fraction: f32,
 }
 
 impl KnotInterval {
-    /// Among knots of rising load, a power of two of them.
     #[inline(always)]
     fn among<T, const K: usize>(knots: &[Knot<T>; K], load: f32) -> Self {
         let knot = last_not_above::<K>(load, |knot| knots[knot % K].load);
@@ -88,7 +85,6 @@ impl KnotInterval {
 }
 
 impl BallNode {
-    /// The knots of a branch between which a load lies.
     #[inline(always)]
     pub(super) fn interval(&self, branch: usize, load: f32) -> KnotInterval {
         KnotInterval::among(&self.branches[branch & 1], load)

@@ -62,7 +62,6 @@ impl BallNumbers {
         work: 1.0,
     };
 
-    /// These numbers, interpolated towards others by a fraction, 0 to 1.
     #[inline(always)]
     pub(super) fn towards(&self, others: &Self, fraction: f32) -> Self {
         Self {
@@ -145,7 +144,6 @@ impl BallNumbers {
 pub(crate) struct PowerSums([f32; POWERS]);
 
 impl PowerSums {
-    /// Adds a ball.
     #[inline(always)]
     pub(crate) fn add(&mut self, [screw, nut]: [f32; 2]) {
         let [count, s, n, ss, sn, nn] = &mut self.0;
@@ -159,7 +157,6 @@ impl PowerSums {
 }
 
 impl FreeMotion {
-    /// This motion, interpolated towards another by a fraction, 0 to 1.
     #[inline(always)]
     pub(super) fn towards(self, other: Self, fraction: f32) -> Self {
         Self {
@@ -173,7 +170,6 @@ impl FreeMotion {
 /// Knots of a branch for [`NeighbourNumbers`].
 pub const NEIGHBOUR_KNOTS: usize = 16;
 
-/// Largest size of a number at a node.
 const LARGEST_NUMBER: f32 = 1e3;
 
 /// Friction of both neighbours over `mu W` at which a law has numbers: linear between, zero without friction, beyond the last in proportion.
@@ -239,7 +235,6 @@ impl NeighbourNumbers {
         outward_torque: 0.0,
     };
 
-    /// These numbers, interpolated towards others by a fraction, 0 to 1.
     #[inline(always)]
     pub(super) fn towards(&self, others: &Self, fraction: f32) -> Self {
         let [first, second, third] = &self.nodes;
@@ -302,7 +297,6 @@ pub(super) fn line([a, s, n]: &[f32; 3], [screw, nut]: [f32; 2]) -> f32 {
     a + screw * s + nut * n
 }
 
-/// Sum of the sizes of numbers, from one of them on.
 const fn sum_of_sizes(numbers: &[f32], from: usize) -> f32 {
     let mut sum = 0.0;
     let mut number = from;

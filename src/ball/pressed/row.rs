@@ -222,7 +222,6 @@ fn limited(number: f32, size: f32) -> f32 {
     }
 }
 
-/// A grip by the deviations, within what a train takes at all of them.
 #[inline(always)]
 fn within_grip(line: [f32; 3]) -> [f32; 3] {
     let most: f32 = line.iter().map(|number| number.abs()).sum();

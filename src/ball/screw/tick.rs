@@ -11,7 +11,6 @@ use crate::math::constant;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewTick {
-    /// Largest deviation of a contact angle that counts, rad.
     largest_deviation: f32,
     /// Coefficients of `t(u)`, 1/rad to 1/rad^5, and of `o(v)`, 1/rad to 1/rad^3: see [`ScrewTick::ball`].
     turn: [f32; 5],
@@ -52,7 +51,6 @@ pub struct ScrewTickBall {
     pub rubbing: f32,
 }
 
-/// A ball under the mean load.
 #[derive(Clone, Copy)]
 pub(super) struct Mean {
     /// Part of a diagonal's speed that remains where the other diagonal carries load as well.
@@ -197,7 +195,6 @@ pub(super) struct Speeds {
     pub(super) nominal: f32,
     /// Coefficients of the series of `2 cos beta/(cos beta + cos(beta - u)) - 1`, from that of `u` to that of `u^5`.
     pub(super) turn: [f32; 5],
-    /// Largest deviation of a contact angle that counts, rad.
     pub(super) largest_deviation: f32,
     /// With the third contact on the screw, on the nut, and with two contacts.
     third_on_screw: Branch,
@@ -205,7 +202,6 @@ pub(super) struct Speeds {
     two_point: Branch,
 }
 
-/// Speed and rubbing of a ball over its contact angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Branch {
@@ -235,7 +231,6 @@ pub(super) struct Weights {
 }
 
 impl Speeds {
-    /// Speeds of a design's balls; one in two contacts sticks to the screw, or else to the nut.
     pub(super) const fn new(design: &BallScrew, sticks_to_screw: bool) -> Self {
         let angle = design.contact_angle();
         let (sin, cos) = (angle.sin, angle.cos);

@@ -9,7 +9,6 @@ use crate::ranges;
 /// Least and largest half-share speed, rad/s, at every temperature: beyond either end friction is nearly that of a full film, or of none.
 const HALF_SHARE_SPEED: Range = Range::new(1e-3, 1e4);
 
-/// Factor of the coefficient in one direction.
 const DIRECTION: Range = Range::new(0.1, 10.0);
 
 /// Churning torque over viscosity and speed, m³.
@@ -194,7 +193,6 @@ impl CoefficientLaw {
     }
 }
 
-/// Largest speed that churns, rad/s.
 const LARGEST_SPEED: f32 = 1e6;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

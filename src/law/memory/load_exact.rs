@@ -236,7 +236,6 @@ const fn nodes<const N: usize>() -> [(f32, f32); N] {
     nodes
 }
 
-/// The Legendre polynomial of this degree and its derivative.
 const fn legendre(degree: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (0.0, 1.0);
     let (mut slope_before, mut slope) = (0.0, 0.0);

@@ -59,7 +59,6 @@ pub(super) fn turned(turn: f32) -> f32 {
     }
 }
 
-/// A force, or the limit that it is beyond.
 #[inline(always)]
 pub(super) fn held(force: f32, low: f32, high: f32) -> f32 {
     let force = if force > high { high } else { force };

@@ -210,7 +210,6 @@ impl<A: Fingerprinted> Fingerprinted for Deadband<A> {
 mod tests {
     use super::{Play, PlayState};
 
-    /// What a wider play left beyond this one is at its edge; what is inside stays.
     #[test]
     fn a_state_of_a_wider_play_is_cut() {
         let play = Play::new(1.0).unwrap();

@@ -6,7 +6,6 @@ use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 /// Largest turn of a tick, rad (m).
 pub const LARGEST_TURN: Range = Range::new(1e-6, 1e3);
 
-/// The largest turn of a sensor that starts again after twice `half`.
 pub(super) const fn within_half(largest_turn: f32, half: f32) -> Result<f32, Error> {
     let most = half.min(LARGEST_TURN.maximum);
     in_range("largest_turn", largest_turn, LARGEST_TURN.minimum, most)
@@ -152,7 +151,6 @@ impl CountSensor {
         })
     }
 
-    /// Counts from `last` to `now`, the shorter way.
     #[inline]
     const fn counts(&self, last: u32, now: u32) -> i32 {
         let forward = now.wrapping_sub(last);

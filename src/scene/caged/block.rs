@@ -23,7 +23,6 @@ use crate::scene::words::{HEADER, Layout, float, floats};
 /// First word of a block: `EPAS` as bytes, least significant first.
 const MAGIC: u32 = 0x5341_5045;
 
-/// Version of the layout.
 const VERSION: u32 = 1;
 
 /// Numbers that do not depend on the nodes, and words of a node.

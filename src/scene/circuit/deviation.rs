@@ -161,7 +161,6 @@ impl DeviationMap {
         in_range(field, self.largest(), 0.0, largest * margin)
     }
 
-    /// Its least and its largest deviation, rad.
     pub(crate) const fn extremes(&self) -> (f32, f32) {
         let (mut least, mut largest) = (f32::INFINITY, f32::NEG_INFINITY);
         let mut index = 0;
@@ -195,7 +194,6 @@ impl DeviationMap {
         })
     }
 
-    /// Deviation of one unit of [`DeviationMap::units`], rad.
     #[inline(always)]
     pub(super) const fn unit(&self) -> f32 {
         self.unit

@@ -56,7 +56,6 @@ pub(crate) struct Sharing {
     pub(crate) extremes: [f32; 2],
 }
 
-/// Lengths of a track, in turns or wavelengths of the maps.
 pub(super) struct Lengths {
     pub(super) loaded: f32,
     pub(super) returning: f32,
@@ -113,7 +112,6 @@ impl LoadedZone {
         self.shares.of(negative)
     }
 
-    /// The ball at `position`, if it is loaded, when the passing groove is at `phase`.
     #[inline(always)]
     pub(super) fn at(&self, position: u32, phase: u32) -> Option<LoadedBall> {
         let place = position.wrapping_add(self.half_run_in);
@@ -171,7 +169,6 @@ impl LoadedZone {
         }
     }
 
-    /// Whether the track has no return, and no run-in.
     #[inline(always)]
     pub(super) const fn is_closed(&self) -> bool {
         self.run_in == 0
@@ -223,13 +220,11 @@ impl LoadedZone {
         of(below) + fraction * (of(above) - of(below))
     }
 
-    /// Units of the deviations of the passing groove and of the recirculating one, rad.
     #[inline(always)]
     pub(super) const fn units(&self) -> (f32, f32) {
         (self.passing.unit(), self.recirculating.unit())
     }
 
-    /// Turns of the maps in a period of the passing groove.
     #[inline]
     pub(super) fn passing_turns(&self) -> f32 {
         f32::from(self.passing.turns())
@@ -241,7 +236,6 @@ impl LoadedZone {
     }
 }
 
-/// A position times a ratio of full tracks.
 #[inline(always)]
 const fn scaled(position: u32, ratio: u32) -> u32 {
     ((position as u64 * ratio as u64) >> 32) as u32
@@ -290,7 +284,6 @@ mod tests {
         (0..balls).map(move |ball| distance(ball, step))
     }
 
-    /// Loads of the balls over the axial load.
     fn loads(zone: &LoadedZone, positions: impl Iterator<Item = u32> + Clone) -> [f32; MOST] {
         let shares = zone.shares(false);
         let sharing = zone.sharing(positions.clone(), positions.clone().count() as u16, shares);
@@ -336,7 +329,6 @@ mod tests {
         }
     }
 
-    /// Shares are linear between the middles of their parts, with and without a return.
     #[test]
     fn shares_are_linear() {
         for (returning, at_start) in [(0.0, 0.65), (1.0, 0.4)] {
@@ -381,7 +373,6 @@ mod tests {
         );
     }
 
-    /// With no ball on it, nothing is divided by zero.
     #[test]
     fn a_zone_without_a_ball_loads_none() {
         let zone = zone([0.5, 4.5, 0.4], LoadShares::EVEN);

@@ -48,7 +48,6 @@ pub struct LinearBearingConfiguration {
 }
 
 impl LinearBearingConfiguration {
-    /// The circuit's part, checked and folded for a model of so many balls at most.
     pub(super) const fn circuit(
         &self,
         limits: &LinearLimits,
@@ -163,7 +162,6 @@ impl LinearLimits {
         Ok(self)
     }
 
-    /// The inputs within these limits, with what was wrong.
     #[inline(always)]
     pub(super) fn check_inputs(&self, inputs: LinearInputs) -> CheckedInputs<LinearInputs> {
         let LinearInputs {

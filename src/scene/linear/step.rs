@@ -105,7 +105,6 @@ impl<const N: usize> LinearConstants<N> {
         shares
     }
 
-    /// What both diagonals carry, and how the ball rolls under it.
     #[inline(always)]
     fn diagonals(&self, inputs: LinearInputs, per_weight: f32) -> Diagonals {
         let LinearInputs {

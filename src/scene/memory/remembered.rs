@@ -28,11 +28,9 @@ pub struct SceneMemory<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel
     pub(super) sliding: Option<S::Friction>,
     pub(super) limits: SlidingLimits,
     pub(super) drag: f32,
-    /// Levels that scale the limits.
     pub(super) level: FrictionLevel,
 }
 
-/// Checks that the scene takes every coefficient that the law gives.
 pub(super) fn checked<S: Sliding, L: CoefficientModel>(law: L) -> Result<L, Error> {
     let (least, largest) = law.extremes();
     S::FRICTION.checked("coefficient", least)?;
@@ -64,14 +62,12 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> SceneMemory<S, E
         }
     }
 
-    /// See [`FrictionModel::set_coefficient`](crate::FrictionModel::set_coefficient).
     pub(crate) fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
         self.coefficient = checked::<S, L>(law)?;
         self.at_temperature = law.at_temperature(self.temperature);
         Ok(())
     }
 
-    /// See [`FrictionModel::set_level`](crate::FrictionModel::set_level).
     pub(crate) const fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
         self.level = attempt!(level.checked());
         Ok(())
@@ -85,7 +81,6 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> SceneMemory<S, E
         self.drag
     }
 
-    /// -1 where the balls went backward last, else 1.
     #[inline(always)]
     pub(super) const fn direction(&self) -> f32 {
         direction(self.play.direction())

@@ -20,7 +20,6 @@ use crate::scene::words::{HEADER, Layout, float, floats, word};
 /// First word of a block: `EPAU` as bytes, least significant first.
 const MAGIC: u32 = 0x5541_5045;
 
-/// Version of the layout.
 const VERSION: u32 = 4;
 
 /// Numbers that do not depend on the nodes; words of a knot, and of a node.

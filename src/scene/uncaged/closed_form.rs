@@ -131,7 +131,6 @@ const fn knot_load(lift_off: f32, axial_load: f32, knot: usize) -> f32 {
     lift_off + f32::from_bits(bits)
 }
 
-/// The numbers of a ball of a row, from the closed form at the middle and the ends of both deviations.
 const fn numbers(
     tick: &ScrewTick,
     [screw, nut]: [f32; 2],
@@ -226,7 +225,6 @@ mod tests {
         },
     };
 
-    /// The compiler folds it.
     static BALL: FoldedBall = match FoldedBall::of_catalogue(&CATALOGUE_BALL) {
         Ok(ball) => ball,
         Err(_) => panic!("a field is out of range"),

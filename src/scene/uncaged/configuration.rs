@@ -73,7 +73,6 @@ impl<const NODES: usize> FoldedBall<NODES> {
 }
 
 impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
-    /// The circuit's part, checked and folded for a model of so many balls at most.
     pub(super) const fn circuit(&self, limits: &Limits, most: usize) -> Result<Circuit, Error> {
         let Self {
             turns,
@@ -116,7 +115,6 @@ impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
         .folded(most)
     }
 
-    /// Length of the loaded track, m.
     pub(super) const fn loaded_length(&self) -> f32 {
         self.turns * (TAU * self.folded.path_radius)
     }

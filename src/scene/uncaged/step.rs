@@ -32,7 +32,6 @@ struct Common {
     direction: f32,
     /// What such a ball does alone, over `sliding`.
     numbers: BallNumbers,
-    /// What neighbours change in it.
     neighbours: NeighbourLaw,
 }
 
