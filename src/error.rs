@@ -103,19 +103,16 @@ impl Error {
     }
 
     /// Name of the field that is wrong.
-    #[must_use]
     pub const fn field(&self) -> &'static str {
         self.parts().0
     }
 
     /// The value that was refused, in the field's own unit.
-    #[must_use]
     pub const fn value(&self) -> f32 {
         self.parts().1
     }
 
     /// The range that would have been accepted, in the field's own unit.
-    #[must_use]
     pub const fn allowed(&self) -> Range {
         self.parts().2
     }

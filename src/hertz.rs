@@ -139,7 +139,6 @@ impl HertzContact {
     /// The ellipse under `load`, N; without extent where that is not positive or NaN. An infinite load counts as the largest number. Cost: one cube
     /// root and 5 other operations.
     #[inline]
-    #[must_use]
     pub fn at(&self, load: f32) -> ContactEllipse {
         // False for NaN too.
         let load = if load > 0.0 { load } else { 0.0 };
@@ -153,36 +152,26 @@ impl HertzContact {
     }
 
     /// Axis ratio `k = b/a`, 0 to 1.
-    #[inline]
-    #[must_use]
     pub const fn axis_ratio(&self) -> f32 {
         self.axis_ratio
     }
 
     /// Semi-major axis per cube root of the load, m/N^(1/3).
-    #[inline]
-    #[must_use]
     pub const fn semi_major_coefficient(&self) -> f32 {
         self.semi_major
     }
 
     /// Semi-minor axis per cube root of the load, m/N^(1/3).
-    #[inline]
-    #[must_use]
     pub const fn semi_minor_coefficient(&self) -> f32 {
         self.semi_minor
     }
 
     /// Deflection per load to the power 2/3, m/N^(2/3).
-    #[inline]
-    #[must_use]
     pub const fn deflection_coefficient(&self) -> f32 {
         self.deflection
     }
 
     /// Largest pressure per cube root of the load, Pa/N^(1/3).
-    #[inline]
-    #[must_use]
     pub const fn max_pressure_coefficient(&self) -> f32 {
         self.max_pressure
     }

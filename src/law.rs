@@ -90,7 +90,6 @@ impl FrictionLevel {
 
     /// Level of a direction, given by its sign; 0 counts as forward.
     #[inline(always)]
-    #[must_use]
     pub const fn of(&self, direction: f32) -> f32 {
         if direction < 0.0 {
             self.backward

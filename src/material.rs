@@ -41,7 +41,6 @@ impl Material {
     }
 
     /// Compliance of a half space of this material, `(1 - nu²) / E`, 1/Pa.
-    #[must_use]
     pub const fn half_space_compliance(&self) -> f32 {
         (1.0 - self.poisson_ratio * self.poisson_ratio) / self.youngs_modulus
     }
@@ -57,7 +56,6 @@ impl Material {
 /// let steel = contact_modulus(&Material::STEEL, &Material::STEEL);
 /// assert!((steel - 113.93229e9).abs() < 1e5);
 /// ```
-#[must_use]
 pub const fn contact_modulus(first: &Material, second: &Material) -> f32 {
     1.0 / (first.half_space_compliance() + second.half_space_compliance())
 }

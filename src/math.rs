@@ -34,21 +34,18 @@ pub(crate) use sqrt::sqrt_pair;
 
 /// Cube root of any number, odd. Own backend: at most 0.52 ulp over every finite f32; zeros keep their sign, infinities are returned, NaN gives NaN.
 #[inline]
-#[must_use]
 pub fn cbrt(x: f32) -> f32 {
     backend::cbrt(x)
 }
 
 /// Square of the cube root, `|x|^(2/3)`. Own backend: at most 0.54 ulp over every finite f32. Zeros give 0, infinities infinity, NaN NaN.
 #[inline]
-#[must_use]
 pub fn cbrt_squared(x: f32) -> f32 {
     backend::cbrt_squared(x)
 }
 
 /// Cube root and its square, for little more than the price of one.
 #[inline]
-#[must_use]
 pub fn cbrt_and_squared(x: f32) -> (f32, f32) {
     backend::cbrt_and_squared(x)
 }
@@ -58,7 +55,6 @@ pub fn cbrt_and_squared(x: f32) -> (f32, f32) {
 /// Own backend: for `|x| <= 2 pi` at most 6.3e-8 absolute and 2.0e-7 relative, also next to the zeros; for `|x| <= 8192` at most
 /// 9e-8 absolute. A finite angle beyond gives `(0, 1)`, NaN and infinities NaN. The sine of either zero is +0.
 #[inline]
-#[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     backend::sin_cos(x)
 }

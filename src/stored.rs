@@ -123,7 +123,6 @@ const NIBBLES: [u32; 16] = {
 /// ```
 /// assert_eq!(epas_friction::stored::crc32(b"123456789"), 0xCBF4_3926);
 /// ```
-#[must_use]
 pub const fn crc32(bytes: &[u8]) -> u32 {
     !continued(u32::MAX, bytes)
 }
@@ -182,7 +181,6 @@ impl Fingerprint {
     }
 
     /// The checksum so far.
-    #[must_use]
     pub const fn value(self) -> u32 {
         !self.0
     }

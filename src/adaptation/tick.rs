@@ -61,7 +61,6 @@ impl Estimates {
 
     /// Friction levels.
     #[inline(always)]
-    #[must_use]
     pub const fn level(&self) -> FrictionLevel {
         FrictionLevel {
             forward: self.forward,
@@ -73,7 +72,6 @@ impl Estimates {
     ///
     /// Not for a model with memory: a torque below breakaway times a level that changes may give more than it took.
     #[inline]
-    #[must_use]
     pub const fn friction(&self, modelled: f32, nut_speed: f32) -> f32 {
         self.level().of(modelled) * modelled + self.drag * nut_speed
     }
@@ -126,8 +124,6 @@ impl AdaptationFlags {
     }
 
     /// The flags as bits, in the order of their constants.
-    #[inline]
-    #[must_use]
     pub const fn bits(self) -> u8 {
         self.0
     }

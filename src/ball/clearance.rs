@@ -123,8 +123,6 @@ impl Clearance {
     }
 
     /// The gap, m: play above zero, oversize below.
-    #[inline]
-    #[must_use]
     pub const fn gap(self) -> f32 {
         self.gap
     }
@@ -132,7 +130,6 @@ impl Clearance {
     /// Preload: force of each of the four contacts without a load, N, `(-2 gap / (c_S + c_N))^(3/2)`; 0 with play, and below 1e-3 N.
     ///
     /// Within 3e-4 of the forces of a ball in elastic grooves up to an oversize of 1e-3 ball radii, and within 0.4 % up to 0.02.
-    #[must_use]
     pub const fn preload(self, design: &BallScrew) -> f32 {
         if self.gap < 0.0 {
             let ratio = -self.gap / mean_deflection(design);
@@ -143,13 +140,11 @@ impl Clearance {
     }
 
     /// Axial preload on each flank of the nut, N: `N F_0 sin(beta) cos(alpha)` of `N` loaded balls with the preload `F_0` of a contact.
-    #[must_use]
     pub const fn axial_preload(self, design: &BallScrew, loaded_balls: u16) -> f32 {
         loaded_balls as f32 * (self.preload(design) * design.axial_per_normal())
     }
 
     /// Travel of the nut along the axis from one flank to the other without a load, m; 0 without play.
-    #[must_use]
     pub const fn axial_play(self, design: &BallScrew) -> f32 {
         if self.gap > 0.0 {
             let offset = mean_offset(design);

@@ -19,7 +19,6 @@ const LOGARITHM: [f32; 4] = [1.438_308_4, -0.674_842_3, 0.315_605_3, -0.079_071_
 
 /// `log2(x) + 127` of a positive number, within 1.3e-4: the biased exponent and a polynomial of the mantissa. 0 gives 0.
 #[inline(always)]
-#[must_use]
 pub const fn log2_biased(number: f32) -> f32 {
     let bits = number.to_bits();
     let mantissa = f32::from_bits(bits & ((1 << MANTISSA) - 1) | (BIAS << MANTISSA)) - 1.0;
@@ -96,7 +95,6 @@ pub struct FrictionInterval {
 
 impl FrictionInterval {
     /// The friction coefficient.
-    #[must_use]
     pub const fn friction(&self) -> f32 {
         self.friction
     }
@@ -234,7 +232,6 @@ impl<const NODES: usize> LoadLaw<NODES> {
     }
 
     /// Least and largest friction coefficient.
-    #[must_use]
     pub const fn friction_range(&self) -> (f32, f32) {
         (self.nodes[0].friction, self.nodes[NODES - 1].friction)
     }
@@ -282,7 +279,7 @@ impl<const NODES: usize> LoadLaw<NODES> {
         let beyond = log2 > most;
         let log2 = if beyond { most } else { log2 };
         let log2 = if log2 > least { log2 } else { least };
-        let branch = assists as usize;
+        let branch = usize::from(assists);
         let below = &self.nodes[interval.node as usize % NODES];
         let value = if NODES == 1 {
             below.curves[branch].at(log2)
@@ -304,7 +301,6 @@ impl<const NODES: usize> LoadLaw<NODES> {
 
 /// Part of the shift so many octaves above the load from which on there is one: `w` of [`LoadLaw`].
 #[inline(always)]
-#[must_use]
 pub const fn shifted_part(above: f32) -> f32 {
     if above > 1.0 {
         1.0

@@ -146,7 +146,6 @@ impl AnalyticLinearBall {
     /// Only differences of the angles count; where one is NaN or infinite, the deviation is 0. A diagonal counts with the mean of its two
     /// forces; a sum up to zero, above 1e7 N, or NaN is no load. Powers are within 2.7e-5.
     #[inline]
-    #[must_use]
     pub fn speed_deviation(
         &self,
         contact_angles: &[f32; 4],
@@ -195,7 +194,6 @@ impl SpeedDeviation {
     /// Force with which this ball presses on the one in front of it, N; zero where it lags behind (Lin 2019, eq. (3.51)). For a track speed
     /// above zero; below it rear and front change places.
     #[inline]
-    #[must_use]
     pub fn contact_force(&self, front: &Self) -> f32 {
         let lead = self.speed_deviation - front.speed_deviation;
         if lead > 0.0 {

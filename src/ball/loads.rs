@@ -75,7 +75,6 @@ impl LoadShare {
     }
 
     /// Load over the mean load.
-    #[must_use]
     pub const fn share(&self) -> f32 {
         self.share
     }

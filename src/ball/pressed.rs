@@ -83,7 +83,6 @@ impl<const NODES: usize> BallLaw<NODES> {
     }
 
     /// Friction coefficients of the nodes.
-    #[must_use]
     pub const fn frictions(&self) -> [f32; NODES] {
         let mut all = [0.0; NODES];
         let mut number = 0;
@@ -95,7 +94,6 @@ impl<const NODES: usize> BallLaw<NODES> {
     }
 
     /// Least and largest friction coefficient.
-    #[must_use]
     pub const fn friction_range(&self) -> (f32, f32) {
         (self.nodes[0].friction, self.nodes[NODES - 1].friction)
     }
@@ -106,7 +104,6 @@ impl<const NODES: usize> BallLaw<NODES> {
     }
 
     /// The nodes between which a friction coefficient lies; beyond them impedance and torque are in proportion to it.
-    #[must_use]
     pub const fn interval(&self, friction: f32) -> FrictionInterval {
         let frictions = self.frictions();
         FrictionInterval::among(&frictions, &node_octaves(&frictions), friction)
@@ -114,7 +111,6 @@ impl<const NODES: usize> BallLaw<NODES> {
 
     /// Load `W` of a ball, N, under an axial load, N, of either sign.
     #[inline(always)]
-    #[must_use]
     pub const fn load_of(&self, axial_load: f32) -> f32 {
         axial_load.abs() + self.lift_off
     }
@@ -122,7 +118,6 @@ impl<const NODES: usize> BallLaw<NODES> {
     /// Numbers of a ball under a load `W`, N, with a friction coefficient, in newtons and metres; `branch` 0 under a load that opposes the
     /// motion, 1 under one that assists it.
     #[inline(always)]
-    #[must_use]
     pub fn numbers(&self, load: f32, branch: usize, friction: FrictionInterval) -> BallNumbers {
         self.per_sliding(load, branch, friction)
             .under(self.sliding(load, friction))
@@ -130,7 +125,6 @@ impl<const NODES: usize> BallLaw<NODES> {
 
     /// The same over `mu W`.
     #[inline(always)]
-    #[must_use]
     pub fn per_sliding(&self, load: f32, branch: usize, friction: FrictionInterval) -> BallNumbers {
         let below = &self.nodes[friction.node() % NODES];
         let numbers = below.numbers(branch, below.interval(branch, load));
@@ -148,7 +142,6 @@ impl<const NODES: usize> BallLaw<NODES> {
     /// With a preload it is the ball under the whole load `W`, of which every contact carries `part`: friction of sliding falls with it, that of spin
     /// with its power of 4/3; the torque is taken with 7/6 between them.
     #[inline(always)]
-    #[must_use]
     pub fn ball(
         &self,
         load: f32,
@@ -221,7 +214,6 @@ impl<const NODES: usize> BallLaw<NODES> {
 
     /// Changes by neighbours in the balls of a row under a load `W`, N, with these numbers of [`Self::per_sliding`].
     #[inline(always)]
-    #[must_use]
     pub fn neighbours(
         &self,
         load: f32,
@@ -254,7 +246,6 @@ impl<const NODES: usize> BallLaw<NODES> {
 
     /// `mu W` of a ball, N, under a load `W`, N, within [`SLIDING_LOADS`].
     #[inline(always)]
-    #[must_use]
     pub fn sliding(&self, load: f32, friction: FrictionInterval) -> f32 {
         let [least, most] = SLIDING_LOADS;
         let sliding = friction.friction() * load;

@@ -71,14 +71,12 @@ pub struct RowContacts {
 
 impl ScrewRow {
     /// Speed along the track of a ball with nominal contact angles, m per unit of nut speed.
-    #[must_use]
     pub const fn nominal_speed(&self) -> f32 {
         self.speeds.nominal
     }
 
     /// Largest deviation of a contact angle that counts, rad; a larger one is taken at it: 0.2 for contact angles from 23 to 68 degrees,
     /// less beyond.
-    #[must_use]
     pub const fn largest_deviation(&self) -> f32 {
         self.speeds.largest_deviation
     }
@@ -120,7 +118,6 @@ impl ScrewRow {
     /// The row under an axial load of the screw on each ball, N, in size 1e-3 to 1e7: one below, one beyond, and NaN count
     /// as 1e-3 N. Signs of the nut's speed, rad/s, and the load say which groove has the third contact. Cost: 892 modelled cycles on a Cortex-M4F.
     #[inline]
-    #[must_use]
     pub const fn at(&self, nut_speed: f32, axial_load_per_ball: f32) -> ScrewTick {
         let normal = self.normal * counted(axial_load_per_ball);
         let side = if axial_load_per_ball < 0.0 { 1.0 } else { -1.0 };
@@ -141,7 +138,6 @@ impl ScrewRow {
     ///
     /// Angles deviate as in [`ScrewTick::ball`]: `SL = beta - screw_deviation`, `SR = beta + screw_deviation`, `NL = beta - nut_deviation`,
     /// `NR = beta + nut_deviation`. Loads and deviations as in [`ScrewRow::at`]; a deviation that is NaN counts as 0.
-    #[must_use]
     pub const fn contacts(
         &self,
         nut_speed: f32,

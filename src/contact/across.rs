@@ -147,7 +147,6 @@ const FAR: f32 = 2.0;
 
 /// Power loss and moment of a contact that slips across the track and spins, over `mu F a |w|` and `mu F a`, by the slip over
 /// the speed `a |w|` of the end of the major axis. At set-up; axis ratio 0.02 to 0.95.
-#[must_use]
 pub const fn slip_and_spin(axis_ratio: f32, slip: f32) -> (f32, f32) {
     if slip < FAR {
         let [power, moment, _, _] = spinning(axis_ratio, slip);

@@ -98,41 +98,35 @@ impl FrictionMap {
     }
 
     /// `M(0) = P(0) = 3/8 E`: moment and power at pure spin (Lin 2019, eq. (3.32)).
-    #[must_use]
     pub const fn spin_moment(&self) -> f32 {
         self.spin_moment
     }
 
     /// `f'(0)`: the exact slope `k_f` of the friction force (Lin 2019, eq. (3.35)).
-    #[must_use]
     pub const fn slope(&self) -> f32 {
         self.slope
     }
 
     /// Friction force over `mu F` at offset ratio `c/a`.
     #[inline]
-    #[must_use]
     pub fn force(&self, offset: f32) -> f32 {
         self.evaluate(offset).force
     }
 
     /// Friction moment over `mu F a` at offset ratio `c/a`.
     #[inline]
-    #[must_use]
     pub fn moment(&self, offset: f32) -> f32 {
         self.evaluate(offset).moment
     }
 
     /// Power loss over `mu F a |w|` at offset ratio `c/a`.
     #[inline]
-    #[must_use]
     pub fn power(&self, offset: f32) -> f32 {
         self.evaluate(offset).power
     }
 
     /// Force, moment and power at offset ratio `c/a`. Far away it only slides (Lin 2019, eq. (3.33)).
     #[inline]
-    #[must_use]
     pub fn evaluate(&self, offset: f32) -> NormalizedFriction {
         // Twice the bits, without the sign: one comparison finds the branch that takes longest, NaN comes last.
         const END: u32 = 1.0_f32.to_bits() << 1;

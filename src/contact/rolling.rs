@@ -125,7 +125,6 @@ impl RollingContact {
     }
 
     /// `3/16 loss b_1/R1`, N^(-1/3), and the drag under 1 N, N^(1/2).
-    #[must_use]
     pub const fn coefficients(&self) -> (f32, f32) {
         (self.hysteresis, self.lubricant)
     }
@@ -133,7 +132,6 @@ impl RollingContact {
     /// Force against the travel of the contact along its track, N, from its load, N, and the load's cube root; both not
     /// below zero. Cost: one square root, 3 multiplications, 1 addition.
     #[inline]
-    #[must_use]
     pub fn force(&self, load: f32, load_cube_root: f32) -> f32 {
         self.hysteresis * (load * load_cube_root) + self.lubricant * math::sqrt(load)
     }
@@ -142,7 +140,6 @@ impl RollingContact {
     /// over the nut's, m: for a ball that orbits with `omega_B` it is `|omega_B - omega_k| (q + r_b cos(alpha) n_x)`, with the path radius `q`, the part
     /// `n_x` of the contact's normal away from the axis, and `omega_k` zero on the screw and the nut's speed on the nut.
     #[inline]
-    #[must_use]
     pub fn power(&self, load: f32, load_cube_root: f32, rolling_speed: f32) -> f32 {
         self.force(load, load_cube_root) * rolling_speed
     }

@@ -82,7 +82,6 @@ impl FittedCurvature {
 
     /// First principal curvature, 1/m.
     #[inline]
-    #[must_use]
     pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         let ContactAngle { cos, sin } = contact_angle;
         // The products first: each is ready when a sum takes it.

@@ -195,7 +195,6 @@ impl GothicArch {
     /// Both principal curvatures, 1/m: finite at a contact angle at which [`GothicArch::checked`] accepts the groove. Cost: 2 square roots,
     /// 1 division, 44 other operations.
     #[inline]
-    #[must_use]
     pub fn principal(&self, contact_angle: ContactAngle) -> PrincipalCurvatures {
         let shape = self.shape_operator(contact_angle);
         let (root, scale) = math::sqrt_pair(shape.radicand, shape.scale_squared);
@@ -215,7 +214,6 @@ impl GothicArch {
     ///
     /// The second sum cancels to a twentieth; it is formed from the clearance and
     /// `kappa2 + 1/r_s = (tau p)² / (r_s D (D + A)) - q`, so that no digit is lost. Cost: 2 square roots, 4 divisions, 46 other operations.
-    #[must_use]
     pub const fn relative(
         &self,
         contact_angle: ContactAngle,
@@ -234,22 +232,16 @@ impl GothicArch {
     }
 
     /// The groove.
-    #[inline]
-    #[must_use]
     pub const fn groove(&self) -> Groove {
         self.groove
     }
 
     /// The path that the groove follows.
-    #[inline]
-    #[must_use]
     pub const fn path(&self) -> HelixPath {
         self.path
     }
 
     /// Radius of the profile circle, m.
-    #[inline]
-    #[must_use]
     pub const fn groove_radius(&self) -> f32 {
         self.groove_radius
     }

@@ -32,7 +32,6 @@ impl LiteratureCurvature {
 
     /// First principal curvature, 1/m. Cost: one division, 2 other operations.
     #[inline]
-    #[must_use]
     pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         contact_angle.cos / (self.signed_pitch_radius - self.ball_radius * contact_angle.cos)
     }
@@ -71,14 +70,12 @@ impl CircularGrooveCurvature {
 
     /// First principal curvature, 1/m. Cost: one division, 2 other operations: after a division by `cos²(alpha)` the lead costs nothing.
     #[inline]
-    #[must_use]
     pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         contact_angle.cos / (self.signed_path_radius - self.groove_radius * contact_angle.cos)
     }
 
     /// Second principal curvature, 1/m: `-1 / r_s`, within 2.6e-5 of the gothic arch on the 31 catalogue sizes.
     #[inline]
-    #[must_use]
     pub const fn second(&self) -> f32 {
         -1.0 / self.groove_radius
     }

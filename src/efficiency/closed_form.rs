@@ -128,14 +128,12 @@ impl EfficiencyGeometry {
     /// Equation (4), printed for a driven nut, breaks the energy balance by `2 f Cb`; the balance gives eq. (3) for either. Cost: one division, 8
     /// other operations.
     #[inline]
-    #[must_use]
     pub const fn rolling_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
         1.0 - self.rolling_loss(friction, rolling_tangent)
     }
 
     /// One less [`EfficiencyGeometry::rolling_efficiency`], by its own formula.
     #[inline]
-    #[must_use]
     pub const fn rolling_loss(&self, friction: f32, rolling_tangent: f32) -> f32 {
         // False for NaN. The other branch is a call, so that the usual one needs no stack frame.
         if rolling_tangent >= 0.0 {
@@ -162,7 +160,6 @@ impl EfficiencyGeometry {
     /// Rolling efficiency where the load back-drives the screw, eq. (3) with the friction forces reversed:
     /// `1 - eta = [f a ta + t (1 + ta²)] / [ta (Sb + f Cb + t ta)]`; negative infinity with rolling resistance and without lead.
     #[inline]
-    #[must_use]
     pub const fn rolling_backdrive_efficiency(&self, friction: f32, rolling_tangent: f32) -> f32 {
         let slide = friction * self.ball_ratio;
         let grip = self.sin_contact + friction * self.cos_contact + rolling_tangent * self.tan_lead;
@@ -177,28 +174,24 @@ impl EfficiencyGeometry {
     /// Full-sliding efficiency of driving, eq. (14): `1 - eta = f / (Ca² Sb (R + f Sb))`. As printed the radical seems to span `f Sb` too; it ends
     /// before. Cost: one division, 4 other operations.
     #[inline]
-    #[must_use]
     pub const fn sliding_efficiency(&self, friction: f32) -> f32 {
         1.0 - self.sliding_loss(friction)
     }
 
     /// One less [`EfficiencyGeometry::sliding_efficiency`], by its own formula.
     #[inline]
-    #[must_use]
     pub const fn sliding_loss(&self, friction: f32) -> f32 {
         friction * self.drive_scale / (self.root + friction * self.sin_contact)
     }
 
     /// Full-sliding efficiency of back-driving, eq. (17): `1 - eta = f / (Ca² R (Sb + f R))`; the radical as in (14).
     #[inline]
-    #[must_use]
     pub const fn sliding_backdrive_efficiency(&self, friction: f32) -> f32 {
         1.0 - self.sliding_backdrive_loss(friction)
     }
 
     /// One less [`EfficiencyGeometry::sliding_backdrive_efficiency`], by its own formula.
     #[inline]
-    #[must_use]
     pub const fn sliding_backdrive_loss(&self, friction: f32) -> f32 {
         friction * self.backdrive_scale / (self.sin_contact + friction * self.root)
     }
@@ -214,50 +207,38 @@ impl EfficiencyGeometry {
     }
 
     /// Ball ratio `a`, ball radius over pitch radius.
-    #[inline]
-    #[must_use]
     pub const fn ball_ratio(&self) -> f32 {
         self.ball_ratio
     }
 
     /// Tangent `ta` of the lead angle.
-    #[inline]
-    #[must_use]
     pub const fn tan_lead_angle(&self) -> f32 {
         self.tan_lead
     }
 
     /// Sine `Sb` of the contact angle.
-    #[inline]
-    #[must_use]
     pub const fn sin_contact_angle(&self) -> f32 {
         self.sin_contact
     }
 
     /// Cosine `Cb` of the contact angle.
-    #[inline]
-    #[must_use]
     pub const fn cos_contact_angle(&self) -> f32 {
         self.cos_contact
     }
 
     /// `R = sqrt(Cb² + ta²)`.
-    #[inline]
-    #[must_use]
     pub const fn root(&self) -> f32 {
         self.root
     }
 
     /// Normal load of a contact per axial load on one ball, friction neglected: `Q / Fa = 1 / (Ca Sb)`, eq. (20) (printed with `C_ci` for
     /// `C_alpha`).
-    #[must_use]
     pub const fn normal_per_axial_load(&self) -> f32 {
         constant::sqrt(self.secant_squared) / self.sin_contact
     }
 
     /// Normal load of a contact per torque on one ball, friction neglected, times the pitch radius:
     /// `Q r_m / M = 1 / (Sa Sb)`, eq. (21). Infinite without lead.
-    #[must_use]
     pub const fn normal_per_torque(&self) -> f32 {
         constant::sqrt(self.secant_squared) / (self.tan_lead * self.sin_contact)
     }
@@ -265,7 +246,6 @@ impl EfficiencyGeometry {
     /// Friction torque per axial load, m, of a rolling screw: `r_m [f a ta + t (1 + ta²)] / (Sb -+ f Cb -+ t ta)`, upper sign driving. It is the
     /// torque of eq. (1) over its axial force, less the load's own, with the `a` that its first line prints as `alpha`. Infinite or negative where
     /// driving locks.
-    #[must_use]
     pub const fn rolling_torque_per_load(
         &self,
         drive: Drive,
@@ -285,7 +265,6 @@ impl EfficiencyGeometry {
 
     /// Friction torque per axial load, m, in full sliding: `r_m ta f / (Ca² Sb R -+ f (Ca R)²)`, upper
     /// sign driving; eq. (14) and (17) as torques. Infinite or negative where driving locks.
-    #[must_use]
     pub const fn sliding_torque_per_load(
         &self,
         drive: Drive,

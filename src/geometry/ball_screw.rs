@@ -135,49 +135,37 @@ impl BallScrew {
     }
 
     /// Parameters of the design.
-    #[inline]
-    #[must_use]
     pub const fn parameters(&self) -> &BallScrewParameters {
         &self.parameters
     }
 
     /// Radius `r_m` of the cylinder on which the ball centres run, m.
-    #[inline]
-    #[must_use]
     pub const fn pitch_radius(&self) -> f32 {
         self.parameters.pitch_radius
     }
 
     /// Axial travel in one turn, m.
-    #[inline]
-    #[must_use]
     pub const fn lead(&self) -> f32 {
         self.parameters.lead
     }
 
     /// Ball radius `r_b`, m.
-    #[inline]
-    #[must_use]
     pub const fn ball_radius(&self) -> f32 {
         self.parameters.ball_radius
     }
 
     /// Ball radius over pitch radius.
     #[inline]
-    #[must_use]
     pub const fn ball_ratio(&self) -> f32 {
         self.parameters.ball_radius / self.parameters.pitch_radius
     }
 
     /// Tangent of the lead angle, `lead / (2 pi pitch_radius)`.
-    #[inline]
-    #[must_use]
     pub const fn tan_lead_angle(&self) -> f32 {
         self.tan_lead_angle
     }
 
     /// Lead angle, rad (Lin 2019, eqs. (2.5), (3.63)), within 2e-7. For set-up and constants.
-    #[must_use]
     pub const fn lead_angle(&self) -> f32 {
         let (tan, cos) = (self.tan_lead_angle, self.cos_lead_angle());
         // By the smaller of sine and cosine, which fixes the angle better.
@@ -189,60 +177,49 @@ impl BallScrew {
     }
 
     /// Cosine of the lead angle. For set-up and constants.
-    #[must_use]
     pub const fn cos_lead_angle(&self) -> f32 {
         1.0 / constant::sqrt(1.0 + self.tan_lead_angle * self.tan_lead_angle)
     }
 
     /// Path radius `r_m / cos(alpha)`, m: `L/(2 pi)` with the `L` of Lin 2019, eq. (3.66). For set-up.
-    #[must_use]
     pub const fn path_radius(&self) -> f32 {
         self.parameters.pitch_radius / self.cos_lead_angle()
     }
 
     /// Axial travel over the angle of a turn, `lead / 2 pi`, m (Lin 2019, eqs. (2.2), (3.55)).
     #[inline]
-    #[must_use]
     pub const fn reduced_lead(&self) -> f32 {
         self.parameters.lead / TAU
     }
 
     /// Axial force over the contact force of a ball, `sin(beta) cos(alpha)`. For set-up.
-    #[must_use]
     pub const fn axial_per_normal(&self) -> f32 {
         self.contact_angle.sin * self.cos_lead_angle()
     }
 
     /// Curvature and torsion of the path of the ball centres.
-    #[inline]
-    #[must_use]
     pub const fn path(&self) -> &HelixPath {
         &self.path
     }
 
     /// Nominal contact angle, by its cosine and sine.
-    #[inline]
-    #[must_use]
     pub const fn contact_angle(&self) -> ContactAngle {
         self.contact_angle
     }
 
     /// Section of one groove.
     #[inline]
-    #[must_use]
     pub const fn profile(&self, groove: Groove) -> &GrooveProfile {
         &self.section(groove).profile
     }
 
     /// Groove radius less ball radius, m, without the cancellation of their difference.
     #[inline]
-    #[must_use]
     pub const fn clearance(&self, groove: Groove) -> f32 {
         self.section(groove).clearance
     }
 
     /// Mass of one ball, kg.
-    #[must_use]
     pub const fn ball_mass(&self) -> f32 {
         let radius = self.parameters.ball_radius;
         const VOLUME: f32 = 2.0 / 3.0 * TAU;

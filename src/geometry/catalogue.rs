@@ -29,7 +29,6 @@ impl CatalogueSize {
     pub const CONTACT_ANGLE: f32 = FRAC_PI_4;
 
     /// The parameters of this size: half the nominal diameter, conformity 0.528, contact angle 45 degrees, steel.
-    #[must_use]
     pub const fn parameters(&self) -> BallScrewParameters {
         BallScrewParameters {
             pitch_radius: 0.5 * self.nominal_diameter,
@@ -188,7 +187,6 @@ pub const STEERING_SIZES: [CatalogueSize; 3] = [
 /// assert!(named("25x5").is_none());
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
-#[must_use]
 pub const fn named(name: &str) -> Option<BallScrewParameters> {
     match place(name) {
         Some((list, index)) if list < SIZES.len() => Some(SIZES[list][index].parameters()),

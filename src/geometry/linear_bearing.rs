@@ -52,36 +52,26 @@ impl LinearBearing {
     }
 
     /// Parameters of the design.
-    #[inline]
-    #[must_use]
     pub const fn parameters(&self) -> &LinearBearingParameters {
         &self.parameters
     }
 
     /// Ball radius, m.
-    #[inline]
-    #[must_use]
     pub const fn ball_radius(&self) -> f32 {
         self.parameters.ball_radius
     }
 
     /// Groove radius, m.
-    #[inline]
-    #[must_use]
     pub const fn groove_radius(&self) -> f32 {
         self.groove_radius
     }
 
     /// Groove radius less ball radius, m, without the cancellation of their difference.
-    #[inline]
-    #[must_use]
     pub const fn clearance(&self) -> f32 {
         self.clearance
     }
 
     /// Nominal contact angle, by its cosine and sine.
-    #[inline]
-    #[must_use]
     pub const fn contact_angle(&self) -> ContactAngle {
         self.contact_angle
     }

@@ -67,7 +67,6 @@ pub enum Groove {
 impl Groove {
     /// The papers' `zeta`: +1 for the screw, -1 for the nut.
     #[inline]
-    #[must_use]
     pub const fn sign(self) -> f32 {
         match self {
             Self::Screw => 1.0,

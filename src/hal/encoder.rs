@@ -206,7 +206,6 @@ impl SensorErrors {
     }
 
     /// The register as read. More than its three lowest bits: the line to the controller is stuck high.
-    #[must_use]
     pub const fn bits(self) -> u16 {
         self.0
     }
@@ -243,7 +242,6 @@ impl Diagnostics {
     }
 
     /// The register as read.
-    #[must_use]
     pub const fn bits(self) -> u16 {
         self.0
     }

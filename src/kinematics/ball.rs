@@ -125,14 +125,12 @@ impl ContactKinematics {
     /// 5.0e-7 (1e-7), each of itself; rolling slip 2.2e-7 (4e-8), side slip 8.1e-8 (8e-9), spin on the ball's radius 2.7e-7 (5e-8), each of the
     /// entrainment speed. Cost: ten multiplications; as a call about 60 cycles (modelled, Cortex-M4F).
     #[inline]
-    #[must_use]
     pub fn tick(&self, speed: f32) -> BallKinematics {
         self.per_speed().at_speed(speed)
     }
 
     /// Motion and slip per rad/s of the screw: the constants that [`tick`](Self::tick) multiplies.
     #[inline]
-    #[must_use]
     pub const fn per_speed(&self) -> BallKinematics {
         BallKinematics {
             orbital_speed: self.orbital_speed,
@@ -143,15 +141,11 @@ impl ContactKinematics {
     }
 
     /// Contact with the screw (inner).
-    #[inline]
-    #[must_use]
     pub const fn screw(&self) -> &ContactCoefficients {
         &self.screw
     }
 
     /// Contact with the nut (outer).
-    #[inline]
-    #[must_use]
     pub const fn nut(&self) -> &ContactCoefficients {
         &self.nut
     }

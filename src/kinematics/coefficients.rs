@@ -145,7 +145,6 @@ impl ContactCoefficients {
     /// Errors over the domain of [`ContactKinematics`](super::ContactKinematics), largest (rms): slide-to-roll 1.6e-7 (1.3e-8), entrainment angle
     /// 3.5e-8 (4e-9) rad, spin-to-roll 3.2e-8 (4e-9), all absolute; slide angle times the slide-to-roll ratio 2.2e-7 (4e-8), 1.4e-5 (1.1e-6) rad where
     /// that ratio exceeds 1 %. Cost: about 430 cycles (modelled, Cortex-M4F), once after each update.
-    #[must_use]
     pub fn ratios(&self) -> SlipRatios {
         let sliding = math::sqrt(
             self.slip.rolling_slip * self.slip.rolling_slip
@@ -173,7 +172,6 @@ impl ContactCoefficients {
     /// Sum of rolling slip `omega w q / r' (r' - S(y))`, side slip `omega w S(y) (...)` and spin `(-spin y, spin x)`, Alberdi et al., eqs. (30), (33),
     /// with `S(y)` of (14). **Corrected:** (30) prints the part of the spin as its second component alone; by (33) it has both. Points outside the
     /// rectangle about the ellipse (NaN too) give 0; a speed as in [`tick`](super::ContactKinematics::tick).
-    #[must_use]
     pub fn slip_at(&self, speed: f32, x: f32, y: f32) -> SlipVector {
         if !(x.abs() <= self.semi_minor && y.abs() <= self.semi_major) {
             return SlipVector {

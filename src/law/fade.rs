@@ -109,13 +109,11 @@ impl TemperatureFade {
     }
 
     /// The fallback, K.
-    #[must_use]
     pub const fn fallback(&self) -> f32 {
         self.fallback
     }
 
     /// Temperature to take, K, from the last reading, K, and its age, s; the fallback where the reading is beyond 150 to 500 K or the age NaN.
-    #[must_use]
     pub const fn at(&self, temperature: f32, age: f32) -> f32 {
         let left = self.fade.left(age);
         if !self.is_temperature(temperature) || left == 0.0 {

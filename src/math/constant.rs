@@ -5,7 +5,6 @@ pub use super::own::{cbrt, cbrt_squared, sin_cos};
 /// Square root, correctly rounded: the same bits as [`math::sqrt`](super::sqrt), an instruction that a constant cannot take. NaN and negative numbers
 /// give NaN; -0 gives -0; infinity gives infinity. 90 modelled cycles on a Cortex-M4F with the call, where the instruction takes 14.
 #[inline(never)]
-#[must_use]
 pub const fn sqrt(x: f32) -> f32 {
     const TWO_TO_24: f32 = 16_777_216.0;
     // False for NaN.

@@ -39,7 +39,6 @@ pub struct Complete {
 /// Complete elliptic integrals of an ellipse with the axis ratio `k`, 0.001 to 1, by the arithmetic-geometric mean:
 /// `K = pi/(2 mean)` and `E = K (1 - e^2/2 - sum)`, with the sum of `2^(i-1) c_i^2` from `i = 1` on and half the differences `c_i` of the two
 /// means (Abramowitz and Stegun 17.6), whose factor `e^2` the tail leaves out.
-#[must_use]
 pub const fn complete(k: f32) -> Complete {
     let eccentricity2 = (1.0 - k) * (1.0 + k);
     let mut arithmetic = 1.0;

@@ -25,21 +25,18 @@ impl Root {
 
 /// Cube root; see [`math::cbrt`](super::cbrt).
 #[inline]
-#[must_use]
 pub const fn cbrt(x: f32) -> f32 {
     root(x).value()
 }
 
 /// Square of the cube root; see [`math::cbrt_squared`](super::cbrt_squared).
 #[inline]
-#[must_use]
 pub const fn cbrt_squared(x: f32) -> f32 {
     root(x).squared()
 }
 
 /// Cube root and its square; see [`math::cbrt_and_squared`](super::cbrt_and_squared).
 #[inline]
-#[must_use]
 pub const fn cbrt_and_squared(x: f32) -> (f32, f32) {
     let root = root(x);
     (root.value(), root.squared())
@@ -131,7 +128,6 @@ const fn rare_root(x: f32) -> (f32, f32) {
 /// The nearest of 64 directions from a table, turned by the remainder `r` of the angle, at most pi/64: `sin r = r - 0.166 650 r³`, the minimax fit
 /// of relative error 8e-9, and `cos r - 1 = -r²/2 + r⁴/24`, which leaves 2e-11. Made again in `host-tests/tests/generators/sine.rs`.
 #[inline]
-#[must_use]
 pub const fn sin_cos(x: f32) -> (f32, f32) {
     let (steps, remainder) = reduced(x);
     // Both results operation by operation: a core without reordering waits a cycle for the result of the one before.

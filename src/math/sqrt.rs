@@ -5,14 +5,12 @@
 /// NaN and negative numbers give NaN (of unspecified sign); -0 gives -0; infinity gives infinity. One instruction on an Arm
 /// core with a floating-point unit (14 cycles on a Cortex-M4F) and on x86-64; `libm` elsewhere.
 #[inline]
-#[must_use]
 pub fn sqrt(x: f32) -> f32 {
     target::sqrt(x)
 }
 
 /// Two square roots: on an Arm core fewer cycles together, because registers move while the other root is computed.
 #[inline]
-#[must_use]
 pub fn sqrt_pair(x: f32, y: f32) -> (f32, f32) {
     target::sqrt_pair(x, y)
 }

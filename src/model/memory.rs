@@ -54,7 +54,6 @@ where
     /// Lubricant drag in the friction torque of the last step, N m, which no level scales: for
     /// [`AdaptationInputs`](crate::adaptation::AdaptationInputs). 0 before the first step.
     #[inline]
-    #[must_use]
     pub fn drag_torque(&self) -> f32 {
         self.state.remembered.drag()
     }

@@ -75,7 +75,6 @@ pub struct CagedBallScrewConfiguration<const NODES: usize = 1> {
 impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
     /// The same for the one node whose friction coefficient is nearest: a fifth of the constants, and as exact as a fold for that coefficient
     /// alone. Of NaN, the least node.
-    #[must_use]
     pub const fn nearest(&self, friction: f32) -> CagedBallScrewConfiguration {
         const { assert!(NODES > 0) };
         let mut nearest = self.law.nodes[0];

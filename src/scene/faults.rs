@@ -71,8 +71,6 @@ impl Faults {
     }
 
     /// The flags as bits, in the order of their constants, for a diagnostic message.
-    #[inline]
-    #[must_use]
     pub const fn bits(self) -> u16 {
         self.0
     }

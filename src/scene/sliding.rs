@@ -26,7 +26,6 @@ pub struct SlidingFriction {
 impl SlidingFriction {
     /// Limits of elements whose reference load has this inverse, 1/N.
     #[inline(always)]
-    #[must_use]
     pub const fn limits(&self, per_reference_load: f32) -> SlidingLimits {
         SlidingLimits {
             forward: self.forward,

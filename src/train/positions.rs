@@ -49,7 +49,6 @@ pub struct BallContact {
 
 impl<const N: usize> Train<N> {
     /// How many balls it has.
-    #[must_use]
     pub const fn balls(&self) -> usize {
         self.press.count() as usize
     }
@@ -152,7 +151,6 @@ impl<const N: usize> Train<N> {
     }
 
     /// Pairs of balls that press on each other, from the rear of the train on.
-    #[must_use]
     pub fn contacts(&self) -> heapless::Vec<BallContact, N> {
         self.positions()
             .zip(self.forces())

@@ -136,13 +136,11 @@ impl<const N: usize> Press<N> {
     }
 
     /// Index of a ball that does not press on the one in front of it: the last one, unless that does on a ring.
-    #[must_use]
     pub const fn foremost(&self) -> usize {
         self.foremost as usize
     }
 
     /// Joins that the last pass needed, at most one less than the balls: what of its cost depends on data.
-    #[must_use]
     pub fn joins(&self) -> usize {
         let mut joins = 0;
         let mut front = self.foremost();

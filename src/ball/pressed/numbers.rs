@@ -86,7 +86,6 @@ impl BallNumbers {
 
     /// Motion with these deviations of both grooves, each over its largest; numbers and answer both over `mu W`, or both not.
     #[inline(always)]
-    #[must_use]
     pub fn at(&self, [screw, nut]: [f32; 2]) -> FreeMotion {
         FreeMotion {
             speed: powers(&self.free, screw, nut),
@@ -117,7 +116,6 @@ impl BallNumbers {
 
     /// Mean free speed over all deviations.
     #[inline(always)]
-    #[must_use]
     pub fn held_speed(&self) -> f32 {
         // The mean of a square from -1 to 1 is a third.
         self.free[0] + (self.free[3] + self.free[5]) * (1.0 / 3.0)

@@ -110,7 +110,6 @@ impl NeighbourLaw {
 
     /// A ball whose neighbours do not rub, but press it outward; on a run-in a part of it.
     #[inline(always)]
-    #[must_use]
     pub fn smooth(&self, ball: &BallOfRow, part: f32) -> FreeBall {
         let grip = part * line(&self.smooth, ball.deviations);
         FreeBall::rubbed(ball.speed, ball.sliding * ball.impedance, 0.0, grip)
@@ -118,7 +117,6 @@ impl NeighbourLaw {
 
     /// A ball in the first pass: each has the mean friction of neighbours that press with `mu W`, `m = 2 mu_b`, on a run-in a part of it.
     #[inline(always)]
-    #[must_use]
     pub fn first(&self, ball: &BallOfRow, part: f32) -> FreeBall {
         let [grip, stiffness] = self.first;
         self.free(ball, stiffness, 0.0, 0.0, part * grip)
@@ -126,7 +124,6 @@ impl NeighbourLaw {
 
     /// The ball in the second pass: Newton's line through the speed and the forces that the first one found; `rubbing`: [`Self::rubbing`].
     #[inline(always)]
-    #[must_use]
     pub fn second(&self, ball: &BallOfRow, found: &Neighbours, rubbing: f32) -> FreeBall {
         let place = Place::of(rubbing);
         let (low, high) = place.ends(&self.numbers.nodes);
@@ -156,7 +153,6 @@ impl NeighbourLaw {
 
     /// Friction of both neighbours of a ball over its `mu W`.
     #[inline(always)]
-    #[must_use]
     pub fn rubbing(&self, ball: &BallOfRow, found: &Neighbours) -> f32 {
         self.ball_friction * found.rubbing / ball.sliding
     }

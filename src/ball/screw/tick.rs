@@ -99,31 +99,26 @@ impl ScrewTick {
     }
 
     /// Speed along the track of a ball with nominal contact angles, m per unit of nut speed.
-    #[must_use]
     pub const fn nominal_speed(&self) -> f32 {
         self.nominal_speed
     }
 
     /// Load of each main contact of a ball under the mean load, N.
-    #[must_use]
     pub const fn main_load(&self) -> f32 {
         self.main_load
     }
 
     /// Load of the third contact of a ball under the mean load, N.
-    #[must_use]
     pub const fn third_load(&self) -> f32 {
         self.third_load
     }
 
     /// Half the speed with which two nominal balls rub, m per unit of nut speed (Lin 2019, eq. (3.73), with `cos(beta_BB)` as 1).
-    #[must_use]
     pub const fn rubbing(&self) -> f32 {
         self.rubbing
     }
 
     /// Change of [`Self::rubbing`] with the speed along the track.
-    #[must_use]
     pub const fn rubbing_slope(&self) -> f32 {
         self.rubbing_slope
     }
@@ -140,7 +135,6 @@ impl ScrewTick {
     /// with the share `q` of the load and the change `s` of the contacts' spin with the speed. A deviation beyond
     /// [`ScrewRow::largest_deviation`](super::ScrewRow::largest_deviation) is cut to it; NaN counts as 0.
     #[inline]
-    #[must_use]
     pub const fn ball(
         &self,
         screw_deviation: f32,

@@ -163,7 +163,6 @@ impl CoefficientLaw {
     }
 
     /// Least and largest coefficient that the law gives, in either direction.
-    #[must_use]
     pub const fn extremes(&self) -> (f32, f32) {
         let (low, high) = self.forward.ends();
         let (other_low, other_high) = self.backward.ends();
@@ -173,7 +172,6 @@ impl CoefficientLaw {
     /// The law at a temperature, K; below [`Viscosity::floor`], above 500 K and beyond the range of the half-share speed as there, NaN as the
     /// warmest. Cost: 5 multiplications and 1 division.
     #[inline]
-    #[must_use]
     pub const fn at_temperature(&self, temperature: f32) -> CoefficientAtTemperature {
         let [coldest, warmest] = self.ends;
         let ratio = self.scale * (temperature - self.pole);
@@ -251,7 +249,6 @@ impl CoefficientAtTemperature {
     /// Friction coefficient at a speed of the nut, rad/s, in its direction; standstill and NaN count as forward, infinity as a full film.
     /// Monotone in the speed's size, also in f32. Cost: one division, 43 modelled cycles; 70 with [`CoefficientLaw::at_temperature`].
     #[inline]
-    #[must_use]
     pub const fn at(&self, speed: f32) -> f32 {
         let sides = if speed < 0.0 {
             &self.backward
@@ -263,7 +260,6 @@ impl CoefficientAtTemperature {
 
     /// Friction coefficients that either direction would have at a speed of this size.
     #[inline]
-    #[must_use]
     pub const fn both(&self, speed: f32) -> DirectionalCoefficient {
         let share = self.share(speed);
         DirectionalCoefficient {
@@ -274,7 +270,6 @@ impl CoefficientAtTemperature {
 
     /// Torque of churned lubricant, N m, with the sign of the speed that it opposes, rad/s, up to 1e6; NaN gives 0.
     #[inline]
-    #[must_use]
     pub const fn churning_torque(&self, speed: f32) -> f32 {
         self.churning * within_speeds(speed)
     }
@@ -283,7 +278,6 @@ impl CoefficientAtTemperature {
     /// ([`Self::churning_torque`]) and of rolling contacts ([`RollingDrag`]) under an axial load and a preload's lift-off load, N, both not
     /// negative. Cost: two square roots, one division, 9 other operations.
     #[inline]
-    #[must_use]
     pub fn drag_torque(&self, speed: f32, load: f32, lift_off: f32) -> f32 {
         let speed = within_speeds(speed);
         let rolling = self.drag.at(self.fluidity, speed.abs(), [load, lift_off]);
@@ -298,20 +292,16 @@ impl CoefficientAtTemperature {
     }
 
     /// Drag of the rolling contacts, without a temperature.
-    #[must_use]
     pub const fn drag(&self) -> RollingDrag {
         self.drag
     }
 
     /// Speed at which half of the difference is gone, rad/s.
-    #[inline]
-    #[must_use]
     pub const fn half_share_speed(&self) -> f32 {
         self.half_share_speed
     }
 
     /// Steepest change of the coefficient with the speed, s/rad, at standstill; above 0 where friction rises.
-    #[must_use]
     pub const fn steepest(&self) -> f32 {
         let difference = if self.forward.difference.abs() > self.backward.difference.abs() {
             self.forward.difference

@@ -18,7 +18,6 @@ pub struct DirectionalCoefficient {
 impl DirectionalCoefficient {
     /// Coefficient of a direction, given by its sign, and of the opposite direction; 0 and NaN count as forward.
     #[inline]
-    #[must_use]
     pub const fn of(&self, direction: f32) -> (f32, f32) {
         if direction < 0.0 {
             (self.backward, self.forward)
@@ -47,7 +46,6 @@ impl DirectionalCoefficient {
 
     /// Both coefficients over the one of a direction, given by its sign, forward first: 1 and a ratio, 1e-6 to 1e6.
     #[inline]
-    #[must_use]
     pub const fn over_own(&self, direction: f32) -> [f32; 2] {
         let (own, opposite) = self.of(direction);
         let ratio = opposite / own;

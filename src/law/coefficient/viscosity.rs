@@ -150,7 +150,6 @@ impl Viscosity {
     }
 
     /// Dynamic viscosity, Pa s, at a temperature, K; below [`Self::floor`] as there. NaN gives NaN.
-    #[must_use]
     pub const fn at(&self, temperature: f32) -> f32 {
         let temperature = if temperature < self.floor {
             self.floor
@@ -164,13 +163,11 @@ impl Viscosity {
     }
 
     /// Temperature `Theta_s` at which the formula has its pole, K.
-    #[must_use]
     pub const fn pole(&self) -> f32 {
         self.pole
     }
 
     /// Temperature below which viscosity counts as there, K.
-    #[must_use]
     pub const fn floor(&self) -> f32 {
         self.floor
     }

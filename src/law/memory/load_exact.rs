@@ -78,7 +78,6 @@ impl<const N: usize> LoadExactElements<N> {
     }
 
     /// Stiffness of each element, N m/rad (N/m).
-    #[must_use]
     pub const fn stiffnesses(&self) -> [f32; N] {
         self.stiffnesses
     }

@@ -136,7 +136,6 @@ impl<const N: usize> ProportionalElements<N> {
     }
 
     /// Stiffness of each element, N m/rad (N/m): `k_i`.
-    #[must_use]
     pub fn stiffnesses(&self) -> [f32; N] {
         let mut stiffnesses = self.rates;
         for (stiffness, share) in stiffnesses.iter_mut().zip(&self.shares) {
@@ -146,7 +145,6 @@ impl<const N: usize> ProportionalElements<N> {
     }
 
     /// Friction of each element, N m (N): `f_i`.
-    #[must_use]
     pub fn torques(&self, state: &MemoryState<N>) -> [f32; N] {
         let mut torques = state.held;
         for (torque, share) in torques.iter_mut().zip(&self.shares) {

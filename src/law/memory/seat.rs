@@ -43,7 +43,6 @@ pub struct SeatState {
 
 impl SeatState {
     /// Turn from the middle of the play, rad (m).
-    #[must_use]
     pub const fn displacement(&self) -> f32 {
         self.displacement
     }

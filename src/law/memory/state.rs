@@ -18,7 +18,6 @@ impl<const N: usize> MemoryState<N> {
     pub const VIRGIN: Self = Self { held: [0.0; N] };
 
     /// Number of each element, for export.
-    #[must_use]
     pub const fn held(&self) -> [f32; N] {
         self.held
     }

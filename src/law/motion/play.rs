@@ -38,13 +38,11 @@ impl PlayState {
     };
 
     /// Turn from the middle of the play, rad (m), within its half width.
-    #[must_use]
     pub const fn position(&self) -> f32 {
         self.position
     }
 
     /// Direction of the output's last motion: 1 or -1; 0 before the first.
-    #[must_use]
     pub const fn direction(&self) -> f32 {
         self.direction
     }

@@ -26,7 +26,6 @@ pub enum Turn {
 impl Turn {
     /// The turn to apply, rad (m): 0 where it is unknown.
     #[inline]
-    #[must_use]
     pub const fn angle(self) -> f32 {
         match self {
             Self::Measured(turn) | Self::Limited(turn) => turn,

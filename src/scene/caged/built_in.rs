@@ -64,7 +64,6 @@ const fn words(bytes: &[u8]) -> [u32; WORDS] {
 /// let torque = model.step(Inputs { nut_speed: 10.0, axial_load: 5e3 }).friction_torque;
 /// assert!(torque > 0.2 && torque < 0.6, "{torque}");
 /// ```
-#[must_use]
 pub const fn built_in(name: &str) -> Option<CagedBallScrewConfiguration<BUILT_IN_NODES>> {
     let Some(place) = position(name) else {
         return None;

@@ -143,13 +143,11 @@ impl DeviationMap {
     }
 
     /// Turns of a ball screw in a period.
-    #[must_use]
     pub const fn turns(&self) -> u16 {
         self.turns
     }
 
     /// Bound of the size of [`DeviationMap::at`] at any phase, rad: the largest sample, to a rounding of `f32`.
-    #[must_use]
     pub const fn largest(&self) -> f32 {
         self.unit * (LARGEST * (1_u32 << FRACTION_BITS) as f32)
     }
@@ -177,7 +175,6 @@ impl DeviationMap {
     /// Deviation at a phase of the period in units of 2^-32, rad: linear between samples, which is within
     /// `(pi order/64)²/2` of a wave's amplitude, 1.2e-3 for the first order.
     #[inline]
-    #[must_use]
     pub fn at(&self, phase: u32) -> f32 {
         self.units(phase >> (32 - PHASE_BITS)) as f32 * self.unit
     }

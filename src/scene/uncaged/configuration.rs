@@ -59,7 +59,6 @@ pub struct UncagedBallScrewConfiguration<const NODES: usize = 1> {
 
 impl<const NODES: usize> FoldedBall<NODES> {
     /// What its balls have in common in a row; the chord's angle is `sin(b) = R_B/R_path` (Lin 2019, eq. (3.72)).
-    #[must_use]
     pub const fn row(&self, ball_friction: f32) -> RowConstants {
         let sin = self.ball_radius / self.path_radius;
         let per_cos = 1.0 / constant::sqrt(1.0 - sin * sin);
