@@ -96,9 +96,6 @@ pub struct Adapted {
 
 impl Adaptation {
     /// Checks the configuration and folds the constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(configuration: &AdaptationConfiguration) -> Result<Self, Error> {
         let constants = attempt!(AdaptationConstants::new(configuration));
         Ok(Self {
@@ -187,9 +184,6 @@ impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
 
     /// Takes over the state of a block that an adaptation with the same noise, deviations and forgetting exported: when the ignition goes on. On a
     /// refusal, also of an estimate outside the bounds of these constants, the adaptation is as it was.
-    ///
-    /// # Errors
-    /// The [`Refusal`].
     pub fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
         let mut state = self.state;
         self.block().open(&mut state, block)?;

@@ -79,9 +79,6 @@ impl FrictionLevel {
     };
 
     /// These levels, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `forward` or `backward`.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(LEVEL.checked("forward", self.forward));
         attempt!(LEVEL.checked("backward", self.backward));

@@ -30,9 +30,6 @@ impl Material {
     };
 
     /// The material, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `youngs_modulus`, `poisson_ratio` or `density`.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(in_range("youngs_modulus", self.youngs_modulus, 1e6, 1e13));
         attempt!(in_range("poisson_ratio", self.poisson_ratio, 0.0, 0.5));

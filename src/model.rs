@@ -56,9 +56,6 @@ pub struct FrictionModel<S: Scene, C = <S as Scene>::Constants> {
 
 impl<S: Scene> FrictionModel<S> {
     /// Checks the configuration and folds the constants. Set-up only.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub fn new(configuration: &S::Configuration) -> Result<Self, Error> {
         S::constants(configuration).map(Self::of)
     }
@@ -100,9 +97,6 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// Replaces the constants, as a controller does that switches its calibration page or the clearance of a caged screw, and returns the old
     /// ones. Not in the middle of a step. Balls and memory stay; the circuit of balls has to be the same. The friction coefficient is that of the
     /// new block; where deviation maps have another period, set the angle (or the carriage's position) anew.
-    ///
-    /// # Errors
-    /// [`Error`] naming what does not fit to the state; the model goes on as it was.
     pub fn swap_constants(&mut self, constants: C) -> Result<C, Error> {
         S::take_over(constants.borrow(), &mut self.state)?;
         Ok(core::mem::replace(&mut self.constants, constants))
@@ -129,9 +123,6 @@ impl<S: ChangingFriction, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// Sets the friction coefficient of ball and groove, from the next step on: where temperature or wear change it while the model runs.
     /// In a ball screw within the nodes of the block; in a linear bearing 1e-6 to 1, and all forces follow it in proportion.
     /// [`FrictionModel::reset`] brings the configuration's back.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`; the model goes on as it was.
     pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
         S::set_friction(self.constants.borrow(), &mut self.state, friction)
     }

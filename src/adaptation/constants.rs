@@ -172,9 +172,6 @@ pub struct AdaptationConstants {
 
 impl AdaptationConstants {
     /// Checks the configuration and folds the constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(configuration: &AdaptationConfiguration) -> Result<Self, Error> {
         let AdaptationConfiguration {
             tick,

@@ -45,9 +45,6 @@ impl Clearance {
     pub const ZERO: Self = Self { gap: 0.0 };
 
     /// A gap, m, -1e-3 to 2.5e-3; a scene narrows that ([`Clearance::checked`]).
-    ///
-    /// # Errors
-    /// [`Error`] naming `clearance`.
     pub const fn new(gap: f32) -> Result<Self, Error> {
         Ok(Self {
             gap: attempt!(IN_METRES.checked("clearance", gap)),
@@ -56,9 +53,6 @@ impl Clearance {
 
     /// The oversize that presses each of the four contacts with this force without a load, N, 1e-3 to 1e6 and up to
     /// that of -0.02 ball radii: `gap = -(c_S + c_N) F_0^(2/3) / 2` ([`HertzContact::deflection_coefficient`]).
-    ///
-    /// # Errors
-    /// [`Error`] naming `contact_force`.
     pub const fn of_preload(design: &BallScrew, contact_force: f32) -> Result<Self, Error> {
         let tightest = Self {
             gap: OVER_BALL_RADIUS.minimum * design.ball_radius(),
@@ -84,9 +78,6 @@ impl Clearance {
     /// ```
     ///
     /// with the mean `D_s` of both grooves' radii less the ball's; within 5e-5 of the travel between helical grooves.
-    ///
-    /// # Errors
-    /// [`Error`] naming `axial_play`.
     pub const fn of_axial_play(design: &BallScrew, axial_play: f32) -> Result<Self, Error> {
         let widest = Self {
             gap: OVER_BALL_RADIUS.maximum * design.ball_radius(),
@@ -106,9 +97,6 @@ impl Clearance {
     }
 
     /// Checks the gap against the balls of a design: -0.02 to 0.05 ball radii.
-    ///
-    /// # Errors
-    /// [`Error`] naming `clearance`.
     pub const fn checked(self, design: &BallScrew) -> Result<Self, Error> {
         self.checked_for(design.ball_radius())
     }

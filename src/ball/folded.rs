@@ -200,9 +200,6 @@ pub struct LoadLaw<const NODES: usize> {
 
 impl<const NODES: usize> LoadLaw<NODES> {
     /// Checks the law.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`, `starts`, `cubics`, `shift`, `ends`, `lift_off` or `shifted_from`.
     pub(crate) const fn checked(self) -> Result<Self, Error> {
         const { assert!(NODES > 0) };
         let [least, most] = self.ends;

@@ -31,9 +31,6 @@ impl LoadShare {
     };
 
     /// Powers of a ball's load over the mean load of all balls, 0.01 to 100, within 2.1e-7; for constants too.
-    ///
-    /// # Errors
-    /// [`Error`] naming `share`.
     pub const fn new(share: f32) -> Result<Self, Error> {
         let share = attempt!(in_range("share", share, 0.01, 100.0));
         // Newton's method from 1, which a constant can take: 14 steps from either end of the range.

@@ -60,9 +60,6 @@ pub struct RowConstants {
 
 impl<const NODES: usize> BallLaw<NODES> {
     /// Checks the law.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn checked(&self) -> Result<(), Error> {
         const { assert!(NODES > 0) };
         let [screw, nut] = self.deviations;

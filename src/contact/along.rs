@@ -63,9 +63,6 @@ pub struct NormalizedFriction {
 
 impl FrictionMap {
     /// Maps of a contact with the axis ratio `b/a`, 0.01 to 1; coefficients within 4e-7. Cost: 374 modelled cycles.
-    ///
-    /// # Errors
-    /// [`Error`] naming `axis_ratio`.
     pub const fn new(axis_ratio: f32) -> Result<Self, Error> {
         let axis_ratio = attempt!(in_range("axis_ratio", axis_ratio, SMALLEST_AXIS_RATIO, 1.0));
         Ok(Self::folded(axis_ratio))

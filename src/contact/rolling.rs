@@ -33,9 +33,6 @@ impl RollingResistance {
     };
 
     /// The resistance, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `hysteresis_loss` or `lubricant_drag`.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(ranges::HYSTERESIS_LOSS.checked("hysteresis_loss", self.hysteresis_loss));
         attempt!(ranges::LUBRICANT_DRAG.checked("lubricant_drag", self.lubricant_drag));
@@ -85,9 +82,6 @@ impl RollingContact {
 
     /// Constants of a contact from its semi-axis along the track over the cube root of the load, m/N^(1/3), 1e-9 to 1,
     /// and the relative curvature of both bodies along the track, 1/m, 1e-3 to 1e6.
-    ///
-    /// # Errors
-    /// [`Error`] naming `hysteresis_loss`, `lubricant_drag`, `semi_minor_coefficient` or `rolling_curvature`.
     pub const fn new(
         resistance: RollingResistance,
         semi_minor_coefficient: f32,
@@ -110,9 +104,6 @@ impl RollingContact {
     }
 
     /// Constants of the contact of ball and one groove at its nominal contact angle.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
     pub const fn of(
         design: &BallScrew,
         groove: Groove,

@@ -73,9 +73,6 @@ const LEAST_TANGENT: f32 = 1e-20;
 
 impl EfficiencyGeometry {
     /// Constants from the lead angle `alpha` (rad, 0 to 1.5), the contact angle `beta` (rad, 0.001 to pi/2) and the ball ratio `a` (0 to 1).
-    ///
-    /// # Errors
-    /// [`Error`] naming `lead_angle`, `contact_angle` or `ball_ratio`.
     pub const fn new(lead_angle: f32, contact_angle: f32, ball_ratio: f32) -> Result<Self, Error> {
         attempt!(in_range("lead_angle", lead_angle, 0.0, 1.5));
         attempt!(in_range("contact_angle", contact_angle, 0.001, FRAC_PI_2));

@@ -105,10 +105,6 @@ impl Section {
 
 impl BallScrew {
     /// Checks every field and folds the constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the first field that is not finite or out of range, also `conformity`, `groove_radius` or a material's field;
-    /// [`Error::FoldedGroove`] where the screw's groove would reach past its axis (`A < 1e-4`).
     pub const fn new(parameters: BallScrewParameters) -> Result<Self, Error> {
         let BallScrewParameters {
             pitch_radius,

@@ -32,9 +32,6 @@ pub struct LinearBearing {
 
 impl LinearBearing {
     /// Checks every field and folds the constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field, `conformity` or `groove_radius`, or a material's field.
     pub const fn new(parameters: LinearBearingParameters) -> Result<Self, Error> {
         let ball_radius = attempt!(BALL_RADIUS.checked("ball_radius", parameters.ball_radius));
         let (angle, largest) = (parameters.contact_angle, LARGEST_CONTACT_ANGLE);

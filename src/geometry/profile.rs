@@ -45,9 +45,6 @@ impl ContactAngle {
     }
 
     /// As [`ContactAngle::new`] with the range 0 to pi/2 checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `contact_angle`.
     pub const fn checked(angle: f32) -> Result<Self, Error> {
         let angle = attempt!(in_range("contact_angle", angle, 0.0, FRAC_PI_2));
         Ok(Self::new(angle))

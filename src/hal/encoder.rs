@@ -65,9 +65,6 @@ pub struct MagneticEncoder<SPI> {
 
 impl<SPI: SpiDevice> MagneticEncoder<SPI> {
     /// Checks the configuration. Nothing is sent.
-    ///
-    /// # Errors
-    /// [`Error`] naming `tick`, `gear_ratio`, `largest_nut_speed` or `smoothing_time`.
     pub fn new(spi: SPI, configuration: &EncoderConfiguration) -> Result<Self, Error> {
         Ok(Self {
             spi,

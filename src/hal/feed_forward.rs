@@ -60,9 +60,6 @@ pub struct FrictionFeedForward<PWM> {
 
 impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
     /// Checks the configuration. The duty cycle is left as it is; call [`FrictionFeedForward::neutral`] before the bridge is enabled.
-    ///
-    /// # Errors
-    /// [`Error`] naming `full_torque`, `largest_torque` or `share`.
     pub fn new(pwm: PWM, configuration: &FeedForwardConfiguration) -> Result<Self, Error> {
         let FeedForwardConfiguration {
             full_torque,
@@ -95,17 +92,11 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
     }
 
     /// Outputs the friction torque of a tick.
-    ///
-    /// # Errors
-    /// The channel's own error.
     pub fn apply(&mut self, outputs: &Outputs) -> Result<AppliedDuty, PWM::Error> {
         self.apply_torque(outputs.friction_torque, outputs.faults)
     }
 
     /// Outputs the friction torque of a tick of a screw without cage.
-    ///
-    /// # Errors
-    /// The channel's own error.
     pub fn apply_uncaged(&mut self, outputs: &UncagedOutputs) -> Result<AppliedDuty, PWM::Error> {
         self.apply_torque(outputs.friction_torque, outputs.faults)
     }
@@ -135,9 +126,6 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
     }
 
     /// Outputs no torque.
-    ///
-    /// # Errors
-    /// The channel's own error.
     pub fn neutral(&mut self) -> Result<(), PWM::Error> {
         self.put(0.0).map(|_| ())
     }

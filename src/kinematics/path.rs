@@ -56,9 +56,6 @@ impl KinematicsParameters {
     /// assert!((ball.orbital_speed / 104.72 - 0.43).abs() < 0.01);
     /// # Ok::<(), epas_friction::Error>(())
     /// ```
-    ///
-    /// # Errors
-    /// [`Error`] naming `load_screw` or `load_nut`.
     pub const fn of(design: &BallScrew, load_screw: f32, load_nut: f32) -> Result<Self, Error> {
         let load_screw = attempt!(ranges::LOAD.checked("load_screw", load_screw));
         let load_nut = attempt!(ranges::LOAD.checked("load_nut", load_nut));

@@ -51,9 +51,6 @@ pub struct CompensationMargin {
 
 impl CompensationMargin {
     /// Largest output share of the friction: `min(0.95, 0.97/b, 0.8/(4 - 8 (p - 0.04) - 3.2/b))/q`.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field that is out of range.
     pub const fn largest_share(&self) -> Result<f32, Error> {
         let Self {
             breakaway_angle,

@@ -78,9 +78,6 @@ impl TemperatureFade {
     };
 
     /// Fallback, K, 150 to 500; time for which a reading holds, s, 0 to 86400; time in which it fades after that, s, 1e-3 to 86400.
-    ///
-    /// # Errors
-    /// [`Error`] naming `fallback_temperature`, `hold_time` or `fade_time`.
     pub const fn new(
         fallback_temperature: f32,
         hold_time: f32,

@@ -32,9 +32,6 @@ where
     }
 
     /// Sets the law of the friction coefficient, from the next step on. [`FrictionModel::reset`] brings the configuration's back.
-    ///
-    /// # Errors
-    /// [`Error`] naming `coefficient`, where the scene does not take the least or the largest of the law; the model goes on as it was.
     pub fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
         self.state.remembered.set_coefficient(law)
     }
@@ -44,9 +41,6 @@ where
     ///
     /// It scales the limits of the elements, not their stiffness: friction takes out of every motion what it stored, however often the level
     /// changes. Efficiency and regime are those of the constants' friction. Not part of an exported state; [`FrictionModel::reset`] brings 1 back.
-    ///
-    /// # Errors
-    /// [`Error`] naming `forward` or `backward`, outside 0.1 to 10; the model goes on as it was.
     pub fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
         self.state.remembered.set_level(level)
     }

@@ -72,9 +72,6 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// An angle sensor begins anew: the first reading is no turn, whatever the nut did without power. If somebody turned the wheel
     /// then, model and true friction are the same again after a turn of twice the breakaway angle;
     /// [`FrictionModel::import_with_reading`] serves a sensor that spans the gap.
-    ///
-    /// # Errors
-    /// The [`Refusal`].
     pub fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
         let mut state = self.state;
         self.read(&mut state, block)?;

@@ -111,9 +111,6 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
 
 impl<const NODES: usize> CagedConstants<NODES> {
     /// Checks a configuration and folds its constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(configuration: &CagedBallScrewConfiguration<NODES>) -> Result<Self, Error> {
         let CagedBallScrewConfiguration {
             law,
@@ -142,9 +139,6 @@ impl<const NODES: usize> CagedConstants<NODES> {
     }
 
     /// These constants with other limits, of a calibration page.
-    ///
-    /// # Errors
-    /// As [`Limits::checked`].
     pub const fn with_limits(&self, limits: Limits) -> Result<Self, Error> {
         Ok(Self {
             limits: attempt!(limits.checked()),

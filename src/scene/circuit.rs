@@ -81,9 +81,6 @@ pub struct CircuitState<const N: usize> {
 
 impl CircuitConfiguration {
     /// Checks and folds a circuit of up to so many balls.
-    ///
-    /// # Errors
-    /// [`Error`] naming `return_length`, `length`, `pitch`, `load_shares` or `tick`.
     pub(crate) const fn folded(&self, most: usize) -> Result<Circuit, Error> {
         let longest = LONGEST_RETURN * self.loaded_length;
         attempt!(in_range("return_length", self.return_length, 0.0, longest));
@@ -185,9 +182,6 @@ impl<const N: usize> CircuitState<N> {
     }
 
     /// Whether its balls stand on the track of this circuit.
-    ///
-    /// # Errors
-    /// [`Error`] naming `length` or `pitch`, m.
     pub(crate) const fn is_on(&self, circuit: &Circuit) -> Result<(), Error> {
         self.train.is_on(&circuit.track, circuit.balls)
     }

@@ -86,9 +86,6 @@ pub struct ClosedFormScrewState;
 
 impl ClosedFormScrewConstants {
     /// Checks a configuration and folds its constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(configuration: &ClosedFormScrewConfiguration) -> Result<Self, Error> {
         let ClosedFormScrewConfiguration {
             ref design,

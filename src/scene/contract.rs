@@ -19,9 +19,6 @@ pub trait Scene {
     type Outputs: SceneOutputs;
 
     /// Checks the configuration and folds the constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error>;
 
     /// The state before the first step.
@@ -45,9 +42,6 @@ pub trait Scene {
 /// A scene whose friction coefficient may change while it runs.
 pub trait ChangingFriction: Scene {
     /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`; the state is then as it was.
     fn set_friction(
         constants: &Self::Constants,
         state: &mut Self::State,
@@ -127,9 +121,6 @@ impl Motion for Inputs {
 
 impl Limits {
     /// The limits, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `nut_speed`, `axial_load` or `friction_torque`.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(in_range("nut_speed", self.nut_speed, 1e-3, 1e6));
         attempt!(in_range("axial_load", self.axial_load, 1e-3, 1e7));
@@ -236,9 +227,6 @@ pub(super) struct Reversal {
 
 impl Reversal {
     /// With a reversal speed in the unit of the scene's speed.
-    ///
-    /// # Errors
-    /// [`Error`] naming `reversal_speed`.
     pub(super) const fn new(
         reversal_speed: f32,
         minimum: f32,

@@ -188,9 +188,6 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
 
 impl<const N: usize> LinearConstants<N> {
     /// Checks a configuration and folds its constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(configuration: &LinearBearingConfiguration) -> Result<Self, Error> {
         let LinearBearingConfiguration {
             ref bearing,

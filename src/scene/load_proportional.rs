@@ -73,9 +73,6 @@ pub struct LoadProportionalState;
 
 impl LoadProportionalConstants {
     /// Checks a configuration.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(configuration: &LoadProportionalConfiguration) -> Result<Self, Error> {
         let LoadProportionalConfiguration {
             load_lever,

@@ -130,9 +130,6 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
 
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     /// Checks a configuration and folds its constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(configuration: &UncagedBallScrewConfiguration<NODES>) -> Result<Self, Error> {
         let UncagedBallScrewConfiguration {
             folded,
@@ -178,9 +175,6 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     }
 
     /// These constants with other limits, of a calibration page.
-    ///
-    /// # Errors
-    /// As [`Limits::checked`].
     pub const fn with_limits(&self, limits: Limits) -> Result<Self, Error> {
         Ok(Self {
             limits: attempt!(limits.checked()),

@@ -14,9 +14,6 @@ pub trait Port {
     fn bytes<const B: usize>(&mut self, bytes: &mut [u8; B]) -> Result<(), Refusal>;
 
     /// Exchanges a whole number of any size.
-    ///
-    /// # Errors
-    /// As [`Port::bytes`].
     fn word(&mut self, word: &mut u32) -> Result<(), Refusal> {
         let mut bytes = word.to_le_bytes();
         self.bytes(&mut bytes)?;
@@ -46,9 +43,6 @@ pub trait Port {
     }
 
     /// Exchanges numbers within a range.
-    ///
-    /// # Errors
-    /// As [`Port::number`].
     fn numbers(
         &mut self,
         field: &'static str,
@@ -61,9 +55,6 @@ pub trait Port {
     }
 
     /// Exchanges a count of a byte, up to `most`.
-    ///
-    /// # Errors
-    /// As [`Port::number`].
     fn count(&mut self, field: &'static str, count: &mut u8, most: u8) -> Result<(), Refusal> {
         let mut bytes = [*count];
         self.bytes(&mut bytes)?;
@@ -77,9 +68,6 @@ pub trait Port {
     }
 
     /// Exchanges a count of two bytes, up to `most`.
-    ///
-    /// # Errors
-    /// As [`Port::number`].
     fn long_count(
         &mut self,
         field: &'static str,
@@ -98,9 +86,6 @@ pub trait Port {
     }
 
     /// Exchanges a flag.
-    ///
-    /// # Errors
-    /// As [`Port::number`].
     fn flag(&mut self, field: &'static str, flag: &mut bool) -> Result<(), Refusal> {
         let mut count = u8::from(*flag);
         self.count(field, &mut count, 1)?;

@@ -54,9 +54,6 @@ impl<const N: usize> Train<N> {
     }
 
     /// Whether it has as many balls, on this track.
-    ///
-    /// # Errors
-    /// [`Error`] naming `balls`, `length` or `pitch`.
     pub(crate) const fn is_on(&self, track: &Track, balls: u16) -> Result<(), Error> {
         let own = self.balls() as f32;
         attempt!(in_range("balls", balls as f32, own, own));
@@ -87,9 +84,6 @@ impl<const N: usize> Train<N> {
     }
 
     /// As many balls at equal distances.
-    ///
-    /// # Errors
-    /// As [`Train::new`].
     pub fn evenly_spaced(length: f32, pitch: f32, balls: usize) -> Result<Self, Error> {
         in_range("balls", balls as f32, 1.0, N as f32)?;
         Ok(Self::spread(Track::new(length, pitch, balls)?, balls))

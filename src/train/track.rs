@@ -33,9 +33,6 @@ pub(crate) struct Track {
 
 impl Track {
     /// A track of `length`, m, with `balls` balls that stand `pitch`, m, from centre to centre in contact.
-    ///
-    /// # Errors
-    /// As [`Train::new`](super::Train::new), but for `gaps`.
     pub(crate) const fn new(length: f32, pitch: f32, balls: usize) -> Result<Self, Error> {
         attempt!(in_range("length", length, 1e-4, 1e4));
         let longest = length / balls as f32;

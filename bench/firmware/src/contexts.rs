@@ -115,9 +115,6 @@ const BALL_RADIUS: f32 = 0.005;
 
 impl Contexts {
     /// Sets everything up.
-    ///
-    /// # Errors
-    /// None with the designs used here.
     pub fn new(clock: fn() -> u32) -> Result<Self, Error> {
         // Through `black_box`, or the compiler would fold the constants into the functions.
         let design: BallScrew = black_box(CATALOGUE[15].design()?);

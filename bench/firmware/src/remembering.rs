@@ -48,9 +48,6 @@ fn elements(limit: f32, breakaway: f32) -> Result<ProportionalElements<8>, Error
 }
 
 /// The gear.
-///
-/// # Errors
-/// None.
 pub fn gear_configuration() -> Result<
     WithMemoryConfiguration<
         UncagedBallScrewConfiguration,
@@ -66,9 +63,6 @@ pub fn gear_configuration() -> Result<
 }
 
 /// The gear with the friction coefficient that is the default.
-///
-/// # Errors
-/// None.
 pub fn gear_law_configuration() -> Result<
     WithMemoryConfiguration<UncagedBallScrewConfiguration<3>, ProportionalElements<8>, Encoder>,
     Error,
@@ -100,9 +94,6 @@ fn gear<C: Copy, L: Copy>(
 }
 
 /// The carriage.
-///
-/// # Errors
-/// None.
 pub fn carriage_configuration() -> Result<
     WithMemoryConfiguration<
         LinearBearingConfiguration,

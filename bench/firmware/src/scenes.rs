@@ -118,9 +118,6 @@ pub type UncagedMemoryConstants = WithMemoryConstants<
 >;
 
 /// A scene with a memory of eight elements.
-///
-/// # Errors
-/// None with the scenes here.
 pub const fn with_memory<C: Copy, L: Copy>(
     scene: C,
     coefficient: L,
@@ -166,9 +163,6 @@ pub trait Run {
     type Model;
 
     /// Sets it up.
-    ///
-    /// # Errors
-    /// None with the designs used here.
     fn set_up() -> Result<Self::Model, Error>;
 
     /// One tick; what it gives goes into the digest.

@@ -83,9 +83,6 @@ impl RollingDrag {
 
     /// The drag of a ball screw with so many loaded balls, 1 to 1e3, and a supply of lubricant, 0 to 2: 1 where every contact is flooded, 0.7
     /// where drops of oil or a film of grease supply it ([`defaults::FLOODING`](crate::defaults::FLOODING)). For set-up and constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming `loaded_balls` or `flooding`.
     pub const fn of(design: &BallScrew, loaded_balls: u16, flooding: f32) -> Result<Self, Error> {
         let balls = attempt!(in_range("loaded_balls", loaded_balls as f32, 1.0, 1e3));
         let flooding = attempt!(FLOODING.checked("flooding", flooding));

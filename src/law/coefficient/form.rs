@@ -111,9 +111,6 @@ const fn ends(viscosity: &Viscosity, scale: f32) -> [f32; 2] {
 
 impl CoefficientLaw {
     /// Checks and folds a law.
-    ///
-    /// # Errors
-    /// [`Error`] naming the parameter, `drag_torque` or `drag_heating`.
     pub const fn new(parameters: &CoefficientParameters) -> Result<Self, Error> {
         let CoefficientParameters {
             boundary,
@@ -153,9 +150,6 @@ impl CoefficientLaw {
     }
 
     /// One coefficient, 1e-6 to 1, at every speed and temperature, without churning.
-    ///
-    /// # Errors
-    /// [`Error`] naming `boundary`.
     pub const fn constant(friction: f32) -> Result<Self, Error> {
         // Its lubricant has no effect.
         let viscosity = attempt!(Viscosity::through((313.15, 0.1), (373.15, 0.01), 233.15));

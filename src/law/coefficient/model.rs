@@ -87,9 +87,6 @@ pub struct OneCoefficient {
 
 impl OneCoefficient {
     /// A friction coefficient, 1e-6 to 1.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`.
     pub const fn new(friction: f32) -> Result<Self, Error> {
         let friction = attempt!(ranges::FRICTION.checked("friction", friction));
         Ok(Self { friction })

@@ -85,9 +85,6 @@ pub struct Viscosity {
 
 impl Viscosity {
     /// From an oil's data sheet.
-    ///
-    /// # Errors
-    /// [`Error`] naming `kinematic_viscosity_100`, `kinematic_viscosity_40`, `density` or `pour_point`.
     pub const fn of_oil(data: &OilData) -> Result<Self, Error> {
         let OilData {
             kinematic_viscosity_40: cold,
@@ -114,9 +111,6 @@ impl Viscosity {
 
     /// Through two temperatures, K, 150 to 500, 10 K apart or more, with their dynamic viscosities, Pa s, 1e-4 to 1e4: the colder one
     /// first, at least 1.5 times as viscous, and at most as a pole 10 K below allows. The pour point, K, is at most the colder one.
-    ///
-    /// # Errors
-    /// [`Error`] naming `temperature`, `viscosity` or `pour_point`.
     pub const fn through(
         cold: (f32, f32),
         warm: (f32, f32),

@@ -120,9 +120,6 @@ pub struct ParallelElementsState<A, B> {
 
 impl<A: Copy, B: Copy> ParallelElements<A, B> {
     /// Both; the first ones' reference limits are `share` (0 to 1) of the whole, the second ones' the rest.
-    ///
-    /// # Errors
-    /// [`Error`] naming `share`.
     pub const fn new(first: A, second: B, share: f32) -> Result<Self, Error> {
         let share = attempt!(in_range("share", share, 0.0, 1.0));
         Ok(Self {

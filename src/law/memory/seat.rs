@@ -59,9 +59,6 @@ impl SeatState {
 
 impl SeatElement {
     /// A seat with `free_play`, rad (m), to either side, which slides with `reference_limit`, N m (N), after `breakaway_angle`, rad (m), beyond it.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field not within [`FREE_PLAY`], [`REFERENCE_LIMIT`] or [`BREAKAWAY`].
     pub const fn new(
         reference_limit: f32,
         free_play: f32,

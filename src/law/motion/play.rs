@@ -50,9 +50,6 @@ impl PlayState {
 
 impl Play {
     /// A play of `half_width`, rad (m): 0 to 1e3. Without width the output follows every turn.
-    ///
-    /// # Errors
-    /// [`Error`] naming `half_width`.
     pub const fn new(half_width: f32) -> Result<Self, Error> {
         let half_width = attempt!(in_range("half_width", half_width, 0.0, 1e3));
         Ok(Self { half_width })
@@ -152,9 +149,6 @@ pub struct DeadbandReading<S> {
 
 impl<A: Copy> Deadband<A> {
     /// A sensor behind a play of `half_width`, rad (m), 0 to 1e3: at least half the width of the noise, counts included.
-    ///
-    /// # Errors
-    /// [`Error`] naming `half_width`.
     pub const fn new(angle: A, half_width: f32) -> Result<Self, Error> {
         let play = attempt!(Play::new(half_width));
         Ok(Self { angle, play })

@@ -120,9 +120,6 @@ pub struct CountReading(pub(super) Option<u32>);
 
 impl CountSensor {
     /// Constants of a counter.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(parameters: CountSensorParameters) -> Result<Self, Error> {
         let CountSensorParameters {
             period,
@@ -245,9 +242,6 @@ pub struct AngleReading(pub(super) Option<f32>);
 
 impl WrappedAngle {
     /// Constants of an angle.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(parameters: WrappedAngleParameters) -> Result<Self, Error> {
         let WrappedAngleParameters {
             lowest,
@@ -336,9 +330,6 @@ pub struct SpeedOverTick {
 
 impl SpeedOverTick {
     /// Constants: the tick, s (1e-7 to 10), and the largest turn of one, rad (m) ([`LARGEST_TURN`]).
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(tick: f32, largest_turn: f32) -> Result<Self, Error> {
         attempt!(in_range("tick", tick, 1e-7, 10.0));
         attempt!(LARGEST_TURN.checked("largest_turn", largest_turn));

@@ -152,9 +152,6 @@ pub struct LinearLimits {
 
 impl LinearLimits {
     /// The limits, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `speed`, `load` or `friction_force`.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(in_range("speed", self.speed, 1e-6, 1e3));
         attempt!(in_range("load", self.load, 1e-3, 1e7));

@@ -41,9 +41,6 @@ impl Freshness {
     };
 
     /// These times, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `load_hold` or `load_fade`.
     pub(super) const fn fade(self) -> Result<Fade, Error> {
         Fade::new(
             ("load_hold", self.load_hold, Range::new(0.0, 1e3)),
@@ -78,9 +75,6 @@ pub struct WithMemoryConfiguration<C, E, A, L = CoefficientLaw> {
 
 impl<C: Copy, E: Hysteresis + Copy, A: Copy> WithMemoryConfiguration<C, E, A, OneCoefficient> {
     /// A scene with one friction coefficient, 1e-6 to 1, and the elements' breakaway as play.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`.
     pub fn new(
         scene: C,
         friction: f32,

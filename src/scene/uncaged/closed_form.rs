@@ -43,9 +43,6 @@ impl FoldedBall<1> {
     /// the third contact opens, some per cent on the other; forces between balls accordingly.
     ///
     /// Source: Lin 2019, eqs. (3.56) to (3.68), (3.73).
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn of_catalogue(ball: &CatalogueBall) -> Result<Self, Error> {
         let CatalogueBall {
             ref design,
