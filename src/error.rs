@@ -2,6 +2,17 @@
 
 use core::fmt;
 
+/// The value of a `Result`, or back with its error: `?` in a constant function.
+macro_rules! attempt {
+    ($result:expr) => {
+        match $result {
+            Ok(value) => value,
+            Err(error) => return Err(error),
+        }
+    };
+}
+pub(crate) use attempt;
+
 /// The closed interval that a field must lie in, in the field's own unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -193,16 +204,16 @@ pub(crate) const fn in_range(
     }
 }
 
-/// The value of a `Result`, or back with its error: `?` in a constant function.
-macro_rules! attempt {
-    ($result:expr) => {
-        match $result {
-            Ok(value) => value,
-            Err(error) => return Err(error),
-        }
-    };
+/// Checks fields, each with its value and its least and largest one, in their order.
+pub(crate) const fn all_in_range(fields: &[(&'static str, f32, f32, f32)]) -> Result<(), Error> {
+    let mut index = 0;
+    while index < fields.len() {
+        let (field, value, minimum, maximum) = fields[index];
+        attempt!(in_range(field, value, minimum, maximum));
+        index += 1;
+    }
+    Ok(())
 }
-pub(crate) use attempt;
 
 #[cfg(test)]
 mod tests {

@@ -34,8 +34,7 @@ pub use caged::{
 pub use circuit::deviation::SINES;
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use closed_form::{
-    ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, ClosedFormScrewState,
-    FrictionBranch,
+    ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, FrictionBranch,
 };
 pub use contract::{
     ChangingFriction, CheckedInputs, Inputs, Limits, Motion, Regime, ReversalState, Scene,
@@ -48,7 +47,6 @@ pub use linear::{
 };
 pub use load_proportional::{
     LoadProportionalConfiguration, LoadProportionalConstants, LoadProportionalScrew,
-    LoadProportionalState,
 };
 pub use memory::{
     CoefficientFor, Freshness, SceneMemory, WithMemory, WithMemoryConfiguration,

@@ -3,7 +3,7 @@
 use super::health::HealthConstants;
 use super::state::START;
 use super::tick::{AdaptationFlags, AdaptationInputs, ESTIMATES};
-use crate::error::{Error, Range, attempt, in_range};
+use crate::error::{Error, Range, all_in_range, attempt, in_range};
 use crate::law::LEVEL;
 use crate::scene::Regime;
 use crate::stored::{Fingerprint, Fingerprinted};
@@ -173,34 +173,23 @@ pub struct AdaptationConstants {
 impl AdaptationConstants {
     /// Checks the configuration and folds the constants.
     pub const fn new(configuration: &AdaptationConfiguration) -> Result<Self, Error> {
-        let AdaptationConfiguration {
-            tick,
-            forgetting_time,
-            filter_time,
-            noise,
-            largest_torque,
-            largest_speed,
-            least_speed,
-            least_friction,
-            health,
-            ..
-        } = *configuration;
+        let c = configuration;
         attempt!(checked(configuration));
         let deviations = deviations(configuration);
         let (least, largest) = bounds(configuration, &deviations);
         // A level divides the model's torque: by 0.1 at the least.
         let regressors = [
-            largest_torque / LEVEL.minimum,
-            largest_torque / LEVEL.minimum,
-            largest_speed,
+            c.largest_torque / LEVEL.minimum,
+            c.largest_torque / LEVEL.minimum,
+            c.largest_speed,
             1.0,
-            largest_torque,
+            c.largest_torque,
         ];
-        let noise = attempt!(checked_noise(noise, &deviations, &regressors));
+        let noise = attempt!(checked_noise(c.noise, &deviations, &regressors));
         // Data lose their weight over the ticks of an upkeep.
-        let growth = UPKEEP as f32 * tick / forgetting_time;
+        let growth = UPKEEP as f32 * c.tick / c.forgetting_time;
         Ok(Self {
-            filter: tick / (tick + filter_time),
+            filter: c.tick / (c.tick + c.filter_time),
             per_noise: 1.0 / noise,
             deviations,
             weights: over(deviations, noise),
@@ -208,11 +197,11 @@ impl AdaptationConstants {
             largest,
             growth: 1.0 + growth,
             prior: crate::math::constant::sqrt(fifth_power_less_one(growth)),
-            largest_torque,
-            largest_speed,
-            least_speed,
-            least_friction,
-            health: attempt!(HealthConstants::new(&health, tick, ROUND * tick)),
+            largest_torque: c.largest_torque,
+            largest_speed: c.largest_speed,
+            least_speed: c.least_speed,
+            least_friction: c.least_friction,
+            health: attempt!(HealthConstants::new(&c.health, c.tick, ROUND * c.tick)),
         })
     }
 
@@ -282,7 +271,7 @@ const fn checked(configuration: &AdaptationConfiguration) -> Result<(), Error> {
     attempt!(in_range("tick", c.tick, 1e-5, 1.0));
     attempt!(forgetting_times(c.tick).checked("forgetting_time", c.forgetting_time));
     let (largest_torque, largest_speed) = (c.largest_torque, c.largest_speed);
-    let fields = [
+    all_in_range(&[
         ("filter_time", c.filter_time, 0.0, 1.0),
         ("level_deviation", c.level_deviation, 0.0, 10.0),
         ("least_level", c.least_level, LEVEL.minimum, 1.0),
@@ -297,14 +286,7 @@ const fn checked(configuration: &AdaptationConfiguration) -> Result<(), Error> {
         ("largest_speed", largest_speed, 1e-3, 1e6),
         ("least_speed", c.least_speed, 0.0, largest_speed),
         ("least_friction", c.least_friction, 0.0, largest_torque),
-    ];
-    let mut index = 0;
-    while index < fields.len() {
-        let (field, value, least, largest) = fields[index];
-        attempt!(in_range(field, value, least, largest));
-        index += 1;
-    }
-    Ok(())
+    ])
 }
 
 const fn deviations(configuration: &AdaptationConfiguration) -> [f32; ESTIMATES] {
@@ -322,16 +304,10 @@ const fn bounds(
     configuration: &AdaptationConfiguration,
     deviations: &[f32; ESTIMATES],
 ) -> ([f32; ESTIMATES], [f32; ESTIMATES]) {
-    let AdaptationConfiguration {
-        least_level,
-        largest_level,
-        largest_drag: drag,
-        largest_offset: offset,
-        largest_load_error: load_error,
-        ..
-    } = *configuration;
-    let mut least = [least_level, least_level, -drag, -offset, -load_error];
-    let mut largest = [largest_level, largest_level, drag, offset, load_error];
+    let c = configuration;
+    let (drag, offset, load_error) = (c.largest_drag, c.largest_offset, c.largest_load_error);
+    let mut least = [c.least_level, c.least_level, -drag, -offset, -load_error];
+    let mut largest = [c.largest_level, c.largest_level, drag, offset, load_error];
     let mut index = 0;
     while index < ESTIMATES {
         if deviations[index] <= 0.0 {

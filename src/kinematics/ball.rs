@@ -29,40 +29,16 @@ use crate::math::{self, constant};
 /// within 6° of them and of 0, rolling radii within 1 % of the ball's, semi-major axis to 0.3 ball radii.
 ///
 /// ```
+/// use epas_friction::CATALOGUE;
 /// use epas_friction::kinematics::{ContactKinematics, EllipticContact, KinematicsParameters};
-/// # fn main() -> Result<(), epas_friction::Error> {
-/// let degree = core::f32::consts::PI / 180.0;
-/// // The screw of Alberdi et al., Table 2, at 1500 N.
-/// let mut kinematics = ContactKinematics::new(&KinematicsParameters {
-///     ball_diameter: 7.94e-3,
-///     pitch_radius: 19.25e-3,
-///     lead_angle: 10.0 * degree,
-///     groove_radius_screw: 4.2e-3,
-///     groove_radius_nut: 4.2e-3,
-///     contact_angle_screw: 41.0 * degree,
-///     contact_angle_nut: 41.0 * degree,
-///     pitch_angle: 40.0 * degree,
-///     yaw_angle: 0.0,
-///     rolling_radius_screw: 3.97e-3,
-///     rolling_radius_nut: 3.97e-3,
-///     semi_major_screw: 0.601e-3,
-///     semi_minor_screw: 0.083e-3,
-///     semi_major_nut: 0.586e-3,
-///     semi_minor_nut: 0.097e-3,
-/// })?;
-///
-/// // In the interrupt: 1000 revolutions a minute.
-/// let ball = kinematics.tick(104.72);
-/// assert!((ball.screw.entrainment_speed - 1.000).abs() < 1e-3);
-/// assert!((ball.screw.side_slip + 41.5e-3).abs() < 1e-4);
-///
+/// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
+/// let mut kinematics = ContactKinematics::new(&KinematicsParameters::of(&design, 100.0, 100.0)?)?;
+/// let ball = kinematics.tick(104.72); // 1000 revolutions a minute
+/// assert!((ball.orbital_speed / 104.72 - 0.43).abs() < 0.01);
 /// // The load rose: new contact angles and ellipses.
-/// let taken = kinematics.update(
-///     EllipticContact { contact_angle: 0.72, semi_major: 0.65e-3, semi_minor: 0.09e-3 },
-///     EllipticContact { contact_angle: 0.72, semi_major: 0.63e-3, semi_minor: 0.10e-3 },
-/// );
-/// assert!(taken);
-/// # Ok(()) }
+/// let contact = EllipticContact { contact_angle: 0.8, semi_major: 0.65e-3, semi_minor: 0.09e-3 };
+/// assert!(kinematics.update(contact, contact));
+/// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]

@@ -1,6 +1,6 @@
 //! Parameters of a ball between its grooves, path of its centre, direction of rolling.
 
-use crate::error::{Error, Range, attempt, in_range};
+use crate::error::{Error, Range, all_in_range, attempt};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
 use crate::math::{self, constant};
@@ -46,16 +46,6 @@ pub struct KinematicsParameters {
 impl KinematicsParameters {
     /// Those of a validated design whose balls carry the contact forces `load_screw` and `load_nut`, N, 0 to 1e7, at its nominal contact angle, with
     /// ellipses of [`HertzContact`] and the customary rotation; for constants too.
-    ///
-    /// ```
-    /// use epas_friction::CATALOGUE;
-    /// use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
-    /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
-    /// let kinematics = ContactKinematics::new(&KinematicsParameters::of(&design, 100.0, 100.0)?)?;
-    /// let ball = kinematics.tick(104.72); // 1000 revolutions a minute
-    /// assert!((ball.orbital_speed / 104.72 - 0.43).abs() < 0.01);
-    /// # Ok::<(), epas_friction::Error>(())
-    /// ```
     pub const fn of(design: &BallScrew, load_screw: f32, load_nut: f32) -> Result<Self, Error> {
         let load_screw = attempt!(ranges::LOAD.checked("load_screw", load_screw));
         let load_nut = attempt!(ranges::LOAD.checked("load_nut", load_nut));
@@ -80,6 +70,51 @@ impl KinematicsParameters {
             semi_major_nut: nut.semi_major_coefficient() * root_nut,
             semi_minor_nut: nut.semi_minor_coefficient() * root_nut,
         })
+    }
+
+    const fn checked(&self) -> Result<(), Error> {
+        let p = self;
+        let ball_radius = 0.5 * p.ball_diameter;
+        let (narrowest, widest) = (ball_radius, 2.0 * p.ball_diameter);
+        let (shortest, longest) = (0.5 * ball_radius, p.ball_diameter);
+        let (right, largest_ellipse) = (FRAC_PI_2, LARGEST_ELLIPSE * ball_radius);
+        attempt!(BALL_DIAMETER.checked("ball_diameter", p.ball_diameter));
+        attempt!(ranges::PITCH_RADIUS.checked("pitch_radius", p.pitch_radius));
+        all_in_range(&[
+            ("lead_angle", p.lead_angle, -1.2, 1.2),
+            (
+                "groove_radius_screw",
+                p.groove_radius_screw,
+                narrowest,
+                widest,
+            ),
+            ("groove_radius_nut", p.groove_radius_nut, narrowest, widest),
+            ("contact_angle_screw", p.contact_angle_screw, -right, right),
+            ("contact_angle_nut", p.contact_angle_nut, -right, right),
+            ("pitch_angle", p.pitch_angle, -right, right),
+            ("yaw_angle", p.yaw_angle, -0.5, 0.5),
+            (
+                "rolling_radius_screw",
+                p.rolling_radius_screw,
+                shortest,
+                longest,
+            ),
+            (
+                "rolling_radius_nut",
+                p.rolling_radius_nut,
+                shortest,
+                longest,
+            ),
+            ("semi_major_screw", p.semi_major_screw, 0.0, largest_ellipse),
+            (
+                "semi_minor_screw",
+                p.semi_minor_screw,
+                0.0,
+                p.semi_major_screw,
+            ),
+            ("semi_major_nut", p.semi_major_nut, 0.0, largest_ellipse),
+            ("semi_minor_nut", p.semi_minor_nut, 0.0, p.semi_major_nut),
+        ])
     }
 
     pub(super) const fn screw(&self) -> EllipticContact {
@@ -211,36 +246,13 @@ pub(super) struct Path {
 impl Path {
     pub const fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
         let p = parameters;
-        let diameter = attempt!(BALL_DIAMETER.checked("ball_diameter", p.ball_diameter));
-        let pitch_radius = attempt!(ranges::PITCH_RADIUS.checked("pitch_radius", p.pitch_radius));
-        let lead_angle = attempt!(in_range("lead_angle", p.lead_angle, -1.2, 1.2));
-        let ball_radius = 0.5 * diameter;
-        let (least, most) = (ball_radius, 2.0 * diameter);
-        let (screw, nut) = (p.groove_radius_screw, p.groove_radius_nut);
-        let groove_screw = attempt!(in_range("groove_radius_screw", screw, least, most));
-        let groove_nut = attempt!(in_range("groove_radius_nut", nut, least, most));
-        let (least, most) = (-FRAC_PI_2, FRAC_PI_2);
-        let (screw, nut) = (p.contact_angle_screw, p.contact_angle_nut);
-        attempt!(in_range("contact_angle_screw", screw, least, most));
-        attempt!(in_range("contact_angle_nut", nut, least, most));
-        let pitch_angle = attempt!(in_range("pitch_angle", p.pitch_angle, least, most));
-        let yaw_angle = attempt!(in_range("yaw_angle", p.yaw_angle, -0.5, 0.5));
-        let (least, most) = (0.5 * ball_radius, diameter);
-        let (screw, nut) = (p.rolling_radius_screw, p.rolling_radius_nut);
-        let rolling_screw = attempt!(in_range("rolling_radius_screw", screw, least, most));
-        let rolling_nut = attempt!(in_range("rolling_radius_nut", nut, least, most));
+        attempt!(p.checked());
+        let ball_radius = 0.5 * p.ball_diameter;
         let largest_ellipse = LARGEST_ELLIPSE * ball_radius;
-        let (major, minor) = (p.semi_major_screw, p.semi_minor_screw);
-        let major = attempt!(in_range("semi_major_screw", major, 0.0, largest_ellipse));
-        attempt!(in_range("semi_minor_screw", minor, 0.0, major));
-        let (major, minor) = (p.semi_major_nut, p.semi_minor_nut);
-        let major = attempt!(in_range("semi_major_nut", major, 0.0, largest_ellipse));
-        attempt!(in_range("semi_minor_nut", minor, 0.0, major));
-
-        let (sin_lead, cos_lead) = constant::sin_cos(lead_angle);
-        let (sin_pitch, cos_pitch) = constant::sin_cos(pitch_angle);
-        let (sin_yaw, cos_yaw) = constant::sin_cos(yaw_angle);
-        let radius = pitch_radius / cos_lead;
+        let (sin_lead, cos_lead) = constant::sin_cos(p.lead_angle);
+        let (sin_pitch, cos_pitch) = constant::sin_cos(p.pitch_angle);
+        let (sin_yaw, cos_yaw) = constant::sin_cos(p.yaw_angle);
+        let radius = p.pitch_radius / cos_lead;
         Ok(Self {
             sin_lead,
             cos_lead,
@@ -251,8 +263,18 @@ impl Path {
             axis_normal: sin_pitch,
             inverse_ball_radius_squared: 1.0 / (ball_radius * ball_radius),
             largest_ellipse,
-            screw: GroovePath::new(radius, ball_radius, groove_screw, rolling_screw),
-            nut: GroovePath::new(radius, ball_radius, groove_nut, rolling_nut),
+            screw: GroovePath::new(
+                radius,
+                ball_radius,
+                p.groove_radius_screw,
+                p.rolling_radius_screw,
+            ),
+            nut: GroovePath::new(
+                radius,
+                ball_radius,
+                p.groove_radius_nut,
+                p.rolling_radius_nut,
+            ),
         })
     }
 

@@ -5,7 +5,7 @@ mod zone;
 
 pub use deviation::{DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub(super) use zone::Sharing;
-use zone::{Lengths, LoadedBall, LoadedZone};
+use zone::{Lengths, LoadedZone};
 
 use crate::ball::{LoadShare, LoadShares};
 use crate::error::{Error, Range, attempt, in_range};
@@ -59,7 +59,7 @@ pub(crate) struct CircuitConfiguration {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct Circuit {
-    zone: LoadedZone,
+    pub(crate) zone: LoadedZone,
     pub(super) track: Track,
     balls: u16,
     /// 1 / mean number of loaded balls.
@@ -115,11 +115,6 @@ impl CircuitConfiguration {
 }
 
 impl Circuit {
-    #[inline(always)]
-    pub(crate) const fn deviation_units(&self) -> (f32, f32) {
-        self.zone.units()
-    }
-
     pub(crate) const fn per_loaded_ball(&self) -> f32 {
         self.per_loaded_ball
     }
@@ -128,11 +123,6 @@ impl Circuit {
     #[inline(always)]
     pub(crate) fn travel(&self, speed: f32) -> f32 {
         speed * self.travel
-    }
-
-    #[inline(always)]
-    pub(crate) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
-        self.zone.shares(negative)
     }
 
     #[inline(never)]
@@ -145,24 +135,9 @@ impl Circuit {
             .sharing(state.train.positions(), self.balls, shares)
     }
 
-    #[inline(always)]
-    pub(crate) const fn is_closed(&self) -> bool {
-        self.zone.is_closed()
-    }
-
     #[inline(never)]
     pub(crate) fn part(&self, position: u32) -> f32 {
         self.zone.part(position)
-    }
-
-    #[inline(always)]
-    pub(crate) fn loaded_ball(&self, position: u32, phase: u32) -> Option<LoadedBall> {
-        self.zone.at(position, phase)
-    }
-
-    #[inline(always)]
-    pub(crate) fn share(&self, position: u32, shares: &'static [LoadShare]) -> f32 {
-        self.zone.share(position, shares)
     }
 
     pub(crate) fn fingerprint(&self, fingerprint: &mut Fingerprint) {

@@ -13,7 +13,7 @@ use crate::error::{Error, Range, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
-use crate::stored::{Fingerprint, Port, Refusal, Stored};
+use crate::stored::{Fingerprint, Refusal};
 
 /// Friction torque over load and pitch radius from which on a direction counts as locked.
 const LOCKED_RADII: f32 = 1e3;
@@ -78,11 +78,6 @@ pub struct ClosedFormScrewConstants {
     reversal: Reversal,
     limits: Limits,
 }
-
-/// State of a screw by a closed form: none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ClosedFormScrewState;
 
 impl ClosedFormScrewConstants {
     /// Checks a configuration and folds its constants.
@@ -183,7 +178,7 @@ const fn torque_per_load(
 impl Scene for ClosedFormScrew {
     type Configuration = ClosedFormScrewConfiguration;
     type Constants = ClosedFormScrewConstants;
-    type State = ClosedFormScrewState;
+    type State = ();
     type Inputs = Inputs;
     type Outputs = Outputs;
 
@@ -191,11 +186,9 @@ impl Scene for ClosedFormScrew {
         ClosedFormScrewConstants::new(configuration)
     }
 
-    fn initial_state(_: &Self::Constants) -> Self::State {
-        ClosedFormScrewState
-    }
+    fn initial_state(_: &Self::Constants) {}
 
-    fn take_over(_: &Self::Constants, _: &mut Self::State) -> Result<(), Error> {
+    fn take_over(_: &Self::Constants, (): &mut Self::State) -> Result<(), Error> {
         Ok(())
     }
 
@@ -204,7 +197,7 @@ impl Scene for ClosedFormScrew {
     /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
     /// load together, and never of the sign that would make friction a source of power.
     #[inline]
-    fn step(constants: &Self::Constants, _: &mut Self::State, inputs: Inputs) -> Outputs {
+    fn step(constants: &Self::Constants, (): &mut Self::State, inputs: Inputs) -> Outputs {
         let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
         let Some(Inputs {
             nut_speed,
@@ -244,7 +237,7 @@ impl Sliding for ClosedFormScrew {
     #[inline]
     fn sliding_friction(
         constants: &Self::Constants,
-        _: &mut Self::State,
+        (): &mut Self::State,
         inputs: Inputs,
         _: DirectionalCoefficient,
     ) -> CagedFriction {
@@ -294,15 +287,7 @@ impl StoredScene for ClosedFormScrew {
         fingerprint.count(0);
     }
 
-    fn complete(_: &Self::Constants, _: &mut Self::State) -> Result<(), Refusal> {
-        Ok(())
-    }
-}
-
-impl Stored for ClosedFormScrewState {
-    const BYTES: usize = 0;
-
-    fn exchange<P: Port>(&mut self, _: &mut P) -> Result<(), Refusal> {
+    fn complete(_: &Self::Constants, (): &mut Self::State) -> Result<(), Refusal> {
         Ok(())
     }
 }

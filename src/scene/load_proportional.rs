@@ -4,7 +4,7 @@ use super::contract::{
     CheckedInputs, Inputs, Limits, Reversal, ReversalState, Scene, SceneOutputs as _,
 };
 use super::outputs::Outputs;
-use crate::error::{Error, attempt, in_range};
+use crate::error::{Error, all_in_range, attempt};
 
 /// A drive whose geometry is not known, by four numbers that `epas-bench calibrate` identifies from a trace without a design.
 ///
@@ -66,32 +66,21 @@ pub struct LoadProportionalConstants {
     reversal: Reversal,
 }
 
-/// State of a drive without a drawing: none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LoadProportionalState;
-
 impl LoadProportionalConstants {
     /// Checks a configuration.
     pub const fn new(configuration: &LoadProportionalConfiguration) -> Result<Self, Error> {
-        let LoadProportionalConfiguration {
-            load_lever,
-            coulomb_friction,
-            viscous_friction,
-            driving_loss,
-            back_driving_loss,
-            reversal_speed,
-            limits,
-        } = *configuration;
-        attempt!(in_range("load_lever", load_lever, 1e-6, 1e3));
-        attempt!(in_range("coulomb_friction", coulomb_friction, 0.0, 1e6));
-        attempt!(in_range("viscous_friction", viscous_friction, 0.0, 1e6));
-        attempt!(in_range("driving_loss", driving_loss, 0.0, 10.0));
-        attempt!(in_range("back_driving_loss", back_driving_loss, 0.0, 10.0));
-        attempt!(limits.checked());
+        let c = configuration;
+        attempt!(all_in_range(&[
+            ("load_lever", c.load_lever, 1e-6, 1e3),
+            ("coulomb_friction", c.coulomb_friction, 0.0, 1e6),
+            ("viscous_friction", c.viscous_friction, 0.0, 1e6),
+            ("driving_loss", c.driving_loss, 0.0, 10.0),
+            ("back_driving_loss", c.back_driving_loss, 0.0, 10.0),
+        ]));
+        attempt!(c.limits.checked());
         Ok(Self {
-            checked: *configuration,
-            reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
+            checked: *c,
+            reversal: attempt!(Reversal::new(c.reversal_speed, 1e-6, 1e3)),
         })
     }
 }
@@ -99,7 +88,7 @@ impl LoadProportionalConstants {
 impl Scene for LoadProportionalScrew {
     type Configuration = LoadProportionalConfiguration;
     type Constants = LoadProportionalConstants;
-    type State = LoadProportionalState;
+    type State = ();
     type Inputs = Inputs;
     type Outputs = Outputs;
 
@@ -107,16 +96,14 @@ impl Scene for LoadProportionalScrew {
         LoadProportionalConstants::new(configuration)
     }
 
-    fn initial_state(_: &Self::Constants) -> Self::State {
-        LoadProportionalState
-    }
+    fn initial_state(_: &Self::Constants) {}
 
-    fn take_over(_: &Self::Constants, _: &mut Self::State) -> Result<(), Error> {
+    fn take_over(_: &Self::Constants, (): &mut Self::State) -> Result<(), Error> {
         Ok(())
     }
 
     #[inline]
-    fn step(constants: &Self::Constants, _: &mut Self::State, inputs: Inputs) -> Outputs {
+    fn step(constants: &Self::Constants, (): &mut Self::State, inputs: Inputs) -> Outputs {
         let drive = &constants.checked;
         let CheckedInputs { inputs, faults } = drive.limits.check_inputs(inputs);
         let Some(Inputs {

@@ -156,7 +156,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let [screw, nut] = law.deviations;
         attempt!(screw_deviation.checked("screw_deviation", screw));
         attempt!(nut_deviation.checked("nut_deviation", nut));
-        let units = circuit.deviation_units();
+        let units = circuit.zone.units();
         Ok(Self {
             law,
             friction: law.interval(friction),
@@ -189,7 +189,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
 
     #[inline(always)]
     const fn shares(&self, axial_load: f32) -> &'static [LoadShare] {
-        self.circuit.shares(axial_load < 0.0)
+        self.circuit.zone.shares(axial_load < 0.0)
     }
 
     pub(crate) fn set_nut_angle(&self, state: &mut UncagedState<N>, angle: f32) {

@@ -34,7 +34,8 @@ pub(super) struct Ball {
     pub(super) position: u32,
     /// Sixteenths of a unit beyond the position, 0 to 15.
     pub(super) sixteenths: u8,
-    others: u8,
+    /// Balls of the cluster besides this one, of which this is the rear or the front ball; 0 of a ball alone.
+    pub(super) others: u8,
     /// Part of the friction that its contact with the ball behind has, in units of 2^-15.
     rubs: u16,
 }
@@ -91,41 +92,8 @@ impl Ball {
     }
 
     #[inline(always)]
-    pub(super) fn stand_alone(&mut self) {
-        self.others = 0;
-    }
-
-    #[inline(always)]
-    pub(super) fn set_rear(&mut self, others: usize, growth: f32, inner_slack: f32) {
-        self.force = inner_slack;
-        self.of_cluster = growth;
-        self.others = others as u8;
-    }
-
-    #[inline(always)]
-    pub(super) fn set_front(&mut self, others: usize, impedance: f32, push: f32) {
-        self.force = push;
-        self.of_cluster = impedance;
-        self.others = others as u8;
-    }
-
-    /// Balls of the cluster besides this one, of which this is the rear or the front ball.
-    #[inline(always)]
     pub(super) fn others(&self) -> usize {
         usize::from(self.others)
-    }
-
-    #[inline(always)]
-    pub(super) fn settle(&mut self, speed: f32, force: f32) {
-        self.speed = speed;
-        self.force = force;
-    }
-
-    /// Leaves in a rear ball the rounding of the force that pushes it, and the cluster's impedance.
-    #[inline(always)]
-    pub(super) fn leave_remainder(&mut self, remainder: f32, impedance: f32) {
-        self.slack = remainder;
-        self.of_cluster = impedance;
     }
 }
 

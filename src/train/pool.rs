@@ -18,13 +18,13 @@ pub(super) fn pool(balls: &mut [Ball]) -> usize {
 fn next_front(balls: &mut [Ball]) -> Option<usize> {
     let (last, behind) = balls.split_last_mut()?;
     // On a ring nothing is ahead of the last ball yet.
-    last.stand_alone();
+    last.others = 0;
     let mut behind = behind.iter_mut();
     while let Some(ball) = behind.next_back() {
         if ball.may_run_into_next() {
             return Some(behind.len() + 1);
         }
-        ball.stand_alone();
+        ball.others = 0;
     }
     None
 }
@@ -253,10 +253,14 @@ impl Cluster {
     #[inline(always)]
     pub(super) fn leave(&self, balls: &mut [Ball], rear: usize, front: usize, others: usize) {
         if let Some(ball) = balls.get_mut(rear) {
-            ball.set_rear(others, self.growth, self.inner_slack);
+            ball.force = self.inner_slack;
+            ball.of_cluster = self.growth;
+            ball.others = others as u8;
         }
         if let Some(ball) = balls.get_mut(front) {
-            ball.set_front(others, self.impedance, self.push);
+            ball.force = self.push;
+            ball.of_cluster = self.impedance;
+            ball.others = others as u8;
         }
     }
 }

@@ -221,7 +221,7 @@ impl<const N: usize> Press<N> {
     fn let_go(&mut self) {
         for ball in self.balls_mut() {
             ball.take_in(FreeBall::smooth(0.0, 1.0), 0.0);
-            ball.stand_alone();
+            ball.others = 0;
         }
         self.foremost = self.last();
     }
@@ -234,7 +234,7 @@ impl<const N: usize> Press<N> {
         let foremost = self.foremost();
         let balls = self.balls_mut();
         let pressing = settle(balls, foremost, |index, ball, settled| {
-            ball.settle(settled.speed, settled.force);
+            (ball.speed, ball.force) = (settled.speed, settled.force);
             each(index, ball, settled);
         });
         balance(balls, foremost, &pressing);

@@ -69,7 +69,7 @@ pub(super) fn settle(
             next = ball.growth * next + change * ball.impedance;
             bits = not_negative_bits(next);
             if left == 0 {
-                ball.leave_remainder(next, impedance);
+                (ball.slack, ball.of_cluster) = (next, impedance);
                 let size = next.abs();
                 sums.remainder = if size > sums.remainder {
                     size

@@ -16,7 +16,7 @@ const FRACTION_BITS: u32 = 16;
 /// balls touch the sum of their parts is the same at every angle. A track without return has no run-in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct LoadedZone {
+pub(crate) struct LoadedZone {
     /// Half the length of a run-in, that of a whole one, and that from the begin of the first to the end of the last, in units of 2^-32 of
     /// the track.
     half_run_in: u32,
@@ -56,16 +56,16 @@ pub(crate) struct Sharing {
     pub(crate) extremes: [f32; 2],
 }
 
-pub(super) struct Lengths {
-    pub(super) loaded: f32,
-    pub(super) returning: f32,
-    pub(super) length: f32,
+pub(crate) struct Lengths {
+    pub(crate) loaded: f32,
+    pub(crate) returning: f32,
+    pub(crate) length: f32,
     /// Distance of the centres of two balls in contact.
-    pub(super) pitch: f32,
+    pub(crate) pitch: f32,
 }
 
 impl LoadedZone {
-    pub(super) const fn new(
+    pub(crate) const fn new(
         lengths: &Lengths,
         passing: &'static DeviationMap,
         recirculating: &'static DeviationMap,
@@ -108,12 +108,12 @@ impl LoadedZone {
 
     /// Shares of the balls where the load is below zero, or where it is not.
     #[inline(always)]
-    pub(super) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
+    pub(crate) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
         self.shares.of(negative)
     }
 
     #[inline(always)]
-    pub(super) fn at(&self, position: u32, phase: u32) -> Option<LoadedBall> {
+    pub(crate) fn at(&self, position: u32, phase: u32) -> Option<LoadedBall> {
         let place = position.wrapping_add(self.half_run_in);
         let run_in = self.run_in(place)?;
         // Counted from the begin of the first run-in, so that nothing jumps where the track closes within it.
@@ -130,7 +130,7 @@ impl LoadedZone {
 
     /// How balls at these positions share a load, by the [`LoadedZone::shares`] of this tick.
     #[inline(always)]
-    pub(super) fn sharing(
+    pub(crate) fn sharing(
         &self,
         positions: impl Iterator<Item = u32>,
         balls: u16,
@@ -170,13 +170,13 @@ impl LoadedZone {
     }
 
     #[inline(always)]
-    pub(super) const fn is_closed(&self) -> bool {
+    pub(crate) const fn is_closed(&self) -> bool {
         self.run_in == 0
     }
 
     /// Part of its load that a ball carries at a position; 0 in the return.
     #[inline(always)]
-    pub(super) fn part(&self, position: u32) -> f32 {
+    pub(crate) fn part(&self, position: u32) -> f32 {
         if self.is_closed() {
             return 1.0;
         }
@@ -200,7 +200,7 @@ impl LoadedZone {
 
     /// Share at a position: linear between the middles of the table's parts; beyond the first and the last it is theirs, unless the track closes.
     #[inline(always)]
-    pub(super) fn share(&self, position: u32, shares: &'static [LoadShare]) -> f32 {
+    pub(crate) fn share(&self, position: u32, shares: &'static [LoadShare]) -> f32 {
         const ONE: u32 = 1 << FRACTION_BITS;
         if let [all] = shares {
             return all.share();
@@ -221,17 +221,17 @@ impl LoadedZone {
     }
 
     #[inline(always)]
-    pub(super) const fn units(&self) -> (f32, f32) {
+    pub(crate) const fn units(&self) -> (f32, f32) {
         (self.passing.unit(), self.recirculating.unit())
     }
 
     #[inline]
-    pub(super) fn passing_turns(&self) -> f32 {
+    pub(crate) fn passing_turns(&self) -> f32 {
         f32::from(self.passing.turns())
     }
 
     /// Phase of the passing groove, in units of 2^-32, per turn or wavelength.
-    pub(super) const fn phase_per_turn(&self) -> f32 {
+    pub(crate) const fn phase_per_turn(&self) -> f32 {
         UNITS / self.passing.turns() as f32
     }
 }

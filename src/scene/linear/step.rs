@@ -45,10 +45,10 @@ impl<const N: usize> LinearConstants<N> {
         friction: f32,
     ) -> LinearFriction {
         let LinearInputs { speed, .. } = inputs;
-        let table = self.circuit.shares(false);
+        let table = self.circuit.zone.shares(false);
         let sharing = self.circuit.sharing(state, table);
         let tick = self.diagonals(inputs, sharing.per_weight);
-        let (passing, recirculating) = self.circuit.deviation_units();
+        let (passing, recirculating) = self.circuit.zone.units();
         let units = [tick.turn * passing, tick.turn * recirculating];
         let travel = self.circuit.travel(speed);
         let shares = self.take_in(state, units, tick.impedance, travel);
@@ -90,14 +90,14 @@ impl<const N: usize> LinearConstants<N> {
         travel: f32,
     ) -> f32 {
         let phase = state.phase();
-        let table = self.circuit.shares(false);
+        let table = self.circuit.zone.shares(false);
         let mut shares = 0.0;
         state.train.take_in(travel, |_, position| {
-            let Some(ball) = self.circuit.loaded_ball(position, phase) else {
+            let Some(ball) = self.circuit.zone.at(position, phase) else {
                 return FreeBall::smooth(0.0, UNLOADED);
             };
             let free = recirculating * ball.recirculating + passing * ball.passing;
-            let share = self.circuit.share(position, table);
+            let share = self.circuit.zone.share(position, table);
             let (four_thirds, two_thirds) = powers(share * ball.run_in);
             shares += four_thirds;
             FreeBall::smooth(free, at_least(impedance * two_thirds, UNLOADED))

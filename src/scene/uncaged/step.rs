@@ -62,7 +62,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let common = self.common(state, inputs, &sharing, shares);
         let travel = self.circuit.travel(inputs.nut_speed);
         let alone = not_negative(self.take_in(state, &common, travel));
-        if !self.circuit.is_closed() {
+        if !self.circuit.zone.is_closed() {
             let train = &mut state.circuit.train;
             train.rub_in_part(|position| self.circuit.part(position));
         }
@@ -169,7 +169,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             let Some(place) = balls.get_mut(index) else {
                 return idle;
             };
-            let Some(loaded) = self.circuit.loaded_ball(position, phase) else {
+            let Some(loaded) = self.circuit.zone.at(position, phase) else {
                 *place = BallOfRow::UNLOADED;
                 return idle;
             };
@@ -185,7 +185,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                     deviations,
                 }
             } else {
-                let share = self.circuit.share(position, common.shares);
+                let share = self.circuit.zone.share(position, common.shares);
                 let load = self.law.load_of(common.mean * share);
                 let (ball, alone) = self
                     .law
