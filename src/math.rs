@@ -17,14 +17,18 @@ pub mod constant;
 pub mod elliptic;
 pub mod own;
 
-#[cfg(any(feature = "libm", feature = "micromath"))]
-mod other;
+#[cfg(feature = "libm")]
+mod libm;
+#[cfg(all(feature = "micromath", not(feature = "libm")))]
+mod micromath;
 #[doc(hidden)]
 pub mod powers;
 mod sqrt;
 
-#[cfg(any(feature = "libm", feature = "micromath"))]
-use other as backend;
+#[cfg(feature = "libm")]
+use self::libm as backend;
+#[cfg(all(feature = "micromath", not(feature = "libm")))]
+use self::micromath as backend;
 #[cfg(not(any(feature = "libm", feature = "micromath")))]
 use own as backend;
 

@@ -1,6 +1,6 @@
 //! Nut speed from a magnetic angle sensor on the rotor.
 
-use super::nut_speed::{NoSpeed, NutSpeed};
+use super::nut_speed::NutSpeed;
 use crate::error::Error;
 use embedded_hal::spi::SpiDevice;
 
@@ -89,16 +89,11 @@ impl<SPI: SpiDevice> MagneticEncoder<SPI> {
                 return Err(error);
             }
         };
-        match self.speed.take(angle, turning) {
-            Ok(nut_speed) => Ok(NutMotion {
-                rotor_angle: NutSpeed::rotor_angle(angle),
-                nut_speed,
-                diagnostics,
-            }),
-            Err(NoSpeed::NoEarlierReading) => Err(EncoderError::NoEarlierReading),
-            Err(NoSpeed::TooFast) => Err(EncoderError::TooFast),
-            Err(NoSpeed::Stuck(ticks)) => Err(EncoderError::Stuck { ticks }),
-        }
+        Ok(NutMotion {
+            rotor_angle: NutSpeed::rotor_angle(angle),
+            nut_speed: self.speed.take(angle, turning)?,
+            diagnostics,
+        })
     }
 
     /// Nut speed of one count in one tick, rad/s: the step of an unsmoothed speed.

@@ -2,23 +2,13 @@
 
 use core::f32::consts::{FRAC_PI_2, TAU};
 
-use super::encoder::EncoderConfiguration;
+use super::encoder::{EncoderConfiguration, EncoderError};
 use crate::error::{Error, in_range};
 
 const COUNTS: f32 = 16384.0;
 
 /// Longest gap, in ticks, over which a difference may be taken.
 const LONGEST_GAP: f32 = 1000.0;
-
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum NoSpeed {
-    /// No earlier angle is near enough in time.
-    NoEarlierReading,
-    /// The difference is more than the largest speed makes.
-    TooFast,
-    /// The angle has not changed for this many ticks, though the rotor turns.
-    Stuck(u32),
-}
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -89,14 +79,14 @@ impl NutSpeed {
 
     /// A tick with an angle, counts: the smoothed nut speed, rad/s.
     #[inline]
-    pub(super) fn take(&mut self, angle: u16, turning: bool) -> Result<f32, NoSpeed> {
+    pub(super) fn take<E>(&mut self, angle: u16, turning: bool) -> Result<f32, EncoderError<E>> {
         let gap = self.gap.saturating_add(1);
         let last = self.last.replace(angle);
         self.gap = 0;
         let Some(last) = last.filter(|_| gap <= self.longest_gap) else {
             self.unchanged = 0;
             self.speed = None;
-            return Err(NoSpeed::NoEarlierReading);
+            return Err(EncoderError::NoEarlierReading);
         };
         if angle == last {
             self.wait(turning);
@@ -105,13 +95,15 @@ impl NutSpeed {
         }
         if self.unchanged >= self.stuck_ticks {
             self.speed = None;
-            return Err(NoSpeed::Stuck(self.unchanged));
+            return Err(EncoderError::Stuck {
+                ticks: self.unchanged,
+            });
         }
         let step = f32::from(wrapped_step(last, angle));
         let ticks = gap as f32;
         if step.abs() > self.largest_step * ticks {
             self.speed = None;
-            return Err(NoSpeed::TooFast);
+            return Err(EncoderError::TooFast);
         }
         let speed = if gap == 1 {
             step * self.speed_per_count

@@ -1,6 +1,6 @@
 //! Contact kinematics of one ball: set-up, update, tick.
 
-use super::coefficients::{ContactCoefficients, Rotation};
+use super::coefficients::ContactCoefficients;
 use super::path::{Direction, EllipticContact, KinematicsParameters, Path};
 use crate::error::{Error, attempt};
 use crate::geometry::Groove;
@@ -125,6 +125,7 @@ impl ContactKinematics {
     pub const fn nut(&self) -> &ContactCoefficients {
         &self.nut
     }
+
     /// Forms all constants that depend on contact angles and ellipses, except the entrainment speeds: it returns their squares.
     #[inline]
     #[must_use]
@@ -136,14 +137,18 @@ impl ContactKinematics {
         let orbital_speed = screw_share * inverse;
         let spin_speed = screw.reach * nut.reach * inverse;
         let (path, inner, outer) = (&self.path, Groove::Screw, Groove::Nut);
-        let rotation = Rotation::new(path, spin_speed);
+        let rotation = [
+            spin_speed * path.axis_binormal,
+            spin_speed * path.axis_tangent,
+            spin_speed * path.axis_normal,
+        ];
         let relative_speed = -(nut_share * inverse);
         let screw = self
             .screw
-            .fold(path, &path.screw, screw, relative_speed, inner, &rotation);
+            .fold(path, &path.screw, screw, relative_speed, inner, rotation);
         let nut = self
             .nut
-            .fold(path, &path.nut, nut, -orbital_speed, outer, &rotation);
+            .fold(path, &path.nut, nut, -orbital_speed, outer, rotation);
         self.orbital_speed = orbital_speed;
         self.spin_speed = spin_speed;
         (screw, nut)

@@ -5,24 +5,6 @@ use super::path::{Direction, GroovePath, Path};
 use crate::geometry::Groove;
 use crate::math;
 
-/// The ball's rotation, `omega_R / omega`, along the path's binormal, tangent and normal.
-pub(super) struct Rotation {
-    binormal: f32,
-    tangent: f32,
-    normal: f32,
-}
-
-impl Rotation {
-    #[inline]
-    pub(super) const fn new(path: &Path, spin_speed: f32) -> Self {
-        Self {
-            binormal: spin_speed * path.axis_binormal,
-            tangent: spin_speed * path.axis_tangent,
-            normal: spin_speed * path.axis_normal,
-        }
-    }
-}
-
 /// The ratios of Alberdi et al., eqs. (37) to (40), at the centre of a contact, at any speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -84,8 +66,9 @@ impl ContactCoefficients {
         }
     }
 
-    /// Forms everything from one contact's direction, with `relative_speed = omega_k / omega` of the orbiting ball's frame against the raceway;
-    /// of the entrainment speed the square, because loop and set-up differ in the root.
+    /// Forms everything from one contact's direction, with `relative_speed = omega_k / omega` of the orbiting ball's frame against the raceway
+    /// and the ball's rotation `omega_R / omega` along binormal, tangent and normal of the path; of the entrainment speed the square, because loop
+    /// and set-up differ in the root.
     #[inline]
     #[must_use]
     pub(super) const fn fold(
@@ -95,7 +78,7 @@ impl ContactCoefficients {
         direction: &Direction,
         relative_speed: f32,
         groove: Groove,
-        rotation: &Rotation,
+        [binormal, tangent, normal]: [f32; 3],
     ) -> f32 {
         // Symbols of Alberdi et al.: w = omega_k / omega, z = (a / (D/2))^2.
         let w = relative_speed;
@@ -109,10 +92,10 @@ impl ContactCoefficients {
 
         let rolling_gradient = w * groove_path.path_over_rolling;
         let by_lead = w * path.sin_lead;
-        let by_yaw = sign * rotation.tangent;
+        let by_yaw = sign * tangent;
         let side_gradient = by_lead + by_yaw;
-        let spin = (w * path.cos_lead - sign * rotation.binormal) * direction.sine
-            + (sign * rotation.normal) * direction.cosine;
+        let spin = (w * path.cos_lead - sign * binormal) * direction.sine
+            + (sign * normal) * direction.cosine;
 
         // (36): half the sum of both surfaces' velocities relative to the moving contact.
         let across = sign * path.cos_lead * direction.cosine;
@@ -134,6 +117,7 @@ impl ContactCoefficients {
         self.semi_minor = direction.semi_minor;
         entrainment_rolling * entrainment_rolling + entrainment_side * entrainment_side
     }
+
     /// The speed-free ratios at the contact's centre.
     ///
     /// `entrainment_angle = atan2(-v_e,y, -v_e,x)`, `slide_to_roll = |v_s| / |v_e|`,

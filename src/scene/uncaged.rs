@@ -149,7 +149,9 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             ..
         } = *folded;
         attempt!(law.checked());
-        attempt!(check_friction(law, friction, ball_friction));
+        let (least, largest) = law.friction_range();
+        attempt!(in_range("friction", friction, least, largest));
+        attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
         attempt!(in_range("lead", lead, 0.0, 0.2));
         let limits = attempt!(limits.checked());
         let circuit = attempt!(configuration.circuit(&limits, N));
@@ -195,17 +197,6 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
     pub(crate) fn set_nut_angle(&self, state: &mut UncagedState<N>, angle: f32) {
         state.circuit.set_turns(&self.circuit, angle / TAU);
     }
-}
-
-const fn check_friction<const NODES: usize>(
-    law: &BallLaw<NODES>,
-    friction: f32,
-    ball_friction: f32,
-) -> Result<(), Error> {
-    let (least, largest) = law.friction_range();
-    attempt!(in_range("friction", friction, least, largest));
-    attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
-    Ok(())
 }
 
 impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> {

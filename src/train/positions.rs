@@ -95,21 +95,16 @@ impl<const N: usize> Train<N> {
         let count = balls as u32;
         let less_one = count.wrapping_neg().checked_div(count).unwrap_or_default();
         let step = less_one.wrapping_add(1);
-        let mut train = Self::at_rest(track, balls);
+        let mut train = Self {
+            carried: 0.0,
+            press: Press::of(balls as u8),
+            track,
+        };
         // Over all places, beyond the balls too: the compiler knows how many.
         for (index, ball) in train.press.places.iter_mut().enumerate() {
             ball.position = step.wrapping_mul(index as u32);
         }
         train
-    }
-
-    #[inline(always)]
-    const fn at_rest(track: Track, balls: usize) -> Self {
-        Self {
-            carried: 0.0,
-            press: Press::of(balls as u8),
-            track,
-        }
     }
 
     /// Position of each ball, from the rear one to the front one, in units of 2^-32 of the track's length.

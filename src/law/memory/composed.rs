@@ -198,34 +198,17 @@ mod tests {
     use super::*;
     use crate::law::memory::LoadExactElements;
 
-    /// Both flanks share one Hertzian deflection, `F1^(2/3) + F2^(2/3) = 2 F_0^(2/3)`; the series is within 0.84 % of their sum.
+    /// At 1 both flanks carry a preload each; from `2 sqrt(2)` preloads on one flank carries the whole load.
     #[test]
     fn load_is_that_of_both_flanks() {
         let elements =
             PreloadedElements::new(LoadExactElements::<8>::new(0.04, 2e-3, 4.0).unwrap());
+        let flanks = PreloadSum::new(250.0);
         for step in 0..60_u8 {
-            let load = 0.1 * f64::from(step);
-            let deflection = |force: f64| libm::pow(force, 2.0 / 3.0);
-            let (mut low, mut high) = (load, load + 2.0);
-            for _ in 0..60 {
-                let middle = 0.5 * (low + high);
-                if deflection(middle) + deflection(middle - load) < 2.0 {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            let sum = if load > 8.0_f64.sqrt() {
-                load
-            } else {
-                low + (low - load)
-            };
-            let told = (1.0 + load / 8.0_f64.sqrt()) as f32;
-            let found = f64::from(elements.shared(told));
-            assert!(
-                (found - 0.5 * sum).abs() < 0.0085 * sum,
-                "{load}: {found} {sum}"
-            );
+            let load = 0.1 * f32::from(step);
+            let found = elements.shared(1.0 + load / 8.0_f32.sqrt());
+            let sum = flanks.under(250.0 * load) / 500.0;
+            assert!((found - sum).abs() < 1e-6 * sum, "{load}: {found} {sum}");
         }
     }
 
