@@ -1,6 +1,4 @@
-//! A friction level that follows the vehicle: recursive least squares beside the model.
-//!
-//! Runs beside the step, a few hundred times a second; a firmware that does not adapt links nothing of it.
+//! A friction level that follows the vehicle: recursive least squares beside the model, a few hundred times a second.
 //!
 //! A model is right in its form and wrong in its size: lubricant ages, preload wears off, a warm housing closes the clearance. An
 //! [`Adaptation`] compares the friction torque that the motor has to add with the model's and finds five numbers
@@ -14,27 +12,24 @@
 //! | `forward`, `backward` | friction coefficient and preload, in each direction | full friction `T` of the model in that direction |
 //! | `drag` | viscous drag beyond the model's `T_drag` | nut speed `omega_N` |
 //! | `offset` | zero of the torque sensor or of the motor's current | 1 |
-//! | `load_error` | gain of the load channel: 1 % of 2 kN on a lead of 7 mm is 22 mN m, more than a third of the friction | load torque that was taken off |
+//! | `load_error` | gain of the load channel | load torque that was taken off |
 //!
-//! No level scales the drag `T_drag` of a scene with memory: it is handed over separately and taken off both sides. Five numbers and no more: one
-//! trace in the vehicle identifies no others. A number whose deviation at set-up is 0 stays where it starts.
+//! No level scales the drag `T_drag` of a scene with memory: it is taken off both sides. A number whose deviation at set-up is 0 stays where it starts.
 //!
 //! # How it works
 //!
 //! 1. **Gate.** A tick counts only where the screw slides, fast enough and with enough friction, inputs are finite and within
-//!    their limits, no flag of the step is set and the motor is not saturated; else nothing changes ([`AdaptationFlags`]).
-//! 2. **Filter.** Observed torque and regressors pass the same one-pole filter in the same ticks, so that the equation holds for
-//!    the filtered ones exactly.
+//!    their limits, no flag of the step is set and the motor is not saturated ([`AdaptationFlags`]).
+//! 2. **Filter.** Observed torque and regressors pass the same one-pole filter in the same ticks: the equation holds for the filtered ones exactly.
 //! 3. **Prediction** in one tick and **correction** in the next, by the `U D U'` form of the covariance (Bierman 1977), which stays positive
 //!    definite in f32. An error beyond four deviations counts as noise that is as much larger. The numbers stay within their bounds.
 //! 4. **Forgetting**, every ninth tick: one of the five variances gets back what it lost, as if its number had been read with its deviation of the
-//!    set-up (Kulhavy and Zarrop 1993). No variance exceeds that of the set-up: without excitation nothing winds up.
+//!    set-up (Kulhavy and Zarrop 1993). No variance exceeds that of the set-up.
 //!
 //! # Use
 //!
-//! Only limits are scaled, which leaves friction passive: [`FrictionModel::set_level`](crate::FrictionModel::set_level) of a
-//! scene with memory, [`Estimates::friction`] for one without. Stiffness and breakaway angle stay, so the bound of
-//! [`compensation`](crate::law::compensation) on the stiffness holds; its friction ratio is what the adaptation brings to one.
+//! [`FrictionModel::set_level`](crate::FrictionModel::set_level) of a scene with memory, [`Estimates::friction`] for one without. Only limits are
+//! scaled: friction stays passive, and the bound of [`compensation`](crate::law::compensation) on the stiffness holds.
 //!
 //! ```
 //! use epas_friction::adaptation::{Adaptation, AdaptationConfiguration, AdaptationInputs};
@@ -56,9 +51,7 @@
 //! # Ok::<(), epas_friction::Error>(())
 //! ```
 //!
-//! # Health
-//!
-//! A second, far slower average of the level against its value at commissioning ([`Adaptation::commission`]): see [`Health`].
+//! A far slower average of the level against its value at commissioning ([`Adaptation::commission`]) tells [`Health`].
 
 mod constants;
 mod factor;
@@ -68,7 +61,7 @@ mod tick;
 
 use core::borrow::Borrow;
 
-use crate::error::Error;
+use crate::error::{Error, attempt};
 use crate::law::FrictionLevel;
 use crate::stored::{
     Block, Fingerprint, Fingerprinted as _, Label, OVERHEAD, Refusal, Stored as _,
@@ -89,36 +82,31 @@ pub struct Adaptation<C = AdaptationConstants> {
     state: AdaptationState,
 }
 
-/// What a tick of the adaptation gives.
+/// Outputs of a tick of the adaptation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Adapted {
     /// Estimates after this tick, within their bounds.
     pub estimates: Estimates,
-    /// Why the tick did not count, or what was limited.
+    /// Reasons why the tick did not count, and limits.
     pub flags: AdaptationFlags,
     /// Slow drift of the level.
     pub health: Health,
 }
 
 impl Adaptation {
-    /// Checks the configuration and folds the constants. Set-up only.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
+    /// Checks the configuration and folds the constants.
     pub const fn new(configuration: &AdaptationConfiguration) -> Result<Self, Error> {
-        match AdaptationConstants::new(configuration) {
-            Ok(constants) => Ok(Self {
-                state: AdaptationState::new(&constants),
-                constants,
-            }),
-            Err(error) => Err(error),
-        }
+        let constants = attempt!(AdaptationConstants::new(configuration));
+        Ok(Self {
+            state: AdaptationState::new(&constants),
+            constants,
+        })
     }
 }
 
 impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
-    /// An adaptation with constants that are folded already, or with a reference to them.
+    /// An adaptation with folded constants, or with a reference to them.
     pub fn of(constants: C) -> Self {
         let state = AdaptationState::new(constants.borrow());
         Self { constants, state }
@@ -151,7 +139,7 @@ impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
         self.state.estimates().level()
     }
 
-    /// Standard deviations of the estimates as far as noise and forgetting go, at most those of the set-up. Not in the loop.
+    /// Standard deviations of the estimates, at most those of the set-up. Not in the loop.
     pub fn deviations(&self) -> Estimates {
         self.state.deviations(self.constants.borrow())
     }
@@ -161,13 +149,12 @@ impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
         self.state.health()
     }
 
-    /// Takes the present level for that of a sound mechanism, from which drift counts: once, at the end of the line, after a run
-    /// with loads and speeds of both directions.
+    /// Takes the present level for that of a sound mechanism: once, at the end of the line, after a run with loads and speeds of both directions.
     pub fn commission(&mut self) {
         self.state.commission();
     }
 
-    /// Back to the state before the first tick; the commissioning is forgotten, too.
+    /// Back to the state before the first tick and the commissioning.
     pub fn reset(&mut self) {
         self.state = AdaptationState::new(self.constants.borrow());
     }
@@ -185,10 +172,8 @@ impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
     /// Bytes of a block that holds the state: see [`stored`](crate::stored) for its layout.
     pub const STATE_BYTES: usize = OVERHEAD + AdaptationState::BYTES;
 
-    /// Writes the state as a block to the begin of `bytes` and gives its length, [`STATE_BYTES`](Adaptation::STATE_BYTES): when the
-    /// ignition goes off, outside the interrupt.
-    ///
-    /// The block has the estimates, their covariance and the slow average with its commissioning; not the constants, nor the filter.
+    /// Writes estimates, covariance and the slow average as a block to the begin of `bytes` and gives its length,
+    /// [`STATE_BYTES`](Adaptation::STATE_BYTES): when the ignition goes off, outside the interrupt.
     ///
     /// # Errors
     /// [`Refusal::Length`] where `bytes` are too short.
@@ -197,13 +182,8 @@ impl<C: Borrow<AdaptationConstants>> Adaptation<C> {
         self.block().seal(&mut state, bytes)
     }
 
-    /// Takes over the state of a block that an adaptation with the same noise, deviations and forgetting exported: when the ignition goes on.
-    ///
-    /// A block is refused for what [`stored`](crate::stored) says, and where an estimate is outside the bounds of these constants. On
-    /// a refusal the adaptation is as it was.
-    ///
-    /// # Errors
-    /// The [`Refusal`].
+    /// Takes over the state of a block that an adaptation with the same noise, deviations and forgetting exported: when the ignition goes on. On a
+    /// refusal, also of an estimate outside the bounds of these constants, the adaptation is as it was.
     pub fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
         let mut state = self.state;
         self.block().open(&mut state, block)?;

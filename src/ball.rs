@@ -1,4 +1,4 @@
-//! One ball between its grooves: as a step computes it, and in closed form for comparison.
+//! One ball between its grooves.
 //!
 //! | | what it is | runs in |
 //! |---|---|---|

@@ -1,8 +1,7 @@
 //! Friction of one Hertzian contact that slips and spins: force, moment and power loss under Coulomb
 //! friction, all three from one convex dissipation potential.
 //!
-//! [`FrictionMap`] runs at the set-up of the linear scene. [`RollingContact`] adds what a contact loses that rolls without slip. A contact that
-//! slips in any direction is solved on a host, and folded into the laws of both ball screws.
+//! [`FrictionMap`] runs at the set-up of the linear scene. A contact that slips in any direction is solved on a host.
 //!
 //! A contact of ball and groove slips along the ball path with the velocity `V` of its centre and spins
 //! about its normal with `w`. With the friction coefficient `mu`, the contact force `F` and the ellipse
@@ -14,8 +13,8 @@
 //! moment  = dD/dw = mu F a M(x)      M = P - x P'
 //! ```
 //!
-//! where `c` is the distance of the velocity centre from the contact centre. `D` is convex and
-//! homogeneous, so a body that rests on several such contacts moves with the least loss.
+//! where `c` is the distance of the velocity centre from the contact centre. `D` is convex and homogeneous, so a body that rests on several such
+//! contacts moves with the least loss.
 
 mod across;
 mod along;

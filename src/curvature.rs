@@ -1,6 +1,4 @@
-//! Principal curvatures of a gothic-arch groove at a contact point.
-//!
-//! [`GothicArch`] runs at set-up ([`hertz`](crate::hertz), rolling resistance). The other forms are called directly; no scene links them.
+//! Principal curvatures of a gothic-arch groove at a contact point: [`GothicArch`] at set-up; the other forms are called directly.
 //!
 //! | form | needs | error of the first curvature on the 31 catalogue sizes, contact angles 0 to 70 degrees |
 //! |---|---|---|
@@ -10,8 +8,7 @@
 //! | [`GothicArch`] | the same; exact, both curvatures | 6e-7 (rounding) |
 //!
 //! Signs: the normal points into the metal. The screw's first curvature is positive, the nut's
-//! negative; the second is about `-1 / groove_radius` for both. Every form is scale free: any unit of
-//! length goes in, its inverse comes out. Source: Bertolino, De Martin, Mauro, Sorli 2023
+//! negative; the second is about `-1 / groove_radius` for both. Every form is scale free. Source: Bertolino, De Martin, Mauro, Sorli 2023
 //! (Machines 11(2):261).
 
 pub(crate) mod fitted;

@@ -2,6 +2,17 @@
 
 use core::fmt;
 
+/// The value of a `Result`, or back with its error: `?` in a constant function.
+macro_rules! attempt {
+    ($result:expr) => {
+        match $result {
+            Ok(value) => value,
+            Err(error) => return Err(error),
+        }
+    };
+}
+pub(crate) use attempt;
+
 /// The closed interval that a field must lie in, in the field's own unit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -19,7 +30,7 @@ impl Range {
         Self { minimum, maximum }
     }
 
-    /// True where `value` is a number inside the interval; NaN never is.
+    /// True where `value` is inside the interval; NaN never is.
     #[must_use]
     pub const fn contains(&self, value: f32) -> bool {
         value >= self.minimum && value <= self.maximum
@@ -34,10 +45,8 @@ impl Range {
     }
 }
 
-/// What was wrong with a number given at set-up.
-///
-/// Errors exist only at construction. In the loop nothing returns a `Result`: a wrong input gives a
-/// finite, flagged output (see [`Faults`](crate::Faults)).
+/// Refusal of a number at set-up. In the loop nothing returns a `Result`: a wrong input gives a finite, flagged output
+/// (see [`Faults`](crate::Faults)).
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -60,14 +69,13 @@ pub enum Error {
         /// What is allowed.
         allowed: Range,
     },
-    /// The groove surface would fold past the axis of the screw (`A < 1e-4`): the other fields leave
-    /// no room for the value. The allowed range is the one that these other fields leave.
+    /// The groove surface would fold past the axis of the screw (`A < 1e-4`): the other fields leave no room for the value.
     FoldedGroove {
         /// Name of the field, as it is spelled in the structure given.
         field: &'static str,
         /// The value found.
         value: f32,
-        /// What is allowed beside the other fields.
+        /// What the other fields leave.
         allowed: Range,
     },
 }
@@ -86,8 +94,7 @@ const LENGTHS: [&str; 9] = [
 ];
 
 impl Error {
-    /// A value that folds the groove surface, where the other fields leave it `minimum` to `maximum`. The range ends below
-    /// the value, whatever rounding has made of `maximum`.
+    /// A value that folds the groove surface, where the other fields leave it `minimum` to `maximum`, or less than the value.
     pub(crate) const fn folded(
         field: &'static str,
         value: f32,
@@ -107,33 +114,37 @@ impl Error {
     }
 
     /// Name of the field that is wrong.
-    #[must_use]
     pub const fn field(&self) -> &'static str {
-        match self {
-            Self::NotFinite { field, .. }
-            | Self::OutOfRange { field, .. }
-            | Self::FoldedGroove { field, .. } => field,
-        }
+        self.parts().0
     }
 
     /// The value that was refused, in the field's own unit.
-    #[must_use]
     pub const fn value(&self) -> f32 {
-        match self {
-            Self::NotFinite { value, .. }
-            | Self::OutOfRange { value, .. }
-            | Self::FoldedGroove { value, .. } => *value,
-        }
+        self.parts().1
     }
 
     /// The range that would have been accepted, in the field's own unit.
-    #[must_use]
     pub const fn allowed(&self) -> Range {
-        match self {
-            Self::NotFinite { allowed, .. }
-            | Self::OutOfRange { allowed, .. }
-            | Self::FoldedGroove { allowed, .. } => *allowed,
+        self.parts().2
+    }
+
+    const fn parts(&self) -> (&'static str, f32, Range) {
+        let (Self::NotFinite {
+            field,
+            value,
+            allowed,
         }
+        | Self::OutOfRange {
+            field,
+            value,
+            allowed,
+        }
+        | Self::FoldedGroove {
+            field,
+            value,
+            allowed,
+        }) = *self;
+        (field, value, allowed)
     }
 }
 
@@ -193,16 +204,16 @@ pub(crate) const fn in_range(
     }
 }
 
-/// The value of a `Result`, or back with its error: the operator `?`, which a constant function cannot use.
-macro_rules! attempt {
-    ($result:expr) => {
-        match $result {
-            Ok(value) => value,
-            Err(error) => return Err(error),
-        }
-    };
+/// Checks fields, each with its value and its least and largest one, in their order.
+pub(crate) const fn all_in_range(fields: &[(&'static str, f32, f32, f32)]) -> Result<(), Error> {
+    let mut index = 0;
+    while index < fields.len() {
+        let (field, value, minimum, maximum) = fields[index];
+        attempt!(in_range(field, value, minimum, maximum));
+        index += 1;
+    }
+    Ok(())
 }
-pub(crate) use attempt;
 
 #[cfg(test)]
 mod tests {

@@ -1,9 +1,7 @@
 //! Validated designs with their derived constants: [`BallScrew`], [`LinearBearing`].
 //!
-//! Set-up of every scene.
-//!
-//! A design starts as plain numbers from a catalogue or a drawing (`...Parameters`), and is checked once. What follows from it alone (lead angle,
-//! curvature and torsion of the ball path, groove offsets) is computed here, without trigonometry of the lead.
+//! A design starts as plain numbers from a catalogue or a drawing (`...Parameters`), and is checked once, at the set-up of every scene. Lead angle,
+//! curvature and torsion of the ball path, and groove offsets are computed here, without trigonometry of the lead.
 
 mod ball_screw;
 mod catalogue;

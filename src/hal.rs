@@ -1,11 +1,7 @@
 //! Adapters for `embedded-hal` 1.0, behind the feature `embedded-hal`: nut speed in, motor duty out.
 //!
-//! [`MagneticEncoder`] makes the nut's speed from a magnetic angle sensor on the rotor of the motor;
-//! [`FrictionFeedForward`] makes a duty cycle from the friction torque. Between the two stands
-//! [`FrictionModel`](crate::FrictionModel), which knows nothing of either.
-//!
-//! One tick of a control loop. A speed that is not known enters the model as NaN, comes out flagged,
-//! and leaves the bridge at its neutral duty:
+//! [`MagneticEncoder`] reads the nut's speed from a magnetic angle sensor on the rotor of the motor; [`FrictionFeedForward`] turns the
+//! friction torque into a duty cycle. A speed that is not known enters the model as NaN, comes out flagged, and leaves the bridge at its neutral duty:
 //!
 //! ```
 //! use embedded_hal::{pwm::SetDutyCycle, spi::SpiDevice};

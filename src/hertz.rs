@@ -1,6 +1,4 @@
-//! The contact ellipse: axis ratio, semi-axes, deflection and pressure of one Hertzian contact.
-//!
-//! Everything that follows from the curvatures is folded at set-up; per call only the cube root of the load is left.
+//! The contact ellipse: axis ratio, semi-axes, deflection and pressure of one Hertzian contact, folded at set-up but for the cube root of the load.
 
 use crate::curvature::{GothicArch, RelativeCurvatures};
 use crate::error::{Error, attempt, in_range};
@@ -9,10 +7,10 @@ use crate::material::contact_modulus;
 use crate::math::elliptic::{Complete, complete};
 use crate::math::{self, constant};
 
-/// Largest ratio of the two relative radii: that of conformities from 0.500 01 on.
+/// Largest ratio of the two relative radii, of conformities from 0.500 01 on.
 pub const LARGEST_RADIUS_RATIO: f32 = 1e5;
 
-/// A Hertzian contact whose constants are folded: what is left is a power of the load.
+/// A Hertzian contact with folded constants.
 ///
 /// ```text
 /// a     = (3 E Rs F / (pi k² E*))^(1/3)      Rs = R1 R2 / (R1 + R2)
@@ -22,11 +20,8 @@ pub const LARGEST_RADIUS_RATIO: f32 = 1e5;
 /// ```
 ///
 /// with relative radii `R1 <= R2`, contact modulus `E*` and complete elliptic integrals `E`, `K` of `sqrt(1 - k²)` (Johnson's theory as in Lin 2019,
-/// eqs. (B.1), (B.7), (B.10), (B.11); Alberdi et al., eqs. (4), (5)). **Corrected:** the exponents of (B.11) are 1/3. The axis ratio `k = b/a` comes from a
-/// rational function of `(R1/R2)^(1/3)` (error 1.1e-5 for ratios 1 to 1e5), the integrals from five steps of the arithmetic-geometric mean.
-///
-/// Errors against exact elliptic integrals, ratios 1 to 1e5: axis ratio 1.2e-5, semi-axes 1e-5,
-/// deflection 5e-6, pressure 1e-5.
+/// eqs. (B.1), (B.7), (B.10), (B.11); Alberdi et al., eqs. (4), (5)). **Corrected:** the exponents of (B.11) are 1/3. Errors against exact elliptic
+/// integrals, ratios 1 to 1e5: axis ratio 1.2e-5, semi-axes 1e-5, deflection 5e-6, pressure 1e-5.
 ///
 /// ```
 /// use epas_friction::CATALOGUE;
@@ -64,9 +59,8 @@ pub struct ContactEllipse {
 }
 
 impl HertzContact {
-    /// Constants from the two relative curvatures, 1/m in either order, and the contact modulus, Pa;
-    /// unchecked. For set-up; a constant can take them. Cost: 2 cube roots, 5 square roots
-    /// ([`constant::sqrt`]), 8 divisions.
+    /// Constants from the two relative curvatures, 1/m in either order, and the contact modulus, Pa; unchecked. Cost: 2 cube roots, 5 square
+    /// roots, 8 divisions.
     #[must_use]
     pub const fn new(relative: RelativeCurvatures, contact_modulus: f32) -> Self {
         let (steep, flat) = if relative.along >= relative.across {
@@ -107,12 +101,8 @@ impl HertzContact {
         let first = attempt!(in_range("relative_radius_1", relative_radius_1, 1e-9, 1e9));
         let smallest = (first / LARGEST_RADIUS_RATIO).max(1e-9);
         let largest = (first * LARGEST_RADIUS_RATIO).min(1e9);
-        let second = attempt!(in_range(
-            "relative_radius_2",
-            relative_radius_2,
-            smallest,
-            largest
-        ));
+        let radius = relative_radius_2;
+        let second = attempt!(in_range("relative_radius_2", radius, smallest, largest));
         let modulus = attempt!(in_range("contact_modulus", contact_modulus, 1e3, 1e15));
         let relative = RelativeCurvatures {
             along: 1.0 / first,
@@ -121,7 +111,7 @@ impl HertzContact {
         Ok(Self::new(relative, modulus))
     }
 
-    /// The contact of ball and one groove of a validated ball screw, at its nominal contact angle.
+    /// The contact of ball and one groove of a ball screw, at its nominal contact angle.
     #[must_use]
     pub const fn of(design: &BallScrew, groove: Groove) -> Self {
         let arch = GothicArch::of(design, groove);
@@ -132,7 +122,7 @@ impl HertzContact {
         )
     }
 
-    /// The contact of ball and groove of a validated linear bearing: the track is straight.
+    /// The contact of ball and groove of a linear bearing: the track is straight.
     #[must_use]
     pub const fn of_linear(design: &LinearBearing) -> Self {
         let parameters = design.parameters();
@@ -146,12 +136,9 @@ impl HertzContact {
         )
     }
 
-    /// The ellipse under `load`, N. Cost: one cube root and 5 other operations.
-    ///
-    /// A load that is not positive, or is NaN, gives an ellipse without extent, deflection or
-    /// pressure: the contact is lost. An infinite load counts as the largest number.
+    /// The ellipse under `load`, N; without extent where that is not positive or NaN. An infinite load counts as the largest number. Cost: one cube
+    /// root and 5 other operations.
     #[inline]
-    #[must_use]
     pub fn at(&self, load: f32) -> ContactEllipse {
         // False for NaN too.
         let load = if load > 0.0 { load } else { 0.0 };
@@ -165,42 +152,32 @@ impl HertzContact {
     }
 
     /// Axis ratio `k = b/a`, 0 to 1.
-    #[inline]
-    #[must_use]
     pub const fn axis_ratio(&self) -> f32 {
         self.axis_ratio
     }
 
     /// Semi-major axis per cube root of the load, m/N^(1/3).
-    #[inline]
-    #[must_use]
     pub const fn semi_major_coefficient(&self) -> f32 {
         self.semi_major
     }
 
     /// Semi-minor axis per cube root of the load, m/N^(1/3).
-    #[inline]
-    #[must_use]
     pub const fn semi_minor_coefficient(&self) -> f32 {
         self.semi_minor
     }
 
     /// Deflection per load to the power 2/3, m/N^(2/3).
-    #[inline]
-    #[must_use]
     pub const fn deflection_coefficient(&self) -> f32 {
         self.deflection
     }
 
     /// Largest pressure per cube root of the load, Pa/N^(1/3).
-    #[inline]
-    #[must_use]
     pub const fn max_pressure_coefficient(&self) -> f32 {
         self.max_pressure
     }
 }
 
-/// Coefficients of `N(x)`, from the constant on, in [`axis_ratio`].
+/// Coefficients of `N(x)` of [`axis_ratio`], from the constant on.
 #[doc(hidden)]
 pub const AXIS_RATIO_NUMERATOR: [f32; 6] = [
     7.79600917,
@@ -221,14 +198,9 @@ pub const AXIS_RATIO_DENOMINATOR: [f32; 5] = [
     3630.23062516,
 ];
 
-/// Axis ratio `k = b/a` of the contact ellipse from the ratio `R1/R2` of the relative radii, 1e-5 to
-/// 1: `k = x² N(x) / D(x)` with `x = (R1/R2)^(1/3)`.
-///
-/// `k` behaves as `x²` near the circle and slowly departs from it; the quotient of degrees 5 and 4 is
-/// a minimax fit of `k / x²` to the solution of `(E/k² - K) / (K - E) = R2/R1` (Lin 2019, eq. (B.8), whose left side is
-/// printed upside down), largest relative error
-/// 1.02e-5, in f32 1.1e-5; made again in `host-tests/tests/generators/axis_ratio.rs`. The coefficients of each
-/// polynomial are positive but for one, so that evaluation does not cancel.
+/// Axis ratio `k = b/a` of the contact ellipse from the ratio `R1/R2` of the relative radii, 1e-5 to 1: `k = x² N(x) / D(x)` with
+/// `x = (R1/R2)^(1/3)`, a minimax fit of `k / x²` to the solution of `(E/k² - K) / (K - E) = R2/R1` (Lin 2019, eq. (B.8), whose left side is
+/// printed upside down); largest relative error 1.02e-5, in f32 1.1e-5. Made again in `host-tests/tests/generators/axis_ratio.rs`.
 #[inline]
 const fn axis_ratio(radius_ratio: f32) -> f32 {
     let x = constant::cbrt(radius_ratio);

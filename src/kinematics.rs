@@ -1,12 +1,7 @@
-//! Rolling, side and spin slip of a ball between screw and nut, and what they cost.
+//! Rolling, side and spin slip of a ball between screw and nut. Called directly; no scene links it.
 //!
-//! Called directly; no scene links it.
-//!
-//! A ball that orbits along a helix cannot roll without slip. Relative to a raceway it slips along
-//! its path (*rolling slip*, a parabola over the ellipse, because the deformed surface is curved),
-//! across it (*side slip*, because the path climbs), and about the contact normal (*spin*).
-//! All three are proportional to the speed of the screw, so everything but that one factor is
-//! folded into constants:
+//! A ball that orbits along a helix cannot roll without slip. Relative to a raceway it slips along its path (*rolling slip*, a parabola over the
+//! ellipse), across it (*side slip*), and about the contact normal (*spin*), all in proportion to the speed of the screw:
 //!
 //! | call | when | what it costs |
 //! |---|---|---|
@@ -26,11 +21,10 @@
 //! (the paper's subscript i, upper signs), the nut the outer one (o, lower signs).
 //!
 //! # The ball's rotation
-//! Pitch angle (beta) and yaw angle (beta') point the axis about which the ball turns *relative to
-//! the frame that orbits with it*; the rolling radius (r') of a contact is the distance from the
-//! ball's centre at which rolling slip vanishes. They are inputs: customary are a pitch angle
-//! equal to the contact angle, a yaw angle of 0 and a rolling radius equal to the ball's radius. The published ways to choose a pitch
-//! angle, and the friction power that follows from the slip, are in the reference (`host-tests/src/kinematics`).
+//! Pitch angle (beta) and yaw angle (beta') point the axis about which the ball turns *relative to the frame that orbits with it*; the rolling
+//! radius (r') of a contact is the distance from the ball's centre at which rolling slip vanishes. They are inputs: customary are a pitch angle
+//! equal to the contact angle, a yaw angle of 0 and the ball's radius. The published ways to choose a pitch angle are in the reference
+//! (`host-tests/src/kinematics`).
 //!
 //! Source: Alberdi, Arana, Oyanguren, Larrañaga, Ulacia, "A revised framework for ball-screw
 //! contact kinematics" ("Alberdi et al." below).

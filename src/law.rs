@@ -1,8 +1,5 @@
-//! Friction as a law of motion: what a mechanism's friction is between its two directions, and how its coefficient
-//! follows speed and temperature.
-//!
-//! Runs in the step of a scene with memory; its parts are called directly as well. A scene without memory links nothing
-//! of it.
+//! Friction as a law of motion: between its two directions, and its coefficient by speed and temperature. A scene without memory links
+//! nothing of it.
 //!
 //! | module | what |
 //! |---|---|
@@ -46,14 +43,13 @@ impl SlidingLimits {
 
 /// Elements of friction that remember: constants of one kind, folded at set-up.
 pub trait Elements {
-    /// What the elements remember.
+    /// Memory of the elements.
     type State: Copy + core::fmt::Debug + PartialEq;
 
     /// Nothing remembered: no element carries anything.
     const VIRGIN: Self::State;
 
-    /// Whether the load over the reference load is taken for `1 + |F|/(2 sqrt(2) P)`: that of a screw with the preload `P` of
-    /// each flank under an axial load `F`.
+    /// Whether the load over the reference load counts as `1 + |F|/(2 sqrt(2) P)`, with the preload `P` of each flank and an axial load `F`.
     const PRELOADED: bool = false;
 
     /// Friction after a turn of `turn` rad (m of a bearing) under these limits: between `-backward` and `forward`, with the sign
@@ -61,14 +57,11 @@ pub trait Elements {
     fn follow(&self, state: &mut Self::State, turn: f32, limits: &SlidingLimits) -> f32;
 }
 
-/// Least and largest level: beyond any change of a sound mechanism. Between -20 and 80 degrees Celsius a friction coefficient changes
-/// by a factor of two; where a level of 0.1 or 10 was right, the model was of another screw.
+/// Least and largest level: where a level of 0.1 or 10 was right, the model was of another screw.
 pub const LEVEL: Range = Range::new(0.1, 10.0);
 
-/// Friction of gross sliding over that of the model, in both directions; 0.1 to 10.
-///
-/// A level scales the limits of a memory and nothing else: the stiffness of its elements stays, so that friction stays passive
-/// however the level changes.
+/// Friction of gross sliding over that of the model, in both directions; 0.1 to 10. It scales the limits of a memory: the stiffness of its
+/// elements stays, and friction stays passive.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FrictionLevel {
@@ -86,9 +79,6 @@ impl FrictionLevel {
     };
 
     /// These levels, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `forward` or `backward`.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(LEVEL.checked("forward", self.forward));
         attempt!(LEVEL.checked("backward", self.backward));
@@ -97,7 +87,6 @@ impl FrictionLevel {
 
     /// Level of a direction, given by its sign; 0 counts as forward.
     #[inline(always)]
-    #[must_use]
     pub const fn of(&self, direction: f32) -> f32 {
         if direction < 0.0 {
             self.backward

@@ -14,16 +14,14 @@
 //!
 //! # Conventions
 //!
-//! SI units and radians everywhere; a field's documentation names its unit and range. Angles: lead
-//! angle `alpha`, contact angle `beta` from the plane normal to the axis. The normal of a
-//! groove points into its metal. A right-hand thread; the load is positive where it opposes the travel
-//! that a positive nut speed makes.
+//! SI units and radians everywhere; a field's documentation names its unit and range. Angles: lead angle `alpha`, contact angle `beta` from the plane
+//! normal to the axis. The normal of a groove points into its metal. A right-hand thread; the load is positive where it opposes the travel that a
+//! positive nut speed makes.
 //!
 //! # Where things are, and where they run
 //!
-//! In the order of use: a module imports only from those above it. "Step" means that the control interrupt runs it;
-//! "set-up" that it runs once, or in the compiler; "around ignition" that firmware calls it outside the interrupt;
-//! "direct" that no scene links it: firmware or a tool that wants it calls it by its own name.
+//! In the order of use: a module imports only from those above it. "Step": the control interrupt runs it; "set-up": once, or in the compiler; "around
+//! ignition": firmware calls it outside the interrupt; "direct": no scene links it.
 //!
 //! | module | what | runs in |
 //! |---|---|---|
@@ -57,6 +55,8 @@
 #![doc = include_str!("equations.md")]
 // Symbols of the papers are no code.
 #![allow(clippy::doc_markdown)]
+// Every error names its field, the value and the allowed range.
+#![allow(clippy::missing_errors_doc)]
 // None over 60: see `.clippy.toml`.
 #![warn(clippy::too_many_lines)]
 

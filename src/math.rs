@@ -7,15 +7,11 @@
 //! | [`cbrt_squared`] | 0.54 ulp | 2 ulp | 8e-2 relative |
 //! | [`sin_cos`] | 6.3e-8 absolute, 2.0e-7 relative | 6e-8 absolute | 1.1e-3 absolute |
 //!
-//! The figures of our own are those of a sweep over every positive finite f32 (angles: every one up to
-//! 2 pi), with no bias beyond 2e-3 ulp. `libm` computes cube root, sine and cosine in double precision,
-//! which a Cortex-M4F does in software: over a thousand instructions each. Our own use none, and one
-//! table of 320 bytes, for sine and cosine.
+//! The figures of our own are those of a sweep over every positive finite f32 (angles: every one up to 2 pi). `libm` computes cube root, sine and
+//! cosine in double precision: over a thousand instructions each on a Cortex-M4F. Our own have one table of 320 bytes, for sine and cosine.
 //!
-//! The feature `libm` puts `libm`'s cube root, sine and cosine in the place of our own; the feature
-//! `micromath` puts `micromath`'s there, and its square root where the target has no instruction for
-//! one. With both features, which two crates of one firmware may choose, `libm` serves. What runs in the loop calls the functions of this module and never asks which they are; set-up
-//! calls those of [`constant`], so that all of it can be done by the compiler.
+//! The features `libm` and `micromath` replace cube root, sine and cosine by theirs, `micromath` also the square root where the target has no
+//! instruction for one; with both `libm` serves. Set-up calls the functions of [`constant`], so that the compiler can do all of it.
 
 pub mod constant;
 pub mod elliptic;
@@ -40,40 +36,29 @@ pub(crate) use powers::inverse_cube_roots;
 pub use sqrt::sqrt;
 pub(crate) use sqrt::sqrt_pair;
 
-/// Cube root of any number, odd.
-///
-/// Own backend: at most 0.52 ulp over every finite f32. Zeros keep their sign, infinities are
-/// returned, NaN gives NaN, subnormal inputs are exact inputs like any other.
+/// Cube root of any number, odd. Own backend: at most 0.52 ulp over every finite f32; zeros keep their sign, infinities are returned, NaN gives NaN.
 #[inline]
-#[must_use]
 pub fn cbrt(x: f32) -> f32 {
     backend::cbrt(x)
 }
 
-/// Square of the cube root, `|x|^(2/3)`: the power with which deflection follows load.
-///
-/// Own backend: at most 0.54 ulp over every finite f32. Zeros give 0, infinities infinity, NaN NaN.
+/// Square of the cube root, `|x|^(2/3)`. Own backend: at most 0.54 ulp over every finite f32. Zeros give 0, infinities infinity, NaN NaN.
 #[inline]
-#[must_use]
 pub fn cbrt_squared(x: f32) -> f32 {
     backend::cbrt_squared(x)
 }
 
 /// Cube root and its square, for little more than the price of one.
 #[inline]
-#[must_use]
 pub fn cbrt_and_squared(x: f32) -> (f32, f32) {
     backend::cbrt_and_squared(x)
 }
 
 /// Sine and cosine of an angle, rad.
 ///
-/// Own backend: for `|x| <= 2 pi` at most 6.3e-8 absolute and 2.0e-7 relative, also next to the zeros,
-/// so that the cosine of a lead angle close to 90 degrees keeps its digits; for `|x| <= 8192` at most
-/// 9e-8 absolute. A finite angle beyond is no angle that a mechanism has: it gives `(0, 1)`. NaN and
-/// infinities give NaN. The sine of either zero is +0.
+/// Own backend: for `|x| <= 2 pi` at most 6.3e-8 absolute and 2.0e-7 relative, also next to the zeros; for `|x| <= 8192` at most
+/// 9e-8 absolute. A finite angle beyond gives `(0, 1)`, NaN and infinities NaN. The sine of either zero is +0.
 #[inline]
-#[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     backend::sin_cos(x)
 }

@@ -35,9 +35,8 @@ use crate::scene::{
 /// assert_eq!(model.faulted_ticks(), 0);
 /// ```
 ///
-/// Every scene is set up at run time by [`FrictionModel::new`], or by the compiler as here: the constants stay in flash, the model keeps a reference
-/// to them beside its state, and nothing of what checks and folds them is linked. A field out of range does not compile:
-///
+/// [`FrictionModel::new`] sets up at run time; as here, the compiler does: the constants stay in flash, the model keeps a reference to them,
+/// and nothing that checks them is linked. A field out of range does not compile:
 /// ```compile_fail,E0080
 /// # use epas_friction::scene::{CagedBallScrewConfiguration, CagedConstants, built_in};
 /// static GEAR: CagedConstants = match CagedConstants::new(&CagedBallScrewConfiguration {
@@ -57,16 +56,13 @@ pub struct FrictionModel<S: Scene, C = <S as Scene>::Constants> {
 
 impl<S: Scene> FrictionModel<S> {
     /// Checks the configuration and folds the constants. Set-up only.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub fn new(configuration: &S::Configuration) -> Result<Self, Error> {
         S::constants(configuration).map(Self::of)
     }
 }
 
 impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
-    /// A model of constants that are folded already, or of a reference to them. Set-up only: it makes the first state, at once.
+    /// A model of folded constants, or of a reference to them. Set-up only.
     #[inline]
     pub fn of(constants: C) -> Self {
         let state = S::initial_state(constants.borrow());
@@ -79,9 +75,8 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
 
     /// One step: bounded time, no panic, finite outputs whatever the inputs are ([`Scene::step`]).
     ///
-    /// Where an input is NaN or infinite, nothing is computed: the output is the safe one and
-    /// the state stays as it is. Not so [`WithMemory`](crate::scene::WithMemory): it goes on with the last sound inputs of its
-    /// scene, its memory follows every sound reading of the angle, and the output is that friction, flagged.
+    /// Where an input is NaN or infinite, the output is the safe one and the state stays as it is; [`WithMemory`](crate::scene::WithMemory)
+    /// goes on with the last sound inputs of its scene, and its memory follows every sound reading of the angle.
     #[inline]
     pub fn step(&mut self, inputs: S::Inputs) -> S::Outputs {
         let outputs = S::step(self.constants.borrow(), &mut self.state, inputs);
@@ -99,23 +94,16 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         self.faulted_ticks = 0;
     }
 
-    /// Replaces the constants, as a controller does that switches its calibration page, and returns the old ones. Balls and memory stay; the
-    /// circuit of balls, where there is one, has to be the same.
-    ///
-    /// Not in the middle of a step. This is how the clearance of a caged ball screw changes; a friction coefficient that was set is that of the new
-    /// block again. Where deviation maps have another period, set the angle (or the carriage's position) anew.
-    ///
-    /// # Errors
-    /// [`Error`] naming what does not fit to the state; the model goes on as it was.
+    /// Replaces the constants, as a controller does that switches its calibration page or the clearance of a caged screw, and returns the old
+    /// ones. Not in the middle of a step. Balls and memory stay; the circuit of balls has to be the same. The friction coefficient is that of the
+    /// new block; where deviation maps have another period, set the angle (or the carriage's position) anew.
     pub fn swap_constants(&mut self, constants: C) -> Result<C, Error> {
         S::take_over(constants.borrow(), &mut self.state)?;
         Ok(core::mem::replace(&mut self.constants, constants))
     }
 
     /// Consecutive calls of [`Self::step`] with a fault ([`Faults::faulty`](crate::Faults::faulty)), up to `u32::MAX`; 0 after
-    /// a sound one. A step whose only flags are [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) and
-    /// [`Faults::FORCES_NOT_HELD`](crate::Faults::FORCES_NOT_HELD) is sound. Outputs
-    /// between two steps ([`FrictionModel::between`]) do not change this counter: they report their own faults.
+    /// a sound one. [`FrictionModel::between`] does not change it.
     pub const fn faulted_ticks(&self) -> u32 {
         self.faulted_ticks
     }
@@ -132,17 +120,9 @@ impl<S: Scene, C: Borrow<S::Constants>> FrictionModel<S, C> {
 }
 
 impl<S: ChangingFriction, C: Borrow<S::Constants>> FrictionModel<S, C> {
-    /// Sets the friction coefficient of ball and groove, 1e-6 to 0.5 (to 1 of a linear bearing): where temperature or wear change it
-    /// while the model runs. [`FrictionModel::reset`] brings the configuration's back.
-    ///
-    /// In a caged ball screw it lies within the nodes of the block, and counts from the next step on.
-    ///
-    /// In a ball screw without cage it lies within the nodes of the block, and counts from the next step on.
-    ///
-    /// In a linear bearing friction and all forces between balls follow it in proportion, from the next tick on.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`; the model goes on as it was.
+    /// Sets the friction coefficient of ball and groove, from the next step on: where temperature or wear change it while the model runs.
+    /// In a ball screw within the nodes of the block; in a linear bearing 1e-6 to 1, and all forces follow it in proportion.
+    /// [`FrictionModel::reset`] brings the configuration's back.
     pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
         S::set_friction(self.constants.borrow(), &mut self.state, friction)
     }
@@ -151,10 +131,9 @@ impl<S: ChangingFriction, C: Borrow<S::Constants>> FrictionModel<S, C> {
 impl<const N: usize, const NODES: usize, C: Borrow<UncagedConstants<N, NODES>>>
     FrictionModel<UncagedBallScrew<N, NODES>, C>
 {
-    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted:
-    /// once after start-up, and again whenever an absolute sensor has it; between, the model integrates
-    /// the speed. Ticks without a valid speed are missing in that sum, one beyond its limit counts with the
-    /// limit. An angle that is NaN, or beyond 8e6 periods of the map, counts as 0.
+    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted: once after start-up, and again whenever
+    /// an absolute sensor has it; between, the model integrates the speed of ticks with a valid one, up to its limit. NaN, or an
+    /// angle beyond 8e6 periods of the map, counts as 0.
     pub fn set_nut_angle(&mut self, angle: f32) {
         self.constants
             .borrow()
@@ -163,10 +142,8 @@ impl<const N: usize, const NODES: usize, C: Borrow<UncagedConstants<N, NODES>>>
 }
 
 impl<const N: usize, C: Borrow<LinearConstants<N>>> FrictionModel<LinearBearingTrain<N>, C> {
-    /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted: once after start-up,
-    /// and again whenever an absolute sensor has it; between, the model integrates the speed. Ticks without a valid
-    /// speed are missing in that sum, one beyond its limit counts with the limit. A place that is NaN, or beyond
-    /// 8e6 periods of the map, counts as 0.
+    /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted: as the nut's angle of an
+    /// [`UncagedBallScrew`].
     pub fn set_carriage_position(&mut self, position: f32) {
         self.constants
             .borrow()

@@ -1,9 +1,6 @@
 //! Scenes: what a mechanism needs and what it leaves out, decided at compile time.
 //!
-//! A scene is a type. [`FrictionModel`](crate::FrictionModel) is generic over it, so that firmware
-//! links the code and the state of its own scene and nothing else: a caged ball screw has no
-//! ball-to-ball contacts, a bearing no lead, and no scene links the kinematics.
-//!
+//! A scene is a type: firmware links the code and the state of its own scene and nothing else.
 //! | | what it is | links |
 //! |---|---|---|
 //! | [`CagedBallScrew`] | balls that do not touch, by a law that was solved on a host | [`ball::folded`](crate::ball::folded) |
@@ -13,9 +10,7 @@
 //! | [`LinearBearingTrain`] | four-point linear bearing, balls that press on each other | [`ball`](crate::ball), [`train`](crate::train); [`contact`](crate::contact) and [`hertz`](crate::hertz) at set-up |
 //! | [`WithMemory`] | any of them but `LoadProportionalScrew`, with friction that remembers | [`law`](crate::law) beside it |
 //!
-//! Below them are the [`Scene`] contract with inputs, limits and regimes, the faults, the outputs (torques of a
-//! screw, forces of a bearing), and the circuit that both trains share: loaded zone, phase of the passing groove,
-//! deviation maps, load shares.
+//! Below them are the [`Scene`] contract, faults, outputs, and the circuit that both trains share.
 
 mod caged;
 pub(crate) mod circuit;
@@ -39,8 +34,7 @@ pub use caged::{
 pub use circuit::deviation::SINES;
 pub use circuit::{CircuitState, DeviationMap, HIGHEST_ORDER, Harmonic, LARGEST_DEVIATION};
 pub use closed_form::{
-    ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, ClosedFormScrewState,
-    FrictionBranch,
+    ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, FrictionBranch,
 };
 pub use contract::{
     ChangingFriction, CheckedInputs, Inputs, Limits, Motion, Regime, ReversalState, Scene,
@@ -53,7 +47,6 @@ pub use linear::{
 };
 pub use load_proportional::{
     LoadProportionalConfiguration, LoadProportionalConstants, LoadProportionalScrew,
-    LoadProportionalState,
 };
 pub use memory::{
     CoefficientFor, Freshness, SceneMemory, WithMemory, WithMemoryConfiguration,

@@ -1,8 +1,6 @@
-//! State as bytes: what a model knows when the ignition goes off, for the next time that it goes on.
-//!
-//! Called outside the interrupt, by firmware that keeps the state; a scene that is not kept links nothing of it.
+//! State as bytes: memory of a model from one ignition to the next, for
 //! [`FrictionModel::export`](crate::FrictionModel::export) and
-//! [`FrictionModel::import`](crate::FrictionModel::import) are made of it.
+//! [`FrictionModel::import`](crate::FrictionModel::import).
 //!
 //! # Block
 //!
@@ -20,9 +18,7 @@
 //! | last 4 | [`crc32`] of all before |
 //!
 //! A block is refused for the first of these that is wrong: its first bytes, its version, its length, its checksum, its scene, its
-//! balls, its constants, a number. A block with the right checksum but numbers that no model leaves is refused too.
-//!
-//! A state has one description, [`Stored::exchange`], which runs in both directions: what is written is what is read.
+//! balls, its constants, a number. A state has one description, [`Stored::exchange`], which runs in both directions.
 
 mod block;
 mod port;
@@ -33,7 +29,7 @@ pub(crate) use block::{Block, OVERHEAD};
 pub use block::{Label, VERSION};
 pub use port::{Port, Stored};
 
-/// Why a state was not written, or a block not taken.
+/// Reasons why a state was not written, or a block not taken.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -100,7 +96,7 @@ impl fmt::Display for Refusal {
 
 impl core::error::Error for Refusal {}
 
-/// What half a byte makes of the checksum: polynomial `0xEDB88320`, bits reversed. 64 bytes.
+/// Checksum of half a byte: polynomial `0xEDB88320`, bits reversed. 64 bytes.
 const NIBBLES: [u32; 16] = {
     let mut table = [0; 16];
     let mut nibble = 0;
@@ -121,13 +117,12 @@ const NIBBLES: [u32; 16] = {
     table
 };
 
-/// Checksum of bytes, CRC-32 as in IEEE 802.3 and zip files: any one to three wrong bits, and any burst of up to 32, are found in
-/// blocks of this size. 10 instructions a byte.
+/// CRC-32 as in IEEE 802.3 and zip files: any one to three wrong bits, and any burst of up to 32, are found in blocks of this size. 10 instructions a
+/// byte.
 ///
 /// ```
 /// assert_eq!(epas_friction::stored::crc32(b"123456789"), 0xCBF4_3926);
 /// ```
-#[must_use]
 pub const fn crc32(bytes: &[u8]) -> u32 {
     !continued(u32::MAX, bytes)
 }
@@ -144,7 +139,7 @@ const fn continued(mut rest: u32, mut bytes: &[u8]) -> u32 {
     rest
 }
 
-/// The same of words, each with its least significant byte first.
+/// [`crc32`] of words, each with its least significant byte first.
 pub(crate) const fn crc32_of_words(mut words: &[u32]) -> u32 {
     let mut sum = Fingerprint::NONE;
     while let Some((&word, others)) = words.split_first() {
@@ -154,7 +149,7 @@ pub(crate) const fn crc32_of_words(mut words: &[u32]) -> u32 {
     sum.value()
 }
 
-/// Checksum, number by number: [`crc32`] of their bytes, least significant first. For the constants that a state is read with.
+/// Checksum of the constants that a state is read with, number by number: [`crc32`] of their bytes, least significant first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Fingerprint(u32);
@@ -186,7 +181,6 @@ impl Fingerprint {
     }
 
     /// The checksum so far.
-    #[must_use]
     pub const fn value(self) -> u32 {
         !self.0
     }
@@ -194,6 +188,6 @@ impl Fingerprint {
 
 /// Constants that a state is read with: elements of a memory, an angle sensor.
 pub trait Fingerprinted {
-    /// Takes in every number on which the meaning of a state depends, after one that says what kind of constants these are.
+    /// Takes in the kind of the constants, and then every number on which the meaning of a state depends.
     fn fingerprint(&self, fingerprint: &mut Fingerprint);
 }

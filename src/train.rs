@@ -5,11 +5,8 @@
 //! | [`Press`] | forces between balls from their free speeds, impedances and rooms: one exact pass |
 //! | [`Train`] | the balls' positions on a closed track, and a tick that moves them |
 //!
-//! `N` of the types is the number of balls that there is room for, 1 to 255; a train has 1 to `N`, from when it is made on.
-//!
-//! A ball is known here by two numbers alone, the speed at which it would run on its own and the force that
-//! changes this speed by one, its impedance. Where the numbers come from is not its concern. [`Press`] says what is
-//! solved; this page says how, file by file, for whoever reviews it.
+//! `N` of the types is the room for balls, 1 to 255; a train has 1 to `N`, from when it is made on. A ball is known by two numbers: the speed
+//! at which it would run on its own, and its impedance, the force that changes this speed by one. [`Press`] says what is solved; this page says how.
 //!
 //! # Words
 //!
@@ -17,8 +14,7 @@
 //! - **Slack** `s_j = u_(j+1) - u_j + r_j`: by how much a ball stays clear of the one in front if both run at their
 //!   free speeds `u`, with the room `r`. Around the ring the slacks add up to the rooms.
 //! - **Cluster**: neighbours that move as one, because they touch or close their gaps within the tick. A ball alone
-//!   is a cluster of one. No force acts on a cluster from outside: its front ball presses on none, nothing pushes its
-//!   rear ball.
+//!   is a cluster of one. No force acts on a cluster from outside.
 //! - **Push** of a cluster: the force with which the others would push the front ball, if that kept its free speed.
 //! - **Foremost** ball: one that presses on none, where walks around the ring begin.
 //!
@@ -26,14 +22,13 @@
 //!
 //! | phase | file | work for `N` balls | what holds afterwards |
 //! |---|---|---|---|
-//! | take in | `tick`, `track` | `N` balls | each ball has its free speed, impedance and slack; nothing but its position is left of the last tick |
+//! | take in | `tick`, `track` | `N` balls | each ball has its free speed, impedance and slack |
 //! | join | `pool` | at most `N - 1` joins, fewer than `4 N` comparisons | clusters part the ring; none runs into the one ahead; their end balls hold their sums |
 //! | settle | `settle` | `N` balls, a division for each cluster of two or more | each ball has its actual speed and its force, zero or more |
 //! | move | `tick`, in the walk of settling | | balls that press stand in contact exactly, no two overlap by more than rounding |
 //! | balance | `settle` | `N` balls, where rounding needs it | the net pushes on each cluster add up to zero, to 1e-6 of the largest force |
 //!
-//! `ball` says what a ball holds in each phase. Loops are bounded by `N`; nothing iterates to a tolerance,
-//! recurses, allocates or panics. The longest path is in [`Press::solve`] and grows in proportion to `N`.
+//! `ball` says what a ball holds in each phase. Loops are bounded by `N`; nothing iterates to a tolerance, recurses, allocates or panics.
 //!
 //! # Why joining is exact
 //!
@@ -46,50 +41,43 @@
 //! F_j = sum over the balls up to j of Z_i (u_i - v_i) = sum over the balls beyond j of Z_i (v_i - u_i)
 //! ```
 //!
-//! Two clusters are joined where the one behind is faster than contact allows. As one, all balls of the one behind
-//! run slower by the same amount, so that by the first sum its forces grow; all balls of the one ahead run faster,
-//! so that by the second its forces grow. The force between the two is above zero. So no join opens a contact that
-//! an earlier one has closed: joins may come in any order, and none is ever taken back.
+//! Two clusters are joined where the one behind is faster than contact allows. As one, the balls behind run slower and those ahead faster: by the
+//! first and the second sum their forces grow, and the force between the two is above zero. So no join opens a contact that
+//! an earlier one has closed: joins may come in any order, and none is taken back.
 //!
-//! **It ends.** Each join makes one cluster of two: there are at most `N - 1`. A comparison that finds none is
-//! followed by a join or ends a cluster, so that there are fewer than `4 N`.
+//! **It ends.** Each join makes one cluster of two: there are at most `N - 1`. A comparison that finds none is followed by a join or ends a cluster.
 //!
 //! **It is the solution.** In the end no cluster runs into the one ahead, all forces within are zero or more and
-//! those between are zero: these are the conditions in [`Press`], which one set of speeds alone fulfils. A ring keeps
-//! at least one gap between clusters or within its only one, since its slacks add up to the rooms, which are not
-//! negative.
+//! those between are zero: the conditions in [`Press`], which one set of speeds alone fulfils. A ring keeps
+//! at least one gap, since its slacks add up to the rooms, which are not negative.
 //!
-//! **Comparisons are strict.** Clusters exactly as fast as each other are not joined. The speeds would be the same,
-//! but the force between them would be zero but for rounding, and a contact counted that carries nothing; a ring of
+//! **Comparisons are strict.** Clusters exactly as fast as each other are not joined: the force between them would be rounding alone, and a ring of
 //! equal balls would be found to press all around.
 //!
 //! # Where balls rub on each other
 //!
 //! Friction of its neighbours makes a ball need more or less net push, in proportion to their forces (`grip`). Each force then is that of balls
-//! that do not rub, times a factor from ball to ball; impedances weighed by the same factors leave all of the above as it is. What friction changes
-//! is known by the forces alone: a first pass joins and settles balls that do not move, from which each is taken in anew for the second one.
+//! that do not rub, times a factor from ball to ball; impedances weighed by the same factors leave all of the above as it is. A first pass joins and
+//! settles balls that do not move, from whose forces each is taken in anew for the second one.
 //!
 //! # Rounding
 //!
-//! Sums hold differences from free speeds, not speeds, so that what is small keeps its digits. Forces that rounding
-//! makes negative are zero. Adding up a cluster from its front leaves at its rear ball a remainder that is exactly
-//! zero but for rounding; where it exceeds 1e-6 of the largest force, it is taken out. Positions are integers
-//! and do not drift; balls that overlap by up to 2^10 units of 2^32 on the track count as in contact.
+//! Sums hold differences from free speeds, so that what is small keeps its digits. Forces that rounding makes negative are zero. Adding up a
+//! cluster from its front leaves at its rear ball a remainder that is zero but for rounding; above 1e-6 of the largest force it is taken out.
+//! Positions are integers and do not drift; balls that overlap by up to 2^10 units of 2^32 on the track count as in contact.
 
 mod ball;
-mod grip;
 mod pool;
 mod positions;
 mod press;
 mod settle;
-mod stored;
 mod tick;
 mod track;
 
-pub use grip::{FreeBall, LARGEST_GRIP};
+pub use ball::{FreeBall, LARGEST_GRIP};
+pub(crate) use positions::BALL_BYTES;
 pub use positions::{BallContact, Train};
 pub use press::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
-pub(crate) use stored::BALL_BYTES;
 pub use tick::Neighbours;
 pub use track::LARGEST_TRAVEL;
 pub(crate) use track::Track;

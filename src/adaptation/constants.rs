@@ -1,29 +1,23 @@
-//! What the engineer sets for an adaptation, and the constants that follow from it.
+//! Configuration and constants of an adaptation.
 
 use super::health::HealthConstants;
 use super::state::START;
-use super::tick::AdaptationFlags;
-use super::tick::AdaptationInputs;
-use super::tick::ESTIMATES;
-use crate::error::{Error, Range, attempt, in_range};
+use super::tick::{AdaptationFlags, AdaptationInputs, ESTIMATES};
+use crate::error::{Error, Range, all_in_range, attempt, in_range};
 use crate::law::LEVEL;
 use crate::scene::Regime;
 use crate::stored::{Fingerprint, Fingerprinted};
 
-/// Ticks in which data lose their weight. With 1e5 of them a variance grows by 9e-5 from one upkeep to the next, and the rounding of
-/// the growth is a thousandth of that; with 1e6 it would be a hundredth.
+/// Ticks in which data lose their weight: with 1e5 rounding is a thousandth of a variance's growth between two upkeeps.
 const FORGETTING_TICKS: Range = Range::new(200.0, 1e5);
 
-/// Ticks of the slow average's time constant. With 1e7 of them rounding stops an average of 0.1 within 8e-4 of the level that it
-/// follows; with 1e8 within 8e-3.
+/// Ticks of the slow average's time constant: with 1e7 rounding stops an average of 0.1 within 8e-4 of the level that it follows.
 const AVERAGE_TICKS: Range = Range::new(400.0, 1e7);
 
-/// Times to forget, s, that a tick, s, allows.
 pub(super) const fn forgetting_times(tick: f32) -> Range {
     times(FORGETTING_TICKS, tick)
 }
 
-/// Time constants of the slow average, s, that a tick, s, allows.
 pub(super) const fn average_times(tick: f32) -> Range {
     times(AVERAGE_TICKS, tick)
 }
@@ -32,18 +26,11 @@ const fn times(ticks: Range, tick: f32) -> Range {
     Range::new(ticks.minimum * tick, ticks.maximum * tick)
 }
 
-/// The number of a range that is nearest to `value`.
 const fn nearest(value: f32, range: Range) -> f32 {
-    if value < range.minimum {
-        range.minimum
-    } else if value > range.maximum {
-        range.maximum
-    } else {
-        value
-    }
+    value.max(range.minimum).min(range.maximum)
 }
 
-/// What the engineer sets for an adaptation; unchecked.
+/// Configuration of an adaptation; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AdaptationConfiguration {
@@ -53,25 +40,24 @@ pub struct AdaptationConfiguration {
     pub forgetting_time: f32,
     /// Time constant of the filter, s, 0 to 1: about that of the speed's own filter. 0 for no filter.
     pub filter_time: f32,
-    /// Noise of the observed torque after the filter, one standard deviation, N m, 1e-6 to 1e3. At least one 100,000th of what
-    /// the deviations below make of the limits.
+    /// Noise of the observed torque after the filter, one standard deviation, N m, 1e-6 to 1e3, at least 1e-5 of the deviations below times the limits.
     pub noise: f32,
-    /// How far a level may be from 1, one standard deviation, 0 to 10. 0 holds both levels.
+    /// Deviation of a level from 1, one standard deviation, 0 to 10. 0 holds both levels.
     pub level_deviation: f32,
     /// Least level, 0.1 to 1.
     pub least_level: f32,
     /// Largest level, 1 to 10.
     pub largest_level: f32,
-    /// How large the drag may be, one standard deviation, N m s/rad, 0 to 1e3. 0 leaves it out.
+    /// Size of the drag, one standard deviation, N m s/rad, 0 to 1e3. 0 leaves it out.
     pub drag_deviation: f32,
     /// Largest drag of either sign, N m s/rad, 0 to 1e4; below 0 the model has too much of its own.
     pub largest_drag: f32,
-    /// How large the offset may be, one standard deviation, N m, 0 to 1e3. 0 leaves it out. An offset and two levels that differ look the same
-    /// under a load that does not change: what the motion does not tell is shared by the deviations.
+    /// Size of the offset, one standard deviation, N m, 0 to 1e3. 0 leaves it out. Under a load that does not change it looks like two levels that
+    /// differ.
     pub offset_deviation: f32,
     /// Largest offset of either sign, N m, 0 to 1e4.
     pub largest_offset: f32,
-    /// How wrong the load torque may be, one standard deviation, 0 to 1. 0 leaves it out, as where no load was taken off.
+    /// Relative error of the load torque, one standard deviation, 0 to 1. 0 leaves it out.
     pub load_deviation: f32,
     /// Largest relative error of the load torque, of either sign, 0 to 1.
     pub largest_load_error: f32,
@@ -81,13 +67,13 @@ pub struct AdaptationConfiguration {
     pub largest_speed: f32,
     /// Nut speed below which a tick does not count, rad/s, 0 to `largest_speed`.
     pub least_speed: f32,
-    /// Friction torque of the model below which a tick does not count, N m, 0 to `largest_torque`: beside less than the noise nothing is to be learnt.
+    /// Friction torque of the model below which a tick does not count, N m, 0 to `largest_torque`.
     pub least_friction: f32,
     /// Slow drift of the level.
     pub health: HealthConfiguration,
 }
 
-/// When a drift of the level is flagged; unchecked.
+/// Thresholds of a drift of the level; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct HealthConfiguration {
@@ -97,14 +83,12 @@ pub struct HealthConfiguration {
     pub fall: f32,
     /// Relative rise from which lost lubricant is flagged: 0.01 to 9.
     pub rise: f32,
-    /// How far the drift has to go back before a flag is taken away, 0 to the smaller of the two above.
+    /// Way back of the drift until a flag is taken away, 0 to the smaller of the two above.
     pub hysteresis: f32,
 }
 
 impl HealthConfiguration {
-    /// Ten minutes of sliding; flagged at a fall by 30 % or a rise by 50 %, until it has gone back by 10 %. Assumed: a two-fold
-    /// change of the coefficient is usual between 20 degrees below and 80 above zero, of which a law of the coefficient leaves
-    /// some 10 %.
+    /// Ten minutes of sliding; flagged at a fall by 30 % or a rise by 50 %, until it has gone back by 10 %: assumed.
     pub const DEFAULT: Self = Self {
         average_time: 600.0,
         fall: 0.3,
@@ -114,11 +98,9 @@ impl HealthConfiguration {
 }
 
 impl AdaptationConfiguration {
-    /// For a steering gear with some 10 to 100 mN m of friction at the nut, updated every `tick`: levels and the load's gain, with
-    /// no drag and no offset. Valid for every tick of 1e-5 to 1 s: 5 s to forget, but at least 200 ticks (from 25 ms on) and at most
-    /// 1e5 (below 50 us); ten minutes of slow average, but at most 1e7 ticks (below 60 us).
-    ///
-    /// All numbers are assumed, and tried on a simulated drive of a minute; none comes from a measurement.
+    /// For a steering gear with some 10 to 100 mN m of friction at the nut, updated every `tick`, s, 1e-5 to 1: levels and the load's gain, with
+    /// no drag and no offset. 5 s to forget (from 25 ms on 200 ticks, below 50 us 1e5); ten minutes of slow average (below 60 us 1e7 ticks).
+    /// All numbers are assumed, and tried on a simulated drive of a minute.
     #[must_use]
     pub const fn every(tick: f32) -> Self {
         let health = HealthConfiguration::DEFAULT;
@@ -156,11 +138,11 @@ pub(super) const UPKEEP: u8 = 9;
 
 const ROUND: f32 = 45.0;
 
-/// Most that a regressor may be, times its deviation over the noise: such a reading leaves 1e-10 of a variance, ten times the
-/// [least](super::factor::LEAST) that is kept, and its square is far from an f32's end.
+/// Largest regressor, times its deviation over the noise: such a reading leaves 1e-10 of a variance, ten times the
+/// [least](super::factor::LEAST) that is kept.
 const LARGEST_REGRESSOR: f32 = 1e5;
 
-/// Constants of an adaptation; made by [`AdaptationConstants::new`] at set-up, or in a constant.
+/// Constants of an adaptation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AdaptationConstants {
@@ -177,8 +159,7 @@ pub struct AdaptationConstants {
     pub(super) largest: [f32; ESTIMATES],
     /// Variances grow by this factor from one upkeep to the next.
     pub(super) growth: f32,
-    /// Weight of the pretended reading of one number that takes back in one upkeep by how much a round of upkeeps lets its variance
-    /// grow.
+    /// Weight of the pretended reading of one number that takes back the growth of its variance in a round of upkeeps.
     pub(super) prior: f32,
     /// Largest torque and speed that are believed, N m and rad/s.
     pub(super) largest_torque: f32,
@@ -191,38 +172,24 @@ pub struct AdaptationConstants {
 
 impl AdaptationConstants {
     /// Checks the configuration and folds the constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn new(configuration: &AdaptationConfiguration) -> Result<Self, Error> {
-        let AdaptationConfiguration {
-            tick,
-            forgetting_time,
-            filter_time,
-            noise,
-            largest_torque,
-            largest_speed,
-            least_speed,
-            least_friction,
-            health,
-            ..
-        } = *configuration;
+        let c = configuration;
         attempt!(checked(configuration));
         let deviations = deviations(configuration);
         let (least, largest) = bounds(configuration, &deviations);
         // A level divides the model's torque: by 0.1 at the least.
         let regressors = [
-            largest_torque / LEVEL.minimum,
-            largest_torque / LEVEL.minimum,
-            largest_speed,
+            c.largest_torque / LEVEL.minimum,
+            c.largest_torque / LEVEL.minimum,
+            c.largest_speed,
             1.0,
-            largest_torque,
+            c.largest_torque,
         ];
-        let noise = attempt!(checked_noise(noise, &deviations, &regressors));
+        let noise = attempt!(checked_noise(c.noise, &deviations, &regressors));
         // Data lose their weight over the ticks of an upkeep.
-        let growth = UPKEEP as f32 * tick / forgetting_time;
+        let growth = UPKEEP as f32 * c.tick / c.forgetting_time;
         Ok(Self {
-            filter: tick / (tick + filter_time),
+            filter: c.tick / (c.tick + c.filter_time),
             per_noise: 1.0 / noise,
             deviations,
             weights: over(deviations, noise),
@@ -230,15 +197,14 @@ impl AdaptationConstants {
             largest,
             growth: 1.0 + growth,
             prior: crate::math::constant::sqrt(fifth_power_less_one(growth)),
-            largest_torque,
-            largest_speed,
-            least_speed,
-            least_friction,
-            health: attempt!(HealthConstants::new(&health, tick, ROUND * tick)),
+            largest_torque: c.largest_torque,
+            largest_speed: c.largest_speed,
+            least_speed: c.least_speed,
+            least_friction: c.least_friction,
+            health: attempt!(HealthConstants::new(&c.health, c.tick, ROUND * c.tick)),
         })
     }
 
-    /// True where one of the estimates is at its bound, or beyond it.
     pub(super) const fn binds(&self, estimates: &[f32; ESTIMATES]) -> bool {
         let mut index = 0;
         while index < ESTIMATES {
@@ -251,8 +217,6 @@ impl AdaptationConstants {
         false
     }
 
-    /// True where an adaptation with these constants may have found the estimates: within their bounds, and one that is held where
-    /// it starts.
     pub(super) fn allows(&self, estimates: &[f32; ESTIMATES]) -> bool {
         let bounds = self.least.iter().zip(&self.largest);
         let starts = START.iter().zip(&self.deviations);
@@ -303,47 +267,26 @@ impl AdaptationConstants {
 
 /// Checks every field but the noise and the health, which depend on others.
 const fn checked(configuration: &AdaptationConfiguration) -> Result<(), Error> {
-    let AdaptationConfiguration {
-        tick,
-        forgetting_time,
-        filter_time,
-        level_deviation,
-        least_level,
-        largest_level,
-        drag_deviation,
-        largest_drag,
-        offset_deviation,
-        largest_offset,
-        load_deviation,
-        largest_load_error,
-        largest_torque,
-        largest_speed,
-        least_speed,
-        least_friction,
-        ..
-    } = *configuration;
-    attempt!(in_range("tick", tick, 1e-5, 1.0));
-    attempt!(forgetting_times(tick).checked("forgetting_time", forgetting_time));
-    attempt!(in_range("filter_time", filter_time, 0.0, 1.0));
-    attempt!(in_range("level_deviation", level_deviation, 0.0, 10.0));
-    attempt!(in_range("least_level", least_level, LEVEL.minimum, 1.0));
-    attempt!(in_range("largest_level", largest_level, 1.0, LEVEL.maximum));
-    attempt!(in_range("drag_deviation", drag_deviation, 0.0, 1e3));
-    attempt!(in_range("largest_drag", largest_drag, 0.0, 1e4));
-    attempt!(in_range("offset_deviation", offset_deviation, 0.0, 1e3));
-    attempt!(in_range("largest_offset", largest_offset, 0.0, 1e4));
-    attempt!(in_range("load_deviation", load_deviation, 0.0, 1.0));
-    attempt!(in_range("largest_load_error", largest_load_error, 0.0, 1.0));
-    attempt!(in_range("largest_torque", largest_torque, 1e-6, 1e6));
-    attempt!(in_range("largest_speed", largest_speed, 1e-3, 1e6));
-    attempt!(in_range("least_speed", least_speed, 0.0, largest_speed));
-    attempt!(in_range(
-        "least_friction",
-        least_friction,
-        0.0,
-        largest_torque
-    ));
-    Ok(())
+    let c = configuration;
+    attempt!(in_range("tick", c.tick, 1e-5, 1.0));
+    attempt!(forgetting_times(c.tick).checked("forgetting_time", c.forgetting_time));
+    let (largest_torque, largest_speed) = (c.largest_torque, c.largest_speed);
+    all_in_range(&[
+        ("filter_time", c.filter_time, 0.0, 1.0),
+        ("level_deviation", c.level_deviation, 0.0, 10.0),
+        ("least_level", c.least_level, LEVEL.minimum, 1.0),
+        ("largest_level", c.largest_level, 1.0, LEVEL.maximum),
+        ("drag_deviation", c.drag_deviation, 0.0, 1e3),
+        ("largest_drag", c.largest_drag, 0.0, 1e4),
+        ("offset_deviation", c.offset_deviation, 0.0, 1e3),
+        ("largest_offset", c.largest_offset, 0.0, 1e4),
+        ("load_deviation", c.load_deviation, 0.0, 1.0),
+        ("largest_load_error", c.largest_load_error, 0.0, 1.0),
+        ("largest_torque", largest_torque, 1e-6, 1e6),
+        ("largest_speed", largest_speed, 1e-3, 1e6),
+        ("least_speed", c.least_speed, 0.0, largest_speed),
+        ("least_friction", c.least_friction, 0.0, largest_torque),
+    ])
 }
 
 const fn deviations(configuration: &AdaptationConfiguration) -> [f32; ESTIMATES] {
@@ -356,21 +299,15 @@ const fn deviations(configuration: &AdaptationConfiguration) -> [f32; ESTIMATES]
     ]
 }
 
-/// Least and largest of the five numbers. One that is held never moves, and is at no bound.
+/// Least and largest of the five numbers; none of one that is held.
 const fn bounds(
     configuration: &AdaptationConfiguration,
     deviations: &[f32; ESTIMATES],
 ) -> ([f32; ESTIMATES], [f32; ESTIMATES]) {
-    let AdaptationConfiguration {
-        least_level,
-        largest_level,
-        largest_drag: drag,
-        largest_offset: offset,
-        largest_load_error: load_error,
-        ..
-    } = *configuration;
-    let mut least = [least_level, least_level, -drag, -offset, -load_error];
-    let mut largest = [largest_level, largest_level, drag, offset, load_error];
+    let c = configuration;
+    let (drag, offset, load_error) = (c.largest_drag, c.largest_offset, c.largest_load_error);
+    let mut least = [c.least_level, c.least_level, -drag, -offset, -load_error];
+    let mut largest = [c.largest_level, c.largest_level, drag, offset, load_error];
     let mut index = 0;
     while index < ESTIMATES {
         if deviations[index] <= 0.0 {
@@ -381,45 +318,37 @@ const fn bounds(
     (least, largest)
 }
 
-/// The noise, where no regressor is too large beside it.
 const fn checked_noise(
     noise: f32,
     deviations: &[f32; ESTIMATES],
     regressors: &[f32; ESTIMATES],
 ) -> Result<f32, Error> {
-    let mut least = 1e-6;
+    let mut least: f32 = 1e-6;
     let mut index = 0;
     while index < ESTIMATES {
-        let needed = deviations[index] * regressors[index] / LARGEST_REGRESSOR;
-        if needed > least {
-            least = needed;
-        }
+        least = least.max(deviations[index] * regressors[index] / LARGEST_REGRESSOR);
         index += 1;
     }
     in_range("noise", noise, least, 1e3)
 }
 
-const fn over(values: [f32; ESTIMATES], divisor: f32) -> [f32; ESTIMATES] {
-    let [a, b, c, d, e] = values;
-    [
-        a / divisor,
-        b / divisor,
-        c / divisor,
-        d / divisor,
-        e / divisor,
-    ]
+const fn over(mut values: [f32; ESTIMATES], divisor: f32) -> [f32; ESTIMATES] {
+    let mut index = 0;
+    while index < ESTIMATES {
+        values[index] /= divisor;
+        index += 1;
+    }
+    values
 }
 
-/// `(1 + x)^5 - 1` of a small number.
 const fn fifth_power_less_one(x: f32) -> f32 {
     x * (5.0 + x * (10.0 + x * (10.0 + x * (5.0 + x))))
 }
 
-/// Entries of `U` above its diagonal.
 const ABOVE: usize = ESTIMATES * (ESTIMATES - 1) / 2;
 
 impl Fingerprinted for AdaptationConstants {
-    /// What the numbers are read with. Filter, gate, bounds and thresholds may change from one ignition to the next.
+    /// Not filter, gate, bounds and thresholds, which may change from one ignition to the next.
     fn fingerprint(&self, fingerprint: &mut Fingerprint) {
         fingerprint.count(ABOVE as u32);
         fingerprint.number(self.per_noise);
@@ -432,7 +361,6 @@ impl Fingerprinted for AdaptationConstants {
 mod tests {
     use super::fifth_power_less_one;
 
-    /// Exact in f32: multiples of 2^-5.
     #[test]
     fn a_fifth_power() {
         assert_eq!(fifth_power_less_one(0.5), 1.5_f32.powi(5) - 1.0);

@@ -13,11 +13,10 @@ pub(super) struct Factor<const N: usize> {
     pub(super) diagonal: [f32; N],
 }
 
-/// Least of `D`: three millionths of a deviation of the set-up, squared. It keeps `D` above zero however many readings come in; one
-/// reading leaves at least ten times as much.
+/// Least of `D`: three millionths of a deviation of the set-up, squared; one reading leaves at least ten times as much.
 pub(super) const LEAST: f32 = 1e-11;
 
-/// A reading `h' x` as the covariance sees it.
+/// Projection of the covariance on a reading `h' x`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Projection<const N: usize> {
@@ -42,7 +41,6 @@ impl<const N: usize> Factor<N> {
         }
     }
 
-    /// A reading `h' x` as the covariance sees it.
     #[inline(always)]
     pub(super) fn project(&self, h: &[f32; N]) -> Projection<N> {
         let mut along = [[0.0; 2]; N];
@@ -60,7 +58,6 @@ impl<const N: usize> Factor<N> {
         Projection { along, variance }
     }
 
-    /// The same for a reading of one number alone, times `h`.
     #[inline(always)]
     pub(super) fn project_one(&self, number: usize, h: f32) -> Projection<N> {
         let mut along = [[0.0; 2]; N];
@@ -76,11 +73,9 @@ impl<const N: usize> Factor<N> {
         Projection { along, variance }
     }
 
-    /// Takes in a reading with a noise of this variance, above 0 (Bierman 1977); gives `P h` over the variance of its error: by how much
-    /// the numbers move for an error of one.
+    /// Takes in a reading with a noise of this variance, above 0 (Bierman 1977); gives `P h` over the variance of its error.
     ///
-    /// `a_0` the noise, `a_j = a_(j-1) + f_j g_j`, `D_j <- D_j a_(j-1)/a_j`. All terms of `a` are squares, so that `D` stays above
-    /// 0 in any arithmetic that keeps signs.
+    /// `a_0` the noise, `a_j = a_(j-1) + f_j g_j`, `D_j <- D_j a_(j-1)/a_j`: all terms of `a` are squares, so that `D` stays above 0.
     #[inline(always)]
     pub(super) fn read(&mut self, projection: &Projection<N>, noise: f32) -> [f32; N] {
         let mut gain = [0.0; N];
@@ -109,7 +104,6 @@ impl<const N: usize> Factor<N> {
         gain
     }
 
-    /// Lets all readings so far count by `1/growth` of what they did: variances grow by that factor.
     #[inline(always)]
     pub(super) fn forget(&mut self, growth: f32) {
         for entry in &mut self.diagonal {
@@ -117,7 +111,6 @@ impl<const N: usize> Factor<N> {
         }
     }
 
-    /// Variances: the diagonal of `P`.
     pub(super) fn variances(&self) -> [f32; N] {
         let mut variances = self.diagonal;
         for (column, entry) in self.columns.iter().zip(&self.diagonal) {

@@ -4,17 +4,12 @@ use super::constants::{HealthConfiguration, average_times};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::stored::{Port, Refusal, Stored};
 
-/// Slow drift of the friction level, against the value at commissioning.
+/// Slow drift of the friction level against the value at commissioning: the mean level of both directions, averaged over minutes or hours of sliding.
 ///
-/// The mean level of both directions, averaged over minutes or hours of sliding. What the estimate follows within seconds
-/// (temperature, a load sensor that drifts) passes through the average; what stays is the mechanism.
-///
-/// | | what it may be | what to do |
+/// | | possible causes | what to do |
 /// |---|---|---|
 /// | `fallen` | worn grooves or balls, lost preload: play comes next | check backlash and noise |
 /// | `risen` | lost, aged or soaked lubricant, dirt, a tight return; a friction coefficient that was set too low | check the lubricant, lower the assist's reliance on the compensation |
-///
-/// A drift is a symptom: which of them it is a level alone does not tell.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Health {
@@ -40,13 +35,11 @@ pub(super) struct HealthConstants {
 pub(super) struct HealthState {
     /// Slow average of the level, less 1: of a small number a small change is not lost to rounding.
     pub(super) average: f32,
-    /// The average at commissioning, less 1.
     pub(super) commissioned: f32,
     pub(super) health: Health,
 }
 
 impl HealthConstants {
-    /// Thresholds for an average that is taken every `round`, s.
     pub(super) const fn new(
         configuration: &HealthConfiguration,
         tick: f32,
@@ -83,7 +76,6 @@ impl HealthState {
         },
     };
 
-    /// Takes a level, less 1, into the average.
     #[inline(always)]
     pub(super) fn follow(&mut self, constants: &HealthConstants, level: f32) {
         self.average += constants.share * (level - self.average);
@@ -97,7 +89,6 @@ impl HealthState {
         };
     }
 
-    /// Counts drift from a level, less 1.
     pub(super) fn commission(&mut self, level: f32) {
         *self = Self {
             average: level,

@@ -1,19 +1,17 @@
-//! What a tick of the adaptation changes.
+//! State of an adaptation.
 
 use super::constants::{AdaptationConstants, UPKEEP};
 use super::factor::{Factor, Projection};
 use super::health::{Health, HealthState};
-use super::tick::AdaptationFlags;
-use super::tick::AdaptationInputs;
-use super::tick::{ESTIMATES, Estimates};
+use super::tick::{AdaptationFlags, AdaptationInputs, ESTIMATES, Estimates};
 use crate::error::Range;
 use crate::math;
 use crate::stored::{Port, Refusal, Stored};
 
-/// An error counts with at most so many of its deviations, squared: four, which normal noise passes once in 16,000 readings.
+/// Largest error that counts over its deviation, squared: normal noise passes four once in 16,000 readings.
 const FURTHEST: f32 = 16.0;
 
-/// What a tick of the adaptation changes.
+/// State of an adaptation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AdaptationState {
@@ -21,10 +19,10 @@ pub struct AdaptationState {
     pub(super) covariance: Factor<ESTIMATES>,
     pub(super) observed: f32,
     pub(super) regressors: [f32; ESTIMATES],
-    /// What the last tick has seen: the error over the noise, and the projection of the covariance on the reading.
+    /// Of the last tick: the error over the noise, and the projection of the covariance on the reading.
     pub(super) error: f32,
     pub(super) seen: Projection<ESTIMATES>,
-    /// By how much the estimates move at the next prediction, in their deviations.
+    /// Motion of the estimates at the next prediction, in their deviations.
     pub(super) moves: [f32; ESTIMATES],
     /// Ticks since the last upkeep, and which variance the next one renews.
     pub(super) tick: u8,
@@ -33,13 +31,11 @@ pub struct AdaptationState {
     pub(super) health: HealthState,
 }
 
-/// Estimates before the first tick: the model as it is.
 pub(super) const START: [f32; ESTIMATES] = [1.0, 1.0, 0.0, 0.0, 0.0];
 
 impl AdaptationState {
-    /// Before the first tick: the model as it is.
     pub(super) const fn new(constants: &AdaptationConstants) -> Self {
-        // So small that no variance passes 1 before its own first upkeep, which for the last number comes after five growths.
+        // So small that no variance passes 1 before its own first upkeep.
         let squared = constants.growth * constants.growth;
         Self {
             estimates: START,
@@ -82,7 +78,7 @@ impl AdaptationState {
             .with(self.at_bound, AdaptationFlags::AT_BOUND)
     }
 
-    /// Torque and regressors through the same filter. Only ticks that count enter, so that the equation between them stays exact.
+    /// Torque and regressors through the same filter, in ticks that count.
     #[inline(always)]
     fn filter(&mut self, constants: &AdaptationConstants, inputs: &AdaptationInputs) {
         let AdaptationInputs {
@@ -108,7 +104,7 @@ impl AdaptationState {
         }
     }
 
-    /// How far the filtered torque is from what the estimates say, and the projection of the covariance on the reading.
+    /// Error of the filtered torque, and the projection of the covariance on the reading.
     #[inline(always)]
     fn predict(&mut self, constants: &AdaptationConstants) {
         let mut error = self.observed;
@@ -123,12 +119,11 @@ impl AdaptationState {
         self.seen = self.covariance.project(&weighted);
     }
 
-    /// Takes what the tick before has seen into the covariance, and finds by how much the estimates move. True where the error
-    /// was cut.
+    /// Takes the last prediction into the covariance. True where the error was cut.
     #[inline(always)]
     fn correct(&mut self) -> bool {
         let (error, projection) = (self.error, &self.seen);
-        // An error beyond four deviations counts as one of four: the noise is taken as large as that needs.
+        // The noise is taken as large as an error beyond four deviations needs.
         let most = error * error * (1.0 / FURTHEST) - projection.variance;
         let cut = most > 1.0;
         let noise = if cut { most } else { 1.0 };
@@ -139,7 +134,6 @@ impl AdaptationState {
         cut
     }
 
-    /// Moves the estimates, within their bounds, by what the last correction has found.
     #[inline(always)]
     fn apply(&mut self, constants: &AdaptationConstants) {
         let mut at_bound = false;
@@ -196,7 +190,6 @@ impl AdaptationState {
         self.health.commission(self.level_less_one());
     }
 
-    /// Standard deviations, in the estimates' own units.
     pub(super) fn deviations(&self, constants: &AdaptationConstants) -> Estimates {
         let mut deviations = self.covariance.variances();
         for (entry, deviation) in deviations.iter_mut().zip(&constants.deviations) {
@@ -206,7 +199,7 @@ impl AdaptationState {
     }
 }
 
-/// The filter begins anew, and a reading that was only looked at is left out: what they hold is of milliseconds.
+/// The filter and the reading of the last tick begin anew.
 impl Stored for AdaptationState {
     const BYTES: usize = 4 * ESTIMATES + Factor::<ESTIMATES>::BYTES + 2 + HealthState::BYTES;
 

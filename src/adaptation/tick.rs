@@ -1,49 +1,47 @@
-//! What an adaptation is told in a tick, what it finds, and why a tick did not count.
+//! Inputs, estimates and flags of an adaptation.
 
 use crate::law::FrictionLevel;
 use crate::scene::{Faults, Regime};
 
-/// What an adaptation is told at a tick, after the model's step.
+/// Inputs of an adaptation at a tick, after the model's step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AdaptationInputs {
-    /// Torque that the motor had to add to overcome friction, N m: its torque about the nut's axis, less what the inertia took, less
-    /// `load_torque`. With the sign of the speed where friction opposes it.
+    /// Torque of the motor to overcome friction, N m: its torque about the nut's axis, less that of the inertia, less `load_torque`. With the sign
+    /// of the speed where friction opposes it.
     pub observed: f32,
-    /// Friction torque that the model gave, N m: `friction_torque` of its outputs. This and the other torques up to `largest_torque`.
+    /// Friction torque of the model, N m: `friction_torque` of its outputs. This and the other torques up to `largest_torque`.
     pub modelled: f32,
     /// Lubricant drag in both, N m, which no level scales: [`FrictionModel::drag_torque`](crate::FrictionModel::drag_torque) of a scene with
     /// memory, 0 without one.
     pub lubricant_drag: f32,
-    /// Levels that the model had when it gave it ([`FrictionModel::set_level`](crate::FrictionModel::set_level));
-    /// [`FrictionLevel::ONE`] where none were set.
+    /// Levels of the model ([`FrictionModel::set_level`](crate::FrictionModel::set_level)), or [`FrictionLevel::ONE`].
     pub level: FrictionLevel,
     /// Nut speed, rad/s, up to the configuration's `largest_speed`.
     pub nut_speed: f32,
     /// Load torque that was taken off, N m: `load_torque` of the model's outputs.
     pub load_torque: f32,
-    /// What the mechanism did, of the model's outputs.
+    /// Regime of the model's outputs.
     pub regime: Regime,
     /// Flags of the model's outputs: with any of them the tick does not count.
     pub faults: Faults,
-    /// Whether the motor was at its limit, so that its torque is not what was asked for.
+    /// Whether the motor was at its limit.
     pub saturated: bool,
 }
 
-/// What an adaptation finds.
+/// Estimates of an adaptation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Estimates {
     /// Friction over that of the model, in the positive direction, within the levels of the configuration (0.1 to 10 at most).
     pub forward: f32,
-    /// The same in the negative direction.
+    /// Friction over that of the model, in the negative direction.
     pub backward: f32,
     /// Drag beyond the model's, N m s/rad, of either sign, up to `largest_drag`.
     pub drag: f32,
     /// Offset of the observed torque, N m, of either sign, up to `largest_offset`.
     pub offset: f32,
-    /// Relative error of the load torque that was taken off, of either sign, up to `largest_load_error` (1 at most): the true one is
-    /// `1 + load_error` times as large.
+    /// Relative error of the load torque, of either sign, up to `largest_load_error` (1 at most): the true one is `1 + load_error` times as large.
     pub load_error: f32,
 }
 
@@ -63,7 +61,6 @@ impl Estimates {
 
     /// Friction levels.
     #[inline(always)]
-    #[must_use]
     pub const fn level(&self) -> FrictionLevel {
         FrictionLevel {
             forward: self.forward,
@@ -71,18 +68,16 @@ impl Estimates {
         }
     }
 
-    /// Friction torque, N m, of a model without memory that has `modelled`, N m, at a speed, rad/s: its level times the model's,
-    /// with the drag. What belongs to sensors is not in it.
+    /// Friction torque, N m, of a model without memory that has `modelled`, N m, at a speed, rad/s: its level times the model's, with the drag.
     ///
-    /// Not for a model with memory: a torque below breakaway times a level that changes is a spring that may give more than it took.
+    /// Not for a model with memory: a torque below breakaway times a level that changes may give more than it took.
     #[inline]
-    #[must_use]
     pub const fn friction(&self, modelled: f32, nut_speed: f32) -> f32 {
         self.level().of(modelled) * modelled + self.drag * nut_speed
     }
 }
 
-/// Why a tick of the adaptation did not count, or what was limited in it; a set of flags.
+/// Reasons why a tick of the adaptation did not count, and limits in it; a set of flags.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct AdaptationFlags(u8);
@@ -100,10 +95,9 @@ impl AdaptationFlags {
     pub const STANDING: Self = Self(1 << 3);
     /// The model's friction is below the least: it did not count.
     pub const TOO_WEAK: Self = Self(1 << 4);
-    /// The error was beyond four of its deviations: it counted as one of four, with as much more noise. The ticks with a correction
-    /// say so, four of nine.
+    /// The error was beyond four of its deviations, and counted as one of four with more noise; flagged in ticks with a correction, four of nine.
     pub const ERROR_CUT: Self = Self(1 << 5);
-    /// An estimate is at its bound: friction may be further away than it may tell. Every tick that counts says so.
+    /// An estimate is at its bound: flagged in every tick that counts.
     pub const AT_BOUND: Self = Self(1 << 6);
     /// The flags with which a tick does not count.
     pub const CLOSED: Self = Self(0x1f);
@@ -130,13 +124,10 @@ impl AdaptationFlags {
     }
 
     /// The flags as bits, in the order of their constants.
-    #[inline]
-    #[must_use]
     pub const fn bits(self) -> u8 {
         self.0
     }
 
-    /// This set with `other` added where `condition` holds.
     #[inline(always)]
     pub(super) const fn with(self, condition: bool, other: Self) -> Self {
         Self(self.0 | if condition { other.0 } else { 0 })

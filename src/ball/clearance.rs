@@ -6,22 +6,17 @@ use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
 use crate::math::constant;
 
-/// Smallest and largest clearance over the ball radius.
-///
-/// Balls are sorted in steps of a micrometre, and preloaded ones are oversized by a few; play of a steering gear or a
-/// machine's screw is some tens.
+/// Smallest and largest clearance over the ball radius. Preloaded balls are oversized by a few micrometres; play is some tens.
 const OVER_BALL_RADIUS: Range = Range::new(-0.02, 0.05);
 
-/// The same in m for the largest ball of a design, 0.05 m.
+/// The same in m, for a ball of 0.05 m.
 const IN_METRES: Range = Range::new(-1e-3, 2.5e-3);
 
 /// Preload of a contact, N: the smallest and the largest that [`Clearance::of_preload`] takes.
 const CONTACT_FORCE: Range = Range::new(1e-3, 1e6);
 
-/// Radial gap of every contact at a centred ball in a screw without load, m: play above zero, oversize below.
-///
-/// With `r_b` the ball radius of the design, balls have the radius `r_b - gap`: each of the four contacts of a centred ball has this gap along its
-/// normal. An oversized ball presses on all four contacts: [`Clearance::preload`].
+/// Radial gap of every contact at a centred ball in a screw without load, m: play above zero, oversize below. Balls have the radius
+/// `r_b - gap`, with the design's ball radius `r_b`; oversized ones press on all four contacts ([`Clearance::preload`]).
 ///
 /// Not to be taken for [`BallScrew::clearance`], which is the radius of a groove less that of the ball.
 ///
@@ -49,11 +44,7 @@ impl Clearance {
     /// Neither play nor preload.
     pub const ZERO: Self = Self { gap: 0.0 };
 
-    /// A gap, m, -1e-3 to 2.5e-3; a scene narrows that to -0.02 to 0.05 of its design's ball radius
-    /// ([`Clearance::checked`]).
-    ///
-    /// # Errors
-    /// [`Error`] naming `clearance`.
+    /// A gap, m, -1e-3 to 2.5e-3; a scene narrows that ([`Clearance::checked`]).
     pub const fn new(gap: f32) -> Result<Self, Error> {
         Ok(Self {
             gap: attempt!(IN_METRES.checked("clearance", gap)),
@@ -61,38 +52,22 @@ impl Clearance {
     }
 
     /// The oversize that presses each of the four contacts with this force without a load, N, 1e-3 to 1e6 and up to
-    /// that of -0.02 ball radii: `gap = -(c_S + c_N) F_0^(2/3) / 2`, with the deflections `c F_0^(2/3)` in screw and nut
-    /// ([`HertzContact::deflection_coefficient`]).
-    ///
-    /// # Errors
-    /// [`Error`] naming `contact_force`.
+    /// that of -0.02 ball radii: `gap = -(c_S + c_N) F_0^(2/3) / 2` ([`HertzContact::deflection_coefficient`]).
     pub const fn of_preload(design: &BallScrew, contact_force: f32) -> Result<Self, Error> {
         let tightest = Self {
             gap: OVER_BALL_RADIUS.minimum * design.ball_radius(),
         };
-        let hardest = tightest.preload(design);
-        let hardest = if hardest < CONTACT_FORCE.maximum {
-            hardest
-        } else {
-            CONTACT_FORCE.maximum
-        };
-        let force = attempt!(in_range(
-            "contact_force",
-            contact_force,
-            CONTACT_FORCE.minimum,
-            hardest
-        ));
+        let hardest = tightest.preload(design).min(CONTACT_FORCE.maximum);
+        let least = CONTACT_FORCE.minimum;
+        let force = attempt!(in_range("contact_force", contact_force, least, hardest));
         let gap = -(mean_deflection(design) * constant::cbrt_squared(force));
         // The hardest preload is that of the tightest gap but for rounding.
-        Ok(if gap > tightest.gap {
-            Self { gap }
-        } else {
-            tightest
+        Ok(Self {
+            gap: gap.max(tightest.gap),
         })
     }
 
-    /// The gap that lets the nut travel so far along the axis, m, from one flank to the other without a load; 0, and up
-    /// to that of 0.05 ball radii.
+    /// The gap of an axial travel of the nut from one flank to the other without a load, m, 0 to that of 0.05 ball radii.
     ///
     /// A diagonal closes when the arc centres of its two grooves, which stand `2 D_s` apart around a centred ball, have
     /// come to a distance of `2 (D_s + gap)`. A travel `z` off the middle moves them apart by `z cos(alpha)` along the binormal:
@@ -102,11 +77,7 @@ impl Clearance {
     /// play ~ 4 gap / (sin(beta) cos(alpha))                                         gap << D_s
     /// ```
     ///
-    /// with the mean `D_s` of both grooves' radii less the ball's; within 5e-5 of the travel between helical grooves. From the
-    /// middle to either flank it is half the play.
-    ///
-    /// # Errors
-    /// [`Error`] naming `axial_play`.
+    /// with the mean `D_s` of both grooves' radii less the ball's; within 5e-5 of the travel between helical grooves.
     pub const fn of_axial_play(design: &BallScrew, axial_play: f32) -> Result<Self, Error> {
         let widest = Self {
             gap: OVER_BALL_RADIUS.maximum * design.ball_radius(),
@@ -120,46 +91,33 @@ impl Clearance {
         let growth = shift * (2.0 * offset * design.contact_angle().sin + shift);
         let gap = growth / (constant::sqrt(offset * offset + growth) + offset);
         // The longest play is that of the widest gap but for rounding.
-        Ok(if gap < widest.gap {
-            Self { gap }
-        } else {
-            widest
+        Ok(Self {
+            gap: gap.min(widest.gap),
         })
     }
 
     /// Checks the gap against the balls of a design: -0.02 to 0.05 ball radii.
-    ///
-    /// # Errors
-    /// [`Error`] naming `clearance`.
     pub const fn checked(self, design: &BallScrew) -> Result<Self, Error> {
         self.checked_for(design.ball_radius())
     }
 
     /// The same for balls of a radius, m.
     pub(crate) const fn checked_for(self, radius: f32) -> Result<Self, Error> {
+        let Range { minimum, maximum } = OVER_BALL_RADIUS;
+        let (least, most) = (minimum * radius, maximum * radius);
         Ok(Self {
-            gap: attempt!(in_range(
-                "clearance",
-                self.gap,
-                OVER_BALL_RADIUS.minimum * radius,
-                OVER_BALL_RADIUS.maximum * radius,
-            )),
+            gap: attempt!(in_range("clearance", self.gap, least, most)),
         })
     }
 
     /// The gap, m: play above zero, oversize below.
-    #[inline]
-    #[must_use]
     pub const fn gap(self) -> f32 {
         self.gap
     }
 
-    /// Preload: force of each of the four contacts without a load, N, `(-2 gap / (c_S + c_N))^(3/2)`; 0 with play, and
-    /// where it is less than 1e-3 N. For set-up.
+    /// Preload: force of each of the four contacts without a load, N, `(-2 gap / (c_S + c_N))^(3/2)`; 0 with play, and below 1e-3 N.
     ///
-    /// Forces of a ball in elastic grooves, whose contact angles turn where it moves towards the softer one, are this within
-    /// 3e-4 up to an oversize of 1e-3 ball radii, and within 0.4 % up to 0.02.
-    #[must_use]
+    /// Within 3e-4 of the forces of a ball in elastic grooves up to an oversize of 1e-3 ball radii, and within 0.4 % up to 0.02.
     pub const fn preload(self, design: &BallScrew) -> f32 {
         if self.gap < 0.0 {
             let ratio = -self.gap / mean_deflection(design);
@@ -169,16 +127,12 @@ impl Clearance {
         }
     }
 
-    /// Axial preload on each flank of the nut, N, of `N` balls that carry load: `N F_0 sin(beta) cos(alpha)`, with
-    /// the preload `F_0` of a contact. For set-up.
-    #[must_use]
+    /// Axial preload on each flank of the nut, N: `N F_0 sin(beta) cos(alpha)` of `N` loaded balls with the preload `F_0` of a contact.
     pub const fn axial_preload(self, design: &BallScrew, loaded_balls: u16) -> f32 {
         loaded_balls as f32 * (self.preload(design) * design.axial_per_normal())
     }
 
-    /// Travel of the nut along the axis from one flank to the other without a load, m: what
-    /// [`Clearance::of_axial_play`] takes; 0 without play. For set-up.
-    #[must_use]
+    /// Travel of the nut along the axis from one flank to the other without a load, m; 0 without play.
     pub const fn axial_play(self, design: &BallScrew) -> f32 {
         if self.gap > 0.0 {
             let offset = mean_offset(design);

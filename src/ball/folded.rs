@@ -1,6 +1,5 @@
-//! The law of one ball, solved on a host and folded into constants: friction torque over its load.
-//!
-//! The control interrupt evaluates it: one logarithm, one search among eight parts, one cubic.
+//! The law of one ball, solved on a host and folded into constants: friction torque over its load by one logarithm, one search among
+//! eight parts, one cubic.
 
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
@@ -11,23 +10,37 @@ pub const PARTS: usize = 8;
 /// Change of a friction coefficient, over it, below which it counts as the same: rounding.
 const SAME_FRICTION: f32 = 1e-3;
 
-/// Exponent's bias and mantissa's bits of an `f32`.
 const BIAS: u32 = 127;
 const MANTISSA: u32 = 23;
 
-/// Coefficients of `log2(1 + m)` by the powers 1 to 4 of `m`: value and slope are continuous where the exponent changes (they add up to 1, and
-/// the slope at 0 is twice that at 1); of the two that this leaves free the error is least.
+/// Coefficients of `log2(1 + m)` by the powers 1 to 4 of `m`, of least error where value and slope are continuous where the exponent
+/// changes (they add up to 1, and the slope at 0 is twice that at 1).
 const LOGARITHM: [f32; 4] = [1.438_308_4, -0.674_842_3, 0.315_605_3, -0.079_071_4];
 
-/// `log2(x) + 127` of a positive number, within 1.3e-4: the biased exponent and a polynomial of the mantissa. Value and slope are continuous.
-/// 0 gives 0.
+/// `log2(x) + 127` of a positive number, within 1.3e-4: the biased exponent and a polynomial of the mantissa. 0 gives 0.
 #[inline(always)]
-#[must_use]
 pub const fn log2_biased(number: f32) -> f32 {
     let bits = number.to_bits();
     let mantissa = f32::from_bits(bits & ((1 << MANTISSA) - 1) | (BIAS << MANTISSA)) - 1.0;
     let [a, b, c, d] = LOGARITHM;
     (bits >> MANTISSA) as f32 + mantissa * (a + mantissa * (b + mantissa * (c + mantissa * d)))
+}
+
+/// Index of the last of `M` rising starts that is not above a number, or 0; `M` is a power of two. `start` takes the remainder of its
+/// index by `M`, which tells the compiler what the halving ensures.
+#[inline(always)]
+pub(super) fn last_not_above<const M: usize>(number: f32, start: impl Fn(usize) -> f32) -> usize {
+    // Starts are not negative: their bits rise with them, and integers are compared in half the cycles.
+    let bits = number.to_bits().cast_signed();
+    let mut index = 0;
+    let mut step = M / 2;
+    while step > 0 {
+        if bits >= start(index + step).to_bits().cast_signed() {
+            index += step;
+        }
+        step /= 2;
+    }
+    index
 }
 
 /// A function of [`log2_biased`] of a load: a cubic in each part.
@@ -42,18 +55,8 @@ pub struct LoadCurve {
 
 impl LoadCurve {
     #[inline(always)]
-    const fn at(&self, log2: f32) -> f32 {
-        // Begins are not negative: their bits rise with them, and integers are compared in half the cycles.
-        let bits = log2.to_bits().cast_signed();
-        let mut part = 0;
-        let mut step = PARTS / 2;
-        while step > 0 {
-            // The remainder proves to the compiler that the index is in the array.
-            if bits >= self.starts[(part + step) % PARTS].to_bits().cast_signed() {
-                part += step;
-            }
-            step /= 2;
-        }
+    fn at(&self, log2: f32) -> f32 {
+        let part = last_not_above::<PARTS>(log2, |part| self.starts[part % PARTS]);
         let [a, b, c, d] = self.cubics[part % PARTS];
         let along = log2 - self.starts[part % PARTS];
         a + along * (b + along * (c + along * d))
@@ -68,11 +71,12 @@ impl LoadCurve {
                 self.starts[part - 1]
             };
             attempt!(in_range("starts", self.starts[part], least, f32::MAX));
-            let [a, b, c, d] = self.cubics[part];
-            attempt!(in_range("cubics", a, 0.0, 1e9));
-            attempt!(in_range("cubics", b, -1e9, 1e9));
-            attempt!(in_range("cubics", c, -1e9, 1e9));
-            attempt!(in_range("cubics", d, -1e9, 1e9));
+            attempt!(in_range("cubics", self.cubics[part][0], 0.0, 1e9));
+            let mut power = 1;
+            while power < 4 {
+                attempt!(in_range("cubics", self.cubics[part][power], -1e9, 1e9));
+                power += 1;
+            }
             part += 1;
         }
         Ok(self)
@@ -91,12 +95,10 @@ pub struct FrictionInterval {
 
 impl FrictionInterval {
     /// The friction coefficient.
-    #[must_use]
     pub const fn friction(&self) -> f32 {
         self.friction
     }
 
-    /// The interval that holds a friction coefficient, among nodes with these coefficients, rising, and their logarithms.
     #[inline(always)]
     pub(crate) const fn among<const NODES: usize>(
         frictions: &[f32; NODES],
@@ -131,13 +133,12 @@ impl FrictionInterval {
         self.node as usize
     }
 
-    /// Its fraction of the distance to the next node.
     #[inline(always)]
     pub(crate) const fn fraction(&self) -> f32 {
         self.fraction
     }
 
-    /// The same interval for another friction coefficient, until [`LoadLaw::interval`] has found its own.
+    /// This interval with another friction coefficient, until its own is found.
     pub(crate) const fn with_friction(self, friction: f32) -> Self {
         Self { friction, ..self }
     }
@@ -149,7 +150,6 @@ pub(crate) const fn holds((least, largest): (f32, f32), friction: f32) -> bool {
     friction >= (1.0 - SAME_FRICTION) * least && friction <= (1.0 + SAME_FRICTION) * largest
 }
 
-/// [`log2_biased`] of friction coefficients.
 pub(crate) const fn node_octaves<const NODES: usize>(frictions: &[f32; NODES]) -> [f32; NODES] {
     let mut all = [0.0; NODES];
     let mut number = 0;
@@ -199,10 +199,7 @@ pub struct LoadLaw<const NODES: usize> {
 }
 
 impl<const NODES: usize> LoadLaw<NODES> {
-    /// Refuses numbers that are no law.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`, `starts`, `cubics`, `shift`, `ends`, `lift_off` or `shifted_from`.
+    /// Checks the law.
     pub(crate) const fn checked(self) -> Result<Self, Error> {
         const { assert!(NODES > 0) };
         let [least, most] = self.ends;
@@ -232,12 +229,10 @@ impl<const NODES: usize> LoadLaw<NODES> {
     }
 
     /// Least and largest friction coefficient.
-    #[must_use]
     pub const fn friction_range(&self) -> (f32, f32) {
         (self.nodes[0].friction, self.nodes[NODES - 1].friction)
     }
 
-    /// Whether the law is folded for a friction coefficient.
     #[inline(always)]
     pub(crate) const fn holds(&self, friction: f32) -> bool {
         holds(self.friction_range(), friction)
@@ -253,7 +248,6 @@ impl<const NODES: usize> LoadLaw<NODES> {
         all
     }
 
-    /// [`log2_biased`] of the nodes' friction coefficients, for [`Self::interval`].
     pub(crate) const fn node_octaves(&self) -> [f32; NODES] {
         node_octaves(&self.frictions())
     }
@@ -269,9 +263,9 @@ impl<const NODES: usize> LoadLaw<NODES> {
     }
 
     /// Friction torque of a ball over its load `W`, N, under an axial load that opposes or assists the motion, m, not negative; and whether `W`
-    /// is above the law's largest, at which the law then stays.
+    /// is above the law's largest, at which the law stays.
     #[inline(always)]
-    pub(crate) const fn torque_over_load(
+    pub(crate) fn torque_over_load(
         &self,
         load: f32,
         assists: bool,
@@ -282,7 +276,7 @@ impl<const NODES: usize> LoadLaw<NODES> {
         let beyond = log2 > most;
         let log2 = if beyond { most } else { log2 };
         let log2 = if log2 > least { log2 } else { least };
-        let branch = assists as usize;
+        let branch = usize::from(assists);
         let below = &self.nodes[interval.node as usize % NODES];
         let value = if NODES == 1 {
             below.curves[branch].at(log2)
@@ -304,7 +298,6 @@ impl<const NODES: usize> LoadLaw<NODES> {
 
 /// Part of the shift so many octaves above the load from which on there is one: `w` of [`LoadLaw`].
 #[inline(always)]
-#[must_use]
 pub const fn shifted_part(above: f32) -> f32 {
     if above > 1.0 {
         1.0
@@ -330,7 +323,6 @@ mod tests {
         }
     }
 
-    /// A curve of four parts with these values at their begins, which rises by half a unit an octave.
     fn curve(of: [f32; 4]) -> LoadCurve {
         let mut starts = [f32::MAX; PARTS];
         let mut cubics = [[0.0; 4]; PARTS];
@@ -341,7 +333,6 @@ mod tests {
         LoadCurve { starts, cubics }
     }
 
-    /// Each load meets the part in which it lies, its begin included.
     #[test]
     fn a_load_meets_its_part() {
         let curve = curve([1.0, 2.0, 3.0, 4.0]).checked().unwrap();

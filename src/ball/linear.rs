@@ -6,9 +6,8 @@ use crate::error::{Error, attempt, in_range};
 use crate::math::{constant, inverse_cube_roots};
 use crate::ranges;
 
-/// Slope `k_f` of the friction force over the offset ratio that Lin 2019 reads off Figure 3.11 (b). It
-/// is the mean slope up to half the semi-axis; the exact one at the centre is
-/// [`FrictionMap::slope`](crate::contact::FrictionMap::slope), 1.442 at conformity 0.56.
+/// Slope `k_f` of the friction force over the offset ratio, Lin 2019, Fig. 3.11 (b): the mean up to half the semi-axis; the exact one at
+/// the centre is [`FrictionMap::slope`](crate::contact::FrictionMap::slope), 1.442 at conformity 0.56.
 pub const PUBLISHED_SLOPE: f32 = 1.38;
 
 /// Added to the sum of the two `F^(2/3)`, N^(2/3): keeps the compliance of a ball without load finite.
@@ -27,8 +26,7 @@ pub struct LinearBallParameters {
     pub contact_angle: f32,
     /// Axis ratio `k = b/a` of the contact ellipse; 0.01 to 1.
     pub axis_ratio: f32,
-    /// Semi-major axis `a` over the cube root of the contact force, m/N^(1/3); 1e-8 to 1. In the symbols
-    /// of Lin 2019, eq. (3.36): `Psi r_b^(1/3)`.
+    /// Semi-major axis `a` over the cube root of the contact force, m/N^(1/3); 1e-8 to 1. In Lin 2019, eq. (3.36): `Psi r_b^(1/3)`.
     pub semi_major_coefficient: f32,
     /// Coulomb friction coefficient `mu` of ball and groove; 1e-6 to 1.
     pub friction: f32,
@@ -65,10 +63,8 @@ impl LinearBallParameters {
 /// Valid for four loaded contacts with nearly equal loads on a diagonal. Largest error of the speed deviation against the minimum of the dissipation,
 /// in units of `v/2`, bottom groove turned by up to 3 degrees: 2.3e-3 for side-force ratios up to 0.5, 5.8e-3 up to 0.8; four independent angles 1.5e-2
 /// (rms 2e-3). Of the force between two balls: 0.62 N of up to 5.8 N at deviations of 2 degrees, 1.39 N of up to 9.1 N at 3. From side-force ratios of
-/// 0.88 to 0.98 on balls change to two-point rolling, where the weaker diagonal carries less than `(3/8) E (a/r_b)/sin(2 beta_0)` of the stronger one:
-/// the exact speed falls from 8.8e-3 per degree to 3e-4, this formula keeps the speed from before.
-///
-/// Cost of two balls and the force between them: 243 modelled cycles.
+/// 0.88 to 0.98 on balls change to two-point rolling, where the weaker diagonal carries less than `(3/8) E (a/r_b)/sin(2 beta_0)` of the stronger one,
+/// and this formula keeps the speed from before. Cost of two balls and the force between them: 243 modelled cycles.
 ///
 /// ```
 /// use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
@@ -116,8 +112,7 @@ impl AnalyticLinearBall {
     /// published formula, [`FrictionMap::slope`] for the exact one.
     ///
     /// # Errors
-    /// [`Error`] naming the field of [`LinearBallParameters`], or `slope` (0.1 to 10), that is out of
-    /// range.
+    /// [`Error`] naming the field of [`LinearBallParameters`], or `slope` (0.1 to 10), that is out of range.
     pub const fn new(parameters: &LinearBallParameters, slope: f32) -> Result<Self, Error> {
         let parameters = attempt!(parameters.checked());
         attempt!(FrictionMap::new(parameters.axis_ratio));
@@ -146,15 +141,11 @@ impl AnalyticLinearBall {
         }
     }
 
-    /// Speed deviation and compliance from contact angles, rad, and forces, N, in the order BL, BR, TR,
-    /// TL.
+    /// Speed deviation and compliance from contact angles, rad, and forces, N, in the order BL, BR, TR, TL.
     ///
-    /// Only differences of the angles count: they may be given as such or as deviations from the nominal
-    /// one; where one is NaN or infinite, the deviation is 0. A diagonal counts with the mean
-    /// of its two forces; a sum up to zero, above 1e7 N, or NaN is no load. With no load at all the
-    /// deviation is 0 and the compliance that of 3e-14 N. Powers are within 2.7e-5.
+    /// Only differences of the angles count; where one is NaN or infinite, the deviation is 0. A diagonal counts with the mean of its two
+    /// forces; a sum up to zero, above 1e7 N, or NaN is no load. Powers are within 2.7e-5.
     #[inline]
-    #[must_use]
     pub fn speed_deviation(
         &self,
         contact_angles: &[f32; 4],
@@ -180,15 +171,14 @@ impl AnalyticLinearBall {
         }
     }
 
-    /// Impedance, N, the inverse of the compliance of (3.51), from the forces of both diagonals as in
-    /// [`AnalyticLinearBall::closed_form`].
+    /// Impedance, N: the inverse of the compliance of [`AnalyticLinearBall::closed_form`].
     #[inline(always)]
     pub(crate) fn impedance(&self, [up, down]: [f32; 2]) -> f32 {
         self.impedance * (up + down)
     }
 
-    /// (3.43) and (3.51) from the forces of both diagonals, each the sum of its two contacts, to the power of 2/3,
-    /// `N^(2/3)`, and from the differences of angles `dTR - dBL` and `dTL - dBR`, rad. Linear in the angles.
+    /// (3.43) and (3.51) from the powers of 2/3 of both diagonals' sums of forces, `N^(2/3)`, and the differences of angles `dTR - dBL` and
+    /// `dTL - dBR`, rad. Linear in the angles.
     #[inline(always)]
     pub(crate) fn closed_form(&self, [up, down]: [f32; 2], turns: [f32; 2]) -> SpeedDeviation {
         let inverse = 1.0 / (up + down + SMALLEST_SUM);
@@ -201,10 +191,9 @@ impl AnalyticLinearBall {
 }
 
 impl SpeedDeviation {
-    /// Force with which this ball presses on the one in front of it, N; zero where it lags behind
-    /// (Lin 2019, eq. (3.51)). For a track speed above zero; below it rear and front change places.
+    /// Force with which this ball presses on the one in front of it, N; zero where it lags behind (Lin 2019, eq. (3.51)). For a track speed
+    /// above zero; below it rear and front change places.
     #[inline]
-    #[must_use]
     pub fn contact_force(&self, front: &Self) -> f32 {
         let lead = self.speed_deviation - front.speed_deviation;
         if lead > 0.0 {

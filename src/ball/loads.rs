@@ -1,4 +1,4 @@
-//! What a ball is loaded with: its load, bounded, and its share of the mean load.
+//! A ball's load, and its share of the mean load.
 
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
@@ -30,12 +30,7 @@ impl LoadShare {
         root: 1.0,
     };
 
-    /// Powers of a ball's load over the mean load of all balls, 0.01 to 100; a table of them is a constant.
-    ///
-    /// Largest error of a power 2.1e-7, relative.
-    ///
-    /// # Errors
-    /// [`Error`] naming `share`.
+    /// Powers of a ball's load over the mean load of all balls, 0.01 to 100, within 2.1e-7; for constants too.
     pub const fn new(share: f32) -> Result<Self, Error> {
         let share = attempt!(in_range("share", share, 0.01, 100.0));
         // Newton's method from 1, which a constant can take: 14 steps from either end of the range.
@@ -48,12 +43,10 @@ impl LoadShare {
         Ok(Self { share, root })
     }
 
-    /// The share's power of 1/3.
     pub(crate) const fn root(&self) -> f32 {
         self.root
     }
 
-    /// The lightest and the heaviest of some shares; of none the mean load.
     pub(crate) const fn extremes(shares: &[Self]) -> (Self, Self) {
         let (mut lightest, mut heaviest) = match shares.first() {
             Some(first) => (*first, *first),
@@ -73,29 +66,23 @@ impl LoadShare {
         (lightest, heaviest)
     }
 
-    /// The share's power of 2/3.
     #[inline]
     pub(crate) const fn two_thirds(&self) -> f32 {
         self.root * self.root
     }
 
     /// Load over the mean load.
-    #[must_use]
     pub const fn share(&self) -> f32 {
         self.share
     }
 }
 
-/// Loads of the balls over their mean along the loaded track, a table for each sign of the load.
+/// Loads of the balls over their mean along the loaded track, a table for each sign of the load: a screw that bends, or with errors of its
+/// groove, shares a push and a pull differently. Entries stand for the middles of equal parts of the loaded track, from its start, and are
+/// linear between. `simulate --loads` of the bench program writes them.
 ///
-/// A screw that bends shares a push and a pull differently, and so does one with errors of its groove: the other flank
-/// carries. Both tables are constants for the middles of equal parts of the loaded track, from its start, and linear between them; where only one
-/// is known, [`LoadShares::same`] takes it for both signs. `simulate --loads` of the bench program writes them.
-///
-/// They are weights: what a ball carries is its share over the sum of those of all loaded balls, so that all loads add up to the axial load.
-///
-/// Where the load changes its sign, the shares jump from one table to the other; with a preload friction jumps by as much as the sums of `share^(4/3)`
-/// over both tables differ.
+/// They are weights: a ball carries its share over the sum of those of all loaded balls. Where the load changes its sign, the shares jump from
+/// one table to the other; with a preload friction jumps by as much as the sums of `share^(4/3)` differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadShares {

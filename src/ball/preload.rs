@@ -1,14 +1,11 @@
 //! Two Hertzian springs pressed against each other by a preload, and the preload that remains under a load.
 //!
 //! Forces `F_U` and `F_D` that push against each other with the deflections `F_U^(2/3)` and `F_D^(2/3)`, both `F_0` without a
-//! load, under a load `F = F_U - F_D`:
+//! load, under a load `F = F_U - F_D`: of two flanks of the nut (axial forces), or of two diagonals of a ball.
 //!
 //! ```text
 //! F_U^(2/3) + F_D^(2/3) = 2 F_0^(2/3),   F_U - F_D = F;   from F = 2 sqrt(2) F_0 on F_D is lost, and F_U = F
 //! ```
-//!
-//! Each is a flank of the nut with its axial forces (caged ball screw), or a diagonal of a ball with its contact
-//! forces (row of balls).
 
 use crate::math::constant;
 
@@ -24,21 +21,16 @@ pub const QUARTIC: f32 = 0.030330086;
 #[doc(hidden)]
 pub const CLOSING: [f32; 3] = [0.055_61, -0.044_86, 0.065_821];
 
-/// Preload of a contact below which it counts as 0, N: below the least that [`Clearance::of_preload`](super::Clearance::of_preload)
-/// takes by more than rounding.
+/// Preload of a contact below which it counts as 0, N: a rounding below the least of [`Clearance::of_preload`](super::Clearance::of_preload).
 const NO_PRELOAD: f32 = 0.99e-3;
 
-/// Preload of a contact, N, `ratio^(3/2)`, from an oversize over that of one newton, `-2 gap / (c_S + c_N)`, above zero, and its root; 0
-/// below 0.99e-3 N.
+/// Preload of a contact, N, `ratio^(3/2)`, from an oversize over that of one newton, `-2 gap / (c_S + c_N)`, above zero, and its root.
 pub(crate) const fn preload_of(ratio: f32, root: f32) -> f32 {
     let force = ratio * root;
     if force < NO_PRELOAD { 0.0 } else { force }
 }
 
-/// Load with a preload counted, N: a load of either sign, and the load at which the unloaded side is lost, `|F| + 2 sqrt(2) F_0`.
-///
-/// What friction under a preload is about in proportion to, and what every scene of a screw tells the elements of its memory:
-/// the sum of both forces follows from it without a second number
+/// Load with a preload counted, N: `|F| + 2 sqrt(2) F_0`, to which friction under a preload is about in proportion
 /// ([`PreloadedElements`](crate::law::memory::PreloadedElements)).
 #[inline(always)]
 pub(crate) const fn preload_counted(load: f32, lift_off: f32) -> f32 {
@@ -54,7 +46,7 @@ pub(crate) struct Preload {
     per_three: f32,
 }
 
-/// The same, with what their sum alone follows from.
+/// Constants of the sum of both forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct PreloadSum {
@@ -69,7 +61,6 @@ pub(crate) struct PreloadSum {
 }
 
 impl PreloadSum {
-    /// Constants of a preload, N; 0 for no preload.
     pub(crate) const fn new(force: f32) -> Self {
         let loaded = force > 0.0;
         Self {
@@ -84,7 +75,6 @@ impl PreloadSum {
         }
     }
 
-    /// See [`preload_counted`].
     #[inline(always)]
     pub(crate) const fn counted(&self, load: f32) -> f32 {
         preload_counted(load, self.lift_off)
@@ -105,7 +95,6 @@ impl PreloadSum {
 }
 
 impl Preload {
-    /// Constants of a preload, N; 0 for no preload.
     pub(crate) const fn new(force: f32) -> Self {
         Self {
             force,
@@ -128,10 +117,8 @@ impl Preload {
         }
     }
 
-    /// Both forces, N, the larger one first, under a load not below 0, N: within 4e-6 of the preload.
-    ///
-    /// Both follow from one displacement `x` over the preload's deflection, `F_0 (1 + x)^(3/2)` and
-    /// `F_0 (1 - x)^(3/2)`.
+    /// Both forces, N, the larger one first, under a load not below 0, N: `F_0 (1 + x)^(3/2)` and `F_0 (1 - x)^(3/2)` with one
+    /// displacement `x` over the preload's deflection, within 4e-6 of the preload.
     #[inline]
     pub(crate) const fn both(&self, load: f32) -> (f32, f32) {
         if load < LOST * self.force {
@@ -169,8 +156,7 @@ const fn not_negative(value: f32) -> f32 {
 mod tests {
     use super::*;
 
-    /// The larger of two forces with the difference `load` whose deflections add up to twice that of `preload`, by
-    /// halving.
+    /// The larger of two forces with the difference `load` whose deflections add up to twice that of `preload`.
     fn larger(preload: f64, load: f64) -> f64 {
         let deflection = |force: f64| libm::pow(force, 2.0 / 3.0);
         let (mut low, mut high) = (load, load + 2.0 * preload);
@@ -185,8 +171,7 @@ mod tests {
         low
     }
 
-    /// Both forces within 4e-6 of the preload, the larger one alone within 9e-4, their sum within 0.85 % of itself; the
-    /// roundings beside them are some parts in 1e7. Once the unloaded side is lost, everything is exact.
+    /// Both forces within 4e-6 of the preload, the larger one alone within 9e-4, their sum within 0.85 % of itself.
     #[test]
     fn both_forces_are_those_of_two_hertzian_springs() {
         for preload in [1e-3_f32, 1.0, 250.0, 1e6] {

@@ -1,9 +1,6 @@
-//! The law of one ball whose neighbours press on it, solved on a host and folded into constants.
-//!
-//! The control interrupt evaluates it: the numbers of two knots around the load are blended, and a ball's answer is three polynomials in the
-//! deviations of the two grooves at its position. Nothing is solved, and no ball has a state of its own but its position.
+//! The law of one ball whose neighbours press on it, solved on a host and folded into constants: numbers of two knots around the load are
+//! blended, and a ball's answer is three polynomials in the deviations of the two grooves at its position.
 
-mod neighbours;
 mod node;
 mod numbers;
 mod row;
@@ -15,10 +12,12 @@ use crate::train::{IMPEDANCE_RANGE, LARGEST_GRIP};
 use numbers::IMPEDANCES;
 use row::STIFFENING;
 
-pub use neighbours::{NEIGHBOUR_KNOTS, NeighbourNumbers, RUBBINGS, RubbedNode};
 pub use node::{BallKnot, BallNode, KNOTS, Knot, NeighbourKnot};
 pub(crate) use numbers::PowerSums;
-pub use numbers::{BallNumbers, FreeMotion, LARGEST_WORK, POWERS};
+pub use numbers::{
+    BallNumbers, FreeMotion, LARGEST_WORK, NEIGHBOUR_KNOTS, NeighbourNumbers, POWERS, RUBBINGS,
+    RubbedNode,
+};
 pub use row::{BallOfRow, NeighbourLaw, PressedTorques};
 
 /// Largest friction of both neighbours of a ball that a law holds, over `mu W`.
@@ -45,11 +44,11 @@ pub struct BallLaw<const NODES: usize> {
     pub lift_off: f32,
 }
 
-/// What the balls of a row have in common beside their law.
+/// Constants of a row of balls beside their law.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RowConstants {
-    /// Friction of two balls that press over the force along the track: friction coefficient between balls over the cosine of the chord's angle.
+    /// Friction of two balls that press over the force along the track: their friction coefficient over the cosine of the chord's angle.
     pub ball_friction: f32,
     /// Tangent of the chord's angle: outward force of two balls that press, over the force along the track.
     pub outward: f32,
@@ -60,11 +59,7 @@ pub struct RowConstants {
 }
 
 impl<const NODES: usize> BallLaw<NODES> {
-    /// Refuses numbers that are no law.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`, `load`, `per_width`, `free`, `impedance`, `torque`, `slope`, `work`, `grip`, `rubbing`, `deviations` or
-    /// `lift_off`.
+    /// Checks the law.
     pub const fn checked(&self) -> Result<(), Error> {
         const { assert!(NODES > 0) };
         let [screw, nut] = self.deviations;
@@ -85,7 +80,6 @@ impl<const NODES: usize> BallLaw<NODES> {
     }
 
     /// Friction coefficients of the nodes.
-    #[must_use]
     pub const fn frictions(&self) -> [f32; NODES] {
         let mut all = [0.0; NODES];
         let mut number = 0;
@@ -97,19 +91,16 @@ impl<const NODES: usize> BallLaw<NODES> {
     }
 
     /// Least and largest friction coefficient.
-    #[must_use]
     pub const fn friction_range(&self) -> (f32, f32) {
         (self.nodes[0].friction, self.nodes[NODES - 1].friction)
     }
 
-    /// Whether a friction coefficient is one of those that the law is folded for.
     #[inline(always)]
     pub(crate) const fn holds(&self, friction: f32) -> bool {
         holds(self.friction_range(), friction)
     }
 
     /// The nodes between which a friction coefficient lies; beyond them impedance and torque are in proportion to it.
-    #[must_use]
     pub const fn interval(&self, friction: f32) -> FrictionInterval {
         let frictions = self.frictions();
         FrictionInterval::among(&frictions, &node_octaves(&frictions), friction)
@@ -117,15 +108,13 @@ impl<const NODES: usize> BallLaw<NODES> {
 
     /// Load `W` of a ball, N, under an axial load, N, of either sign.
     #[inline(always)]
-    #[must_use]
     pub const fn load_of(&self, axial_load: f32) -> f32 {
         axial_load.abs() + self.lift_off
     }
 
-    /// What balls do under a load `W`, N, with a friction coefficient, in newtons and metres; `branch` 0 under a load that opposes the motion,
-    /// 1 under one that assists it.
+    /// Numbers of a ball under a load `W`, N, with a friction coefficient, in newtons and metres; `branch` 0 under a load that opposes the
+    /// motion, 1 under one that assists it.
     #[inline(always)]
-    #[must_use]
     pub fn numbers(&self, load: f32, branch: usize, friction: FrictionInterval) -> BallNumbers {
         self.per_sliding(load, branch, friction)
             .under(self.sliding(load, friction))
@@ -133,7 +122,6 @@ impl<const NODES: usize> BallLaw<NODES> {
 
     /// The same over `mu W`.
     #[inline(always)]
-    #[must_use]
     pub fn per_sliding(&self, load: f32, branch: usize, friction: FrictionInterval) -> BallNumbers {
         let below = &self.nodes[friction.node() % NODES];
         let numbers = below.numbers(branch, below.interval(branch, load));
@@ -145,13 +133,12 @@ impl<const NODES: usize> BallLaw<NODES> {
         numbers.towards(&others, friction.fraction())
     }
 
-    /// A ball under a load `W`, N, with deviations of both grooves, each over its largest, and its friction torque alone, N m; `part`, above 0 to 1: how
-    /// much of its load and of its preload it carries on the run-in between return and load.
+    /// A ball under a load `W`, N, with deviations of both grooves, each over its largest, and its friction torque alone, N m; `part`, above 0 to 1: its
+    /// part of load and preload on the run-in between return and load.
     ///
-    /// With a preload the law has no ball on a run-in, because load and preload keep their ratio: it is the ball under the whole load `W`, of which every
-    /// contact carries `part`. Friction of sliding falls with it, that of spin with its power of 4/3; the torque is taken with 7/6 between them.
+    /// With a preload it is the ball under the whole load `W`, of which every contact carries `part`: friction of sliding falls with it, that of spin
+    /// with its power of 4/3; the torque is taken with 7/6 between them.
     #[inline(always)]
-    #[must_use]
     pub fn ball(
         &self,
         load: f32,
@@ -195,7 +182,7 @@ impl<const NODES: usize> BallLaw<NODES> {
         load <= self.nodes[0].branches[0][KNOTS - 1].load
     }
 
-    /// Whether the forces between balls are held under a load `W`, N.
+    /// Whether the forces between balls are accurate under a load `W`, N.
     #[inline]
     #[must_use]
     pub fn holds_forces(&self, load: f32, branch: usize, friction: FrictionInterval) -> bool {
@@ -222,9 +209,8 @@ impl<const NODES: usize> BallLaw<NODES> {
         node.unheld[branch & 1] & (u32::MAX << first) & !beyond == 0
     }
 
-    /// What neighbours change in the balls of a row under a load `W`, N, with a friction coefficient and these numbers of [`Self::per_sliding`].
+    /// Changes by neighbours in the balls of a row under a load `W`, N, with these numbers of [`Self::per_sliding`].
     #[inline(always)]
-    #[must_use]
     pub fn neighbours(
         &self,
         load: f32,
@@ -255,9 +241,8 @@ impl<const NODES: usize> BallLaw<NODES> {
         )
     }
 
-    /// `mu W` of a ball, N, under a load `W`, N, within what keeps impedances within those of a train.
+    /// `mu W` of a ball, N, under a load `W`, N, within [`SLIDING_LOADS`].
     #[inline(always)]
-    #[must_use]
     pub fn sliding(&self, load: f32, friction: FrictionInterval) -> f32 {
         let [least, most] = SLIDING_LOADS;
         let sliding = friction.friction() * load;

@@ -1,16 +1,13 @@
-//! The two ways in which a ball of a linear bearing rolls: on four contacts that spin, or on two that do not while
-//! the other two slide.
+//! The two ways in which a ball of a linear bearing rolls: on four contacts that spin, or on two while the other two slide.
 
 use super::linear::LinearBallParameters;
 use super::loads::LoadShare;
 
-/// Loss on two points over that on four, below which a ball counts as near two-point rolling. The border's formula takes
-/// the stronger diagonal as the loads alone have it: deviations of 3 degrees in both grooves make its loss 5 % larger, and the
-/// margin is twice that.
+/// Loss on two points over that on four, below which a ball counts as near two-point rolling: twice the 5 % by which deviations of 3
+/// degrees in both grooves raise the loss of the stronger diagonal.
 const BORDER_MARGIN: f32 = 1.1;
 
-/// Force between two balls over that of the closed form, at most, shortly before the border (measured: 1.25, where
-/// friction between the balls is as large as that in the grooves).
+/// Largest force between two balls over that of the closed form, shortly before the border (measured: friction between balls as in the grooves).
 const FORCE_MARGIN: f32 = 1.25;
 
 /// `2^(-4/3)`: a diagonal's force to the power of 4/3 is that of its sum of two equal contact forces, times this.
@@ -19,16 +16,15 @@ pub const HALF_TO_FOUR_THIRDS: f32 = 0.396_850_26;
 
 /// Friction of a ball with the grooves of a linear bearing, and how near the ball is to two-point rolling.
 ///
-/// A ball under Coulomb friction rolls in the manner that loses least. With the sums `U` and `D` of the forces of both
-/// diagonals, loss over the speed of the carriage:
+/// A ball under Coulomb friction rolls in the manner that loses least; with the sums `U` and `D` of the forces of both diagonals it loses, over the
+/// speed of the carriage:
 ///
 /// ```text
 /// four-point rolling: four contacts spin with v tan(beta)/(2 r_b)     spin (U^(4/3) + D^(4/3))
 /// two-point rolling:  two contacts slide with v sin²(beta)            mu sin²(beta) D,  D the weaker one
 /// ```
 ///
-/// Where the second gets less than the first, the ball's speed jumps. Angle deviations take force off one diagonal, and neighbours resist a ball less in
-/// two-point rolling: both move this border.
+/// Where the second gets less than the first, the ball's speed jumps. Angle deviations and neighbours move this border.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(crate) struct GrooveFriction {
@@ -38,8 +34,7 @@ pub(crate) struct GrooveFriction {
     slide: f32,
     /// Loss of spin at the border over `F^(4/3)` of the stronger diagonal, for the heaviest ball, N^(-1/3).
     border: f32,
-    /// Most by which deviations lessen the loss of sliding, over the force of the stronger diagonal: first where the diagonal
-    /// U is the weaker one, then where D is.
+    /// Most by which deviations lessen the loss of sliding, over the force of the stronger diagonal: where U is the weaker one, where D is.
     turned: [f32; 2],
     /// Loss of rubbing on neighbours that the lightest ball saves by rolling on two points, over the force between balls.
     rubbing: f32,
@@ -47,13 +42,10 @@ pub(crate) struct GrooveFriction {
     pressing: f32,
 }
 
-/// What moves the border of two-point rolling beside the loads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct BorderParameters {
     pub(crate) angle: (f32, f32),
-    /// Friction coefficient of ball and groove.
     pub(crate) friction: f32,
-    /// Friction coefficient of ball and ball.
     pub(crate) ball_friction: f32,
     /// Loss of a ball that spins at four contacts over `U^(4/3) + D^(4/3)`, N^(-1/3).
     pub(crate) spin: f32,
@@ -64,24 +56,22 @@ pub(crate) struct BorderParameters {
     pub(crate) shares: (LoadShare, LoadShare),
 }
 
-/// What a ball under the mean load loses in its grooves, N: power over the speed of the carriage.
+/// Loss of a ball under the mean load in its grooves, N: power over the speed of the carriage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct GrooveLoss {
     pub(crate) friction: f32,
-    /// By how much two-point rolling costs more than four-point rolling, at the least favourable deviations; below zero
-    /// it costs less.
+    /// Loss of two-point over four-point rolling at the least favourable deviations; below zero it loses less.
     reserve: f32,
 }
 
-/// Force that deviations take off the weaker diagonal, over that of the stronger one, at the border: `h` is half the
-/// difference of the deviations of both grooves, beside sine and cosine of twice the contact angle. Statics give
-/// `D - h (U + D cos(2 beta))/sin(2 beta)`.
+/// Force that deviations take off the weaker diagonal, over that of the stronger one, at the border, `(D - h (U + D cos(2 beta))/sin(2 beta)`:
+/// `h` is half the difference of the deviations of both grooves, beside sine and cosine of twice the contact angle.
 const fn taken(h: f32, (sin, cos): (f32, f32)) -> f32 {
     h / (sin - h * cos)
 }
 
-/// Loss of a ball whose four contacts spin with `v tan(beta)/(2 r_b)` each, over the speed `v` of the carriage and over
-/// `U^(4/3) + D^(4/3)`, N^(-1/3): a contact under half of `U` loses its `moment`, over `mu F a`, times that.
+/// Loss of a ball whose four contacts spin with `v tan(beta)/(2 r_b)`, over the speed `v` of the carriage and over `U^(4/3) + D^(4/3)`,
+/// N^(-1/3); `moment` of a contact over `mu F a`.
 pub(crate) const fn spin_loss(
     parameters: &LinearBallParameters,
     half_tangent: f32,

@@ -6,23 +6,19 @@ use crate::math::elliptic::{incomplete, narrow_integral};
 
 const CELLS: usize = 10;
 
-/// Keeps a contact that neither slips nor spins from a division by zero, m.
+/// Keeps the division by the slip and the spin from zero, m.
 const LEAST_SLIP: f32 = 1e-30;
 
 /// A contact of ball and groove that slips across the track by a given speed and spins, under any load.
 ///
-/// With the speed `r = a |w|` that the spin gives the end of the major axis, and the slip `v`, power loss and compliance are
-/// homogeneous in both.
-/// Over the sum of `r` and `c v` they are functions of `t = r/(r + c v)` alone, smooth from the lightest contact, which
-/// slides (`t = 0`), to the heaviest, which rolls (`t = 1`):
+/// With the speed `r = a |w|` that the spin gives the end of the major axis, and the slip `v`, power loss and compliance over the sum of `r` and
+/// `c v` are functions of `t = r/(r + c v)` alone, smooth from the lightest contact, which slides (`t = 0`), to the heaviest, which rolls (`t = 1`):
 ///
 /// ```text
 /// D = (r + c v) F(t)    dD/d ln r = r (F + (1 - t) F')    dD/dv = c (F - t F')      c = 1/sqrt(k)
 /// ```
 ///
 /// and the compliance alike. Cubics between eleven places, with values and slopes there by the exact integrals.
-///
-/// Input: axis ratio 0.02 to 0.95 at set-up.
 ///
 /// Largest errors against the integrals, axis ratios 0.05 to 0.35 (0.02 to 0.95): power loss 5e-5 (2.1e-4) and compliance
 /// 3.1e-4 (1.6e-3) of themselves, share of sliding friction 6.7e-4 (2.0e-3); both changes 3.7e-4 (1.7e-3) of the power
@@ -55,10 +51,7 @@ pub(crate) struct Across {
 }
 
 impl AcrossTable {
-    /// The table of a contact with the axis ratio `b/a` that slips by `slip`, m.
-    ///
-    /// # Errors
-    /// [`Error`] naming `axis_ratio` where it is not within 0.02 to 0.95.
+    /// The table of a contact with the axis ratio `b/a`, 0.02 to 0.95, that slips by `slip`, m.
     pub(crate) const fn new(axis_ratio: f32, slip: f32) -> Result<Self, Error> {
         let k = attempt!(checked_axis_ratio(axis_ratio));
         let reach = 1.0 / constant::sqrt(k);
@@ -100,7 +93,6 @@ impl AcrossTable {
         })
     }
 
-    /// Friction force over `mu F` by the ratio of slip and the end's speed, where that is small.
     pub(crate) const fn share_slope(&self) -> f32 {
         self.share_slope
     }
@@ -150,13 +142,11 @@ const fn cubic(x: f32, [here, slope]: [f32; 2], [there, slope_there]: [f32; 2]) 
     )
 }
 
-/// Slip over the speed of the major axis' end from which two terms of the multipole series serve: the term left out is
-/// 1.6e-4 of the power loss.
+/// Slip over the speed of the major axis' end from which two terms of the multipole series serve: the next is 1.6e-4 of the power loss.
 const FAR: f32 = 2.0;
 
 /// Power loss and moment of a contact that slips across the track and spins, over `mu F a |w|` and `mu F a`, by the slip over
-/// the speed `a |w|` that the spin gives the end of the major axis. At set-up; axis ratio 0.02 to 0.95.
-#[must_use]
+/// the speed `a |w|` of the end of the major axis. At set-up; axis ratio 0.02 to 0.95.
 pub const fn slip_and_spin(axis_ratio: f32, slip: f32) -> (f32, f32) {
     if slip < FAR {
         let [power, moment, _, _] = spinning(axis_ratio, slip);
@@ -170,8 +160,7 @@ pub const fn slip_and_spin(axis_ratio: f32, slip: f32) -> (f32, f32) {
     }
 }
 
-/// Drag, its growth, compliance and its growth, all over the end's speed, at a slip over that speed. Growth is the change with the
-/// logarithm of the end's speed.
+/// Drag, its growth (the change with the logarithm of the end's speed), compliance and its growth, over the end's speed, at a slip over it.
 const fn spinning(k: f32, slip: f32) -> [f32; 4] {
     let (square, slip_squared) = (k * k, slip * slip);
     let lambda = if slip_squared > square {
@@ -206,14 +195,9 @@ const SMALLEST_AXIS_RATIO: f32 = 0.02;
 /// Largest axis ratio; beyond it differences of the elliptic integrals lose too many digits.
 const LARGEST_AXIS_RATIO: f32 = 0.95;
 
-/// An axis ratio that the integrals are good for.
 pub(super) const fn checked_axis_ratio(axis_ratio: f32) -> Result<f32, Error> {
-    in_range(
-        "axis_ratio",
-        axis_ratio,
-        SMALLEST_AXIS_RATIO,
-        LARGEST_AXIS_RATIO,
-    )
+    let (least, largest) = (SMALLEST_AXIS_RATIO, LARGEST_AXIS_RATIO);
+    in_range("axis_ratio", axis_ratio, least, largest)
 }
 
 /// `C5` at `lambda = root²` from `C1` and `C2`: by parts where `lambda` is below `k²`,
@@ -235,8 +219,6 @@ mod tests {
     extern crate std;
     use super::*;
 
-    /// Largest errors of power loss and compliance over themselves, of the share, and of both changes over power loss and
-    /// compliance, against the integrals.
     fn errors(k: f32) -> [f32; 5] {
         let Ok(table) = AcrossTable::new(k, 1.0) else {
             panic!("{k}")
@@ -255,11 +237,7 @@ mod tests {
                 (found.compliance_growth - compliance_growth) / compliance,
             ];
             for (worst, now) in worst.iter_mut().zip(now) {
-                *worst = if now.abs() > *worst {
-                    now.abs()
-                } else {
-                    *worst
-                };
+                *worst = worst.max(now.abs());
             }
             end_speed *= 1.037;
         }
@@ -287,7 +265,6 @@ mod tests {
         }
     }
 
-    /// Without slip a contact rolls, and no friction acts across the track.
     #[test]
     fn without_slip_a_contact_rolls() {
         let Ok(table) = AcrossTable::new(0.2, 0.0) else {

@@ -6,8 +6,7 @@ use crate::math::elliptic::{Complete, complete};
 /// Smallest axis ratio that [`FrictionMap::new`] takes: relative radii of ratio 1 to about 1400.
 pub const SMALLEST_AXIS_RATIO: f32 = 0.01;
 
-/// From this offset ratio, 2^30, on a contact does nothing but slide: its moment is below 1e-9. One of few numbers
-/// that an instruction can compare with, without a load.
+/// From this offset ratio on a contact only slides: its moment is below 1e-9.
 const LARGEST_OFFSET: f32 = 1_073_741_824.0;
 
 /// Friction maps of one contact as functions of the offset ratio `x = c/a` of its velocity centre.
@@ -20,18 +19,15 @@ const LARGEST_OFFSET: f32 = 1_073_741_824.0;
 /// |x| > 1:   P = |x| + c1 u + c5 u⁵,  u = 1/|x|,  f = P',  M = P - x f
 /// ```
 ///
-/// `c1` and `c5` follow from `P` and `f` being continuous at the end of the ellipse, `|x| = 1`. The quartic is the integral
-/// (3.16)-(3.18) of Lin 2019 in closed form; that dissertation interpolates in tables, and uses the straight line `kf = 1.38` where a formula is wanted
-/// ([`PUBLISHED_SLOPE`](crate::ball::PUBLISHED_SLOPE)).
+/// `c1` and `c5` follow from `P` and `f` being continuous at `|x| = 1`. The quartic is the integral (3.16)-(3.18) of Lin 2019 in closed form,
+/// who uses the straight line `kf = 1.38` ([`PUBLISHED_SLOPE`](crate::ball::PUBLISHED_SLOPE)).
 ///
 /// Input: axis ratio 0.01 to 1 at set-up; any offset ratio, signed, in the loop. Offsets beyond ±2^30
 /// are taken as ±2^30, NaN as sliding (2^30), so that every output is finite.
 ///
 /// Largest errors against quadrature of the contact integral, axis ratios 0.05 to 1, all offset ratios
 /// (rms in brackets): force 8.2e-4 (1.4e-4), moment 1.8e-3 (3.5e-4) of its value at pure spin, power
-/// 2.5e-4 (3.1e-5) of itself. Inside the contact 3e-7: the errors arise outside it only.
-///
-/// Cost on a Cortex-M4F: 36 modelled cycles inside the contact, 45 outside, call included.
+/// 2.5e-4 (3.1e-5) of itself; inside the contact 3e-7. Cost: 36 modelled cycles inside the contact, 45 outside.
 ///
 /// ```
 /// use epas_friction::contact::FrictionMap;
@@ -53,10 +49,7 @@ pub struct FrictionMap {
     outer: [f32; 2],
 }
 
-/// Friction of one contact in units of `mu F` (force), `mu F a` (moment) and `mu F a |w|` (power).
-///
-/// Signs are those of a positive spin: `force` has the sign of the offset ratio and opposes the slip
-/// when it is taken from it; `moment` opposes the spin and is never negative.
+/// Friction of one contact in units of `mu F` (force), `mu F a` (moment) and `mu F a |w|` (power), with the signs of a positive spin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct NormalizedFriction {
@@ -69,13 +62,7 @@ pub struct NormalizedFriction {
 }
 
 impl FrictionMap {
-    /// Maps of a contact with the axis ratio `b/a`, 0.01 to 1.
-    ///
-    /// The elliptic integrals come from five steps of the arithmetic-geometric mean; at `k = 1` the limits are `kf = 3 pi/8`, `k3 = 3 pi/32`. Coefficients
-    /// are within 4e-7. Cost: 374 modelled cycles.
-    ///
-    /// # Errors
-    /// [`Error`] naming `axis_ratio` where it is not within 0.01 to 1.
+    /// Maps of a contact with the axis ratio `b/a`, 0.01 to 1; coefficients within 4e-7. Cost: 374 modelled cycles.
     pub const fn new(axis_ratio: f32) -> Result<Self, Error> {
         let axis_ratio = attempt!(in_range("axis_ratio", axis_ratio, SMALLEST_AXIS_RATIO, 1.0));
         Ok(Self::folded(axis_ratio))
@@ -108,51 +95,42 @@ impl FrictionMap {
     }
 
     /// `M(0) = P(0) = 3/8 E`: moment and power at pure spin (Lin 2019, eq. (3.32)).
-    #[must_use]
     pub const fn spin_moment(&self) -> f32 {
         self.spin_moment
     }
 
-    /// `f'(0)`: the exact slope `k_f` of the friction force (Lin 2019, eq. (3.35)), 1.442 at the conformity 0.56 for which Lin 2019
-    /// reads 1.38 off a figure.
-    #[must_use]
+    /// `f'(0)`: the exact slope `k_f` of the friction force (Lin 2019, eq. (3.35)).
     pub const fn slope(&self) -> f32 {
         self.slope
     }
 
-    /// Friction force over `mu F` at offset ratio `c/a`; see [`FrictionMap`].
+    /// Friction force over `mu F` at offset ratio `c/a`.
     #[inline]
-    #[must_use]
     pub fn force(&self, offset: f32) -> f32 {
         self.evaluate(offset).force
     }
 
-    /// Friction moment over `mu F a` at offset ratio `c/a`; see [`FrictionMap`].
+    /// Friction moment over `mu F a` at offset ratio `c/a`.
     #[inline]
-    #[must_use]
     pub fn moment(&self, offset: f32) -> f32 {
         self.evaluate(offset).moment
     }
 
-    /// Power loss over `mu F a |w|` at offset ratio `c/a`; see [`FrictionMap`].
+    /// Power loss over `mu F a |w|` at offset ratio `c/a`.
     #[inline]
-    #[must_use]
     pub fn power(&self, offset: f32) -> f32 {
         self.evaluate(offset).power
     }
 
-    /// Force, moment and power at offset ratio `c/a`; see [`FrictionMap`]. Far away it only slides (Lin 2019, eq. (3.33)).
+    /// Force, moment and power at offset ratio `c/a`. Far away it only slides (Lin 2019, eq. (3.33)).
     #[inline]
-    #[must_use]
     pub fn evaluate(&self, offset: f32) -> NormalizedFriction {
-        // Twice the bits, without the sign: positive numbers are in their order, and NaN comes last. One comparison
-        // finds the branch that takes longest.
+        // Twice the bits, without the sign: one comparison finds the branch that takes longest, NaN comes last.
         const END: u32 = 1.0_f32.to_bits() << 1;
         const SPAN: u32 = (LARGEST_OFFSET.to_bits() << 1) - END;
         let bits = offset.to_bits() << 1;
         if END.wrapping_sub(bits) >= SPAN.wrapping_neg() {
-            // In an order that leaves few operations waiting for the one before. With `P = |x| + near` and
-            // `M = near + far`, `f = (|x| - far)/x`.
+            // In an order that leaves few operations waiting. With `P = |x| + near` and `M = near + far`, `f = (|x| - far)/x`.
             let [first, fifth] = self.outer;
             let distance = offset.abs();
             let inverse = 1.0 / offset;
@@ -199,8 +177,7 @@ impl FrictionMap {
     }
 }
 
-/// Force of a contact that does nothing but slide. A call of its own in the branch for what is out of range, so that the
-/// other branches need no stack frame.
+/// Force of a contact that only slides: a call of its own, so that the other branches need no stack frame.
 #[cold]
 #[inline(never)]
 fn full_force(offset: f32) -> f32 {

@@ -1,7 +1,4 @@
 //! Rolling resistance of one contact: elastic hysteresis and lubricant drag, beside its Coulomb friction.
-//!
-//! [`RollingContact`] is folded at set-up; its functions are called directly or by a step that knows the load of each
-//! contact.
 
 use crate::curvature::GothicArch;
 use crate::error::{Error, attempt};
@@ -10,22 +7,15 @@ use crate::hertz::HertzContact;
 use crate::math;
 use crate::ranges;
 
-/// Losses of a contact that rolls without slip.
-///
-/// Hysteresis of the material, and drag of the lubricant that is pumped into the contact's inlet. Beside the friction of a ball screw's contacts, which
-/// slip and spin, hysteresis is about one per cent.
+/// Losses of a contact that rolls without slip: hysteresis of the material, about one per cent of a ball screw's friction, and drag of the lubricant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RollingResistance {
-    /// Share of the elastic energy that is lost while a contact passes, 0 to 0.2.
-    ///
-    /// Steel: at most of the order of one per cent below yield (Johnson 1985, section 9.2). A rolling coefficient of
-    /// the order of 1e-5, as measured of a ball between plates, means 0.002 to 0.01, by its load. Rubber: 0.1 and more.
+    /// Share of the elastic energy that is lost while a contact passes, 0 to 0.2. Steel: at most of the order of one per cent below yield
+    /// (Johnson 1985, section 9.2); a measured rolling coefficient of the order of 1e-5 means 0.002 to 0.01. Rubber: 0.1 and more.
     pub hysteresis_loss: f32,
-    /// Drag of the lubricant on one contact under 100 N, N, 0 to 10; 0 without drag.
-    ///
-    /// At one viscosity and speed: by [`RollingDrag`](crate::law::coefficient::RollingDrag), which follows both and takes its place
-    /// in a scene with memory, a ball of 5.6 mm in a screw of 33 mm, 0.1 Pa s and 1 turn a second have 0.014 N.
+    /// Drag of the lubricant on one contact under 100 N, N, 0 to 10, at one viscosity and speed:
+    /// [`RollingDrag`](crate::law::coefficient::RollingDrag) takes its place in a scene with memory.
     pub lubricant_drag: f32,
 }
 
@@ -42,10 +32,7 @@ impl RollingResistance {
         lubricant_drag: 0.0,
     };
 
-    /// The resistance, or the error that names the first field out of range.
-    ///
-    /// # Errors
-    /// [`Error`] naming `hysteresis_loss` or `lubricant_drag`.
+    /// The resistance, checked.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(ranges::HYSTERESIS_LOSS.checked("hysteresis_loss", self.hysteresis_loss));
         attempt!(ranges::LUBRICANT_DRAG.checked("lubricant_drag", self.lubricant_drag));
@@ -60,15 +47,11 @@ impl RollingResistance {
 /// ```
 ///
 /// `F` is the contact's load, `b` its semi-axis along the track, `R1` the relative radius of both bodies along it, `loss` and `drag`
-/// the fields of [`RollingResistance`]. The force resists the travel of the contact along its track: times the speed at
-/// which the groove's surface runs past the contact it is the power lost.
+/// the fields of [`RollingResistance`]. The force resists the travel of the contact along its track.
 ///
 /// Source: first term Greenwood, Minshall and Tabor 1961, in the form of Johnson 1985, section 9.2, for an ellipse; second
 /// term the load's power between Houpert 2002 (0.47) and SKF's rolling moment of ball bearings (0.54): 5 to 300 N
-/// within 7 % of Houpert's where both meet at 40 N.
-///
-/// Largest error against the float64 reference, every catalogue size, 1 to 1000 N: 4e-6 of the force, which is that of
-/// the contact ellipse.
+/// within 7 % of Houpert's where both meet at 40 N. Largest error against the float64 reference, every catalogue size, 1 to 1000 N: 4e-6.
 ///
 /// ```
 /// use epas_friction::CATALOGUE;
@@ -98,10 +81,7 @@ impl RollingContact {
     };
 
     /// Constants of a contact from its semi-axis along the track over the cube root of the load, m/N^(1/3), 1e-9 to 1,
-    /// and the relative curvature of both bodies along the track, 1/m, 1e-3 to 1e6. At set-up, or in a constant.
-    ///
-    /// # Errors
-    /// [`Error`] naming `hysteresis_loss`, `lubricant_drag`, `semi_minor_coefficient` or `rolling_curvature`.
+    /// and the relative curvature of both bodies along the track, 1/m, 1e-3 to 1e6.
     pub const fn new(
         resistance: RollingResistance,
         semi_minor_coefficient: f32,
@@ -123,10 +103,7 @@ impl RollingContact {
         })
     }
 
-    /// Constants of the contact of ball and one groove of a validated ball screw, at its nominal contact angle.
-    ///
-    /// # Errors
-    /// As [`Self::new`].
+    /// Constants of the contact of ball and one groove at its nominal contact angle.
     pub const fn of(
         design: &BallScrew,
         groove: Groove,
@@ -139,31 +116,21 @@ impl RollingContact {
     }
 
     /// `3/16 loss b_1/R1`, N^(-1/3), and the drag under 1 N, N^(1/2).
-    #[must_use]
     pub const fn coefficients(&self) -> (f32, f32) {
         (self.hysteresis, self.lubricant)
     }
 
     /// Force against the travel of the contact along its track, N, from its load, N, and the load's cube root; both not
-    /// below zero.
-    ///
-    /// Cost: one square root, 3 multiplications, 1 addition.
+    /// below zero. Cost: one square root, 3 multiplications, 1 addition.
     #[inline]
-    #[must_use]
     pub fn force(&self, load: f32, load_cube_root: f32) -> f32 {
         self.hysteresis * (load * load_cube_root) + self.lubricant * math::sqrt(load)
     }
 
-    /// Power lost, W, at the speed at which the groove's surface runs past the contact, m/s; a friction torque, N m,
-    /// where that speed is given over the nut's speed, m.
-    ///
-    /// For a ball that orbits with `omega_B` this speed is `|omega_B - omega_k| (q + r_b cos(alpha) n_x)`, with the path radius
-    /// `q`, the part `n_x` of the contact's normal away from the axis, and `omega_k` zero on the screw and the nut's speed
-    /// `omega_N` on the nut: over the nut's speed it is about half the pitch radius.
-    ///
-    /// Cost: that of [`Self::force`] and 1 multiplication.
+    /// Power lost, W, at the speed at which the groove's surface runs past the contact, m/s; a friction torque, N m, where that speed is given
+    /// over the nut's, m: for a ball that orbits with `omega_B` it is `|omega_B - omega_k| (q + r_b cos(alpha) n_x)`, with the path radius `q`, the part
+    /// `n_x` of the contact's normal away from the axis, and `omega_k` zero on the screw and the nut's speed on the nut.
     #[inline]
-    #[must_use]
     pub fn power(&self, load: f32, load_cube_root: f32, rolling_speed: f32) -> f32 {
         self.force(load, load_cube_root) * rolling_speed
     }

@@ -7,7 +7,6 @@ use crate::math::constant;
 /// Contact angle, rad (72 degrees), up to which [`FittedCurvature::of`] fits.
 pub const DEFAULT_FIT_RANGE: f32 = 1.256_637_1;
 
-/// Number of coefficients, and of nodes where the fit is exact.
 const NODES: usize = 5;
 
 /// `cos((2 i + 1) pi / 10)`: the Chebyshev nodes on -1 to 1.
@@ -17,11 +16,9 @@ pub const CHEBYSHEV: [f32; NODES] = [0.95105652, 0.58778525, 0.0, -0.58778525, -
 /// First principal curvature of a gothic-arch groove by a quotient that is exact at five contact
 /// angles: `kappa1 = (n0 + n1 cos(beta) + n2 sin(beta)) / (1 - d1 cos(beta) - d2 sin(beta))`.
 ///
-/// The shape is that of a tube about a helix; the five coefficients come from the exact curvatures at Chebyshev nodes, by one 5 x 5 linear system at
-/// set-up. Error on the 31 catalogue sizes, contact angles 0 to 70 degrees: at most 7e-7 (the form itself 2.4e-7); over lead angles to 80 degrees with
-/// offsets as in use, 1.5e-5.
-///
-/// Cost in the loop: one division, 8 other operations.
+/// The shape is that of a tube about a helix; the coefficients come from the exact curvatures at Chebyshev nodes, by one 5 x 5 linear system. Error on
+/// the 31 catalogue sizes, contact angles 0 to 70 degrees: at most 7e-7; over lead angles to 80 degrees with offsets as in use, 1.5e-5. Cost in the
+/// loop: one division, 8 other operations.
 ///
 /// ```
 /// use epas_friction::CATALOGUE;
@@ -45,15 +42,13 @@ pub struct FittedCurvature {
 }
 
 impl FittedCurvature {
-    /// The fit for one groove of a validated design, for contact angles 0 to 72 degrees; a constant can
-    /// take it, and firmware then holds nothing of the linear system.
+    /// The fit for one groove of a validated design, for contact angles 0 to 72 degrees; for constants too.
     #[must_use]
     pub const fn of(design: &BallScrew, groove: Groove) -> Self {
         Self::new(&GothicArch::of(design, groove), DEFAULT_FIT_RANGE)
     }
 
-    /// The fit for contact angles 0 to `largest_contact_angle`, rad, 0.2 to 1.55; outside it is
-    /// moved to the nearer bound. Set-up only: five exact curvatures and one 5 x 5 system.
+    /// The fit for contact angles 0 to `largest_contact_angle`, rad, cut to 0.2 to 1.55. Set-up only.
     #[must_use]
     pub const fn new(arch: &GothicArch, largest_contact_angle: f32) -> Self {
         let half_range = 0.5 * largest_contact_angle.clamp(0.2, 1.55);
@@ -87,10 +82,9 @@ impl FittedCurvature {
 
     /// First principal curvature, 1/m.
     #[inline]
-    #[must_use]
     pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         let ContactAngle { cos, sin } = contact_angle;
-        // The products first: each then is ready when a sum takes it.
+        // The products first: each is ready when a sum takes it.
         let (along, across) = (self.n1 * cos, self.d1 * cos);
         let (along_2, across_2) = (self.n2 * sin, self.d2 * sin);
         ((self.n0 + along) + along_2) / ((1.0 - across) - across_2)
@@ -103,11 +97,8 @@ const RANK_TOLERANCE: f32 = 4.0 * f32::EPSILON;
 /// A row for every node: coefficients, and last the right-hand side.
 type Rows = [[f32; NODES + 1]; NODES];
 
-/// Solves the linear system whose rows hold the coefficients and, last, the right-hand side: Gaussian
-/// elimination with scaled columns and partial pivoting.
-///
-/// Where a column vanishes but for rounding (a circular groove, a lead of zero), any value of its unknown solves the
-/// system: zero is taken.
+/// Gaussian elimination with scaled columns and partial pivoting. Where a column vanishes but for rounding (a circular groove, a lead of zero), any
+/// value of its unknown solves the system: zero is taken.
 const fn solve(mut rows: Rows) -> [f32; NODES] {
     let column_scale = scale_columns(&mut rows);
     eliminate(&mut rows);
@@ -152,9 +143,8 @@ const fn scale_columns(rows: &mut Rows) -> [f32; NODES] {
 const fn eliminate(rows: &mut Rows) {
     let mut pivot = 0;
     while pivot < NODES {
-        // Rows are exchanged one after the other until the largest element is on top. Every index then is a loop
-        // counter, so that no bounds check remains; and element by element, so that no memory is copied. What lies
-        // left of the pivot is never read again.
+        // Rows are exchanged one after the other until the largest element is on top: every index is a loop counter, and no bounds check or
+        // copy of memory remains.
         let mut below = pivot + 1;
         while below < NODES {
             if rows[below][pivot].abs() > rows[pivot][pivot].abs() {

@@ -14,8 +14,7 @@ pub struct PrincipalCurvatures {
     pub kappa2: f32,
 }
 
-/// Sums of the curvatures of ball and groove in the two principal planes, 1/m: the input of the
-/// contact ellipse.
+/// Sums of the curvatures of ball and groove in the two principal planes, 1/m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RelativeCurvatures {
@@ -25,9 +24,8 @@ pub struct RelativeCurvatures {
     pub across: f32,
 }
 
-/// The shape operator in orthonormal directions, its elements times `D³`, before the two roots that its
-/// eigenvalues need: the loop takes them by an instruction, set-up by [`constant::sqrt`](crate::math::constant::sqrt), and all else is written
-/// once.
+/// The shape operator in orthonormal directions, its elements times `D³`, before the two roots that its eigenvalues need: the loop takes them
+/// by an instruction, set-up by [`constant::sqrt`](crate::math::constant::sqrt).
 pub(super) struct ShapeOperator {
     /// `A`.
     pub(super) area: f32,
@@ -54,8 +52,7 @@ impl ShapeOperator {
         )
     }
 
-    /// Both principal curvatures by one division: `kappa1 = (h22 spread + h12²)/(spread D³)` with
-    /// `spread = h + root`, and `kappa2` likewise.
+    /// Both principal curvatures by one division: `kappa1 = (h22 spread + h12²)/(spread D³)`, `spread = h + root`.
     #[inline]
     pub(super) const fn eigenvalues(&self, root: f32, scale: f32) -> PrincipalCurvatures {
         let (cube, spread) = (self.scale_squared * scale, self.half_difference + root);
@@ -68,8 +65,7 @@ impl ShapeOperator {
     }
 }
 
-/// The exact principal curvatures of a gothic-arch groove swept along a helix, with all constants
-/// folded.
+/// The exact principal curvatures of a gothic-arch groove swept along a helix.
 ///
 /// With `zeta` = +1 screw, -1 nut, path curvature `kappa` and torsion `tau`, `c = cos(beta)`,
 /// `s = sin(beta)`, `w = H c + L s`, `p = H s - L c`, `rho = r_s - w`,
@@ -85,10 +81,8 @@ impl ShapeOperator {
 /// ```
 ///
 /// It equals the eigenvalues of the Weingarten map (Bertolino et al. 2023, eq. (17)-(24)) without their cancelling subtraction. Two misprints of
-/// Appendix B are **corrected** by construction: (A1a) returns `kappa2`, and (A1m) lacks a `zeta`.
-///
-/// Error in f32 over lead angles and contact angles 0 to 80 degrees: `kappa1` within 6e-7, `kappa2` within 3e-7; close to the nut's zero of `kappa1`
-/// (contact angles near 90 degrees) within 1e-7 of `kappa2`.
+/// Appendix B are **corrected** by construction: (A1a) returns `kappa2`, and (A1m) lacks a `zeta`. Error over lead angles and contact angles 0 to 80
+/// degrees: `kappa1` within 6e-7, `kappa2` within 3e-7; close to the nut's zero of `kappa1` within 1e-7 of `kappa2`.
 ///
 /// ```
 /// use epas_friction::CATALOGUE;
@@ -121,21 +115,17 @@ pub struct GothicArch {
     twist_radius: f32,
 }
 
-/// Largest groove radius times curvature or torsion of the path. A groove is smaller than its path; more than 1 is
-/// for the study of surfaces close to their fold.
+/// Largest groove radius times curvature or torsion of the path: more than 1 is for the study of surfaces close to their fold.
 const LARGEST_RADIUS: f32 = 10.0;
 
-/// Largest offset of the nut's profile, relative to the path's radius: with its centre on the axis the nut's two
-/// curvatures are equal, and beyond it they change places.
+/// Largest offset of the nut's profile over the path's radius: with its centre on the axis the nut's two curvatures are equal.
 const LARGEST_OFFSET: f32 = 0.9;
 
-/// Groove radius relative to the path's radius of curvature, or to 1 / torsion, up to which the two curvatures never
-/// change places (swept: `host-tests/tests/all/formulas/curvature`).
+/// Groove radius over the path's radius of curvature, or 1 / torsion, up to which the two curvatures never change places (swept).
 const SURELY_APART: f32 = 0.5;
 
 impl GothicArch {
-    /// Constants of one groove from its path and section, unchecked: for a design that
-    /// [`BallScrew::new`] has checked.
+    /// Constants of one groove from its path and section, unchecked: for a design that [`BallScrew::new`] has checked.
     #[must_use]
     pub const fn new(groove: Groove, path: &HelixPath, profile: &GrooveProfile) -> Self {
         let signed_curvature = groove.sign() * path.curvature;
@@ -153,21 +143,18 @@ impl GothicArch {
         }
     }
 
-    /// Constants of one groove of a validated design; a constant can take them.
+    /// Constants of one groove of a validated design; for constants too.
     #[must_use]
     pub const fn of(design: &BallScrew, groove: Groove) -> Self {
         Self::new(groove, design.path(), design.profile(groove))
     }
 
-    /// Constants of one groove from plain numbers in any one unit of length, all checked, for contact
-    /// angles near `contact_angle`.
+    /// Constants of one groove from plain numbers in any one unit of length, all checked, for contact angles near `contact_angle`.
     ///
     /// # Errors
-    /// [`Error`] naming `curvature`, `torsion`, `groove_radius` (1e-9 to 1e9, and ten radii of the path),
-    /// `offset_h` or `offset_l`;
-    /// [`Error::FoldedGroove`] where the surface folds at this contact angle (`A < 1e-4`), where the centre of
-    /// the nut's profile would lie within a tenth of the path's radius from the axis or beyond it, and where a groove
-    /// larger than its path twists so that its two curvatures change places.
+    /// [`Error`] naming `curvature`, `torsion`, `groove_radius` (1e-9 to 1e9, and ten radii of the path), `offset_h` or `offset_l`;
+    /// [`Error::FoldedGroove`] where the surface folds at this contact angle (`A < 1e-4`), the centre of the nut's profile lies within a tenth of
+    /// the path's radius from the axis, or the two curvatures change places.
     pub const fn checked(
         groove: Groove,
         path: &HelixPath,
@@ -179,12 +166,8 @@ impl GothicArch {
         // Cubes of radius times curvature have to stay within f32.
         let steepest = path.curvature.max(path.torsion.abs());
         let largest = (LARGEST_RADIUS / steepest).min(1e9);
-        let radius = attempt!(in_range(
-            "groove_radius",
-            profile.groove_radius,
-            1e-9,
-            largest
-        ));
+        let radius = profile.groove_radius;
+        attempt!(in_range("groove_radius", radius, 1e-9, largest));
         attempt!(in_range("offset_h", profile.offset_h, 0.0, radius));
         attempt!(in_range("offset_l", profile.offset_l, 0.0, radius));
         let arch = Self::new(groove, path, profile);
@@ -200,8 +183,7 @@ impl GothicArch {
             let largest = room / contact_angle.cos;
             return Err(Error::folded("groove_radius", radius, 0.0, largest));
         }
-        // Half the difference of the curvatures about along and about across the path: where it is not positive, its
-        // sum with the root cancels, and the first curvature no longer belongs to the path.
+        // Half the difference of the curvatures about along and about across the path: where it is not positive, its sum with the root cancels.
         let shape = arch.shape_operator(contact_angle);
         if shape.half_difference <= 0.0 {
             let largest = SURELY_APART / steepest;
@@ -210,12 +192,9 @@ impl GothicArch {
         Ok(arch)
     }
 
-    /// Both principal curvatures, 1/m.
-    ///
-    /// Cost: 2 square roots, 1 division, 44 other operations. A contact angle at which [`GothicArch::checked`]
-    /// accepts the groove gives finite values; a design of [`BallScrew::new`] is accepted at every one.
+    /// Both principal curvatures, 1/m: finite at a contact angle at which [`GothicArch::checked`] accepts the groove. Cost: 2 square roots,
+    /// 1 division, 44 other operations.
     #[inline]
-    #[must_use]
     pub fn principal(&self, contact_angle: ContactAngle) -> PrincipalCurvatures {
         let shape = self.shape_operator(contact_angle);
         let (root, scale) = math::sqrt_pair(shape.radicand, shape.scale_squared);
@@ -233,12 +212,8 @@ impl GothicArch {
     /// Sums of the curvatures of groove and ball, 1/m, for a ball whose radius is smaller than the
     /// groove's by `clearance`, m (inverse of the radii of Lin 2019, eq. (B.3); Alberdi et al., eqs. (7), (8)).
     ///
-    /// The second sum cancels to a twentieth; it is formed from the clearance and from
-    /// `kappa2 + 1/r_s = (tau p)² / (r_s D (D + A)) - q`, so that no digit is lost.
-    ///
-    /// For set-up; a constant can take it. Cost: 2 square roots ([`constant::sqrt`]), 4 divisions, 46 other
-    /// operations.
-    #[must_use]
+    /// The second sum cancels to a twentieth; it is formed from the clearance and
+    /// `kappa2 + 1/r_s = (tau p)² / (r_s D (D + A)) - q`, so that no digit is lost. Cost: 2 square roots, 4 divisions, 46 other operations.
     pub const fn relative(
         &self,
         contact_angle: ContactAngle,
@@ -256,23 +231,17 @@ impl GothicArch {
         }
     }
 
-    /// Which groove this is.
-    #[inline]
-    #[must_use]
+    /// The groove.
     pub const fn groove(&self) -> Groove {
         self.groove
     }
 
     /// The path that the groove follows.
-    #[inline]
-    #[must_use]
     pub const fn path(&self) -> HelixPath {
         self.path
     }
 
     /// Radius of the profile circle, m.
-    #[inline]
-    #[must_use]
     pub const fn groove_radius(&self) -> f32 {
         self.groove_radius
     }
@@ -297,8 +266,7 @@ impl GothicArch {
         let twist_squared = twist * twist;
         let scale_squared = area_squared + twist_squared;
 
-        // Everything times D³, so that its root and its division wait for nothing and are waited for
-        // by nothing but the last products. Only the square of h12 is used: its sign is dropped.
+        // Everything times D³, so that its root and its division wait for nothing. Only the square of h12 is used.
         let h11 = -(area_over_radius * scale_squared);
         let h22 = self.signed_curvature
             * (area_squared * cos + twist * (twist * cos - twist_rho * sin))

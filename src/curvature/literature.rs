@@ -5,10 +5,7 @@ use crate::geometry::{BallScrew, ContactAngle, Groove, HelixPath};
 
 /// Literature formula for the first principal curvature:
 /// `kappa1 = zeta cos(beta) / (r_m - zeta r_b cos(beta))`, `zeta` = +1 screw, -1 nut
-/// (Bertolino et al. 2023, eq. (27), (28)).
-///
-/// It ignores the lead; at a lead angle of 45 degrees it is wrong by a factor of two. It stands here
-/// as the unit of cost and because it is what most programs use.
+/// (Bertolino et al. 2023, eq. (27), (28)). It ignores the lead; at a lead angle of 45 degrees it is wrong by a factor of two.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LiteratureCurvature {
@@ -27,7 +24,7 @@ impl LiteratureCurvature {
         }
     }
 
-    /// Constants of one groove of a validated design; a constant can take them.
+    /// Constants of one groove of a validated design; for constants too.
     #[must_use]
     pub const fn of(design: &BallScrew, groove: Groove) -> Self {
         Self::new(groove, design.pitch_radius(), design.ball_radius())
@@ -35,7 +32,6 @@ impl LiteratureCurvature {
 
     /// First principal curvature, 1/m. Cost: one division, 2 other operations.
     #[inline]
-    #[must_use]
     pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         contact_angle.cos / (self.signed_pitch_radius - self.ball_radius * contact_angle.cos)
     }
@@ -45,9 +41,8 @@ impl LiteratureCurvature {
 /// `kappa1 = cos(beta) cos²(alpha) / (zeta r_m - r_s cos(beta) cos²(alpha))`
 /// (Bertolino et al. 2023, eq. (25), (26)).
 ///
-/// Exact for a circular groove. For a gothic arch the error is at most 9.5e-3 on the 31 catalogue
-/// sizes (contact angles 0 to 70 degrees, mean 4.3e-3), up to 0.34 at lead and contact angles of
-/// 80 degrees.
+/// For a gothic arch the error is at most 9.5e-3 on the 31 catalogue sizes (contact angles 0 to 70 degrees, mean 4.3e-3), up to 0.34 at lead and
+/// contact angles of 80 degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CircularGrooveCurvature {
@@ -67,33 +62,26 @@ impl CircularGrooveCurvature {
         }
     }
 
-    /// Constants of one groove of a validated design; a constant can take them.
+    /// Constants of one groove of a validated design; for constants too.
     #[must_use]
     pub const fn of(design: &BallScrew, groove: Groove) -> Self {
         Self::new(groove, design.path(), design.profile(groove).groove_radius)
     }
 
-    /// First principal curvature, 1/m. Cost: one division, 2 other operations.
-    ///
-    /// Dividing numerator and denominator of the printed form by `cos²(alpha)` leaves exactly the
-    /// operations of the literature formula: the lead costs nothing in the loop.
+    /// First principal curvature, 1/m. Cost: one division, 2 other operations: after a division by `cos²(alpha)` the lead costs nothing.
     #[inline]
-    #[must_use]
     pub const fn first(&self, contact_angle: ContactAngle) -> f32 {
         contact_angle.cos / (self.signed_path_radius - self.groove_radius * contact_angle.cos)
     }
 
-    /// Second principal curvature, 1/m: `-1 / r_s`, exact for a circular groove and within 2.6e-5 of
-    /// the gothic arch on the 31 catalogue sizes. A constant: fold it at set-up.
+    /// Second principal curvature, 1/m: `-1 / r_s`, within 2.6e-5 of the gothic arch on the 31 catalogue sizes.
     #[inline]
-    #[must_use]
     pub const fn second(&self) -> f32 {
         -1.0 / self.groove_radius
     }
 }
 
 impl From<&GothicArch> for CircularGrooveCurvature {
-    /// The same groove with its offsets left out.
     fn from(arch: &GothicArch) -> Self {
         Self::new(arch.groove(), &arch.path(), arch.groove_radius())
     }

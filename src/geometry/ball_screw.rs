@@ -1,20 +1,20 @@
 //! A ball screw by its catalogue numbers.
 
-use super::profile::ContactAngle;
-use super::profile::{BALL_RADIUS, LARGEST_CONTACT_ANGLE, LEAD, PITCH_RADIUS, SMALLEST_AREA};
-use super::profile::{Groove, GrooveProfile, GrooveSize, HelixPath};
+use super::profile::{
+    BALL_RADIUS, ContactAngle, Groove, GrooveProfile, GrooveSize, HelixPath, LARGEST_CONTACT_ANGLE,
+    LEAD, PITCH_RADIUS, SMALLEST_AREA,
+};
 use crate::error::{Error, attempt, in_range};
 use crate::material::Material;
 use crate::math::constant;
 use crate::math::elliptic::arc_sine;
 use core::f32::consts::{FRAC_PI_2, TAU};
 
-/// What a catalogue or a drawing prints of a ball screw; unchecked.
+/// Numbers of a ball screw in a catalogue or a drawing; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallScrewParameters {
-    /// Radius `r_m` of the cylinder on which the ball centres run, m, 1e-3 to 0.5; half the
-    /// nominal diameter where a catalogue prints no pitch circle.
+    /// Radius `r_m` of the cylinder on which the ball centres run, m, 1e-3 to 0.5.
     pub pitch_radius: f32,
     /// Axial travel of the nut in one turn, m, 0 to 0.2; 0 is a ball bearing.
     pub lead: f32,
@@ -33,35 +33,22 @@ pub struct BallScrewParameters {
 }
 
 impl BallScrewParameters {
-    /// Refuses numbers out of range; the sizes of the grooves are checked with their profiles.
+    /// Checks all but the sizes of the grooves.
     pub(super) const fn checked(&self) -> Result<(), Error> {
         attempt!(PITCH_RADIUS.checked("pitch_radius", self.pitch_radius));
         attempt!(LEAD.checked("lead", self.lead));
-        let track = 0.9 * self.pitch_radius;
-        let largest_ball = if track < BALL_RADIUS.maximum {
-            track
-        } else {
-            BALL_RADIUS.maximum
-        };
-        attempt!(in_range(
-            "ball_radius",
-            self.ball_radius,
-            BALL_RADIUS.minimum,
-            largest_ball
-        ));
-        attempt!(in_range(
-            "contact_angle",
-            self.contact_angle,
-            0.01,
-            LARGEST_CONTACT_ANGLE
-        ));
+        let (smallest, track) = (BALL_RADIUS.minimum, 0.9 * self.pitch_radius);
+        let largest = track.min(BALL_RADIUS.maximum);
+        attempt!(in_range("ball_radius", self.ball_radius, smallest, largest));
+        let (angle, largest) = (self.contact_angle, LARGEST_CONTACT_ANGLE);
+        attempt!(in_range("contact_angle", angle, 0.01, largest));
         attempt!(self.ball_material.checked());
         attempt!(self.groove_material.checked());
         Ok(())
     }
 }
 
-/// A ball screw whose every number has been checked, with what follows from them alone.
+/// A ball screw whose every number has been checked; at set-up, or in a constant, which stops the compiler at a wrong number.
 ///
 /// ```
 /// use epas_friction::{BallScrew, BallScrewParameters, GrooveSize, Material};
@@ -82,23 +69,6 @@ impl BallScrewParameters {
 /// wrong.lead = -1.0;
 /// assert_eq!(BallScrew::new(wrong).unwrap_err().field(), "lead");
 /// # Ok::<(), epas_friction::Error>(())
-/// ```
-///
-/// A constant can take a design, and whatever is set up from it: firmware then holds no code of the
-/// set-up, and a wrong number stops the compiler.
-///
-/// ```
-/// use epas_friction::{BallScrew, BallScrewParameters, DISSERTATION_DESIGNS};
-/// use epas_friction::geometry::Groove;
-/// use epas_friction::hertz::HertzContact;
-///
-/// const PARAMETERS: BallScrewParameters = DISSERTATION_DESIGNS[2].parameters;
-/// const DESIGN: BallScrew = match BallScrew::new(PARAMETERS) {
-///     Ok(design) => design,
-///     Err(_) => panic!("the ball screw's design is out of range"),
-/// };
-/// const CONTACT: HertzContact = HertzContact::of(&DESIGN, Groove::Nut);
-/// assert!(CONTACT.at(100.0).max_pressure > 1e9);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -134,12 +104,7 @@ impl Section {
 }
 
 impl BallScrew {
-    /// Checks every field and folds the constants. Set-up only; a constant can take it.
-    ///
-    /// # Errors
-    /// [`Error`] naming the first field that is not finite or out of range: `pitch_radius`, `lead`,
-    /// `ball_radius`, `contact_angle`, `conformity` or `groove_radius`, or a material's field;
-    /// [`Error::FoldedGroove`] where the screw's groove would reach past its axis (`A < 1e-4`).
+    /// Checks every field and folds the constants.
     pub const fn new(parameters: BallScrewParameters) -> Result<Self, Error> {
         let BallScrewParameters {
             pitch_radius,
@@ -165,52 +130,38 @@ impl BallScrew {
         })
     }
 
-    /// The numbers that the design was made from.
-    #[inline]
-    #[must_use]
+    /// Parameters of the design.
     pub const fn parameters(&self) -> &BallScrewParameters {
         &self.parameters
     }
 
     /// Radius `r_m` of the cylinder on which the ball centres run, m.
-    #[inline]
-    #[must_use]
     pub const fn pitch_radius(&self) -> f32 {
         self.parameters.pitch_radius
     }
 
     /// Axial travel in one turn, m.
-    #[inline]
-    #[must_use]
     pub const fn lead(&self) -> f32 {
         self.parameters.lead
     }
 
     /// Ball radius `r_b`, m.
-    #[inline]
-    #[must_use]
     pub const fn ball_radius(&self) -> f32 {
         self.parameters.ball_radius
     }
 
     /// Ball radius over pitch radius.
     #[inline]
-    #[must_use]
     pub const fn ball_ratio(&self) -> f32 {
         self.parameters.ball_radius / self.parameters.pitch_radius
     }
 
     /// Tangent of the lead angle, `lead / (2 pi pitch_radius)`.
-    #[inline]
-    #[must_use]
     pub const fn tan_lead_angle(&self) -> f32 {
         self.tan_lead_angle
     }
 
-    /// Lead angle, rad (Lin 2019, eqs. (2.5), (3.63)). For set-up; a constant can take it.
-    ///
-    /// Largest error 2e-7 rad, of any lead.
-    #[must_use]
+    /// Lead angle, rad (Lin 2019, eqs. (2.5), (3.63)), within 2e-7. For set-up and constants.
     pub const fn lead_angle(&self) -> f32 {
         let (tan, cos) = (self.tan_lead_angle, self.cos_lead_angle());
         // By the smaller of sine and cosine, which fixes the angle better.
@@ -221,62 +172,50 @@ impl BallScrew {
         }
     }
 
-    /// Cosine of the lead angle. For set-up, by the root that a constant can take.
-    #[must_use]
+    /// Cosine of the lead angle. For set-up and constants.
     pub const fn cos_lead_angle(&self) -> f32 {
         1.0 / constant::sqrt(1.0 + self.tan_lead_angle * self.tan_lead_angle)
     }
 
-    /// Path radius `r_m / cos(alpha)`, m: length of the path of the ball centres over the angle of a turn,
-    /// `L/(2 pi)` with the `L` of Lin 2019, eq. (3.66). For set-up.
-    #[must_use]
+    /// Path radius `r_m / cos(alpha)`, m: `L/(2 pi)` with the `L` of Lin 2019, eq. (3.66). For set-up.
     pub const fn path_radius(&self) -> f32 {
         self.parameters.pitch_radius / self.cos_lead_angle()
     }
 
-    /// Axial travel over the angle of a turn, `lead / 2 pi`, m (Lin 2019, eqs. (2.2), (3.55)): torque over the axial load that it holds without friction.
+    /// Axial travel over the angle of a turn, `lead / 2 pi`, m (Lin 2019, eqs. (2.2), (3.55)).
     #[inline]
-    #[must_use]
     pub const fn reduced_lead(&self) -> f32 {
         self.parameters.lead / TAU
     }
 
     /// Axial force over the contact force of a ball, `sin(beta) cos(alpha)`. For set-up.
-    #[must_use]
     pub const fn axial_per_normal(&self) -> f32 {
         self.contact_angle.sin * self.cos_lead_angle()
     }
 
     /// Curvature and torsion of the path of the ball centres.
-    #[inline]
-    #[must_use]
     pub const fn path(&self) -> &HelixPath {
         &self.path
     }
 
     /// Nominal contact angle, by its cosine and sine.
-    #[inline]
-    #[must_use]
     pub const fn contact_angle(&self) -> ContactAngle {
         self.contact_angle
     }
 
     /// Section of one groove.
     #[inline]
-    #[must_use]
     pub const fn profile(&self, groove: Groove) -> &GrooveProfile {
         &self.section(groove).profile
     }
 
     /// Groove radius less ball radius, m, without the cancellation of their difference.
     #[inline]
-    #[must_use]
     pub const fn clearance(&self, groove: Groove) -> f32 {
         self.section(groove).clearance
     }
 
     /// Mass of one ball, kg.
-    #[must_use]
     pub const fn ball_mass(&self) -> f32 {
         let radius = self.parameters.ball_radius;
         const VOLUME: f32 = 2.0 / 3.0 * TAU;
@@ -291,18 +230,13 @@ impl BallScrew {
     }
 }
 
-/// The surface is regular while `A = 1 + kappa H - kappa r_s cos(beta) > 0`; the bottom of the groove
-/// (`cos(beta) = 1`) folds first. Curvatures keep four digits down to [`SMALLEST_AREA`].
+/// The surface is regular while `A = 1 + kappa H - kappa r_s cos(beta) > 0`; the bottom of the groove (`cos(beta) = 1`) folds first.
 const fn refuse_folded(path: &HelixPath, screw: &GrooveProfile) -> Result<(), Error> {
     let largest = (1.0 - SMALLEST_AREA) / path.curvature + screw.offset_h;
     if screw.groove_radius < largest {
         Ok(())
     } else {
-        Err(Error::folded(
-            "groove_radius",
-            screw.groove_radius,
-            0.0,
-            largest,
-        ))
+        let radius = screw.groove_radius;
+        Err(Error::folded("groove_radius", radius, 0.0, largest))
     }
 }

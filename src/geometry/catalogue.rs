@@ -1,10 +1,8 @@
-//! Built-in designs: the 31 catalogue sizes of Bertolino et al. 2023, fine-lead sizes that makers offer, sizes near a steering
-//! gear's, and three of Lin 2019. [`named`] finds one by its name.
+//! Built-in designs: sizes of Bertolino et al. 2023, of makers and near a steering gear's, and three of Lin 2019.
 
 use core::f32::consts::FRAC_PI_4;
 
-use super::ball_screw::BallScrew;
-use super::ball_screw::BallScrewParameters;
+use super::ball_screw::{BallScrew, BallScrewParameters};
 use super::profile::GrooveSize;
 use crate::error::Error;
 use crate::material::Material;
@@ -30,9 +28,7 @@ impl CatalogueSize {
     /// Nominal contact angle with which the published error tables reproduce, rad (45 degrees).
     pub const CONTACT_ANGLE: f32 = FRAC_PI_4;
 
-    /// The parameters of this size: pitch radius half the nominal diameter, conformity 0.528, contact
-    /// angle 45 degrees, steel.
-    #[must_use]
+    /// The parameters of this size: half the nominal diameter, conformity 0.528, contact angle 45 degrees, steel.
     pub const fn parameters(&self) -> BallScrewParameters {
         BallScrewParameters {
             pitch_radius: 0.5 * self.nominal_diameter,
@@ -46,7 +42,7 @@ impl CatalogueSize {
         }
     }
 
-    /// The validated design of this size; a constant can take it.
+    /// The validated design of this size; for constants too.
     ///
     /// # Errors
     /// As [`BallScrew::new`]; none of [`CATALOGUE`], [`FINE_LEAD_SIZES`] and [`STEERING_SIZES`] fails.
@@ -105,10 +101,8 @@ const fn dissertation(
     }
 }
 
-/// The 31 sizes of Tables A1 and A2 (Bertolino et al. 2023), in their order. [`scene::built_in`](crate::scene::built_in) has the friction of each by its name.
-///
-/// The row printed as 20 x 65 x 3.5 is here 20 x 60 x 3.5: its printed lead angle (43.68
-/// degrees) and its printed errors are those of a lead of 60 mm.
+/// The 31 sizes of Tables A1 and A2 (Bertolino et al. 2023), in their order. The row printed as 20 x 65 x 3.5 is here 20 x 60 x 3.5: its printed lead
+/// angle (43.68 degrees) and its printed errors are those of a lead of 60 mm.
 pub const CATALOGUE: [CatalogueSize; 31] = [
     size("125x10x7.144", 125e-3, 10e-3, 7.144e-3),
     size("160x25x12.7", 160e-3, 25e-3, 12.7e-3),
@@ -157,8 +151,7 @@ const fn size(
     }
 }
 
-/// Fine-lead sizes that are usual in the catalogues of makers of ball screws, with a ball diameter that one or several of them
-/// print for the size. None is of a paper: the published tables of errors hold [`CATALOGUE`].
+/// Fine-lead sizes that are usual in the catalogues of makers of ball screws, with a ball diameter that they print.
 pub const FINE_LEAD_SIZES: [CatalogueSize; 15] = [
     size("16x5x3.175", 16e-3, 5e-3, 3.175e-3),
     size("20x5x3.175", 20e-3, 5e-3, 3.175e-3),
@@ -177,15 +170,14 @@ pub const FINE_LEAD_SIZES: [CatalogueSize; 15] = [
     size("63x10x6.35", 63e-3, 10e-3, 6.35e-3),
 ];
 
-/// Round sizes near that of a rack-assist steering gear (Lin 2019, Table 4.1: 29 x 7 x 4). Assumed, of no maker: a start where
-/// the drawing is not at hand.
+/// Round sizes near that of a rack-assist steering gear (Lin 2019, Table 4.1: 29 x 7 x 4). Assumed, of no maker.
 pub const STEERING_SIZES: [CatalogueSize; 3] = [
     size("25x7x3.5", 25e-3, 7e-3, 3.5e-3),
     size("28x7x3.969", 28e-3, 7e-3, 3.969e-3),
     size("30x8x4.762", 30e-3, 8e-3, 4.762e-3),
 ];
 
-/// The parameters of a built-in design by its name, as `25x5x3.175` or `lin-4.1`; a constant can take them.
+/// The parameters of a built-in design by its name, as `25x5x3.175` or `lin-4.1`; for constants too.
 ///
 /// ```
 /// use epas_friction::{BallScrew, geometry::named};
@@ -195,7 +187,6 @@ pub const STEERING_SIZES: [CatalogueSize; 3] = [
 /// assert!(named("25x5").is_none());
 /// # Ok::<(), epas_friction::Error>(())
 /// ```
-#[must_use]
 pub const fn named(name: &str) -> Option<BallScrewParameters> {
     match place(name) {
         Some((list, index)) if list < SIZES.len() => Some(SIZES[list][index].parameters()),
@@ -204,8 +195,7 @@ pub const fn named(name: &str) -> Option<BallScrewParameters> {
     }
 }
 
-/// Place of a built-in design among all of them: those of [`CATALOGUE`], [`FINE_LEAD_SIZES`], [`STEERING_SIZES`] and
-/// [`DISSERTATION_DESIGNS`] one after another.
+/// Place of a built-in design among [`CATALOGUE`], [`FINE_LEAD_SIZES`], [`STEERING_SIZES`] and [`DISSERTATION_DESIGNS`] one after another.
 pub(crate) const fn position(name: &str) -> Option<usize> {
     let Some((list, index)) = place(name) else {
         return None;
@@ -220,7 +210,7 @@ pub(crate) const fn position(name: &str) -> Option<usize> {
 
 const SIZES: [&[CatalogueSize]; 3] = [&CATALOGUE, &FINE_LEAD_SIZES, &STEERING_SIZES];
 
-/// List and place in it of a name; behind the lists of sizes that of [`DISSERTATION_DESIGNS`].
+/// List of a name and its place there; behind [`SIZES`] is [`DISSERTATION_DESIGNS`].
 const fn place(name: &str) -> Option<(usize, usize)> {
     let mut list = 0;
     while list < SIZES.len() {
@@ -277,11 +267,8 @@ mod tests {
             let own = [size.nominal_diameter, size.lead, size.ball_diameter];
             for (said, own) in said.zip(own) {
                 // One rounding of the printed number, one of the length, one of the product.
-                assert!(
-                    (own * 1e3 - said).abs() <= 3.0 * f32::EPSILON * said,
-                    "{}",
-                    size.name
-                );
+                let off = (own * 1e3 - said).abs();
+                assert!(off <= 3.0 * f32::EPSILON * said, "{}", size.name);
             }
             assert!(size.design().is_ok(), "{}", size.name);
         }

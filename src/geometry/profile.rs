@@ -4,7 +4,7 @@ use crate::error::{Error, Range, attempt, in_range};
 use crate::math::constant;
 use core::f32::consts::{FRAC_PI_2, TAU};
 
-/// Radius of the cylinder on which the balls of a ball screw or a ball bearing run, m: 1e-3 to 0.5.
+/// Radius of the cylinder on which the balls of a screw or a bearing run, m: 1e-3 to 0.5.
 pub const PITCH_RADIUS: Range = Range::new(1e-3, 0.5);
 
 /// Lead of a ball screw, m: 0 to 0.2; 0 is a ball bearing.
@@ -13,24 +13,19 @@ pub const LEAD: Range = Range::new(0.0, 0.2);
 /// Ball radius, m: 1e-4 to 0.05. In a ball screw it also stays below 0.9 of the pitch radius.
 pub const BALL_RADIUS: Range = Range::new(1e-4, 0.05);
 
-/// Smallest accepted conformity `groove_radius / (2 ball_radius)`. At 0.5 ball and groove coincide and
-/// the contact is no ellipse; catalogues have 0.505 to 0.58.
+/// Smallest conformity `groove_radius / (2 ball_radius)`: at 0.5 ball and groove coincide; catalogues have 0.505 to 0.58.
 pub const SMALLEST_CONFORMITY: f32 = 0.5005;
 
-/// Largest accepted conformity; at 1 the groove radius is the ball's diameter.
+/// Largest conformity: the groove radius is the ball's diameter.
 pub const LARGEST_CONFORMITY: f32 = 1.0;
 
-/// Largest accepted nominal contact angle, rad (89 degrees).
+/// Largest nominal contact angle, rad (89 degrees).
 pub const LARGEST_CONTACT_ANGLE: f32 = 1.5533;
 
-/// Smallest `A = 1 + zeta kappa (H - r_s cos(beta))` of a groove, a pure number: at 0 its surface folds, and its curvatures
-/// have an error of `6e-8 / A`.
+/// Smallest `A = 1 + zeta kappa (H - r_s cos(beta))` of a groove: at 0 its surface folds, and curvatures have an error of `6e-8 / A`.
 pub const SMALLEST_AREA: f32 = 1e-4;
 
 /// Angle between the contact normal and the plane normal to the axis, through its cosine and sine.
-///
-/// The curvature formulas need only these two numbers. In the loop a changed contact angle costs one
-/// [`sin_cos`](constant::sin_cos), by our own kernel whatever backend serves the rest; an unchanged one costs nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactAngle {
@@ -50,17 +45,9 @@ impl ContactAngle {
     }
 
     /// As [`ContactAngle::new`] with the range 0 to pi/2 checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `contact_angle`.
     pub const fn checked(angle: f32) -> Result<Self, Error> {
-        let largest = core::f32::consts::FRAC_PI_2;
-        Ok(Self::new(attempt!(in_range(
-            "contact_angle",
-            angle,
-            0.0,
-            largest
-        ))))
+        let angle = attempt!(in_range("contact_angle", angle, 0.0, FRAC_PI_2));
+        Ok(Self::new(angle))
     }
 }
 
@@ -77,7 +64,6 @@ pub enum Groove {
 impl Groove {
     /// The papers' `zeta`: +1 for the screw, -1 for the nut.
     #[inline]
-    #[must_use]
     pub const fn sign(self) -> f32 {
         match self {
             Self::Screw => 1.0,
@@ -97,15 +83,12 @@ pub struct HelixPath {
 }
 
 impl HelixPath {
-    /// Curvature and torsion from the lead: `r_m / (r_m² + h²)` and `h / (r_m² + h²)` with the
-    /// reduced lead `h = lead / (2 pi)`, m.
-    ///
-    /// No trigonometry, and no loss of digits at any lead: an error of the lead angle `alpha` would
-    /// be magnified by `2 tan(alpha)`. Cost: two divisions, 5 other operations.
+    /// Curvature and torsion from the lead: `r_m / (r_m² + h²)` and `h / (r_m² + h²)` with the reduced lead `h = lead / (2 pi)`, m: no loss of digits
+    /// at any lead. Cost: two divisions, 5 other operations.
     #[must_use]
     pub const fn from_lead(pitch_radius: f32, lead: f32) -> Self {
         let reduced = lead * (1.0 / TAU);
-        // Scaled by the pitch radius, so that no square overflows or underflows at any unit of length.
+        // Scaled by the pitch radius: no square overflows or underflows at any unit of length.
         let tangent = reduced / pitch_radius;
         let curvature = 1.0 / (pitch_radius * (1.0 + tangent * tangent));
         Self {
@@ -144,36 +127,25 @@ impl HelixPath {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum GrooveSize {
     /// Conformity `f_s = groove_radius / (2 ball_radius)` (Bertolino et al. 2023, eq. (2)), [`SMALLEST_CONFORMITY`] to
-    /// [`LARGEST_CONFORMITY`]. The better conditioned of the two: what matters is `f_s - 1/2`.
+    /// [`LARGEST_CONFORMITY`]. The better conditioned of the two.
     Conformity(f32),
     /// Groove radius, m, within the same bounds relative to the ball.
     Radius(f32),
 }
 
 impl GrooveSize {
-    /// Groove radius and its excess over the ball radius, m; checked.
-    ///
-    /// The subtractions are exact (Sterbenz), so that the excess keeps all digits of the input.
+    /// Groove radius and its excess over the ball radius, m; checked. The subtractions are exact (Sterbenz).
     pub(super) const fn radius_and_clearance(self, ball_radius: f32) -> Result<(f32, f32), Error> {
+        let (least, largest) = (SMALLEST_CONFORMITY, LARGEST_CONFORMITY);
+        let diameter = 2.0 * ball_radius;
         match self {
             Self::Conformity(conformity) => {
-                attempt!(in_range(
-                    "conformity",
-                    conformity,
-                    SMALLEST_CONFORMITY,
-                    LARGEST_CONFORMITY
-                ));
-                let diameter = 2.0 * ball_radius;
+                attempt!(in_range("conformity", conformity, least, largest));
                 Ok((conformity * diameter, (conformity - 0.5) * diameter))
             }
             Self::Radius(radius) => {
-                let diameter = 2.0 * ball_radius;
-                attempt!(in_range(
-                    "groove_radius",
-                    radius,
-                    SMALLEST_CONFORMITY * diameter,
-                    LARGEST_CONFORMITY * diameter
-                ));
+                let (least, largest) = (least * diameter, largest * diameter);
+                attempt!(in_range("groove_radius", radius, least, largest));
                 Ok((radius, radius - ball_radius))
             }
         }
@@ -195,9 +167,7 @@ pub struct GrooveProfile {
 
 impl GrooveProfile {
     /// Offsets for a nominal contact angle `beta_0`: `H = D_s cos(beta_0)`, `L = D_s sin(beta_0)` (Bertolino et al. 2023, eqs. (3),
-    /// (4)), from the groove radius `r_s`, m, and the groove's excess `D_s = r_s - r_b`, m, which is given by itself: the difference
-    /// of two radii would lose its digits. Unchecked, for numbers of a validated design; each offset is within one rounding. Cost: two
-    /// multiplications.
+    /// (4)), from the groove radius `r_s`, m, and its excess `D_s = r_s - r_b`, m, whose difference would lose its digits. Unchecked.
     #[must_use]
     pub const fn new(groove_radius: f32, clearance: f32, contact_angle: ContactAngle) -> Self {
         Self {

@@ -1,10 +1,10 @@
 //! Nut speed from a magnetic angle sensor on the rotor.
 
-use super::nut_speed::{NoSpeed, NutSpeed};
+use super::nut_speed::NutSpeed;
 use crate::error::Error;
 use embedded_hal::spi::SpiDevice;
 
-/// Why a tick has no speed.
+/// Reasons why a tick has no speed.
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -20,8 +20,7 @@ pub enum EncoderError<E> {
     Interface(SensorErrors),
     /// The sensor says that it has no valid angle (or the bus is stuck low).
     NoAngle(Diagnostics),
-    /// The first angle, or the first after so many failed ticks that the rotor may have gone further
-    /// than a difference of angles tells.
+    /// The first angle, or the first after so many failed ticks that the rotor may have gone further than a difference of angles tells.
     NoEarlierReading,
     /// The difference of the angles is more than the largest nut speed makes.
     TooFast,
@@ -32,7 +31,7 @@ pub enum EncoderError<E> {
     },
 }
 
-/// What a tick has measured.
+/// Motion of rotor and nut in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct NutMotion {
@@ -40,7 +39,7 @@ pub struct NutMotion {
     pub rotor_angle: f32,
     /// Angular speed of the nut, rad/s, smoothed.
     pub nut_speed: f32,
-    /// What the sensor said of itself one tick before.
+    /// Diagnostics of one tick before.
     pub diagnostics: Diagnostics,
 }
 
@@ -48,20 +47,15 @@ pub struct NutMotion {
 /// on the rotor: `nut_speed = (angle - last_angle) / (gear_ratio tick)`, the shorter way round.
 ///
 /// A tick exchanges two frames, each its own transaction: one asks for the angle and receives the diagnostics asked for before, the other receives the
-/// angle and asks for the diagnostics: a bus stuck low, which reads as angle 0 with sound parity, is found at the next tick. Start and recovery take
-/// one frame more, an error flag two.
+/// angle and asks for the diagnostics: a bus stuck low is found at the next tick. Start and recovery take one frame more, an error flag two.
 ///
-/// **Resolution.** The speed from one difference comes in steps of [`MagneticEncoder::resolution`],
-/// `2 pi / 2^14 / tick / gear_ratio`: 0.38 rad/s at 1 ms, 7.7 rad/s at 50 us, both with gear ratio 1.
-/// Smoothing with a time constant of `n` ticks makes the ripple about `n` times finer and the speed
-/// `n` ticks late. Let the reversal speed of the model be more than this ripple.
+/// **Resolution.** The speed from one difference comes in steps of [`MagneticEncoder::resolution`], `2 pi / 2^14 / tick / gear_ratio`: 0.38 rad/s
+/// at 1 ms, 7.7 rad/s at 50 us, both with gear ratio 1. Smoothing with a time constant of `n` ticks makes the ripple about `n` times finer and the
+/// speed `n` ticks late. The reversal speed of the model is to be more than this ripple.
 ///
 /// **Wrap-around.** The largest speed is at most a quarter of a turn in a tick; beyond it, up to three times as fast at least, a tick is
-/// [`EncoderError::TooFast`] and never a wrong speed. After failed ticks the difference spans them, as long as the rotor cannot have gone more than a
-/// quarter of a turn; then one tick is [`EncoderError::NoEarlierReading`].
-///
-/// A failed tick changes nothing but the count of ticks since the last angle; after
-/// [`EncoderError::TooFast`] the new angle is taken as the base, so that one bad angle costs two ticks.
+/// [`EncoderError::TooFast`], and the new angle is the base of the next one. After failed ticks the difference spans them, as long as the rotor cannot
+/// have gone more than a quarter of a turn; then one tick is [`EncoderError::NoEarlierReading`].
 #[derive(Debug)]
 pub struct MagneticEncoder<SPI> {
     spi: SPI,
@@ -71,9 +65,6 @@ pub struct MagneticEncoder<SPI> {
 
 impl<SPI: SpiDevice> MagneticEncoder<SPI> {
     /// Checks the configuration. Nothing is sent.
-    ///
-    /// # Errors
-    /// [`Error`] naming `tick`, `gear_ratio`, `largest_nut_speed` or `smoothing_time`.
     pub fn new(spi: SPI, configuration: &EncoderConfiguration) -> Result<Self, Error> {
         Ok(Self {
             spi,
@@ -84,9 +75,8 @@ impl<SPI: SpiDevice> MagneticEncoder<SPI> {
 
     /// Reads the angle and makes the speed; call it every [`EncoderConfiguration::tick`].
     ///
-    /// `turning` says that something else knows that the rotor turns by more than a count in
-    /// [`EncoderConfiguration::stuck_ticks`] (the phase currents, a voltage model, the column's angle);
-    /// `false` where nothing does: at standstill an unchanged angle is no fault.
+    /// `turning`: something else knows that the rotor turns by more than a count in [`EncoderConfiguration::stuck_ticks`] (the phase currents, the
+    /// column's angle); `false` where nothing does: at standstill an unchanged angle is no fault.
     ///
     /// # Errors
     /// [`EncoderError`]; the next sound tick is as if nothing had been.
@@ -99,16 +89,11 @@ impl<SPI: SpiDevice> MagneticEncoder<SPI> {
                 return Err(error);
             }
         };
-        match self.speed.take(angle, turning) {
-            Ok(nut_speed) => Ok(NutMotion {
-                rotor_angle: NutSpeed::rotor_angle(angle),
-                nut_speed,
-                diagnostics,
-            }),
-            Err(NoSpeed::NoEarlierReading) => Err(EncoderError::NoEarlierReading),
-            Err(NoSpeed::TooFast) => Err(EncoderError::TooFast),
-            Err(NoSpeed::Stuck(ticks)) => Err(EncoderError::Stuck { ticks }),
-        }
+        Ok(NutMotion {
+            rotor_angle: NutSpeed::rotor_angle(angle),
+            nut_speed: self.speed.take(angle, turning)?,
+            diagnostics,
+        })
     }
 
     /// Nut speed of one count in one tick, rad/s: the step of an unsmoothed speed.
@@ -121,10 +106,8 @@ impl<SPI: SpiDevice> MagneticEncoder<SPI> {
         self.spi
     }
 
-    /// The angle in counts, and the diagnostics asked for before it.
     fn sample(&mut self) -> Result<(u16, Diagnostics), EncoderError<SPI::Error>> {
         if !self.asked {
-            // The answer belongs to a command that nobody remembers.
             self.exchange(READ_DIAGNOSTICS)?;
             self.asked = true;
         }
@@ -137,7 +120,7 @@ impl<SPI: SpiDevice> MagneticEncoder<SPI> {
         }
     }
 
-    /// Sends a command; the data of the answer to the command before it.
+    /// Sends a command; the data of the answer to the one before it.
     fn answer(&mut self, command: u16) -> Result<u16, EncoderError<SPI::Error>> {
         let frame = checked(self.exchange(command)?)?;
         if frame & ERROR_FLAG == 0 {
@@ -148,8 +131,7 @@ impl<SPI: SpiDevice> MagneticEncoder<SPI> {
         Err(EncoderError::Interface(SensorErrors(errors & DATA)))
     }
 
-    /// One frame each way, in a transaction of its own: the sensor takes a command when it is
-    /// deselected.
+    /// One frame each way, in a transaction of its own: the sensor takes a command when it is deselected.
     fn exchange(&mut self, command: u16) -> Result<u16, EncoderError<SPI::Error>> {
         let mut bytes = command.to_be_bytes();
         self.spi
@@ -159,7 +141,6 @@ impl<SPI: SpiDevice> MagneticEncoder<SPI> {
     }
 }
 
-/// The frame, if its parity is even.
 fn checked<E>(frame: u16) -> Result<u16, EncoderError<E>> {
     if even(frame) {
         Ok(frame)
@@ -178,7 +159,6 @@ pub(super) const READ_DIAGNOSTICS: u16 = read(0x3FFC);
 /// Reads the errors of the interface (ERRFL, 0x0001); the sensor clears them by it.
 pub(super) const READ_ERRORS: u16 = read(0x0001);
 
-/// The command that reads a register, with its parity.
 const fn read(address: u16) -> u16 {
     let command = 1 << 14 | address;
     if even(command) {
@@ -193,7 +173,7 @@ pub(super) const fn even(frame: u16) -> bool {
     frame.count_ones() & 1 == 0
 }
 
-/// What the sensor says of its interface (ERRFL).
+/// Errors of the sensor's interface (ERRFL).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SensorErrors(pub(super) u16);
@@ -217,15 +197,13 @@ impl SensorErrors {
         self.0 & 1 << 2 != 0
     }
 
-    /// The register as read. More than its three lowest bits: the line to the controller is stuck
-    /// high.
-    #[must_use]
+    /// The register as read. More than its three lowest bits: the line to the controller is stuck high.
     pub const fn bits(self) -> u16 {
         self.0
     }
 }
 
-/// What the sensor says of its magnet and its own work (DIAAGC).
+/// State of the sensor and its magnet (DIAAGC).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Diagnostics(pub(super) u16);
@@ -256,7 +234,6 @@ impl Diagnostics {
     }
 
     /// The register as read.
-    #[must_use]
     pub const fn bits(self) -> u16 {
         self.0
     }
@@ -267,23 +244,20 @@ impl Diagnostics {
     }
 }
 
-/// How a rotor's angle becomes the nut's speed; unchecked.
+/// Configuration of an encoder; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EncoderConfiguration {
     /// Time between two calls of [`MagneticEncoder::tick`](super::MagneticEncoder::tick), s, 1e-6 to 1.
     pub tick: f32,
-    /// Turns of the rotor in one turn of the nut, of magnitude 0.01 to 100: 1 on the nut itself, the
-    /// ratio of the pulleys with a belt between. Negative where the sensor counts down while the nut
-    /// turns forward.
+    /// Turns of the rotor in one turn of the nut, of magnitude 0.01 to 100: 1 on the nut itself, the ratio of the pulleys with a belt between. Negative
+    /// where the sensor counts down while the nut turns forward.
     pub gear_ratio: f32,
-    /// Largest nut speed, rad/s: 1e-3 up to a quarter of a turn of the rotor in one
-    /// tick, `pi / (2 gear_ratio tick)`.
+    /// Largest nut speed, rad/s: 1e-3 up to a quarter of a turn of the rotor in one tick, `pi / (2 gear_ratio tick)`.
     pub largest_nut_speed: f32,
     /// Time constant of the first-order smoothing of the speed, s, 0 (none) to 10.
     pub smoothing_time: f32,
-    /// Number of ticks without a change of the angle, while the rotor is known to turn, after which
-    /// the sensor counts as stuck; 0 counts as 1 would.
+    /// Ticks without a change of the angle, while the rotor is known to turn, after which the sensor counts as stuck; 0 as 1.
     pub stuck_ticks: u32,
 }
 
@@ -291,7 +265,6 @@ pub struct EncoderConfiguration {
 mod tests {
     use super::*;
 
-    /// The commands as the data sheet's rule gives them by hand.
     #[test]
     fn commands_carry_even_parity() {
         assert_eq!(READ_ANGLE, 0xFFFF);
@@ -299,7 +272,6 @@ mod tests {
         assert_eq!(READ_ERRORS, 0x4001);
     }
 
-    /// Each error and each finding has its bit, as the data sheet numbers them, and none reads as another.
     #[test]
     fn every_bit_is_its_own() {
         for bit in 0..16 {
@@ -309,15 +281,10 @@ mod tests {
                 [bit == 0, bit == 1, bit == 2]
             );
             let found = Diagnostics(1 << bit);
-            assert_eq!(
-                [
-                    found.ready(),
-                    found.overflow(),
-                    found.magnet_too_strong(),
-                    found.magnet_too_weak()
-                ],
-                [bit == 8, bit == 9, bit == 10, bit == 11]
-            );
+            let flags = [found.ready(), found.overflow()];
+            assert_eq!(flags, [bit == 8, bit == 9]);
+            let magnet = [found.magnet_too_strong(), found.magnet_too_weak()];
+            assert_eq!(magnet, [bit == 10, bit == 11]);
         }
     }
 }

@@ -6,35 +6,30 @@ use crate::error::{Error, in_range};
 use crate::law::compensation::CompensationMargin;
 use crate::scene::{Faults, Outputs, UncagedOutputs};
 
-/// Which flagged outputs take the torque away.
+/// Reaction to flagged outputs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FaultReaction {
-    /// Any fault ([`Faults::faulty`]): neutral. [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`] are none: their torque is
-    /// the best estimate, and stays.
+    /// Any fault ([`Faults::faulty`], which has not [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`]): neutral.
     #[default]
     NeutralOnAnyFault,
-    /// A value at its limit ([`Faults::SPEED_RANGE`], [`Faults::LOAD_RANGE`],
-    /// [`Faults::FRICTION_LIMIT`]) is still output, so that the torque does not drop where it is largest;
-    /// any other fault: neutral.
+    /// A value at its limit ([`Faults::SPEED_RANGE`], [`Faults::LOAD_RANGE`], [`Faults::FRICTION_LIMIT`]) passes, so that the torque does not drop
+    /// where it is largest; any other fault: neutral.
     LimitedValuesPass,
 }
 
-/// How a torque becomes a duty cycle; unchecked.
+/// Configuration of a feed-forward of friction; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FeedForwardConfiguration {
-    /// Torque about the nut's axis at full duty, N m, 1e-6 to 1e6. With a belt: the
-    /// motor's torque times the gear ratio.
+    /// Torque about the nut's axis at full duty, N m, 1e-6 to 1e6: the motor's torque times the gear ratio.
     pub full_torque: f32,
     /// Largest output torque, N m, 0 up to `full_torque`: the authority of the compensation.
     pub largest_torque: f32,
-    /// Output share of the friction torque, 0 to 1. Less than 1 leaves some friction to the
-    /// driver and keeps an estimate that is too large from turning the wheel by itself.
-    /// With a model that has a memory the largest share follows from its margin:
-    /// [`FrictionFeedForward::with_memory`].
+    /// Output share of the friction torque, 0 to 1: less than 1 keeps an estimate that is too large from turning the wheel. For a model with memory
+    /// see [`FrictionFeedForward::with_memory`].
     pub share: f32,
-    /// Which flagged outputs take the torque away.
+    /// Reaction to flagged outputs.
     pub reaction: FaultReaction,
 }
 
@@ -50,14 +45,9 @@ pub struct AppliedDuty {
     pub neutral: bool,
 }
 
-/// Puts a share of the friction torque out as an offset-binary duty cycle: half the scale is no
-/// torque, none is `-full_torque`, all is `+full_torque`:
-/// `duty = round((1 + share torque / full_torque) max_duty / 2)`.
-///
-/// One channel without a direction pin: the reference input of a motor driver, or an H bridge in
-/// locked antiphase. The torque saturates at `largest_torque`; faulty outputs and a torque that is NaN
-/// give the neutral duty, which is also what [`FrictionFeedForward::neutral`] gives for a
-/// controller that stops. Cost: three multiplications, no division.
+/// Outputs a share of the friction torque as an offset-binary duty cycle, `duty = round((1 + share torque / full_torque) max_duty / 2)`: for the
+/// reference input of a motor driver, or an H bridge in locked antiphase. The torque saturates at `largest_torque`; faulty outputs and a torque that
+/// is NaN give the neutral duty. Cost: three multiplications, no division.
 #[derive(Debug)]
 pub struct FrictionFeedForward<PWM> {
     pwm: PWM,
@@ -69,11 +59,7 @@ pub struct FrictionFeedForward<PWM> {
 }
 
 impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
-    /// Checks the configuration. The duty cycle is left as it is; call
-    /// [`FrictionFeedForward::neutral`] before the bridge is enabled.
-    ///
-    /// # Errors
-    /// [`Error`] naming `full_torque`, `largest_torque` or `share`.
+    /// Checks the configuration. The duty cycle is left as it is; call [`FrictionFeedForward::neutral`] before the bridge is enabled.
     pub fn new(pwm: PWM, configuration: &FeedForwardConfiguration) -> Result<Self, Error> {
         let FeedForwardConfiguration {
             full_torque,
@@ -92,14 +78,10 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
         })
     }
 
-    /// For a model with memory: checks the share against what its breakaway and its play allow as well.
-    ///
-    /// Where friction is a spring in angle, its compensation is a negative one, and more of it than the true friction has makes the
-    /// motor hum: see [`compensation`](crate::law::compensation) for the three bounds.
+    /// For a model with memory: checks the share also against its breakaway and its play ([`compensation`](crate::law::compensation)).
     ///
     /// # Errors
-    /// [`Error`] as from [`FrictionFeedForward::new`]; `share` with the range that the margin leaves it; the margin's
-    /// own fields.
+    /// [`Error`] as from [`FrictionFeedForward::new`], or naming `share` or a field of the margin.
     pub fn with_memory(
         pwm: PWM,
         configuration: &FeedForwardConfiguration,
@@ -110,17 +92,11 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
     }
 
     /// Outputs the friction torque of a tick.
-    ///
-    /// # Errors
-    /// The channel's own error.
     pub fn apply(&mut self, outputs: &Outputs) -> Result<AppliedDuty, PWM::Error> {
         self.apply_torque(outputs.friction_torque, outputs.faults)
     }
 
     /// Outputs the friction torque of a tick of a screw without cage.
-    ///
-    /// # Errors
-    /// The channel's own error.
     pub fn apply_uncaged(&mut self, outputs: &UncagedOutputs) -> Result<AppliedDuty, PWM::Error> {
         self.apply_torque(outputs.friction_torque, outputs.faults)
     }
@@ -150,9 +126,6 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
     }
 
     /// Outputs no torque.
-    ///
-    /// # Errors
-    /// The channel's own error.
     pub fn neutral(&mut self) -> Result<(), PWM::Error> {
         self.put(0.0).map(|_| ())
     }
@@ -174,11 +147,9 @@ impl<PWM: SetDutyCycle> FrictionFeedForward<PWM> {
         }
     }
 
-    /// Outputs a torque, -1/2 to 1/2 of the scale.
     fn put(&mut self, value: f32) -> Result<u16, PWM::Error> {
         let scale = self.pwm.max_duty_cycle();
-        // The cast rounds down and saturates, so that the half rounds to nearest and an uneven scale
-        // has its neutral half a count above the middle.
+        // The cast rounds down and saturates; an uneven scale has its neutral half a count above the middle.
         let duty = (f32::from(scale) * (0.5 + value) + 0.5) as u16;
         let duty = if duty > scale { scale } else { duty };
         self.pwm.set_duty_cycle(duty)?;

@@ -2,7 +2,7 @@
 
 use core::f32::consts::{FRAC_PI_2, TAU};
 
-use super::encoder::EncoderConfiguration;
+use super::encoder::{EncoderConfiguration, EncoderError};
 use crate::error::{Error, in_range};
 
 const COUNTS: f32 = 16384.0;
@@ -10,17 +10,6 @@ const COUNTS: f32 = 16384.0;
 /// Longest gap, in ticks, over which a difference may be taken.
 const LONGEST_GAP: f32 = 1000.0;
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum NoSpeed {
-    /// No earlier angle is near enough in time.
-    NoEarlierReading,
-    /// The difference is more than the largest speed makes.
-    TooFast,
-    /// The angle has not changed for this many ticks, though the rotor turns.
-    Stuck(u32),
-}
-
-/// The last angle and the smoothed speed, with the constants of both.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct NutSpeed {
@@ -55,24 +44,16 @@ impl NutSpeed {
         // The sign is the direction in which the sensor counts; the size may not vanish.
         in_range("gear_ratio", ratio, 0.01, 100.0)?;
         let quarter_turn_speed = FRAC_PI_2 / (ratio * tick);
-        in_range(
-            "largest_nut_speed",
-            largest_nut_speed,
-            1e-3,
-            quarter_turn_speed,
-        )?;
+        let speed = largest_nut_speed;
+        in_range("largest_nut_speed", speed, 1e-3, quarter_turn_speed)?;
         in_range("smoothing_time", smoothing_time, 0.0, 10.0)?;
         let gap = quarter_turn_speed / largest_nut_speed;
         Ok(Self {
             speed_per_count: TAU / (COUNTS * gear_ratio * tick),
             largest_step: largest_nut_speed * ratio * tick * (COUNTS / TAU) + 1.0,
-            longest_gap: if gap < LONGEST_GAP {
-                gap as u32
-            } else {
-                LONGEST_GAP as u32
-            },
+            longest_gap: gap.min(LONGEST_GAP) as u32,
             gain: tick / (smoothing_time + tick),
-            stuck_ticks: if stuck_ticks == 0 { 1 } else { stuck_ticks },
+            stuck_ticks: stuck_ticks.max(1),
             last: None,
             gap: 0,
             unchanged: 0,
@@ -98,14 +79,14 @@ impl NutSpeed {
 
     /// A tick with an angle, counts: the smoothed nut speed, rad/s.
     #[inline]
-    pub(super) fn take(&mut self, angle: u16, turning: bool) -> Result<f32, NoSpeed> {
+    pub(super) fn take<E>(&mut self, angle: u16, turning: bool) -> Result<f32, EncoderError<E>> {
         let gap = self.gap.saturating_add(1);
         let last = self.last.replace(angle);
         self.gap = 0;
         let Some(last) = last.filter(|_| gap <= self.longest_gap) else {
             self.unchanged = 0;
             self.speed = None;
-            return Err(NoSpeed::NoEarlierReading);
+            return Err(EncoderError::NoEarlierReading);
         };
         if angle == last {
             self.wait(turning);
@@ -114,20 +95,21 @@ impl NutSpeed {
         }
         if self.unchanged >= self.stuck_ticks {
             self.speed = None;
-            return Err(NoSpeed::Stuck(self.unchanged));
+            return Err(EncoderError::Stuck {
+                ticks: self.unchanged,
+            });
         }
         let step = f32::from(wrapped_step(last, angle));
         let ticks = gap as f32;
         if step.abs() > self.largest_step * ticks {
             self.speed = None;
-            return Err(NoSpeed::TooFast);
+            return Err(EncoderError::TooFast);
         }
         let speed = if gap == 1 {
             step * self.speed_per_count
         } else {
             step * self.speed_per_count / ticks
         };
-        // The first speed after a fault is not mixed with one from before it.
         let before = self.speed.unwrap_or(speed);
         let smoothed = before + self.gain * (speed - before);
         self.speed = Some(smoothed);
@@ -140,7 +122,6 @@ impl NutSpeed {
         f32::from(angle) * (TAU / COUNTS)
     }
 
-    /// Nut speed of one count in one tick, rad/s.
     pub(super) fn resolution(&self) -> f32 {
         self.speed_per_count.abs()
     }

@@ -1,9 +1,7 @@
 //! Contact kinematics of one ball: set-up, update, tick.
 
-use super::coefficients::{ContactCoefficients, Rotation};
-use super::path::Direction;
-use super::path::Path;
-use super::path::{EllipticContact, KinematicsParameters};
+use super::coefficients::ContactCoefficients;
+use super::path::{Direction, EllipticContact, KinematicsParameters, Path};
 use crate::error::{Error, attempt};
 use crate::geometry::Groove;
 use crate::math::{self, constant};
@@ -26,47 +24,21 @@ use crate::math::{self, constant};
 /// **Corrected:** (23) as printed divides `omega_m` by the geometry of the *inner* contact; rolling needs `(omega - omega_m) A_i / (r'_i b_i)`, which
 /// equals `omega_m A_o / (r'_o b_o)`. The printed form gives 185.9 in place of 252.0 rad/s for the paper's own screw.
 ///
-/// Errors against the exact model in f64, over 200 000 random geometries (helix angle 0 to 40°, ball
-/// diameter over pitch diameter 0.04 to 0.29, groove radius over ball diameter 0.505 to 0.58, contact
-/// angles 10 to 80°, pitch angle within 10° and yaw within 6° of them and of 0, rolling radii within 1 %
-/// of the ball's, semi-major axis to 0.3 ball radii): see [`tick`](Self::tick) and
-/// [`ratios`](ContactCoefficients::ratios).
+/// Errors: see [`tick`](Self::tick) and [`ratios`](ContactCoefficients::ratios), over 200 000 random geometries: helix angle 0 to 40°, ball
+/// diameter over pitch diameter 0.04 to 0.29, groove radius over ball diameter 0.505 to 0.58, contact angles 10 to 80°, pitch angle within 10° and yaw
+/// within 6° of them and of 0, rolling radii within 1 % of the ball's, semi-major axis to 0.3 ball radii.
 ///
 /// ```
+/// use epas_friction::CATALOGUE;
 /// use epas_friction::kinematics::{ContactKinematics, EllipticContact, KinematicsParameters};
-/// # fn main() -> Result<(), epas_friction::Error> {
-/// let degree = core::f32::consts::PI / 180.0;
-/// // The screw of Alberdi et al., Table 2, at 1500 N.
-/// let mut kinematics = ContactKinematics::new(&KinematicsParameters {
-///     ball_diameter: 7.94e-3,
-///     pitch_radius: 19.25e-3,
-///     lead_angle: 10.0 * degree,
-///     groove_radius_screw: 4.2e-3,
-///     groove_radius_nut: 4.2e-3,
-///     contact_angle_screw: 41.0 * degree,
-///     contact_angle_nut: 41.0 * degree,
-///     pitch_angle: 40.0 * degree,
-///     yaw_angle: 0.0,
-///     rolling_radius_screw: 3.97e-3,
-///     rolling_radius_nut: 3.97e-3,
-///     semi_major_screw: 0.601e-3,
-///     semi_minor_screw: 0.083e-3,
-///     semi_major_nut: 0.586e-3,
-///     semi_minor_nut: 0.097e-3,
-/// })?;
-///
-/// // In the interrupt: 1000 revolutions a minute.
-/// let ball = kinematics.tick(104.72);
-/// assert!((ball.screw.entrainment_speed - 1.000).abs() < 1e-3);
-/// assert!((ball.screw.side_slip + 41.5e-3).abs() < 1e-4);
-///
+/// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
+/// let mut kinematics = ContactKinematics::new(&KinematicsParameters::of(&design, 100.0, 100.0)?)?;
+/// let ball = kinematics.tick(104.72); // 1000 revolutions a minute
+/// assert!((ball.orbital_speed / 104.72 - 0.43).abs() < 0.01);
 /// // The load rose: new contact angles and ellipses.
-/// let taken = kinematics.update(
-///     EllipticContact { contact_angle: 0.72, semi_major: 0.65e-3, semi_minor: 0.09e-3 },
-///     EllipticContact { contact_angle: 0.72, semi_major: 0.63e-3, semi_minor: 0.10e-3 },
-/// );
-/// assert!(taken);
-/// # Ok(()) }
+/// let contact = EllipticContact { contact_angle: 0.8, semi_major: 0.65e-3, semi_minor: 0.09e-3 };
+/// assert!(kinematics.update(contact, contact));
+/// # Ok::<(), epas_friction::Error>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -79,14 +51,12 @@ pub struct ContactKinematics {
 }
 
 impl ContactKinematics {
-    /// Checks the parameters and forms all constants. Set-up only; a constant can take them.
+    /// Checks the parameters and forms all constants; for constants too.
     ///
     /// # Errors
-    /// Names the first field of [`KinematicsParameters`] that is NaN or out of range, and
-    /// the range that would do: a contact angle so far from the pitch angle that the ball's surface
-    /// hardly moves at the contact (`b_k < 0.25`, about 75°), a contact ellipse larger than 0.3 of the
-    /// ball's radius (outside Hertz' theory), a rolling radius that folds the ball's path past the
-    /// screw's axis.
+    /// [`Error`] naming the first field of [`KinematicsParameters`] out of range: also a contact angle so far from the pitch angle that the ball's
+    /// surface hardly moves at the contact (`b_k < 0.25`, about 75°), a contact ellipse larger than 0.3 of the ball's radius, and a rolling radius that
+    /// folds the ball's path past the screw's axis.
     pub const fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
         let path = attempt!(Path::new(parameters));
         let (screw, nut) = attempt!(path.checked_directions(parameters));
@@ -103,13 +73,8 @@ impl ContactKinematics {
         Ok(kinematics)
     }
 
-    /// Takes new contact angles (rad) and ellipses (m), as load or temperature change them.
-    ///
-    /// True when taken. False, and nothing changes, where any of the six numbers is not one that
-    /// [`new`](Self::new) would accept.
-    ///
-    /// Cost: about 450 cycles (modelled, Cortex-M4F), 110 of them the two sines and cosines of the own
-    /// backend and 45 the checks.
+    /// Takes new contact angles (rad) and ellipses (m), as load or temperature change them; false, and nothing changes, where
+    /// [`new`](Self::new) would refuse one. Cost: about 450 cycles (modelled, Cortex-M4F).
     #[must_use]
     pub fn update(&mut self, screw: EllipticContact, nut: EllipticContact) -> bool {
         if !(self.path.accepts(screw) && self.path.accepts(nut)) {
@@ -117,7 +82,7 @@ impl ContactKinematics {
         }
         let screw = self.path.direction(&self.path.screw, screw, Groove::Screw);
         let nut = self.path.direction(&self.path.nut, nut, Groove::Nut);
-        // `reaches` is checked at the screw alone: at the nut `A_k` is never less than `q`.
+        // At the nut `A_k` is never less than `q`.
         if !(screw.grips() && screw.reaches(&self.path.screw) && nut.grips()) {
             return false;
         }
@@ -130,26 +95,18 @@ impl ContactKinematics {
     }
 
     /// Motion, slip and entrainment speed at a screw speed (rad/s, either sign): Alberdi et al., eqs. (22), (23), (31), (32),
-    /// (34), (36).
+    /// (34), (36). A speed that is NaN or beyond 1e6 rad/s counts as 0.
     ///
-    /// A speed that is NaN or beyond 1e6 rad/s counts as 0: every result is 0 then.
-    ///
-    /// Errors over the domain of [`ContactKinematics`], numbers rounded to f32 included, largest (rms):
-    /// orbital speed 3.9e-7 (8e-8), spin speed 4.8e-7 (1e-7), entrainment speed 5.0e-7 (1e-7), each of
-    /// itself; rolling slip 2.2e-7 (4e-8), side slip 8.1e-8 (8e-9), spin on the ball's radius 2.7e-7
-    /// (5e-8), each of the entrainment speed.
-    ///
-    /// Cost: ten multiplications; as a call that loads ten constants and stores ten results about 60
-    /// cycles (modelled, Cortex-M4F), less where it is inlined and not every result is used.
+    /// Errors over the domain of [`ContactKinematics`], largest (rms): orbital speed 3.9e-7 (8e-8), spin speed 4.8e-7 (1e-7), entrainment speed
+    /// 5.0e-7 (1e-7), each of itself; rolling slip 2.2e-7 (4e-8), side slip 8.1e-8 (8e-9), spin on the ball's radius 2.7e-7 (5e-8), each of the
+    /// entrainment speed. Cost: ten multiplications; as a call about 60 cycles (modelled, Cortex-M4F).
     #[inline]
-    #[must_use]
     pub fn tick(&self, speed: f32) -> BallKinematics {
         self.per_speed().at_speed(speed)
     }
 
     /// Motion and slip per rad/s of the screw: the constants that [`tick`](Self::tick) multiplies.
     #[inline]
-    #[must_use]
     pub const fn per_speed(&self) -> BallKinematics {
         BallKinematics {
             orbital_speed: self.orbital_speed,
@@ -159,24 +116,17 @@ impl ContactKinematics {
         }
     }
 
-    /// Contact with the screw (inner): ratios, and slip over its ellipse.
-    #[inline]
-    #[must_use]
+    /// Contact with the screw (inner).
     pub const fn screw(&self) -> &ContactCoefficients {
         &self.screw
     }
 
-    /// Contact with the nut (outer): ratios, and slip over its ellipse.
-    #[inline]
-    #[must_use]
+    /// Contact with the nut (outer).
     pub const fn nut(&self) -> &ContactCoefficients {
         &self.nut
     }
-}
 
-impl ContactKinematics {
-    /// Forms in place all constants that depend on contact angles and ellipses, except the entrainment speeds at screw
-    /// and nut: it returns their squares.
+    /// Forms all constants that depend on contact angles and ellipses, except the entrainment speeds: it returns their squares.
     #[inline]
     #[must_use]
     const fn fold(&mut self, screw: &Direction, nut: &Direction) -> (f32, f32) {
@@ -187,24 +137,25 @@ impl ContactKinematics {
         let orbital_speed = screw_share * inverse;
         let spin_speed = screw.reach * nut.reach * inverse;
         let (path, inner, outer) = (&self.path, Groove::Screw, Groove::Nut);
-        let rotation = Rotation::new(path, spin_speed);
+        let rotation = [
+            spin_speed * path.axis_binormal,
+            spin_speed * path.axis_tangent,
+            spin_speed * path.axis_normal,
+        ];
         let relative_speed = -(nut_share * inverse);
         let screw = self
             .screw
-            .fold(path, &path.screw, screw, relative_speed, inner, &rotation);
+            .fold(path, &path.screw, screw, relative_speed, inner, rotation);
         let nut = self
             .nut
-            .fold(path, &path.nut, nut, -orbital_speed, outer, &rotation);
+            .fold(path, &path.nut, nut, -orbital_speed, outer, rotation);
         self.orbital_speed = orbital_speed;
         self.spin_speed = spin_speed;
         (screw, nut)
     }
 }
 
-/// Slip of one contact at its centre.
-///
-/// As a result of [`tick`](super::ContactKinematics::tick): m/s, m/s, rad/s, m/s. As a constant per unit of
-/// speed ([`per_speed`](super::ContactKinematics::per_speed)): m, m, 1, m.
+/// Slip of one contact at its centre; per unit of speed ([`per_speed`](super::ContactKinematics::per_speed)): m, m, 1, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ContactSlip {
@@ -214,8 +165,7 @@ pub struct ContactSlip {
     pub side_slip: f32,
     /// Angular velocity of the ball about the contact normal, relative to the raceway, rad/s (eq. (34)).
     pub spin: f32,
-    /// Entrainment speed: mean speed of the two surfaces relative to the moving contact, m/s (size of the vector of eqs. (35),
-    /// (36)); never negative.
+    /// Entrainment speed: mean speed of the two surfaces relative to the moving contact, m/s (size of the vector of eqs. (35), (36)).
     pub entrainment_speed: f32,
 }
 
@@ -231,10 +181,7 @@ impl ContactSlip {
     }
 }
 
-/// Motion of one ball and its slip at both contacts.
-///
-/// As a result of [`ContactKinematics::tick`](super::ContactKinematics::tick): speeds. As [`ContactKinematics::per_speed`](super::ContactKinematics::per_speed): the
-/// same per rad/s of the screw.
+/// Motion of one ball and its slip at both contacts, or the same per rad/s of the screw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallKinematics {
@@ -250,11 +197,10 @@ pub struct BallKinematics {
 }
 
 impl BallKinematics {
-    /// From the motion per speed to that at a speed; a wrong one counts as 0.
     #[inline]
     pub(super) fn at_speed(&self, speed: f32) -> Self {
         let magnitude = speed.abs();
-        // False for NaN, too. Only the branch for wrong speeds holds a call: the usual branch needs no stack frame.
+        // False for NaN. Only the branch for wrong speeds holds a call: the usual branch needs no stack frame.
         if magnitude <= SPEED_LIMIT {
             self.times(speed, magnitude)
         } else {
@@ -272,8 +218,7 @@ impl BallKinematics {
         }
     }
 
-    /// Every result zero, with the sign of the refused speed. The sign serves to keep the zero from being a constant:
-    /// for a constant the compiler would call the function that clears memory, which takes longer than the products.
+    /// Every result zero, with the sign of the refused speed: for a constant the compiler would call the function that clears memory.
     #[cold]
     #[inline(never)]
     fn still(speed: f32) -> Self {
@@ -293,13 +238,10 @@ impl BallKinematics {
     }
 }
 
-/// Speeds beyond this are no speeds of a screw, rad/s (9.5 million revolutions a minute).
 const SPEED_LIMIT: f32 = 1.0e6;
 
-/// `speed`, or 0 where it is NaN or beyond [`SPEED_LIMIT`].
 #[inline]
 pub(super) fn sane_speed(speed: f32) -> f32 {
-    // One comparison refuses NaN and both infinities as well.
     if speed.abs() <= SPEED_LIMIT {
         speed
     } else {

@@ -1,32 +1,11 @@
 //! Constants of one contact, and what follows from them.
 
 use super::ball::{ContactSlip, sane_speed};
-use super::path::Direction;
-use super::path::{GroovePath, Path};
+use super::path::{Direction, GroovePath, Path};
 use crate::geometry::Groove;
 use crate::math;
 
-/// The ball's rotation, `omega_R / omega`, along the path's binormal, tangent and normal.
-pub(super) struct Rotation {
-    binormal: f32,
-    tangent: f32,
-    normal: f32,
-}
-
-impl Rotation {
-    #[inline]
-    pub(super) const fn new(path: &Path, spin_speed: f32) -> Self {
-        Self {
-            binormal: spin_speed * path.axis_binormal,
-            tangent: spin_speed * path.axis_tangent,
-            normal: spin_speed * path.axis_normal,
-        }
-    }
-}
-
-/// The ratios of Alberdi et al., eqs. (37) to (40), at the centre of a contact.
-///
-/// They depend neither on the speed nor on its sign.
+/// The ratios of Alberdi et al., eqs. (37) to (40), at the centre of a contact, at any speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SlipRatios {
@@ -34,11 +13,9 @@ pub struct SlipRatios {
     pub entrainment_angle: f32,
     /// Sliding speed over entrainment speed (`SRR`).
     pub slide_to_roll: f32,
-    /// Angle from the direction of rolling to the slip, rad, in (-pi, pi], for a positive
-    /// speed of the screw. 0 where `slide_to_roll` is 0: no slip has no direction.
+    /// Angle from the direction of rolling to the slip, rad, in (-pi, pi], for a positive speed; 0 where `slide_to_roll` is 0.
     pub slide_angle: f32,
-    /// Spin times the ellipse's mean semi-axis `sqrt(a b)` over entrainment speed (`S_p`), with the
-    /// sign of the spin for a positive speed.
+    /// Spin times the ellipse's mean semi-axis `sqrt(a b)` over entrainment speed (`S_p`), for a positive speed.
     pub spin_to_roll: f32,
 }
 
@@ -71,7 +48,6 @@ pub struct ContactCoefficients {
 }
 
 impl ContactCoefficients {
-    /// Constants of the groove alone, before a contact is known.
     pub(super) const fn new(groove_path: &GroovePath) -> Self {
         Self {
             slip: ContactSlip {
@@ -90,11 +66,9 @@ impl ContactCoefficients {
         }
     }
 
-    /// Forms everything from one contact's direction: `relative_speed` is `omega_k / omega` (frame of
-    /// the orbiting ball against the raceway).
-    ///
-    /// All but the entrainment speed: it returns that one's square, because loop and set-up differ in the
-    /// square root.
+    /// Forms everything from one contact's direction, with `relative_speed = omega_k / omega` of the orbiting ball's frame against the raceway
+    /// and the ball's rotation `omega_R / omega` along binormal, tangent and normal of the path; of the entrainment speed the square, because loop
+    /// and set-up differ in the root.
     #[inline]
     #[must_use]
     pub(super) const fn fold(
@@ -104,7 +78,7 @@ impl ContactCoefficients {
         direction: &Direction,
         relative_speed: f32,
         groove: Groove,
-        rotation: &Rotation,
+        [binormal, tangent, normal]: [f32; 3],
     ) -> f32 {
         // Symbols of Alberdi et al.: w = omega_k / omega, z = (a / (D/2))^2.
         let w = relative_speed;
@@ -112,16 +86,16 @@ impl ContactCoefficients {
         let z = direction.semi_major * direction.semi_major * path.inverse_ball_radius_squared;
         let [c1, c2, c3] = groove_path.deficit;
         let deficit = z * (c1 + z * (c2 + z * c3));
-        // r' - S as a sum of two small numbers; (31) takes it as the difference of two speeds, which loses digits.
+        // r' - S as a sum of two small numbers; (31) takes it as the difference of two speeds.
         let inside = groove_path.rolling_excess + deficit;
         let distance = groove_path.rolling_radius - inside;
 
         let rolling_gradient = w * groove_path.path_over_rolling;
         let by_lead = w * path.sin_lead;
-        let by_yaw = sign * rotation.tangent;
+        let by_yaw = sign * tangent;
         let side_gradient = by_lead + by_yaw;
-        let spin = (w * path.cos_lead - sign * rotation.binormal) * direction.sine
-            + (sign * rotation.normal) * direction.cosine;
+        let spin = (w * path.cos_lead - sign * binormal) * direction.sine
+            + (sign * normal) * direction.cosine;
 
         // (36): half the sum of both surfaces' velocities relative to the moving contact.
         let across = sign * path.cos_lead * direction.cosine;
@@ -143,9 +117,7 @@ impl ContactCoefficients {
         self.semi_minor = direction.semi_minor;
         entrainment_rolling * entrainment_rolling + entrainment_side * entrainment_side
     }
-}
 
-impl ContactCoefficients {
     /// The speed-free ratios at the contact's centre.
     ///
     /// `entrainment_angle = atan2(-v_e,y, -v_e,x)`, `slide_to_roll = |v_s| / |v_e|`,
@@ -154,22 +126,16 @@ impl ContactCoefficients {
     /// **Corrected:** (37) and (39) print an arc tangent of a quotient, which loses the quadrant, and (36) has the sign against the direction of rolling
     /// (`v_e,x < 0`). The printed values 0.87 and 1.19° are exchanged: 1.19° belongs to the screw (inner), 0.88° to the nut.
     ///
-    /// They stay the same until the next update: call this after one, not in every interrupt.
-    ///
-    /// Errors over the domain of [`ContactKinematics`](super::ContactKinematics), largest (rms):
-    /// slide-to-roll 1.6e-7 (1.3e-8), entrainment angle 3.5e-8 (4e-9) rad, spin-to-roll 3.2e-8 (4e-9),
-    /// all absolute. The slide angle is as good as the slip that it belongs to: times the
-    /// slide-to-roll ratio 2.2e-7 (4e-8); 1.4e-5 (1.1e-6) rad where that ratio exceeds 1 %.
-    ///
-    /// Cost: about 430 cycles, 290 of them two arc tangents (modelled, Cortex-M4F).
-    #[must_use]
+    /// Errors over the domain of [`ContactKinematics`](super::ContactKinematics), largest (rms): slide-to-roll 1.6e-7 (1.3e-8), entrainment angle
+    /// 3.5e-8 (4e-9) rad, spin-to-roll 3.2e-8 (4e-9), all absolute; slide angle times the slide-to-roll ratio 2.2e-7 (4e-8), 1.4e-5 (1.1e-6) rad where
+    /// that ratio exceeds 1 %. Cost: about 430 cycles (modelled, Cortex-M4F), once after each update.
     pub fn ratios(&self) -> SlipRatios {
         let sliding = math::sqrt(
             self.slip.rolling_slip * self.slip.rolling_slip
                 + self.slip.side_slip * self.slip.side_slip,
         );
         let slide_angle = if sliding > 0.0 {
-            // Adding zero turns -0 into +0, so that slip against the direction of rolling has the angle pi and not -pi.
+            // Adding zero turns -0 into +0: slip against the direction of rolling has the angle pi.
             libm::atan2f(self.slip.side_slip + 0.0, self.slip.rolling_slip)
         } else {
             0.0
@@ -187,11 +153,9 @@ impl ContactCoefficients {
     /// Slip (m/s) at a point of the ellipse: `x` (m) along the direction of rolling, `y` (m) across
     /// it, from the centre; `speed` of the screw in rad/s.
     ///
-    /// Sum of rolling slip `omega w q / r' (r' - S(y))`, side slip `omega w S(y) (...)` and spin
-    /// `(-spin y, spin x)`, Alberdi et al., eqs. (30), (33), with `S(y)` of (14): the full field, parabola
-    /// included. **Corrected:** (30) prints the part of the spin as its second component alone; by (33) it has both. Points outside the rectangle about the ellipse (NaN too) touch nothing and give 0;
-    /// a wrong speed counts as 0, as in [`tick`](super::ContactKinematics::tick).
-    #[must_use]
+    /// Sum of rolling slip `omega w q / r' (r' - S(y))`, side slip `omega w S(y) (...)` and spin `(-spin y, spin x)`, Alberdi et al., eqs. (30), (33),
+    /// with `S(y)` of (14). **Corrected:** (30) prints the part of the spin as its second component alone; by (33) it has both. Points outside the
+    /// rectangle about the ellipse (NaN too) give 0; a speed as in [`tick`](super::ContactKinematics::tick).
     pub fn slip_at(&self, speed: f32, x: f32, y: f32) -> SlipVector {
         if !(x.abs() <= self.semi_minor && y.abs() <= self.semi_major) {
             return SlipVector {
@@ -211,7 +175,6 @@ impl ContactCoefficients {
         }
     }
 
-    /// Side slip per metre from the ball's centre, 1.
     #[inline]
     fn side_gradient(&self) -> f32 {
         self.slip.side_slip / self.distance

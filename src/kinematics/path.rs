@@ -1,15 +1,13 @@
-//! What is given of a ball between its grooves: parameters, path of its centre, direction of rolling.
+//! Parameters of a ball between its grooves, path of its centre, direction of rolling.
 
-use crate::error::{Error, Range, attempt, in_range};
+use crate::error::{Error, Range, all_in_range, attempt};
 use crate::geometry::{BallScrew, Groove};
 use crate::hertz::HertzContact;
 use crate::math::{self, constant};
 use crate::ranges;
 use core::f32::consts::FRAC_PI_2;
 
-/// Geometry and state of one ball with a contact on the screw and one on the nut.
-///
-/// The fields are the symbols of Alberdi et al., section 2, in SI units.
+/// Geometry and state of one ball with a contact on the screw and one on the nut; symbols of Alberdi et al., section 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct KinematicsParameters {
@@ -17,24 +15,21 @@ pub struct KinematicsParameters {
     pub ball_diameter: f32,
     /// Radius of the helix of ball centres (`r_m`), m; 1e-4 to 10.
     pub pitch_radius: f32,
-    /// Lead angle of that helix (`psi`), rad; -1.2 to 1.2. Positive for a right-hand thread, 0 for a
-    /// ball bearing.
+    /// Lead angle of that helix (`psi`), rad; -1.2 to 1.2, positive for a right-hand thread.
     pub lead_angle: f32,
     /// Radius of the groove's profile on the screw (`r_i`), m; 0.5 to 2 ball diameters.
     pub groove_radius_screw: f32,
     /// Radius of the groove's profile on the nut (`r_o`), m; 0.5 to 2 ball diameters.
     pub groove_radius_nut: f32,
-    /// Contact angle on the screw (`alpha_i`), rad, from the radial direction; -pi/2 to pi/2.
-    /// Positive where the screw pushes the ball along its axis (the paper's case).
+    /// Contact angle on the screw (`alpha_i`), rad, from the radial direction; -pi/2 to pi/2, positive where the screw pushes the ball along its axis.
     pub contact_angle_screw: f32,
     /// Contact angle on the nut (`alpha_o`), rad; -pi/2 to pi/2.
     pub contact_angle_nut: f32,
     /// Pitch angle of the ball's axis of rotation (`beta`), rad; -pi/2 to pi/2.
     pub pitch_angle: f32,
-    /// Yaw angle of the ball's axis of rotation (`beta'`), rad; -0.5 to 0.5. Customary: 0.
+    /// Yaw angle of the ball's axis of rotation (`beta'`), rad; -0.5 to 0.5.
     pub yaw_angle: f32,
-    /// Distance from the ball's centre at which rolling slip vanishes at the screw (`r'_i`), m; 0.5
-    /// to 2 ball radii. Customary: the ball's radius.
+    /// Distance from the ball's centre at which rolling slip vanishes at the screw (`r'_i`), m; 0.5 to 2 ball radii.
     pub rolling_radius_screw: f32,
     /// The same at the nut (`r'_o`), m; 0.5 to 2 ball radii.
     pub rolling_radius_nut: f32,
@@ -49,26 +44,8 @@ pub struct KinematicsParameters {
 }
 
 impl KinematicsParameters {
-    /// Those of a validated design whose balls carry the contact forces `load_screw` and `load_nut`, N, 0 to 1e7, at its
-    /// nominal contact angle. For set-up; a constant can take them.
-    ///
-    /// Ellipses are those of [`HertzContact`] under these forces. The ball's rotation is the customary one: pitch angle
-    /// equal to the contact angle, no yaw, rolling radii equal to the
-    /// ball's radius. Any field may be changed afterwards.
-    ///
-    /// ```
-    /// use epas_friction::CATALOGUE;
-    /// use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
-    /// let design = CATALOGUE[15].design()?; // 32 x 20 x 6.35
-    /// let kinematics = ContactKinematics::new(&KinematicsParameters::of(&design, 100.0, 100.0)?)?;
-    /// let ball = kinematics.tick(104.72); // 1000 revolutions a minute
-    /// assert!((ball.orbital_speed / 104.72 - 0.43).abs() < 0.01);
-    /// # Ok::<(), epas_friction::Error>(())
-    /// ```
-    ///
-    /// # Errors
-    /// [`Error`] naming `load_screw` or `load_nut`. A load whose ellipse is too large for the ball, or a lead that is too
-    /// steep, is refused by [`ContactKinematics::new`](super::ContactKinematics::new).
+    /// Those of a validated design whose balls carry the contact forces `load_screw` and `load_nut`, N, 0 to 1e7, at its nominal contact angle, with
+    /// ellipses of [`HertzContact`] and the customary rotation; for constants too.
     pub const fn of(design: &BallScrew, load_screw: f32, load_nut: f32) -> Result<Self, Error> {
         let load_screw = attempt!(ranges::LOAD.checked("load_screw", load_screw));
         let load_nut = attempt!(ranges::LOAD.checked("load_nut", load_nut));
@@ -95,6 +72,51 @@ impl KinematicsParameters {
         })
     }
 
+    const fn checked(&self) -> Result<(), Error> {
+        let p = self;
+        let ball_radius = 0.5 * p.ball_diameter;
+        let (narrowest, widest) = (ball_radius, 2.0 * p.ball_diameter);
+        let (shortest, longest) = (0.5 * ball_radius, p.ball_diameter);
+        let (right, largest_ellipse) = (FRAC_PI_2, LARGEST_ELLIPSE * ball_radius);
+        attempt!(BALL_DIAMETER.checked("ball_diameter", p.ball_diameter));
+        attempt!(ranges::PITCH_RADIUS.checked("pitch_radius", p.pitch_radius));
+        all_in_range(&[
+            ("lead_angle", p.lead_angle, -1.2, 1.2),
+            (
+                "groove_radius_screw",
+                p.groove_radius_screw,
+                narrowest,
+                widest,
+            ),
+            ("groove_radius_nut", p.groove_radius_nut, narrowest, widest),
+            ("contact_angle_screw", p.contact_angle_screw, -right, right),
+            ("contact_angle_nut", p.contact_angle_nut, -right, right),
+            ("pitch_angle", p.pitch_angle, -right, right),
+            ("yaw_angle", p.yaw_angle, -0.5, 0.5),
+            (
+                "rolling_radius_screw",
+                p.rolling_radius_screw,
+                shortest,
+                longest,
+            ),
+            (
+                "rolling_radius_nut",
+                p.rolling_radius_nut,
+                shortest,
+                longest,
+            ),
+            ("semi_major_screw", p.semi_major_screw, 0.0, largest_ellipse),
+            (
+                "semi_minor_screw",
+                p.semi_minor_screw,
+                0.0,
+                p.semi_major_screw,
+            ),
+            ("semi_major_nut", p.semi_major_nut, 0.0, largest_ellipse),
+            ("semi_minor_nut", p.semi_minor_nut, 0.0, p.semi_major_nut),
+        ])
+    }
+
     pub(super) const fn screw(&self) -> EllipticContact {
         EllipticContact {
             contact_angle: self.contact_angle_screw,
@@ -112,7 +134,7 @@ impl KinematicsParameters {
     }
 }
 
-/// What load changes at one contact.
+/// Contact angle and ellipse under a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct EllipticContact {
@@ -124,16 +146,15 @@ pub struct EllipticContact {
     pub semi_minor: f32,
 }
 
-/// Diameter of a ball, m.
 const BALL_DIAMETER: Range = Range::new(
     2.0 * ranges::BALL_RADIUS.minimum,
     2.0 * ranges::BALL_RADIUS.maximum,
 );
 
-/// Hertz' half-space holds for ellipses small beside the ball: the share of the ball's radius that
-/// the semi-major axis may have.
+/// Largest semi-major axis over the ball's radius, for Hertz' half-space.
 #[doc(hidden)]
 pub const LARGEST_ELLIPSE: f32 = 0.3;
+
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct GroovePath {
@@ -149,8 +170,8 @@ pub(super) struct GroovePath {
     pub deficit: [f32; 3],
 }
 
-/// `z^4` for `z` from 0 to 0.09, the square of [`LARGEST_ELLIPSE`], by `z`, `z^2` and `z^3`: what Chebyshev's
-/// polynomial of the fourth degree leaves, with its first zero at 0. Within 6e-7, which is 1e-8 ball radii of sagitta.
+/// `z^4` for `z` from 0 to 0.09, the square of [`LARGEST_ELLIPSE`], by `z`, `z^2` and `z^3`: Chebyshev's polynomial of the fourth degree with its
+/// first zero at 0, within 6e-7.
 #[doc(hidden)]
 pub const FOURTH_POWER: [f32; 3] = {
     // Half the interval, and its middle.
@@ -171,8 +192,7 @@ impl GroovePath {
         rolling_radius: f32,
     ) -> Self {
         let ball_diameter = 2.0 * ball_radius;
-        // rho = (D/2) / R = (2 r + D) / (4 r); 1 - rho from 2 r - D, which is exact for
-        // D/2 <= 2 r <= 2 D: conformity would otherwise lose 1 / (2 r / D - 1) = 20 fold.
+        // rho = (D/2) / R = (2 r + D) / (4 r); 1 - rho from 2 r - D, which is exact for D/2 <= 2 r <= 2 D.
         let gap = (2.0 * groove_radius - ball_diameter) / (4.0 * groove_radius);
         let rho = (2.0 * groove_radius + ball_diameter) / (4.0 * groove_radius);
         let rho_2 = rho * rho;
@@ -198,7 +218,6 @@ impl GroovePath {
     }
 }
 
-/// Constants of the ball: helix, axis of rotation, both grooves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Path {
@@ -227,36 +246,13 @@ pub(super) struct Path {
 impl Path {
     pub const fn new(parameters: &KinematicsParameters) -> Result<Self, Error> {
         let p = parameters;
-        let diameter = attempt!(BALL_DIAMETER.checked("ball_diameter", p.ball_diameter));
-        let pitch_radius = attempt!(ranges::PITCH_RADIUS.checked("pitch_radius", p.pitch_radius));
-        let lead_angle = attempt!(in_range("lead_angle", p.lead_angle, -1.2, 1.2));
-        let ball_radius = 0.5 * diameter;
-        let (least, most) = (ball_radius, 2.0 * diameter);
-        let (screw, nut) = (p.groove_radius_screw, p.groove_radius_nut);
-        let groove_screw = attempt!(in_range("groove_radius_screw", screw, least, most));
-        let groove_nut = attempt!(in_range("groove_radius_nut", nut, least, most));
-        let (least, most) = (-FRAC_PI_2, FRAC_PI_2);
-        let (screw, nut) = (p.contact_angle_screw, p.contact_angle_nut);
-        attempt!(in_range("contact_angle_screw", screw, least, most));
-        attempt!(in_range("contact_angle_nut", nut, least, most));
-        let pitch_angle = attempt!(in_range("pitch_angle", p.pitch_angle, least, most));
-        let yaw_angle = attempt!(in_range("yaw_angle", p.yaw_angle, -0.5, 0.5));
-        let (least, most) = (0.5 * ball_radius, diameter);
-        let (screw, nut) = (p.rolling_radius_screw, p.rolling_radius_nut);
-        let rolling_screw = attempt!(in_range("rolling_radius_screw", screw, least, most));
-        let rolling_nut = attempt!(in_range("rolling_radius_nut", nut, least, most));
+        attempt!(p.checked());
+        let ball_radius = 0.5 * p.ball_diameter;
         let largest_ellipse = LARGEST_ELLIPSE * ball_radius;
-        let (major, minor) = (p.semi_major_screw, p.semi_minor_screw);
-        let major = attempt!(in_range("semi_major_screw", major, 0.0, largest_ellipse));
-        attempt!(in_range("semi_minor_screw", minor, 0.0, major));
-        let (major, minor) = (p.semi_major_nut, p.semi_minor_nut);
-        let major = attempt!(in_range("semi_major_nut", major, 0.0, largest_ellipse));
-        attempt!(in_range("semi_minor_nut", minor, 0.0, major));
-
-        let (sin_lead, cos_lead) = constant::sin_cos(lead_angle);
-        let (sin_pitch, cos_pitch) = constant::sin_cos(pitch_angle);
-        let (sin_yaw, cos_yaw) = constant::sin_cos(yaw_angle);
-        let radius = pitch_radius / cos_lead;
+        let (sin_lead, cos_lead) = constant::sin_cos(p.lead_angle);
+        let (sin_pitch, cos_pitch) = constant::sin_cos(p.pitch_angle);
+        let (sin_yaw, cos_yaw) = constant::sin_cos(p.yaw_angle);
+        let radius = p.pitch_radius / cos_lead;
         Ok(Self {
             sin_lead,
             cos_lead,
@@ -267,23 +263,30 @@ impl Path {
             axis_normal: sin_pitch,
             inverse_ball_radius_squared: 1.0 / (ball_radius * ball_radius),
             largest_ellipse,
-            screw: GroovePath::new(radius, ball_radius, groove_screw, rolling_screw),
-            nut: GroovePath::new(radius, ball_radius, groove_nut, rolling_nut),
+            screw: GroovePath::new(
+                radius,
+                ball_radius,
+                p.groove_radius_screw,
+                p.rolling_radius_screw,
+            ),
+            nut: GroovePath::new(
+                radius,
+                ball_radius,
+                p.groove_radius_nut,
+                p.rolling_radius_nut,
+            ),
         })
     }
 
-    /// True where contact angle and ellipse are within their own ranges.
     #[inline]
     pub fn accepts(&self, contact: EllipticContact) -> bool {
-        // Positive numbers are in the order of their bits, with NaN and negative numbers beyond them: the lower
-        // bound needs no comparison.
+        // Bits of positive numbers are in their order, with NaN and negative numbers beyond them.
         let (semi_major, semi_minor) = (contact.semi_major.to_bits(), contact.semi_minor.to_bits());
         contact.contact_angle.abs().to_bits() <= FRAC_PI_2.to_bits()
             && (semi_major <= self.largest_ellipse.to_bits() && semi_minor <= semi_major
                 || self.accepts_zeros(contact))
     }
 
-    /// True where the ellipse is within its range, zeros of either sign included.
     #[cold]
     #[inline(never)]
     fn accepts_zeros(&self, contact: EllipticContact) -> bool {
@@ -294,9 +297,8 @@ impl Path {
     }
 }
 
-/// Least `b_k`, the speed of the ball's surface at the contact in units of `omega_R r'_k`. Below it
-/// (an axis of rotation within 15° of the contact normal) the ball drills more than it rolls, and
-/// spin speed loses digits as `1 / b_k`.
+/// Least `b_k`, the speed of the ball's surface at the contact in units of `omega_R r'_k`: below it (an axis of rotation within 15° of the contact
+/// normal) the ball drills more than it rolls.
 pub(super) const LEAST_GRIP: f32 = 0.25;
 /// Least part of `q = r_m / cos psi` that `A_k` may keep.
 const LEAST_REACH: f32 = 0.1;
@@ -341,7 +343,7 @@ impl Path {
         self.resolved(sin_cos, groove_path, contact, groove)
     }
 
-    /// The same for set-up, by the kernel that a constant can take.
+    /// [`Self::direction`] by the kernel that a constant can take.
     pub const fn constant_direction(
         &self,
         groove_path: &GroovePath,
@@ -425,11 +427,8 @@ impl Path {
         Ok(())
     }
 
-    /// The contact angle, rad, next to `bound` at which the ball still grips.
-    ///
-    /// `b = h cos(alpha) + sin(beta) sin(alpha)` is a cosine about the pitch angle, which yaw narrows but
-    /// leaves above 0.87 there: halving the way from it to the bound finds the one place where the grip ends,
-    /// by the numbers that a check of the angle would form.
+    /// The contact angle, rad, next to `bound` at which the ball still grips: `b = h cos(alpha) + sin(beta) sin(alpha)` is a cosine about the pitch
+    /// angle, above 0.87 there, and halving the way to the bound finds the one end.
     const fn last_grip(&self, pitch_angle: f32, bound: f32) -> f32 {
         const HALVINGS: u32 = 24;
         if self.grip_at(bound) >= LEAST_GRIP {
@@ -449,7 +448,6 @@ impl Path {
         inside
     }
 
-    /// `b` at a contact angle, rad.
     const fn grip_at(&self, contact_angle: f32) -> f32 {
         let (sine, cosine) = constant::sin_cos(contact_angle);
         self.axis_binormal * cosine + self.axis_normal * sine

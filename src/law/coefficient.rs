@@ -1,7 +1,5 @@
-//! Friction coefficient by speed, temperature and direction; lubricant drag of rolling contacts and churning.
-//!
-//! [`CoefficientLaw`] is folded at set-up; [`CoefficientLaw::at_temperature`] runs where a new temperature comes in, outside
-//! the interrupt; [`CoefficientAtTemperature::at`] runs in the loop.
+//! Friction coefficient by speed, temperature and direction; lubricant drag of rolling contacts and churning. [`CoefficientLaw`] is folded at
+//! set-up; [`CoefficientLaw::at_temperature`] runs where a new temperature comes in; [`CoefficientAtTemperature::at`] runs in the loop.
 
 mod drag;
 mod form;

@@ -1,36 +1,31 @@
-//! How much of a friction that remembers a motor may compensate without a limit cycle.
+//! How much of a friction that remembers a motor may compensate without a limit cycle. Checked at set-up.
 //!
-//! Checked at set-up; nothing of it runs in the step.
-//!
-//! Near a reversal friction is a spring, so that its compensation is a negative one: the motor pushes the nut further in its direction of motion. Three
-//! things keep the loop of motor, delay, encoder and true friction quiet, however short or long the delay is (it
-//! damps: a spring that answers late pushes with the speed that the nut had):
+//! Near a reversal friction is a spring, and its compensation a negative one. Three things keep the loop of motor, delay, encoder and true friction
+//! quiet, however short or long the delay is:
 //!
 //! 1. **Less friction than there is.** `g q <= 0.95`, `g` the output share, `q` the model's sliding friction over
 //!    the true one. At 1 nothing stops the nut once it moves.
 //! 2. **Less stiffness than there is.** `g q b <= 0.97`, `b` the true breakaway angle over the model's: initial stiffness is 1.5 times
 //!    friction over breakaway angle.
-//! 3. **Less loss than there is.** What friction takes from a swing, the compensation gives back. In units of friction and breakaway
-//!    angle a swing to either side by the amplitude `A >= 1` loses `4 A - 3.2`; the compensation behind a play of the half width `p` gives
-//!    `g q (4 A - 8 p - 3.2/b)`, and most in proportion to the loss at `A = 1`. So a model that breaks away 5 % too early
-//!    feeds a swing of one breakaway angle, though its stiffness is in order. Six elements or more replace a smooth curve within
+//! 3. **Less loss than there is.** In units of friction and breakaway angle a swing to either side by the amplitude `A >= 1` loses `4 A - 3.2`; the
+//!    compensation behind a play of the half width `p` gives `g q (4 A - 8 p - 3.2/b)`, and most in proportion to the loss at `A = 1`. So a model that
+//!    breaks away 5 % too early feeds a swing of one breakaway angle. Six elements or more replace a smooth curve within
 //!    0.04 breakaway angles, which the play has to cover: `g q (4 - 8 (p - 0.04) - 3.2/b) <= 0.8` and `p >= 0.04`.
 //!
 //! So: set the breakaway angle to the high end of its confidence band, and put a play of 5 % of it, beyond the noise, between sensor and
-//! elements ([`Deadband`](super::motion::Deadband)): that allows 0.95. Noise that passes shakes the elements, which works as an earlier
-//! breakaway would. Behind the play noise makes no torque at all; after a reversal friction is late by twice the play.
+//! elements ([`Deadband`](super::motion::Deadband)): that allows 0.95. Noise that passes the play works as an earlier breakaway; after a reversal
+//! friction is late by twice the play.
 //!
 //! The simulated loop in `host-tests/tests/all/scenes/compensation.rs` is quiet inside these bounds and hums outside.
 
 use crate::error::{Error, Range, attempt, in_range};
 use crate::law::memory::BREAKAWAY;
 
-/// Largest part of the true friction that is compensated. At 1 the simulated loop never comes to rest; at 0.95 it does, at every
-/// rate, delay and breakaway that was tried; the tests try none between.
+/// Largest part of the true friction that is compensated: the simulated loop is quiet at 0.95, at every rate, delay and breakaway that was tried,
+/// and at 1 never comes to rest.
 pub const LARGEST_PART: f32 = 0.95;
 
-/// Largest initial stiffness of the compensation over that of the true friction. At 1 nothing of the true spring would be left; 3 %
-/// less is quiet in the simulated loop, at every rate, delay and breakaway that was tried.
+/// Largest initial stiffness of the compensation over that of the true friction: quiet in the simulated loop, as above.
 pub const LARGEST_STIFFNESS: f32 = 0.97;
 
 /// Least play beyond the noise over the largest breakaway angle: elements differ from a smooth curve by so much.
@@ -39,16 +34,15 @@ pub const LEAST_PLAY: f32 = 0.04;
 /// Largest friction of the model over the true one: 0.1 to 10, the range of a [level](crate::law::LEVEL).
 pub const FRICTION_RATIO: Range = Range::new(0.1, 10.0);
 
-/// How far the model's friction may be from the true one where it is compensated; unchecked.
+/// Margin of the model's friction to the true one where it is compensated; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CompensationMargin {
     /// Breakaway angle of the model's elements, rad, 1e-9 to 1e3.
     pub breakaway_angle: f32,
-    /// Largest breakaway angle that the true friction may have: the high end of its confidence band, rad, 1e-9 to 1e3.
+    /// Largest breakaway angle of the true friction: the high end of its confidence band, rad, 1e-9 to 1e3.
     pub largest_breakaway_angle: f32,
-    /// Largest ratio of the model's sliding friction to the true one, 0.1 to 10: a motor that gives more than its command counts as
-    /// friction that is less.
+    /// Largest ratio of the model's sliding friction to the true one, 0.1 to 10.
     pub friction_ratio: f32,
     /// Play between sensor and elements, rad: its half width less half the width of the angle's noise; 0.04 times the largest
     /// breakaway angle up to 1e3.
@@ -56,12 +50,7 @@ pub struct CompensationMargin {
 }
 
 impl CompensationMargin {
-    /// Largest output share of the friction: the least of the three bounds above.
-    ///
-    /// `min(0.95, 0.97/b, 0.8/(4 - 8 (p - 0.04) - 3.2/b))/q`.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field that is out of range.
+    /// Largest output share of the friction: `min(0.95, 0.97/b, 0.8/(4 - 8 (p - 0.04) - 3.2/b))/q`.
     pub const fn largest_share(&self) -> Result<f32, Error> {
         let Self {
             breakaway_angle,

@@ -14,9 +14,6 @@ pub(crate) struct Fade {
 
 impl Fade {
     /// Holds for a time, s, and fades in another one, s; each with its name and range.
-    ///
-    /// # Errors
-    /// [`Error`] naming the time that is out of its range.
     pub(crate) const fn new(
         (hold_name, hold, holds): (&'static str, f32, Range),
         (fade_name, fade, fades): (&'static str, f32, Range),
@@ -33,8 +30,7 @@ impl Fade {
         age <= self.hold
     }
 
-    /// Part of a reading of an age, s, that counts: 1 while it holds, 0 once it has faded or where the age is NaN. An age
-    /// below 0 is a fresh reading.
+    /// Part of a reading of an age, s, that counts: 1 while it holds, 0 once it has faded or where the age is NaN.
     #[inline(always)]
     pub(crate) const fn left(&self, age: f32) -> f32 {
         if self.holds(age) {
@@ -48,7 +44,7 @@ impl Fade {
 /// Longest time, s: a day.
 const TIME: Range = Range::new(0.0, 86_400.0);
 
-/// What to take for a temperature whose last reading is old: the reading, and then, little by little, a fallback.
+/// Temperature by the last reading and its age: the reading, and then, little by little, a fallback.
 ///
 /// ```text
 /// age <= hold             the reading
@@ -56,8 +52,7 @@ const TIME: Range = Range::new(0.0, 86_400.0);
 /// age >= hold + fade      the fallback
 /// ```
 ///
-/// The fallback is a temperature at which a wrong coefficient does least harm: for a friction compensation the one with the
-/// least friction. Where a temperature is read again, it counts at once.
+/// The fallback is a temperature at which a wrong coefficient does least harm: for a compensation that with the least friction.
 ///
 /// ```
 /// use epas_friction::law::coefficient::TemperatureFade;
@@ -82,11 +77,7 @@ impl TemperatureFade {
         Err(_) => panic!("the default is out of range"),
     };
 
-    /// Fallback, K, 150 to 500; time for which a reading holds, s, 0 to 86400; time in which it fades after that, s, 1e-3 to
-    /// 86400.
-    ///
-    /// # Errors
-    /// [`Error`] naming `fallback_temperature`, `hold_time` or `fade_time`.
+    /// Fallback, K, 150 to 500; time for which a reading holds, s, 0 to 86400; time in which it fades after that, s, 1e-3 to 86400.
     pub const fn new(
         fallback_temperature: f32,
         hold_time: f32,
@@ -115,14 +106,11 @@ impl TemperatureFade {
     }
 
     /// The fallback, K.
-    #[must_use]
     pub const fn fallback(&self) -> f32 {
         self.fallback
     }
 
-    /// Temperature to take, K, from the last reading, K, and its age, s. A reading that is no temperature of a lubricant (150
-    /// to 500 K), or an age that is NaN, gives the fallback; an age below 0 is a fresh reading.
-    #[must_use]
+    /// Temperature to take, K, from the last reading, K, and its age, s; the fallback where the reading is beyond 150 to 500 K or the age NaN.
     pub const fn at(&self, temperature: f32, age: f32) -> f32 {
         let left = self.fade.left(age);
         if !self.is_temperature(temperature) || left == 0.0 {

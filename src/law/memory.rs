@@ -1,15 +1,12 @@
 //! Elements that stick and slip: friction as a hysteresis in angle.
 //!
-//! Runs in the step of a scene with memory, and may be called directly; constants are folded at set-up.
-//!
-//! Friction after a reversal is a matter of angle, not of speed: contacts deflect before they slide. Parallel springs, each in series with a slider
-//! (Maxwell slip; Iwan 1966, Prandtl-Ishlinskii), have nested closed loops, no drift, and the sliding friction after enough turn:
+//! Contacts deflect before they slide. Parallel springs, each in series with a slider
 //!
 //! `f_i <- clamp(f_i + k_i dtheta, -lambda_i T-, +lambda_i T+)`, `T = sum f_i`, `sum lambda_i = 1`
 //!
-//! `T+` and `T-` are the friction of gross sliding of the same tick: steady motion has the torque of the law without memory. The clamp is the implicit
-//! step (return mapping; Simo and Hughes 1998), exact for a turn at constant speed. Stiffnesses `k_i` are constant, so the elements are passive: stored
-//! energy `sum f_i²/(2 k_i)` never grows by more than the work done, however the limits change.
+//! `T+` and `T-` are the friction of gross sliding of the same tick. The clamp is the implicit step (return mapping; Simo and Hughes 1998), exact for a
+//! turn at constant speed. Stiffnesses `k_i` are constant, so the elements are passive: stored energy `sum f_i²/(2 k_i)` never grows by more than the
+//! work done, however the limits change.
 //!
 //! | type | shares `lambda_i` | for |
 //! |---|---|---|
@@ -48,15 +45,13 @@ pub const BREAKAWAY: Range = Range::new(1e-9, 1e3);
 
 /// Elements that hold, store energy, and have a stiffness and a breakaway.
 pub trait Hysteresis: Elements {
-    /// Friction without a turn: what is remembered, cut to the limits. For a tick without an angle.
+    /// Friction without a turn: that of the last one, cut to the limits.
     #[inline]
     fn hold(&self, state: &mut Self::State, limits: &SlidingLimits) -> f32 {
         self.follow(state, 0.0, limits)
     }
 
-    /// Energy in the springs, J: `sum f_i²/(2 k_i)`.
-    ///
-    /// It never grows by more than the work `T dtheta` of the same tick.
+    /// Energy in the springs, J: `sum f_i²/(2 k_i)`; it never grows by more than the work `T dtheta` of the same tick.
     fn stored_energy(&self, state: &Self::State) -> f32;
 
     /// Friction over turn from rest at the reference load, N m/rad (N/m).

@@ -1,10 +1,5 @@
-//! The turn between two readings of a nut angle, exactly.
-//!
-//! Runs in the step of a scene with memory, before the elements; constants are checked at set-up.
-//!
-//! What friction remembers follows the angle, so that its input is a difference of angles, not speed times tick: a
-//! speed with white noise of 0.05 rad/s at 1 kHz is off by 1.6 mrad after a second, a whole breakaway angle; a difference of
-//! angles is never off by more than the sensor. [`SpeedOverTick`] is for what has no angle.
+//! The turn between two readings of a nut angle, exactly: a speed with white noise of 0.05 rad/s at 1 kHz is off by 1.6 mrad after a second, a
+//! whole breakaway angle; a difference of angles is never off by more than the sensor.
 //!
 //! | type | reading | difference |
 //! |---|---|---|

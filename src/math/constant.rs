@@ -1,18 +1,10 @@
-//! The kernels of set-up, which a constant can take: a design that is folded when firmware is compiled costs no
-//! code and no time on the target, and one out of range does not compile.
-//!
-//! Cube root, sine and cosine are always our own here, whatever backend serves the loop.
+//! The kernels of set-up, which a constant can take, always our own.
 
 pub use super::own::{cbrt, cbrt_squared, sin_cos};
 
-/// Square root, correctly rounded: the same bits as [`math::sqrt`](super::sqrt), which a constant cannot take because
-/// it is an instruction.
-///
-/// NaN and negative numbers give NaN; -0 gives -0; infinity gives infinity. 90 modelled cycles on a Cortex-M4F with
-/// the call, where the instruction takes 14: for set-up only.
-// Set-up has many roots, and flash is dearer than a call.
+/// Square root, correctly rounded: the same bits as [`math::sqrt`](super::sqrt), an instruction that a constant cannot take. NaN and negative numbers
+/// give NaN; -0 gives -0; infinity gives infinity. 90 modelled cycles on a Cortex-M4F with the call, where the instruction takes 14.
 #[inline(never)]
-#[must_use]
 pub const fn sqrt(x: f32) -> f32 {
     const TWO_TO_24: f32 = 16_777_216.0;
     // False for NaN.
@@ -29,16 +21,13 @@ pub const fn sqrt(x: f32) -> f32 {
     }
 }
 
-/// Bits of the seed of [`normal_root`], about `1 / sqrt(x)`, plus half the argument's bits: within 3.5 % (the constant
-/// is well known; any close to it serves, because each step of Newton's method about squares the error).
+/// Bits of the seed of [`normal_root`], about `1 / sqrt(x)`, plus half the argument's bits: within 3.5 %.
 const SEED: u32 = 0x5f37_59df;
 
 /// Root of a positive normal number.
 ///
-/// Newton's method in single precision gives the root of the significand within one unit of its last place. By how much
-/// its square differs from the significand is exact in integers, and says whether that unit is to be added, taken away,
-/// or neither. The bound of one unit was found with every significand, odd and even exponents
-/// (`host-tests/tests/all/formulas/math_sweeps.rs` compares every one of them with the exact root).
+/// Newton's method in single precision gives the root of the significand within one unit of its last place; the exact remainder of its square, in
+/// integers, says whether that unit is to be added, taken away, or neither (`host-tests/tests/all/formulas/math_sweeps.rs` checks every significand).
 #[inline]
 const fn normal_root(x: f32) -> f32 {
     const SIGNIFICAND_BITS: u32 = 23;
@@ -47,7 +36,7 @@ const fn normal_root(x: f32) -> f32 {
     let exponent = (bits >> SIGNIFICAND_BITS) as i32 - BIAS;
     let one = 1 << SIGNIFICAND_BITS;
     let fraction = bits & (one - 1);
-    // Where the exponent is odd, one factor of two goes to the significand, so that the exponent can be halved.
+    // Of an odd exponent one factor of two goes to the significand.
     let odd = (exponent & 1) as u32;
     let significand = f32::from_bits(fraction | ((BIAS as u32 + odd) << SIGNIFICAND_BITS));
 
@@ -58,9 +47,8 @@ const fn normal_root(x: f32) -> f32 {
     let near = significand * inverse;
     let near = near + (significand - near * near) * (0.5 * inverse);
 
-    // Integers: the root times 2^23, and what its square leaves of the significand times 2^46. That is below 2^26, so
-    // that 32 bits of both terms are enough. The root is to be changed where more than itself is left: the square of
-    // half a unit more is `root² + root + 1/4`.
+    // Integers: the root times 2^23, and what its square leaves of the significand times 2^46, below 2^26. The root changes where more than itself is
+    // left: the square of half a unit more is `root² + root + 1/4`.
     let root = near.to_bits() - ((BIAS as u32 - 1) << SIGNIFICAND_BITS);
     let left = ((fraction | one) << (SIGNIFICAND_BITS + odd)).wrapping_sub(root.wrapping_mul(root));
     let (left, unit) = (left as i32, root as i32);

@@ -1,4 +1,4 @@
-//! Elliptic integrals and the arcsine, for set-up: functions that a constant can take.
+//! Elliptic integrals and the arcsine, for set-up and constants.
 
 use core::f32::consts::FRAC_PI_2;
 
@@ -12,8 +12,7 @@ const ARC_SINE_STEPS: u8 = 6;
 /// Steps of Carlson's duplication: each divides the spread of the arguments by four.
 const DUPLICATIONS: u8 = 9;
 
-/// Panels over which [`narrow_integral`] is taken at set-up, each half as long as its distance from zero: up to 1300
-/// times the lower limit.
+/// Panels of [`narrow_integral`], each half as long as its distance from zero: up to 1300 times the lower limit.
 const PANELS: u8 = 18;
 
 /// Gauss-Legendre nodes on -1 to 1 and their weights.
@@ -32,18 +31,14 @@ pub struct Complete {
     pub first: f32,
     /// Second kind, `E`.
     pub second: f32,
-    /// `(1 - e^2/2 - E/K)/e^4`: what `E/K = 1 - e^2/2 - tail e^4` leaves beyond its first two terms, without their factor. Near a
-    /// circle, where `e` and the difference itself vanish, it is 1/16; with it differences of `K` and `E` over powers of `e`
-    /// ([`FrictionMap`](crate::contact::FrictionMap)) lose no digits there.
+    /// `(1 - e^2/2 - E/K)/e^4`: near a circle, where it is 1/16, differences of `K` and `E` over powers of `e`
+    /// ([`FrictionMap`](crate::contact::FrictionMap)) lose no digits with it.
     pub tail: f32,
 }
 
-/// Complete elliptic integrals of an ellipse with the axis ratio `k`, 0.001 to 1, by the arithmetic-geometric mean.
-///
-/// `K = pi/(2 mean)` and `E = K (1 - e^2/2 - sum)`, with the sum of `2^(i-1) c_i^2` from `i = 1` on and half the
-/// differences `c_i` of the two means (Abramowitz and Stegun 17.6). Every `c_i` holds the factor `e^2`; the tail is
-/// summed without it.
-#[must_use]
+/// Complete elliptic integrals of an ellipse with the axis ratio `k`, 0.001 to 1, by the arithmetic-geometric mean:
+/// `K = pi/(2 mean)` and `E = K (1 - e^2/2 - sum)`, with the sum of `2^(i-1) c_i^2` from `i = 1` on and half the differences `c_i` of the two
+/// means (Abramowitz and Stegun 17.6), whose factor `e^2` the tail leaves out.
 pub const fn complete(k: f32) -> Complete {
     let eccentricity2 = (1.0 - k) * (1.0 + k);
     let mut arithmetic = 1.0;
@@ -110,8 +105,7 @@ pub(crate) const fn incomplete(square: f32, lambda: f32) -> (f32, f32) {
     )
 }
 
-/// A third one (`C5` in `contact/integrals.rs`), `∫ T/(k² + s)² ds` with the `T` and `square = k²` of [`incomplete`],
-/// over `s` from `root²` to infinity, by Gauss-Legendre quadrature in `sqrt(s)`, panel by panel.
+/// A third one (`C5` in `contact/integrals.rs`), `∫ T/(k² + s)² ds`, over `s` from `root²` to infinity, by Gauss-Legendre quadrature in `sqrt(s)`.
 pub(crate) const fn narrow_integral(square: f32, root: f32) -> f32 {
     let mut sum = 0.0;
     let mut end = root;

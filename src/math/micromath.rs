@@ -4,7 +4,6 @@ use ::micromath::F32Ext;
 
 /// Square root.
 #[inline]
-#[must_use]
 #[allow(dead_code)] // Only where the target has no instruction for it.
 pub fn sqrt(x: f32) -> f32 {
     F32Ext::sqrt(x)
@@ -12,7 +11,6 @@ pub fn sqrt(x: f32) -> f32 {
 
 /// Cube root.
 #[inline]
-#[must_use]
 pub fn cbrt(x: f32) -> f32 {
     if x == 0.0 || !x.is_finite() {
         return x;
@@ -22,7 +20,6 @@ pub fn cbrt(x: f32) -> f32 {
 
 /// Square of the cube root.
 #[inline]
-#[must_use]
 pub fn cbrt_squared(x: f32) -> f32 {
     let root = cbrt(x);
     root * root
@@ -30,7 +27,6 @@ pub fn cbrt_squared(x: f32) -> f32 {
 
 /// Cube root and its square.
 #[inline]
-#[must_use]
 pub fn cbrt_and_squared(x: f32) -> (f32, f32) {
     let root = cbrt(x);
     (root, root * root)
@@ -38,7 +34,6 @@ pub fn cbrt_and_squared(x: f32) -> (f32, f32) {
 
 /// Sine and cosine.
 #[inline]
-#[must_use]
 pub fn sin_cos(x: f32) -> (f32, f32) {
     (F32Ext::sin(x), F32Ext::cos(x))
 }

@@ -1,11 +1,9 @@
-//! Our own kernels: single precision throughout, made for a core whose division takes 14 cycles, whose
-//! fused multiply-add takes 3, whose constants take 2 to load, and whose double precision is software.
+//! Our own kernels in single precision, for a core whose division takes 14 cycles, and whose double precision is software.
 
 /// Largest angle, rad, that [`sin_cos`] reduces.
 pub const LARGEST_ANGLE: f32 = 8192.0;
 
-/// A cube root as the sum of two numbers: `short` has eight bits, so that its square is exact in f32; `remainder` is
-/// below 2^-7 of it.
+/// A cube root as the sum of two numbers: `short` has eight bits, `remainder` is below 2^-7 of it.
 struct Root {
     short: f32,
     remainder: f32,
@@ -17,8 +15,7 @@ impl Root {
         self.short + self.remainder
     }
 
-    /// `short² + remainder (2 short + remainder)`: the first term is exact (16 bits) and the second small, so that
-    /// only the last sum rounds to a half ulp.
+    /// `short² + remainder (2 short + remainder)`: the first term is exact, and only the last sum rounds to a half ulp.
     #[inline]
     const fn squared(&self) -> f32 {
         let Self { short, remainder } = *self;
@@ -28,21 +25,18 @@ impl Root {
 
 /// Cube root; see [`math::cbrt`](super::cbrt).
 #[inline]
-#[must_use]
 pub const fn cbrt(x: f32) -> f32 {
     root(x).value()
 }
 
 /// Square of the cube root; see [`math::cbrt_squared`](super::cbrt_squared).
 #[inline]
-#[must_use]
 pub const fn cbrt_squared(x: f32) -> f32 {
     root(x).squared()
 }
 
 /// Cube root and its square; see [`math::cbrt_and_squared`](super::cbrt_and_squared).
 #[inline]
-#[must_use]
 pub const fn cbrt_and_squared(x: f32) -> (f32, f32) {
     let root = root(x);
     (root.value(), root.squared())
@@ -78,18 +72,15 @@ pub const OFFSET: f32 = 0.744_889_5;
 ///
 /// 1. The seed `t`, about `1/s`: the exponent divided by -3 in integers. `h = |x| t³` then lies between 0.45 and
 ///    0.56, in the same way for every power of eight.
-/// 2. `t` times a cubic in `h` is `1/(sqrt(3) s)` within 2.2e-6. Another seed stretches the range of `h` and with it the
-///    coefficients of the minimax cubic; this seed makes the leading one -1, which needs no constant and no
-///    multiplication. The factor `sqrt(3)` makes the square of the result the `1/(3 s²)` of Newton's method. Seed and
-///    cubic are made again in `host-tests/tests/generators/cube_roots.rs`.
+/// 2. `t` times a cubic in `h` is `1/(sqrt(3) s)` within 2.2e-6; this seed makes the leading coefficient of the minimax cubic -1, and `sqrt(3)` the
+///    square of the result the `1/(3 s²)` of Newton's method. Made again in `host-tests/tests/generators/cube_roots.rs`.
 /// 3. `near = 3 x / (3 s²)`, within 4.4e-6 and a rounding. Its first eight bits are `short`, so that `short³`
 ///    is exact in 24 bits, and exact too is `short³ - x`, the difference of two neighbours.
 /// 4. Newton's step from `near` by `near³ - x = (near - short)(near² + near short + short²) + short³ - x`.
-///    It leaves 3e-11; the remainder, `near - short` less the step, is below 2^-7 of the root and so are
-///    its roundings.
+///    It leaves 3e-11; the remainder, `near - short` less the step, is below 2^-7 of the root and so are its roundings.
 #[inline]
 const fn normal_root(x: f32) -> Root {
-    // In an order that leaves few operations waiting for the one before.
+    // In an order that leaves few operations waiting.
     let magnitude = x.abs();
     let t = f32::from_bits(SEED - magnitude.to_bits() / 3);
     let t_squared = t * t;
@@ -118,16 +109,12 @@ const fn normal_root(x: f32) -> Root {
     }
 }
 
-/// Both parts of the root of what [`normal_root`] does not take.
-///
-/// A number below 2^-125 is multiplied by 2^48, which is exact, and its root divided by 2^16. Zeros, infinities
-/// and NaN stand for both parts: their sum and the square of it are that same zero, infinity or NaN.
+/// Both parts of the root of other numbers: below 2^-125 times 2^48 and back; zeros, infinities and NaN stand for both parts.
 #[cold]
 #[inline(never)]
 const fn rare_root(x: f32) -> (f32, f32) {
     const TWO_TO_48: f32 = 281_474_976_710_656.0;
     const ONE_BY_TWO_TO_16: f32 = 1.0 / 65_536.0;
-    // Neither zero nor beyond the finite numbers.
     if x.abs().to_bits().wrapping_sub(1) < SMALLEST_CUBE {
         let Root { short, remainder } = normal_root(x * TWO_TO_48);
         (short * ONE_BY_TWO_TO_16, remainder * ONE_BY_TWO_TO_16)
@@ -138,17 +125,12 @@ const fn rare_root(x: f32) -> (f32, f32) {
 
 /// Sine and cosine; see [`math::sin_cos`](super::sin_cos).
 ///
-/// The nearest of 64 directions from a table, turned by the remainder `r` of the angle, which is at most pi/64:
-/// `sin r = r - 0.166 650 r³`, the minimax fit of relative error 8e-9, and `cos r - 1 = -r²/2 + r⁴/24` of Taylor's
-/// series, which leaves `r⁶/720`, 2e-11. Both are small beside the table's numbers, so that the error is little more
-/// than the rounding of these and of the last sums. Fit and table are made again in
-/// `host-tests/tests/generators/sine.rs`.
+/// The nearest of 64 directions from a table, turned by the remainder `r` of the angle, at most pi/64: `sin r = r - 0.166 650 r³`, the minimax fit
+/// of relative error 8e-9, and `cos r - 1 = -r²/2 + r⁴/24`, which leaves 2e-11. Made again in `host-tests/tests/generators/sine.rs`.
 #[inline]
-#[must_use]
 pub const fn sin_cos(x: f32) -> (f32, f32) {
     let (steps, remainder) = reduced(x);
-    // Both results operation by operation: a core without reordering waits a cycle where an operation needs the
-    // result of the one before. The remainder of a division by STEPS is no index out of bounds.
+    // Both results operation by operation: a core without reordering waits a cycle for the result of the one before.
     let step = (steps as usize) % STEPS;
     let (cos_step, sin_step) = (TURN[step], TURN[step + STEPS / 4]);
     let square = remainder * remainder;
@@ -168,7 +150,6 @@ pub const SIN_THIRD: f32 = -1.666_500_3e-1;
 #[doc(hidden)]
 pub const COS_FOURTH: f32 = 4.166_666_8e-2;
 
-/// Directions of a turn.
 const STEPS: usize = 64;
 
 /// Sines of 0, pi/32, 2 pi/32 and so on to pi/2.
@@ -179,10 +160,8 @@ pub const SINES: [f32; STEPS / 4 + 1] = [
     1.0,
 ];
 
-/// Cosines of 0, pi/32, 2 pi/32 and so on, through a turn and a quarter.
-///
-/// Of the multiple `n` of pi/32 in an angle, [`reduced`] returns `-n` modulo 64: at that index stands its cosine, 16
-/// further on, `cos(pi/2 - n pi/32)`, its sine.
+/// Cosines of 0, pi/32, 2 pi/32 and so on, through a turn and a quarter. Of the multiple `n` of pi/32 in an angle, [`reduced`] returns `-n` modulo 64:
+/// at that index stands its cosine, 16 further on, `cos(pi/2 - n pi/32)`, its sine.
 const TURN: [f32; STEPS + STEPS / 4] = {
     const QUARTER: usize = STEPS / 4;
     let mut turn = [0.0; STEPS + QUARTER];
@@ -228,20 +207,15 @@ pub const QUARTER_PARTS: [f32; 4] = [
     2.5633440682570896e-12,
 ];
 
-/// The same for angles of no more than four turns; others give a multiple that is out of range.
-///
-/// pi/32 is taken away in three parts, the first two of so few bits (5 and 20) that their products and
-/// differences are exact where a sine or cosine vanishes, up to the sixteenth quarter of a turn: the remainder keeps
-/// full relative precision there, however small it is.
+/// [`reduced`] for angles of no more than four turns; others give a multiple that is out of range. pi/32 is taken away in three parts, the first two of
+/// so few bits (5 and 20) that their products and differences are exact where a sine or cosine vanishes: the remainder keeps full relative precision.
 #[inline]
 const fn reduced_from_near(x: f32) -> (u32, f32) {
-    // Adding it rounds to the nearest integer, and leaves that integer in the low bits, counted from
-    // -LARGEST_MULTIPLE.
+    // Adding it rounds to the nearest integer in the low bits, counted from -LARGEST_MULTIPLE.
     const TWO_TO_23: f32 = 8_388_608.0;
     const ROUND: f32 = TWO_TO_23 + LARGEST_MULTIPLE as f32;
     let [part_1, part_2, part_3] = STEP_PARTS;
 
-    // Subtracted twice from the same constant, which is loaded once.
     let shifted = ROUND - x * (16.0 * core::f32::consts::FRAC_2_PI);
     let multiple = ROUND - shifted;
     let remainder = ((x - multiple * part_1) - multiple * part_2) - multiple * part_3;
@@ -251,8 +225,7 @@ const fn reduced_from_near(x: f32) -> (u32, f32) {
     )
 }
 
-/// The same for angles of more than four turns: first multiples of pi/2, in four parts of which the first one has eight
-/// bits, without full relative precision next to the zeros.
+/// [`reduced`] for angles of more than four turns: first multiples of pi/2, without full relative precision next to the zeros.
 #[cold]
 #[inline(never)]
 const fn reduced_from_afar(x: f32) -> (u32, f32) {

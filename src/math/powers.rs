@@ -11,16 +11,14 @@ pub const PARABOLA: [f32; 3] = [1.743_091_7, 1.224_815, 0.490_906_86];
 /// `x^(-1/3)` of two positive normal numbers, with a relative error of 2.7e-5: `x` times it is
 /// `x^(2/3)`, `x` times its square is `x^(1/3)`. Zero gives a finite number, so that both are zero.
 ///
-/// The exponent divided by -3 in integers gives a seed `y`, within 3 % of a multiple of the result. `c = x y³` then lies
-/// between 0.653 and 0.774 for every `x`, and the minimax parabola of `c^(-1/3)` on that range does the rest; seed and
-/// parabola are made again in `host-tests/tests/generators/cube_roots.rs`. A third of the price of a cube root, and
-/// no division; contact forces are never known to five digits. Two at once, operation by operation: a core without
-/// reordering waits a cycle where an operation needs the result of the one before.
+/// The exponent divided by -3 in integers gives a seed `y`; `c = x y³` then lies between 0.653 and 0.774 for every `x`, and the minimax parabola of
+/// `c^(-1/3)` does the rest (`host-tests/tests/generators/cube_roots.rs`). A third of the price of a cube root, and no division. Two at once, operation
+/// by operation: a core without reordering waits a cycle for the result of the one before.
 #[inline]
 pub(crate) const fn inverse_cube_roots(x: [f32; 2]) -> [f32; 2] {
     let [p0, p1, p2] = PARABOLA;
     let [p, q] = x;
-    // Wraps only for negative numbers below -2.8e37 and negative NaN, which have no meaning here.
+    // Wraps only for numbers that have no meaning here.
     let y = f32::from_bits(SEED.wrapping_sub(p.to_bits() / 3));
     let z = f32::from_bits(SEED.wrapping_sub(q.to_bits() / 3));
     let (c, d) = (p * y, q * z);
@@ -59,7 +57,6 @@ mod tests {
         assert_eq!(0.0 * inverse_cube_roots([0.0, 1.0])[0], 0.0);
     }
 
-    /// What no caller gives has no meaning, and does no harm to the number beside it.
     #[test]
     fn numbers_of_no_meaning_do_not_panic() {
         let [_, two] = inverse_cube_roots([1.0, 2.0]);

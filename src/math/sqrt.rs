@@ -5,22 +5,18 @@
 /// NaN and negative numbers give NaN (of unspecified sign); -0 gives -0; infinity gives infinity. One instruction on an Arm
 /// core with a floating-point unit (14 cycles on a Cortex-M4F) and on x86-64; `libm` elsewhere.
 #[inline]
-#[must_use]
 pub fn sqrt(x: f32) -> f32 {
     target::sqrt(x)
 }
 
-/// Two square roots. On an Arm core they take fewer cycles together: one operand or root moves between the integer and
-/// the floating-point registers while the other root is computed.
+/// Two square roots: on an Arm core fewer cycles together, because registers move while the other root is computed.
 #[inline]
-#[must_use]
 pub fn sqrt_pair(x: f32, y: f32) -> (f32, f32) {
     target::sqrt_pair(x, y)
 }
 
 #[cfg(all(target_arch = "arm", target_abi = "eabihf"))]
 mod target {
-    /// Two roots at once; see [`sqrt`].
     #[allow(unsafe_code)]
     #[inline(always)]
     pub fn sqrt_pair(x: f32, y: f32) -> (f32, f32) {
@@ -45,15 +41,12 @@ mod target {
         (f32::from_bits(first), f32::from_bits(second))
     }
 
-    /// The compiler offers no safe way to this instruction: `core::f32::math` is unstable, and the
-    /// register class of single-precision registers is refused, so that the operand goes through a
-    /// general register.
+    /// No safe way leads to this instruction: `core::f32::math` is unstable, and the class of single-precision registers is refused.
     #[allow(unsafe_code)]
     #[inline(always)]
     pub fn sqrt(x: f32) -> f32 {
         let bits: u32;
-        // SAFETY: the instruction reads and writes only the registers named here; `s0` is declared
-        // as overwritten. It touches no memory. Every Arm target with the hard-float ABI has it. The
+        // SAFETY: the instruction reads and writes only the registers named here, and no memory. Every Arm target with the hard-float ABI has it. The
         // flags are not declared as preserved: an inexact root sets a sticky bit of FPSCR.
         unsafe {
             core::arch::asm!(
@@ -76,8 +69,7 @@ mod target {
     #[allow(unsafe_code)]
     #[inline(always)]
     pub fn sqrt(x: f32) -> f32 {
-        // SAFETY: SSE is enabled for the whole build, as the condition on this module says; the
-        // intrinsics work on values only.
+        // SAFETY: SSE is enabled for the whole build, as the condition on this module says.
         unsafe { _mm_cvtss_f32(_mm_sqrt_ss(_mm_set_ss(x))) }
     }
 
@@ -95,7 +87,7 @@ mod target {
     #[cfg(all(feature = "micromath", not(feature = "libm")))]
     #[inline(always)]
     pub fn sqrt(x: f32) -> f32 {
-        super::super::micromath::sqrt(x)
+        super::super::other::sqrt(x)
     }
 
     #[cfg(not(all(feature = "micromath", not(feature = "libm"))))]

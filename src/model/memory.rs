@@ -20,45 +20,34 @@ where
     C: Borrow<WithMemoryConstants<S::Constants, E, A, L>>,
 {
     /// Friction between two steps, after a new reading of the angle: elements follow it under the limits that the last step
-    /// found. Balls, loads and the friction coefficient stay as they are; the next step takes the balls on by all turns
-    /// since the last one, as far as the scene's largest speed lets it, and the steps after it by the rest.
+    /// found. Balls, loads and the friction coefficient stay as they are until the next step, which takes the balls on by all turns
+    /// since the last one, up to the scene's largest speed.
     ///
     /// For a current loop that runs faster than the balls need: a step every millisecond, this in every tick. It costs what
-    /// the elements do, and some tens of cycles. Before the first step there is no friction. Its faults are reported in its outputs and are
-    /// not counted ([`FrictionModel::faulted_ticks`]).
+    /// the elements do, and some tens of cycles. Before the first step there is no friction.
     #[inline]
     pub fn between(&mut self, reading: A::Reading) -> S::Outputs {
         let constants = self.constants.borrow();
         constants.between::<S>(&mut self.state.remembered, reading)
     }
 
-    /// Sets the law of the friction coefficient: from the next step on friction follows it. [`FrictionModel::reset`] brings
-    /// the configuration's back.
-    ///
-    /// # Errors
-    /// [`Error`] naming `coefficient`, where the scene does not take the least or the largest of the law; the model goes on as it
-    /// was.
+    /// Sets the law of the friction coefficient, from the next step on. [`FrictionModel::reset`] brings the configuration's back.
     pub fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
         self.state.remembered.set_coefficient(law)
     }
 
-    /// Sets how large friction is beside that of the constants, in each direction: from the next step or reading on. What an
-    /// [`Adaptation`](crate::adaptation::Adaptation) has found goes in here.
+    /// Sets friction over that of the constants, in each direction, from the next step or reading on: what an
+    /// [`Adaptation`](crate::adaptation::Adaptation) has found.
     ///
-    /// Only the limits of the elements are scaled: their stiffness stays, so that friction takes out of every motion what it stored,
-    /// and no less, however often the level changes. Efficiency and regime are those of the constants' friction. Not part of an exported
-    /// state; [`FrictionModel::reset`] brings 1 back.
-    ///
-    /// # Errors
-    /// [`Error`] naming `forward` or `backward`, outside 0.1 to 10; the model goes on as it was.
+    /// It scales the limits of the elements, not their stiffness: friction takes out of every motion what it stored, however often the level
+    /// changes. Efficiency and regime are those of the constants' friction. Not part of an exported state; [`FrictionModel::reset`] brings 1 back.
     pub fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
         self.state.remembered.set_level(level)
     }
 
-    /// Lubricant drag that is in the friction torque of the last step, N m, and that no level scales: for
-    /// [`AdaptationInputs`](crate::adaptation::AdaptationInputs). 0 before the first step, and of a law without drag.
+    /// Lubricant drag in the friction torque of the last step, N m, which no level scales: for
+    /// [`AdaptationInputs`](crate::adaptation::AdaptationInputs). 0 before the first step.
     #[inline]
-    #[must_use]
     pub fn drag_torque(&self) -> f32 {
         self.state.remembered.drag()
     }
@@ -72,8 +61,7 @@ where
     L: CoefficientFor<Inputs>,
     C: Borrow<WithMemoryConstants<UncagedConstants<N, NODES>, E, A, L>>,
 {
-    /// Sets the angle of the nut against the screw, rad, from which the screw's deviations are counted, as without memory: that of
-    /// the last reading.
+    /// Sets the nut's angle at the last reading, rad, from which the screw's deviations are counted.
     pub fn set_nut_angle(&mut self, angle: f32) {
         let scene = self.constants.borrow().scene();
         // The next step takes the balls on by the turns since the last one.
@@ -89,8 +77,7 @@ where
     L: CoefficientFor<LinearInputs>,
     C: Borrow<WithMemoryConstants<LinearConstants<N>, E, A, L>>,
 {
-    /// Sets the carriage's place along the rail, m, from which the rail's deviations are counted, as without memory: that of the
-    /// last reading.
+    /// Sets the carriage's place along the rail at the last reading, m, from which the rail's deviations are counted.
     pub fn set_carriage_position(&mut self, position: f32) {
         let scene = self.constants.borrow().scene();
         let at_last_step = position - self.state.remembered.moved();

@@ -13,10 +13,10 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// Bytes of a block that holds the state: see [`stored`](crate::stored) for its layout.
     pub const STATE_BYTES: usize = OVERHEAD + <S::State as Stored>::BYTES;
 
-    /// Writes the state as a block to the begin of `bytes` and gives its length,
-    /// [`STATE_BYTES`](FrictionModel::STATE_BYTES): when the ignition goes off.
+    /// Writes the state as a block to the begin of `bytes`, when the ignition goes off, and gives its length
+    /// [`STATE_BYTES`](FrictionModel::STATE_BYTES).
     ///
-    /// The block has balls, memory and what has been set while the model ran; not the constants, nor the number of faulted
+    /// The block has balls, memory and what has been set while the model ran; neither the constants nor the number of faulted
     /// ticks. Outside the interrupt; where one still steps the model, copy it in a critical section and export the copy.
     ///
     /// | counted on a Cortex-M4F | block, bytes | export, instructions | import | stack, bytes | flash of both |
@@ -67,18 +67,11 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     }
 
     /// Takes over the state of a block that a model of the same constants exported: when the ignition goes on, before the first
-    /// step. From then on steps give the same bits as those of the model that was exported.
+    /// step. From then on steps give the same bits as those of that model; on a refusal the model is as it was. Outside the interrupt.
     ///
-    /// Memory and balls are as they were. An angle sensor begins anew: the first reading is no turn, whatever the nut did while the
-    /// power was off. If somebody turned the wheel then, the true friction has forgotten more than the model; after a turn of
-    /// twice the breakaway angle both are the same again. See
-    /// [`FrictionModel::import_with_reading`] for a sensor that spans the gap.
-    ///
-    /// On a refusal the model is as it was: the block is read into a copy of the state on the stack. Outside the
-    /// interrupt; for its cost see [`FrictionModel::export`].
-    ///
-    /// # Errors
-    /// The [`Refusal`].
+    /// An angle sensor begins anew: the first reading is no turn, whatever the nut did without power. If somebody turned the wheel
+    /// then, model and true friction are the same again after a turn of twice the breakaway angle;
+    /// [`FrictionModel::import_with_reading`] serves a sensor that spans the gap.
     pub fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
         let mut state = self.state;
         self.read(&mut state, block)?;
@@ -101,7 +94,6 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
         Block::new(label, <S::State as Stored>::BYTES - missing * BALL_BYTES)
     }
 
-    /// Reads a block into a copy of the state.
     fn read(&self, state: &mut S::State, block: &[u8]) -> Result<(), Refusal> {
         self.block().open(state, block)?;
         S::complete(self.constants.borrow(), state)
@@ -121,12 +113,10 @@ where
     L: CoefficientFor<<S as Scene>::Inputs>,
     C: Borrow<WithMemoryConstants<S::Constants, E, A, L>>,
 {
-    /// Takes over a state as [`FrictionModel::import`] does, with the last reading of the angle sensor: the turn of the next reading
-    /// spans the time without power.
+    /// As [`FrictionModel::import`], with the last reading of the angle sensor: the turn of the next reading spans the time without power.
     ///
-    /// Right only for a sensor that is absolute over all that the nut may have turned by: a counter that begins at 0 with the
-    /// power would give a false turn, one that is absolute within a turn loses whole turns. A turn beyond the
-    /// sensor's largest one is cut to that and flagged.
+    /// Right only for a sensor that is absolute over all that the nut may have turned by. A turn beyond the sensor's largest one is cut to
+    /// that and flagged.
     ///
     /// # Errors
     /// The [`Refusal`]; the model is as it was.

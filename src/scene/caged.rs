@@ -20,13 +20,10 @@ pub use built_in::{BUILT_IN_NODES, built_in};
 
 /// A ball screw whose balls do not touch (caged, or with spacer balls), by the folded law of one ball, for `NODES` friction coefficients.
 ///
-/// It starts at once, a step takes the same cycles whatever was set, and nothing settles. Its constants are a block that `epas-design`
-/// writes on a host, with a certificate of its errors: as Rust, C, TOML or bytes. Clearance changes by another block
-/// ([`FrictionModel::swap_constants`](crate::FrictionModel::swap_constants)), the friction coefficient within the block's nodes
-/// ([`FrictionModel::set_friction`](crate::FrictionModel::set_friction)).
-///
-/// A load above the block's largest is computed with the law's end and flagged [`Faults::BEYOND_MODEL`], as is a friction coefficient
-/// beyond its nodes.
+/// Its constants are a block that `epas-design` writes on a host, with a certificate of its errors: as Rust, C, TOML or bytes. Clearance
+/// changes by another block ([`FrictionModel::swap_constants`](crate::FrictionModel::swap_constants)), the friction coefficient within the
+/// block's nodes ([`FrictionModel::set_friction`](crate::FrictionModel::set_friction)). A load above the block's largest, or a coefficient
+/// beyond its nodes, is computed with the law's end and flagged [`Faults::BEYOND_MODEL`].
 ///
 /// The arithmetic of a step: [`Scene::step`] below, and `LoadLaw::torque_over_load` in `ball/folded.rs`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,21 +47,20 @@ pub struct CagedConstants<const NODES: usize = 1> {
     limits: Limits,
 }
 
-/// What of a caged screw can be set while it runs.
+/// State of a caged screw: its friction coefficient.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedState {
     friction: FrictionInterval,
 }
 
-/// What the engineer sets for a caged screw; unchecked.
+/// Configuration of a caged screw; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CagedBallScrewConfiguration<const NODES: usize = 1> {
     /// Law of one ball.
     pub law: LoadLaw<NODES>,
-    /// Friction coefficient of ball and groove before [`FrictionModel::set_friction`](crate::FrictionModel::set_friction), within the
-    /// law's nodes.
+    /// Friction coefficient of ball and groove at set-up, within the law's nodes.
     pub friction: f32,
     /// Advance of the nut per turn, m, 0 to 0.2.
     pub lead: f32,
@@ -77,9 +73,8 @@ pub struct CagedBallScrewConfiguration<const NODES: usize = 1> {
 }
 
 impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
-    /// The same for the node whose friction coefficient is nearest to one: a fifth of the constants and as exact as a fold for that coefficient alone.
-    /// For constants too; without a number, the least node.
-    #[must_use]
+    /// The same for the one node whose friction coefficient is nearest: a fifth of the constants, and as exact as a fold for that coefficient
+    /// alone. Of NaN, the least node.
     pub const fn nearest(&self, friction: f32) -> CagedBallScrewConfiguration {
         const { assert!(NODES > 0) };
         let mut nearest = self.law.nodes[0];
@@ -115,10 +110,7 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
 }
 
 impl<const NODES: usize> CagedConstants<NODES> {
-    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
+    /// Checks a configuration and folds its constants.
     pub const fn new(configuration: &CagedBallScrewConfiguration<NODES>) -> Result<Self, Error> {
         let CagedBallScrewConfiguration {
             law,
@@ -146,10 +138,7 @@ impl<const NODES: usize> CagedConstants<NODES> {
         })
     }
 
-    /// These constants with other limits: a block from flash, limits from a calibration page.
-    ///
-    /// # Errors
-    /// As [`Limits::checked`].
+    /// These constants with other limits, of a calibration page.
     pub const fn with_limits(&self, limits: Limits) -> Result<Self, Error> {
         Ok(Self {
             limits: attempt!(limits.checked()),
@@ -170,26 +159,23 @@ impl<const NODES: usize> Scene for CagedBallScrew<NODES> {
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn constants(
-        configuration: &CagedBallScrewConfiguration<NODES>,
-    ) -> Result<CagedConstants<NODES>, Error> {
+    fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
         CagedConstants::new(configuration)
     }
 
-    fn initial_state(constants: &CagedConstants<NODES>) -> CagedState {
+    fn initial_state(constants: &Self::Constants) -> Self::State {
         CagedState {
             friction: constants.friction,
         }
     }
 
-    /// The friction coefficient is that of the new constants.
-    fn take_over(constants: &CagedConstants<NODES>, state: &mut CagedState) -> Result<(), Error> {
+    fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
         state.friction = constants.friction;
         Ok(())
     }
 
     #[inline(always)]
-    fn step(constants: &CagedConstants<NODES>, state: &mut CagedState, inputs: Inputs) -> Outputs {
+    fn step(constants: &Self::Constants, state: &mut Self::State, inputs: Inputs) -> Outputs {
         let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
         let Some(Inputs {
             nut_speed,
@@ -225,14 +211,14 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
     type Friction = CagedFriction;
 
     #[inline(always)]
-    fn check_inputs(constants: &CagedConstants<NODES>, inputs: Inputs) -> CheckedInputs<Inputs> {
+    fn check_inputs(constants: &Self::Constants, inputs: Inputs) -> CheckedInputs<Inputs> {
         constants.limits.check_inputs(inputs)
     }
 
     #[inline(always)]
     fn sliding_friction(
-        constants: &CagedConstants<NODES>,
-        _: &mut CagedState,
+        constants: &Self::Constants,
+        _: &mut Self::State,
         inputs: Inputs,
         friction: DirectionalCoefficient,
     ) -> CagedFriction {
@@ -250,21 +236,23 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
             law.torque_over_load(per_ball, inputs.axial_load > 0.0, interval);
         let beyond = beyond || !holds;
         CagedFriction {
-            forward: load * over_load,
-            backward: load * over_load_backward,
-            load,
+            sliding: SlidingFriction {
+                forward: load * over_load,
+                backward: load * over_load_backward,
+                load,
+            },
             faults: Faults::NONE.with(beyond, Faults::BEYOND_MODEL),
         }
     }
 
     #[inline(always)]
     fn by_direction(sliding: &CagedFriction) -> SlidingFriction {
-        sliding.by_direction()
+        sliding.sliding
     }
 
     #[inline(always)]
     fn outputs_at(
-        constants: &CagedConstants<NODES>,
+        constants: &Self::Constants,
         inputs: Inputs,
         friction: &CagedFriction,
         reversal: ReversalState,
@@ -280,17 +268,12 @@ impl<const NODES: usize> Sliding for CagedBallScrew<NODES> {
             constants.limits.friction_torque,
         )
     }
-
-    #[inline(always)]
-    fn limited_travel(_: &CagedConstants<NODES>, turn: f32, measured: f32) -> (f32, f32) {
-        (turn, measured)
-    }
 }
 
 impl<const NODES: usize> ChangingFriction for CagedBallScrew<NODES> {
     fn set_friction(
-        constants: &CagedConstants<NODES>,
-        state: &mut CagedState,
+        constants: &Self::Constants,
+        state: &mut Self::State,
         friction: f32,
     ) -> Result<(), Error> {
         let (least, largest) = constants.law.friction_range();
@@ -303,12 +286,12 @@ impl<const NODES: usize> ChangingFriction for CagedBallScrew<NODES> {
 impl<const NODES: usize> StoredScene for CagedBallScrew<NODES> {
     const KIND: u16 = 4;
 
-    /// The friction coefficient has a meaning of its own; only its range has to fit, which [`Self::complete`] sees to.
-    fn fingerprint(constants: &CagedConstants<NODES>, fingerprint: &mut Fingerprint) {
+    /// Not the friction coefficient: only its range has to fit, which [`Self::complete`] checks.
+    fn fingerprint(constants: &Self::Constants, fingerprint: &mut Fingerprint) {
         fingerprint.number(constants.reduced_lead);
     }
 
-    fn complete(constants: &CagedConstants<NODES>, state: &mut CagedState) -> Result<(), Refusal> {
+    fn complete(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Refusal> {
         let friction = state.friction.friction();
         if constants.law.holds(friction) {
             state.friction = constants.interval(friction);
@@ -317,8 +300,6 @@ impl<const NODES: usize> StoredScene for CagedBallScrew<NODES> {
             Err(Refusal::OutOfRange { field: "friction" })
         }
     }
-
-    fn forget_readings(_: &mut CagedState) {}
 }
 
 impl Stored for CagedState {

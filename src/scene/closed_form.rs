@@ -13,22 +13,21 @@ use crate::error::{Error, Range, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
-use crate::stored::{Fingerprint, Port, Refusal, Stored};
+use crate::stored::{Fingerprint, Refusal};
 
-/// Friction torque over load and pitch radius from which on a direction counts as locked: no motor of a steering gear
-/// has a thousandth of that.
+/// Friction torque over load and pitch radius from which on a direction counts as locked.
 const LOCKED_RADII: f32 = 1e3;
 
 /// A ball screw whose balls do not touch, by a paper's closed form: for comparison.
 ///
-/// Torque is in proportion to the load; spin, a third contact and the size of the contacts are left out (see [`FrictionBranch`]). Over the built-in
-/// designs, 5 to 300 N a ball, a rolling ball has 0.02 to 1.1 times the exact torque, a sliding one 0.6 to 14 times. Who has no host takes
-/// [`built_in`](crate::scene::built_in) sizes for a [`CagedBallScrew`](crate::scene::CagedBallScrew): as exact as what a host folds.
+/// Torque is in proportion to the load. Over the built-in designs, 5 to 300 N a ball, a rolling ball has 0.02 to 1.1 times the exact torque, a
+/// sliding one 0.6 to 14 times (see [`FrictionBranch`]); [`built_in`](crate::scene::built_in) sizes of a
+/// [`CagedBallScrew`](crate::scene::CagedBallScrew) need no host either and are exact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ClosedFormScrew;
 
-/// What the engineer sets for a screw by a closed form; unchecked.
+/// Configuration of a screw by a closed form; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ClosedFormScrewConfiguration {
@@ -41,7 +40,7 @@ pub struct ClosedFormScrewConfiguration {
     /// Which state of the ball the torque is computed for.
     pub branch: FrictionBranch,
     /// How balls fit between the grooves, -0.02 to 0.05 ball radii: oversize presses each flank of the nut with
-    /// [`Clearance::axial_preload`]; play changes nothing, for the closed forms know no third contact.
+    /// [`Clearance::axial_preload`]; play changes nothing.
     pub clearance: Clearance,
     /// Number of balls that carry load, 1 to 1000.
     pub loaded_balls: u16,
@@ -56,11 +55,10 @@ pub struct ClosedFormScrewConfiguration {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FrictionBranch {
     /// The ball rolls and slips across the groove at the screw, eq. (3) of Lin, Velinsky and Ravani 1994. It leaves out spin, the
-    /// third contact, clearance but for a preload, and the contacts' size: torque is in proportion to the load, and without
-    /// [`rolling_tangent`](ClosedFormScrewConfiguration::rolling_tangent) hardly depends on the lead.
+    /// third contact, clearance but for a preload, and the contacts' size: without
+    /// [`rolling_tangent`](ClosedFormScrewConfiguration::rolling_tangent) the torque hardly depends on the lead.
     Rolling,
-    /// The ball slides along the path at both contacts, eq. (14) and (17) of the same: a pessimistic bound. It leaves out that
-    /// balls roll.
+    /// The ball slides along the path at both contacts, eq. (14) and (17) of the same: a pessimistic bound.
     Sliding,
 }
 
@@ -81,16 +79,8 @@ pub struct ClosedFormScrewConstants {
     limits: Limits,
 }
 
-/// State of a screw by a closed form: none.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct ClosedFormScrewState;
-
 impl ClosedFormScrewConstants {
-    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
+    /// Checks a configuration and folds its constants.
     pub const fn new(configuration: &ClosedFormScrewConfiguration) -> Result<Self, Error> {
         let ClosedFormScrewConfiguration {
             ref design,
@@ -113,12 +103,9 @@ impl ClosedFormScrewConstants {
         // Beyond its lock the formula turns infinite or negative.
         let lock = LOCKED_RADII * design.pitch_radius();
         let drive_locked = !(drive >= 0.0 && drive < lock);
+        let drive = if drive_locked { backdrive } else { drive };
         Ok(Self {
-            half_drive: if drive_locked {
-                0.5 * backdrive
-            } else {
-                0.5 * drive
-            },
+            half_drive: 0.5 * drive,
             half_backdrive: 0.5 * backdrive,
             reduced_lead: design.reduced_lead(),
             drive_locked,
@@ -191,21 +178,17 @@ const fn torque_per_load(
 impl Scene for ClosedFormScrew {
     type Configuration = ClosedFormScrewConfiguration;
     type Constants = ClosedFormScrewConstants;
-    type State = ClosedFormScrewState;
+    type State = ();
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn constants(
-        configuration: &ClosedFormScrewConfiguration,
-    ) -> Result<ClosedFormScrewConstants, Error> {
+    fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
         ClosedFormScrewConstants::new(configuration)
     }
 
-    fn initial_state(_: &ClosedFormScrewConstants) -> ClosedFormScrewState {
-        ClosedFormScrewState
-    }
+    fn initial_state(_: &Self::Constants) {}
 
-    fn take_over(_: &ClosedFormScrewConstants, _: &mut ClosedFormScrewState) -> Result<(), Error> {
+    fn take_over(_: &Self::Constants, (): &mut Self::State) -> Result<(), Error> {
         Ok(())
     }
 
@@ -214,11 +197,7 @@ impl Scene for ClosedFormScrew {
     /// away from the reversal, zero at standstill, smooth between, odd under reversal of speed and
     /// load together, and never of the sign that would make friction a source of power.
     #[inline]
-    fn step(
-        constants: &ClosedFormScrewConstants,
-        _: &mut ClosedFormScrewState,
-        inputs: Inputs,
-    ) -> Outputs {
+    fn step(constants: &Self::Constants, (): &mut Self::State, inputs: Inputs) -> Outputs {
         let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
         let Some(Inputs {
             nut_speed,
@@ -251,14 +230,14 @@ impl Sliding for ClosedFormScrew {
     type Friction = CagedFriction;
 
     #[inline]
-    fn check_inputs(constants: &ClosedFormScrewConstants, inputs: Inputs) -> CheckedInputs<Inputs> {
+    fn check_inputs(constants: &Self::Constants, inputs: Inputs) -> CheckedInputs<Inputs> {
         constants.limits.check_inputs(inputs)
     }
 
     #[inline]
     fn sliding_friction(
-        constants: &ClosedFormScrewConstants,
-        _: &mut ClosedFormScrewState,
+        constants: &Self::Constants,
+        (): &mut Self::State,
         inputs: Inputs,
         _: DirectionalCoefficient,
     ) -> CagedFriction {
@@ -272,21 +251,23 @@ impl Sliding for ClosedFormScrew {
             }
         };
         CagedFriction {
-            forward: sliding(load),
-            backward: sliding(-load),
-            load: constants.flanks.counted(load),
+            sliding: SlidingFriction {
+                forward: sliding(load),
+                backward: sliding(-load),
+                load: constants.flanks.counted(load),
+            },
             faults: Faults::NONE,
         }
     }
 
     #[inline]
     fn by_direction(sliding: &CagedFriction) -> SlidingFriction {
-        sliding.by_direction()
+        sliding.sliding
     }
 
     #[inline]
     fn outputs_at(
-        constants: &ClosedFormScrewConstants,
+        constants: &Self::Constants,
         inputs: Inputs,
         friction: &CagedFriction,
         reversal: ReversalState,
@@ -297,32 +278,16 @@ impl Sliding for ClosedFormScrew {
         let sliding = friction.of(reversal.direction);
         constants.outputs(inputs.axial_load, sliding, torque + drag, &reversal, faults)
     }
-
-    #[inline]
-    fn limited_travel(_: &ClosedFormScrewConstants, turn: f32, measured: f32) -> (f32, f32) {
-        (turn, measured)
-    }
 }
 
 impl StoredScene for ClosedFormScrew {
     const KIND: u16 = 5;
 
-    /// Nothing of the constants is in the state.
-    fn fingerprint(_: &ClosedFormScrewConstants, fingerprint: &mut Fingerprint) {
+    fn fingerprint(_: &Self::Constants, fingerprint: &mut Fingerprint) {
         fingerprint.count(0);
     }
 
-    fn complete(_: &ClosedFormScrewConstants, _: &mut ClosedFormScrewState) -> Result<(), Refusal> {
-        Ok(())
-    }
-
-    fn forget_readings(_: &mut ClosedFormScrewState) {}
-}
-
-impl Stored for ClosedFormScrewState {
-    const BYTES: usize = 0;
-
-    fn exchange<P: Port>(&mut self, _: &mut P) -> Result<(), Refusal> {
+    fn complete(_: &Self::Constants, (): &mut Self::State) -> Result<(), Refusal> {
         Ok(())
     }
 }

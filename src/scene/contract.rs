@@ -1,12 +1,11 @@
 //! The trait that every mechanism implements, and what scenes have in common: inputs, limits, reversal, regimes.
 
-use super::faults::Faults;
+use super::faults::{Faults, bounded};
 use crate::error::{Error, attempt, in_range};
 use crate::math;
 
 /// A mechanism with its configuration, its constants, its state and its outputs.
 ///
-/// Constants are folded once and never change; the state is small and is all that a step changes.
 pub trait Scene {
     /// Set-up parameters.
     type Configuration;
@@ -20,9 +19,6 @@ pub trait Scene {
     type Outputs: SceneOutputs;
 
     /// Checks the configuration and folds the constants.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error>;
 
     /// The state before the first step.
@@ -34,7 +30,7 @@ pub trait Scene {
     /// [`Error`] naming what does not fit to the state, which then is as it was.
     fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error>;
 
-    /// One step: inputs within their limits, friction within its limit, faults flagged; bounded time, no panic. Where an input is NaN or infinite
+    /// One step: inputs and friction within their limits, faults flagged; bounded time, no panic. Where an input is NaN or infinite
     /// the outputs are [`SceneOutputs::safe`] and the state stays (but for [`WithMemory`](super::WithMemory)).
     fn step(
         constants: &Self::Constants,
@@ -46,9 +42,6 @@ pub trait Scene {
 /// A scene whose friction coefficient may change while it runs.
 pub trait ChangingFriction: Scene {
     /// See [`FrictionModel::set_friction`](crate::FrictionModel::set_friction).
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`; the state is then as it was.
     fn set_friction(
         constants: &Self::Constants,
         state: &mut Self::State,
@@ -128,9 +121,6 @@ impl Motion for Inputs {
 
 impl Limits {
     /// The limits, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `nut_speed`, `axial_load` or `friction_torque`.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(in_range("nut_speed", self.nut_speed, 1e-3, 1e6));
         attempt!(in_range("axial_load", self.axial_load, 1e-3, 1e7));
@@ -138,7 +128,6 @@ impl Limits {
         Ok(self)
     }
 
-    /// The inputs within these limits, with what was wrong.
     #[inline(always)]
     pub(super) fn check_inputs(&self, inputs: Inputs) -> CheckedInputs<Inputs> {
         let Inputs {
@@ -155,16 +144,8 @@ impl Limits {
         }
         if nut_speed.is_finite() && axial_load.is_finite() {
             let limited = Inputs {
-                nut_speed: if speed_beyond {
-                    self.nut_speed.copysign(nut_speed)
-                } else {
-                    nut_speed
-                },
-                axial_load: if load_beyond {
-                    self.axial_load.copysign(axial_load)
-                } else {
-                    axial_load
-                },
+                nut_speed: bounded(nut_speed, self.nut_speed),
+                axial_load: bounded(axial_load, self.axial_load),
             };
             CheckedInputs {
                 inputs: Some(limited),
@@ -183,15 +164,14 @@ impl Limits {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Regime {
-    /// The mechanism is slower than the reversal speed, or with memory its elements still stick or the nut has just turned back: friction is
-    /// between its two directions.
+    /// Slower than the reversal speed, or with memory elements still stick or the nut has just turned back: friction is between its
+    /// two directions.
     Standing,
     /// The motor moves the load (or turns against friction alone).
     Driving,
     /// The load turns the nut.
     BackDriving,
-    /// The efficiency of the present direction is not positive: driving, no torque moves the load;
-    /// back-driving, the load alone does not sustain the motion and the motor has to push.
+    /// The efficiency of the present direction is not positive: driving, no torque moves the load; back-driving, the motor has to push.
     Locked,
 }
 
@@ -199,11 +179,10 @@ pub enum Regime {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ReversalState {
-    /// Factor on sliding friction, with the sign of the direction in which friction opposes motion: -1 to 1, times the
-    /// [level](crate::law::FrictionLevel) of that direction where one is set.
+    /// Factor on sliding friction, -1 to 1 with the sign of the direction in which friction opposes motion, times the
+    /// [level](crate::law::FrictionLevel) of that direction.
     pub factor: f32,
-    /// Part of the forces between balls that friction of the grooves carries, 0 to 1: with memory the size of the factor, without its
-    /// level; 1 in a scene without memory, whose forces are those of sliding at any speed.
+    /// Part of the forces between balls that friction of the grooves carries, 0 to 1: with memory the factor's size without its level; else 1.
     pub carried: f32,
     /// -1 where the motion goes, or went last, in the negative direction, else 1.
     pub direction: f32,
@@ -248,9 +227,6 @@ pub(super) struct Reversal {
 
 impl Reversal {
     /// With a reversal speed in the unit of the scene's speed.
-    ///
-    /// # Errors
-    /// [`Error`] naming `reversal_speed`.
     pub(super) const fn new(
         reversal_speed: f32,
         minimum: f32,
@@ -275,7 +251,6 @@ impl Reversal {
     }
 }
 
-/// -1 where a speed is negative, else 1.
 #[inline(always)]
 pub(super) const fn direction(speed: f32) -> f32 {
     if speed < 0.0 { -1.0 } else { 1.0 }

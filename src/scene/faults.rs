@@ -2,8 +2,7 @@
 
 /// What was wrong with a tick's inputs, limited in its outputs, or beyond the model; a set of flags.
 ///
-/// [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`] speak of accuracy alone: inputs and outputs are sound, and the output is the
-/// best estimate. They are in [`Faults::any`], and are not [`Faults::faulty`].
+/// [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`] speak of accuracy alone: they are in [`Faults::any`], not in [`Faults::faulty`].
 ///
 /// ```
 /// use epas_friction::Faults;
@@ -18,8 +17,7 @@ pub struct Faults(u16);
 impl Faults {
     /// Nothing is wrong.
     pub const NONE: Self = Self(0);
-    /// The speed is NaN or infinite: the output is the safe one (no friction). In a scene with memory the last sound speed and
-    /// load are used, and friction continues.
+    /// The speed is NaN or infinite: the output is the safe one (no friction), or with memory that of the last sound inputs.
     pub const SPEED_NOT_FINITE: Self = Self(1);
     /// A load is NaN or infinite: as for the speed.
     pub const LOAD_NOT_FINITE: Self = Self(1 << 1);
@@ -27,11 +25,10 @@ impl Faults {
     pub const SPEED_RANGE: Self = Self(1 << 2);
     /// A load is beyond its limit: the limit is used instead.
     pub const LOAD_RANGE: Self = Self(1 << 3);
-    /// The friction torque of a screw, or the friction force of a bearing, was cut to its limit; or it was NaN, which no scene
-    /// is known to make, and the output is zero.
+    /// The friction of the output was cut to its limit; or it was NaN, which no scene is known to make, and the output is zero.
     pub const FRICTION_LIMIT: Self = Self(1 << 4);
-    /// The output friction is less accurate than stated: the mechanism is outside the range of its formulas. It is the best
-    /// estimate, finite and continuous: not the safe output, and no reason to take the friction away. Each scene says where this begins.
+    /// The friction is less accurate than stated: the mechanism is outside the range of its formulas. The output is the best estimate, finite
+    /// and continuous, and no reason to take the friction away. Each scene says where this begins.
     pub const BEYOND_MODEL: Self = Self(1 << 5);
     /// Forces between balls are less accurate than stated, while the friction is not: compensation and adaptation go on.
     pub const FORCES_NOT_HELD: Self = Self(1 << 6);
@@ -59,8 +56,7 @@ impl Faults {
         self.0 & !(Self::BEYOND_MODEL.0 | Self::FORCES_NOT_HELD.0) != 0
     }
 
-    /// True where the output friction is not that of the inputs, or less accurate than stated: any flag but [`Faults::FORCES_NOT_HELD`]. An
-    /// adaptation waits for as long.
+    /// True where the output friction is not that of the inputs, or less accurate than stated: any flag but [`Faults::FORCES_NOT_HELD`].
     #[inline]
     #[must_use]
     pub const fn doubtful(self) -> bool {
@@ -75,8 +71,6 @@ impl Faults {
     }
 
     /// The flags as bits, in the order of their constants, for a diagnostic message.
-    #[inline]
-    #[must_use]
     pub const fn bits(self) -> u16 {
         self.0
     }
@@ -85,7 +79,6 @@ impl Faults {
         Self(bits)
     }
 
-    /// Flags of inputs beyond their limits: the speed, a load.
     #[inline(always)]
     pub(super) const fn beyond(speed: bool, load: bool) -> Self {
         Self::NONE
@@ -93,7 +86,6 @@ impl Faults {
             .with(load, Self::LOAD_RANGE)
     }
 
-    /// Flags of inputs that are NaN or infinite: the speed, a load.
     #[inline(always)]
     pub(super) const fn not_finite(speed: bool, load: bool) -> Self {
         Self::NONE
@@ -101,7 +93,6 @@ impl Faults {
             .with(load, Self::LOAD_NOT_FINITE)
     }
 
-    /// This set with `other` added where `condition` holds.
     #[inline]
     #[must_use]
     pub(crate) const fn with(self, condition: bool, other: Self) -> Self {
@@ -129,10 +120,7 @@ impl core::ops::BitOrAssign for Faults {
     }
 }
 
-/// `value` within plus and minus `bound`.
-///
-/// Written with comparisons: `max` and `min` become calls of C functions on a Cortex-M, and `clamp`
-/// keeps a panic for bounds that are not ordered.
+/// `value` within plus and minus `bound`: `max` and `min` become calls on a Cortex-M, `clamp` keeps a panic.
 #[inline(always)]
 pub(super) const fn bounded(value: f32, bound: f32) -> f32 {
     if value > bound {

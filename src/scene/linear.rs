@@ -27,24 +27,20 @@ pub use step::LinearFriction;
 /// 100 N a ball, 1e-2 at 10 N and 1.5e-2 at 1 N, and the friction of balls that press on each other within 12 % from 30 N
 /// on and 23 % at 10 N (too small: the closed form leaves out that a ball rubbed by its neighbours turns).
 ///
-/// Where side forces leave little on one diagonal, balls change to two-point rolling, and their speed jumps.
 /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) is set from the tick on in which the loads and the force between balls let some ball do so,
 /// at the least favourable deviations of both maps. With the ball of Lin 2019, Table 3.3, under 100 N that is a side-force
-/// ratio of 0.92 where grooves are straight, 0.87 where one deviates by 3 degrees; less with heavier balls, closer
-/// grooves, and friction between balls that press. The flag comes up to 0.03 of the ratio before a ball alone jumps, up to
-/// 0.1 before a row of pressing balls, and in no tested case after. From there on the grooves' friction is that of two-point
-/// rolling, within 4 % of the friction before where grooves are straight; forces between balls go on as before, and the
-/// friction of a row is within 40 % up to a ratio of 0.97.
+/// ratio of 0.92 where grooves are straight, 0.87 where one deviates by 3 degrees; less with heavier balls, closer grooves and friction
+/// between balls. The flag comes up to 0.03 of the ratio before a ball alone jumps, up to 0.1 before a row of pressing balls, and in no
+/// tested case after. From there on the grooves' friction is that of two-point rolling, within 4 % of the friction before where grooves
+/// are straight; forces between balls go on as before, and the friction of a row is within 40 % up to a ratio of 0.97.
 ///
-/// A step whose speed or load is NaN or infinite is flagged, outputs no force, and leaves the state as
-/// it is; the next sound tick is unflagged. Balls, and the phase of the rail's deviations, lag by the
-/// travel of the missed ticks from then on, until [`FrictionModel::reset`](crate::FrictionModel::reset);
+/// After a step whose speed or load is NaN or infinite, balls and the phase of the rail's deviations lag by its travel:
 /// [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position) brings the phase back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearBearingTrain<const N: usize>;
 
-/// What a tick changes in a linear bearing.
+/// State of a linear bearing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearState<const N: usize> {
@@ -59,7 +55,6 @@ pub struct LinearState<const N: usize> {
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearConstants<const N: usize> {
     circuit: Circuit,
-    /// Friction coefficient of the configuration.
     friction: f32,
     /// Time between two ticks, s, and 1 / it.
     tick: f32,
@@ -85,19 +80,19 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
     type Inputs = LinearInputs;
     type Outputs = LinearOutputs;
 
-    fn constants(configuration: &LinearBearingConfiguration) -> Result<LinearConstants<N>, Error> {
+    fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
         LinearConstants::new(configuration)
     }
 
     #[inline(always)]
-    fn initial_state(constants: &LinearConstants<N>) -> LinearState<N> {
+    fn initial_state(constants: &Self::Constants) -> Self::State {
         LinearState {
             circuit: CircuitState::new(&constants.circuit),
             friction: 1.0,
         }
     }
 
-    fn take_over(constants: &LinearConstants<N>, state: &mut LinearState<N>) -> Result<(), Error> {
+    fn take_over(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Error> {
         state.circuit.is_on(&constants.circuit)?;
         state.friction = 1.0;
         Ok(())
@@ -105,8 +100,8 @@ impl<const N: usize> Scene for LinearBearingTrain<N> {
 
     #[inline(always)]
     fn step(
-        constants: &LinearConstants<N>,
-        state: &mut LinearState<N>,
+        constants: &Self::Constants,
+        state: &mut Self::State,
         inputs: LinearInputs,
     ) -> LinearOutputs {
         let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
@@ -128,7 +123,7 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
 
     #[inline(always)]
     fn check_inputs(
-        constants: &LinearConstants<N>,
+        constants: &Self::Constants,
         inputs: LinearInputs,
     ) -> CheckedInputs<LinearInputs> {
         constants.limits.check_inputs(inputs)
@@ -136,8 +131,8 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
 
     #[inline(always)]
     fn sliding_friction(
-        constants: &LinearConstants<N>,
-        state: &mut LinearState<N>,
+        constants: &Self::Constants,
+        state: &mut Self::State,
         inputs: LinearInputs,
         friction: DirectionalCoefficient,
     ) -> LinearFriction {
@@ -159,7 +154,7 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
 
     #[inline(always)]
     fn outputs_at(
-        constants: &LinearConstants<N>,
+        constants: &Self::Constants,
         _: LinearInputs,
         sliding: &LinearFriction,
         reversal: ReversalState,
@@ -185,18 +180,14 @@ impl<const N: usize> Sliding for LinearBearingTrain<N> {
     }
 
     #[inline(always)]
-    fn limited_travel(constants: &LinearConstants<N>, travel: f32, _: f32) -> (f32, f32) {
+    fn limited_travel(constants: &Self::Constants, travel: f32, _: f32) -> (f32, f32) {
         let travel = bounded(travel, constants.limits.speed * constants.tick);
         (travel, travel * constants.per_tick)
     }
 }
 
 impl<const N: usize> LinearConstants<N> {
-    /// Checks a configuration and folds its constants: at set-up, or in a constant when firmware is compiled (see
-    /// [`FrictionModel`](crate::FrictionModel)).
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
+    /// Checks a configuration and folds its constants.
     pub const fn new(configuration: &LinearBearingConfiguration) -> Result<Self, Error> {
         let LinearBearingConfiguration {
             ref bearing,
@@ -230,7 +221,6 @@ impl<const N: usize> LinearConstants<N> {
         })
     }
 
-    /// See [`FrictionModel::set_carriage_position`](crate::FrictionModel::set_carriage_position).
     pub(crate) fn set_carriage_position(&self, state: &mut LinearState<N>, position: f32) {
         state
             .circuit
@@ -240,8 +230,8 @@ impl<const N: usize> LinearConstants<N> {
 
 impl<const N: usize> ChangingFriction for LinearBearingTrain<N> {
     fn set_friction(
-        constants: &LinearConstants<N>,
-        state: &mut LinearState<N>,
+        constants: &Self::Constants,
+        state: &mut Self::State,
         friction: f32,
     ) -> Result<(), Error> {
         let friction = ranges::FRICTION.checked("friction", friction)?;
@@ -254,11 +244,11 @@ impl<const N: usize> StoredScene for LinearBearingTrain<N> {
     const KIND: u16 = 3;
     const BALLS: u16 = N as u16;
 
-    fn balls(state: &LinearState<N>) -> u16 {
+    fn balls(state: &Self::State) -> u16 {
         state.circuit.train.balls() as u16
     }
 
-    fn fingerprint(constants: &LinearConstants<N>, fingerprint: &mut Fingerprint) {
+    fn fingerprint(constants: &Self::Constants, fingerprint: &mut Fingerprint) {
         constants.circuit.fingerprint(fingerprint);
         let per_ball = constants.circuit.per_loaded_ball();
         fingerprint.numbers(&[
@@ -269,11 +259,9 @@ impl<const N: usize> StoredScene for LinearBearingTrain<N> {
         ]);
     }
 
-    fn complete(_: &LinearConstants<N>, state: &mut LinearState<N>) -> Result<(), Refusal> {
+    fn complete(_: &Self::Constants, state: &mut Self::State) -> Result<(), Refusal> {
         state.circuit.train.in_order()
     }
-
-    fn forget_readings(_: &mut LinearState<N>) {}
 }
 
 impl<const N: usize> Stored for LinearState<N> {

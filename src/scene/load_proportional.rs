@@ -4,7 +4,7 @@ use super::contract::{
     CheckedInputs, Inputs, Limits, Reversal, ReversalState, Scene, SceneOutputs as _,
 };
 use super::outputs::Outputs;
-use crate::error::{Error, attempt, in_range};
+use crate::error::{Error, all_in_range, attempt};
 
 /// A drive whose geometry is not known, by four numbers that `epas-bench calibrate` identifies from a trace without a design.
 ///
@@ -36,7 +36,7 @@ use crate::error::{Error, attempt, in_range};
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadProportionalScrew;
 
-/// What the engineer sets for a drive without a drawing; unchecked.
+/// Configuration of a drive without a drawing; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadProportionalConfiguration {
@@ -62,48 +62,25 @@ pub struct LoadProportionalConfiguration {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadProportionalConstants {
-    load_lever: f32,
-    coulomb_friction: f32,
-    viscous_friction: f32,
-    driving_loss: f32,
-    back_driving_loss: f32,
+    checked: LoadProportionalConfiguration,
     reversal: Reversal,
-    limits: Limits,
 }
 
-/// What a tick changes in a drive without a drawing: nothing.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct LoadProportionalState;
-
 impl LoadProportionalConstants {
-    /// Checks a configuration: at set-up, or in a constant when firmware is compiled.
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
+    /// Checks a configuration.
     pub const fn new(configuration: &LoadProportionalConfiguration) -> Result<Self, Error> {
-        let LoadProportionalConfiguration {
-            load_lever,
-            coulomb_friction,
-            viscous_friction,
-            driving_loss,
-            back_driving_loss,
-            reversal_speed,
-            limits,
-        } = *configuration;
-        attempt!(in_range("load_lever", load_lever, 1e-6, 1e3));
-        attempt!(in_range("coulomb_friction", coulomb_friction, 0.0, 1e6));
-        attempt!(in_range("viscous_friction", viscous_friction, 0.0, 1e6));
-        attempt!(in_range("driving_loss", driving_loss, 0.0, 10.0));
-        attempt!(in_range("back_driving_loss", back_driving_loss, 0.0, 10.0));
+        let c = configuration;
+        attempt!(all_in_range(&[
+            ("load_lever", c.load_lever, 1e-6, 1e3),
+            ("coulomb_friction", c.coulomb_friction, 0.0, 1e6),
+            ("viscous_friction", c.viscous_friction, 0.0, 1e6),
+            ("driving_loss", c.driving_loss, 0.0, 10.0),
+            ("back_driving_loss", c.back_driving_loss, 0.0, 10.0),
+        ]));
+        attempt!(c.limits.checked());
         Ok(Self {
-            load_lever,
-            coulomb_friction,
-            viscous_friction,
-            driving_loss,
-            back_driving_loss,
-            reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
-            limits: attempt!(limits.checked()),
+            checked: *c,
+            reversal: attempt!(Reversal::new(c.reversal_speed, 1e-6, 1e3)),
         })
     }
 }
@@ -111,34 +88,24 @@ impl LoadProportionalConstants {
 impl Scene for LoadProportionalScrew {
     type Configuration = LoadProportionalConfiguration;
     type Constants = LoadProportionalConstants;
-    type State = LoadProportionalState;
+    type State = ();
     type Inputs = Inputs;
     type Outputs = Outputs;
 
-    fn constants(
-        configuration: &LoadProportionalConfiguration,
-    ) -> Result<LoadProportionalConstants, Error> {
+    fn constants(configuration: &Self::Configuration) -> Result<Self::Constants, Error> {
         LoadProportionalConstants::new(configuration)
     }
 
-    fn initial_state(_: &LoadProportionalConstants) -> LoadProportionalState {
-        LoadProportionalState
-    }
+    fn initial_state(_: &Self::Constants) {}
 
-    fn take_over(
-        _: &LoadProportionalConstants,
-        _: &mut LoadProportionalState,
-    ) -> Result<(), Error> {
+    fn take_over(_: &Self::Constants, (): &mut Self::State) -> Result<(), Error> {
         Ok(())
     }
 
     #[inline]
-    fn step(
-        constants: &LoadProportionalConstants,
-        _: &mut LoadProportionalState,
-        inputs: Inputs,
-    ) -> Outputs {
-        let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
+    fn step(constants: &Self::Constants, (): &mut Self::State, inputs: Inputs) -> Outputs {
+        let drive = &constants.checked;
+        let CheckedInputs { inputs, faults } = drive.limits.check_inputs(inputs);
         let Some(Inputs {
             nut_speed,
             axial_load,
@@ -150,21 +117,21 @@ impl Scene for LoadProportionalScrew {
         let ReversalState {
             factor, direction, ..
         } = reversal;
-        let load_torque = constants.load_lever * axial_load;
+        let load_torque = drive.load_lever * axial_load;
         let loss = if direction * load_torque < 0.0 {
-            constants.back_driving_loss
+            drive.back_driving_loss
         } else {
-            constants.driving_loss
+            drive.driving_loss
         };
-        let sliding = constants.coulomb_friction + loss * load_torque.abs();
-        let viscous = constants.viscous_friction * nut_speed;
+        let sliding = drive.coulomb_friction + loss * load_torque.abs();
+        let viscous = drive.viscous_friction * nut_speed;
         Outputs::new(
             factor * sliding + viscous,
             sliding + direction * viscous,
             load_torque,
             &reversal,
             faults,
-            constants.limits.friction_torque,
+            drive.limits.friction_torque,
         )
     }
 }

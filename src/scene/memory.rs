@@ -3,15 +3,15 @@
 //!
 //! # Balls that press on each other, at a reversal
 //!
-//! Forces between balls are in proportion to what the grooves carry of their sliding friction: friction of the other sign would part the balls. Friction
-//! `f` of the elements, positive in the direction in which the balls went last, lies between
+//! Forces between balls are in proportion to what the grooves carry of their sliding friction. Friction `f` of the elements, positive in the
+//! direction in which the balls went last, lies between
 //!
 //! ```text
 //! -T_0 <= f <= T_g + T_b,   between balls: T_b f/(T_g + T_b) where f > 0, else 0
 //! ```
 //!
 //! with the sliding friction of the grooves `T_g`, between balls `T_b`, and of the grooves where no ball presses `T_0`. After a reversal springs of
-//! constant stiffness take `f` from the upper limit to the lower one over the whole width of the play; then the balls turn round. A limit `L` that falls
+//! constant stiffness take `f` from the upper limit to the lower one over the width of the play; then the balls turn round. A limit `L` that falls
 //! there all the same (elements that turn later, under a load far above their reference) is `L (1 + e)`, with `e >= 0` from its value before over the
 //! load; `e` falls by one with each half of the play that the balls go on. Constant springs between limits that hold zero are passive: torque is continuous
 //! in the angle and takes work out of every closed path.
@@ -36,34 +36,28 @@ pub use configuration::{CoefficientFor, Freshness, WithMemoryConfiguration, With
 pub use remembered::SceneMemory;
 use remembered::checked;
 
-/// Part of sliding friction below which the mechanism counts as standing. Only [`Regime`](crate::scene::Regime) and what is read from it
-/// depend on it, not friction. A hundredth below 1, because the last elements of spin slide late: one of
-/// [`SPIN_8`](crate::law::memory::SPIN_8) carries 3.5 % and slides after seven breakaway angles.
+/// Part of sliding friction below which the mechanism counts as standing, for [`Regime`](crate::scene::Regime) alone. The last elements of
+/// spin slide late: one of [`SPIN_8`](crate::law::memory::SPIN_8) carries 3.5 % and slides after seven breakaway angles.
 const SLIDES: f32 = 0.99;
 
 /// Speed given to the scene when the nut has not moved, rad/s (m/s), with the sign of its last motion: at zero speed Coulomb
-/// friction has no direction. Forces between balls are then those with which motion sets in.
-///
-/// Below the resolution of any sensor, and large enough that the train's travel stays a normal number: 1e-9 rad/s is 0.009 rad in
-/// 100 days.
+/// friction has no direction. Below the resolution of any sensor, and large enough that the train's travel stays a normal number.
 const CREEP: f32 = 1e-9;
 
 /// A scene `S` with memory elements `E`, which follow the readings of an angle sensor `A`, and a friction coefficient by `L`.
 ///
 /// Friction passes between its two directions with the angle: elements stick and slip under the limits that sliding friction
 /// of the same tick sets them. In steady sliding it is the friction of `S` away from its reversal; its reversal speed has no
-/// meaning here. Standing is where elements still stick, or where the nut has just turned back against the friction: elsewhere friction has the
-/// sign of the motion.
+/// meaning here. Standing is where elements still stick, or where the nut has just turned back against the friction.
 ///
-/// Wrong inputs: without a valid speed and load the last ones are used, flagged; without a valid reading of the angle friction
-/// stays as it is, flagged, and the next reading spans the gap. A load that is too old fades to zero; a temperature that is too
+/// Wrong inputs are flagged: without a valid speed and load the last ones are used; without a valid reading of the angle friction
+/// stays as it is, and the next reading spans the gap. A load that is too old fades to zero; a temperature that is too
 /// old is replaced by the configuration's.
 ///
-/// [`Faults::BEYOND_MODEL`] is set beside the scene's own reasons where the law has a drag of rolling contacts and the speed is above
+/// [`Faults::BEYOND_MODEL`] is also set where the law has a drag of rolling contacts and the speed is above
 /// [`RollingDrag::FITTED_SPEED`](crate::law::coefficient::RollingDrag::FITTED_SPEED).
 ///
-/// Balls of a train move only by the turn beyond a play ([`WithMemoryConfiguration::play`]): noise of the encoder does not
-/// reverse them, and after a reversal what presses leaves with the friction of the grooves before they part.
+/// Balls of a train move only by the turn beyond a play ([`WithMemoryConfiguration::play`]): noise of the encoder does not reverse them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WithMemory<S, E, A, L = CoefficientLaw>(PhantomData<(S, E, A, L)>);
@@ -82,7 +76,7 @@ pub struct WithMemoryConstants<C, E, A, L = CoefficientLaw> {
     load: Fade,
 }
 
-/// What a tick changes in a scene with memory.
+/// State of a scene with memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WithMemoryState<
     S: Sliding,
@@ -92,7 +86,7 @@ pub struct WithMemoryState<
 > {
     /// State of the scene without memory.
     pub scene: S::State,
-    /// What the scene keeps from tick to tick beside that.
+    /// The memory beside it.
     pub remembered: SceneMemory<S, E, A, L>,
 }
 
@@ -143,7 +137,6 @@ where
         remembered.set_coefficient(constants.coefficient)
     }
 
-    /// Without a valid speed and load the last ones are used.
     #[inline(always)]
     fn step(
         constants: &Self::Constants,
@@ -207,9 +200,8 @@ where
 }
 
 impl<C: Copy, E: Copy, A: Copy, L: Copy> WithMemoryConstants<C, E, A, L> {
-    /// Checks what memory adds to the constants of a scene: at set-up, or in a constant when firmware is compiled. The compiler cannot
-    /// ask a law for its largest coefficient, as [`FrictionModel::new`](crate::FrictionModel::new) does: one that is more than the
-    /// scene takes counts in the loop as the most that it takes, without a flag.
+    /// Checks what memory adds to the constants of a scene. The compiler cannot ask a law for its largest coefficient, as
+    /// [`FrictionModel::new`](crate::FrictionModel::new) does: one above the scene's largest counts in the loop as that, without a flag.
     ///
     /// # Errors
     /// [`Error`] naming `reference_load`, `half_width` (of the play) or a time of the freshness.
@@ -243,7 +235,6 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         &self.scene
     }
 
-    /// The friction coefficient's law at the temperature of this step: computed anew where that changes.
     #[inline(always)]
     fn take_temperature<S: Sliding>(
         &self,
@@ -283,7 +274,6 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         (turn, faults)
     }
 
-    /// See [`FrictionModel::between`](crate::FrictionModel::between).
     #[inline(always)]
     pub(crate) fn between<S: Sliding<Constants = C>>(
         &self,
@@ -294,7 +284,6 @@ impl<C, E: Elements, A: NutAngle, L: CoefficientModel> WithMemoryConstants<C, E,
         self.follow(remembered, turn, remembered.inputs, faults)
     }
 
-    /// Friction after a turn, between the limits of the last sliding friction.
     #[inline(always)]
     fn follow<S: Sliding<Constants = C>>(
         &self,

@@ -1,5 +1,4 @@
-//! What scenes return: torques of a ball screw and forces of a bearing, in types of their own that nothing converts
-//! one into the other.
+//! Outputs of scenes: torques of a ball screw and forces of a bearing.
 
 use super::contract::{Regime, ReversalState, SceneOutputs};
 use super::faults::Faults;
@@ -7,20 +6,17 @@ use super::faults::Faults;
 /// Least efficiency of an output: friction of a preload over a load near zero would make that of back-driving minus infinity.
 const LEAST_EFFICIENCY: f32 = -1e6;
 
-/// What every ball screw returns.
+/// Outputs of a ball screw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Outputs {
-    /// Torque about the nut's axis that the motor has to add to overcome friction, N m. It has the
-    /// sign of the nut speed, with memory from where the nut does not stand ([`Regime::Standing`]): after a reversal it keeps the old sign
-    /// until the elements have turned round. Friction itself acts on the nut with the opposite sign.
+    /// Torque about the nut's axis that the motor has to add to overcome friction, N m; friction itself acts on the nut with the opposite
+    /// sign. It has the sign of the nut speed; with memory it keeps the old sign after a reversal until the elements have turned round.
     pub friction_torque: f32,
-    /// Torque about the nut's axis that holds the load without friction, N m: `axial_load lead / 2
-    /// pi`. The motor's torque at constant speed is the sum of the two.
+    /// Torque about the nut's axis that holds the load without friction, N m: `axial_load lead / 2 pi`.
     pub load_torque: f32,
-    /// Work out over work in of the two torques above: `load/(load + friction)` where the motor drives, `1 + friction/load` where
-    /// the load does, with their signs. 0 without a load, while standing and in a fault; negative where the motor has to help the
-    /// load along (not below -1e6).
+    /// Work out over work in: `load/(load + friction)` of the torques above where the motor drives, `1 + friction/load` where
+    /// the load does. 0 without a load, while standing and in a fault; negative where the motor has to help the load along (not below -1e6).
     pub efficiency: f32,
     /// What the mechanism does.
     pub regime: Regime,
@@ -28,19 +24,17 @@ pub struct Outputs {
     pub faults: Faults,
 }
 
-/// What a ball screw returns whose balls press on each other.
+/// Outputs of a ball screw whose balls press on each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedOutputs {
-    /// Torque about the nut's axis that the motor has to add to overcome friction, N m, within its limit: the sum of the
-    /// next two, and of the lubricant's drag where a memory's law of the friction coefficient has one
-    /// ([`CoefficientAtTemperature::drag_torque`](crate::law::coefficient::CoefficientAtTemperature::drag_torque)),
-    /// which neither of them holds. Its sign is that of [`Outputs::friction_torque`].
+    /// Friction torque as [`Outputs::friction_torque`], N m, within its limit: the sum of the next two, and of the lubricant's drag where a
+    /// memory's law has one ([`CoefficientAtTemperature::drag_torque`](crate::law::coefficient::CoefficientAtTemperature::drag_torque)).
     pub friction_torque: f32,
     /// Its part from the grooves, N m.
     pub groove_torque: f32,
-    /// Its part from balls that rub against each other (Lin 2019, eqs. (3.73), (3.74)), N m. With memory grooves carry it, and the forces
-    /// below: all three fall with the friction after a reversal, to none where that turns its sign.
+    /// Its part from balls that rub against each other (Lin 2019, eqs. (3.73), (3.74)), N m. With memory it and the forces below fall with
+    /// the friction after a reversal.
     pub ball_torque: f32,
     /// Torque about the nut's axis that holds the load without friction, N m: `axial_load lead / 2 pi`.
     pub load_torque: f32,
@@ -54,17 +48,16 @@ pub struct UncagedOutputs {
     pub faults: Faults,
 }
 
-/// What a linear bearing returns.
+/// Outputs of a linear bearing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearOutputs {
-    /// Force along the rail that has to be added to overcome friction, N: the sum of the next two, within its limit.
-    /// It has the sign of the speed, with memory as [`Outputs::friction_torque`]; friction itself acts on the carriage with the opposite sign.
+    /// Force along the rail that has to be added to overcome friction, N, with the sign of [`Outputs::friction_torque`]: the sum of the next
+    /// two, within its limit.
     pub friction_force: f32,
     /// Its part from the grooves, N.
     pub groove_force: f32,
-    /// Its part from balls that rub against each other (Lin 2019, eqs. (3.52), (3.53)), N; with memory as
-    /// [`UncagedOutputs::ball_torque`].
+    /// Its part from balls that rub against each other (Lin 2019, eqs. (3.52), (3.53)), N.
     pub ball_force: f32,
     /// Pairs of balls that press on each other, 0 to `N`.
     pub contacts: u8,
@@ -151,8 +144,8 @@ impl SceneOutputs for LinearOutputs {
 }
 
 impl Outputs {
-    /// Outputs of a mechanism at a reversal state: `friction`, N m, within plus and minus `largest` and flagged where that cuts it, 0 in the place of
-    /// NaN; the regime from the friction `sliding` in the direction of motion, not negative; the efficiency of the two torques.
+    /// Outputs at a reversal state: `friction`, N m, cut to `largest` and flagged, 0 in the place of NaN; the regime from the friction
+    /// `sliding` in the direction of motion, not negative.
     #[inline(always)]
     pub(super) fn new(
         friction: f32,
@@ -204,27 +197,20 @@ impl Outputs {
 }
 
 impl From<UncagedOutputs> for Outputs {
-    /// The outputs that every scene of a ball screw has.
     fn from(outputs: UncagedOutputs) -> Self {
-        let UncagedOutputs {
-            friction_torque,
-            load_torque,
-            regime,
-            faults,
-            ..
-        } = outputs;
         let reversal = ReversalState {
-            standing: matches!(regime, Regime::Standing),
+            standing: matches!(outputs.regime, Regime::Standing),
             ..ReversalState::FORWARD
         };
         let all = Self::new(
-            friction_torque,
+            outputs.friction_torque,
             0.0,
-            load_torque,
+            outputs.load_torque,
             &reversal,
-            faults,
+            outputs.faults,
             f32::MAX,
         );
+        let regime = outputs.regime;
         Self { regime, ..all }
     }
 }

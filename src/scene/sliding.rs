@@ -1,5 +1,4 @@
-//! Sliding friction of a scene in both directions, apart from how friction passes between them: by the speed in a scene
-//! without memory, by the angle in one with it.
+//! Sliding friction of a scene in both directions, apart from how friction passes between them.
 
 use super::contract::{CheckedInputs, Motion, ReversalState, Scene};
 use super::faults::Faults;
@@ -12,7 +11,7 @@ use crate::stored::{Port, Refusal, Stored};
 
 /// Friction of gross sliding in both directions at a tick, and the load under which it slides. Against the direction in which a row's balls
 /// went last it is friction of the grooves alone: balls that press part there.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SlidingFriction {
     /// Friction of sliding in the positive direction, N m or N, not negative.
@@ -25,9 +24,8 @@ pub struct SlidingFriction {
 }
 
 impl SlidingFriction {
-    /// What the elements are limited by, whose reference load has this inverse, 1/N.
+    /// Limits of elements whose reference load has this inverse, 1/N.
     #[inline(always)]
-    #[must_use]
     pub const fn limits(&self, per_reference_load: f32) -> SlidingLimits {
         SlidingLimits {
             forward: self.forward,
@@ -40,12 +38,12 @@ impl SlidingFriction {
 /// Drag of a scene without one: `x + NO_DRAG` is `x` to the bit, also of -0.
 pub(super) const NO_DRAG: f32 = -0.0;
 
-/// A scene whose sliding friction can be had apart from how it passes through the reversal: what [`WithMemory`](super::WithMemory) needs.
+/// A scene whose sliding friction can be had apart from its reversal: what [`WithMemory`](super::WithMemory) needs.
 pub trait Sliding: Scene<Inputs: Motion> {
     /// Range of the friction coefficients of ball and groove that the scene takes.
     const FRICTION: Range;
 
-    /// Sliding friction in a step, in both directions, with what else the step found.
+    /// Sliding friction of a step in both directions.
     type Friction: Copy + core::fmt::Debug + PartialEq;
 
     /// The inputs within their limits, with what was wrong with them.
@@ -54,8 +52,7 @@ pub trait Sliding: Scene<Inputs: Motion> {
         inputs: Self::Inputs,
     ) -> CheckedInputs<Self::Inputs>;
 
-    /// Sliding friction under a friction coefficient of ball and groove in each direction; moves the balls on by a step. A speed of 0 counts as
-    /// forward.
+    /// Sliding friction under a friction coefficient in each direction; moves the balls on by a step. A speed of 0 counts as forward.
     fn sliding_friction(
         constants: &Self::Constants,
         state: &mut Self::State,
@@ -67,11 +64,10 @@ pub trait Sliding: Scene<Inputs: Motion> {
     /// what [`PreloadedElements`](crate::law::memory::PreloadedElements) take.
     const COUNTS_PRELOAD: bool;
 
-    /// Its sizes in both directions, and the load.
+    /// Friction in both directions, and the load.
     fn by_direction(sliding: &Self::Friction) -> SlidingFriction;
 
-    /// Takes over what the friction of the last step leaves to this one; `travelled`: the balls' travel in this step over half the play. Nothing
-    /// in a scene whose friction does not depend on where its balls went.
+    /// Takes over what the friction of the last step leaves to this one; `travelled`: the balls' travel in this step over half the play.
     #[inline(always)]
     fn continue_from(_sliding: &mut Self::Friction, _last: &Self::Friction, _travelled: f32) {}
 
@@ -87,48 +83,43 @@ pub trait Sliding: Scene<Inputs: Motion> {
 
     /// Turn, rad (m of a bearing), of a given one that balls can make in a step, and the speed at which they make it; a scene that
     /// knows no time between steps makes all of it, at the measured speed.
-    fn limited_travel(constants: &Self::Constants, turn: f32, measured: f32) -> (f32, f32);
+    #[inline(always)]
+    fn limited_travel(_constants: &Self::Constants, turn: f32, measured: f32) -> (f32, f32) {
+        (turn, measured)
+    }
 }
 
 /// Sliding friction of a screw whose balls do not touch, in both directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CagedFriction {
-    /// Friction torque of motion forward and backward, N m, not negative.
-    pub(super) forward: f32,
-    pub(super) backward: f32,
-    /// Axial load of all balls, preload counted, N.
-    pub(super) load: f32,
+    /// Friction torques, N m, and the axial load of all balls, preload counted, N.
+    pub(super) sliding: SlidingFriction,
     pub(super) faults: Faults,
 }
 
 impl CagedFriction {
     #[inline(always)]
     pub(super) const fn of(&self, direction: f32) -> f32 {
-        if direction < 0.0 {
-            self.backward
-        } else {
-            self.forward
-        }
-    }
-
-    /// Its sizes in both directions, and the load.
-    #[inline(always)]
-    pub(super) const fn by_direction(&self) -> SlidingFriction {
-        SlidingFriction {
-            forward: self.forward,
-            backward: self.backward,
-            load: self.load,
-        }
+        of_direction([self.sliding.forward, self.sliding.backward], direction)
     }
 }
 
 impl Stored for CagedFriction {
-    const BYTES: usize = 12 + Faults::BYTES;
+    const BYTES: usize = SlidingLimits::BYTES + Faults::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number("forward", &mut self.forward, ranges::STORED_FRICTION)?;
-        port.number("backward", &mut self.backward, ranges::STORED_FRICTION)?;
-        port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
+        let mut limits = self.sliding.limits(1.0);
+        limits.exchange(port)?;
+        let SlidingLimits {
+            forward,
+            backward,
+            load,
+        } = limits;
+        self.sliding = SlidingFriction {
+            forward,
+            backward,
+            load,
+        };
         self.faults.exchange(port)
     }
 }
@@ -153,7 +144,6 @@ pub(super) struct TrainFriction {
     /// Load, preload counted, N.
     pub(super) load: f32,
     pub(super) contacts: u8,
-    /// Largest force between two balls, N.
     pub(super) largest_contact_force: f32,
 }
 
@@ -164,7 +154,6 @@ pub(super) struct RowOutputs {
     pub(super) groove: f32,
     pub(super) ball: f32,
     pub(super) contacts: u8,
-    /// Largest force between two balls, N.
     pub(super) largest_contact_force: f32,
 }
 
@@ -179,15 +168,13 @@ impl TrainFriction {
         }
     }
 
-    /// Sliding friction in the direction of a sign: groove friction times its ratio, plus ball friction; against the direction of the balls
-    /// friction of the grooves alone, because balls that press would part.
+    /// Sliding friction in the direction of a sign; against the direction of the balls that of the grooves alone.
     #[inline(always)]
     pub(super) fn of(&self, direction: f32) -> f32 {
         let [groove, ball] = self.parts(direction);
         groove + ball
     }
 
-    /// Its parts from the grooves and from balls that rub.
     #[inline(always)]
     fn parts(&self, direction: f32) -> [f32; 2] {
         let ratio = of_direction(self.ratios, direction);
@@ -198,7 +185,7 @@ impl TrainFriction {
         }
     }
 
-    /// Outputs of the row at a reversal state: friction with the sign of the factor, a drag added, within plus and minus `largest`; see [`Outputs::new`].
+    /// Outputs of the row with a drag added: see [`Outputs::new`].
     #[inline(always)]
     pub(super) fn outputs_at(
         &self,
@@ -236,8 +223,8 @@ impl TrainFriction {
         }
     }
 
-    /// Takes over what the friction of the last tick leaves. Where balls turn round, limits that fall begin where they were, in proportion to
-    /// the load, and fade by the whole friction with each half of the play that the balls go on; `travelled`: their travel over that half.
+    /// See [`Sliding::continue_from`]. Where balls turn round, limits that fall begin where they were, in proportion to the load, and fade by
+    /// the whole friction with each half of the play.
     #[inline(always)]
     pub(super) fn continue_from(&mut self, last: &Self, travelled: f32) {
         let excess = if self.direction == last.direction {
@@ -262,7 +249,6 @@ impl TrainFriction {
     }
 }
 
-/// The one of the numbers forward and backward that belongs to a sign.
 #[inline(always)]
 const fn of_direction([forward, backward]: [f32; 2], direction: f32) -> f32 {
     if direction < 0.0 { backward } else { forward }

@@ -20,20 +20,18 @@ pub trait StoredScene: Scene<State: Stored + Copy> {
         0
     }
 
-    /// Takes in all of the constants that a state's numbers are read with: geometry, elasticity, circuit, friction coefficient
-    /// and clearance. Limits, the reversal speed, the tick, loads' shares and deviations may change from one ignition to
-    /// the next.
+    /// Takes in the constants that a state's numbers are read with: geometry, elasticity, circuit, friction coefficient and clearance, not
+    /// what may change from one ignition to the next (limits, reversal speed, tick, loads' shares, deviations).
     fn fingerprint(constants: &Self::Constants, fingerprint: &mut Fingerprint);
 
-    /// Completes a state that has been read with what follows from it, and checks that its numbers fit to each other and to
-    /// the constants.
+    /// Completes a state that has been read, and checks that its numbers fit to each other and to the constants.
     ///
     /// # Errors
     /// [`Refusal::OutOfRange`] naming what does not fit.
     fn complete(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Refusal>;
 
-    /// Forgets what does not last while the power is off: the reading of an angle sensor.
-    fn forget_readings(state: &mut Self::State);
+    /// Forgets what does not last without power: the reading of an angle sensor.
+    fn forget_readings(_state: &mut Self::State) {}
 }
 
 const FLAGS: u16 = (Faults::TEMPERATURE_STALE.bits() << 1) - 1;

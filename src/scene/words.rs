@@ -19,13 +19,11 @@ pub(super) const HEADER: usize = 6;
 pub(super) struct Layout {
     pub(super) magic: u32,
     pub(super) version: u32,
-    /// Words, header and checksum included.
     pub(super) words: usize,
     pub(super) nodes: usize,
 }
 
 impl Layout {
-    /// Refuses words that begin with no block of this layout.
     #[inline]
     pub(super) const fn check(&self, words: &[u32]) -> Result<(), Error> {
         let length = self.words as f32;
@@ -48,7 +46,6 @@ impl Layout {
         Ok(())
     }
 
-    /// Writes numbers as a block to the begin of `words`.
     pub(super) fn write(
         &self,
         digest: u64,

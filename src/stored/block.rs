@@ -1,9 +1,9 @@
-//! The block around a state: what it is of, and whether it is whole.
+//! The block around a state.
 
 use super::port::{Port, Reader, Stored, Writer};
 use super::{Fingerprint, Refusal, crc32};
 
-/// Version of the layout: counts up with every change of what a state's bytes mean.
+/// Version of the layout: counts up with every change of a state's bytes.
 pub const VERSION: u16 = 3;
 
 const MAGIC: [u8; 4] = *b"EPAF";
@@ -13,7 +13,7 @@ const CHECKSUM: usize = 4;
 
 pub(crate) const OVERHEAD: usize = HEADER + CHECKSUM;
 
-/// What a state is of.
+/// Label of a block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Label {
@@ -25,7 +25,6 @@ pub struct Label {
     pub fingerprint: Fingerprint,
 }
 
-/// The first bytes of a block.
 struct Header {
     magic: [u8; 4],
     version: u16,
@@ -48,7 +47,6 @@ impl Stored for Header {
     }
 }
 
-/// A block of a fixed length around a state of type `T`.
 pub(crate) struct Block {
     label: Label,
     bytes: usize,

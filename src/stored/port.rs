@@ -5,9 +5,7 @@ use core::mem::take;
 use super::Refusal;
 use crate::error::Range;
 
-/// Where numbers are written to or read from: which of both, the description of a state does not know.
-///
-/// A number is checked in both directions: what a model cannot read again it does not write.
+/// Place to write numbers to, or to read them from. A number is checked in both directions: a model writes only what it can read again.
 pub trait Port {
     /// Exchanges bytes.
     ///
@@ -16,9 +14,6 @@ pub trait Port {
     fn bytes<const B: usize>(&mut self, bytes: &mut [u8; B]) -> Result<(), Refusal>;
 
     /// Exchanges a whole number of any size.
-    ///
-    /// # Errors
-    /// As [`Port::bytes`].
     fn word(&mut self, word: &mut u32) -> Result<(), Refusal> {
         let mut bytes = word.to_le_bytes();
         self.bytes(&mut bytes)?;
@@ -48,9 +43,6 @@ pub trait Port {
     }
 
     /// Exchanges numbers within a range.
-    ///
-    /// # Errors
-    /// As [`Port::number`].
     fn numbers(
         &mut self,
         field: &'static str,
@@ -63,9 +55,6 @@ pub trait Port {
     }
 
     /// Exchanges a count of a byte, up to `most`.
-    ///
-    /// # Errors
-    /// As [`Port::number`].
     fn count(&mut self, field: &'static str, count: &mut u8, most: u8) -> Result<(), Refusal> {
         let mut bytes = [*count];
         self.bytes(&mut bytes)?;
@@ -79,9 +68,6 @@ pub trait Port {
     }
 
     /// Exchanges a count of two bytes, up to `most`.
-    ///
-    /// # Errors
-    /// As [`Port::number`].
     fn long_count(
         &mut self,
         field: &'static str,
@@ -100,9 +86,6 @@ pub trait Port {
     }
 
     /// Exchanges a flag.
-    ///
-    /// # Errors
-    /// As [`Port::number`].
     fn flag(&mut self, field: &'static str, flag: &mut bool) -> Result<(), Refusal> {
         let mut count = u8::from(*flag);
         self.count(field, &mut count, 1)?;
@@ -113,20 +96,18 @@ pub trait Port {
 
 /// A state that can be kept as bytes.
 pub trait Stored {
-    /// Bytes that it takes at most.
+    /// Bytes at most.
     const BYTES: usize;
 
-    /// Writes the state to a port, or reads it from one; checks every number by itself.
-    ///
-    /// What the bytes leave out is afterwards as before the first tick. Where it is refused the state is of no use: callers
-    /// give a copy.
+    /// Writes the state to a port, or reads it from one; checks every number by itself. The rest is afterwards as before the first tick. Callers give
+    /// a copy: after a refusal it is of no use.
     ///
     /// # Errors
     /// The first number that is refused.
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal>;
 }
 
-/// What may be missing, after a flag that says so.
+/// After a flag that says whether it is there.
 impl<T: Stored + Default> Stored for Option<T> {
     const BYTES: usize = 1 + T::BYTES;
 
@@ -158,7 +139,6 @@ pub(super) struct Reader<'a> {
     pub(super) rest: &'a [u8],
 }
 
-/// No room, or no bytes, for this many more.
 const fn ended(bytes: usize) -> Refusal {
     Refusal::Length {
         found: 0,

@@ -1,12 +1,8 @@
-//! Pooling of adjacent violators: which balls of a row or a ring move as one; what a cluster is known by, when it runs into the next, what the two are as
-//! one.
+//! Pooling of adjacent violators: which balls of a row or a ring move as one.
 
 use super::ball::Ball;
 
-/// Joins balls to clusters and leaves these in their front and rear balls; gives the index of a ball that presses
-/// on none.
-///
-/// Balls are taken in, with their slacks. Joins may come in any order: none of them opens another one's contact.
+/// Joins balls that are taken in to clusters and leaves these in their front and rear balls; gives the index of a ball that presses on none.
 #[inline(always)]
 pub(super) fn pool(balls: &mut [Ball]) -> usize {
     // Balls that belong to no cluster yet.
@@ -17,25 +13,23 @@ pub(super) fn pool(balls: &mut [Ball]) -> usize {
     close(balls)
 }
 
-/// From the last of these balls backwards, the first one into which the one behind runs. Balls in front of it stand
-/// alone: a single ball keeps its own speed, and so does all behind it up to a negative slack.
+/// From the last of these balls backwards, the first one into which the one behind runs. Balls in front of it stand alone.
 #[inline(always)]
 fn next_front(balls: &mut [Ball]) -> Option<usize> {
     let (last, behind) = balls.split_last_mut()?;
     // On a ring nothing is ahead of the last ball yet.
-    last.stand_alone();
+    last.others = 0;
     let mut behind = behind.iter_mut();
     while let Some(ball) = behind.next_back() {
         if ball.may_run_into_next() {
             return Some(behind.len() + 1);
         }
-        ball.stand_alone();
+        ball.others = 0;
     }
     None
 }
 
-/// Leaves the cluster that grows from the ball `front`, backwards and forwards in turn; gives the number of balls
-/// behind it.
+/// Leaves the cluster that grows from the ball `front`, backwards and forwards in turn; gives the number of balls behind it.
 #[inline(always)]
 fn grow(balls: &mut [Ball], mut front: usize) -> usize {
     let mut behind = balls.get(..front).unwrap_or_default();
@@ -67,8 +61,7 @@ fn grow(balls: &mut [Ball], mut front: usize) -> usize {
     rear
 }
 
-/// Joins across the place where the ring closes: the last cluster has the first one in front. Gives the index of a
-/// ball that presses on none.
+/// Joins across the place where the ring closes. Gives the index of a ball that presses on none.
 #[inline(always)]
 fn close(balls: &mut [Ball]) -> usize {
     let last = balls.len().wrapping_sub(1);
@@ -86,7 +79,6 @@ fn close(balls: &mut [Ball]) -> usize {
 /// The cluster of the last ball, which may grow around the place where the ring closes.
 struct Closing {
     cluster: Cluster,
-    /// Index of the last ball.
     last: usize,
     rear: usize,
     front: usize,
@@ -107,7 +99,6 @@ impl Closing {
         }
     }
 
-    /// Index of the ball ahead; the cluster's own rear ball where it is the whole ring.
     #[inline(always)]
     fn ahead(&self) -> usize {
         if self.front == self.last {
@@ -117,13 +108,11 @@ impl Closing {
         }
     }
 
-    /// Whether the cluster is the whole ring.
     #[inline(always)]
     fn is_ring(&self) -> bool {
         self.ahead() == self.rear
     }
 
-    /// Joins the cluster ahead where this one runs into it.
     #[inline(always)]
     fn joins_ahead(&mut self, balls: &[Ball]) -> bool {
         let slack = slack(balls, self.front);
@@ -139,8 +128,7 @@ impl Closing {
         true
     }
 
-    /// Joins the cluster behind where that runs into this one. As long as this one has not grown ahead, pooling has
-    /// found already that it does not.
+    /// Joins the cluster behind where that runs into this one; before this one has grown ahead it does not.
     #[inline(always)]
     fn joins_behind(&mut self, balls: &[Ball]) -> bool {
         if self.front == self.last {
@@ -162,21 +150,17 @@ impl Closing {
     }
 }
 
-/// Balls of a cluster besides the one at its rear or front.
 #[inline(always)]
 fn others(balls: &[Ball], end: usize) -> usize {
     balls.get(end).map_or(0, Ball::others)
 }
 
-/// Slack between a ball and the one in front.
 #[inline(always)]
 fn slack(balls: &[Ball], ball: usize) -> f32 {
     balls.get(ball).map_or(0.0, |ball| ball.slack)
 }
 
-/// Balls that move as one: they touch, or close their last distance within the tick.
-///
-/// With the free speed `u`, impedance `Z'` and slack `s` of each ball and the front ball `f`, contact of all makes
+/// Balls that move as one. With the free speed `u`, impedance `Z'` and slack `s` of each ball and the front ball `f`, contact of all makes
 /// the speed of ball `i`
 ///
 /// ```text
@@ -184,17 +168,14 @@ fn slack(balls: &[Ball], ball: usize) -> f32 {
 /// ```
 ///
 /// and as no force acts on the cluster from outside, `sum w_i Z'_i (v_i - u_i) = 0` with the product `w_i` of the growths of all balls behind ball `i`
-/// ([`FreeBall`](super::grip::FreeBall)), so that
+/// ([`FreeBall`](super::FreeBall)), so that
 ///
 /// ```text
 /// v_f - u_f = push / impedance         push = -sum w_i Z'_i S_i        impedance = sum w_i Z'_i
 /// ```
-///
-/// All speeds count from a ball's own free speed: sums hold what drives the balls together, and not the size of the
-/// speeds, whose rounding would exceed it.
 #[derive(Clone, Copy)]
 pub(super) struct Cluster {
-    /// Force with which the balls behind would push a front ball that kept its free speed.
+    /// Force of the balls behind on a front ball that keeps its free speed.
     pub(super) push: f32,
     /// Sum of the impedances: the force that changes the cluster's speed by one.
     pub(super) impedance: f32,
@@ -205,7 +186,6 @@ pub(super) struct Cluster {
 }
 
 impl Cluster {
-    /// A ball alone.
     #[inline(always)]
     pub(super) fn single(ball: &Ball) -> Self {
         Self {
@@ -216,17 +196,13 @@ impl Cluster {
         }
     }
 
-    /// Whether a single ball behind, with its slack to the rear ball, runs into the cluster:
-    /// `-(slack + inner slack) > push / impedance`, without the division.
-    ///
-    /// Strict: a ball exactly as fast as the cluster would join it with zero force, that is with a force of the size
-    /// of rounding, and count as a contact. Balls at equal speeds make no contact. NaN joins nothing.
+    /// Whether a single ball behind, with its slack to the rear ball, runs into the cluster: `-(slack + inner slack) > push / impedance`,
+    /// strictly. NaN joins nothing.
     #[inline(always)]
     pub(super) fn reached_by(&self, slack: f32) -> bool {
         -(slack + self.inner_slack) * self.impedance > self.push
     }
 
-    /// With the ball behind, which has run into it.
     #[inline(always)]
     pub(super) fn grown(&self, behind: &Ball) -> Self {
         let slack = behind.slack + self.inner_slack;
@@ -238,11 +214,8 @@ impl Cluster {
         }
     }
 
-    /// This cluster and the one ahead as one, where this one, with the slack of its front ball, runs into that;
-    /// strict for the reason of [`Cluster::reached_by`].
-    ///
-    /// Seen from the front ball ahead, each ball of this cluster has a slack larger by that between the two and the
-    /// inner one ahead. What pushes then is compared by `push / impedance` of the two, crosswise multiplied.
+    /// This cluster and the one ahead as one, where this one, with the slack of its front ball, runs into that: `push / impedance` of the two,
+    /// seen from the front ball ahead, are compared crosswise multiplied.
     #[inline(always)]
     pub(super) fn joined(&self, slack: f32, ahead: &Self) -> Option<Self> {
         let slack = slack + ahead.inner_slack;
@@ -259,7 +232,6 @@ impl Cluster {
         }
     }
 
-    /// The cluster with this front ball.
     #[inline(always)]
     pub(super) fn at(balls: &[Ball], front: usize) -> Self {
         let Some(front_ball) = balls.get(front) else {
@@ -277,14 +249,18 @@ impl Cluster {
         }
     }
 
-    /// Leaves the cluster of `others` and one more balls in its two end balls. Of a single ball both ends are one.
+    /// Leaves the cluster of `others` and one more balls in its two end balls.
     #[inline(always)]
     pub(super) fn leave(&self, balls: &mut [Ball], rear: usize, front: usize, others: usize) {
         if let Some(ball) = balls.get_mut(rear) {
-            ball.set_rear(others, self.growth, self.inner_slack);
+            ball.force = self.inner_slack;
+            ball.of_cluster = self.growth;
+            ball.others = others as u8;
         }
         if let Some(ball) = balls.get_mut(front) {
-            ball.set_front(others, self.impedance, self.push);
+            ball.force = self.push;
+            ball.of_cluster = self.impedance;
+            ball.others = others as u8;
         }
     }
 }

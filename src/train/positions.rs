@@ -1,20 +1,20 @@
-//! A train: where its balls are, and what the last tick made of them.
+//! Positions of the balls of a train from tick to tick, also as bytes.
 
+use super::ball::Ball;
 use super::press::Press;
-use super::track::OVERLAP;
-use super::track::Track;
-use crate::error::{Error, attempt, in_range};
+use super::track::{OVERLAP, Track};
+use crate::error::{Error, Range, attempt, in_range};
+use crate::stored::{Port, Refusal, Stored};
+
+pub(crate) const BALL_BYTES: usize = Ball::BYTES;
 
 /// Up to `N` balls on a closed track, which they fill in part: positions, distances, forces, from tick to tick.
 ///
-/// Positions are integers, in units of the track's length over 2³² (a tenth of a nanometre on half a
-/// metre): they wrap around where the track closes, and distances that open and close for hours do not
-/// drift. Balls that press on each other are set in contact exactly, the others are within two units of
-/// where their speeds lead, so that no overlap grows.
+/// Positions are integers, in units of the track's length over 2³²: they wrap around where the track closes, and distances that open and close
+/// for hours do not drift. Balls that press on each other are set in contact exactly, the others within two units of where their speeds lead.
 ///
-/// What the balls would do on their own comes as deviations from a common nominal speed, in units of its
-/// size, and the forces follow from [`Press`]: nothing here depends on the size of the speed, only on the
-/// sense of motion and on the distance travelled.
+/// Free speeds are deviations from a common nominal speed, in units of its size: only the sense of motion and the distance travelled count
+/// beside them. Forces follow from [`Press`].
 ///
 /// ```
 /// use epas_friction::train::Train;
@@ -49,23 +49,18 @@ pub struct BallContact {
 
 impl<const N: usize> Train<N> {
     /// How many balls it has.
-    #[must_use]
     pub const fn balls(&self) -> usize {
         self.press.count() as usize
     }
 
     /// Whether it has as many balls, on this track.
-    ///
-    /// # Errors
-    /// [`Error`] naming `balls`, or `length` or `pitch`, m, where they stand on another track.
     pub(crate) const fn is_on(&self, track: &Track, balls: u16) -> Result<(), Error> {
         let own = self.balls() as f32;
         attempt!(in_range("balls", balls as f32, own, own));
         self.track.is_same(track)
     }
 
-    /// Balls on a closed track of `length`, m, that stand `pitch`, m, from centre to centre in contact:
-    /// on a straight track the ball diameter, on a helix the arc over it. There are as many balls as gaps: ball 0 starts at 0;
+    /// Balls on a closed track of `length`, m, that stand `pitch`, m, from centre to centre in contact, as many as gaps: ball 0 starts at 0;
     /// `gaps[j]`, m, is left in front of ball `j`, in front of the last one whatever is left.
     ///
     /// # Errors
@@ -89,22 +84,22 @@ impl<const N: usize> Train<N> {
     }
 
     /// As many balls at equal distances.
-    ///
-    /// # Errors
-    /// As [`Train::new`].
     pub fn evenly_spaced(length: f32, pitch: f32, balls: usize) -> Result<Self, Error> {
         in_range("balls", balls as f32, 1.0, N as f32)?;
         Ok(Self::spread(Track::new(length, pitch, balls)?, balls))
     }
 
-    /// Balls at equal distances, their number and the track checked.
     #[inline(always)]
     pub(crate) fn spread(track: Track, balls: usize) -> Self {
         // 2^32 over the balls, in 32 bits.
         let count = balls as u32;
         let less_one = count.wrapping_neg().checked_div(count).unwrap_or_default();
         let step = less_one.wrapping_add(1);
-        let mut train = Self::at_rest(track, balls);
+        let mut train = Self {
+            carried: 0.0,
+            press: Press::of(balls as u8),
+            track,
+        };
         // Over all places, beyond the balls too: the compiler knows how many.
         for (index, ball) in train.press.places.iter_mut().enumerate() {
             ball.position = step.wrapping_mul(index as u32);
@@ -112,17 +107,7 @@ impl<const N: usize> Train<N> {
         train
     }
 
-    #[inline(always)]
-    const fn at_rest(track: Track, balls: usize) -> Self {
-        Self {
-            carried: 0.0,
-            press: Press::of(balls as u8),
-            track,
-        }
-    }
-
-    /// Position of each ball, from the rear one to the front one, as a part of the track's length in
-    /// units of 2^-32.
+    /// Position of each ball, from the rear one to the front one, in units of 2^-32 of the track's length.
     #[inline]
     pub fn positions(&self) -> impl Iterator<Item = u32> + '_ {
         self.press.balls().iter().map(|ball| ball.position)
@@ -142,8 +127,7 @@ impl<const N: usize> Train<N> {
         })
     }
 
-    /// Force between each ball and the one in front of it, in the unit of speed times impedance; the last
-    /// one acts between the last ball and the first.
+    /// Force between each ball and the one in front of it, in the unit of speed times impedance; of the last one and the first.
     #[inline]
     pub fn forces(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
         self.press.forces()
@@ -156,7 +140,6 @@ impl<const N: usize> Train<N> {
     }
 
     /// Pairs of balls that press on each other, from the rear of the train on.
-    #[must_use]
     pub fn contacts(&self) -> heapless::Vec<BallContact, N> {
         self.positions()
             .zip(self.forces())
@@ -169,13 +152,54 @@ impl<const N: usize> Train<N> {
             })
             .collect()
     }
+
+    /// Whether the balls follow each other once around the track, none of them within the next. The last ball and the foremost one may be by
+    /// a rounding: they are moved before the balls in front of them.
+    pub(crate) fn in_order(&self) -> Result<(), Refusal> {
+        let ahead = self.positions().skip(1).chain(self.positions().take(1));
+        let around: i64 = self
+            .positions()
+            .zip(ahead)
+            .enumerate()
+            .map(|(index, (position, ahead))| {
+                let gap = self.track.gap(position, ahead);
+                let rounds =
+                    index == usize::from(self.press.last()) || index == self.press.foremost();
+                let gap = if rounds && gap > u32::MAX - OVERLAP {
+                    i64::from(gap.cast_signed())
+                } else {
+                    i64::from(gap)
+                };
+                gap + i64::from(self.track.pitch())
+            })
+            .sum();
+        if around == 1 << 32 {
+            Ok(())
+        } else {
+            Err(Refusal::OutOfRange { field: "position" })
+        }
+    }
+}
+
+impl<const N: usize> Stored for Train<N> {
+    const BYTES: usize = 4 + 1 + N * BALL_BYTES;
+
+    /// The track stays that of the constants.
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number("carried", &mut self.carried, Range::new(-1.0, 1.0))?;
+        let last = self.press.last();
+        port.count("foremost", &mut self.press.foremost, last)?;
+        self.press
+            .balls_mut()
+            .iter_mut()
+            .try_for_each(|ball| ball.exchange(port))
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Rounding may leave balls a few units into each other: a gap just below zero, and not one around the track.
     #[test]
     fn an_overlap_by_rounding_is_a_gap_just_below_zero() {
         let mut train = Train::<2>::new(1.0, 0.01, &[0.0; 2]).unwrap();

@@ -1,7 +1,6 @@
-//! Which balls of a train press on each other, and how hard: one exact pass, without iteration.
+//! Which balls of a train press on each other, and how hard: one exact pass.
 
-use super::ball::Ball;
-use super::grip::FreeBall;
+use super::ball::{Ball, FreeBall};
 use super::pool::pool;
 use super::settle::{BallState, Pressing, balance, settle};
 use crate::error::{Error, attempt, in_range};
@@ -9,8 +8,8 @@ use crate::error::{Error, attempt, in_range};
 /// Largest free speed that counts, a relative deviation: that of a ball that stands, or runs twice as fast as a nominal one.
 pub const LARGEST_FREE_SPEED: f32 = 1.0;
 
-/// Least and largest impedance that count, N. A numerical range: products of the sums over 255 balls, by which clusters are compared,
-/// are finite, and those of two least ones are normal numbers. A ball of the bearing of Lin 2019, Table 3.3, has 500 N under 100 N.
+/// Least and largest impedance that count, N: products of the sums over 255 balls, by which clusters are compared, are finite, and those of two
+/// least ones are normal numbers. A ball of the bearing of Lin 2019, Table 3.3, has 500 N under 100 N.
 pub const IMPEDANCE_RANGE: (f32, f32) = (1e-9, 1e9);
 
 /// Whether all free speeds and impedances count, in integers and without a branch for each.
@@ -21,11 +20,8 @@ pub(super) struct InputCheck {
 }
 
 impl InputCheck {
-    /// Takes in the numbers of one ball.
-    ///
-    /// Numbers without a sign are in the order of their bits, NaN beyond all, so that a difference of bits is
-    /// negative where the bound is passed. Negative impedances, whose top bit is set, fail one of their two bounds or the
-    /// other.
+    /// Takes in the numbers of one ball. Numbers without a sign are in the order of their bits, NaN beyond all, so that a difference of bits
+    /// is negative where the bound is passed; negative impedances fail one of their two bounds or the other.
     #[inline(always)]
     pub(super) fn add(&mut self, speed: f32, impedance: f32) {
         const FASTEST: u32 = LARGEST_FREE_SPEED.to_bits();
@@ -37,7 +33,6 @@ impl InputCheck {
             | MOST.wrapping_sub(impedance);
     }
 
-    /// Of balls that each have their numbers, or not.
     #[inline(always)]
     pub(super) fn of(complete: bool) -> Self {
         Self {
@@ -45,7 +40,6 @@ impl InputCheck {
         }
     }
 
-    /// Whether all that was taken in counts.
     #[inline(always)]
     pub(super) fn passed(self) -> bool {
         self.outside as i32 >= 0
@@ -66,15 +60,10 @@ impl InputCheck {
 /// (Lin 2019, eqs. (3.31), (3.77), and (3.30), (3.76) of two balls, as complementarity on the actual speeds: the printed rule,
 /// which lets the free speeds of two neighbours decide, makes chains of balls overlap.) These are the
 /// optimality conditions of the isotonic regression `min sum (v_j - u_j)²/(2 Y_j)`, with the forces for
-/// multipliers, and pooling adjacent violators solves it exactly: clusters that run into the one ahead
-/// are joined, in any order. On a ring the last cluster has the first one in front, and the same argument
-/// holds: a join slows what is behind and speeds up what is ahead, so no force inside a cluster ever
-/// falls.
+/// multipliers, and pooling adjacent violators solves it exactly, also on a ring ([`train`](crate::train)).
 ///
-/// Speeds are deviations from a common nominal one over its size, so that small differences keep their
-/// digits; they are signed along the row, also for a train that runs backwards.
-///
-/// Scratch and results are in the caller's memory, not on the stack of an interrupt.
+/// Speeds are deviations from a common nominal one over its size, signed along the row, also for a train that runs backwards. Scratch and
+/// results are in the caller's memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Press<const N: usize> {
@@ -94,7 +83,7 @@ impl<const N: usize> Press<N> {
         Self::of(N as u8)
     }
 
-    /// The same with as many balls.
+    /// A train of as many balls at rest.
     ///
     /// # Errors
     /// [`Error`] naming `balls` (1 to `N`).
@@ -103,7 +92,6 @@ impl<const N: usize> Press<N> {
         Ok(Self::of(balls as u8))
     }
 
-    /// With a number of balls that has been checked.
     #[inline(always)]
     pub(crate) const fn of(count: u8) -> Self {
         let () = Self::BALLS_FIT;
@@ -132,14 +120,12 @@ impl<const N: usize> Press<N> {
         self.count
     }
 
-    /// Index of the last ball.
     #[inline(always)]
     pub(super) const fn last(&self) -> u8 {
         self.count.saturating_sub(1)
     }
 
-    /// Force between ball `j` and the ball in front of it, in the unit of speed times impedance; zero
-    /// where they do not press. The last one acts between the last ball and the first.
+    /// Force between ball `j` and the ball in front of it, in the unit of speed times impedance; the last one acts on the first ball.
     pub fn forces(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
         self.balls().iter().map(|ball| ball.force)
     }
@@ -149,15 +135,12 @@ impl<const N: usize> Press<N> {
         self.balls().iter().map(|ball| ball.speed)
     }
 
-    /// Index of a ball that does not press on the one in front of it: the last one unless that does, as it can on a
-    /// ring. Walks around the ring begin there.
-    #[must_use]
+    /// Index of a ball that does not press on the one in front of it: the last one, unless that does on a ring.
     pub const fn foremost(&self) -> usize {
         self.foremost as usize
     }
 
     /// Joins that the last pass needed, at most one less than the balls: what of its cost depends on data.
-    #[must_use]
     pub fn joins(&self) -> usize {
         let mut joins = 0;
         let mut front = self.foremost();
@@ -175,19 +158,16 @@ impl<const N: usize> Press<N> {
 
     /// Finds actual speeds and forces from free speeds, impedances `1/Y` and rooms.
     ///
-    /// Each list has a number for each ball. `room[j]` belongs to ball `j` and the one in front of it, the last one to the last
-    /// ball and the first: infinite on an open track. Zero or less is contact, NaN none. A ring without any room
-    /// moves as one at the weighted mean speed; its forces are known but for a constant, and the least one
-    /// is taken as zero. A ball that nothing drives has a small impedance: it goes along with its
-    /// neighbours and presses on none.
+    /// `room[j]` belongs to ball `j` and the one in front of it, the last one to the last ball and the first: infinite on an open track, zero or less
+    /// is contact, NaN none. A ring without any room moves as one at the weighted mean speed, and its least force counts as zero. A ball that
+    /// nothing drives has a small impedance: it goes along with its neighbours.
     ///
     /// Returns whether all balls have their numbers, all speeds lie within [`LARGEST_FREE_SPEED`] and all impedances within
     /// [`IMPEDANCE_RANGE`]; where not, all speeds and forces are zero.
     ///
     /// Largest error of a force over the largest force: 6e-7 for impedances that differ by up to a factor 4,
     /// against a complementarity solver in f64, 37 and 64 balls; 2.5e-6 for a factor 1e6, against an
-    /// exhaustive search with up to 9 balls (over a hundredth of what drives the fastest ball where that is
-    /// more). Exact otherwise: no iteration, at most `N - 1` joins, one division for each cluster of two or
+    /// exhaustive search with up to 9 balls. Exact otherwise: at most `N - 1` joins, one division for each cluster of two or
     /// more balls. Cost for 37 balls: 8,600 modelled cycles.
     pub fn solve(&mut self, free: &[f32], impedance: &[f32], room: &[f32]) -> bool {
         let complete = free.len() == impedance.len();
@@ -199,7 +179,7 @@ impl<const N: usize> Press<N> {
         )
     }
 
-    /// The same for balls that rub on each other.
+    /// As [`Self::solve`], for balls that rub on each other.
     pub fn solve_rubbing(&mut self, balls: &[FreeBall], room: &[f32]) -> bool {
         self.solve_all(balls.iter().copied(), room, true)
     }
@@ -236,18 +216,16 @@ impl<const N: usize> Press<N> {
         }
     }
 
-    /// Balls at the nominal speed that press on none.
     #[cold]
     #[inline(never)]
     fn let_go(&mut self) {
         for ball in self.balls_mut() {
             ball.take_in(FreeBall::smooth(0.0, 1.0), 0.0);
-            ball.stand_alone();
+            ball.others = 0;
         }
         self.foremost = self.last();
     }
 
-    /// Leaves in all balls their speeds and forces, and passes each on as [`settle`] does.
     #[inline(always)]
     pub(super) fn settle(
         &mut self,
@@ -256,7 +234,7 @@ impl<const N: usize> Press<N> {
         let foremost = self.foremost();
         let balls = self.balls_mut();
         let pressing = settle(balls, foremost, |index, ball, settled| {
-            ball.settle(settled.speed, settled.force);
+            (ball.speed, ball.force) = (settled.speed, settled.force);
             each(index, ball, settled);
         });
         balance(balls, foremost, &pressing);

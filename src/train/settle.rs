@@ -1,26 +1,20 @@
-//! Speeds and forces of all balls from their clusters, without the remainder of rounding.
+//! Speeds and forces of all balls from their clusters.
 
 use super::ball::Ball;
 
-/// Part of the largest force that rounding may leave of the sum of a cluster's net pushes before it is taken out:
-/// some units in the last place of an `f32`.
+/// Part of the largest force that rounding may leave of the sum of a cluster's net pushes.
 const ROUNDING: f32 = 1e-6;
 
-/// What a ball does in a tick.
 pub(super) struct BallState {
-    /// Actual speed.
     pub(super) speed: f32,
     /// Force of the ball behind, and the one on the ball in front.
     pub(super) behind: f32,
     pub(super) force: f32,
-    /// Whether it touches the ball in front.
     pub(super) touches: bool,
 }
 
-/// What the contacts between balls add up to in a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Pressing {
-    /// Pairs that press on each other.
     pub(crate) contacts: u8,
     /// Largest force, in the unit of speed times impedance.
     pub(crate) largest: f32,
@@ -30,11 +24,8 @@ pub(crate) struct Pressing {
     pub(super) remainder: f32,
 }
 
-/// Gives each ball its speed and its force, from the foremost ball backwards, and passes it on.
-///
-/// The front ball of a cluster presses on none. Each ball behind differs from its free speed by its slack more than the one in
-/// front does; the force behind a ball is that in front of it and the net push that it needs. Nothing pushes the rear ball, but for roundings. A ball
-/// alone keeps its free speed.
+/// Gives each ball its speed and its force, from the foremost ball backwards, and passes it on: each ball behind differs from its free speed by
+/// its slack more than the one in front does, and the force behind it is that in front and its net push. A ball alone keeps its free speed.
 #[inline(always)]
 pub(super) fn settle(
     balls: &mut [Ball],
@@ -43,7 +34,7 @@ pub(super) fn settle(
 ) -> Pressing {
     let last = balls.len().wrapping_sub(1);
     let mut index = foremost;
-    // Balls still to come of the cluster, its impedance, the last ball's change of speed, the force with which the next one presses, and its bits, of zero
+    // Balls still to come of the cluster, its impedance, the last ball's change of speed, the force of the next one, and its bits, of zero
     // where rounding has made it a little less.
     let mut left = 0;
     let mut impedance = 0.0;
@@ -78,7 +69,7 @@ pub(super) fn settle(
             next = ball.growth * next + change * ball.impedance;
             bits = not_negative_bits(next);
             if left == 0 {
-                ball.leave_remainder(next, impedance);
+                (ball.slack, ball.of_cluster) = (next, impedance);
                 let size = next.abs();
                 sums.remainder = if size > sums.remainder {
                     size
@@ -107,11 +98,9 @@ pub(super) fn settle(
     }
 }
 
-/// Takes what is left of the net pushes on clusters out of their forces, where it is more than a part of the largest force: small, but a stiff ball
-/// turns it into a large force.
-///
-/// Shared out by impedance it changes all balls' speeds alike, by less than rounding. The rear ball of each cluster keeps the
-/// cluster's remainder, and a walk forwards, which ends with the foremost ball, meets it first.
+/// Takes the remainders of clusters out of their forces, where they are more than a part of the largest force: a stiff ball turns a small one into a
+/// large force. Shared out by impedance it changes all balls' speeds alike, by less than rounding. The rear ball of each cluster keeps the remainder,
+/// and a walk forwards, which ends with the foremost ball, meets it first.
 #[inline(always)]
 pub(super) fn balance(balls: &mut [Ball], foremost: usize, pressing: &Pressing) {
     let least = ROUNDING * pressing.largest;
@@ -125,7 +114,7 @@ pub(super) fn balance(balls: &mut [Ball], foremost: usize, pressing: &Pressing) 
 fn take_out(balls: &mut [Ball], foremost: usize, least: f32) {
     let last = balls.len().wrapping_sub(1);
     let mut index = foremost;
-    // Balls still to come of the cluster, what its balls' speeds have to change by, and what the force of the next ball has to.
+    // Balls still to come of the cluster, the change of its balls' speeds, and that of the next ball's force.
     let mut left = 0;
     let mut change = 0.0;
     let mut correction = 0.0;
@@ -167,14 +156,12 @@ fn before(behind: f32, growth: f32) -> f32 {
     behind / growth
 }
 
-/// A force, or zero where it is negative.
 #[inline(always)]
 pub(super) fn not_negative(force: f32) -> f32 {
     f32::from_bits(not_negative_bits(force) as u32)
 }
 
-/// The bits of a force, or of zero where it is negative. Of forces that are not negative the larger one has the
-/// larger bits, and those of zero are zero: integers compare without a detour over the floating-point flags.
+/// The bits of a force, or of zero where it is negative: integers compare without a detour over the floating-point flags.
 #[inline(always)]
 pub(super) fn not_negative_bits(force: f32) -> i32 {
     let bits = force.to_bits() as i32;

@@ -1,13 +1,12 @@
 //! A tick of a train: each ball is taken in once, from the front backwards, then all are joined, settled and moved.
 
-use super::ball::Ball;
-use super::grip::FreeBall;
+use super::ball::{Ball, FreeBall};
 use super::positions::Train;
 use super::press::InputCheck;
 use super::settle::{BallState, Pressing, settle};
 use super::track::{Motion, SIXTEENTHS, Slacks};
 
-/// What the balls beside one do to it.
+/// Neighbours of a ball in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Neighbours {
     /// Actual speed of the ball.
@@ -21,17 +20,12 @@ pub struct Neighbours {
 impl<const N: usize> Train<N> {
     /// Moves the train by one tick.
     ///
-    /// `travel`, m, is the nominal travel of a ball in this tick, signed along the track. `free[j]` is the
-    /// speed ball `j` would take on its own, less the nominal one, over the size of the nominal one;
-    /// `impedance[j]` the force that takes all of the nominal speed from it, N. Speeds are signed along
-    /// the track: of a train that runs backwards, a ball that is faster than the nominal one has a negative
-    /// speed.
+    /// `travel`, m: nominal travel of a ball in this tick, signed along the track. `free[j]`: the speed of ball `j` on its own less the nominal
+    /// one, over the size of the nominal one, signed along the track; `impedance[j]`: the force that takes all of the nominal speed from it, N.
     ///
-    /// Without travel the forces are those with which motion sets in; what the free speeds' signs say
-    /// then is up to the caller. A travel that is NaN counts as zero, one beyond
-    /// [`LARGEST_TRAVEL`](super::LARGEST_TRAVEL) of the track as that. Speeds and impedances as in
-    /// [`Press::solve`](super::Press::solve), whose answer is returned: where it is false, all balls move with the
-    /// nominal speed and press on none.
+    /// Without travel the forces are those with which motion sets in. A travel that is NaN counts as zero, one beyond
+    /// [`LARGEST_TRAVEL`](super::LARGEST_TRAVEL) of the track as that. Where [`Press::solve`](super::Press::solve), whose answer is returned,
+    /// refuses the numbers, all balls move with the nominal speed and press on none.
     pub fn step(&mut self, free: &[f32], impedance: &[f32], travel: f32) -> bool {
         let balls = self.balls();
         let mut check = InputCheck::of(free.len() == balls && impedance.len() == balls);
@@ -47,8 +41,7 @@ impl<const N: usize> Train<N> {
         check.passed()
     }
 
-    /// Takes in each ball, from the last one backwards, by what `free` says that one of this index and position would do on its own. Speeds and
-    /// impedances are not checked; `travel`, m, as in [`Train::step`].
+    /// Takes in each ball, from the last one backwards, by its free motion at its index and position, which is not checked.
     #[inline(always)]
     pub(crate) fn take_in(&mut self, travel: f32, mut free: impl FnMut(usize, u32) -> FreeBall) {
         let mut slacks = self.slacks(travel);
@@ -62,8 +55,7 @@ impl<const N: usize> Train<N> {
         }
     }
 
-    /// Puts in how far balls rub, by the part of its load that each carries at a position, 0 to 1: a contact as far as the lesser of its two. All
-    /// of them do until then.
+    /// Sets how far balls rub, by the part of its load that each carries at a position, 0 to 1: a contact as far as the lesser of its two.
     #[inline(never)]
     pub(crate) fn rub_in_part(&mut self, part: impl Fn(u32) -> f32) {
         let balls = self.press.balls_mut();
@@ -75,8 +67,7 @@ impl<const N: usize> Train<N> {
         }
     }
 
-    /// Presses balls that rub, without moving them, and takes each in anew by what `refined` makes of its index and its neighbours; a ball of
-    /// which it makes nothing stays as it is.
+    /// Presses balls that rub, without moving them, and takes each in anew by `refined` of its index and its neighbours, or as before.
     #[inline(always)]
     pub(crate) fn refine(
         &mut self,
@@ -111,7 +102,6 @@ impl<const N: usize> Train<N> {
         })
     }
 
-    /// Settles and moves all balls.
     #[inline(always)]
     fn settle(
         &mut self,
@@ -140,7 +130,6 @@ impl<const N: usize> Train<N> {
         Slacks::new(self.track, self.track.in_units(travel))
     }
 
-    /// How far a speed moves a ball in this tick.
     #[inline(always)]
     fn motion(&mut self, travel: f32) -> Motion {
         let travel = self.track.in_units(travel);
@@ -157,7 +146,7 @@ impl<const N: usize> Train<N> {
 }
 
 impl Neighbours {
-    /// Of a ball, with the part of the force in front that rubs, which then is that of the ball behind.
+    /// Of a ball; `rubs_ahead` is the part of the force in front that rubs, and then that of the ball behind.
     #[inline(always)]
     fn of(ball: &Ball, settled: &BallState, rubs_ahead: &mut f32) -> Self {
         let rubs_behind = ball.rubs() * settled.behind;
@@ -175,14 +164,13 @@ impl Neighbours {
 mod tests {
     use super::*;
 
-    /// Five balls in contact, the fastest at the rear.
     fn train() -> Train<5> {
         Train::new(1.0, 0.01, &[0.0; 5]).unwrap()
     }
 
     const FREE: [f32; 5] = [0.02, 0.01, 0.0, 0.0, -0.01];
 
-    /// What `step` makes of two lists is what a tick makes of the same numbers, and the sums are those of the forces.
+    /// `step` with two lists is a tick with the same numbers, and the sums are those of the forces.
     #[test]
     fn each_ball_comes_once_from_the_front_backwards() {
         let (mut listed, mut asked) = (train(), train());

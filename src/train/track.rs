@@ -2,24 +2,23 @@
 
 use super::ball::Ball;
 use crate::error::{Error, attempt, in_range};
+use crate::stored::Fingerprint;
 
 /// Units of length on the track: positions wrap around where it closes.
 const UNITS: f32 = 4_294_967_296.0;
 
-/// Largest travel in a tick over the length of the track that counts. A ball's own travel beyond it, in sixteenths of 2^-32 of the
-/// track, has to fit into 31 bits at the [largest free speed](super::LARGEST_FREE_SPEED): up to 1/32.
+/// Largest travel in a tick over the length of the track: at the [largest free speed](super::LARGEST_FREE_SPEED) a ball's own travel beyond
+/// it, in sixteenths of 2^-32 of the track, has to fit into 31 bits.
 pub const LARGEST_TRAVEL: f32 = 0.03;
 
-/// Nominal travel, in units, below which it counts as none: far below any motion (1e-30 m), and its inverse times a gap of the whole
-/// track, 2^32 units, is still finite.
+/// Nominal travel, in units, below which it counts as none: its inverse times a gap of the whole track, 2^32 units, is finite.
 const NO_TRAVEL: f32 = 1e-20;
 
 /// A position keeps sixteenths of a unit: slow balls move by less than a unit in a tick.
 pub(super) const SIXTEENTHS: f32 = 16.0;
 const SIXTEENTH_BITS: u32 = 4;
 
-/// Distances this far below zero, in units, are contact: rounding of two positions leaves a few units. Many times that, and still
-/// a tenth of a micrometre on half a metre.
+/// Distances this far below zero, in units, are contact: many times the rounding of two positions.
 pub(super) const OVERLAP: u32 = 1 << 10;
 
 /// Length of a closed track and of what a ball takes of it, checked for a number of balls.
@@ -34,17 +33,10 @@ pub(crate) struct Track {
 
 impl Track {
     /// A track of `length`, m, with `balls` balls that stand `pitch`, m, from centre to centre in contact.
-    ///
-    /// # Errors
-    /// As [`Train::new`](super::Train::new), but for `gaps`.
     pub(crate) const fn new(length: f32, pitch: f32, balls: usize) -> Result<Self, Error> {
         attempt!(in_range("length", length, 1e-4, 1e4));
-        attempt!(in_range(
-            "pitch",
-            pitch,
-            1e-6 * length,
-            length / balls as f32
-        ));
+        let longest = length / balls as f32;
+        attempt!(in_range("pitch", pitch, 1e-6 * length, longest));
         let units_per_metre = UNITS / length;
         let pitch = (pitch * units_per_metre) as u32;
         // f32 holds the pitch to 2^-24; balls that fill the track must not overfill it by that.
@@ -59,30 +51,21 @@ impl Track {
     }
 
     /// Checks that `other` is this track to the last bit: balls keep their places on the same track only.
-    ///
-    /// # Errors
-    /// [`Error`] naming `length` or `pitch`, m.
     pub(super) const fn is_same(&self, other: &Self) -> Result<(), Error> {
         let (own, others) = (UNITS / self.units_per_metre, UNITS / other.units_per_metre);
         attempt!(in_range("length", others, own, own));
         let per_unit = 1.0 / self.units_per_metre;
         let pitch = self.pitch as f32 * per_unit;
-        attempt!(in_range(
-            "pitch",
-            other.pitch as f32 * per_unit,
-            pitch,
-            pitch
-        ));
+        let others = other.pitch as f32 * per_unit;
+        attempt!(in_range("pitch", others, pitch, pitch));
         Ok(())
     }
 
-    /// Distance of the centres of two balls in contact, in units.
     #[inline(always)]
     pub(super) const fn pitch(&self) -> u32 {
         self.pitch
     }
 
-    /// Units in a metre.
     #[inline(always)]
     pub(super) const fn units_per_metre(&self) -> f32 {
         self.units_per_metre
@@ -109,12 +92,15 @@ impl Track {
     pub(super) const fn gap(&self, position: u32, ahead: u32) -> u32 {
         ahead.wrapping_sub(self.pitch).wrapping_sub(position)
     }
+
+    pub(crate) fn fingerprint(&self, fingerprint: &mut Fingerprint) {
+        fingerprint.count(self.pitch);
+        fingerprint.number(self.units_per_metre);
+    }
 }
 
-/// Slacks of balls that come one after the other, each behind the one before it.
-///
-/// The slack is the room in front of a ball and the free speed of the one ahead less its own. The room is the speed at which a ball would close the
-/// gap in front of it within the tick, over the nominal speed: the gap over the nominal travel, 0 where rounding lets two balls overlap.
+/// Slacks of balls that come one after the other, each behind the one before it: the room in front of a ball, the gap over the nominal travel (0
+/// where rounding lets two balls overlap), and the free speed of the one ahead less its own.
 #[derive(Clone, Copy)]
 pub(super) struct Slacks {
     track: Track,
@@ -125,7 +111,7 @@ pub(super) struct Slacks {
 }
 
 impl Slacks {
-    /// In a tick with a nominal travel in units. What is ahead of the first ball that comes is not known: it comes once more at the end.
+    /// In a tick with a nominal travel in units. The first ball comes once more at the end, when the one ahead of it is known.
     #[inline(always)]
     pub(super) fn new(track: Track, travel: f32) -> Self {
         let distance = travel.abs();
@@ -140,7 +126,6 @@ impl Slacks {
         }
     }
 
-    /// Slack of the next ball.
     #[inline(always)]
     pub(super) fn next(&mut self, position: u32, speed: f32) -> f32 {
         let (ahead, speed_ahead) = self.ahead;
@@ -155,7 +140,6 @@ impl Slacks {
 mod tests {
     use super::*;
 
-    /// Another track is told by its length or its pitch, in metres.
     #[test]
     fn another_track_is_named_in_metres() {
         let own = Track::new(0.25, 0.006, 30).unwrap();
@@ -177,7 +161,6 @@ mod tests {
     }
 }
 
-/// How far a ball's speed moves it in a tick.
 #[derive(Clone, Copy)]
 pub(super) struct Motion {
     /// Whole units that the nominal speed moves every ball, signed along the track.
@@ -196,8 +179,7 @@ impl Motion {
             .wrapping_add(self.nominal.wrapping_add(1 << 30))
     }
 
-    /// Moves a ball by its speed, at most to `limit`, where it touches the one in front; gives where the one behind
-    /// touches this one.
+    /// Moves a ball by its speed, at most to `limit`, where it touches the one in front; gives the limit of the one behind.
     #[inline(always)]
     pub(super) fn advance(&self, ball: &mut Ball, limit: u32) -> u32 {
         let sixteenths = (ball.speed * self.sixteenths_per_speed) as i32;

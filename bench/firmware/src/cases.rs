@@ -66,9 +66,6 @@ pub trait Sink {
 }
 
 /// Writes what [`CASES`] of every function give on the machine at hand.
-///
-/// # Errors
-/// None with the designs used here.
 pub fn write(sink: &mut impl Sink) -> Result<(), Error> {
     let mut contexts = Contexts::new(|| 0)?;
     let mut inputs = [0.0; WIDEST];

@@ -17,7 +17,7 @@ use epas_friction::kinematics::{ContactKinematics, KinematicsParameters};
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::{CoefficientAtTemperature, CoefficientLaw};
 use epas_friction::law::memory::{
-    BackboneElement, LoadExactElements, MemoryState, ParallelElements, ParallelElementsState, Part,
+    BackboneElement, LoadExactElements, MemoryState, ParallelElements, ParallelElementsState,
     PreloadedElements, ProportionalElements, SLIP_6, SLIP_8, SPIN_4, SeatElement, SeatState,
 };
 use epas_friction::law::motion::{
@@ -27,8 +27,8 @@ use epas_friction::law::motion::{
 use epas_friction::scene::{CagedBallScrew, CagedConstants, UncagedBallScrew, UncagedConstants};
 use epas_friction::train::{Press, Train};
 use epas_friction::{
-    BallScrew, CATALOGUE, ClosedFormScrew, DeviationMap, Error, FrictionModel, Inputs,
-    LinearBearingTrain, LoadProportionalScrew, defaults,
+    BallScrew, CATALOGUE, ClosedFormScrew, DeviationMap, Error, FrictionModel, LinearBearingTrain,
+    LoadProportionalScrew, defaults,
 };
 
 use crate::gears::{GEAR_33X20, GEAR_33X20_RANGE};
@@ -115,9 +115,6 @@ const BALL_RADIUS: f32 = 0.005;
 
 impl Contexts {
     /// Sets everything up.
-    ///
-    /// # Errors
-    /// None with the designs used here.
     pub fn new(clock: fn() -> u32) -> Result<Self, Error> {
         // Through `black_box`, or the compiler would fold the constants into the functions.
         let design: BallScrew = black_box(CATALOGUE[15].design()?);
@@ -174,7 +171,11 @@ impl Contexts {
             closed_form: FrictionModel::new(&black_box(CLOSED_FORM))?,
             load_proportional: FrictionModel::new(&black_box(LOAD_PROPORTIONAL))?,
             caged: FrictionModel::of(black_box(GEAR_33X20)),
-            caged_range: between_nodes(FrictionModel::of(black_box(GEAR_33X20_RANGE)))?,
+            caged_range: {
+                let mut model = FrictionModel::of(black_box(GEAR_33X20_RANGE));
+                model.set_friction(0.11)?;
+                model
+            },
             caged_set: FrictionModel::of(black_box(&GEAR_33X20_RANGE)),
             caged_swapped: FrictionModel::of(black_box(&GEAR_33X20)),
             worn: false,
@@ -250,18 +251,11 @@ impl Contexts {
     }
 }
 
-/// Elements in proportion, of a table.
+/// Elements that slide under 0.04 N m after 2 mrad.
 fn elements<const N: usize>(
     backbone: &'static [BackboneElement],
 ) -> Result<ProportionalElements<N>, Error> {
-    ProportionalElements::new(
-        black_box(0.04),
-        &[Part {
-            backbone,
-            share: 1.0,
-            breakaway_angle: 2e-3,
-        }],
-    )
+    crate::scenes::elements(backbone, black_box(0.04), 2e-3)
 }
 
 /// Levels, drag, offset and the load's gain every 10 ms.
@@ -275,23 +269,12 @@ const fn adaptation_configuration() -> AdaptationConfiguration {
     }
 }
 
-/// A caged ball screw whose friction coefficient is no node's.
-fn between_nodes(
-    mut model: FrictionModel<CagedBallScrew<5>>,
-) -> Result<FrictionModel<CagedBallScrew<5>>, Error> {
-    model.set_friction(0.11)?;
-    Ok(model)
-}
-
 /// A ball screw that has turned with its load falling.
 fn pressing(
     mut model: FrictionModel<UncagedBallScrew<BALLS>>,
 ) -> FrictionModel<UncagedBallScrew<BALLS>> {
-    for tick in 0..200_u8 {
-        let _ = model.step(Inputs {
-            nut_speed: 40.0,
-            axial_load: 4_000.0 - 20.0 * f32::from(tick),
-        });
+    for inputs in remembering::falling() {
+        let _ = model.step(inputs);
     }
     model
 }

@@ -46,9 +46,6 @@ pub struct ControlLoop {
 
 impl ControlLoop {
     /// Sets everything up, before the first interrupt.
-    ///
-    /// # Errors
-    /// None with the designs used here.
     pub fn new(recorded: &'static [u8]) -> Result<Self, Error> {
         let mut inputs = Reader::new(recorded);
         let left = inputs.word().unwrap_or(0);

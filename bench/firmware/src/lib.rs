@@ -3,7 +3,9 @@
 //! domain, and the results that a host found for them.
 //!
 //! The host's program (`epas-target`) uses the same library: it writes the stored cases, and knows
-//! by name what it counts.
+//! by name what it counts. Its designs are within all ranges: no set-up of theirs fails.
+
+#![allow(clippy::missing_errors_doc)]
 
 pub mod cases;
 pub mod check;
@@ -15,7 +17,6 @@ pub mod friction_task;
 #[rustfmt::skip]
 #[allow(
     missing_docs,
-    clippy::missing_errors_doc,
     clippy::wildcard_imports,
     reason = "as the README prints it"
 )]

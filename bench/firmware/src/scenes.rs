@@ -8,7 +8,7 @@ use epas_friction::defaults::COEFFICIENT;
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::geometry::{ContactAngle, Groove};
 use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient, TemperatureFade};
-use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
+use epas_friction::law::memory::{BackboneElement, Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
     CagedBallScrew, CagedConstants, Freshness, UncagedBallScrew, UncagedBallScrewConfiguration,
@@ -78,29 +78,29 @@ static LINEAR: LinearConstants<ROW> = folded(LinearConstants::new(&CARRIAGE));
 /// Constants of the screw without a cage.
 pub static UNCAGED: UncagedConstants<BALLS> = folded(UncagedConstants::new(&UNCAGED_SCREW));
 
-/// `?` of a constant function.
-macro_rules! tried {
-    ($set_up:expr) => {
-        match $set_up {
-            Ok(value) => value,
-            Err(error) => return Err(error),
-        }
-    };
-}
+const SPEED: SpeedOverTick = folded(SpeedOverTick::new(TICK, 1.0));
 
 /// Constants of the caged gear with a memory.
 pub static CAGED_WITH_MEMORY: CagedMemoryConstants = folded(WithMemoryConstants::new(
     GEAR_33X20,
-    &folded(with_memory((), folded(OneCoefficient::new(0.075)))),
+    &folded(with_memory((), SPEED, folded(OneCoefficient::new(0.075)))),
 ));
 /// Constants of the caged gear whose friction coefficient follows speed and temperature.
 pub static CAGED_BY_LAW: CagedLawConstants = folded(WithMemoryConstants::new(
     GEAR_33X20_RANGE,
-    &folded(with_memory((), folded(CoefficientLaw::new(&COEFFICIENT)))),
+    &folded(with_memory(
+        (),
+        SPEED,
+        folded(CoefficientLaw::new(&COEFFICIENT)),
+    )),
 ));
 static UNCAGED_WITH_MEMORY: UncagedMemoryConstants = folded(WithMemoryConstants::new(
     UNCAGED,
-    &folded(with_memory(UNCAGED_SCREW, folded(OneCoefficient::new(0.1)))),
+    &folded(with_memory(
+        UNCAGED_SCREW,
+        SPEED,
+        folded(OneCoefficient::new(0.1)),
+    )),
 ));
 
 /// Constants of a caged gear with a memory.
@@ -117,31 +117,39 @@ pub type UncagedMemoryConstants = WithMemoryConstants<
     OneCoefficient,
 >;
 
-/// A scene with a memory of eight elements.
-///
-/// # Errors
-/// None with the scenes here.
-pub const fn with_memory<C: Copy, L: Copy>(
+/// Elements in proportion, of a table, that slide under a limit, N m (N), and after an angle, rad (m).
+pub const fn elements<const M: usize>(
+    backbone: &[BackboneElement],
+    limit: f32,
+    breakaway_angle: f32,
+) -> Result<ProportionalElements<M>, Error> {
+    let part = Part {
+        backbone,
+        share: 1.0,
+        breakaway_angle,
+    };
+    ProportionalElements::new(limit, &[part])
+}
+
+/// A ball screw with a memory of eight elements, by the readings of a sensor.
+pub const fn with_memory<C: Copy, A: Copy, L: Copy>(
     scene: C,
+    angle: A,
     coefficient: L,
-) -> Result<WithMemoryConfiguration<C, ProportionalElements<8>, SpeedOverTick, L>, Error> {
-    Ok(WithMemoryConfiguration {
-        scene,
-        elements: tried!(ProportionalElements::new(
-            0.2,
-            &[Part {
-                backbone: &SLIP_8.elements,
-                share: 1.0,
-                breakaway_angle: 2e-3,
-            }],
-        )),
-        angle: tried!(SpeedOverTick::new(TICK, 1.0)),
-        reference_load: 1_000.0,
-        play: 2e-3,
-        coefficient,
-        temperature: TemperatureFade::DEFAULT,
-        freshness: Freshness::DEFAULT,
-    })
+) -> Result<WithMemoryConfiguration<C, ProportionalElements<8>, A, L>, Error> {
+    match elements(&SLIP_8.elements, 0.2, 2e-3) {
+        Ok(elements) => Ok(WithMemoryConfiguration {
+            scene,
+            elements,
+            angle,
+            reference_load: 1_000.0,
+            play: 2e-3,
+            coefficient,
+            temperature: TemperatureFade::DEFAULT,
+            freshness: Freshness::DEFAULT,
+        }),
+        Err(error) => Err(error),
+    }
 }
 
 /// The constants of a set-up at compile time; a field out of range is an error of the compiler.
@@ -166,9 +174,6 @@ pub trait Run {
     type Model;
 
     /// Sets it up.
-    ///
-    /// # Errors
-    /// None with the designs used here.
     fn set_up() -> Result<Self::Model, Error>;
 
     /// One tick; what it gives goes into the digest.
@@ -339,19 +344,26 @@ impl Run for UncagedWithMemory {
     }
 }
 
-/// Speed and load of this tick at a usual temperature, the speed as reading too.
+/// Inputs and a reading of this tick at a usual temperature.
 #[must_use]
-pub const fn remembered(nut_speed: f32, axial_load: f32) -> WithMemoryInputs<Inputs, f32> {
+pub const fn remembered_of<I: Copy, R: Copy>(scene: I, reading: R) -> WithMemoryInputs<I, R> {
     WithMemoryInputs {
-        scene: Inputs {
-            nut_speed,
-            axial_load,
-        },
-        reading: nut_speed,
+        scene,
+        reading,
         load_age: 0.0,
         temperature: 313.15,
         temperature_age: 0.0,
     }
+}
+
+/// Speed and load of this tick, the speed as reading too.
+#[must_use]
+pub const fn remembered(nut_speed: f32, axial_load: f32) -> WithMemoryInputs<Inputs, f32> {
+    let scene = Inputs {
+        nut_speed,
+        axial_load,
+    };
+    remembered_of(scene, nut_speed)
 }
 
 /// A linear bearing without cage.

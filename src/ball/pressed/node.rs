@@ -1,7 +1,7 @@
 //! The law of one ball for one friction coefficient: knots over the load.
 
-use super::neighbours::{NEIGHBOUR_KNOTS, NeighbourNumbers};
-use super::numbers::{BallNumbers, FreeMotion};
+use super::numbers::{BallNumbers, FreeMotion, NEIGHBOUR_KNOTS, NeighbourNumbers};
+use crate::ball::folded::last_not_above;
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
 
@@ -16,18 +16,17 @@ pub struct Knot<T> {
     pub load: f32,
     /// 1 over the distance to the next knot, 1/N; 0 of the last one.
     pub per_width: f32,
-    /// What a ball does.
+    /// Numbers of a ball under the load.
     pub numbers: T,
 }
 
-/// What a ball does on its own.
+/// Knot of a ball on its own.
 pub type BallKnot = Knot<BallNumbers>;
 
-/// What neighbours change in it.
+/// Knot of the changes by neighbours.
 pub type NeighbourKnot = Knot<NeighbourNumbers>;
 
 impl<T: Copy> Knot<T> {
-    /// A knot at no load, in the place of one that is read.
     pub(crate) const fn none(numbers: T) -> Self {
         Self {
             load: 0.0,
@@ -41,17 +40,12 @@ impl<T: Copy> Knot<T> {
     pub const fn between(load: f32, next: f32, numbers: T) -> Self {
         Self {
             load,
-            per_width: Self::per_width(load, next),
+            per_width: if next > load {
+                1.0 / (next - load)
+            } else {
+                0.0
+            },
             numbers,
-        }
-    }
-
-    /// 1 over the distance of two loads, N; 0 where they are one.
-    const fn per_width(load: f32, next: f32) -> f32 {
-        if next > load {
-            1.0 / (next - load)
-        } else {
-            0.0
         }
     }
 }
@@ -64,36 +58,23 @@ pub struct BallNode {
     pub friction: f32,
     /// Under a load that opposes the motion, and under one that assists it.
     pub branches: [[BallKnot; KNOTS]; 2],
-    /// What neighbours change, under the same.
+    /// Changes by neighbours, under the same.
     pub neighbours: [[NeighbourKnot; NEIGHBOUR_KNOTS]; 2],
-    /// A bit for each knot from which up to the next the forces between balls are not held, of both branches.
+    /// A bit for each knot from which up to the next the forces between balls are not accurate, of both branches.
     pub unheld: [u32; 2],
 }
 
-/// The knots between which a load lies.
 #[derive(Clone, Copy)]
 pub(super) struct KnotInterval {
-    /// The knot below the load.
     pub(super) knot: usize,
     /// Fraction of the distance to the next knot, 0 to 1.
     fraction: f32,
 }
 
 impl KnotInterval {
-    /// Among knots of rising load, a power of two of them.
     #[inline(always)]
     fn among<T, const K: usize>(knots: &[Knot<T>; K], load: f32) -> Self {
-        // Loads are not negative: integers compare their bits.
-        let bits = load.to_bits().cast_signed();
-        let mut knot = 0;
-        let mut step = K / 2;
-        while step > 0 {
-            // The mask tells the compiler what the halving ensures.
-            if bits >= knots[(knot + step) % K].load.to_bits().cast_signed() {
-                knot += step;
-            }
-            step /= 2;
-        }
+        let knot = last_not_above::<K>(load, |knot| knots[knot % K].load);
         let below = &knots[knot % K];
         let fraction = (load - below.load) * below.per_width;
         KnotInterval {
@@ -104,13 +85,12 @@ impl KnotInterval {
 }
 
 impl BallNode {
-    /// The knots of a branch between which a load lies.
     #[inline(always)]
     pub(super) fn interval(&self, branch: usize, load: f32) -> KnotInterval {
         KnotInterval::among(&self.branches[branch & 1], load)
     }
 
-    /// What neighbours change under a load, over `mu W`.
+    /// Changes by neighbours under a load, over `mu W`.
     #[inline(always)]
     pub(super) fn neighbours(&self, branch: usize, load: f32) -> NeighbourNumbers {
         let knots = &self.neighbours[branch & 1];
@@ -120,7 +100,7 @@ impl BallNode {
         below.towards(above, fraction)
     }
 
-    /// What a ball does under a load, over `mu W`.
+    /// Motion of a ball under a load, over `mu W`.
     #[inline(always)]
     pub(super) fn motion(&self, branch: usize, load: f32, deviations: [f32; 2]) -> FreeMotion {
         let knots = &self.branches[branch & 1];
@@ -130,7 +110,6 @@ impl BallNode {
         below.towards(above, fraction)
     }
 
-    /// Numbers within an interval.
     #[inline(always)]
     pub(super) fn numbers(&self, branch: usize, interval: KnotInterval) -> BallNumbers {
         let knots = &self.branches[branch & 1];
@@ -139,7 +118,6 @@ impl BallNode {
         below.towards(above, interval.fraction)
     }
 
-    /// Refuses numbers that are no law.
     pub(super) const fn checked(&self) -> Result<(), Error> {
         attempt!(ranges::FRICTION_OF_A_ROW.checked("friction", self.friction));
         let mut branch = 0;

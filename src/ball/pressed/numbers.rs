@@ -1,4 +1,4 @@
-//! What one ball does under one load: polynomials in the deviations of the two grooves.
+//! Numbers of one ball under one load: polynomials in the deviations of the two grooves, alone and with neighbours.
 
 use crate::error::{Error, Range, attempt, in_range};
 use crate::train::LARGEST_FREE_SPEED;
@@ -6,27 +6,25 @@ use crate::train::LARGEST_FREE_SPEED;
 /// Powers of the two deviations: `1, s, n, s^2, s n, n^2`.
 pub const POWERS: usize = 6;
 
-/// Least and largest impedance over `mu W` that count.
+/// Least and largest impedance over `mu W`.
 pub(super) const IMPEDANCES: Range = Range::new(0.01, 1e3);
 
-/// Largest torque over load, m, and its change with the speed, that count.
+/// Largest torque over load, m, and of its change with the speed.
 const LARGEST_ARM: f32 = 1.0;
 
 /// Largest loss by a net push over its work.
 pub const LARGEST_WORK: f32 = 4.0;
 
-/// What one ball does under a load, all over `mu W` but the free speed and the work.
+/// Numbers of one ball under a load, all over `mu W` but the free speed and the work.
 ///
-/// With the deviations `s` of the screw's and `n` of the nut's contact angles, each over its largest ([`BallLaw::deviations`](super::BallLaw::deviations)), and `x` the
-/// ball's speed less its free speed:
+/// With the deviations `s` of the screw's and `n` of the nut's contact angles, each over its largest ([`BallLaw::deviations`](super::BallLaw::deviations)),
+/// `x` the ball's speed less its free speed, and the nominal speed `v` against the nut, m per unit of nut speed:
 ///
 /// ```text
 /// free speed       u = u_0 + u_1 s + u_2 n + u_3 s^2 + u_4 s n + u_5 n^2
 /// net push         P = mu W (z_0 + z_1 s + z_2 n) x
 /// friction torque  T = mu W (t_0 + ... + t_5 n^2 + c x) + w P x v / 2
 /// ```
-///
-/// with the nominal speed `v` against the nut, m per unit of nut speed.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct BallNumbers {
@@ -42,7 +40,7 @@ pub struct BallNumbers {
     pub work: f32,
 }
 
-/// What a ball does on its own in a tick.
+/// Motion of a ball on its own in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FreeMotion {
@@ -64,7 +62,6 @@ impl BallNumbers {
         work: 1.0,
     };
 
-    /// These numbers, interpolated towards others by a fraction, 0 to 1.
     #[inline(always)]
     pub(super) fn towards(&self, others: &Self, fraction: f32) -> Self {
         Self {
@@ -87,9 +84,8 @@ impl BallNumbers {
         }
     }
 
-    /// What a ball does with these deviations of both grooves, each over its largest; numbers and answer both over `mu W`, or both not.
+    /// Motion with these deviations of both grooves, each over its largest; numbers and answer both over `mu W`, or both not.
     #[inline(always)]
-    #[must_use]
     pub fn at(&self, [screw, nut]: [f32; 2]) -> FreeMotion {
         FreeMotion {
             speed: powers(&self.free, screw, nut),
@@ -98,13 +94,11 @@ impl BallNumbers {
         }
     }
 
-    /// Free speed with these deviations.
     #[inline(always)]
     pub(crate) fn speed(&self, [screw, nut]: [f32; 2]) -> f32 {
         powers(&self.free, screw, nut)
     }
 
-    /// Impedance with these deviations.
     #[inline(always)]
     pub(crate) fn impedance(&self, deviations: [f32; 2]) -> f32 {
         line(&self.impedance, deviations)
@@ -122,20 +116,15 @@ impl BallNumbers {
 
     /// Mean free speed over all deviations.
     #[inline(always)]
-    #[must_use]
     pub fn held_speed(&self) -> f32 {
         // The mean of a square from -1 to 1 is a third.
         self.free[0] + (self.free[3] + self.free[5]) * (1.0 / 3.0)
     }
 
-    /// Refuses numbers that some deviations make a ball that a train does not accept.
+    /// Checks that a train accepts the ball at all deviations.
     pub(super) const fn checked(self) -> Result<Self, Error> {
-        attempt!(in_range(
-            "free",
-            sum_of_sizes(&self.free, 0),
-            0.0,
-            LARGEST_FREE_SPEED
-        ));
+        let speed = sum_of_sizes(&self.free, 0);
+        attempt!(in_range("free", speed, 0.0, LARGEST_FREE_SPEED));
         let least = self.impedance[0] - sum_of_sizes(&self.impedance, 1);
         attempt!(IMPEDANCES.checked("impedance", least));
         let most = sum_of_sizes(&self.impedance, 0);
@@ -153,7 +142,6 @@ impl BallNumbers {
 pub(crate) struct PowerSums([f32; POWERS]);
 
 impl PowerSums {
-    /// Adds a ball.
     #[inline(always)]
     pub(crate) fn add(&mut self, [screw, nut]: [f32; 2]) {
         let [count, s, n, ss, sn, nn] = &mut self.0;
@@ -167,7 +155,6 @@ impl PowerSums {
 }
 
 impl FreeMotion {
-    /// This motion, interpolated towards another by a fraction, 0 to 1.
     #[inline(always)]
     pub(super) fn towards(self, other: Self, fraction: f32) -> Self {
         Self {
@@ -178,15 +165,119 @@ impl FreeMotion {
     }
 }
 
-/// A number, interpolated towards another by a fraction.
+/// Knots of a branch for [`NeighbourNumbers`].
+pub const NEIGHBOUR_KNOTS: usize = 16;
+
+const LARGEST_NUMBER: f32 = 1e3;
+
+/// Friction of both neighbours over `mu W` at which a law has numbers: linear between, zero without friction, beyond the last in proportion.
+pub const RUBBINGS: [f32; 3] = [0.08, 0.25, 0.7];
+
+/// Changes of a ball under one load by its neighbours: each a line `1, s, n` over the deviations of both grooves.
+///
+/// A ball that its neighbours rub on needs and loses more than alone at the same speed `v`; with the friction of both,
+/// `m = mu_b (F_behind + F_ahead)/(mu W cos(b))`, and `A`, `H`, `L` linear between the nodes [`RUBBINGS`]:
+///
+/// ```text
+/// net push         P = P_alone + A(m) + H(m) (v - v_h) + g O
+/// friction torque  T = T_alone + L(m) + t O,                      O = tan(b) (F_behind + F_ahead),   sin(b) = R_B/R_path
+/// ```
+///
+/// with the mean free speed `v_h` over all deviations and the outward force `O` of neighbours on a curved track. `L` holds the ball's half of the
+/// loss between balls. Source: Lin 2019, eqs. (3.70) to (3.77); least squares over exact balls, without a printed formula.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct NeighbourNumbers {
+    /// `A`, `H`, `L` at the nodes.
+    pub nodes: [RubbedNode; 3],
+    /// `g` over `mu`.
+    pub outward: [f32; 3],
+    /// `t` over `mu`, m.
+    pub outward_torque: f32,
+}
+
+/// Changes of a ball by friction of its neighbours at a node, over `mu W`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct RubbedNode {
+    /// `A`.
+    pub push: [f32; 3],
+    /// `H`.
+    pub impedance: [f32; 3],
+    /// `L`, m.
+    pub torque: [f32; 3],
+}
+
+impl RubbedNode {
+    pub(super) const NONE: Self = Self {
+        push: [0.0; 3],
+        impedance: [0.0; 3],
+        torque: [0.0; 3],
+    };
+
+    #[inline(always)]
+    fn towards(&self, other: &Self, fraction: f32) -> Self {
+        Self {
+            push: blended(&self.push, &other.push, fraction),
+            impedance: blended(&self.impedance, &other.impedance, fraction),
+            torque: blended(&self.torque, &other.torque, fraction),
+        }
+    }
+}
+
+impl NeighbourNumbers {
+    /// A ball in which neighbours change nothing.
+    pub const NONE: Self = Self {
+        nodes: [RubbedNode::NONE; 3],
+        outward: [0.0; 3],
+        outward_torque: 0.0,
+    };
+
+    #[inline(always)]
+    pub(super) fn towards(&self, others: &Self, fraction: f32) -> Self {
+        let [first, second, third] = &self.nodes;
+        let [other_first, other_second, other_third] = &others.nodes;
+        Self {
+            nodes: [
+                first.towards(other_first, fraction),
+                second.towards(other_second, fraction),
+                third.towards(other_third, fraction),
+            ],
+            outward: blended(&self.outward, &others.outward, fraction),
+            outward_torque: between(self.outward_torque, others.outward_torque, fraction),
+        }
+    }
+
+    pub(super) const fn checked(&self) -> Result<(), Error> {
+        let mut node = 0;
+        while node < 3 {
+            attempt!(check("push", &self.nodes[node].push));
+            attempt!(check("rubbed_impedance", &self.nodes[node].impedance));
+            attempt!(check("rubbed_torque", &self.nodes[node].torque));
+            node += 1;
+        }
+        attempt!(check("outward", &self.outward));
+        attempt!(check("outward_torque", &[self.outward_torque]));
+        Ok(())
+    }
+}
+
+const fn check(field: &'static str, numbers: &[f32]) -> Result<(), Error> {
+    let (mut number, most) = (0, LARGEST_NUMBER);
+    while number < numbers.len() {
+        attempt!(in_range(field, numbers[number], -most, most));
+        number += 1;
+    }
+    Ok(())
+}
+
 #[inline(always)]
-pub(super) fn between(from: f32, to: f32, fraction: f32) -> f32 {
+fn between(from: f32, to: f32, fraction: f32) -> f32 {
     from + fraction * (to - from)
 }
 
-/// Numbers, each interpolated towards another.
 #[inline(always)]
-pub(super) fn blended<const M: usize>(from: &[f32; M], to: &[f32; M], fraction: f32) -> [f32; M] {
+fn blended<const M: usize>(from: &[f32; M], to: &[f32; M], fraction: f32) -> [f32; M] {
     let mut all = *from;
     for (number, &to) in all.iter_mut().zip(to) {
         *number = between(*number, to, fraction);
@@ -194,19 +285,16 @@ pub(super) fn blended<const M: usize>(from: &[f32; M], to: &[f32; M], fraction: 
     all
 }
 
-/// A polynomial of two deviations.
 #[inline(always)]
 fn powers([a, s, n, ss, sn, nn]: &[f32; POWERS], screw: f32, nut: f32) -> f32 {
     a + screw * (s + screw * ss + nut * sn) + nut * (n + nut * nn)
 }
 
-/// A straight line over two deviations.
 #[inline(always)]
 pub(super) fn line([a, s, n]: &[f32; 3], [screw, nut]: [f32; 2]) -> f32 {
     a + screw * s + nut * n
 }
 
-/// Sum of the sizes of numbers, from one of them on.
 const fn sum_of_sizes(numbers: &[f32], from: usize) -> f32 {
     let mut sum = 0.0;
     let mut number = from;

@@ -1,7 +1,6 @@
-//! What the balls of a row do in a tick: each by its own law, with what friction of its neighbours changes in it.
+//! Balls of a row in a tick: each by its own law, with the changes by friction of its neighbours.
 
-use super::neighbours::{NeighbourNumbers, RUBBINGS, RubbedNode};
-use super::numbers::line;
+use super::numbers::{NeighbourNumbers, RUBBINGS, RubbedNode, line};
 use crate::train::{FreeBall, LARGEST_GRIP, Neighbours};
 
 /// Least and largest impedance of a rubbed ball over that of the ball alone.
@@ -10,7 +9,7 @@ pub(super) const STIFFENING: [f32; 2] = [0.3, 5.0];
 /// Largest free speed of a ball in the second pass, over the nominal speed against the nut.
 const LARGEST_SPEED: f32 = 0.5;
 
-/// What neighbours change in the balls of a row in a tick: [`NeighbourNumbers`] under its mean load, with what all balls have in common.
+/// Changes by neighbours in the balls of a row in a tick: [`NeighbourNumbers`] under its mean load, with what all balls have in common.
 #[derive(Clone, Copy, Debug)]
 pub struct NeighbourLaw {
     /// Over `mu W`, but `outward` and its torque, which are per newton along the track.
@@ -23,10 +22,10 @@ pub struct NeighbourLaw {
     pub slope: f32,
     /// Torque by the square of a change of speed over the impedance, m: half the speed against the nut, times the work.
     pub curvature: f32,
-    /// What friction of neighbours that press with `mu W`, `m = 2 mu_b`, changes in the mean over all deviations: in proportion to their forces, and in the
-    /// impedance over `mu W`.
+    /// Changes by friction of neighbours that press with `mu W`, `m = 2 mu_b`, in the mean over all deviations: in proportion to their forces,
+    /// and in the impedance over `mu W`.
     first: [f32; 2],
-    /// What the outward force changes in proportion to the forces.
+    /// Changes by the outward force in proportion to the forces.
     smooth: [f32; 3],
 }
 
@@ -66,7 +65,6 @@ impl BallOfRow {
 }
 
 impl NeighbourLaw {
-    /// With numbers under a mean load and what the balls have in common.
     #[inline(always)]
     pub(super) fn new(
         numbers: NeighbourNumbers,
@@ -95,7 +93,7 @@ impl NeighbourLaw {
         }
     }
 
-    /// For speeds and pushes that are counted in a direction, 1 or -1, of which the balls move in the first.
+    /// With speeds and pushes counted in a direction, 1 or -1.
     #[inline(always)]
     #[must_use]
     pub fn along(mut self, direction: f32) -> Self {
@@ -112,7 +110,6 @@ impl NeighbourLaw {
 
     /// A ball whose neighbours do not rub, but press it outward; on a run-in a part of it.
     #[inline(always)]
-    #[must_use]
     pub fn smooth(&self, ball: &BallOfRow, part: f32) -> FreeBall {
         let grip = part * line(&self.smooth, ball.deviations);
         FreeBall::rubbed(ball.speed, ball.sliding * ball.impedance, 0.0, grip)
@@ -120,7 +117,6 @@ impl NeighbourLaw {
 
     /// A ball in the first pass: each has the mean friction of neighbours that press with `mu W`, `m = 2 mu_b`, on a run-in a part of it.
     #[inline(always)]
-    #[must_use]
     pub fn first(&self, ball: &BallOfRow, part: f32) -> FreeBall {
         let [grip, stiffness] = self.first;
         self.free(ball, stiffness, 0.0, 0.0, part * grip)
@@ -128,7 +124,6 @@ impl NeighbourLaw {
 
     /// The ball in the second pass: Newton's line through the speed and the forces that the first one found; `rubbing`: [`Self::rubbing`].
     #[inline(always)]
-    #[must_use]
     pub fn second(&self, ball: &BallOfRow, found: &Neighbours, rubbing: f32) -> FreeBall {
         let place = Place::of(rubbing);
         let (low, high) = place.ends(&self.numbers.nodes);
@@ -158,7 +153,6 @@ impl NeighbourLaw {
 
     /// Friction of both neighbours of a ball over its `mu W`.
     #[inline(always)]
-    #[must_use]
     pub fn rubbing(&self, ball: &BallOfRow, found: &Neighbours) -> f32 {
         self.ball_friction * found.rubbing / ball.sliding
     }
@@ -224,7 +218,6 @@ fn limited(number: f32, size: f32) -> f32 {
     }
 }
 
-/// A grip by the deviations, made smaller where some deviations would make it more than a train takes.
 #[inline(always)]
 fn within_grip(line: [f32; 3]) -> [f32; 3] {
     let most: f32 = line.iter().map(|number| number.abs()).sum();
@@ -270,7 +263,6 @@ impl Place {
         }
     }
 
-    /// The nodes below and above.
     #[inline(always)]
     fn ends<'nodes>(
         &self,

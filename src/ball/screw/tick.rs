@@ -1,4 +1,4 @@
-//! A row of balls under the load of one tick: what balls do, each with its own deviations and share; the speed of a ball.
+//! A row of balls under the load of one tick, and the speed of a ball.
 
 use crate::ball::loads::LoadShare;
 use crate::geometry::BallScrew;
@@ -6,13 +6,11 @@ use crate::math::constant;
 
 /// A row of balls under one load; all values per unit of nut speed.
 ///
-/// The true speeds along the track are `nut_speed * (nominal_speed + speed_deviation)`, compliances
-/// `|nut_speed| * compliance`, and a touching pair loses the torque
-/// `ball_friction * contact_force * (rear.rubbing + front.rubbing)` on the nut.
+/// Speeds along the track are `nut_speed * (nominal_speed + speed_deviation)`, compliances `|nut_speed| * compliance`; a touching pair loses
+/// the torque `ball_friction * contact_force * (rear.rubbing + front.rubbing)` on the nut.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct ScrewTick {
-    /// Largest deviation of a contact angle that counts, rad.
     largest_deviation: f32,
     /// Coefficients of `t(u)`, 1/rad to 1/rad^5, and of `o(v)`, 1/rad to 1/rad^3: see [`ScrewTick::ball`].
     turn: [f32; 5],
@@ -53,7 +51,6 @@ pub struct ScrewTickBall {
     pub rubbing: f32,
 }
 
-/// A ball under the mean load: what the row takes from its loads.
 #[derive(Clone, Copy)]
 pub(super) struct Mean {
     /// Part of a diagonal's speed that remains where the other diagonal carries load as well.
@@ -72,7 +69,6 @@ pub(super) struct Mean {
 }
 
 impl ScrewTick {
-    /// From how speeds follow deviations, and from a ball under the mean load.
     #[inline]
     pub(super) const fn new(
         speeds: &Speeds,
@@ -103,31 +99,26 @@ impl ScrewTick {
     }
 
     /// Speed along the track of a ball with nominal contact angles, m per unit of nut speed.
-    #[must_use]
     pub const fn nominal_speed(&self) -> f32 {
         self.nominal_speed
     }
 
     /// Load of each main contact of a ball under the mean load, N.
-    #[must_use]
     pub const fn main_load(&self) -> f32 {
         self.main_load
     }
 
     /// Load of the third contact of a ball under the mean load, N.
-    #[must_use]
     pub const fn third_load(&self) -> f32 {
         self.third_load
     }
 
     /// Half the speed with which two nominal balls rub, m per unit of nut speed (Lin 2019, eq. (3.73), with `cos(beta_BB)` as 1).
-    #[must_use]
     pub const fn rubbing(&self) -> f32 {
         self.rubbing
     }
 
-    /// Change of that with the speed along the track.
-    #[must_use]
+    /// Change of [`Self::rubbing`] with the speed along the track.
     pub const fn rubbing_slope(&self) -> f32 {
         self.rubbing_slope
     }
@@ -144,7 +135,6 @@ impl ScrewTick {
     /// with the share `q` of the load and the change `s` of the contacts' spin with the speed. A deviation beyond
     /// [`ScrewRow::largest_deviation`](super::ScrewRow::largest_deviation) is cut to it; NaN counts as 0.
     #[inline]
-    #[must_use]
     pub const fn ball(
         &self,
         screw_deviation: f32,
@@ -188,10 +178,10 @@ pub(super) const fn limited(deviation: f32, largest: f32) -> f32 {
 }
 
 /// Largest deviation of a contact angle from the nominal one, rad: four times the 2 to 3 degrees of Lin 2019. With it in both
-/// grooves the series of a ball's speed in `u` is off by 5e-4 at a contact angle of 45 degrees; with 3 degrees in both, by 1e-7.
+/// grooves the series of a ball's speed in `u` is off by 5e-4 at a contact angle of 45 degrees.
 const LARGEST_DEVIATION: f32 = 0.2;
 
-/// How the speed of a ball follows its contact angles: one formula for each set of contacts that may carry it.
+/// Dependence of a ball's speed on its contact angles: one formula for each set of contacts that may carry it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Speeds {
@@ -199,7 +189,6 @@ pub(super) struct Speeds {
     pub(super) nominal: f32,
     /// Coefficients of the series of `2 cos beta/(cos beta + cos(beta - u)) - 1`, from that of `u` to that of `u^5`.
     pub(super) turn: [f32; 5],
-    /// Largest deviation of a contact angle that counts, rad.
     pub(super) largest_deviation: f32,
     /// With the third contact on the screw, on the nut, and with two contacts.
     third_on_screw: Branch,
@@ -207,7 +196,6 @@ pub(super) struct Speeds {
     two_point: Branch,
 }
 
-/// How a ball's speed follows its contact angles, and how it rubs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Branch {
@@ -231,14 +219,12 @@ pub(super) struct Branch {
 pub(super) struct Weights {
     /// Of the sum of both, in `u`, which turns the ball.
     pub(super) both: f32,
-    /// Of the screw's, in `v`, which tilts the ball's contact with the groove that has no third contact.
+    /// Of both grooves in `v`, which tilts the ball's contact with the groove that has no third contact.
     pub(super) screw: f32,
-    /// Of the nut's, in `v`.
     pub(super) nut: f32,
 }
 
 impl Speeds {
-    /// Speeds of a design's balls; one in two contacts sticks to the screw, or else to the nut.
     pub(super) const fn new(design: &BallScrew, sticks_to_screw: bool) -> Self {
         let angle = design.contact_angle();
         let (sin, cos) = (angle.sin, angle.cos);
@@ -296,7 +282,7 @@ impl Speeds {
         (&self.two_point, weights)
     }
 
-    /// The same with the third contact on the screw or on the nut.
+    /// With the third contact on the screw or on the nut.
     #[inline]
     pub(super) const fn in_more_points(&self, side: f32, on_screw: bool) -> (&Branch, Weights) {
         if on_screw {
@@ -317,8 +303,7 @@ impl Speeds {
     }
 }
 
-/// Size of the angular velocity of a ball in two contacts relative to its orbit, over that of a ball that rolls on its
-/// equator: the speed with which balls alike rub, over the orbital speed against the groove to which they stick.
+/// Size of the angular velocity of a ball in two contacts relative to its orbit, over that of a ball that rolls on its equator.
 const fn tumbling(design: &BallScrew, ratio: f32, sticks_to_screw: bool) -> f32 {
     let angle = design.contact_angle();
     let (sin, cos) = (angle.sin, angle.cos);
@@ -348,18 +333,13 @@ const fn turn_series(tangent: f32) -> [f32; 5] {
     [c1, c2, c3, c4, c5]
 }
 
-/// Largest deviation of a contact angle: 0.2 rad, less where the deviations of both grooves together
-/// would turn a contact through the plane across the axis, or where the series in them, which converges
-/// like the powers of `tan(beta) u/2`, would need more terms.
+/// Largest deviation of a contact angle: 0.2 rad, less where the deviations of both grooves together would turn a contact through the plane
+/// across the axis, or where the series in `tan(beta) u/2` would need more terms.
 pub(crate) const fn largest_deviation(contact_angle: f32, tangent: f32) -> f32 {
     let both = if contact_angle * tangent < 1.0 {
         contact_angle
     } else {
         1.0 / tangent
     };
-    if 0.5 * both < LARGEST_DEVIATION {
-        0.5 * both
-    } else {
-        LARGEST_DEVIATION
-    }
+    (0.5 * both).min(LARGEST_DEVIATION)
 }

@@ -6,23 +6,23 @@ use crate::geometry::{BallScrew, Groove};
 use crate::material::contact_modulus;
 use crate::math::constant::{cbrt, cbrt_squared, sqrt};
 
-/// Drag torque at 1 Pa s, 1 rad/s and 1 N, N m: none, up to far beyond any screw (0.002 for a steering gear's).
+/// Drag torque at 1 Pa s, 1 rad/s and 1 N, N m (0.002 for a steering gear's screw).
 const TORQUE: Range = Range::new(0.0, 1e3);
 
 /// Inlet shear heating at 1 Pa s and 1 rad/s (0.0005 for a steering gear's screw).
 const HEATING: Range = Range::new(0.0, 1e3);
 
-/// Share of the drag that the supply of lubricant leaves: none to twice that of flooded contacts.
+/// Share of the drag that the supply of lubricant leaves: to twice that of flooded contacts.
 const FLOODING: Range = Range::new(0.0, 2.0);
 
-/// State at which the drag is that of the published formulas: viscosity, Pa s, is 1; speed of the nut, rad/s; axial load of a ball, N.
+/// State at which the drag is that of the published formulas (at a viscosity of 1 Pa s): speed of the nut, rad/s; axial load of a ball, N.
 const SPEED: f32 = 20.0;
 const BALL_LOAD: f32 = 30.0;
 
 /// Density at which the kinematic viscosity of the shear heating's formula is taken, kg/m³.
 const DENSITY: f32 = 850.0;
 
-/// Up to this many times the load at which one flank of a preloaded screw lifts off, both flanks drag about as much as without a load.
+/// Up to this many times the lift-off load of a preload both flanks drag about as much as without a load.
 const BOTH_FLANKS: f32 = 2.1;
 
 /// Drag of the lubricant that the rolling contacts of a ball screw displace; unchecked.
@@ -33,10 +33,9 @@ const BOTH_FLANKS: f32 = 2.1;
 /// ```
 ///
 /// `eta` is the dynamic viscosity of the base oil, Pa s, `omega_N` the speed of the nut, rad/s, `F` the axial load, N, and `F_0` the axial
-/// load at which the preload's unloaded flank lifts off, N (0 with play). It is viscous: it vanishes at standstill and opposes the
-/// speed; the memory does not hold it.
+/// load at which the preload's unloaded flank lifts off, N (0 with play). The memory does not hold it.
 ///
-/// [`Self::of`] takes both numbers from a design, contact by contact. One rolling contact pumps lubricant into its inlet with the force
+/// [`Self::of`] takes both numbers from a design. One rolling contact pumps lubricant into its inlet with the force
 ///
 /// ```text
 /// FR = FR_e + (FR_i - FR_e)/(1 + M/6.6)                  U = eta u/(E' Rx)     W = Q/(E' Rx^2)     k = Ry/Rx
@@ -46,24 +45,22 @@ const BOTH_FLANKS: f32 = 2.1;
 /// ```
 ///
 /// on each of its surfaces (Biboulet and Houpert 2010, part 2, eqs. (30) to (32), as printed by Balan, Houpert, Tufescu and Olaru
-/// 2015, Lubricants 3:222, eqs. (1) to (7), who measured it at ball bearings with three balls). `u` is the mean speed of both surfaces, `Q`
-/// the contact's load, `Rx` and `Ry` the relative radii along and across the track, `E'` twice the contact modulus. A ball has
-/// two such contacts, each with the power `2 FR u`. Inlet shear heating is the factor of SKF's friction model
-/// (General Catalogue, "The SKF model for calculating the frictional moment"):
+/// 2015, Lubricants 3:222, eqs. (1) to (7)). `u` is the mean speed of both surfaces, `Q` the contact's load, `Rx` and `Ry` the relative radii
+/// along and across the track, `E'` twice the contact modulus. A ball has two such contacts, each with the power `2 FR u`. Inlet shear heating
+/// is the factor of SKF's friction model (General Catalogue, "The SKF model for calculating the frictional moment"):
 ///
 /// ```text
 /// phi_ish = 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64)         n, 1/min    d_m, mm    nu, mm^2/s
 /// ```
 ///
-/// with the pitch circle of the screw for the mean diameter of the bearing. SKF's rolling moment `G_rr (nu n)^0.6` itself is not taken: its constants are
-/// for bearings with 7 to 15 balls and radial grooves. Both agree within a factor of two for the bearing 6206.
+/// with the pitch circle of the screw for the mean diameter of the bearing. SKF's rolling moment `G_rr (nu n)^0.6` agrees within a factor of two for
+/// the bearing 6206; its constants are for bearings with 7 to 15 balls and radial grooves.
 ///
 /// The powers above approximate all of this. Largest difference -26 and +25 %, rms 10 %: 0.02 to 16 Pa s, 0.5 to 60 rad/s, 5 to 200
 /// N a ball, five sizes of 20 to 50 mm. Preloaded flanks are counted within 22 % below lift-off.
 ///
 /// Left out: churning of grease in the nut and its return ([`churning`](super::CoefficientParameters::churning)), the yield stress of a grease's
-/// thickener, wipers and seals, and starvation that grows with speed (SKF's factor for grease is meant for bearings that turn on and on; in a gear that
-/// reverses, grease flows back into the track).
+/// thickener, wipers and seals, and starvation that grows with speed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct RollingDrag {
@@ -74,8 +71,8 @@ pub struct RollingDrag {
 }
 
 impl RollingDrag {
-    /// Speed of the nut up to which the powers were fitted, rad/s. Above it nothing says how far they are off; a scene with memory sets
-    /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL) there.
+    /// Speed of the nut up to which the powers were fitted, rad/s; above it a scene with memory sets
+    /// [`Faults::BEYOND_MODEL`](crate::Faults::BEYOND_MODEL).
     pub const FITTED_SPEED: f32 = 60.0;
 
     /// No drag.
@@ -84,12 +81,8 @@ impl RollingDrag {
         heating: 0.0,
     };
 
-    /// The drag of a validated ball screw with so many loaded balls, 1 to 1e3, and a supply of lubricant: 1 where every contact is
-    /// flooded, 0.7 where some drops of oil or a film of grease supply it
-    /// ([`defaults::FLOODING`](crate::defaults::FLOODING)), 0 to 2. For set-up; a constant can take it.
-    ///
-    /// # Errors
-    /// [`Error`] naming `loaded_balls` or `flooding`.
+    /// The drag of a ball screw with so many loaded balls, 1 to 1e3, and a supply of lubricant, 0 to 2: 1 where every contact is flooded, 0.7
+    /// where drops of oil or a film of grease supply it ([`defaults::FLOODING`](crate::defaults::FLOODING)). For set-up and constants.
     pub const fn of(design: &BallScrew, loaded_balls: u16, flooding: f32) -> Result<Self, Error> {
         let balls = attempt!(in_range("loaded_balls", loaded_balls as f32, 1.0, 1e3));
         let flooding = attempt!(FLOODING.checked("flooding", flooding));
@@ -107,7 +100,7 @@ impl RollingDrag {
         })
     }
 
-    /// This drag times a factor: what a calibration has found.
+    /// This drag times a factor that a calibration has found.
     #[must_use]
     pub const fn times(&self, factor: f32) -> Self {
         Self {
@@ -116,10 +109,6 @@ impl RollingDrag {
         }
     }
 
-    /// The drag, or the error that names the first field out of range.
-    ///
-    /// # Errors
-    /// [`Error`] naming `drag_torque` or `drag_heating`.
     pub(super) const fn checked(self) -> Result<Self, Error> {
         attempt!(TORQUE.checked("drag_torque", self.torque));
         attempt!(HEATING.checked("drag_heating", self.heating));
@@ -138,8 +127,8 @@ impl RollingDrag {
     }
 }
 
-/// Force of one contact with a groove at a viscosity of 1 Pa s and a mean speed of its surfaces, m/s, under a load, N. Powers of the
-/// ratio of radii by roots of two and three: 13/32 for 0.4055, 1/3 for 0.3316, 19/32 for 0.6029.
+/// Force of one contact with a groove at a viscosity of 1 Pa s, a mean speed of its surfaces, m/s, and a load, N. Powers of the ratio of radii by
+/// roots of two and three: 13/32 for 0.4055, 1/3 for 0.3316, 19/32 for 0.6029.
 const fn contact_force(design: &BallScrew, groove: Groove, speed: f32, load: f32) -> f32 {
     let relative =
         GothicArch::of(design, groove).relative(design.contact_angle(), design.clearance(groove));

@@ -1,4 +1,4 @@
-//! The friction coefficient by a rational form: its parameters, the law that they fold into, and the law at one temperature, which a step evaluates.
+//! The friction coefficient by a rational form: its parameters, the law that they fold into, and the law at one temperature.
 
 use super::drag::RollingDrag;
 use super::model::DirectionalCoefficient;
@@ -6,27 +6,24 @@ use super::viscosity::{TEMPERATURE, Viscosity, fifth_root};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::ranges;
 
-/// Least and largest half-share speed, rad/s: at set-up and at every temperature. A nut turns with 0.1 to 500 rad/s: beyond either
-/// end its friction is nearly that of a full film, or of none, at every speed.
+/// Least and largest half-share speed, rad/s, at every temperature: beyond either end friction is nearly that of a full film, or of none.
 const HALF_SHARE_SPEED: Range = Range::new(1e-3, 1e4);
 
-/// Factor of the coefficient in one direction: far beyond what directions differ by, as that of a friction level.
 const DIRECTION: Range = Range::new(0.1, 10.0);
 
-/// Churning torque over viscosity and speed, m³: none, up to a cube of one metre, far beyond any screw.
+/// Churning torque over viscosity and speed, m³.
 const CHURNING: Range = Range::new(0.0, 1.0);
 
-/// What a friction coefficient follows from; unchecked.
+/// Parameters of a friction coefficient; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CoefficientParameters {
     /// Coefficient `mu_b` at standstill, 1e-6 to 1: boundary lubrication, asperities carry.
     pub boundary: f32,
-    /// Coefficient `mu_f` at high speed, 1e-6 to 1: a film carries. Below `boundary` friction falls with speed; above it rises,
-    /// as measured on machine tools with preloaded screws.
+    /// Coefficient `mu_f` at high speed, 1e-6 to 1: a film carries.
     pub full_film: f32,
-    /// Speed of the nut at which half of the difference is gone, at the reference temperature, rad/s, 1e-3 to 1e4. In
-    /// proportion to 1/(viscosity x pitch radius) and to roughness to the power of 3/2.
+    /// Speed of the nut at which half of the difference is gone, at the reference temperature, rad/s, 1e-3 to 1e4: in proportion to
+    /// 1/(viscosity x pitch radius) and to roughness to the power of 3/2.
     pub half_share_speed: f32,
     /// Temperature of the half-share speed, K, from 10 K above the pole of the viscosity's formula to 500.
     pub reference_temperature: f32,
@@ -36,8 +33,7 @@ pub struct CoefficientParameters {
     pub forward: f32,
     /// Factor in the negative direction.
     pub backward: f32,
-    /// Torque of churned lubricant over its viscosity and the nut's speed, m³, 0 to 1. Not Coulomb friction: it is to be added
-    /// by itself.
+    /// Torque of churned lubricant over its viscosity and the nut's speed, m³, 0 to 1, beside the coefficient.
     pub churning: f32,
     /// Lubricant drag of the rolling contacts, beside the coefficient.
     pub drag: RollingDrag,
@@ -52,14 +48,12 @@ pub struct CoefficientParameters {
 ///
 /// `d` is the factor of the direction, `Theta` the temperature, `Theta_s` the pole of [`Viscosity`]: the speed at which a
 /// film has formed goes with the inverse of the viscosity. `w_m` stays within 1e-3 to 1e4 rad/s, the temperature between
-/// [`Viscosity::floor`] and 500 K.
+/// [`Viscosity::floor`] and 500 K. Where both coefficients are equal, and the direction's factors 1, the coefficient is that number, to the bit.
 ///
 /// Largest errors over the difference of both coefficients, 0.1 to 500 rad/s, against the film's thickness by Hamrock and Dowson
 /// 1977 with the asperities' share `1/(1 + film/roughness)^2` of Olver and Spikes 1998: the form alone 0.068 (rms 0.039), with
 /// the default viscosity's own error 0.080 from -20 to 120 degrees Celsius and 0.057 below. Starvation, thinning by shear, and
 /// the growth of friction at rest are in neither.
-///
-/// Where both coefficients are equal, and the direction's factors 1, the coefficient is that number, to the last bit.
 ///
 /// ```
 /// use epas_friction::defaults;
@@ -110,27 +104,13 @@ impl CoefficientParameters {
 /// Temperatures above the viscosity's pole, times `scale`, between which the half-share speed stays within its range.
 const fn ends(viscosity: &Viscosity, scale: f32) -> [f32; 2] {
     let pole = viscosity.pole();
-    let coldest = pole + fifth_root(HALF_SHARE_SPEED.minimum) / scale;
-    let coldest = if coldest > viscosity.floor() {
-        coldest
-    } else {
-        viscosity.floor()
-    };
-    let warmest = pole + fifth_root(HALF_SHARE_SPEED.maximum) / scale;
-    let warmest = if warmest < TEMPERATURE.maximum {
-        warmest
-    } else {
-        TEMPERATURE.maximum
-    };
+    let coldest = (pole + fifth_root(HALF_SHARE_SPEED.minimum) / scale).max(viscosity.floor());
+    let warmest = (pole + fifth_root(HALF_SHARE_SPEED.maximum) / scale).min(TEMPERATURE.maximum);
     [scale * (coldest - pole), scale * (warmest - pole)]
 }
 
 impl CoefficientLaw {
-    /// Checks and folds a law. At set-up, or in a constant.
-    ///
-    /// # Errors
-    /// [`Error`] naming `boundary`, `full_film`, `half_share_speed`, `reference_temperature`, `forward`, `backward`,
-    /// `churning`, `drag_torque` or `drag_heating`.
+    /// Checks and folds a law.
     pub const fn new(parameters: &CoefficientParameters) -> Result<Self, Error> {
         let CoefficientParameters {
             boundary,
@@ -146,12 +126,9 @@ impl CoefficientLaw {
         attempt!(ranges::FRICTION.checked("boundary", boundary));
         attempt!(ranges::FRICTION.checked("full_film", full_film));
         let speed = attempt!(HALF_SHARE_SPEED.checked("half_share_speed", half_share_speed));
-        let reference = attempt!(in_range(
-            "reference_temperature",
-            reference_temperature,
-            viscosity.floor(),
-            TEMPERATURE.maximum
-        ));
+        let (floor, most) = (viscosity.floor(), TEMPERATURE.maximum);
+        let reference = reference_temperature;
+        attempt!(in_range("reference_temperature", reference, floor, most));
         attempt!(DIRECTION.checked("forward", forward));
         attempt!(DIRECTION.checked("backward", backward));
         let churning = attempt!(CHURNING.checked("churning", churning));
@@ -172,37 +149,23 @@ impl CoefficientLaw {
         })
     }
 
-    /// One coefficient, 1e-6 to 1, at every speed and temperature, in both directions, without churning.
-    ///
-    /// # Errors
-    /// [`Error`] naming `boundary`.
+    /// One coefficient, 1e-6 to 1, at every speed and temperature, without churning.
     pub const fn constant(friction: f32) -> Result<Self, Error> {
-        // Any lubricant will do: what it scales has no effect.
+        // Its lubricant has no effect.
         let viscosity = attempt!(Viscosity::through((313.15, 0.1), (373.15, 0.01), 233.15));
         Self::new(&CoefficientParameters::constant(friction, viscosity))
     }
 
     /// Least and largest coefficient that the law gives, in either direction.
-    #[must_use]
     pub const fn extremes(&self) -> (f32, f32) {
-        let (mut least, mut largest) = (f32::INFINITY, 0.0);
-        let all = [self.forward.ends(), self.backward.ends()];
-        let mut side = 0;
-        while side < 2 {
-            let (low, high) = all[side];
-            least = if low < least { low } else { least };
-            largest = if high > largest { high } else { largest };
-            side += 1;
-        }
-        (least, largest)
+        let (low, high) = self.forward.ends();
+        let (other_low, other_high) = self.backward.ends();
+        (low.min(other_low), high.max(other_high))
     }
 
-    /// The law at a temperature, K: where a new one comes in, a few times a second.
-    ///
-    /// Below [`Viscosity::floor`] and above 500 K as there, and beyond where the half-share speed comes to 1e-3 or 1e4 rad/s; NaN is
-    /// the warmest. Cost: 5 multiplications and 1 division.
+    /// The law at a temperature, K; below [`Viscosity::floor`], above 500 K and beyond the range of the half-share speed as there, NaN as the
+    /// warmest. Cost: 5 multiplications and 1 division.
     #[inline]
-    #[must_use]
     pub const fn at_temperature(&self, temperature: f32) -> CoefficientAtTemperature {
         let [coldest, warmest] = self.ends;
         let ratio = self.scale * (temperature - self.pole);
@@ -222,7 +185,6 @@ impl CoefficientLaw {
     }
 }
 
-/// Largest speed that churns, rad/s: that of a scene's limits. It keeps the torque finite.
 const LARGEST_SPEED: f32 = 1e6;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -278,12 +240,9 @@ impl Sides {
 }
 
 impl CoefficientAtTemperature {
-    /// Friction coefficient at a speed of the nut, rad/s, in its direction; standstill counts as forward.
-    ///
-    /// NaN counts as standstill, infinity as a full film. Monotone in the speed's size, also in f32. Cost: one division, 43 modelled
-    /// cycles; 70 with [`CoefficientLaw::at_temperature`](super::CoefficientLaw::at_temperature) in the same tick.
+    /// Friction coefficient at a speed of the nut, rad/s, in its direction; standstill and NaN count as forward, infinity as a full film.
+    /// Monotone in the speed's size, also in f32. Cost: one division, 43 modelled cycles; 70 with [`CoefficientLaw::at_temperature`].
     #[inline]
-    #[must_use]
     pub const fn at(&self, speed: f32) -> f32 {
         let sides = if speed < 0.0 {
             &self.backward
@@ -295,7 +254,6 @@ impl CoefficientAtTemperature {
 
     /// Friction coefficients that either direction would have at a speed of this size.
     #[inline]
-    #[must_use]
     pub const fn both(&self, speed: f32) -> DirectionalCoefficient {
         let share = self.share(speed);
         DirectionalCoefficient {
@@ -304,29 +262,23 @@ impl CoefficientAtTemperature {
         }
     }
 
-    /// Torque of churned lubricant, N m, with the sign of the speed that it opposes, rad/s: viscosity times speed. Speeds beyond
-    /// 1e6 rad/s as that; NaN gives 0.
+    /// Torque of churned lubricant, N m, with the sign of the speed that it opposes, rad/s, up to 1e6; NaN gives 0.
     #[inline]
-    #[must_use]
     pub const fn churning_torque(&self, speed: f32) -> f32 {
         self.churning * within_speeds(speed)
     }
 
     /// Torque of viscous drag, N m, with the sign of the speed that it opposes, rad/s: of churned lubricant
-    /// ([`Self::churning_torque`]) and of rolling contacts ([`RollingDrag`]) under an axial load and a preload whose flank lifts off
-    /// at a load, N, both not negative.
-    ///
-    /// Cost: two square roots, one division, 9 other operations.
+    /// ([`Self::churning_torque`]) and of rolling contacts ([`RollingDrag`]) under an axial load and a preload's lift-off load, N, both not
+    /// negative. Cost: two square roots, one division, 9 other operations.
     #[inline]
-    #[must_use]
     pub fn drag_torque(&self, speed: f32, load: f32, lift_off: f32) -> f32 {
         let speed = within_speeds(speed);
         let rolling = self.drag.at(self.fluidity, speed.abs(), [load, lift_off]);
         self.churning * speed + rolling.copysign(speed)
     }
 
-    /// Whether the drag of rolling contacts is within the speeds for which its formula was fitted ([`RollingDrag::FITTED_SPEED`]), rad/s; a law
-    /// without that drag holds at every speed, and NaN counts as standstill.
+    /// Whether the drag of rolling contacts was fitted at a speed, rad/s ([`RollingDrag::FITTED_SPEED`]); a law without that drag holds at every speed.
     #[inline]
     #[must_use]
     pub const fn holds_drag(&self, speed: f32) -> bool {
@@ -334,20 +286,16 @@ impl CoefficientAtTemperature {
     }
 
     /// Drag of the rolling contacts, without a temperature.
-    #[must_use]
     pub const fn drag(&self) -> RollingDrag {
         self.drag
     }
 
     /// Speed at which half of the difference is gone, rad/s.
-    #[inline]
-    #[must_use]
     pub const fn half_share_speed(&self) -> f32 {
         self.half_share_speed
     }
 
     /// Steepest change of the coefficient with the speed, s/rad, at standstill; above 0 where friction rises.
-    #[must_use]
     pub const fn steepest(&self) -> f32 {
         let difference = if self.forward.difference.abs() > self.backward.difference.abs() {
             self.forward.difference
@@ -357,7 +305,7 @@ impl CoefficientAtTemperature {
         -difference / self.half_share_speed
     }
 
-    /// What is left of the difference at a speed: 1 at standstill, one half at the half-share speed.
+    /// Part of the difference that is left at a speed: 1 at standstill, one half at the half-share speed.
     #[inline]
     const fn share(&self, speed: f32) -> f32 {
         let half = self.half_share_speed;

@@ -1,7 +1,6 @@
-//! Where a scene's friction coefficient comes from, and what it is in both directions.
+//! Friction coefficient of a scene in both directions.
 
-use super::form::CoefficientAtTemperature;
-use super::form::CoefficientLaw;
+use super::form::{CoefficientAtTemperature, CoefficientLaw};
 use crate::error::{Error, attempt};
 use crate::ranges;
 use core::fmt::Debug;
@@ -17,10 +16,8 @@ pub struct DirectionalCoefficient {
 }
 
 impl DirectionalCoefficient {
-    /// Coefficient of a direction, given by its sign, and of the opposite direction; 0 and NaN count as forward. No
-    /// arithmetic.
+    /// Coefficient of a direction, given by its sign, and of the opposite direction; 0 and NaN count as forward.
     #[inline]
-    #[must_use]
     pub const fn of(&self, direction: f32) -> (f32, f32) {
         if direction < 0.0 {
             (self.backward, self.forward)
@@ -47,10 +44,8 @@ impl DirectionalCoefficient {
         }
     }
 
-    /// Both coefficients over the one of a direction, given by its sign, forward first: 1 and a ratio, 1e-6 to 1e6. Cost: one
-    /// division.
+    /// Both coefficients over the one of a direction, given by its sign, forward first: 1 and a ratio, 1e-6 to 1e6.
     #[inline]
-    #[must_use]
     pub const fn over_own(&self, direction: f32) -> [f32; 2] {
         let (own, opposite) = self.of(direction);
         let ratio = opposite / own;
@@ -62,8 +57,7 @@ impl DirectionalCoefficient {
     }
 }
 
-/// What gives a scene with memory its friction coefficient: [`CoefficientLaw`] by speed, temperature and direction, or
-/// [`OneCoefficient`], which leaves out what only a law needs.
+/// Model of the friction coefficient in a scene with memory: [`CoefficientLaw`], or [`OneCoefficient`], which leaves out its parts.
 pub trait CoefficientModel: Copy + Debug + PartialEq {
     /// The coefficient at one temperature.
     type At: Copy + Debug + PartialEq;
@@ -77,11 +71,10 @@ pub trait CoefficientModel: Copy + Debug + PartialEq {
     /// Friction coefficients of both directions at a speed of this size.
     fn both(at: &Self::At, speed: f32) -> DirectionalCoefficient;
 
-    /// Torque of viscous drag, N m, with the sign of the speed, rad/s, under an axial load and a preload whose flank lifts off at a
-    /// load, N.
+    /// Torque of viscous drag, N m, as [`CoefficientAtTemperature::drag_torque`].
     fn drag_torque(at: &Self::At, speed: f32, load: f32, lift_off: f32) -> f32;
 
-    /// Whether that drag is one whose formula was fitted at a speed, rad/s.
+    /// See [`CoefficientAtTemperature::holds_drag`].
     fn holds_drag(at: &Self::At, speed: f32) -> bool;
 }
 
@@ -94,9 +87,6 @@ pub struct OneCoefficient {
 
 impl OneCoefficient {
     /// A friction coefficient, 1e-6 to 1.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`.
     pub const fn new(friction: f32) -> Result<Self, Error> {
         let friction = attempt!(ranges::FRICTION.checked("friction", friction));
         Ok(Self { friction })

@@ -1,19 +1,17 @@
-//! Viscosity of a lubricant by temperature, from what its data sheet prints.
+//! Viscosity of a lubricant by temperature.
 
 use crate::error::{Error, Range, attempt, in_range};
 
 /// Temperature, K, of a lubricant: -123 to 227 degrees Celsius.
 pub const TEMPERATURE: Range = Range::new(150.0, 500.0);
 
-/// Dynamic viscosity, Pa s: thinner than water to as stiff as pitch.
+/// Dynamic viscosity, Pa s.
 const VISCOSITY: Range = Range::new(1e-4, 1e4);
 
-/// Least distance from the temperature at which the formula has a pole, K. There viscosity changes by half with each kelvin, and
-/// is 1e5 times that at 40 degrees Celsius for an oil with its pole at -67: no oil flows there.
+/// Least distance from the pole of the formula, K: no oil flows there.
 pub(super) const MARGIN: f32 = 10.0;
 
-/// Least and largest ratio of the two viscosities. Oils have 3 to 30 between 40 and 100 degrees Celsius; at 1.5 the pole lies 700 K
-/// below, and hardly anything depends on the temperature. 1e4 leaves room for temperatures further apart.
+/// Least and largest ratio of the two viscosities: 3 to 30 of oils between 40 and 100 degrees Celsius.
 const RATIO: Range = Range::new(1.5, 1e4);
 
 /// Temperatures at which data sheets print viscosities, K: 40 and 100 degrees Celsius.
@@ -22,11 +20,10 @@ const PRINTED: (f32, f32) = (313.15, 373.15);
 /// Loss of density of an oil, 1/K, and the temperature at which its density is printed, K.
 const EXPANSION: (f32, f32) = (6.5e-4, 288.15);
 
-/// Steps of Newton's method for a fifth root: a fifth of the way down each, and then twice the digits. From 1e8, the largest ratio
-/// of two viscosities, to its root 40 these are `ln(1e8/40)/ln(1.25)` = 66, and six more for the digits.
+/// Steps of Newton's method for a fifth root: from 1e8, the largest ratio of two viscosities, `ln(1e8/40)/ln(1.25)` = 66, and six more for the digits.
 const ROOT_STEPS: u8 = 80;
 
-/// What a data sheet prints of an oil, or of the base oil of a grease; unchecked.
+/// Data sheet of an oil, or of the base oil of a grease; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct OilData {
@@ -47,8 +44,8 @@ pub struct OilData {
 /// Theta_s = Theta_1 - (Theta_2 - Theta_1)/(v - 1)        v = (visc_1/visc_2)^(1/5)
 /// ```
 ///
-/// through two viscosities `visc_1`, `visc_2` at the temperatures `Theta_1 < Theta_2`. `Theta_s` is where it would have no bound;
-/// below the pour point, or 10 K above `Theta_s` if that is more, viscosity counts as there.
+/// through two viscosities `visc_1`, `visc_2` at the temperatures `Theta_1 < Theta_2`, with the pole `Theta_s`; below the pour point, or 10 K above
+/// `Theta_s` if that is more, viscosity counts as there.
 ///
 /// Four multiplications and a division where the laws of Vogel and of Walther (ASTM D341) take exponentials. Largest errors
 /// of the viscosity, from two printed at 40 and 100 degrees Celsius:
@@ -60,9 +57,8 @@ pub struct OilData {
 /// | Walther, 100 and 11.2 mm²/s (mineral, viscosity index 98) | 43 % | 67 % | 81 % |
 /// | Walther, 100 and 14.5 mm²/s (synthetic, viscosity index 150) | 35 % | 59 % | 77 % |
 ///
-/// Walther's oils are stiffer in the cold than the formula, three times at -20 degrees; a coefficient follows that weakly: it shifts by at most 0.27 of the
-/// difference of both coefficients. Where cold matters, take [`Viscosity::through`] with the temperatures that matter: through 0 and 40 degrees the
-/// mineral oil of the table is within 20 % from -20 to 60 degrees.
+/// Walther's oils are three times stiffer at -20 degrees; that shifts a coefficient by at most 0.27 of the difference of both coefficients. Through 0
+/// and 40 degrees ([`Viscosity::through`]) the mineral oil of the table is within 20 % from -20 to 60 degrees.
 ///
 /// ```
 /// use epas_friction::law::coefficient::{OilData, Viscosity};
@@ -88,10 +84,7 @@ pub struct Viscosity {
 }
 
 impl Viscosity {
-    /// From an oil's data sheet. At set-up, or in a constant.
-    ///
-    /// # Errors
-    /// [`Error`] naming `kinematic_viscosity_100`, `kinematic_viscosity_40`, `density` or `pour_point`.
+    /// From an oil's data sheet.
     pub const fn of_oil(data: &OilData) -> Result<Self, Error> {
         let OilData {
             kinematic_viscosity_40: cold,
@@ -100,19 +93,11 @@ impl Viscosity {
             pour_point,
         } = *data;
         attempt!(in_range("kinematic_viscosity_100", warm, 1e-7, 1e-2));
-        attempt!(in_range(
-            "kinematic_viscosity_40",
-            cold,
-            RATIO.minimum * warm,
-            RATIO.maximum * warm
-        ));
+        let (least, most) = (RATIO.minimum * warm, RATIO.maximum * warm);
+        attempt!(in_range("kinematic_viscosity_40", cold, least, most));
         attempt!(in_range("density", density, 500.0, 2000.0));
-        attempt!(in_range(
-            "pour_point",
-            pour_point,
-            TEMPERATURE.minimum,
-            PRINTED.0
-        ));
+        let (coldest, flows) = (TEMPERATURE.minimum, PRINTED.0);
+        attempt!(in_range("pour_point", pour_point, coldest, flows));
         let (at_cold, at_warm) = PRINTED;
         let (expansion, printed) = EXPANSION;
         let dense_cold = density * (1.0 - expansion * (at_cold - printed));
@@ -125,31 +110,19 @@ impl Viscosity {
     }
 
     /// Through two temperatures, K, 150 to 500, 10 K apart or more, with their dynamic viscosities, Pa s, 1e-4 to 1e4: the colder one
-    /// first; the viscosity there at least 1.5 times that of the warmer one, and at most as large as a pole 10 K below allows. The
-    /// temperature from which on it holds, K, is at most the colder one.
-    ///
-    /// # Errors
-    /// [`Error`] naming `temperature`, `viscosity` or `pour_point`.
+    /// first, at least 1.5 times as viscous, and at most as a pole 10 K below allows. The pour point, K, is at most the colder one.
     pub const fn through(
         cold: (f32, f32),
         warm: (f32, f32),
         pour_point: f32,
     ) -> Result<Self, Error> {
         attempt!(TEMPERATURE.checked("temperature", cold.0));
-        attempt!(in_range(
-            "temperature",
-            warm.0,
-            cold.0 + MARGIN,
-            TEMPERATURE.maximum
-        ));
+        let (least, most) = (cold.0 + MARGIN, TEMPERATURE.maximum);
+        attempt!(in_range("temperature", warm.0, least, most));
         attempt!(VISCOSITY.checked("viscosity", warm.1));
         attempt!(VISCOSITY.checked("viscosity", cold.1));
-        attempt!(in_range(
-            "pour_point",
-            pour_point,
-            TEMPERATURE.minimum,
-            cold.0
-        ));
+        let coldest = TEMPERATURE.minimum;
+        attempt!(in_range("pour_point", pour_point, coldest, cold.0));
         Self::folded(cold, warm, pour_point)
     }
 
@@ -157,20 +130,12 @@ impl Viscosity {
         // A stiffer oil would have its pole next to the colder temperature.
         let growth = 1.0 + (warm.0 - cold.0) / MARGIN;
         let square = growth * growth;
-        attempt!(in_range(
-            "viscosity",
-            cold.1,
-            RATIO.minimum * warm.1,
-            square * square * growth * warm.1
-        ));
+        let least = RATIO.minimum * warm.1;
+        let most = square * square * growth * warm.1;
+        attempt!(in_range("viscosity", cold.1, least, most));
         let root = fifth_root(cold.1 / warm.1);
         let pole = cold.0 - (warm.0 - cold.0) / (root - 1.0);
-        let least = pole + MARGIN;
-        let floor = if pour_point > least {
-            pour_point
-        } else {
-            least
-        };
+        let floor = pour_point.max(pole + MARGIN);
         Ok(Self {
             point: cold,
             pole,
@@ -179,7 +144,6 @@ impl Viscosity {
     }
 
     /// Dynamic viscosity, Pa s, at a temperature, K; below [`Self::floor`] as there. NaN gives NaN.
-    #[must_use]
     pub const fn at(&self, temperature: f32) -> f32 {
         let temperature = if temperature < self.floor {
             self.floor
@@ -193,13 +157,11 @@ impl Viscosity {
     }
 
     /// Temperature `Theta_s` at which the formula has its pole, K.
-    #[must_use]
     pub const fn pole(&self) -> f32 {
         self.pole
     }
 
     /// Temperature below which viscosity counts as there, K.
-    #[must_use]
     pub const fn floor(&self) -> f32 {
         self.floor
     }

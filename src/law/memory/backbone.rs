@@ -9,8 +9,7 @@
 //! | `SPIN_N` | `1.5 z / sqrt(1 + 2.25 z²)` | spin of an elliptic contact, within 0.003 of a contact integral |
 //!
 //! Both start with the slope 1.5. Errors in percent of gross sliding: against the backbone, beside the least that as many
-//! elements can have; and against exact Masing branches over random loops within loops, of four sines with amplitudes to one and
-//! a half breakaway angles.
+//! elements can have; and against exact Masing branches over random loops within loops, with amplitudes to one and a half breakaway angles.
 //!
 //! | table | backbone | least | loops: rms | loops: largest |
 //! |---|---|---|---|---|
@@ -23,11 +22,8 @@
 //! | `SPIN_8` | 0.8 | 0.4 | 0.7 | 3.0 |
 //! | `SPIN_10` | 0.4 | 0.25 | 0.5 | 2.2 |
 //!
-//! Below a turn of the first angle no element slides: such a loop has no loss. The exact one has less than 0.4 % of that
-//! of sliding there.
-//!
-//! `host-tests/tests/generators/backbones.rs` finds the least error of each size with its angles and weights, and holds the tables
-//! to theirs; `host-tests/tests/all/law/golden.rs` goes round the loops.
+//! Below a turn of the first angle no element slides: such a loop has no loss, the exact one less than 0.4 % of that of sliding.
+//! `host-tests/tests/generators/backbones.rs` finds the tables, `host-tests/tests/all/law/golden.rs` goes round the loops.
 
 /// One element of a backbone.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,10 +52,7 @@ impl<const N: usize> Backbone<N> {
         }; N];
         let mut index = 0;
         while index < N {
-            elements[index] = BackboneElement {
-                angle: angles[index],
-                weight: weights[index],
-            };
+            (elements[index].angle, elements[index].weight) = (angles[index], weights[index]);
             index += 1;
         }
         Self { elements, error }

@@ -10,7 +10,7 @@ use crate::stored::{Fingerprint, Fingerprinted};
 /// Largest load of load-exact elements over the reference load: 1e-3 to 1e6.
 pub const LARGEST_LOAD: Range = Range::new(1e-3, 1e6);
 
-/// Beyond this load over the reference all elements are in contact whatever it is; keeps NaN out.
+/// Load over the reference from which on all elements are in contact; keeps NaN out.
 const BOUNDLESS: f32 = 1e12;
 
 /// `N` elements, each in contact from a load of its own on: friction across the path under any load.
@@ -21,9 +21,8 @@ const BOUNDLESS: f32 = 1e12;
 /// `(F_max/F_ref)^(1/3)`.
 ///
 /// A Hertzian contact is a row of springs of constant stiffness that come into contact one after the other (Jaeger 1993,
-/// Ciavarella 1998, Popov and Hess 2015): `x` is the distance from its centre, `d` its approach. 3000 of them have Mindlin's
-/// curve at loads of 0.2, 1 and 5 to 4e-7. Stiffness then grows with the power 1/3 of the load and breakaway with 2/3, though
-/// no spring's stiffness changes, so that the elements stay passive.
+/// Ciavarella 1998, Popov and Hess 2015): `x` is the distance from its centre, `d` its approach. Stiffness then grows with the power 1/3 of the load
+/// and breakaway with 2/3, though no spring's stiffness changes, so that the elements stay passive.
 ///
 /// Error against 3000 springs over random load and angle, percent of the rms friction, eight elements, by amplitude in
 /// breakaway angles:
@@ -33,11 +32,9 @@ const BOUNDLESS: f32 = 1e12;
 /// | 0.5 to 1.6 | 8.1 | 3.8 | 1.3 |
 /// | 0.1 to 4 | 19 | 5.8 | 2.2 |
 ///
-/// Within 10 % of one load, amplitude 1: 10, 3.8, 2.5 and 1.8 % with four, six, eight and ten elements. There
-/// [`ProportionalElements`](super::ProportionalElements) have 1.2 %.
-///
-/// In full sliding the friction is `T+` or `-T-` to the bit; below a load of 8e-6 of the largest no element of eight is in
-/// contact, and friction is 0. f32 against f64: 8e-7 of the limit. Finite limits and any turn; a turn that is NaN or
+/// Within 10 % of one load, amplitude 1: 10, 3.8, 2.5 and 1.8 % with four, six, eight and ten elements; with
+/// [`ProportionalElements`](super::ProportionalElements) 1.2 %. In full sliding the friction is `T+` or `-T-` to the bit; below a load of 8e-6 of
+/// the largest no element of eight is in contact. f32 against f64: 8e-7 of the limit. Finite limits and any turn; a turn that is NaN or
 /// from `2^20` on counts as 0. 371 cycles for eight elements with the cube root.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LoadExactElements<const N: usize> {
@@ -48,12 +45,11 @@ pub struct LoadExactElements<const N: usize> {
 }
 
 impl<const N: usize> LoadExactElements<N> {
-    /// Elements of a mechanism that slides with `reference_limit`, N m (N), after `breakaway_angle`, rad (m), at
-    /// the reference load, for loads up to `largest_load` times that. A larger load is no error: the elements
-    /// then come closer to those in proportion.
+    /// Elements of a mechanism that slides with `reference_limit`, N m (N), after `breakaway_angle`, rad (m), at the reference load, for loads up
+    /// to `largest_load` times that; under larger ones they come closer to those in proportion.
     ///
     /// # Errors
-    /// `N` of 0; the field that is not within [`REFERENCE_LIMIT`], [`BREAKAWAY`] or 1e-3 to 1e6.
+    /// [`Error`] naming `N` (1 or more) or the field not within [`REFERENCE_LIMIT`], [`BREAKAWAY`] or [`LARGEST_LOAD`].
     pub const fn new(
         reference_limit: f32,
         breakaway_angle: f32,
@@ -82,12 +78,11 @@ impl<const N: usize> LoadExactElements<N> {
     }
 
     /// Stiffness of each element, N m/rad (N/m).
-    #[must_use]
     pub const fn stiffnesses(&self) -> [f32; N] {
         self.stiffnesses
     }
 
-    /// `b_i` at an approach `d`, N m/rad (N/m): what each element bears, but for a factor that all have in common; and their sum.
+    /// `b_i` at an approach `d`, N m/rad (N/m), and their sum.
     #[inline(always)]
     fn borne(&self, approach: f32) -> ([f32; N], f32) {
         let mut borne = [0.0; N];
@@ -124,11 +119,8 @@ fn approach(load: f32) -> f32 {
     root + root * (THIRD * off)
 }
 
-/// Friction as the sum of elements has it: the limit itself where all of them slide, whatever rounding has made of their
-/// sum.
-///
-/// Rounding takes from the sum at most `2^-24` for each addition, and five for the roundings of a limit and of the
-/// comparison. A sum as near to the limit without all elements sliding is off by as little.
+/// Friction by the sum of elements, or the limit itself where all of them slide: rounding takes from the sum at most `2^-24` for each addition,
+/// and five for the roundings of a limit and of the comparison.
 #[inline(always)]
 fn summed(friction: f32, count: usize, low: f32, high: f32) -> f32 {
     let almost = 1.0 - 0.5 * f32::EPSILON * (count as f32 + 4.0);
@@ -208,22 +200,20 @@ impl<const N: usize> Hysteresis for LoadExactElements<N> {
     }
 }
 
-/// Nodes and weights of Gauss and Legendre, found by the compiler in double precision, which never reaches the target.
+/// Nodes and weights of Gauss and Legendre, found by the compiler in double precision.
 struct Rule<const N: usize>;
 
 impl<const N: usize> Rule<N> {
-    /// Nodes on -1 to 1 from the left, each with its weight; weights add up to 2.
+    /// Nodes on -1 to 1 from the left, each with its weight.
     const NODES: [(f32, f32); N] = nodes();
 }
 
-/// Zeros of the Legendre polynomial of degree `N`, by Newton's method beside those found already (Maehly): each starts where
-/// the one before lies, and comes down to the next zero from outside.
+/// Zeros of the Legendre polynomial of degree `N`, by Newton's method beside those found already (Maehly), from outside.
 const fn nodes<const N: usize>() -> [(f32, f32); N] {
     let mut found = [0.0; N];
     let mut nodes = [(0.0, 0.0); N];
     let mut index = 0;
     while index < N {
-        // Outside of every zero that is left.
         let mut x = 1.0_f64;
         let mut steps = 0;
         while steps < 60 {
@@ -245,7 +235,6 @@ const fn nodes<const N: usize>() -> [(f32, f32); N] {
     nodes
 }
 
-/// The Legendre polynomial of this degree and its derivative.
 const fn legendre(degree: usize, x: f64) -> (f64, f64) {
     let (mut before, mut value) = (0.0, 1.0);
     let (mut slope_before, mut slope) = (0.0, 0.0);

@@ -24,18 +24,14 @@ pub struct Part<'a> {
 /// `N` elements whose limits are constant shares of the friction of gross sliding.
 ///
 /// `f_i <- clamp(f_i + k_i dtheta, -lambda_i T-, lambda_i T+)`, `T = sum f_i`, with `lambda_i = share w_i` and
-/// `k_i = share w_i T_ref / (z_i theta_b)`.
-///
-/// What is stored is `f_i / lambda_i`, which has the same limits for every element, and what is summed are differences from
-/// one of them: in full sliding all are alike, and the friction is `T+` or `T-` to the bit.
+/// `k_i = share w_i T_ref / (z_i theta_b)`. Stored are `f_i / lambda_i`, and summed are differences from one of them: in full sliding the friction is
+/// `T+` or `T-` to the bit.
 ///
 /// Each part starts with a stiffness of `1.5 share T_ref / theta_b`, of which eight elements have 97 %. The friction is
 /// within the error of its [table](super::backbone) where limits are those of the reference. Under a changing load its
-/// error is 8 % of the rms friction for loads of 0.5 to 1.6 times the reference, 27 % for 0.1 to 4: a contact's breakaway
-/// angle grows with the power 2/3 of its load, this one's with the first. Choose the reference at the preload. f32 against
-/// f64: 1e-6 of the limit, also after 200,000 ticks.
-///
-/// Finite limits and any turn; a turn that is NaN or from `2^20` on counts as 0. 190 cycles for eight elements.
+/// error is 8 % of the rms friction for loads of 0.5 to 1.6 times the reference, 27 % for 0.1 to 4: choose the reference at the preload. f32
+/// against f64: 1e-6 of the limit, also after 200,000 ticks. Finite limits and any turn; a turn that is NaN or from `2^20` on counts as 0. 190
+/// cycles for eight elements.
 ///
 /// ```
 /// use epas_friction::law::memory::{MemoryState, Part, ProportionalElements, SLIP_8};
@@ -65,16 +61,13 @@ pub struct ProportionalElements<const N: usize> {
 }
 
 impl<const N: usize> ProportionalElements<N> {
-    /// Elements of all parts together.
+    /// Elements of all parts together, in their order, but for the one with the largest share, which changes places with the first.
     ///
-    /// `reference_limit`: friction of gross sliding, N m (N), at which the parts have their breakaway angles:
-    /// mean of both directions at the preload. Elements stand in the order of the parts, but for the one with the largest share,
-    /// which changes places with the first.
+    /// `reference_limit`: friction of gross sliding, N m (N), at which the parts have their breakaway angles: mean of both directions at the preload.
     ///
     /// # Errors
-    /// `N` below 2; `reference_limit`; of a part `share` or `breakaway_angle`, of a backbone `angle` or `weight`, outside their ranges;
-    /// `parts` where they have not `N` elements together (the value is their number); `shares` where shares times weights do
-    /// not add up to 1 within 1e-3.
+    /// [`Error`] naming `N` (2 or more), `reference_limit`, `share` or `breakaway_angle` of a part, `angle` or `weight` of a backbone, `parts` where
+    /// they have not `N` elements together, or `shares` where shares times weights do not add up to 1 within 1e-3.
     pub const fn new(reference_limit: f32, parts: &[Part<'_>]) -> Result<Self, Error> {
         let number = attempt!(in_range("N", N as f32, FEWEST, f32::MAX));
         let reference_limit = attempt!(REFERENCE_LIMIT.checked("reference_limit", reference_limit));
@@ -118,8 +111,8 @@ impl<const N: usize> ProportionalElements<N> {
         Ok(elements.with_largest_first())
     }
 
-    /// Puts the element with the largest share first: `follow` adds up differences from the first element, and the sum leaves the
-    /// limits by no more than the rounding of what that one does not carry.
+    /// Puts the element with the largest share first: `follow` adds up differences from it, and the sum leaves the limits by no more than the
+    /// rounding of the rest.
     const fn with_largest_first(mut self) -> Self {
         let (mut largest, mut most) = (0, 0.0);
         let mut index = 0;
@@ -129,7 +122,7 @@ impl<const N: usize> ProportionalElements<N> {
             }
             index += 1;
         }
-        // In a walk, whose index the compiler knows to be within the array: set-up on a target must not panic either.
+        // In a walk, whose index the compiler knows to be within the array.
         let (shares, rates) = (self.shares, self.rates);
         index = 0;
         while index < N {
@@ -143,7 +136,6 @@ impl<const N: usize> ProportionalElements<N> {
     }
 
     /// Stiffness of each element, N m/rad (N/m): `k_i`.
-    #[must_use]
     pub fn stiffnesses(&self) -> [f32; N] {
         let mut stiffnesses = self.rates;
         for (stiffness, share) in stiffnesses.iter_mut().zip(&self.shares) {
@@ -152,8 +144,7 @@ impl<const N: usize> ProportionalElements<N> {
         stiffnesses
     }
 
-    /// What each element carries, N m (N): `f_i`. Their sum is the friction.
-    #[must_use]
+    /// Friction of each element, N m (N): `f_i`.
     pub fn torques(&self, state: &MemoryState<N>) -> [f32; N] {
         let mut torques = state.held;
         for (torque, share) in torques.iter_mut().zip(&self.shares) {

@@ -17,14 +17,11 @@ pub const FREE_PLAY: Range = Range::new(0.0, 1e3);
 ///
 /// Across-slip forces of both contacts push a ball in the same direction, until a third contact holds it: `x` is the ball's displacement
 /// in its clearance in terms of the turn, `g` half the clearance, and `(x - g)^(3/2)` Hertz's law of the third contact
-/// (which bears `2 mu F`, so that `K = N l_1/(2 c_3^(3/2))` of `N` balls does not depend on the load). With clearance this, not the
-/// contacts' own deflection, decides how far a nut turns before it slides.
+/// (which bears `2 mu F`, so that `K = N l_1/(2 c_3^(3/2))` of `N` balls does not depend on the load). With clearance this decides how far a nut
+/// turns before it slides. Stored energy is a convex function of `x` alone, and the slider moves towards the friction: passive, whatever the limits do.
 ///
-/// Friction is a fixed function of `x` that grows with it, so that stored energy is a convex function of `x`
-/// alone: `dE <= T dx`, and where the slider moves it moves towards the friction. Hence passive, whatever the limits do.
-///
-/// Exact in its formula; f32 against f64 is 5e-7 of the limit. 172 cycles, 100 where nothing slides. Finite limits and any turn; a
-/// turn that is NaN or from `2^20` on counts as 0.
+/// f32 against f64 is 5e-7 of the limit. 172 cycles, 100 where nothing slides. Finite limits and any turn; a turn that is NaN or from `2^20` on
+/// counts as 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SeatElement {
@@ -37,7 +34,7 @@ pub struct SeatElement {
     inverse_stiffness: f32,
 }
 
-/// Where the balls are in their seats.
+/// State of a seat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SeatState {
@@ -46,15 +43,14 @@ pub struct SeatState {
 
 impl SeatState {
     /// Turn from the middle of the play, rad (m).
-    #[must_use]
     pub const fn displacement(&self) -> f32 {
         self.displacement
     }
 
-    /// A state from a turn from the middle of the play. One beyond sliding is cut in the next tick.
+    /// A state from a turn from the middle of the play; beyond sliding it is cut in the next tick.
     ///
     /// # Errors
-    /// `displacement`, where it is NaN or beyond 1e6.
+    /// [`Error`] naming `displacement`, where it is NaN or beyond 1e6.
     pub const fn from_displacement(displacement: f32) -> Result<Self, Error> {
         let displacement = attempt!(Range::new(-1e6, 1e6).checked("displacement", displacement));
         Ok(Self { displacement })
@@ -62,11 +58,7 @@ impl SeatState {
 }
 
 impl SeatElement {
-    /// A seat with `free_play`, rad (m), to either side, which slides with `reference_limit`, N m (N), after
-    /// `breakaway_angle`, rad (m), beyond that play.
-    ///
-    /// # Errors
-    /// The field that is not within 0 to 1e3, [`REFERENCE_LIMIT`] or [`BREAKAWAY`].
+    /// A seat with `free_play`, rad (m), to either side, which slides with `reference_limit`, N m (N), after `breakaway_angle`, rad (m), beyond it.
     pub const fn new(
         reference_limit: f32,
         free_play: f32,
@@ -120,16 +112,11 @@ impl Elements for SeatElement {
 
 impl Hysteresis for SeatElement {
     fn stored_energy(&self, state: &Self::State) -> f32 {
-        let size = if state.displacement < 0.0 {
-            -state.displacement
-        } else {
-            state.displacement
-        };
-        let pressed = not_negative(size - self.free_play);
+        let pressed = not_negative(state.displacement.abs() - self.free_play);
         0.4 * self.stiffness * (pressed * pressed) * sqrt(pressed)
     }
 
-    /// None: the play is free, and the contact starts without stiffness.
+    /// The play is free, and the contact starts without stiffness.
     fn initial_stiffness(&self) -> f32 {
         0.0
     }
@@ -145,11 +132,8 @@ impl Stored for SeatState {
     const BYTES: usize = 4;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        port.number(
-            "displacement",
-            &mut self.displacement,
-            Range::new(-1e6, 1e6),
-        )
+        let turns = Range::new(-1e6, 1e6);
+        port.number("displacement", &mut self.displacement, turns)
     }
 }
 

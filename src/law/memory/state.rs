@@ -1,6 +1,4 @@
-//! What a set of elements remembers, and what a slider lets through.
-//!
-//! Sliders compare in an order that leaves a finite number finite, whatever the limits are: NaN never stays in a state.
+//! State of elements, and their sliders, which leave a finite number finite, whatever the limits are: NaN never stays in a state.
 
 use crate::error::{Error, Range, attempt, in_range};
 use crate::stored::{Port, Refusal, Stored};
@@ -8,11 +6,8 @@ use crate::stored::{Port, Refusal, Stored};
 /// Largest number that a state may hold, N m or N.
 pub(super) const LARGEST: f32 = 1e12;
 
-/// What each of `N` elements holds, N m (N), in the order of the elements.
-///
-/// Of [`ProportionalElements`](super::ProportionalElements) the friction over the element's share, so that a set of elements can
-/// be swapped for one with another table and the friction stays nearly as it was; of
-/// [`LoadExactElements`](super::LoadExactElements) the friction itself.
+/// Numbers of `N` elements, N m (N): of [`ProportionalElements`](super::ProportionalElements) the friction over the element's share, so that
+/// tables can be swapped while it runs; of [`LoadExactElements`](super::LoadExactElements) the friction itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MemoryState<const N: usize> {
     pub(super) held: [f32; N],
@@ -22,16 +17,15 @@ impl<const N: usize> MemoryState<N> {
     /// No element holds anything.
     pub const VIRGIN: Self = Self { held: [0.0; N] };
 
-    /// What each element holds, for export.
-    #[must_use]
+    /// Number of each element, for export.
     pub const fn held(&self) -> [f32; N] {
         self.held
     }
 
-    /// A state from what each element holds. What is beyond an element's limit is cut in the next tick.
+    /// A state from the number of each element; beyond an element's limit it is cut in the next tick.
     ///
     /// # Errors
-    /// `held`, where one is NaN or beyond 1e12.
+    /// [`Error`] naming `held`, where one is NaN or beyond 1e12.
     pub const fn from_held(held: [f32; N]) -> Result<Self, Error> {
         let mut index = 0;
         while index < N {
@@ -49,13 +43,11 @@ impl<const N: usize> defmt::Format for MemoryState<N> {
     }
 }
 
-/// Turns below this size, rad (m), are turns: `2^20`, 1.05e6, far beyond any sensor's.
+/// Turns below this size, rad (m), are turns: `2^20`, far beyond any sensor's.
 const TURN_BEYOND: f32 = 1_048_576.0;
 
-/// A turn: none where it is NaN or beyond any sensor's.
-///
-/// Bits of positive numbers rise with them, and those of NaN stand above all: a comparison of integers costs
-/// three cycles less than one of numbers. A power of two is a constant that the comparison itself holds.
+/// A turn, or none where it is NaN or beyond any sensor's. Bits of positive numbers rise with them, those of NaN above all: a comparison of
+/// integers costs three cycles less than one of numbers.
 #[inline(always)]
 pub(super) fn turned(turn: f32) -> f32 {
     let size = turn.to_bits() << 1;
@@ -66,15 +58,13 @@ pub(super) fn turned(turn: f32) -> f32 {
     }
 }
 
-/// A force, or the limit that it is beyond.
 #[inline(always)]
 pub(super) fn held(force: f32, low: f32, high: f32) -> f32 {
     let force = if force > high { high } else { force };
     if force < low { low } else { force }
 }
 
-/// Two at once, operation by operation: a core without reordering waits a cycle where an operation needs the result
-/// of the one before.
+/// Two at once, operation by operation: the core waits a cycle where an operation needs the result of the one before.
 #[inline(always)]
 pub(super) fn held_pair([f, g]: [f32; 2], low: [f32; 2], high: [f32; 2]) -> [f32; 2] {
     let f = if f > high[0] { high[0] } else { f };
@@ -84,7 +74,6 @@ pub(super) fn held_pair([f, g]: [f32; 2], low: [f32; 2], high: [f32; 2]) -> [f32
     [f, g]
 }
 
-/// A quantity that is not negative: 0 where it is.
 #[inline(always)]
 pub(super) fn not_negative(value: f32) -> f32 {
     if value < 0.0 { 0.0 } else { value }

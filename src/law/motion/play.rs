@@ -1,14 +1,11 @@
-//! A backlash, and a sensor behind one: what follows a turn only beyond it.
+//! A backlash, and a sensor behind one.
 
 use super::sensors::{NutAngle, Turn};
 use crate::error::{Error, Range, attempt, in_range};
 use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 
-/// A play of `half_width` to either side: the output follows the turn only after it has gone through the play.
-///
-/// `p <- clamp(p + dtheta, -h, h)`, moved `= dtheta - dp`. As wide as the noise of an encoder, it keeps a row of balls from
-/// turning round with every count. What has moved and what is in the play add up to the turn, to rounding. A NaN
-/// counts as no turn. Cost: 40 modelled cycles.
+/// A play of `half_width` to either side: the output follows the turn only beyond it, `p <- clamp(p + dtheta, -h, h)`, moved `= dtheta - dp`. As
+/// wide as the noise of an encoder, it keeps a row of balls from turning round with every count. NaN counts as no turn. Cost: 40 modelled cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Play {
@@ -23,11 +20,11 @@ pub struct PlayState {
     pub(super) direction: f32,
 }
 
-/// What the output does.
+/// Motion of the output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Moved {
-    /// How far it moves, rad (m).
+    /// Turn, rad (m).
     pub turn: f32,
     /// Direction of its last motion: 1 or -1; 0 before the first.
     pub direction: f32,
@@ -41,13 +38,11 @@ impl PlayState {
     };
 
     /// Turn from the middle of the play, rad (m), within its half width.
-    #[must_use]
     pub const fn position(&self) -> f32 {
         self.position
     }
 
     /// Direction of the output's last motion: 1 or -1; 0 before the first.
-    #[must_use]
     pub const fn direction(&self) -> f32 {
         self.direction
     }
@@ -55,28 +50,24 @@ impl PlayState {
 
 impl Play {
     /// A play of `half_width`, rad (m): 0 to 1e3. Without width the output follows every turn.
-    ///
-    /// # Errors
-    /// `half_width` out of range.
     pub const fn new(half_width: f32) -> Result<Self, Error> {
         let half_width = attempt!(in_range("half_width", half_width, 0.0, 1e3));
         Ok(Self { half_width })
     }
 
-    /// Half its width, rad (m).
     #[inline]
     pub(crate) const fn half_width(&self) -> f32 {
         self.half_width
     }
 
-    /// Makes a state that another play left one of this play.
+    /// Cuts a state of another play to this one.
     pub(crate) const fn take_over(&self, state: &mut PlayState) {
         if state.position.abs() > self.half_width {
             state.position = self.half_width.copysign(state.position);
         }
     }
 
-    /// What the output does under a turn, rad (m).
+    /// Motion of the output under a turn, rad (m).
     #[inline]
     pub fn follow(&self, state: &mut PlayState, turn: f32) -> Moved {
         let position = state.position + turn;
@@ -121,12 +112,9 @@ impl Play {
     }
 }
 
-/// An angle sensor `A` behind a [`Play`]: noise within the play turns nothing.
-///
-/// For friction that is compensated. Elements that follow a noisy angle are shaken: springs with short travel slip to and fro,
-/// friction sets in earlier than it should, and the compensation drives what it ought to follow
-/// ([`compensation`](crate::law::compensation)). Behind a play as wide as the noise they stand still with the nut; after a reversal they
-/// are late by its width, `2 half_width`. 30 cycles beyond the sensor's.
+/// An angle sensor `A` behind a [`Play`] as wide as its noise, for friction that is compensated
+/// ([`compensation`](crate::law::compensation)): elements stand still with the nut, and after a reversal are late by `2 half_width`. 30 cycles
+/// beyond the sensor's.
 ///
 /// ```
 /// use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Deadband, Turn};
@@ -151,7 +139,7 @@ pub struct Deadband<A> {
     pub(super) play: Play,
 }
 
-/// The last good reading, and where the play is.
+/// The last good reading, and the state of the play.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct DeadbandReading<S> {
@@ -160,10 +148,7 @@ pub struct DeadbandReading<S> {
 }
 
 impl<A: Copy> Deadband<A> {
-    /// A sensor behind a play of `half_width`, rad (m): 0 to 1e3; at least half the width of the noise, counts included.
-    ///
-    /// # Errors
-    /// [`Error`] naming `half_width`.
+    /// A sensor behind a play of `half_width`, rad (m), 0 to 1e3: at least half the width of the noise, counts included.
     pub const fn new(angle: A, half_width: f32) -> Result<Self, Error> {
         let play = attempt!(Play::new(half_width));
         Ok(Self { angle, play })
@@ -217,7 +202,6 @@ impl<A: Fingerprinted> Fingerprinted for Deadband<A> {
 mod tests {
     use super::{Play, PlayState};
 
-    /// What a wider play left beyond this one is at its edge; what is inside stays.
     #[test]
     fn a_state_of_a_wider_play_is_cut() {
         let play = Play::new(1.0).unwrap();

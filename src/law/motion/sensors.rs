@@ -1,31 +1,23 @@
-//! Sensors of the nut's angle: what two readings say of a turn.
+//! Sensors of the nut's angle.
 
 use crate::error::{Error, Range, attempt, in_range};
 use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 
-/// Largest turn of a tick that a set-up may allow, rad (m): 1e-6 to 1e3.
+/// Largest turn of a tick, rad (m).
 pub const LARGEST_TURN: Range = Range::new(1e-6, 1e3);
 
-/// The largest turn of a sensor that starts again after twice `half`: it cannot tell more than half a period.
-///
-/// # Errors
-/// [`Error`] naming `largest_turn`.
 pub(super) const fn within_half(largest_turn: f32, half: f32) -> Result<f32, Error> {
-    let most = if half < LARGEST_TURN.maximum {
-        half
-    } else {
-        LARGEST_TURN.maximum
-    };
+    let most = half.min(LARGEST_TURN.maximum);
     in_range("largest_turn", largest_turn, LARGEST_TURN.minimum, most)
 }
 
-/// What two readings say of the turn between them.
+/// Turn between two readings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Turn {
     /// The turn, rad (m); none at the first reading.
     Measured(f32),
-    /// More than the largest turn that a tick can have: cut to that.
+    /// Beyond the largest turn of a tick, and cut to that.
     Limited(f32),
     /// The reading is not valid. Friction holds; the next reading's turn spans the gap.
     Unknown,
@@ -34,7 +26,6 @@ pub enum Turn {
 impl Turn {
     /// The turn to apply, rad (m): 0 where it is unknown.
     #[inline]
-    #[must_use]
     pub const fn angle(self) -> f32 {
         match self {
             Self::Measured(turn) | Self::Limited(turn) => turn,
@@ -49,7 +40,6 @@ impl Turn {
         matches!(self, Self::Measured(_))
     }
 
-    /// A turn as it is, cut to `largest`.
     #[inline]
     pub(super) fn within(turn: f32, largest: f32) -> Self {
         if turn > largest {
@@ -64,7 +54,7 @@ impl Turn {
 
 /// A sensor of the nut's angle: constants, folded at set-up.
 pub trait NutAngle {
-    /// What the sensor gives.
+    /// A reading of the sensor.
     type Reading: Copy;
     /// The last good reading.
     type State: Copy + core::fmt::Debug + PartialEq;
@@ -72,7 +62,7 @@ pub trait NutAngle {
     /// No reading yet.
     const FRESH: Self::State;
 
-    /// Whether this sensor can have left such a state: one that was read from bytes may be that of another sensor.
+    /// Whether this sensor can have left such a state.
     fn is_valid_state(&self, state: &Self::State) -> bool {
         let _ = state;
         true
@@ -82,7 +72,7 @@ pub trait NutAngle {
     fn turn(&self, state: &mut Self::State, reading: Self::Reading) -> Turn;
 }
 
-/// A counter of angle as it is set up.
+/// Parameters of a counter of angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CountSensorParameters {
     /// Counts after which the counter starts again at 0: 2 to `u32::MAX`; 0 for a counter of all 32 bits.
@@ -90,15 +80,14 @@ pub struct CountSensorParameters {
     /// Turn of the nut for one count, rad (m), negative where the counter runs the other way; size 1e-9 to 1.
     /// A motor's encoder of 14 bits with a belt of ratio 2.5: `2 pi / 16384 / 2.5`.
     pub turn_per_count: f32,
-    /// Most that the nut turns between two readings, rad (m): largest speed times the longest gap. [`LARGEST_TURN`](super::LARGEST_TURN), and at
-    /// most half a period: a counter cannot tell more.
+    /// Largest turn of the nut between two readings, rad (m): largest speed times the longest gap, within
+    /// [`LARGEST_TURN`](super::LARGEST_TURN), and at most half a period.
     pub largest_turn: f32,
 }
 
 /// Nut angle from a counter: `dtheta = ((n - n_last + P/2) mod P - P/2) turn_per_count`, the shorter way round.
 ///
-/// The difference is exact, the turn rounded once (below 2^24 counts). A count of the period or more is no reading. Half
-/// a period is taken as backwards. 60 cycles.
+/// The difference is exact, the turn rounded once (below 2^24 counts). A count of the period or more is no reading. 60 cycles.
 ///
 /// ```
 /// use epas_friction::law::motion::{CountSensor, CountSensorParameters, NutAngle, Turn};
@@ -131,9 +120,6 @@ pub struct CountReading(pub(super) Option<u32>);
 
 impl CountSensor {
     /// Constants of a counter.
-    ///
-    /// # Errors
-    /// The field that is out of range.
     pub const fn new(parameters: CountSensorParameters) -> Result<Self, Error> {
         let CountSensorParameters {
             period,
@@ -161,14 +147,12 @@ impl CountSensor {
         })
     }
 
-    /// Counts from `last` to `now`, the shorter way.
     #[inline]
     const fn counts(&self, last: u32, now: u32) -> i32 {
         let forward = now.wrapping_sub(last);
         if self.period == 0 {
             return forward.cast_signed();
         }
-        // Both are below the period.
         let forward = if now < last {
             forward.wrapping_add(self.period)
         } else {
@@ -227,23 +211,21 @@ impl Fingerprinted for CountSensor {
     }
 }
 
-/// An angle as it is set up.
+/// Parameters of an angle in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WrappedAngleParameters {
     /// Smallest angle, rad: -1e6 to 1e6; 0 or minus half a period.
     pub lowest: f32,
-    /// Turn after which it starts again at `lowest`, rad: 1e-3 to 1e6. As the sensor's side rounds it: an f32 of a full turn
-    /// is 1.7e-7 rad more than one, which adds up over turns in one direction and has no effect on a reversal.
+    /// Turn after which it starts again at `lowest`, rad, as the sensor rounds it: 1e-3 to 1e6.
     pub period: f32,
-    /// Most that the nut turns between two readings, rad: [`LARGEST_TURN`](super::LARGEST_TURN), and at most half a period.
+    /// Largest turn of the nut between two readings, rad: within [`LARGEST_TURN`](super::LARGEST_TURN), and at most half a period.
     pub largest_turn: f32,
 }
 
 /// Nut angle in radians: `dtheta = theta - theta_last`, the shorter way round.
 ///
-/// Differences of neighbours are exact (Sterbenz) where neither is over twice the other; across the end both distances
-/// from it are, and the turn is rounded once. What is left is the readings' own resolution: half an ulp, 2e-7 rad near a
-/// full turn. An angle outside `lowest` to `lowest + period` or NaN is no reading. 65 cycles.
+/// Differences of neighbours are exact (Sterbenz) where neither is over twice the other; across the end the turn is rounded once. An angle outside
+/// `lowest` to `lowest + period` or NaN is no reading. 65 cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct WrappedAngle {
@@ -260,9 +242,6 @@ pub struct AngleReading(pub(super) Option<f32>);
 
 impl WrappedAngle {
     /// Constants of an angle.
-    ///
-    /// # Errors
-    /// The field that is out of range.
     pub const fn new(parameters: WrappedAngleParameters) -> Result<Self, Error> {
         let WrappedAngleParameters {
             lowest,
@@ -308,7 +287,6 @@ impl NutAngle for WrappedAngle {
 
     #[inline]
     fn turn(&self, state: &mut Self::State, reading: f32) -> Turn {
-        // False for NaN.
         if !(reading >= self.lowest && reading <= self.highest) {
             return Turn::Unknown;
         }
@@ -341,11 +319,8 @@ impl Fingerprinted for WrappedAngle {
     }
 }
 
-/// Turn from a speed: `dtheta = omega_N dt`.
-///
-/// For simulations, whose speed has no noise, and for sensors without an angle. Noise adds up: `sigma sqrt(t dt)` after a time
-/// `t`, 1.6 mrad after a second of 0.05 rad/s at 1 kHz. NaN is no reading, and its turn is lost.
-/// Cost: 30 modelled cycles.
+/// Turn from a speed, `dtheta = omega_N dt`: for simulations, and sensors without an angle. Noise adds up: `sigma sqrt(t dt)` after a time `t`. NaN is
+/// no reading, and its turn is lost. Cost: 30 modelled cycles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct SpeedOverTick {
@@ -355,9 +330,6 @@ pub struct SpeedOverTick {
 
 impl SpeedOverTick {
     /// Constants: the tick, s (1e-7 to 10), and the largest turn of one, rad (m) ([`LARGEST_TURN`]).
-    ///
-    /// # Errors
-    /// The field that is out of range.
     pub const fn new(tick: f32, largest_turn: f32) -> Result<Self, Error> {
         attempt!(in_range("tick", tick, 1e-7, 10.0));
         attempt!(LARGEST_TURN.checked("largest_turn", largest_turn));

@@ -23,7 +23,6 @@ use crate::scene::words::{HEADER, Layout, float, floats};
 /// First word of a block: `EPAS` as bytes, least significant first.
 const MAGIC: u32 = 0x5341_5045;
 
-/// Version of the layout.
 const VERSION: u32 = 1;
 
 /// Numbers that do not depend on the nodes, and words of a node.
@@ -41,7 +40,7 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
         nodes: NODES,
     };
 
-    /// Reads a block that `epas-design` wrote; for constants too. Its numbers are not checked, but for the checksum over them.
+    /// Reads a block that `epas-design` wrote, and checks its checksum, not its numbers.
     ///
     /// # Errors
     /// [`Error`] naming `magic`, `version`, `nodes`, `words` (how many there are) or `checksum` (0 for one that is wrong).
@@ -78,7 +77,7 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
         })
     }
 
-    /// Writes the block, with the digest of what it was folded from, to the begin of `words`: for a host.
+    /// Writes the block, with the digest of its inputs, to the begin of `words`: for a host.
     ///
     /// # Errors
     /// [`Error`] naming `words`, where there are fewer than [`Self::WORDS`].
@@ -116,7 +115,7 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
 }
 
 impl<const NODES: usize> CagedConstants<NODES> {
-    /// Constants of a block that `epas-design` wrote: in a constant when firmware is compiled, or of a calibration page.
+    /// Constants of a block that `epas-design` wrote.
     ///
     /// # Errors
     /// [`Error`] naming `magic`, `version`, `nodes`, `words` or `checksum` of words that are no block, or a

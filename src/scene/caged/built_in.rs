@@ -1,7 +1,6 @@
-//! The built-in designs as folded blocks, for who has no host: `built_in.bin`, which `epas design --store` writes.
+//! The built-in designs as folded blocks: `built_in.bin`, which `epas design --store` writes.
 //!
-//! The file is one block after another in the order of the catalogues, each word with its least significant byte first. A program that does not name
-//! [`built_in`] links nothing of it; a constant that takes one design links that design's numbers alone.
+//! The file is one block after another in the order of the catalogues, each word with its least significant byte first.
 
 use super::CagedBallScrewConfiguration;
 use crate::geometry::position;
@@ -14,7 +13,7 @@ const BYTES: usize = WORDS * size_of::<u32>();
 
 static FILE: &[u8] = include_bytes!("built_in.bin");
 
-/// The words of the first block of some bytes; those that are not there are 0.
+/// The words of the first block of some bytes, 0 behind their end.
 const fn words(bytes: &[u8]) -> [u32; WORDS] {
     let mut words = [0; WORDS];
     let (mut rest, mut number) = (bytes, 0);
@@ -28,13 +27,12 @@ const fn words(bytes: &[u8]) -> [u32; WORDS] {
     words
 }
 
-/// The folded law of a built-in design ([`CATALOGUE`](crate::CATALOGUE), [`FINE_LEAD_SIZES`](crate::geometry::FINE_LEAD_SIZES),
-/// [`STEERING_SIZES`](crate::geometry::STEERING_SIZES), [`DISSERTATION_DESIGNS`](crate::DISSERTATION_DESIGNS)) by its name, for balls that do not touch:
-/// without a host.
+/// Folded law of a built-in design ([`CATALOGUE`](crate::CATALOGUE), [`FINE_LEAD_SIZES`](crate::geometry::FINE_LEAD_SIZES),
+/// [`STEERING_SIZES`](crate::geometry::STEERING_SIZES), [`DISSERTATION_DESIGNS`](crate::DISSERTATION_DESIGNS)) by its name, for balls that do not touch.
 ///
 /// Folded for [`defaults::CLEARANCE`](crate::defaults::CLEARANCE), [`defaults::ROLLING_RESISTANCE`](crate::defaults::ROLLING_RESISTANCE), 5 to 300 N a ball and
-/// friction coefficients 0.05 to 0.15. Whatever is not of the geometry is the user's to change: `friction` (0.1), `loaded_balls` (of 2.5 turns, or those
-/// of the dissertation), `reversal_speed` (2 rad/s), `limits` (2000 rad/s, 100 kN, 100 N m).
+/// friction coefficients 0.05 to 0.15. To change: `friction` (0.1), `loaded_balls` (of 2.5 turns, or those of the dissertation),
+/// `reversal_speed` (2 rad/s), `limits` (2000 rad/s, 100 kN, 100 N m).
 ///
 /// Errors against the exact ball over the designs, each at 2048 states of both signs:
 ///
@@ -66,7 +64,6 @@ const fn words(bytes: &[u8]) -> [u32; WORDS] {
 /// let torque = model.step(Inputs { nut_speed: 10.0, axial_load: 5e3 }).friction_torque;
 /// assert!(torque > 0.2 && torque < 0.6, "{torque}");
 /// ```
-#[must_use]
 pub const fn built_in(name: &str) -> Option<CagedBallScrewConfiguration<BUILT_IN_NODES>> {
     let Some(place) = position(name) else {
         return None;

@@ -2,8 +2,7 @@
 
 use crate::error::{Error, attempt, in_range};
 
-/// Samples of a period: 256 bytes of flash. Straight lines between them are within 1.2e-3 of a wave's amplitude, and eight stand for
-/// a wave of [`HIGHEST_ORDER`].
+/// Samples of a period. Straight lines between them are within 1.2e-3 of a wave's amplitude; eight stand for a wave of [`HIGHEST_ORDER`].
 const SAMPLES: usize = 64;
 
 /// Bits of a phase that count: 6 for the sample, 14 for the fraction of the distance to the next one.
@@ -20,8 +19,7 @@ pub const LARGEST_DEVIATION: f32 = 0.2;
 /// Highest order of a harmonic: eight samples to a wave.
 pub const HIGHEST_ORDER: u8 = 8;
 
-/// One wave of a deviation along a groove: `cosine cos(order p) + sine sin(order p)` at the phase `p` of
-/// the map's period.
+/// One wave of a deviation along a groove: `cosine cos(order p) + sine sin(order p)` at the phase `p` of the period.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Harmonic {
@@ -62,7 +60,6 @@ pub struct DeviationMap {
     turns: u16,
 }
 
-/// No deviation.
 impl Default for DeviationMap {
     fn default() -> Self {
         Self::NONE
@@ -93,18 +90,9 @@ impl DeviationMap {
                 sine,
             } = harmonics[wave];
             attempt!(in_range("order", order as f32, 0.0, HIGHEST_ORDER as f32));
-            attempt!(in_range(
-                "cosine",
-                cosine,
-                -LARGEST_DEVIATION,
-                LARGEST_DEVIATION
-            ));
-            attempt!(in_range(
-                "sine",
-                sine,
-                -LARGEST_DEVIATION,
-                LARGEST_DEVIATION
-            ));
+            let most = LARGEST_DEVIATION;
+            attempt!(in_range("cosine", cosine, -most, most));
+            attempt!(in_range("sine", sine, -most, most));
             let mut sample = 0;
             while sample < SAMPLES {
                 let phase = sample * order as usize;
@@ -123,34 +111,20 @@ impl DeviationMap {
     /// [`Error`] naming `turns` (1 to 100), or `deviation` (plus or minus [`LARGEST_DEVIATION`]).
     pub const fn from_samples(turns: u16, deviations: &[f32; SAMPLES]) -> Result<Self, Error> {
         attempt!(in_range("turns", turns as f32, 1.0, 100.0));
-        let mut largest = 1e-9;
+        let mut largest: f32 = 1e-9;
         let mut sample = 0;
         while sample < SAMPLES {
-            let deviation = deviations[sample];
-            attempt!(in_range(
-                "deviation",
-                deviation,
-                -LARGEST_DEVIATION,
-                LARGEST_DEVIATION,
-            ));
-            let size = if deviation < 0.0 {
-                -deviation
-            } else {
-                deviation
-            };
-            largest = if size > largest { size } else { largest };
+            let (deviation, most) = (deviations[sample], LARGEST_DEVIATION);
+            attempt!(in_range("deviation", deviation, -most, most));
+            largest = largest.max(deviation.abs());
             sample += 1;
         }
         let scale = LARGEST / largest;
         let mut rounded = [0_i16; SAMPLES];
-        let mut sample = 0;
+        sample = 0;
         while sample < SAMPLES {
             let scaled = deviations[sample] * scale;
-            rounded[sample] = (if scaled < 0.0 {
-                scaled - 0.5
-            } else {
-                scaled + 0.5
-            }) as i16;
+            rounded[sample] = (scaled + 0.5_f32.copysign(scaled)) as i16;
             sample += 1;
         }
         let mut samples = [0; SAMPLES];
@@ -169,14 +143,11 @@ impl DeviationMap {
     }
 
     /// Turns of a ball screw in a period.
-    #[must_use]
     pub const fn turns(&self) -> u16 {
         self.turns
     }
 
-    /// Bound of the size of [`DeviationMap::at`] at any phase, rad: the largest sample, to a rounding of `f32`. That between two samples is
-    /// within them, as an integer, and rounding keeps the order of what it rounds. A law folded for it holds the whole map.
-    #[must_use]
+    /// Bound of the size of [`DeviationMap::at`] at any phase, rad: the largest sample, to a rounding of `f32`.
     pub const fn largest(&self) -> f32 {
         self.unit * (LARGEST * (1_u32 << FRACTION_BITS) as f32)
     }
@@ -188,35 +159,27 @@ impl DeviationMap {
         in_range(field, self.largest(), 0.0, largest * margin)
     }
 
-    /// Its least and its largest deviation, rad.
     pub(crate) const fn extremes(&self) -> (f32, f32) {
-        let (mut least, mut largest) = (i32::MAX, i32::MIN);
+        let (mut least, mut largest) = (f32::INFINITY, f32::NEG_INFINITY);
         let mut index = 0;
         while index < SAMPLES {
             // The lower half is the signed step to the next sample, which borrows from the upper one where it is below zero.
-            let sample = (self.samples[index] + 0x8000) >> 16;
-            if sample < least {
-                least = sample;
-            }
-            if sample > largest {
-                largest = sample;
-            }
+            let sample = ((self.samples[index] + 0x8000) >> 16) as f32;
+            (least, largest) = (least.min(sample), largest.max(sample));
             index += 1;
         }
         let unit = self.unit * (1_u32 << FRACTION_BITS) as f32;
-        (unit * least as f32, unit * largest as f32)
+        (unit * least, unit * largest)
     }
 
     /// Deviation at a phase of the period in units of 2^-32, rad: linear between samples, which is within
     /// `(pi order/64)²/2` of a wave's amplitude, 1.2e-3 for the first order.
     #[inline]
-    #[must_use]
     pub fn at(&self, phase: u32) -> f32 {
         self.units(phase >> (32 - PHASE_BITS)) as f32 * self.unit
     }
 
-    /// Deviation at a phase in units of 2^-20 of the period, as a multiple of [`DeviationMap::unit`]; full
-    /// periods do not count.
+    /// Deviation at a phase in units of 2^-20 of the period, over [`DeviationMap::unit`]; full periods do not count.
     #[inline(always)]
     pub(super) fn units(&self, phase: u32) -> i32 {
         let index = (phase >> FRACTION_BITS) as usize % SAMPLES;
@@ -228,7 +191,6 @@ impl DeviationMap {
         })
     }
 
-    /// Deviation of one unit of [`DeviationMap::units`], rad.
     #[inline(always)]
     pub(super) const fn unit(&self) -> f32 {
         self.unit
@@ -285,13 +247,9 @@ mod tests {
                             "{order} {at} {least} {largest}"
                         );
                     }
-                    let size = if -least > largest { -least } else { largest };
                     // A map of zeros keeps 1e-9 rad to divide by.
-                    assert!(
-                        (size - map.largest()).abs() <= rounding.max(1e-9),
-                        "{order} {size} {}",
-                        map.largest()
-                    );
+                    let off = (largest.max(-least) - map.largest()).abs();
+                    assert!(off <= rounding.max(1e-9), "{order} {least} {largest}");
                 }
             }
         }

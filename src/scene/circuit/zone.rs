@@ -1,24 +1,22 @@
 //! Where on the track balls carry load, and what they find there.
 
+use super::UNITS;
 use super::deviation::{DeviationMap, PHASE_BITS};
-use super::phase::UNITS;
 use crate::ball::{LoadShare, LoadShares};
 use crate::error::{Error, attempt};
 
 /// Fraction bits of the ratio of the load table's entries.
 const FRACTION_BITS: u32 = 16;
 
-/// Deviation maps of both grooves and the shares of the load, in integers along the track.
-///
-/// The track runs through the body in which balls recirculate (nut, carriage): first the loaded part,
-/// then the return. The other groove (screw, rail) passes by.
+/// Deviation maps of both grooves and the shares of the load, in integers along the track: first the loaded part of the body in which balls
+/// recirculate (nut, carriage), then the return. The other groove (screw, rail) passes by.
 ///
 /// Between load and return is a run-in of one pitch, half of it on either side of the border (of the whole return where that is shorter):
 /// on it a ball takes up its load in proportion to the way, so that as many balls carry in the mean as stand on the loaded part, and where
 /// balls touch the sum of their parts is the same at every angle. A track without return has no run-in.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub(super) struct LoadedZone {
+pub(crate) struct LoadedZone {
     /// Half the length of a run-in, that of a whole one, and that from the begin of the first to the end of the last, in units of 2^-32 of
     /// the track.
     half_run_in: u32,
@@ -39,18 +37,16 @@ pub(super) struct LoadedZone {
     shares: LoadShares,
 }
 
-/// A loaded ball: deviations of the grooves at its contacts.
+/// Deviations of the grooves at the contacts of a loaded ball, as multiples of [`LoadedZone::units`].
 pub(crate) struct LoadedBall {
-    /// Deviation of the groove that passes by, as a multiple of the first of [`LoadedZone::units`].
     pub(crate) passing: f32,
-    /// Deviation of the groove of the body in which balls recirculate, as a multiple of the second.
     pub(crate) recirculating: f32,
     /// Part of its load which it carries on the run-in, above 0; 1 between the run-ins.
     pub(crate) run_in: f32,
 }
 
-/// How the balls share a load at their present positions. The load of a ball is `F w/sum(w)`, with its weight `w`: its share of the mean load
-/// times its part on the run-in. All loads add up to `F` at every position.
+/// How the balls share a load `F` at their present positions: a ball carries `F w/sum(w)`, with its share of the mean load times its part on
+/// the run-in as weight `w`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sharing {
     /// Sum of all weights, and 1 / it; both 0 where no ball is loaded.
@@ -60,21 +56,16 @@ pub(crate) struct Sharing {
     pub(crate) extremes: [f32; 2],
 }
 
-/// Lengths of a track, in turns or wavelengths of the maps.
-pub(super) struct Lengths {
-    /// Loaded part.
-    pub(super) loaded: f32,
-    /// Return.
-    pub(super) returning: f32,
-    /// Whole track.
-    pub(super) length: f32,
+pub(crate) struct Lengths {
+    pub(crate) loaded: f32,
+    pub(crate) returning: f32,
+    pub(crate) length: f32,
     /// Distance of the centres of two balls in contact.
-    pub(super) pitch: f32,
+    pub(crate) pitch: f32,
 }
 
 impl LoadedZone {
-    /// A track of these lengths.
-    pub(super) const fn new(
+    pub(crate) const fn new(
         lengths: &Lengths,
         passing: &'static DeviationMap,
         recirculating: &'static DeviationMap,
@@ -90,12 +81,7 @@ impl LoadedZone {
         let entries =
             shares.positive.len() as f32 * length / loaded * (1_u32 << FRACTION_BITS) as f32;
         // Half of it on either side of a border: one is no longer than the return, in which both meet, nor than the loaded part.
-        let shorter = if returning < loaded {
-            returning
-        } else {
-            loaded
-        };
-        let run_in = if pitch < shorter { pitch } else { shorter };
+        let run_in = pitch.min(returning).min(loaded);
         let half_run_in = (0.5 * run_in / length * UNITS) as u32;
         let run_in = 2 * half_run_in;
         // Without a return the whole track, but for the unit that does not fit into 32 bits.
@@ -120,15 +106,14 @@ impl LoadedZone {
         })
     }
 
-    /// Shares of the balls where the load is below zero, or else where it is not.
+    /// Shares of the balls where the load is below zero, or where it is not.
     #[inline(always)]
-    pub(super) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
+    pub(crate) const fn shares(&self, negative: bool) -> &'static [LoadShare] {
         self.shares.of(negative)
     }
 
-    /// The ball at `position`, if it is loaded, when the passing groove is at `phase`.
     #[inline(always)]
-    pub(super) fn at(&self, position: u32, phase: u32) -> Option<LoadedBall> {
+    pub(crate) fn at(&self, position: u32, phase: u32) -> Option<LoadedBall> {
         let place = position.wrapping_add(self.half_run_in);
         let run_in = self.run_in(place)?;
         // Counted from the begin of the first run-in, so that nothing jumps where the track closes within it.
@@ -145,7 +130,7 @@ impl LoadedZone {
 
     /// How balls at these positions share a load, by the [`LoadedZone::shares`] of this tick.
     #[inline(always)]
-    pub(super) fn sharing(
+    pub(crate) fn sharing(
         &self,
         positions: impl Iterator<Item = u32>,
         balls: u16,
@@ -184,15 +169,14 @@ impl LoadedZone {
         }
     }
 
-    /// Whether the track has no return, and no run-in.
     #[inline(always)]
-    pub(super) const fn is_closed(&self) -> bool {
+    pub(crate) const fn is_closed(&self) -> bool {
         self.run_in == 0
     }
 
     /// Part of its load that a ball carries at a position; 0 in the return.
     #[inline(always)]
-    pub(super) fn part(&self, position: u32) -> f32 {
+    pub(crate) fn part(&self, position: u32) -> f32 {
         if self.is_closed() {
             return 1.0;
         }
@@ -214,10 +198,9 @@ impl LoadedZone {
         }
     }
 
-    /// The share at a position: linear between the middles of the table's parts. Beyond the first and the last of them it is theirs; on a track
-    /// without return, the one follows on the other.
+    /// Share at a position: linear between the middles of the table's parts; beyond the first and the last it is theirs, unless the track closes.
     #[inline(always)]
-    pub(super) fn share(&self, position: u32, shares: &'static [LoadShare]) -> f32 {
+    pub(crate) fn share(&self, position: u32, shares: &'static [LoadShare]) -> f32 {
         const ONE: u32 = 1 << FRACTION_BITS;
         if let [all] = shares {
             return all.share();
@@ -237,25 +220,22 @@ impl LoadedZone {
         of(below) + fraction * (of(above) - of(below))
     }
 
-    /// Units of the deviations of the passing groove and of the recirculating one, rad.
     #[inline(always)]
-    pub(super) const fn units(&self) -> (f32, f32) {
+    pub(crate) const fn units(&self) -> (f32, f32) {
         (self.passing.unit(), self.recirculating.unit())
     }
 
-    /// Turns of the maps in a period of the passing groove.
     #[inline]
-    pub(super) fn passing_turns(&self) -> f32 {
+    pub(crate) fn passing_turns(&self) -> f32 {
         f32::from(self.passing.turns())
     }
 
     /// Phase of the passing groove, in units of 2^-32, per turn or wavelength.
-    pub(super) const fn phase_per_turn(&self) -> f32 {
+    pub(crate) const fn phase_per_turn(&self) -> f32 {
         UNITS / self.passing.turns() as f32
     }
 }
 
-/// A position times a ratio of full tracks.
 #[inline(always)]
 const fn scaled(position: u32, ratio: u32) -> u32 {
     ((position as u64 * ratio as u64) >> 32) as u32
@@ -304,7 +284,6 @@ mod tests {
         (0..balls).map(move |ball| distance(ball, step))
     }
 
-    /// Loads of the balls over the axial load.
     fn loads(zone: &LoadedZone, positions: impl Iterator<Item = u32> + Clone) -> [f32; MOST] {
         let shares = zone.shares(false);
         let sharing = zone.sharing(positions.clone(), positions.clone().count() as u16, shares);
@@ -316,7 +295,7 @@ mod tests {
         loads
     }
 
-    /// At every angle, under shares of their own too; and in the mean as many balls carry as stand on the loaded part.
+    /// At every angle; and in the mean as many balls carry as stand on the loaded part.
     #[test]
     fn loads_add_up() {
         for (balls, lengths) in [
@@ -350,7 +329,6 @@ mod tests {
         }
     }
 
-    /// Shares are linear between the middles of their parts, with and without a return.
     #[test]
     fn shares_are_linear() {
         for (returning, at_start) in [(0.0, 0.65), (1.0, 0.4)] {
@@ -370,8 +348,7 @@ mod tests {
         }
     }
 
-    /// A step of a 2000th of the balls' distance changes each load by no more than that part of the largest one; where balls touch, the
-    /// sum of their weights stays, and a track without return loads all alike.
+    /// A step changes each load by no more than its part of the largest one; where balls touch, the sum of their weights stays.
     #[test]
     fn loads_change_with_the_way() {
         let zone = zone([36.5, 2.5, 1.0], LoadShares::EVEN);
@@ -396,7 +373,6 @@ mod tests {
         );
     }
 
-    /// With no ball on it, nothing is divided by zero.
     #[test]
     fn a_zone_without_a_ball_loads_none() {
         let zone = zone([0.5, 4.5, 0.4], LoadShares::EVEN);

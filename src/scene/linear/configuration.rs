@@ -1,4 +1,4 @@
-//! What the engineer sets for a linear bearing, what the control interrupt knows of it, and the bounds of both.
+//! Configuration, inputs and limits of a linear bearing.
 
 use crate::ball::{
     AnalyticLinearBall, BorderParameters, GrooveFriction, LinearBallParameters, LoadShare,
@@ -12,7 +12,7 @@ use crate::scene::circuit::{Circuit, CircuitConfiguration, DeviationMap, LONGEST
 use crate::scene::contract::{CheckedInputs, Motion};
 use crate::scene::faults::{Faults, bounded};
 
-/// What the engineer sets for a linear bearing; unchecked.
+/// Configuration of a linear bearing; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearBearingConfiguration {
@@ -38,8 +38,7 @@ pub struct LinearBearingConfiguration {
     pub carriage_deviation: &'static DeviationMap,
     /// Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start; 1 to 256.
     pub load_shares: &'static [LoadShare],
-    /// Speed over which friction changes its direction, m/s, 1e-9 to 10: at this speed it has 71 % of
-    /// its full value.
+    /// Speed over which friction changes its direction, m/s, 1e-9 to 10: at this speed it has 71 % of its full value.
     pub reversal_speed: f32,
     /// Time between two ticks, s, 1e-6 to 1; at the largest speed the balls may move by 3 % of the track
     /// in it, and the rail by half a period of its deviation map.
@@ -49,7 +48,6 @@ pub struct LinearBearingConfiguration {
 }
 
 impl LinearBearingConfiguration {
-    /// The circuit's part, checked and folded for a model of so many balls at most.
     pub(super) const fn circuit(
         &self,
         limits: &LinearLimits,
@@ -65,8 +63,7 @@ impl LinearBearingConfiguration {
         attempt!(in_range("loaded_length", loaded_length, 1e-4, 100.0));
         attempt!(in_range("return_length", return_length, 0.0, 100.0));
         attempt!(in_range("tick", tick, 1e-6, 1.0));
-        let shortest = (loaded_length + return_length) / LONGEST_TRACK;
-        let shortest = if shortest > 1e-4 { shortest } else { 1e-4 };
+        let shortest = ((loaded_length + return_length) / LONGEST_TRACK).max(1e-4);
         attempt!(in_range("wavelength", wavelength, shortest, 100.0));
         CircuitConfiguration {
             balls: self.balls,
@@ -128,7 +125,7 @@ impl LinearBearingConfiguration {
     }
 }
 
-/// What the control interrupt knows of a linear bearing at a tick.
+/// Inputs of a linear bearing at a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LinearInputs {
@@ -155,9 +152,6 @@ pub struct LinearLimits {
 
 impl LinearLimits {
     /// The limits, checked.
-    ///
-    /// # Errors
-    /// [`Error`] naming `speed`, `load` or `friction_force`.
     pub const fn checked(self) -> Result<Self, Error> {
         attempt!(in_range("speed", self.speed, 1e-6, 1e3));
         attempt!(in_range("load", self.load, 1e-3, 1e7));
@@ -165,7 +159,6 @@ impl LinearLimits {
         Ok(self)
     }
 
-    /// The inputs within these limits, with what was wrong.
     #[inline(always)]
     pub(super) fn check_inputs(&self, inputs: LinearInputs) -> CheckedInputs<LinearInputs> {
         let LinearInputs {

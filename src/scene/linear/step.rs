@@ -1,4 +1,4 @@
-//! What a tick computes: both diagonals, every ball at its position, then how they press.
+//! A step of a linear bearing.
 
 use super::{LinearConstants, LinearInputs};
 use crate::ball::GrooveLoss;
@@ -8,9 +8,8 @@ use crate::scene::contract::direction;
 use crate::scene::sliding::TrainFriction;
 use crate::train::FreeBall;
 
-/// Force of a diagonal below which it does not count, N: the sum of two contacts of 1e-6 N. A numerical floor, which keeps cube roots
-/// and impedances above zero. In the bearing of Lin 2019, Table 3.3, the latter stay above the least that a train takes, 1e-9 N, also
-/// with a friction coefficient of 1e-6 and a hundredth of the mean load.
+/// Least force of a diagonal, N: the sum of two contacts of 1e-6 N. It keeps cube roots and impedances above zero: in the bearing of
+/// Lin 2019, Table 3.3, also with a friction coefficient of 1e-6 and a hundredth of the mean load.
 const SMALLEST_FORCE: f32 = 2e-6;
 
 /// Sliding friction of a linear bearing, which is the same in both directions.
@@ -38,6 +37,7 @@ struct Diagonals {
 
 impl<const N: usize> LinearConstants<N> {
     #[inline(always)]
+    /// What a tick computes: both diagonals, every ball at its position, then how they press.
     pub(super) fn friction_of_balls(
         &self,
         state: &mut CircuitState<N>,
@@ -45,10 +45,10 @@ impl<const N: usize> LinearConstants<N> {
         friction: f32,
     ) -> LinearFriction {
         let LinearInputs { speed, .. } = inputs;
-        let table = self.circuit.shares(false);
+        let table = self.circuit.zone.shares(false);
         let sharing = self.circuit.sharing(state, table);
         let tick = self.diagonals(inputs, sharing.per_weight);
-        let (passing, recirculating) = self.circuit.deviation_units();
+        let (passing, recirculating) = self.circuit.zone.units();
         let units = [tick.turn * passing, tick.turn * recirculating];
         let travel = self.circuit.travel(speed);
         let shares = self.take_in(state, units, tick.impedance, travel);
@@ -79,8 +79,8 @@ impl<const N: usize> LinearConstants<N> {
         }
     }
 
-    /// Takes in each ball by its free speed and its impedance, and gives the sum of the powers of 4/3 of their weights; both grooves' units of speed and the
-    /// impedance of a ball whose weight is 1. Not inlined: what the rest of a step holds would take its registers.
+    /// Takes in each ball by its free speed and its impedance, and gives the sum of the powers of 4/3 of their weights. Not inlined: what the
+    /// rest of a step holds would take its registers.
     #[inline(never)]
     fn take_in(
         &self,
@@ -90,14 +90,14 @@ impl<const N: usize> LinearConstants<N> {
         travel: f32,
     ) -> f32 {
         let phase = state.phase();
-        let table = self.circuit.shares(false);
+        let table = self.circuit.zone.shares(false);
         let mut shares = 0.0;
         state.train.take_in(travel, |_, position| {
-            let Some(ball) = self.circuit.loaded_ball(position, phase) else {
+            let Some(ball) = self.circuit.zone.at(position, phase) else {
                 return FreeBall::smooth(0.0, UNLOADED);
             };
             let free = recirculating * ball.recirculating + passing * ball.passing;
-            let share = self.circuit.share(position, table);
+            let share = self.circuit.zone.share(position, table);
             let (four_thirds, two_thirds) = powers(share * ball.run_in);
             shares += four_thirds;
             FreeBall::smooth(free, at_least(impedance * two_thirds, UNLOADED))
@@ -105,7 +105,6 @@ impl<const N: usize> LinearConstants<N> {
         shares
     }
 
-    /// What both diagonals carry, and how the ball rolls under it.
     #[inline(always)]
     fn diagonals(&self, inputs: LinearInputs, per_weight: f32) -> Diagonals {
         let LinearInputs {
@@ -120,7 +119,7 @@ impl<const N: usize> LinearConstants<N> {
         let (up_root, up_squared) = math::cbrt_and_squared(up);
         let (down_root, down_squared) = math::cbrt_and_squared(down);
 
-        // Speed deviation for one radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear.
+        // For one radian by which the angles at TR and BR grow and those at TL and BL shrink: (3.43) is linear.
         let diagonals = [up_squared, down_squared];
         let mean = self.ball.closed_form(diagonals, [1.0, -1.0]);
         let spins = [up * up_root, down * down_root];

@@ -1,4 +1,4 @@
-//! What the engineer sets for a scene with memory, its inputs, and which friction coefficient goes with which scene.
+//! Configuration and inputs of a scene with memory, and which friction coefficient goes with which scene.
 
 use crate::error::{Error, Range};
 use crate::law::coefficient::{CoefficientLaw, CoefficientModel, OneCoefficient, TemperatureFade};
@@ -22,9 +22,7 @@ pub struct WithMemoryInputs<I, R> {
     pub temperature_age: f32,
 }
 
-/// How old a load may be.
-///
-/// An age that is NaN is too old; one below zero counts as none. What fades is friction; the torque that holds the load, and the
+/// How old a load may be; NaN is too old, an age below zero counts as none. Friction fades; the torque that holds the load, and the
 /// efficiency beside it, are those of the whole load.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
@@ -36,17 +34,13 @@ pub struct Freshness {
 }
 
 impl Freshness {
-    /// Loads of the last 10 ms as they are, which fade in 90 ms. Assumed, not measured: an estimator that runs every 10 ms is never
-    /// too late, and a tenth of a second after its last value the load counts as zero.
+    /// Loads of the last 10 ms as they are, which fade in 90 ms: assumed for an estimator that runs every 10 ms, not measured.
     pub const DEFAULT: Self = Self {
         load_hold: 0.01,
         load_fade: 0.09,
     };
 
-    /// These times, checked, as the factor of a load by its age.
-    ///
-    /// # Errors
-    /// [`Error`] naming `load_hold` or `load_fade`.
+    /// These times, checked.
     pub(super) const fn fade(self) -> Result<Fade, Error> {
         Fade::new(
             ("load_hold", self.load_hold, Range::new(0.0, 1e3)),
@@ -55,7 +49,7 @@ impl Freshness {
     }
 }
 
-/// What the engineer sets for a scene with memory; elements, sensor and law are checked already.
+/// Configuration of a scene with memory; elements, sensor and law are checked already.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WithMemoryConfiguration<C, E, A, L = CoefficientLaw> {
     /// Configuration of the scene without memory. Its friction coefficient is one that the law gives, best the boundary
@@ -80,11 +74,7 @@ pub struct WithMemoryConfiguration<C, E, A, L = CoefficientLaw> {
 }
 
 impl<C: Copy, E: Hysteresis + Copy, A: Copy> WithMemoryConfiguration<C, E, A, OneCoefficient> {
-    /// A scene with one friction coefficient, 1e-6 to 1, at every speed and temperature: that of its own configuration. The
-    /// play is the elements' breakaway.
-    ///
-    /// # Errors
-    /// [`Error`] naming `friction`.
+    /// A scene with one friction coefficient, 1e-6 to 1, and the elements' breakaway as play.
     pub fn new(
         scene: C,
         friction: f32,
@@ -105,12 +95,11 @@ impl<C: Copy, E: Hysteresis + Copy, A: Copy> WithMemoryConfiguration<C, E, A, On
     }
 }
 
-/// A friction coefficient that a scene with the inputs `I` takes, because it reads their speed in its own unit and what it adds
-/// to the friction is of the scene's unit.
+/// A friction coefficient that a scene with the inputs `I` takes: it reads their speed in its own unit and adds to the friction in the
+/// scene's unit.
 ///
 /// [`OneCoefficient`] reads no speed and adds nothing: it goes with every scene. [`CoefficientLaw`] reads the speed of a nut,
-/// rad/s, and adds the lubricant's drag torque, N m: it goes with ball screws alone. Around a linear bearing, whose speed is
-/// in m/s and whose friction is a force, it does not compile:
+/// rad/s, and adds the lubricant's drag torque, N m: around a linear bearing it does not compile:
 ///
 /// ```compile_fail,E0277
 /// use epas_friction::law::coefficient::CoefficientLaw;

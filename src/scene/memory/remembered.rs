@@ -1,7 +1,6 @@
-//! What a scene with memory keeps from step to step, also as bytes. The law of the friction coefficient is that of the constants, or what was set
-//! last.
+//! State of a scene with memory, also as bytes.
 
-use super::{CoefficientFor, WithMemory, WithMemoryConstants, WithMemoryState};
+use super::{CoefficientFor, WithMemory, WithMemoryState};
 use crate::error::{Error, Range, attempt};
 use crate::law::coefficient::{CoefficientModel, TEMPERATURE};
 use crate::law::motion::{NutAngle, PlayState};
@@ -11,15 +10,14 @@ use crate::scene::sliding::Sliding;
 use crate::scene::stored::StoredScene;
 use crate::stored::{Fingerprint, Fingerprinted, Port, Refusal, Stored};
 
-/// What a scene with memory keeps from tick to tick beside the state of the scene without.
+/// State of a memory beside that of its scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SceneMemory<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> {
-    /// What the elements remember.
+    /// State of the elements.
     pub elements: E::State,
     pub(super) reading: A::State,
     pub(super) play: PlayState,
-    /// Travel beyond the play that is not yet applied to the balls, rad (m): the next steps apply it, each within the scene's largest
-    /// speed.
+    /// Travel beyond the play that is not yet applied to the balls, rad (m).
     pub(super) moved: f32,
     pub(super) coefficient: L,
     /// Temperature of the last step, K, 150 to 500, and the law at it.
@@ -30,12 +28,9 @@ pub struct SceneMemory<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel
     pub(super) sliding: Option<S::Friction>,
     pub(super) limits: SlidingLimits,
     pub(super) drag: f32,
-    /// Levels that scale the limits.
     pub(super) level: FrictionLevel,
 }
 
-/// Checks that the scene takes every coefficient that the law gives. Constants that the compiler folds are not checked so: in the
-/// loop a coefficient above the scene's largest counts as that.
 pub(super) fn checked<S: Sliding, L: CoefficientModel>(law: L) -> Result<L, Error> {
     let (least, largest) = law.extremes();
     S::FRICTION.checked("coefficient", least)?;
@@ -67,30 +62,25 @@ impl<S: Sliding, E: Elements, A: NutAngle, L: CoefficientModel> SceneMemory<S, E
         }
     }
 
-    /// See [`FrictionModel::set_coefficient`](crate::FrictionModel::set_coefficient).
     pub(crate) fn set_coefficient(&mut self, law: L) -> Result<(), Error> {
         self.coefficient = checked::<S, L>(law)?;
         self.at_temperature = law.at_temperature(self.temperature);
         Ok(())
     }
 
-    /// See [`FrictionModel::set_level`](crate::FrictionModel::set_level).
     pub(crate) const fn set_level(&mut self, level: FrictionLevel) -> Result<(), Error> {
         self.level = attempt!(level.checked());
         Ok(())
     }
 
-    /// Travel that is not yet applied to the balls, rad (m).
     pub(crate) const fn moved(&self) -> f32 {
         self.moved
     }
 
-    /// Lubricant drag beside the last sliding friction.
     pub(crate) const fn drag(&self) -> f32 {
         self.drag
     }
 
-    /// -1 where the balls went backward last, else 1.
     #[inline(always)]
     pub(super) const fn direction(&self) -> f32 {
         direction(self.play.direction())
@@ -110,14 +100,11 @@ where
     const KIND: u16 = MEMORY + S::KIND;
     const BALLS: u16 = S::BALLS;
 
-    fn balls(state: &WithMemoryState<S, E, A, L>) -> u16 {
+    fn balls(state: &Self::State) -> u16 {
         S::balls(&state.scene)
     }
 
-    fn fingerprint(
-        constants: &WithMemoryConstants<S::Constants, E, A, L>,
-        fingerprint: &mut Fingerprint,
-    ) {
+    fn fingerprint(constants: &Self::Constants, fingerprint: &mut Fingerprint) {
         S::fingerprint(&constants.scene, fingerprint);
         constants.elements.fingerprint(fingerprint);
         constants.angle.fingerprint(fingerprint);
@@ -125,10 +112,7 @@ where
         constants.play.fingerprint(fingerprint);
     }
 
-    fn complete(
-        constants: &WithMemoryConstants<S::Constants, E, A, L>,
-        state: &mut WithMemoryState<S, E, A, L>,
-    ) -> Result<(), Refusal> {
+    fn complete(constants: &Self::Constants, state: &mut Self::State) -> Result<(), Refusal> {
         S::complete(&constants.scene, &mut state.scene)?;
         let remembered = &mut state.remembered;
         if !constants.angle.is_valid_state(&remembered.reading) {
@@ -149,7 +133,7 @@ where
         Ok(())
     }
 
-    fn forget_readings(state: &mut WithMemoryState<S, E, A, L>) {
+    fn forget_readings(state: &mut Self::State) {
         S::forget_readings(&mut state.scene);
         state.remembered.reading = A::FRESH;
     }

@@ -1,4 +1,4 @@
-//! What is folded of a ball screw without cage as a block of words, between the header and the checksum that all blocks have.
+//! Folded part of a ball screw without cage as a block of words, between the header and the checksum of all blocks.
 //!
 //! | words | what |
 //! |---|---|
@@ -20,7 +20,6 @@ use crate::scene::words::{HEADER, Layout, float, floats, word};
 /// First word of a block: `EPAU` as bytes, least significant first.
 const MAGIC: u32 = 0x5541_5045;
 
-/// Version of the layout.
 const VERSION: u32 = 4;
 
 /// Numbers that do not depend on the nodes; words of a knot, and of a node.
@@ -42,8 +41,8 @@ impl<const NODES: usize> FoldedBall<NODES> {
         nodes: NODES,
     };
 
-    /// Reads a block that `epas-design` wrote; for constants too. Its numbers are not checked, but for the checksum over them. What is returned
-    /// is as large as the block: firmware that reads one at set-up calls [`Self::read_from`].
+    /// Reads a block that `epas-design` wrote, and checks its checksum, not its numbers. It returns all of the block: firmware that reads one
+    /// at set-up calls [`Self::read_from`].
     ///
     /// # Errors
     /// [`Error`] naming `magic`, `version`, `nodes`, `words` (how many there are) or `checksum` (0 for one that is wrong).
@@ -53,7 +52,7 @@ impl<const NODES: usize> FoldedBall<NODES> {
         Ok(folded)
     }
 
-    /// The same into a place that is there already, such as a `static`: the stack holds no copy of it.
+    /// As [`Self::read`], into a `static`, say: the stack holds no copy.
     ///
     /// # Errors
     /// As those of [`Self::read`]; the place then is as it was.
@@ -84,7 +83,7 @@ impl<const NODES: usize> FoldedBall<NODES> {
         Ok(())
     }
 
-    /// All zero: a place for [`Self::read_from`], which no model takes before.
+    /// A place for [`Self::read_from`], which no model takes before.
     pub const EMPTY: Self = Self {
         law: BallLaw {
             nodes: [NO_NODE; NODES],
@@ -104,7 +103,7 @@ impl<const NODES: usize> FoldedBall<NODES> {
         },
     };
 
-    /// Writes the block, with the digest of what it was folded from, to the begin of `words`: for a host.
+    /// Writes the block, with the digest of its inputs, to the begin of `words`: for a host.
     ///
     /// # Errors
     /// [`Error`] naming `words`, where there are fewer than [`Self::WORDS`].
@@ -130,7 +129,6 @@ impl<const NODES: usize> FoldedBall<NODES> {
     }
 }
 
-/// Words of a node.
 fn of_node(node: &BallNode) -> impl Iterator<Item = u32> {
     core::iter::once(node.friction.to_bits())
         .chain(node.branches.as_flattened().iter().flat_map(of_knot))
@@ -143,7 +141,6 @@ fn of_node(node: &BallNode) -> impl Iterator<Item = u32> {
         .chain(node.unheld)
 }
 
-/// Words of a knot.
 fn of_knot(knot: &BallKnot) -> impl Iterator<Item = u32> + use<> {
     let BallNumbers {
         free,
@@ -160,7 +157,6 @@ fn of_knot(knot: &BallKnot) -> impl Iterator<Item = u32> + use<> {
         .map(f32::to_bits)
 }
 
-/// Words of a knot of what neighbours change.
 fn of_neighbours(knot: &NeighbourKnot) -> impl Iterator<Item = u32> + use<> {
     let NeighbourNumbers {
         nodes,
@@ -182,7 +178,6 @@ const NO_NODE: BallNode = BallNode {
     unheld: [0; 2],
 };
 
-/// Reads the node that begins at a word.
 const fn read_node(node: &mut BallNode, words: &[u32], at: usize) {
     node.friction = float(words, at);
     let mut branch = 0;
@@ -206,14 +201,11 @@ const fn read_node(node: &mut BallNode, words: &[u32], at: usize) {
             number += 1;
         }
         let knots = at + 1 + 2 * BRANCH + branch * NEIGHBOUR_BRANCH;
+        let last = knots + (NEIGHBOUR_KNOTS - 1) * NEIGHBOUR_KNOT;
         let mut number = 0;
         while number < NEIGHBOUR_KNOTS {
             let at = knots + number * NEIGHBOUR_KNOT;
-            let next = if number + 1 < NEIGHBOUR_KNOTS {
-                at + NEIGHBOUR_KNOT
-            } else {
-                at
-            };
+            let next = if at < last { at + NEIGHBOUR_KNOT } else { last };
             node.neighbours[branch][number] = Knot::between(
                 float(words, at),
                 float(words, next),
@@ -234,7 +226,6 @@ const fn read_node(node: &mut BallNode, words: &[u32], at: usize) {
     }
 }
 
-/// The node that begins at a word.
 const fn rubbed_node(words: &[u32], at: usize) -> RubbedNode {
     RubbedNode {
         push: floats(words, at),

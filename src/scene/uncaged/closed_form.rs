@@ -10,7 +10,7 @@ use crate::error::{Error, attempt, in_range};
 use crate::geometry::BallScrew;
 use crate::scene::contract::Limits;
 
-/// What catalogue numbers say of a ball screw without cage; unchecked.
+/// Catalogue numbers of a ball screw without cage; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct CatalogueBall {
@@ -34,19 +34,15 @@ pub struct CatalogueBall {
 const LEAST: f32 = 1e-3;
 
 impl FoldedBall<1> {
-    /// The law of a ball by the closed form [`ScrewRow`] at 32 loads, for those who have no host that folds: in a constant when firmware is
-    /// compiled, or at set-up.
+    /// The law of a ball by the closed form [`ScrewRow`] at 32 loads, for those who have no host that folds.
     ///
     /// Speeds and torques follow deviations by a parabola through the closed form's at the middle and the ends of their range. Rolling
-    /// resistance, and what friction between balls does to a ball's speed, are left out.
+    /// resistance, and the change of a ball's speed by friction between balls, are left out.
     ///
-    /// Accuracy: that of [`ScrewRow`] against balls in elastic grooves: torque up to a factor of 2 too large on the side of the load on which
-    /// the third contact opens, some per cent on the other; forces between balls accordingly. `epas-design` folds the exact ball instead.
+    /// Accuracy against balls in elastic grooves, that of [`ScrewRow`]: torque up to a factor of 2 too large on the side of the load on which
+    /// the third contact opens, some per cent on the other; forces between balls accordingly.
     ///
     /// Source: Lin 2019, eqs. (3.56) to (3.68), (3.73).
-    ///
-    /// # Errors
-    /// [`Error`] naming the field out of range.
     pub const fn of_catalogue(ball: &CatalogueBall) -> Result<Self, Error> {
         let CatalogueBall {
             ref design,
@@ -97,7 +93,6 @@ impl FoldedBall<1> {
     }
 }
 
-/// The knots of both branches.
 const fn knots(
     row: &ScrewRow,
     ball: &CatalogueBall,
@@ -133,7 +128,6 @@ const fn knot_load(lift_off: f32, axial_load: f32, knot: usize) -> f32 {
     lift_off + f32::from_bits(bits)
 }
 
-/// The numbers of a ball of a row, from the closed form at the middle and the ends of both deviations.
 const fn numbers(
     tick: &ScrewTick,
     [screw, nut]: [f32; 2],
@@ -164,8 +158,7 @@ const fn numbers(
     }
 }
 
-/// What neighbours change under the least load and under the largest, of both branches: the closed form knows what is lost between balls, and
-/// nothing of what that does to their motion.
+/// Changes by neighbours under the least load and the largest, of both branches: the closed form knows only what is lost between balls.
 const fn neighbours(
     row: &ScrewRow,
     axial_load: f32,
@@ -229,7 +222,6 @@ mod tests {
         },
     };
 
-    /// The compiler folds it.
     static BALL: FoldedBall = match FoldedBall::of_catalogue(&CATALOGUE_BALL) {
         Ok(ball) => ball,
         Err(_) => panic!("a field is out of range"),

@@ -1,4 +1,4 @@
-//! What the engineer sets for a ball screw without cage, and its checks.
+//! Configuration of a ball screw without cage.
 
 use core::f32::consts::TAU;
 
@@ -10,14 +10,13 @@ use crate::math::elliptic::arc_sine;
 use crate::scene::circuit::{Circuit, CircuitConfiguration, DeviationMap, LONGEST_TRACK};
 use crate::scene::contract::Limits;
 
-/// What `epas-design` folds of a ball screw without cage: the law of one ball, and the numbers of the drawing that a step needs; unchecked.
+/// Folded part of a ball screw without cage: the law of one ball, and the numbers of the drawing that a step needs; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct FoldedBall<const NODES: usize = 1> {
     /// Law of one ball.
     pub law: BallLaw<NODES>,
-    /// Friction coefficient of ball and groove before [`FrictionModel::set_friction`](crate::FrictionModel::set_friction), within the
-    /// law's nodes.
+    /// Friction coefficient of ball and groove at set-up, within the law's nodes.
     pub friction: f32,
     /// Advance of the nut per turn, m, 0 to 0.2.
     pub lead: f32,
@@ -33,29 +32,25 @@ pub struct FoldedBall<const NODES: usize = 1> {
     pub limits: Limits,
 }
 
-/// What the engineer sets for a ball screw without cage; unchecked.
+/// Configuration of a ball screw without cage; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedBallScrewConfiguration<const NODES: usize = 1> {
-    /// What a host has folded.
+    /// The folded ball.
     pub folded: &'static FoldedBall<NODES>,
-    /// Coulomb friction coefficient of ball and ball, 0 to 1; and so that friction of its neighbours takes no more than 0.3 of their force on a
-    /// ball.
+    /// Coulomb friction coefficient of ball and ball, 0 to 1; friction of its neighbours takes no more than 0.3 of their force on a ball.
     pub ball_friction: f32,
     /// Balls in the circuit, 1 to the `N` of the model.
     pub balls: u16,
     /// Turns of the loaded track, 0.1 to 100.
     pub turns: f32,
-    /// Length of the return, m, 0 to 10, up to 250 times the loaded track, and 1000 turns with it: there
-    /// balls carry no load.
+    /// Length of the return, m, 0 to 10, up to 250 times the loaded track, and 1000 turns with it: there balls carry no load.
     pub return_length: f32,
-    /// Deviation of the contact angles along the screw's groove, at most the law's
-    /// ([`BallLaw::deviations`](crate::ball::pressed::BallLaw::deviations)).
+    /// Deviation of the contact angles along the screw's groove, at most [`BallLaw::deviations`](crate::ball::pressed::BallLaw::deviations).
     pub screw_deviation: &'static DeviationMap,
     /// Deviation of the contact angles along the nut's groove, from the start of the loaded track, at most the law's.
     pub nut_deviation: &'static DeviationMap,
-    /// Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start; 1 to 256 for each sign of
-    /// the load, as many for both.
+    /// Load of a ball over the mean load, at the middles of equal parts of the loaded track from its start; 1 to 256 for each sign of the load.
     pub load_shares: LoadShares,
     /// Time between two ticks, s, 1e-6 to 1; at the largest nut speed the balls may move by 3 % of the
     /// track in it, and the screw by half a period of its deviation map.
@@ -63,8 +58,7 @@ pub struct UncagedBallScrewConfiguration<const NODES: usize = 1> {
 }
 
 impl<const NODES: usize> FoldedBall<NODES> {
-    /// What its balls have in common in a row, with a friction coefficient between them; the chord's angle is `sin(b) = R_B/R_path` (Lin 2019, eq. (3.72)).
-    #[must_use]
+    /// What its balls have in common in a row; the chord's angle is `sin(b) = R_B/R_path` (Lin 2019, eq. (3.72)).
     pub const fn row(&self, ball_friction: f32) -> RowConstants {
         let sin = self.ball_radius / self.path_radius;
         let per_cos = 1.0 / constant::sqrt(1.0 - sin * sin);
@@ -78,7 +72,6 @@ impl<const NODES: usize> FoldedBall<NODES> {
 }
 
 impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
-    /// The circuit's part, checked and folded for a model of so many balls at most.
     pub(super) const fn circuit(&self, limits: &Limits, most: usize) -> Result<Circuit, Error> {
         let Self {
             turns,
@@ -93,12 +86,8 @@ impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
             ..
         } = *self.folded;
         attempt!(in_range("ball_radius", ball_radius, 1e-5, 0.1));
-        attempt!(in_range(
-            "path_radius",
-            path_radius,
-            1.01 * ball_radius,
-            1.0
-        ));
+        let shortest = 1.01 * ball_radius;
+        attempt!(in_range("path_radius", path_radius, shortest, 1.0));
         attempt!(in_range("speed", speed, 1e-6 * path_radius, path_radius));
         attempt!(in_range("turns", turns, 0.1, 100.0));
         attempt!(in_range("return_length", return_length, 0.0, 10.0));
@@ -125,7 +114,6 @@ impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
         .folded(most)
     }
 
-    /// Length of the loaded track, m.
     pub(super) const fn loaded_length(&self) -> f32 {
         self.turns * (TAU * self.folded.path_radius)
     }

@@ -1,4 +1,4 @@
-//! What a tick computes: every ball at its position, then how they press.
+//! A step of a ball screw without cage: every ball at its position, then how they press.
 
 use super::{UncagedConstants, UncagedState};
 use crate::ball::LoadShare;
@@ -17,7 +17,7 @@ pub struct UncagedFriction {
     pub(in crate::scene) faults: Faults,
 }
 
-/// What all balls have in common in a tick. Speeds and pushes are counted along the track.
+/// Numbers of a tick that are the same for all balls. Speeds and pushes are counted along the track.
 struct Common {
     shares: &'static [LoadShare],
     /// Axial load of a ball whose weight is 1, N.
@@ -32,7 +32,6 @@ struct Common {
     direction: f32,
     /// What such a ball does alone, over `sliding`.
     numbers: BallNumbers,
-    /// What neighbours change in it.
     neighbours: NeighbourLaw,
 }
 
@@ -63,7 +62,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         let common = self.common(state, inputs, &sharing, shares);
         let travel = self.circuit.travel(inputs.nut_speed);
         let alone = not_negative(self.take_in(state, &common, travel));
-        if !self.circuit.is_closed() {
+        if !self.circuit.zone.is_closed() {
             let train = &mut state.circuit.train;
             train.rub_in_part(|position| self.circuit.part(position));
         }
@@ -146,8 +145,8 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         }
     }
 
-    /// Takes in each ball by what it does alone under its part of the load with its deviations, and keeps that; returns the sum of the friction torques,
-    /// N m.
+    /// Takes in each ball, and keeps what it does alone under its part of the load with its deviations; returns the sum of the friction
+    /// torques, N m.
     #[inline(never)]
     fn take_in(&self, state: &mut UncagedState<N>, common: &Common, travel: f32) -> f32 {
         let Common {
@@ -170,7 +169,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
             let Some(place) = balls.get_mut(index) else {
                 return idle;
             };
-            let Some(loaded) = self.circuit.loaded_ball(position, phase) else {
+            let Some(loaded) = self.circuit.zone.at(position, phase) else {
                 *place = BallOfRow::UNLOADED;
                 return idle;
             };
@@ -186,7 +185,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                     deviations,
                 }
             } else {
-                let share = self.circuit.share(position, common.shares);
+                let share = self.circuit.zone.share(position, common.shares);
                 let load = self.law.load_of(common.mean * share);
                 let (ball, alone) = self
                     .law

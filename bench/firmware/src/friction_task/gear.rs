@@ -55,9 +55,6 @@ pub const NO_READING: u32 = u32::MAX;
 const REFERENCE_FRICTION: f32 = 0.14;
 
 /// The encoder as it is, without the play: half a turn of the motor between two readings at most.
-///
-/// # Errors
-/// None with the numbers above.
 pub const fn counter() -> Result<CountSensor, Error> {
     CountSensor::new(CountSensorParameters {
         period: COUNTS,

@@ -86,10 +86,7 @@ pub const LOOPS: &[Row] = &[
         "epas_friction::scene::circuit::zone::LoadedZone::sharing",
         BALLS,
     ),
-    row(
-        "epas_friction::scene::circuit::configuration::Circuit::sharing",
-        BALLS,
-    ),
+    row("epas_friction::scene::circuit::Circuit::sharing", BALLS),
     row("epas_friction::scene::linear::LinearConstants", BALLS),
     row(
         "epas_friction::model::FrictionModelepas_friction::scene::linear::LinearBearingTrain, epas_friction::scene::linear::LinearConstants::step",
