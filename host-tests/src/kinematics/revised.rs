@@ -53,13 +53,6 @@ impl Revised {
         self.spin_ratio
     }
 
-    /// (23) as printed, per rad/s of the screw; for comparison only.
-    pub fn spin_ratio_as_printed(&self) -> f64 {
-        let inner = Raceway::Screw;
-        self.orbital_ratio * self.input.rolling_path(inner)
-            / (self.input.rolling_radius_screw * self.input.surface_speed_factor(inner))
-    }
-
     /// The ball's rotation relative to the orbiting frame, in (tangent, normal, binormal), per rad/s
     /// of the screw: (27).
     pub fn rotation(&self) -> [f64; 3] {

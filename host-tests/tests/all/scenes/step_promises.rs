@@ -1,5 +1,6 @@
 //! What a step promises, and what it calls: measured against the float64 reference.
 
+use super::stiff::exact_row;
 use crate::remembering::at;
 use epas_testkit::errors::Errors;
 use epas_testkit::gears::{LIMITS, closed_form, linear, linear_inputs, screw_inputs};
@@ -22,7 +23,6 @@ use epas_friction::{
 };
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::chain::solve_chain;
-use epas_reference::friction::isotonic::isotonic_by_min_max;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::hertz::{Hertz, contact_modulus};
 use epas_reference::promises;
@@ -184,8 +184,7 @@ fn train() {
         let mut train = Train::<37>::new(1.0, 0.005, &[0.0; 37]).unwrap();
         train.step(&free, &impedance, 1e-6);
         let exact = |numbers: &[f32]| numbers.iter().map(|&x| f64::from(x)).collect::<Vec<_>>();
-        let compliance: Vec<f64> = exact(&impedance).iter().map(|x| 1.0 / x).collect();
-        let (_, forces) = isotonic_by_min_max(&exact(&free), &compliance);
+        let (_, forces) = exact_row(&exact(&free), &exact(&impedance));
         let largest = forces
             .iter()
             .fold(1e-30, |most: f64, force| most.max(*force));

@@ -12,7 +12,7 @@ use epas_testkit::random::Random;
 use epas_testkit::random_scenes::{Trial, sound_train};
 
 /// Speeds and forces of a row in contact by the max-min formula of isotonic regression, in f64.
-fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {
+pub fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let n = free.len();
     let mean = |from: usize, to: usize| {
         let weight: f64 = impedance[from..=to].iter().sum();
