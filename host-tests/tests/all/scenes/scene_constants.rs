@@ -1,5 +1,6 @@
 //! A whole gear folded by the compiler is the gear that a program would set up, to the bit, and runs like it.
 
+use crate::formulas::constants::same_bits;
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::fmt::Debug;
 use std::hint::black_box;
@@ -152,14 +153,6 @@ static RANGE: UncagedConstants<37, BALL_NODES> =
 static PRELOADED: UncagedConstants<24> =
     folded(UncagedConstants::new(&uncaged(&PRELOADED_BALL, 24)));
 static CARRIAGE: LinearConstants<24> = folded(LinearConstants::new(&linear()));
-
-/// `Debug` prints the shortest text that reads back as the same number, and the sign of a zero: equal texts
-/// are equal bits. No NaN may hide among them.
-fn same_bits(folded: &impl Debug, computed: &impl Debug) {
-    let (folded, computed) = (format!("{folded:?}"), format!("{computed:?}"));
-    assert!(!folded.contains("NaN"), "{folded}");
-    assert_eq!(folded, computed);
-}
 
 fn manoeuvre() -> impl Iterator<Item = (f32, f32)> {
     (0..4000_i16).map(|tick| {
