@@ -112,7 +112,7 @@ const CATALOGUE_SET_UPS: [SetUp; SIZES] = {
 
 /// `Debug` prints the shortest text that reads back as the same number, and the sign of a zero: equal
 /// texts are equal bits. No NaN may hide among them.
-fn same_bits(folded: &impl Debug, computed: &impl Debug) {
+pub fn same_bits(folded: &impl Debug, computed: &impl Debug) {
     let (folded, computed) = (format!("{folded:?}"), format!("{computed:?}"));
     assert!(!folded.contains("NaN"), "{folded}");
     assert_eq!(folded, computed);
