@@ -20,30 +20,21 @@ pub const SCREW_BALLS: usize = 37;
 /// Balls of [`linear`].
 pub const LINEAR_BALLS: usize = 16;
 
-/// Two waves of 2.3 degrees a turn, Lin 2019, Fig. 3.23.
-static SCREW_MAP: DeviationMap = match DeviationMap::from_harmonics(
-    1,
-    &[Harmonic {
-        order: 2,
-        cosine: 0.0,
-        sine: 0.04014,
-    }],
-) {
-    Ok(map) => map,
-    Err(_) => panic!("a deviation is too large"),
-};
+const fn one_wave(order: u8, cosine: f32, sine: f32) -> DeviationMap {
+    let harmonic = Harmonic {
+        order,
+        cosine,
+        sine,
+    };
+    match DeviationMap::from_harmonics(1, &[harmonic]) {
+        Ok(map) => map,
+        Err(_) => panic!("a deviation is too large"),
+    }
+}
 
-static NUT_MAP: DeviationMap = match DeviationMap::from_harmonics(
-    1,
-    &[Harmonic {
-        order: 3,
-        cosine: 0.01,
-        sine: 0.02,
-    }],
-) {
-    Ok(map) => map,
-    Err(_) => panic!("a deviation is too large"),
-};
+/// Two waves of 2.3 degrees a turn, Lin 2019, Fig. 3.23.
+static SCREW_MAP: DeviationMap = one_wave(2, 0.0, 0.04014);
+static NUT_MAP: DeviationMap = one_wave(3, 0.01, 0.02);
 
 /// A wave of so many periods in so many turns, rad, for as long as the program runs.
 pub fn wave(turns: u16, order: u8, cosine: f32, sine: f32) -> &'static DeviationMap {
@@ -118,11 +109,6 @@ pub fn worn() -> CagedBallScrewConfiguration {
         limits: LIMITS,
         ..CagedBallScrewConfiguration::read(blocks::WORN).unwrap()
     }
-}
-
-/// Their design.
-pub fn caged_design() -> BallScrew {
-    BallScrew::new(DISSERTATION_DESIGNS[1].parameters).unwrap()
 }
 
 /// 32 x 20 x 6.35 with 300 N of preload on each flank, by a closed form.
@@ -225,29 +211,12 @@ pub fn changed<const NODES: usize>(
 }
 
 /// Two waves a turn as large as the folded ball takes, Lin 2019, Fig. 3.23.
-static BALL_SCREW_MAP: DeviationMap = match DeviationMap::from_harmonics(
-    1,
-    &[Harmonic {
-        order: 2,
-        cosine: 0.0,
-        sine: BALL_RANGE.law.deviations[0],
-    }],
-) {
-    Ok(map) => map,
-    Err(_) => panic!("a deviation is too large"),
-};
-
-static BALL_NUT_MAP: DeviationMap = match DeviationMap::from_harmonics(
-    1,
-    &[Harmonic {
-        order: 3,
-        cosine: 0.4 * BALL_RANGE.law.deviations[1],
-        sine: 0.8 * BALL_RANGE.law.deviations[1],
-    }],
-) {
-    Ok(map) => map,
-    Err(_) => panic!("a deviation is too large"),
-};
+static BALL_SCREW_MAP: DeviationMap = one_wave(2, 0.0, BALL_RANGE.law.deviations[0]);
+static BALL_NUT_MAP: DeviationMap = one_wave(
+    3,
+    0.4 * BALL_RANGE.law.deviations[1],
+    0.8 * BALL_RANGE.law.deviations[1],
+);
 
 /// Two waves a turn on the screw, as a share of the largest deviation that the folded ball of one friction coefficient takes.
 pub fn screw_wave(share: f32) -> &'static DeviationMap {
