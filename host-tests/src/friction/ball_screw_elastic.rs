@@ -11,6 +11,7 @@ use super::ball_screw_ball::{
     ScrewMotion, ScrewRow, ball_dissipation, ball_minimum, dimensional, rolling,
 };
 use super::ball_screw_grooves::ElasticGrooves;
+use super::ball_screw_placed::normal;
 use super::newton::{Local, minimise};
 use crate::error::{ReferenceError, within};
 
@@ -150,11 +151,7 @@ impl Problem<'_> {
             let at = PER_BALL * ball;
             for row in &rows {
                 let gradient = row.local(&y, self.rest_spin).gradient;
-                let (sx, sz) = row.contact.groove.signs();
-                let (nx, nz) = (
-                    sx * row.contact.contact_angle.cos(),
-                    sz * row.contact.contact_angle.sin(),
-                );
+                let [nx, nz] = normal(row);
                 let (across, along) = (-mu * sign * gradient.x, -mu * sign * gradient.y);
                 let force = [
                     -row.contact.load * nx + across * nz,
@@ -231,11 +228,7 @@ impl Problem<'_> {
             let at = PER_BALL * ball;
             for row in &self.rows_of(ball, q).ok()? {
                 let by_motion = row.local(&y, self.rest_spin).hessian * row.rows * -scale;
-                let (sx, sz) = row.contact.groove.signs();
-                let (nx, nz) = (
-                    sx * row.contact.contact_angle.cos(),
-                    sz * row.contact.contact_angle.sin(),
-                );
+                let [nx, nz] = normal(row);
                 let generalised = row.rows.transpose() * by_motion;
                 for i in 0..4 {
                     let column = at + 2 + i;

@@ -156,7 +156,27 @@ impl AlikeNeighbours {
 /// Unbalanced forces, N: x, z, axial, along the track (times path over ball radius), moments over the ball radius.
 pub(crate) type Balance = SVector<f64, 7>;
 
-impl PlacedBall<'_> {
+impl<'a> PlacedBall<'a> {
+    /// A ball without friction of neighbours.
+    pub fn alone(
+        grooves: &'a ElasticGrooves,
+        friction: f64,
+        direction: f64,
+        axial_load: f64,
+        integration: Integration,
+    ) -> Self {
+        Self {
+            grooves,
+            friction,
+            direction,
+            axial_load,
+            rubbing: Rubbing::default(),
+            alike: None,
+            integration,
+            rest_spin: STICK_SPIN,
+        }
+    }
+
     /// Path radius over ball radius.
     pub fn path(&self) -> f64 {
         let track = &self.grooves.track;

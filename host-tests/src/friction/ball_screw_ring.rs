@@ -32,9 +32,7 @@ use std::f64::consts::TAU;
 
 use super::ball_screw_grooves::ElasticGrooves;
 pub use super::ball_screw_ring_deviation::{DeviationWave, GrooveDeviation};
-use super::contact_law::HertzLaw;
 use super::patch::Integration;
-use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
 
@@ -203,21 +201,12 @@ impl ElasticRing {
         within("balls", self.balls as f64, 1.0, 1e3)?;
         within("turns", self.turns, 0.01, 100.0)?;
         within("return_length", self.return_length, 0.0, 10.0)?;
-        let radius = self.design.ball_radius;
-        self.design.check_grooves()?;
-        within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
+        let grooves = ElasticGrooves::of(&self.design, self.clearance)?;
         self.screw_deviation.check("screw_deviation")?;
         self.nut_deviation.check("nut_deviation")?;
         for share in &self.load_shares {
             within("load_shares", *share, 0.0, 100.0)?;
         }
-        let laws = [
-            self.design.contact(Groove::Screw)?.into(),
-            self.design.contact(Groove::Nut)?.into(),
-        ];
-        self.grooves(&laws, 0.0, 0.0)
-            .check()
-            .map_err(|error| error.renamed("contact_angle"))?;
         let angle = self.design.contact_angle;
         within("contact_angle", angle, 0.25, 1.3)?;
         within("balls", self.occupation(), 0.0, 1.0 + 1e-12)?;
@@ -230,7 +219,7 @@ impl ElasticRing {
                 .min(self.return_length / self.track().path_radius()),
             pitch,
             per_ball: self.length() / (TAU * self.turns * self.balls as f64),
-            laws,
+            grooves,
         };
         self.check_places(&track)?;
         Ok(track)
@@ -255,19 +244,6 @@ impl ElasticRing {
         }
         Ok(())
     }
-
-    pub(crate) fn grooves(&self, laws: &[HertzLaw; 2], screw: f64, nut: f64) -> ElasticGrooves {
-        let angle = self.design.contact_angle;
-        ElasticGrooves {
-            track: self.track(),
-            screw_groove_radius: self.design.screw_groove_radius,
-            nut_groove_radius: self.design.nut_groove_radius,
-            arc_angles: [angle - screw, angle + screw, angle - nut, angle + nut],
-            screw: laws[0],
-            nut: laws[1],
-            oversize: -self.clearance,
-        }
-    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -280,7 +256,8 @@ pub(crate) struct RingTrack {
     pub pitch: f64,
     /// 1 / number of loaded balls, where all balls are spread evenly over the track.
     pub per_ball: f64,
-    pub laws: [HertzLaw; 2],
+    /// Without deviation.
+    pub grooves: ElasticGrooves,
 }
 
 impl RingTrack {

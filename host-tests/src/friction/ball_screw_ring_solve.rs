@@ -8,7 +8,7 @@ use nalgebra::SVector;
 use rayon::prelude::*;
 
 use super::ball_screw_grooves::ElasticGrooves;
-use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, Solved};
 use super::ball_screw_ring_newton::{InRow, Moving, Target, UNLOADED, row_step};
 use super::ball_screw_ring_order::Neighbours;
 use super::ball_screw_ring_pool::pool_ring;
@@ -85,16 +85,13 @@ impl Power {
 
 impl<'a> Instant<'a> {
     fn ball(&self, seat: &'a Seat) -> PlacedBall<'a> {
-        PlacedBall {
-            grooves: &seat.grooves,
-            friction: self.friction,
-            direction: self.neighbours.direction,
-            axial_load: seat.axial_load,
-            rubbing: Rubbing::default(),
-            alike: None,
-            integration: self.integration,
-            rest_spin: STICK_SPIN,
-        }
+        PlacedBall::alone(
+            &seat.grooves,
+            self.friction,
+            self.neighbours.direction,
+            seat.axial_load,
+            self.integration,
+        )
     }
 
     /// From states near the end where there are any, and with the forces along the track that belong to them.
