@@ -5,22 +5,19 @@ use epas_testkit::gears::screw_inputs;
 
 use epas_friction::hal::{FaultReaction, FeedForwardConfiguration, FrictionFeedForward};
 use epas_friction::law::Elements;
-use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
 use epas_friction::law::compensation::CompensationMargin;
 use epas_friction::law::memory::LoadExactElements;
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
-use epas_friction::scene::{
-    Freshness, SceneOutputs, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
-};
+use epas_friction::law::motion::{CountSensor, Deadband};
+use epas_friction::scene::{SceneOutputs, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{Faults, FrictionModel, Inputs, Outputs, UncagedOutputs};
 use epas_reference::closed_loop::{ClosedLoop, Swing};
 
 use super::hal::Channel;
-use crate::remembering::{at, slip_by};
+use super::memory::by_friction;
+use super::noise::counts;
+use crate::remembering::{TEMPERATURE, at, slip_by};
 use epas_testkit::gears::{CAGED_PRELOAD, CagedScrew, caged};
 use epas_testkit::random::Random;
-
-const TEMPERATURE: f32 = 313.15;
 
 /// Torque of a duty, N m, where all of it is `full_torque`.
 fn torque(duty: u16, full_torque: f32) -> f64 {
@@ -37,21 +34,11 @@ const PRELOAD: f64 = 2.0 * std::f64::consts::SQRT_2 * CAGED_PRELOAD as f64;
 /// A model whose elements follow the counts beyond a play, rad, at this preload over their reference.
 fn model<E: Elements + Copy>(elements: E, play: f64, load: f64) -> Caged<E> {
     let scene = caged();
-    let counts = CountSensor::new(CountSensorParameters {
-        period: 16384,
-        turn_per_count: ClosedLoop::COUNT as f32,
-        largest_turn: 0.5,
-    })
-    .unwrap();
+    let angle = Deadband::new(counts(), play as f32).unwrap();
     Caged::new(&WithMemoryConfiguration {
-        scene,
-        elements,
-        angle: Deadband::new(counts, play as f32).unwrap(),
         reference_load: (PRELOAD / load) as f32,
         play: 0.0,
-        coefficient: CoefficientLaw::constant(scene.friction).unwrap(),
-        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
-        freshness: Freshness::DEFAULT,
+        ..by_friction(scene, scene.friction, elements, angle)
     })
     .unwrap()
 }
