@@ -117,8 +117,7 @@ impl Screw {
     }
 }
 
-/// Optimum contact angle of driving, from eq. (15): `Ca Sb = sin(pi/4 + phi/2)`; `None` beyond its
-/// range `alpha <= pi/4 - phi/2`.
+/// Optimum contact angle of driving, from eq. (15): `Ca Sb = sin(pi/4 + phi/2)`; `None` beyond its range `alpha <= pi/4 - phi/2`.
 pub fn optimum_drive(lead_angle: f64, friction: f64) -> Option<f64> {
     let sin = (FRAC_PI_4 + 0.5 * friction.atan()).sin() / lead_angle.cos();
     (sin <= 1.0).then(|| sin.asin())
@@ -142,8 +141,7 @@ pub fn locking_border_drive(lead_angle: f64, friction: f64) -> Option<f64> {
     (sin <= 1.0).then(|| sin.asin())
 }
 
-/// Largest contact angle that does not lock back-driving, from eq. (19): `Sb = cos(phi) / Ca`; only
-/// below a lead angle of `phi`.
+/// Largest contact angle that does not lock back-driving, from eq. (19): `Sb = cos(phi) / Ca`; only below a lead angle of `phi`.
 pub fn locking_border_backdrive(lead_angle: f64, friction: f64) -> Option<f64> {
     let sin = friction.atan().cos() / lead_angle.cos();
     (sin <= 1.0).then(|| sin.asin())

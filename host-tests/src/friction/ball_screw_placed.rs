@@ -2,8 +2,8 @@
 //!
 //! Seven equations: forces on the ball in its cross section (two), the axial force of the screw, the force along the track and three
 //! moments (the gradient of the dissipation by the ball's motion). Seven unknowns: ball centre in the cross section (two), axial
-//! displacement of the screw, angular velocity (three), and either the orbital speed for a given force along the track, or that force for a
-//! given orbital speed. The second form keeps a ball in order whose speed hardly depends on the force.
+//! displacement of the screw, angular velocity (three), and the orbital speed for a given force along the track, or that force for a given
+//! speed.
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.69).
 

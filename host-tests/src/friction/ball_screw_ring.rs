@@ -1,29 +1,21 @@
-//! The whole ball screw without cage, exactly: balls on a closed ring, each in elastic balance in both gothic grooves with Coulomb friction by
-//! exact contact integrals, that push the ball in front.
+//! The whole ball screw without cage, exactly: balls on a closed ring, each in elastic balance in both gothic grooves with Coulomb friction
+//! by exact contact integrals, that push the ball in front. Left out: a ball's inertia.
 //!
-//! The track runs through the nut: first the loaded part, then the return, where balls carry no load and go along with their neighbours; its
-//! end joins its start. Where a ball is on it says what share of the load it carries and how both grooves deviate there: the nut's deviation
-//! is fixed to the track, the screw's passes by with the nut's angle. Each ball has its own axial load, and finds place and motion as in
-//! [`super::ball_screw_row`].
+//! The track runs through the nut: first the loaded part, then the return, whose end joins the start. The nut's deviation is fixed to the
+//! track, the screw's passes by with the nut's angle. Each ball finds place and motion as in [`super::ball_screw_row`] under its own axial
+//! load.
 //!
-//! A ball takes up its load, and gives it up, over a run-in between load and return: in proportion to the way over the distance of two touching
-//! balls, half of it on either side of the border (over the whole return where that is shorter). Its weight is this part of its load share, and the
-//! loads of all balls are the axial load times their weights over the sum of these, so that they add up to the axial load at every instant.
-//! A preload runs in with it: on the run-in the oversize is less, by the power of 2/3, so that what it presses with is in proportion to the way.
+//! A ball takes up its load, and gives it up, over a run-in: in proportion to the way over the distance of two touching balls, half of it
+//! on either side of the border (over the whole return where that is shorter). The loads of all balls are the axial load times their
+//! weights (load share times part of the run-in) over the sum of these. A preload runs in with it: the oversize by the power of 2/3. Two
+//! balls rub on each other by the lesser of their parts.
 //!
 //! At every instant the forces between touching balls are those of a complementarity problem on the actual speeds: forces push, no ball
-//! overtakes the one in front, and balls that press are equally fast. From instant to instant the balls move with their speeds; where two of
-//! them meet or part inside a step, or one enters or leaves the loaded part, the instant is located and solved. So balls never overlap, and
-//! those that press move as one. Friction of Coulomb does not depend on the size of the speed: what counts is the nut's angle, its
-//! direction and the load.
-//!
-//! Two balls rub on each other by the lesser of their parts of load: not at all where one of them carries none.
+//! overtakes the one in front, and balls that press are equally fast. Where two balls meet or part inside a step, or one enters or leaves
+//! the loaded part, the instant is located and solved, so that balls never overlap. Friction does not depend on the size of the speed.
 //!
 //! The force between two balls acts along the chord between their centres: a part of it (`sin b`, 7 to 17 %) points outward, unless
-//! [`ElasticRing::chord`] leaves it out. Left out: a ball's inertia.
-//! Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
-//!
-//! [`super::whole_screw`] is the same screw by a closed form of each ball, for one speed, one load and one wave of deviation.
+//! [`ElasticRing::chord`] leaves it out. Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77) and section 3.4.4. Corrected: (3.77) takes contacts by the free speeds of two
 //! neighbours, which lets chains of balls overlap; here by the actual speeds.

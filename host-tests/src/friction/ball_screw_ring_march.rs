@@ -57,8 +57,7 @@ impl ElasticRing {
     /// Follows the balls through the samples: a state for each. `progress` is told how many of how many are done.
     ///
     /// A state is solved from the one before; from nothing at the start, where the nut or the load turns, and where that does not lead
-    /// to a balance. Between the samples balls move with speeds that change by a line, as they did before. A sample at rest has no friction,
-    /// and says so.
+    /// to a balance. A sample at rest has no friction, and says so.
     pub fn simulate(
         &self,
         samples: &[RingSample],

@@ -1,8 +1,7 @@
 //! One instant of a ring of balls: place, motion and loads of every ball, and the forces between them.
 //!
-//! Newton's method on all balls at once. Which pairs press is first found by pooling: every ball's seven equations are replaced by their tangents,
-//! which leaves a linear law of its speed by the force on it. From then on a pair that would pull is let go, and one whose rear ball would
-//! overtake is joined, until nothing changes and every ball is in balance.
+//! Newton's method on all balls at once. Which pairs press is first found by pooling of the balls' tangents; from then on a pair that would
+//! pull is let go, and one whose rear ball would overtake is joined, until nothing changes and every ball is in balance.
 
 use nalgebra::SVector;
 use rayon::prelude::*;

@@ -1,16 +1,10 @@
-//! A row of touching balls in a ball screw: each in elastic balance in both gothic grooves under its own axial load, with Coulomb friction by
-//! exact contact integrals, and pressing on its neighbours.
+//! A row of touching balls in a ball screw: each in elastic balance in both gothic grooves under its own axial load, with Coulomb friction
+//! by exact contact integrals, and pressing on its neighbours. The screw floats axially under each ball.
 //!
-//! Every ball finds its own place in the cross section (the screw floats axially under each ball, so that loads are given, not shares of
-//! one displacement). The clearance has a sign: the radial gap of every contact at the centred ball and the unloaded screw, play above
-//! zero, oversize below. Grooves may be turned: the arc centres of one groove by one angle each way, the gaps unchanged.
-//!
-//! The forces between balls are those of a complementarity problem on the actual speeds: `F >= 0`, no ball overtakes the one in front,
-//! and where a force is not zero the two speeds are equal. A ball's speed rises strictly with the force that pushes it, so that the solution
-//! is unique: it is the isotonic regression of the free speeds, each ball with its own nonlinear law.
-//!
-//! The force between two balls acts along the chord between their centres: a part of it (`sin b`, 7 to 17 %) points outward and moves them in their
-//! grooves, unless [`ElasticRow::chord`] leaves it out. Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
+//! The forces between balls are those of a complementarity problem on the actual speeds: `F >= 0`, no ball overtakes the one in front, and
+//! where a force is not zero the two speeds are equal. A ball's speed rises strictly with the force that pushes it, so that the solution is
+//! unique: it is the isotonic regression of the free speeds, each ball with its own nonlinear law. The force acts along the chord as in
+//! [`super::ball_screw_ring`].
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77), the last as complementarity on the actual speeds.
 

@@ -1,21 +1,16 @@
 //! One ball of a ball screw whose neighbours let it run, or hold it at a speed: the force that they need for it, and what it loses.
 //!
-//! The balance is that of one ball of an [`ElasticRow`](super::ball_screw_row::ElasticRow): seven equations (see `ball_screw_placed`), with
-//! either the force along the track given, or the orbital speed. Grooves deviate by one angle each, as in
-//! [`RowBall`](super::ball_screw_row::RowBall). The law of one ball, folded for an interrupt, is fitted to these answers.
-//!
-//! Friction of the neighbours is that of two balls that move as this one does:
+//! The balance is that of one ball of an [`ElasticRow`](super::ball_screw_row::ElasticRow), to 1e-8 of the contacts' loads, with either the
+//! force along the track given, or the orbital speed. Friction of the neighbours is that of two balls that move as this one does:
 //!
 //! ```text
 //! slip between two balls alike   s = S_rear m + S_front m,   with the motion m of both and the slips S of Lin 2019, eq. (3.73)
 //! friction on this ball          -(f_behind S_front' + f_ahead S_rear') s/|s|
 //! ```
 //!
-//! with the friction forces `f` of the two contacts, N. Friction follows the slip inside Newton's method, as that of the grooves does: with a
-//! friction of given direction a ball has no balance beyond 0.15 to 0.5 of the grooves' friction, with one that follows it has one at any.
-//! Beside friction, neighbours on a curved track push a ball outward, in proportion to their forces on it ([`HeldBall::outward`]).
-//!
-//! Every answer is as exact as that of a row: forces are balanced to 1e-8 of the contacts' loads.
+//! with the friction forces `f` of the two contacts, N. It follows the slip inside Newton's method: with a friction of given direction a
+//! ball has no balance beyond 0.15 to 0.5 of the grooves' friction. Neighbours on a curved track also push a ball outward
+//! ([`HeldBall::outward`]).
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77).
 

@@ -1,14 +1,10 @@
-//! Speeds and contact forces of a row of balls that push each other, where each ball answers a force in proportion: a ball that
-//! is pushed by `F` from behind and by `F'` from ahead moves at `free + compliance (F - F')`.
-//! It is the regression of the free speeds by a rising sequence, weighted by `1/compliance`.
+//! Speeds and contact forces of a row of balls that push each other: a ball that is pushed by `F` from behind and by `F'` from ahead moves at
+//! `free + compliance (F - F')`.
 
 /// Solves `min sum (x_j - free_j)^2/(2 compliance_j)` under `x_j <= x_(j+1)`: neighbours that break the condition are joined into one
 /// cluster with their weighted mean speed, until none does (pool adjacent violators).
 ///
-/// Returns the speeds and the contact forces between neighbours, `F_j = sum_(i <= j) (free_i - x)/compliance_i` within a cluster.
-/// Exact for the linear model, in at most `2 n - 1` comparisons.
-///
-/// Source: the complementarity form of Lin 2019, eqs. (3.30), (3.31), for the linear model of (3.49).
+/// Returns the speeds and the contact forces between neighbours, `F_j = sum_(i <= j) (free_i - x)/compliance_i` within a cluster. Source: the complementarity form of Lin 2019, eqs. (3.30), (3.31), for the linear model of (3.49).
 pub fn pool_adjacent_violators(free: &[f64], compliance: &[f64]) -> (Vec<f64>, Vec<f64>) {
     struct Cluster {
         weight: f64,

@@ -1,5 +1,4 @@
-//! One ball and pairs of balls in a linear bearing: published tables, tabulated cases, and the
-//! exact ball of the reference.
+//! One ball and pairs of balls in a linear bearing: published tables, tabulated cases, and the exact ball of the reference.
 
 use crate::reference::linear_cases;
 use crate::refusals::assert_refused;

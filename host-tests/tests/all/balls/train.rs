@@ -158,8 +158,7 @@ fn compare_with_exhaustive_search<const N: usize>(
     (worst, joins)
 }
 
-/// Rounding: each force is a sum of at most N terms (v - u) / Y, each good to a few 2^-24 of the
-/// largest speed difference.
+/// Rounding: each force is a sum of at most N terms (v - u) / Y, each good to a few 2^-24 of the largest speed difference.
 #[test]
 fn forces_equal_an_exhaustive_search_over_all_sets_of_contacts() {
     let random = &mut Random(1);
@@ -174,9 +173,8 @@ fn forces_equal_an_exhaustive_search_over_all_sets_of_contacts() {
     assert_eq!(results[4].1, 7);
 }
 
-/// Light balls between heavy ones, impedances that differ by up to a factor 1e6. What rounding of the
-/// common speed leaves would be 0.06 of the light balls' forces; taken out, 2^-24 of it remains beside
-/// the rounding of the sums.
+/// Light balls between heavy ones, impedances that differ by up to a factor 1e6. What rounding of the common speed leaves would be 0.06 of
+/// the light balls' forces; taken out, 2^-24 of it remains beside the rounding of the sums.
 #[test]
 fn stiff_trains_keep_their_forces() {
     let random = &mut Random(4);

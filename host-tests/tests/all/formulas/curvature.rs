@@ -96,11 +96,10 @@ fn golden() -> Vec<Case> {
 
 const GROOVES: [Groove; 2] = [Groove::Screw, Groove::Nut];
 
-/// Inputs are exact in f32. About 20 roundings of 2^-24 follow one another, those of `A` and `D` to
-/// the third power; measured worst 4e-7, promised 1e-6. Near the nut's zero of kappa1 the bound is
-/// absolute, 1e-7 of kappa2. Where the screw's surface is about to fold (`A` small) the cosine of the
-/// contact angle, the curvature of the path and their product, each rounded to 2^-24, enter with
-/// 2^-24 / A: four such roundings, and the bound grows below A = 0.3.
+/// Inputs are exact in f32. About 20 roundings of 2^-24 follow one another, those of `A` and `D` to the third power; measured worst 4e-7,
+/// promised 1e-6. Near the nut's zero of kappa1 the bound is absolute, 1e-7 of kappa2. Where the screw's surface is about to fold (`A`
+/// small) the cosine of the contact angle, the curvature of the path and their product, each rounded to 2^-24, enter with 2^-24 / A: four
+/// such roundings, and the bound grows below A = 0.3.
 #[test]
 fn exact_form_holds_in_f32_over_all_cases() {
     let mut sum = [0.0_f64; 2];

@@ -86,8 +86,7 @@ fn designs_give_the_contact_of_their_surface() {
     }
 }
 
-/// Lin 2019, Table 3.3: a linear bearing with ball radius 5 mm and conformity 0.56 has an axis ratio of
-/// 0.2321.
+/// Lin 2019, Table 3.3: a linear bearing with ball radius 5 mm and conformity 0.56 has an axis ratio of 0.2321.
 #[test]
 fn linear_bearing_of_table_3_3() {
     let design = LinearBearing::new(LINEAR_BEARING).unwrap();

@@ -351,10 +351,9 @@ fn extreme_starts() {
                 let found = case
                     .solve()
                     .unwrap_or_else(|error| panic!("{name}: {error}"));
-                // Residuals over the largest force, and forces in N. Loads of 1 mN and less on balls 0.1 mm small: the shaft's
-                // forces of 1e10 N/m times 0.3 mm are known to 1e-9 N, 1e-3 of 1 uN.
-                // Measured: 5.2e-4 and 1.4e-6 N there; 3.2e-10 elsewhere, where the forces differ by 1.9e-9 of the largest, and
-                // 1e-9 N.
+                // Residuals over the largest force, and forces in N. Loads of 1 mN and less on balls 0.1 mm small: the shaft's forces of
+                // 1e10 N/m times 0.3 mm are known to 1e-9 N, 1e-3 of 1 uN. Measured: 5.2e-4 and 1.4e-6 N there; 3.2e-10 elsewhere, where
+                // the forces differ by 1.9e-9 of the largest, and 1e-9 N.
                 let loose = load.abs() <= 1e-3 && oversize < 0.0;
                 let (allowed, near) = if loose { (1e-3, 4e-6) } else { (1e-9, 1e-9) };
                 let residual = found.residual;

@@ -74,8 +74,7 @@ fn without_a_load_a_screw_drives() {
     }
 }
 
-/// A load that turns the nut backwards does so as long as the efficiency is positive, to the last number of the rolling
-/// resistance.
+/// A load that turns the nut backwards does so as long as the efficiency is positive, to the last number of the rolling resistance.
 #[test]
 fn back_driving_ends_where_the_efficiency_does() {
     let mut parameters = CATALOGUE[0].parameters();

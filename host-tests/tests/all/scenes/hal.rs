@@ -95,8 +95,7 @@ fn speed_is_the_difference_of_two_angles() {
     encoder.release().done();
 }
 
-/// Odd parity in either frame of a tick is an error; the tick after is sound, and its difference spans
-/// both ticks.
+/// Odd parity in either frame of a tick is an error; the tick after is sound, and its difference spans both ticks.
 #[test]
 fn odd_parity_is_surfaced() {
     let broken = sealed(150) ^ 1;
@@ -152,8 +151,7 @@ fn the_error_flag_is_read_and_cleared() {
     encoder.release().done();
 }
 
-/// A line that is held low reads as angle 0 with even parity and no error flag, one held high as all
-/// ones with even parity.
+/// A line that is held low reads as angle 0 with even parity and no error flag, one held high as all ones with even parity.
 #[test]
 fn a_stuck_line_never_gives_a_speed() {
     for answer in [0x0000, 0xFFFF] {
@@ -493,8 +491,7 @@ fn stage(
     FrictionFeedForward::new(PwmMock::new(expected), configuration).unwrap()
 }
 
-/// Half the scale is no torque; 1 N m of friction at a share of a half is an eighth of 4 N m of either
-/// half; 2 N m is the authority.
+/// Half the scale is no torque; 1 N m of friction at a share of a half is an eighth of 4 N m of either half; 2 N m is the authority.
 #[test]
 fn torque_is_offset_binary_and_saturates() {
     let expected = [

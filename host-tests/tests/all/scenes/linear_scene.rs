@@ -1,5 +1,4 @@
-//! The scene of a linear bearing against the closed forms in f64, ball by ball, and against the numerical
-//! solution of its two-ball case.
+//! The scene of a linear bearing against the closed forms in f64, ball by ball, and against the numerical solution of its two-ball case.
 
 use crate::refusals::assert_refused;
 use epas_testkit::gears;
@@ -199,8 +198,7 @@ fn every_ball_is_in_balance() {
             let sum: f64 = forces.iter().sum();
             // (3.52), (3.53): balls that roll alike slip with v/cos(beta) at their contact.
             let rubbing = f64::signum(speed) * 0.08 * sum / FRAC_PI_4.cos();
-            // Twelve forces are added in f32: up to eight roundings of 2^-24 count, and below a nanonewton those of what drives
-            // the balls.
+            // Twelve forces are added in f32: up to eight roundings of 2^-24 count, and below a nanonewton those of what drives the balls.
             let error = f64::from(output.ball_force) - rubbing;
             assert!(
                 error.abs() <= 5e-7 * rubbing.abs() + 1e-15,

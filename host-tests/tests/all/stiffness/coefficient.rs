@@ -118,8 +118,7 @@ fn the_rational_form_is_near_the_full_law() {
     warming.assert_promised(promises::of("friction_coefficient_warming"));
 }
 
-/// Measured, over the exact law, as the table of `Viscosity` prints it, with two decimals: half a unit. The pole to a tenth
-/// of a degree.
+/// Measured, over the exact law, as the table of `Viscosity` prints it, with two decimals: half a unit. The pole to a tenth of a degree.
 #[test]
 fn viscosities_by_two_points() {
     let worst = |found: &Viscosity, oil: &dyn Fn(f64) -> f64, from: i32, to: i32| {
