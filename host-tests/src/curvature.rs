@@ -191,6 +191,22 @@ impl Surface {
         .principal()
     }
 
+    /// Point of the surface, eq. (7) and (10).
+    pub fn point(&self, azimuth: f64, contact_angle: f64) -> Vector3<f64> {
+        let (sin_alpha, cos_alpha) = self.lead_angle.sin_cos();
+        let (sin, cos) = azimuth.sin_cos();
+        let (sin_phi, cos_phi) = contact_angle.sin_cos();
+        let r = self.groove_radius;
+        let lateral = (r * sin_phi - self.offset_l) * sin_alpha;
+        let radial = self.pitch_radius + self.groove.sign() * (self.offset_h - r * cos_phi);
+        Vector3::new(
+            -lateral * sin + radial * cos,
+            lateral * cos + radial * sin,
+            self.pitch_radius * azimuth * sin_alpha / cos_alpha
+                + (self.offset_l - r * sin_phi) * cos_alpha,
+        )
+    }
+
     /// Both principal curvatures exactly as printed: derivatives over the azimuth (13)-(16) at
     /// azimuth 0 and eq. (12), (17)-(24). A stray sign in (15) is left out, and the nut's normal is
     /// turned into its metal. The fractions printed in (21)-(23) have the sign of `S_phi x S_theta`, against the normal of (12): their

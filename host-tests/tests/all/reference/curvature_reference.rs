@@ -75,6 +75,30 @@ proptest! {
         prop_assert!((cartesian.kappa2 / frenet.kappa2 - 1.0).abs() < 1e-12);
         prop_assert!((appendix - frenet.kappa1).abs() < 1e-9 * scale);
     }
+
+    /// The curvatures are those of the surface that eq. (7) and (10) describe: the normal curvature of
+    /// its line of constant azimuth, by central differences of fourth order.
+    #[test]
+    fn normal_curvature_across_is_that_of_the_surface((surface, angle) in wide()) {
+        let step = 1e-3;
+        let at = |offset: f64| surface.point(0.0, angle + offset);
+        let tangent = (at(-2.0 * step) - 8.0 * at(-step) + 8.0 * at(step) - at(2.0 * step))
+            / (12.0 * step);
+        let bend = (-at(-2.0 * step) + 16.0 * at(-step) - 30.0 * at(0.0) + 16.0 * at(step)
+            - at(2.0 * step))
+            / (12.0 * step * step);
+        let around = |offset: f64| surface.point(offset, angle);
+        let path = (around(-2.0 * step) - 8.0 * around(-step) + 8.0 * around(step)
+            - around(2.0 * step))
+            / (12.0 * step);
+        let normal = surface.groove.sign() * path.cross(&tangent).normalize();
+        let across = bend.dot(&normal) / tangent.norm_squared();
+        // A normal curvature lies between the principal ones, here close to the second: the
+        // difference is of second order in the angle between them.
+        let principal = surface.principal(angle);
+        prop_assert!(across >= principal.kappa2 * (1.0 + 1e-6));
+        prop_assert!(across <= principal.kappa2 + 1e-2 * (principal.kappa1 - principal.kappa2));
+    }
 }
 
 /// A catalogue size, mm: 32 x 20 with balls of 6.35.
