@@ -50,8 +50,7 @@ impl ClosedLoop {
 
     const LONGEST_STEP: f64 = 2e-5;
 
-    /// Runs a compensation: torque of a count that the encoder gives. `noise` is added to the angle before it is counted, in
-    /// counts.
+    /// Runs a compensation: torque of a count that the encoder gives. `noise` is added to the angle before it is counted, in counts.
     pub fn run(
         &self,
         mut noise: impl FnMut() -> f64,

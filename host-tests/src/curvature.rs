@@ -1,10 +1,8 @@
 //! Principal curvatures of gothic-arch grooves after Bertolino, De Martin, Mauro, Sorli 2023.
 //!
-//! [`Surface::principal`] is the reference: the Weingarten map of eq. (12)-(24), with the surface's
-//! derivatives taken along the arc length of the ball path and in its Frenet frame, so that it stays
-//! regular up to a lead angle of 90 degrees. [`Surface::principal_cartesian`] is the same map exactly
-//! as printed, over the azimuth and in Cartesian coordinates; [`Surface::appendix_b`] the closed form
-//! of Appendix B with its two misprints corrected. The three are written separately and agree.
+//! [`Surface::principal`] is the reference: the Weingarten map of eq. (12)-(24) along the arc length of the ball path, in its Frenet frame,
+//! regular up to a lead angle of 90 degrees. [`Surface::principal_cartesian`] is the same map as printed; [`Surface::appendix_b`] the
+//! closed form of Appendix B with its two misprints corrected. The three are written separately.
 
 use nalgebra::Vector3;
 
@@ -78,8 +76,7 @@ pub fn literature(groove: Groove, pitch_radius: f64, ball_radius: f64, contact_a
 /// First and second fundamental forms of a surface at a point, eq. (18)-(23), in the directions of
 /// `S_phi` and of the part of the path's tangent that is orthogonal to it.
 ///
-/// The change of basis makes `F` zero and keeps `E G - F²` a product: as a difference it cancels where
-/// the surface is about to fold.
+/// The change of basis makes `F` zero and keeps `E G - F²` a product: as a difference it cancels where the surface is about to fold.
 struct Forms {
     first: [f64; 2],
     second: [f64; 3],
@@ -185,8 +182,7 @@ impl Surface {
         let phi_phi = Vector3::new(0.0, -zeta * radius * cos, radius * sin);
         let phi_path = transport(along_phi);
         let path_path = transport(along_path);
-        // The frame's n points to the axis; S_path x S_phi points into the screw's metal, out of the
-        // nut's.
+        // The frame's n points to the axis; S_path x S_phi points into the screw's metal, out of the nut's.
         Forms::new(
             [along_phi, along_path],
             [phi_phi, phi_path, path_path],
@@ -245,8 +241,7 @@ impl Surface {
         }
     }
 
-    /// First principal curvature by Appendix B, corrected: (A1a) with `-sigma_3`, (A1m) with
-    /// `-zeta sigma_13`.
+    /// First principal curvature by Appendix B, corrected: (A1a) with `-sigma_3`, (A1m) with `-zeta sigma_13`.
     pub fn appendix_b(&self, contact_angle: f64) -> f64 {
         let zeta = self.groove.sign();
         let sigma = Sigma::new(self, contact_angle, zeta);

@@ -1,8 +1,5 @@
-//! Designs by the numbers on their drawings, and the Hertzian contacts that follow from them.
-//!
-//! From a drawing to a contact ellipse: groove surface, its principal curvatures at the contact
-//! point, relative curvatures of ball and groove, contact modulus of their materials, exact ellipse.
-//! Whatever is compared with the reference starts from here, so that an error in any of these steps shows.
+//! Designs by the numbers on their drawings, and the Hertzian contacts that follow from them: groove surface, principal curvatures,
+//! relative curvatures of ball and groove, contact modulus, exact ellipse.
 
 use std::f64::consts::{FRAC_PI_4, TAU};
 
@@ -120,8 +117,7 @@ pub struct LinearBearingDesign {
 }
 
 impl LinearBearingDesign {
-    /// Contact of a ball with any of its four arcs: relative radii `r_B` along the straight track and
-    /// `r_B r_G / (r_G - r_B)` across it.
+    /// Contact of a ball with any of its four arcs: relative radii `r_B` along the straight track and `r_B r_G / (r_G - r_B)` across it.
     pub fn contact(&self) -> Result<Hertz, ReferenceError> {
         let (ball, groove) = (self.ball_radius, self.groove_radius);
         within("ball_radius", ball, 1e-9, 1e9)?;

@@ -98,35 +98,6 @@ impl Screw {
                 * (self.contact_angle.sin() * root + self.friction * root * root))
     }
 
-    /// First-order coefficient `k1` of inertia in full sliding: the exact steady state's efficiency is eq. (14) times
-    /// `1 + k1 Pi` up to the second order in `Pi = m r_m Omega² / Fa` (load per ball).
-    ///
-    /// With `G = Sb (1 - s0) R / (Cb (Sb - f R))`, `s0 = ta/R`, `c0 = Cb/R`, `w0 = (1 - a Ca² R²/Cb)/2`:
-    ///
-    /// ```text
-    /// k1 = w0² Ca (Sb - f R) / (Cb (1 + s0) + G (Cb c0 + f Sb))
-    ///      * [s0 + G c0 - (Sb - f ta)/(Sb - f R) - f G (Cb/Ca² - a R²)/(2 R Sb (R + f Sb))]
-    /// ```
-    ///
-    /// Not in the paper: the next term of the expansion of eq. (5)-(9) whose first is eq. (14). No number where driving locks.
-    pub fn dynamic_coefficient(&self) -> f64 {
-        let (sin, cos) = self.contact_angle.sin_cos();
-        let (f, a, root) = (self.friction, self.ball_ratio, self.root());
-        let (tan, cos_a) = (self.lead_angle.tan(), self.lead_angle.cos());
-        let grip = sin - f * root;
-        if grip <= 0.0 {
-            return f64::NAN;
-        }
-        let (s0, c0) = (tan / root, cos / root);
-        let g = sin * (1.0 - s0) * root / (cos * grip);
-        let w0 = 0.5 * (1.0 - a * cos_a * cos_a * root * root / cos);
-        let bracket = s0 + g * c0
-            - (sin - f * tan) / grip
-            - f * g * (cos / (cos_a * cos_a) - a * root * root)
-                / (2.0 * root * sin * (root + f * sin));
-        w0 * w0 * cos_a * grip / (cos * (1.0 + s0) + g * (cos * c0 + f * sin)) * bracket
-    }
-
     /// Self-braking of driving, eq. (16).
     pub fn locked_drive(&self) -> bool {
         self.contact_angle.sin() <= self.friction * self.root()
@@ -146,8 +117,7 @@ impl Screw {
     }
 }
 
-/// Optimum contact angle of driving, from eq. (15): `Ca Sb = sin(pi/4 + phi/2)`; `None` beyond its
-/// range `alpha <= pi/4 - phi/2`.
+/// Optimum contact angle of driving, from eq. (15): `Ca Sb = sin(pi/4 + phi/2)`; `None` beyond its range `alpha <= pi/4 - phi/2`.
 pub fn optimum_drive(lead_angle: f64, friction: f64) -> Option<f64> {
     let sin = (FRAC_PI_4 + 0.5 * friction.atan()).sin() / lead_angle.cos();
     (sin <= 1.0).then(|| sin.asin())
@@ -171,8 +141,7 @@ pub fn locking_border_drive(lead_angle: f64, friction: f64) -> Option<f64> {
     (sin <= 1.0).then(|| sin.asin())
 }
 
-/// Largest contact angle that does not lock back-driving, from eq. (19): `Sb = cos(phi) / Ca`; only
-/// below a lead angle of `phi`.
+/// Largest contact angle that does not lock back-driving, from eq. (19): `Sb = cos(phi) / Ca`; only below a lead angle of `phi`.
 pub fn locking_border_backdrive(lead_angle: f64, friction: f64) -> Option<f64> {
     let sin = friction.atan().cos() / lead_angle.cos();
     (sin <= 1.0).then(|| sin.asin())

@@ -5,8 +5,7 @@ use roots::{SimpleConvergency, find_root_brent};
 
 use crate::error::{ReferenceError, within};
 
-/// Contact modulus of two bodies given as Young's modulus (Pa) and Poisson's ratio, Pa:
-/// `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2`.
+/// Contact modulus of two bodies given as Young's modulus (Pa) and Poisson's ratio, Pa: `1/E* = (1 - nu1²)/E1 + (1 - nu2²)/E2`.
 pub fn contact_modulus(first: (f64, f64), second: (f64, f64)) -> f64 {
     let compliance = |(youngs_modulus, poisson_ratio): (f64, f64)| {
         (1.0 - poisson_ratio * poisson_ratio) / youngs_modulus
@@ -54,8 +53,7 @@ pub fn complete_integrals(axis_ratio: f64) -> Result<(f64, f64), ReferenceError>
     Ok((first, second))
 }
 
-/// Axis ratio `k = b/a` that solves `(E/k² - K) / (K - E) = ratio`, ratio of the larger to the smaller
-/// relative radius.
+/// Axis ratio `k = b/a` that solves `(E/k² - K) / (K - E) = ratio`, ratio of the larger to the smaller relative radius.
 ///
 /// In Carlson's form the equation is `RD(0, 1, k²) / RD(0, k², 1) = ratio`, without a difference, also
 /// at the circle; solved for `ln(k)` by Brent's method.

@@ -1,10 +1,9 @@
-//! The float64 reference of `epas-friction`: the exact models of four papers on ball-screw curvature,
-//! efficiency, contact kinematics and friction.
+//! The float64 reference of `epas-friction`: the exact models of four papers on ball-screw curvature, efficiency, contact kinematics and
+//! friction.
 //!
-//! It is written from the papers, with their misprints corrected and named, and shares no code with
-//! the fast library that is measured against it. Each module names paper and equations; lengths are in
-//! m, forces in N, angles in rad unless a function is free of units. A [`ReferenceError`] names an input that is out of
-//! range, or the balance that was not found.
+//! It is written from the papers, with their misprints corrected and named, and shares no code with the fast library that is measured
+//! against it. Lengths are in m, forces in N, angles in rad unless a function is free of units. A [`ReferenceError`] names an input that is
+//! out of range, or the balance that was not found.
 
 #![allow(
     clippy::missing_errors_doc,

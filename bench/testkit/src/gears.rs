@@ -9,7 +9,7 @@ use epas_friction::scene::{
 };
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrewConfiguration, DISSERTATION_DESIGNS,
-    DeviationMap, FrictionBranch, Harmonic, Inputs, Limits, LinearBearing,
+    DeviationMap, Error, FrictionBranch, Harmonic, Inputs, Limits, LinearBearing,
     LinearBearingConfiguration, LinearBearingParameters, LinearInputs, LinearLimits, LoadShare,
     LoadShares, UncagedBallScrew, UncagedBallScrewConfiguration,
 };
@@ -20,30 +20,26 @@ pub const SCREW_BALLS: usize = 37;
 /// Balls of [`linear`].
 pub const LINEAR_BALLS: usize = 16;
 
-/// Two waves of 2.3 degrees a turn, Lin 2019, Fig. 3.23.
-static SCREW_MAP: DeviationMap = match DeviationMap::from_harmonics(
-    1,
-    &[Harmonic {
-        order: 2,
-        cosine: 0.0,
-        sine: 0.04014,
-    }],
-) {
-    Ok(map) => map,
-    Err(_) => panic!("a deviation is too large"),
-};
+/// What a set-up gives, for constants.
+pub const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
+    match set_up {
+        Ok(folded) => folded,
+        Err(_) => panic!("a field is out of range"),
+    }
+}
 
-static NUT_MAP: DeviationMap = match DeviationMap::from_harmonics(
-    1,
-    &[Harmonic {
-        order: 3,
-        cosine: 0.01,
-        sine: 0.02,
-    }],
-) {
-    Ok(map) => map,
-    Err(_) => panic!("a deviation is too large"),
-};
+const fn one_wave(order: u8, cosine: f32, sine: f32) -> DeviationMap {
+    let harmonic = Harmonic {
+        order,
+        cosine,
+        sine,
+    };
+    folded(DeviationMap::from_harmonics(1, &[harmonic]))
+}
+
+/// Two waves of 2.3 degrees a turn, Lin 2019, Fig. 3.23.
+static SCREW_MAP: DeviationMap = one_wave(2, 0.0, 0.04014);
+static NUT_MAP: DeviationMap = one_wave(3, 0.01, 0.02);
 
 /// A wave of so many periods in so many turns, rad, for as long as the program runs.
 pub fn wave(turns: u16, order: u8, cosine: f32, sine: f32) -> &'static DeviationMap {
@@ -65,10 +61,10 @@ pub const LIMITS: Limits = Limits {
 };
 
 /// Oversize with which so many loaded balls press each flank of the nut with an axial force, N.
-pub fn oversize(design: &BallScrew, axial_preload: f32, loaded_balls: u16) -> Clearance {
+pub const fn oversize(design: &BallScrew, axial_preload: f32, loaded_balls: u16) -> Clearance {
     let slope = design.contact_angle().sin * design.cos_lead_angle();
-    let contact_force = axial_preload / (f32::from(loaded_balls) * slope);
-    Clearance::of_preload(design, contact_force).unwrap()
+    let contact_force = axial_preload / (loaded_balls as f32 * slope);
+    folded(Clearance::of_preload(design, contact_force))
 }
 
 /// Nodes of [`CagedScrew`].
@@ -120,14 +116,9 @@ pub fn worn() -> CagedBallScrewConfiguration {
     }
 }
 
-/// Their design.
-pub fn caged_design() -> BallScrew {
-    BallScrew::new(DISSERTATION_DESIGNS[1].parameters).unwrap()
-}
-
 /// 32 x 20 x 6.35 with 300 N of preload on each flank, by a closed form.
-pub fn closed_form(branch: FrictionBranch) -> ClosedFormScrewConfiguration {
-    let design = CATALOGUE[15].design().unwrap();
+pub const fn closed_form(branch: FrictionBranch) -> ClosedFormScrewConfiguration {
+    let design = folded(CATALOGUE[15].design());
     ClosedFormScrewConfiguration {
         design,
         friction: 0.075,
@@ -158,21 +149,15 @@ const BALL_LIMITS: Limits = Limits {
 /// The ball of the screw of Lin 2019, Table 3.6, that its neighbours press on, by the closed form: its bits do not change with what a host
 /// folds. The closed form knows nothing of what friction between balls does to their speeds; here it is that of a folded ball in its order.
 const fn ball_of(friction: f32) -> FoldedBall {
-    let Ok(design) = BallScrew::new(DISSERTATION_DESIGNS[1].parameters) else {
-        panic!("a design is out of range")
-    };
-    let ball = FoldedBall::of_catalogue(&CatalogueBall {
-        design,
+    let mut ball = folded(FoldedBall::of_catalogue(&CatalogueBall {
+        design: folded(BallScrew::new(DISSERTATION_DESIGNS[1].parameters)),
         friction,
         clearance: Clearance::ZERO,
         deviations: [0.0402, 0.0225],
         axial_load: 300.0,
         reversal_speed: 0.5,
         limits: BALL_LIMITS,
-    });
-    let Ok(mut ball) = ball else {
-        panic!("a number of a ball is out of range")
-    };
+    }));
     let mut knot = 0;
     while knot < 2 * NEIGHBOUR_KNOTS {
         let numbers = &mut ball.law.nodes[0].neighbours[knot / NEIGHBOUR_KNOTS]
@@ -225,29 +210,13 @@ pub fn changed<const NODES: usize>(
 }
 
 /// Two waves a turn as large as the folded ball takes, Lin 2019, Fig. 3.23.
-static BALL_SCREW_MAP: DeviationMap = match DeviationMap::from_harmonics(
-    1,
-    &[Harmonic {
-        order: 2,
-        cosine: 0.0,
-        sine: BALL_RANGE.law.deviations[0],
-    }],
-) {
-    Ok(map) => map,
-    Err(_) => panic!("a deviation is too large"),
-};
-
-static BALL_NUT_MAP: DeviationMap = match DeviationMap::from_harmonics(
-    1,
-    &[Harmonic {
-        order: 3,
-        cosine: 0.4 * BALL_RANGE.law.deviations[1],
-        sine: 0.8 * BALL_RANGE.law.deviations[1],
-    }],
-) {
-    Ok(map) => map,
-    Err(_) => panic!("a deviation is too large"),
-};
+pub static BALL_SCREW_MAP: DeviationMap = one_wave(2, 0.0, BALL_RANGE.law.deviations[0]);
+/// Three waves a turn.
+pub static BALL_NUT_MAP: DeviationMap = one_wave(
+    3,
+    0.4 * BALL_RANGE.law.deviations[1],
+    0.8 * BALL_RANGE.law.deviations[1],
+);
 
 /// Two waves a turn on the screw, as a share of the largest deviation that the folded ball of one friction coefficient takes.
 pub fn screw_wave(share: f32) -> &'static DeviationMap {
@@ -321,9 +290,9 @@ pub fn loaded_length<const NODES: usize>(
 }
 
 /// Balls of 10 mm, Lin 2019, Table 3.3.
-pub fn linear() -> LinearBearingConfiguration {
+pub const fn linear() -> LinearBearingConfiguration {
     LinearBearingConfiguration {
-        bearing: LinearBearing::new(LINEAR_BEARING).unwrap(),
+        bearing: folded(LinearBearing::new(LINEAR_BEARING)),
         friction: 0.1,
         ball_friction: 0.1,
         balls: LINEAR_BALLS as u16,

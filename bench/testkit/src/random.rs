@@ -1,7 +1,6 @@
 //! Random numbers, the same in every run and on every machine.
 //!
-//! Own generators, not those of a crate: stored bits and measured bounds belong to their numbers, which no new
-//! version may change.
+//! Own generators, not those of a crate: stored bits and measured bounds belong to their numbers, which no new version may change.
 
 /// Splitmix64, made from a seed: for whatever has no other.
 #[derive(Clone, Debug)]

@@ -234,7 +234,9 @@ pub trait Trial: Scene<Configuration: Debug> + Sized {
         outputs: &Self::Outputs,
     ) -> Result<(), String>;
     /// The state, now and then.
-    fn check_state(model: &FrictionModel<Self>) -> Result<(), String>;
+    fn check_state(_: &FrictionModel<Self>) -> Result<(), String> {
+        Ok(())
+    }
     /// All bits of the outputs, for comparisons.
     fn numbers(outputs: &Self::Outputs) -> Vec<u32>;
 }
@@ -317,11 +319,7 @@ impl Trial for ClosedFormScrew {
     }
 
     fn full_scales(configuration: &ClosedFormScrewConfiguration) -> [f32; 3] {
-        [
-            configuration.limits.nut_speed,
-            configuration.limits.axial_load,
-            0.0,
-        ]
+        scales(&configuration.limits)
     }
 
     fn inputs([nut_speed, axial_load, _]: [f32; 3]) -> Inputs {
@@ -333,11 +331,7 @@ impl Trial for ClosedFormScrew {
         sensors: [f32; 3],
         outputs: &Outputs,
     ) -> Result<(), String> {
-        screw_outputs(&configuration.limits, sensors, outputs)
-    }
-
-    fn check_state(_: &FrictionModel<Self>) -> Result<(), String> {
-        Ok(())
+        screw_outputs(&configuration.limits, sensors, outputs).map(drop)
     }
 
     fn numbers(outputs: &Outputs) -> Vec<u32> {
@@ -400,11 +394,7 @@ impl<const N: usize> Trial for CagedBallScrew<N> {
     }
 
     fn full_scales(configuration: &CagedBallScrewConfiguration<N>) -> [f32; 3] {
-        [
-            configuration.limits.nut_speed,
-            configuration.limits.axial_load,
-            0.0,
-        ]
+        scales(&configuration.limits)
     }
 
     fn inputs(sensors: [f32; 3]) -> Inputs {
@@ -416,11 +406,7 @@ impl<const N: usize> Trial for CagedBallScrew<N> {
         sensors: [f32; 3],
         outputs: &Outputs,
     ) -> Result<(), String> {
-        screw_outputs(&configuration.limits, sensors, outputs)
-    }
-
-    fn check_state(_: &FrictionModel<Self>) -> Result<(), String> {
-        Ok(())
+        screw_outputs(&configuration.limits, sensors, outputs).map(drop)
     }
 
     fn numbers(outputs: &Outputs) -> Vec<u32> {
@@ -428,12 +414,16 @@ impl<const N: usize> Trial for CagedBallScrew<N> {
     }
 }
 
-/// Outputs of a ball screw with or without a cage: finite, within their limits, with flags that say what was wrong.
+fn scales(limits: &Limits) -> [f32; 3] {
+    [limits.nut_speed, limits.axial_load, 0.0]
+}
+
+/// Outputs of a ball screw with or without a cage: finite, within their limits, with flags that say what was wrong. Whether a sensor is lost.
 fn screw_outputs(
     limits: &Limits,
     [speed, load, _]: [f32; 3],
     outputs: &Outputs,
-) -> Result<(), String> {
+) -> Result<bool, String> {
     let lost = flags(
         outputs.faults,
         (speed, limits.nut_speed),
@@ -442,9 +432,8 @@ fn screw_outputs(
     )?;
     friction(outputs.friction_torque, limits.friction_torque, speed, lost)?;
     finite("load_torque", outputs.load_torque)?;
-    finite("efficiency", outputs.efficiency)?;
     if (-1e6..=1.0).contains(&outputs.efficiency) {
-        Ok(())
+        Ok(lost)
     } else {
         Err(format!("efficiency {}", outputs.efficiency))
     }
@@ -714,37 +703,21 @@ where
     }
 
     fn full_scales(configuration: &UncagedBallScrewConfiguration<NODES>) -> [f32; 3] {
-        [
-            configuration.folded.limits.nut_speed,
-            configuration.folded.limits.axial_load,
-            0.0,
-        ]
+        scales(&configuration.folded.limits)
     }
 
-    fn inputs([nut_speed, axial_load, _]: [f32; 3]) -> Inputs {
-        screw_inputs(nut_speed, axial_load)
+    fn inputs(sensors: [f32; 3]) -> Inputs {
+        ClosedFormScrew::inputs(sensors)
     }
 
     fn check(
         configuration: &UncagedBallScrewConfiguration<NODES>,
-        [speed, load, _]: [f32; 3],
+        sensors: [f32; 3],
         outputs: &UncagedOutputs,
     ) -> Result<(), String> {
         let limits = &configuration.folded.limits;
-        let lost = flags(
-            outputs.faults,
-            (speed, limits.nut_speed),
-            &[load],
-            limits.axial_load,
-        )?;
-        TrainNumbers::from(outputs).check(N, speed, limits.friction_torque, lost)?;
-        finite("load_torque", outputs.load_torque)?;
-        let outputs = Outputs::from(*outputs);
-        if (-1e6..=1.0).contains(&outputs.efficiency) {
-            Ok(())
-        } else {
-            Err(format!("efficiency {}", outputs.efficiency))
-        }
+        let lost = screw_outputs(limits, sensors, &Outputs::from(*outputs))?;
+        TrainNumbers::from(outputs).check(N, sensors[0], limits.friction_torque, lost)
     }
 
     fn check_state(model: &FrictionModel<Self>) -> Result<(), String> {

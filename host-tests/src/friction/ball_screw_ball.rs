@@ -113,9 +113,8 @@ impl ScrewTrack {
         (sin, (1.0 - sin * sin).sqrt())
     }
 
-    /// Slip between two touching balls, components z4 and x4 of (3.73) over `R_B`: what the motions of the rear and of the front ball give
-    /// to it, with the angular velocity relative to the orbiting frame. `direction` is 1 where the balls orbit along +y, -1 where they orbit
-    /// along -y.
+    /// Slip between two touching balls, components z4 and x4 of (3.73) over `R_B`, by the motions of the rear and of the front ball, with the
+    /// angular velocity relative to the orbiting frame. `direction` is 1 where the balls orbit along +y, -1 along -y.
     pub(crate) fn slip_between(&self, direction: f64) -> [SMatrix<f64, 2, 4>; 2] {
         let (sin_a, cos_a) = self.lead_angle();
         let (sin_b, cos_b) = self.ball_contact_angle();
@@ -417,10 +416,8 @@ pub(crate) fn dimensional(
 
 /// Motion of a ball with given contact loads and angles: the force along the track and the three moments balance.
 ///
-/// The four equations are the gradient of the power by orbital speed and total spin: the motion loses the least power. It is unique up to a
-/// contact that sticks (two-point contact), from any start. In-plane forces are not balanced here, see
-/// [`super::ball_screw_elastic`].
-/// With `friction = 0` the motion is the limit and all forces vanish.
+/// The four equations are the gradient of the power by orbital speed and total spin; the motion is unique up to a contact that sticks.
+/// In-plane forces are not balanced here, see [`super::ball_screw_elastic`]. With `friction = 0` the motion is the limit and all forces vanish.
 ///
 /// Source: Lin 2019, eqs. (3.65) to (3.69), appendix F. Corrected: `Sig` of (3.20) is odd while the force holds the sign
 /// of the spin; here friction at rest is bounded by Coulomb's law instead.

@@ -1,10 +1,8 @@
 //! Closed forms for a ball of a ball screw with a pinned third contact: orbital speed, spin, loads, compliance, losses.
 //!
-//! Not in the dissertation. They follow from its equations (3.65) to (3.76) under the finding that the friction across the track closes a
-//! light third contact which stops the slip along the track there (see [`super::ball_screw_elastic`]): all three
-//! contacts then have their velocity centre near the contact centre, and orbital speed is a matter of geometry.
-//! Good to 1 per cent in the orbital speeds' differences and 5 per cent in the contact force while the third contact is pinned
-//! (deviations that load it, up to 50 N per ball at a friction of 0.1); outside, the numerical models are the ones to use.
+//! They follow from equations (3.65) to (3.76) of the dissertation where the friction across the track closes a light third contact which
+//! stops the slip along the track there. Good to 1 per cent in the orbital speeds' differences and 5 per cent in the contact force while
+//! the third contact is pinned (deviations that load it, up to 50 N per ball at a friction of 0.1).
 
 use super::ball_screw_ball::ScrewTrack;
 use super::contact_law::HertzLaw;

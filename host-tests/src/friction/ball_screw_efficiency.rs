@@ -78,8 +78,7 @@ impl ScrewFriction {
 }
 
 impl LoadedScrew {
-    /// Solves one ball, at a nut speed of 1 rad/s: Coulomb friction does not depend on it, and the lubricant's drag is
-    /// given as a force.
+    /// Solves one ball, at a nut speed of 1 rad/s: Coulomb friction does not depend on it, and the lubricant's drag is given as a force.
     pub fn solve(&self) -> Result<ScrewFriction, ReferenceError> {
         within("friction", self.friction, 0.0, 1.0)?;
         within("balls", self.balls, 1.0, 1e4)?;
@@ -128,8 +127,7 @@ impl LoadedScrew {
             .collect()
     }
 
-    /// Friction torque of two nuts that are braced against each other by `|axial_load|`, N m: one drives, the other is
-    /// driven.
+    /// Friction torque of two nuts that are braced against each other by `|axial_load|`, N m: one drives, the other is driven.
     pub fn double_nut_torque(&self) -> Result<f64, ReferenceError> {
         let opposite = Self {
             axial_load: -self.axial_load,

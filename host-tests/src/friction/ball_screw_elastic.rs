@@ -1,8 +1,7 @@
 //! Balls of a ball screw with friction and contact elasticity: the in-plane balance that places the ball, and two balls that touch
 //! (Lin 2019, eqs. (3.69), (3.73) to (3.76)).
 //!
-//! The lead makes screw and nut turn against each other about the ball's path by `w_N sin a`. The slip
-//! `R_B w_N sin a` across the track is shared by the two loaded contacts, and both friction forces push the ball the same way along
+//! The slip `R_B w_N sin a` across the track is shared by the two loaded contacts, and both friction forces push the ball the same way along
 //! the other diagonal: in a groove without play a third, light contact closes. So loads and friction must be found together.
 
 use nalgebra::{DMatrix, DVector, SMatrix, Vector3, Vector4};
@@ -11,6 +10,7 @@ use super::ball_screw_ball::{
     ScrewMotion, ScrewRow, ball_dissipation, ball_minimum, dimensional, rolling,
 };
 use super::ball_screw_grooves::ElasticGrooves;
+use super::ball_screw_placed::normal;
 use super::newton::{Local, minimise};
 use crate::error::{ReferenceError, within};
 
@@ -77,8 +77,7 @@ impl ElasticMotion {
 /// Finest smoothing spin of a contact that sticks, over the nut's speed. With a finer one the rounding of the motion is larger
 /// than the spin over which friction reverses.
 const FINEST: f64 = 1e-5;
-/// Coarsest smoothing spin whose solution is accepted, where rounding stops finer ones from converging (loads of millinewtons with
-/// play).
+/// Coarsest smoothing spin whose solution is accepted, where rounding stops finer ones from converging (loads of millinewtons with play).
 const COARSEST: f64 = 1e-3;
 
 /// Unknowns of one ball: place in units of the approach, and motion in units of the nut's speed.
@@ -150,11 +149,7 @@ impl Problem<'_> {
             let at = PER_BALL * ball;
             for row in &rows {
                 let gradient = row.local(&y, self.rest_spin).gradient;
-                let (sx, sz) = row.contact.groove.signs();
-                let (nx, nz) = (
-                    sx * row.contact.contact_angle.cos(),
-                    sz * row.contact.contact_angle.sin(),
-                );
+                let [nx, nz] = normal(row);
                 let (across, along) = (-mu * sign * gradient.x, -mu * sign * gradient.y);
                 let force = [
                     -row.contact.load * nx + across * nz,
@@ -231,11 +226,7 @@ impl Problem<'_> {
             let at = PER_BALL * ball;
             for row in &self.rows_of(ball, q).ok()? {
                 let by_motion = row.local(&y, self.rest_spin).hessian * row.rows * -scale;
-                let (sx, sz) = row.contact.groove.signs();
-                let (nx, nz) = (
-                    sx * row.contact.contact_angle.cos(),
-                    sz * row.contact.contact_angle.sin(),
-                );
+                let [nx, nz] = normal(row);
                 let generalised = row.rows.transpose() * by_motion;
                 for i in 0..4 {
                     let column = at + 2 + i;
@@ -390,12 +381,12 @@ impl ElasticBalls {
     /// The balls with their contact: apart when the front one is faster, pressing on each other otherwise.
     ///
     /// Newton's method on the `7 n` (and with contact one more) equations: in-plane balance, balance along the track and of moments of each
-    /// ball, the screw's axial balance, equal orbital speeds. Starts from the frictionless balance with the friction forces of
-    /// a pinned third contact, and motions of least dissipation there; where a contact sticks, from friction smoothed at rest that
-    /// is sharpened in steps down to 1e-5 of the nut's speed (at least 1e-3).
+    /// ball, the screw's axial balance, equal orbital speeds. Starts from the frictionless balance with the friction forces of a pinned
+    /// third contact; where a contact sticks, from friction smoothed at rest that is sharpened in steps down to 1e-5 of the nut's speed (at
+    /// least 1e-3).
     ///
-    /// Source: Lin 2019, eqs. (3.69) to (3.76). Corrected: (3.69) is lost in the text and rebuilt as six equations of balance per ball;
-    /// for the front ball the outward part of the normal force does not reverse.
+    /// Source: Lin 2019, eqs. (3.69) to (3.76). Corrected: (3.69) is lost in the text and rebuilt as six equations of balance per ball; for
+    /// the front ball the outward part of the normal force does not reverse.
     pub fn solve(&self, support: ScrewSupport) -> Result<ElasticMotion, ReferenceError> {
         let apart = self.run(support, false)?;
         let [rear, front] = apart.balls.as_slice() else {

@@ -5,7 +5,8 @@ use nalgebra::{SMatrix, Vector3};
 use super::ball_screw_ball::{Groove, ScrewContact, ScrewTrack};
 use super::contact_law::HertzLaw;
 use super::newton::Local;
-use crate::design::check_groove_radii;
+use crate::curvature;
+use crate::design::{BallScrewDesign, check_groove_radii};
 use crate::error::{ReferenceError, within};
 
 /// Grooves with their elasticity: four arcs around the ball.
@@ -28,6 +29,45 @@ pub struct ElasticGrooves {
 }
 
 impl ElasticGrooves {
+    /// Grooves of a design with a radial gap of every contact at the centred ball, m: play above zero, oversize below; -0.05 to 0.2 ball radii.
+    pub(crate) fn of(design: &BallScrewDesign, clearance: f64) -> Result<Self, ReferenceError> {
+        let radius = design.ball_radius;
+        design.check_grooves()?;
+        within("clearance", clearance, -0.05 * radius, 0.2 * radius)?;
+        Self {
+            track: design.into(),
+            screw_groove_radius: design.screw_groove_radius,
+            nut_groove_radius: design.nut_groove_radius,
+            arc_angles: [design.contact_angle; 4],
+            screw: design.contact(curvature::Groove::Screw)?.into(),
+            nut: design.contact(curvature::Groove::Nut)?.into(),
+            oversize: -clearance,
+        }
+        .of_design()
+    }
+
+    fn of_design(self) -> Result<Self, ReferenceError> {
+        self.check()
+            .map_err(|error| error.renamed("contact_angle"))?;
+        Ok(self)
+    }
+
+    /// These grooves with arc centres turned by the deviations of screw and nut, rad: less on the left flanks, more on the right.
+    pub(crate) fn turned(&self, screw: f64, nut: f64) -> Self {
+        let [angle, ..] = self.arc_angles;
+        Self {
+            arc_angles: [angle - screw, angle + screw, angle - nut, angle + nut],
+            ..*self
+        }
+    }
+
+    /// The same for deviations of -0.2 to 0.2.
+    pub(crate) fn deviating(&self, screw: f64, nut: f64) -> Result<Self, ReferenceError> {
+        within("screw_deviation", screw, -0.2, 0.2)?;
+        within("nut_deviation", nut, -0.2, 0.2)?;
+        self.turned(screw, nut).of_design()
+    }
+
     /// Checks the design.
     pub fn check(&self) -> Result<(), ReferenceError> {
         self.track.check()?;

@@ -2,8 +2,8 @@
 //!
 //! Seven equations: forces on the ball in its cross section (two), the axial force of the screw, the force along the track and three
 //! moments (the gradient of the dissipation by the ball's motion). Seven unknowns: ball centre in the cross section (two), axial
-//! displacement of the screw, angular velocity (three), and either the orbital speed for a given force along the track, or that force for a
-//! given orbital speed. The second form keeps a ball in order whose speed hardly depends on the force.
+//! displacement of the screw, angular velocity (three), and the orbital speed for a given force along the track, or that force for a given
+//! speed.
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.69).
 
@@ -156,7 +156,27 @@ impl AlikeNeighbours {
 /// Unbalanced forces, N: x, z, axial, along the track (times path over ball radius), moments over the ball radius.
 pub(crate) type Balance = SVector<f64, 7>;
 
-impl PlacedBall<'_> {
+impl<'a> PlacedBall<'a> {
+    /// A ball without friction of neighbours.
+    pub fn alone(
+        grooves: &'a ElasticGrooves,
+        friction: f64,
+        direction: f64,
+        axial_load: f64,
+        integration: Integration,
+    ) -> Self {
+        Self {
+            grooves,
+            friction,
+            direction,
+            axial_load,
+            rubbing: Rubbing::default(),
+            alike: None,
+            integration,
+            rest_spin: STICK_SPIN,
+        }
+    }
+
     /// Path radius over ball radius.
     pub fn path(&self) -> f64 {
         let track = &self.grooves.track;

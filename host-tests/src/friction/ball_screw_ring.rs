@@ -1,29 +1,21 @@
-//! The whole ball screw without cage, exactly: balls on a closed ring, each in elastic balance in both gothic grooves with Coulomb friction by
-//! exact contact integrals, that push the ball in front.
+//! The whole ball screw without cage, exactly: balls on a closed ring, each in elastic balance in both gothic grooves with Coulomb friction
+//! by exact contact integrals, that push the ball in front. Left out: a ball's inertia.
 //!
-//! The track runs through the nut: first the loaded part, then the return, where balls carry no load and go along with their neighbours; its
-//! end joins its start. Where a ball is on it says what share of the load it carries and how both grooves deviate there: the nut's deviation
-//! is fixed to the track, the screw's passes by with the nut's angle. Each ball has its own axial load, and finds place and motion as in
-//! [`super::ball_screw_row`].
+//! The track runs through the nut: first the loaded part, then the return, whose end joins the start. The nut's deviation is fixed to the
+//! track, the screw's passes by with the nut's angle. Each ball finds place and motion as in [`super::ball_screw_row`] under its own axial
+//! load.
 //!
-//! A ball takes up its load, and gives it up, over a run-in between load and return: in proportion to the way over the distance of two touching
-//! balls, half of it on either side of the border (over the whole return where that is shorter). Its weight is this part of its load share, and the
-//! loads of all balls are the axial load times their weights over the sum of these, so that they add up to the axial load at every instant.
-//! A preload runs in with it: on the run-in the oversize is less, by the power of 2/3, so that what it presses with is in proportion to the way.
+//! A ball takes up its load, and gives it up, over a run-in: in proportion to the way over the distance of two touching balls, half of it
+//! on either side of the border (over the whole return where that is shorter). The loads of all balls are the axial load times their
+//! weights (load share times part of the run-in) over the sum of these. A preload runs in with it: the oversize by the power of 2/3. Two
+//! balls rub on each other by the lesser of their parts.
 //!
 //! At every instant the forces between touching balls are those of a complementarity problem on the actual speeds: forces push, no ball
-//! overtakes the one in front, and balls that press are equally fast. From instant to instant the balls move with their speeds; where two of
-//! them meet or part inside a step, or one enters or leaves the loaded part, the instant is located and solved. So balls never overlap, and
-//! those that press move as one. Friction of Coulomb does not depend on the size of the speed: what counts is the nut's angle, its
-//! direction and the load.
-//!
-//! Two balls rub on each other by the lesser of their parts of load: not at all where one of them carries none.
+//! overtakes the one in front, and balls that press are equally fast. Where two balls meet or part inside a step, or one enters or leaves
+//! the loaded part, the instant is located and solved, so that balls never overlap. Friction does not depend on the size of the speed.
 //!
 //! The force between two balls acts along the chord between their centres: a part of it (`sin b`, 7 to 17 %) points outward, unless
-//! [`ElasticRing::chord`] leaves it out. Left out: a ball's inertia.
-//! Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
-//!
-//! [`super::whole_screw`] is the same screw by a closed form of each ball, for one speed, one load and one wave of deviation.
+//! [`ElasticRing::chord`] leaves it out. Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77) and section 3.4.4. Corrected: (3.77) takes contacts by the free speeds of two
 //! neighbours, which lets chains of balls overlap; here by the actual speeds.
@@ -32,9 +24,7 @@ use std::f64::consts::TAU;
 
 use super::ball_screw_grooves::ElasticGrooves;
 pub use super::ball_screw_ring_deviation::{DeviationWave, GrooveDeviation};
-use super::contact_law::HertzLaw;
 use super::patch::Integration;
-use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
 
@@ -203,21 +193,12 @@ impl ElasticRing {
         within("balls", self.balls as f64, 1.0, 1e3)?;
         within("turns", self.turns, 0.01, 100.0)?;
         within("return_length", self.return_length, 0.0, 10.0)?;
-        let radius = self.design.ball_radius;
-        self.design.check_grooves()?;
-        within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
+        let grooves = ElasticGrooves::of(&self.design, self.clearance)?;
         self.screw_deviation.check("screw_deviation")?;
         self.nut_deviation.check("nut_deviation")?;
         for share in &self.load_shares {
             within("load_shares", *share, 0.0, 100.0)?;
         }
-        let laws = [
-            self.design.contact(Groove::Screw)?.into(),
-            self.design.contact(Groove::Nut)?.into(),
-        ];
-        self.grooves(&laws, 0.0, 0.0)
-            .check()
-            .map_err(|error| error.renamed("contact_angle"))?;
         let angle = self.design.contact_angle;
         within("contact_angle", angle, 0.25, 1.3)?;
         within("balls", self.occupation(), 0.0, 1.0 + 1e-12)?;
@@ -230,7 +211,7 @@ impl ElasticRing {
                 .min(self.return_length / self.track().path_radius()),
             pitch,
             per_ball: self.length() / (TAU * self.turns * self.balls as f64),
-            laws,
+            grooves,
         };
         self.check_places(&track)?;
         Ok(track)
@@ -255,19 +236,6 @@ impl ElasticRing {
         }
         Ok(())
     }
-
-    pub(crate) fn grooves(&self, laws: &[HertzLaw; 2], screw: f64, nut: f64) -> ElasticGrooves {
-        let angle = self.design.contact_angle;
-        ElasticGrooves {
-            track: self.track(),
-            screw_groove_radius: self.design.screw_groove_radius,
-            nut_groove_radius: self.design.nut_groove_radius,
-            arc_angles: [angle - screw, angle + screw, angle - nut, angle + nut],
-            screw: laws[0],
-            nut: laws[1],
-            oversize: -self.clearance,
-        }
-    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -280,7 +248,8 @@ pub(crate) struct RingTrack {
     pub pitch: f64,
     /// 1 / number of loaded balls, where all balls are spread evenly over the track.
     pub per_ball: f64,
-    pub laws: [HertzLaw; 2],
+    /// Without deviation.
+    pub grooves: ElasticGrooves,
 }
 
 impl RingTrack {

@@ -4,7 +4,7 @@
 //! the step. Where two balls meet, where a force that falls ends, or where a ball crosses the border of the loaded part, the step is split.
 
 use super::ball_screw_grooves::ElasticGrooves;
-use super::ball_screw_placed::{Drive, PlacedBall, Rubbing, STICK_SPIN};
+use super::ball_screw_placed::{Drive, PlacedBall};
 use super::ball_screw_ring::{ElasticRing, RingBall, RingSample, RingState, RingTrack};
 use super::ball_screw_ring_order::Neighbours;
 use super::ball_screw_ring_rates::{Last, Rates};
@@ -57,8 +57,7 @@ impl ElasticRing {
     /// Follows the balls through the samples: a state for each. `progress` is told how many of how many are done.
     ///
     /// A state is solved from the one before; from nothing at the start, where the nut or the load turns, and where that does not lead
-    /// to a balance. Between the samples balls move with speeds that change by a line, as they did before. A sample at rest has no friction,
-    /// and says so.
+    /// to a balance. A sample at rest has no friction, and says so.
     pub fn simulate(
         &self,
         samples: &[RingSample],
@@ -310,7 +309,7 @@ impl<'a> March<'a> {
                 let azimuth = azimuths[ball];
                 let screw = self.ring.screw_deviation.at(azimuth + self.nut_angle);
                 let nut = self.ring.nut_deviation.at(azimuth);
-                let grooves = self.ring.grooves(&self.track.laws, screw, nut);
+                let grooves = self.track.grooves.turned(screw, nut);
                 Some(Seat {
                     grooves: ElasticGrooves {
                         oversize: grooves
@@ -335,17 +334,13 @@ impl<'a> March<'a> {
             return Ok(speed);
         }
         let load = axial_load * self.track.per_ball;
-        let grooves = self.ring.grooves(&self.track.laws, 0.0, 0.0);
-        let ball = PlacedBall {
-            grooves: &grooves,
-            friction: self.ring.friction,
+        let ball = PlacedBall::alone(
+            &self.track.grooves,
+            self.ring.friction,
             direction,
-            axial_load: if load.abs() > NO_LOAD { load } else { 1.0 },
-            rubbing: Rubbing::default(),
-            alike: None,
-            integration: self.ring.integration,
-            rest_spin: STICK_SPIN,
-        };
+            if load.abs() > NO_LOAD { load } else { 1.0 },
+            self.ring.integration,
+        );
         let speed = settle(&ball, Drive::Force(0.0), None)?.state.motion[0];
         self.idle = Some((speed, direction, axial_load));
         Ok(speed)

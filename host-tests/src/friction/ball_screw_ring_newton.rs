@@ -1,8 +1,7 @@
 //! Newton's step of balls that press on each other: all of a row of touching balls at once.
 //!
-//! A ball answers what its neighbours do to it by its own seven tangents. What two neighbours do to each other depends on three numbers: the
-//! force along the track and the two components of their slip. So a row of `m` balls has `3 (m - 1)` unknowns: equal speeds, and slips that are
-//! those of the motions.
+//! What two neighbours do to each other depends on three numbers, the force along the track and the two components of their slip: a row of `m`
+//! balls has `3 (m - 1)` unknowns.
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 

@@ -1,14 +1,13 @@
 //! One instant of a ring of balls: place, motion and loads of every ball, and the forces between them.
 //!
-//! Newton's method on all balls at once. Which pairs press is first found by pooling: every ball's seven equations are replaced by their tangents,
-//! which leaves a linear law of its speed by the force on it. From then on a pair that would pull is let go, and one whose rear ball would
-//! overtake is joined, until nothing changes and every ball is in balance.
+//! Newton's method on all balls at once. Which pairs press is first found by pooling of the balls' tangents; from then on a pair that would
+//! pull is let go, and one whose rear ball would overtake is joined, until nothing changes and every ball is in balance.
 
 use nalgebra::SVector;
 use rayon::prelude::*;
 
 use super::ball_screw_grooves::ElasticGrooves;
-use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, Solved};
 use super::ball_screw_ring_newton::{InRow, Moving, Target, UNLOADED, row_step};
 use super::ball_screw_ring_order::Neighbours;
 use super::ball_screw_ring_pool::pool_ring;
@@ -85,16 +84,13 @@ impl Power {
 
 impl<'a> Instant<'a> {
     fn ball(&self, seat: &'a Seat) -> PlacedBall<'a> {
-        PlacedBall {
-            grooves: &seat.grooves,
-            friction: self.friction,
-            direction: self.neighbours.direction,
-            axial_load: seat.axial_load,
-            rubbing: Rubbing::default(),
-            alike: None,
-            integration: self.integration,
-            rest_spin: STICK_SPIN,
-        }
+        PlacedBall::alone(
+            &seat.grooves,
+            self.friction,
+            self.neighbours.direction,
+            seat.axial_load,
+            self.integration,
+        )
     }
 
     /// From states near the end where there are any, and with the forces along the track that belong to them.

@@ -1,28 +1,21 @@
-//! A row of touching balls in a ball screw: each in elastic balance in both gothic grooves under its own axial load, with Coulomb friction by
-//! exact contact integrals, and pressing on its neighbours.
+//! A row of touching balls in a ball screw: each in elastic balance in both gothic grooves under its own axial load, with Coulomb friction
+//! by exact contact integrals, and pressing on its neighbours. The screw floats axially under each ball.
 //!
-//! Every ball finds its own place in the cross section (the screw floats axially under each ball, so that loads are given, not shares of
-//! one displacement). The clearance has a sign: the radial gap of every contact at the centred ball and the unloaded screw, play above
-//! zero, oversize below. Grooves may be turned: the arc centres of one groove by one angle each way, the gaps unchanged.
-//!
-//! The forces between balls are those of a complementarity problem on the actual speeds: `F >= 0`, no ball overtakes the one in front,
-//! and where a force is not zero the two speeds are equal. A ball's speed rises strictly with the force that pushes it, so that the solution
-//! is unique: it is the isotonic regression of the free speeds, each ball with its own nonlinear law.
-//!
-//! The force between two balls acts along the chord between their centres: a part of it (`sin b`, 7 to 17 %) points outward and moves them in their
-//! grooves, unless [`ElasticRow::chord`] leaves it out. Friction of a contact that sticks is smoothed over a spin of 1e-4 of the nut's speed.
+//! The forces between balls are those of a complementarity problem on the actual speeds: `F >= 0`, no ball overtakes the one in front, and
+//! where a force is not zero the two speeds are equal. A ball's speed rises strictly with the force that pushes it, so that the solution is
+//! unique: it is the isotonic regression of the free speeds, each ball with its own nonlinear law. The force acts along the chord as in
+//! [`super::ball_screw_ring`].
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77), the last as complementarity on the actual speeds.
 
 use super::ball_screw_ball::{ScrewMotion, dimensional};
 use super::ball_screw_grooves::ElasticGrooves;
-use super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved};
+use super::ball_screw_placed::{BallState, Drive, PlacedBall, STICK_SPIN, Solved};
 use super::ball_screw_ring_order::Neighbours;
 use super::ball_screw_ring_solve::{Instant, Seat};
 use super::ball_screw_rubbing::{BallContact, Pressing, press_and_rub};
 use super::ball_screw_settle::settle;
 use super::patch::Integration;
-use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
 
@@ -74,6 +67,33 @@ pub struct RowBallMotion {
     pub force: f64,
 }
 
+impl RowBallMotion {
+    pub(crate) fn of(ball: &PlacedBall<'_>, solved: &Solved, nut_speed: f64) -> Self {
+        let BallState {
+            place,
+            motion,
+            force,
+            ..
+        } = solved.state;
+        let rows = ball.rows_of(&solved.state).unwrap_or_default();
+        Self {
+            motion: dimensional(
+                &ball.grooves.track,
+                &rows,
+                &motion,
+                STICK_SPIN,
+                ball.friction,
+                nut_speed,
+                solved.residual / ball.friction,
+            ),
+            loads: ball.loads(&place),
+            position: [place.x, place.y],
+            screw_displacement: place.z,
+            force,
+        }
+    }
+}
+
 /// Solution of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RowMotion {
@@ -114,15 +134,9 @@ impl ElasticRow {
         let mut balls: Vec<PlacedBall<'_>> = grooves
             .iter()
             .zip(&self.balls)
-            .map(|(grooves, ball)| PlacedBall {
-                grooves,
-                friction: self.friction,
-                direction,
-                axial_load: ball.axial_load,
-                rubbing: Rubbing::default(),
-                alike: None,
-                integration: self.integration,
-                rest_spin: STICK_SPIN,
+            .map(|(grooves, ball)| {
+                let load = ball.axial_load;
+                PlacedBall::alone(grooves, self.friction, direction, load, self.integration)
             })
             .collect();
         let free = balls
@@ -233,39 +247,15 @@ impl ElasticRow {
             return Err(ReferenceError::Standstill);
         }
         within("balls", self.balls.len() as f64, 1.0, 1e4)?;
-        let radius = self.design.ball_radius;
-        self.design.check_grooves()?;
-        within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
-        let screw = self.design.contact(Groove::Screw)?.into();
-        let nut = self.design.contact(Groove::Nut)?.into();
+        let grooves = ElasticGrooves::of(&self.design, self.clearance)?;
         self.balls
             .iter()
             .map(|ball| {
-                within("screw_deviation", ball.screw_deviation, -0.2, 0.2)?;
-                within("nut_deviation", ball.nut_deviation, -0.2, 0.2)?;
                 within("axial_load", ball.axial_load, -1e6, 1e6)?;
                 if ball.axial_load == 0.0 {
                     return Err(ReferenceError::Undriven);
                 }
-                let angle = self.design.contact_angle;
-                let grooves = ElasticGrooves {
-                    track: (&self.design).into(),
-                    screw_groove_radius: self.design.screw_groove_radius,
-                    nut_groove_radius: self.design.nut_groove_radius,
-                    arc_angles: [
-                        angle - ball.screw_deviation,
-                        angle + ball.screw_deviation,
-                        angle - ball.nut_deviation,
-                        angle + ball.nut_deviation,
-                    ],
-                    screw,
-                    nut,
-                    oversize: -self.clearance,
-                };
-                grooves
-                    .check()
-                    .map_err(|error| error.renamed("contact_angle"))?;
-                Ok(grooves)
+                grooves.deviating(ball.screw_deviation, ball.nut_deviation)
             })
             .collect()
     }
@@ -274,30 +264,7 @@ impl ElasticRow {
         balls
             .iter()
             .zip(solved)
-            .map(|(ball, solved)| {
-                let BallState {
-                    place,
-                    motion,
-                    force,
-                    ..
-                } = solved.state;
-                let rows = ball.rows_of(&solved.state).unwrap_or_default();
-                RowBallMotion {
-                    motion: dimensional(
-                        &ball.grooves.track,
-                        &rows,
-                        &motion,
-                        STICK_SPIN,
-                        self.friction,
-                        self.nut_speed,
-                        solved.residual / self.friction,
-                    ),
-                    loads: ball.loads(&place),
-                    position: [place.x, place.y],
-                    screw_displacement: place.z,
-                    force,
-                }
-            })
+            .map(|(ball, solved)| RowBallMotion::of(ball, solved, self.nut_speed))
             .collect()
     }
 }

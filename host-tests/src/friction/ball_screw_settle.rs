@@ -1,16 +1,10 @@
 //! Finds place and motion of a ball in elastic grooves from nothing: by Newton's method from a guess, along a path of ever sharper friction
 //! at rest, or by a search that cannot miss.
 //!
-//! Two halves of the problem are convex. Under given friction forces the ball lies where the elastic energy is least; at a given place it
-//! moves so that it loses the least power. What couples them is, above all, one number: the sum of the friction forces across the diagonal
-//! that carries the load, which pushes the ball towards the third contact.
-//!
-//! The guess takes this push as that of a third contact that spins with the ball. Where a race sticks, Newton's method leads from there only
-//! under friction that is smoothed over a large spin; the spin then falls to [`STICK_SPIN`](super::ball_screw_placed::STICK_SPIN).
-//!
-//! Last comes the search: the push is bounded by Coulomb's law, and the push that the motion answers follows it continuously. So a push that
-//! answers itself lies between the bounds, and bisection finds it: with play, preload, of either sign, and where both light contacts are
-//! open and one race sticks.
+//! Two halves of the problem are convex: under given friction forces the ball lies where the elastic energy is least; at a given place it
+//! moves so that it loses the least power. What couples them is, above all, the push towards the third contact: the sum of the friction
+//! forces across the diagonal that carries the load. The guess takes it as that of a third contact that spins with the ball. The search
+//! bisects it: Coulomb's law bounds the push, and the push that the motion answers follows it continuously.
 
 use nalgebra::{SMatrix, Vector3, Vector4};
 

@@ -198,10 +198,9 @@ impl Turned {
 #[cfg(test)]
 mod tests {
     use super::super::ball_screw_grooves::ElasticGrooves;
-    use super::super::ball_screw_placed::{BallState, Drive, PlacedBall, Rubbing, STICK_SPIN};
+    use super::super::ball_screw_placed::{BallState, Drive, PlacedBall};
     use super::super::ball_screw_settle::settle;
     use super::super::patch::Integration;
-    use crate::curvature::Groove;
     use crate::design::BallScrewDesign;
     use nalgebra::{SVector, Vector4};
 
@@ -212,27 +211,9 @@ mod tests {
             [(0.0, 1.0, -50.0), (-3e-6, -1.0, 40.0), (2e-6, 1.0, 60.0)]
         {
             const SCREW: BallScrewDesign = BallScrewDesign::LIN;
-            let law = |groove| SCREW.contact(groove).unwrap().into();
-            let angle = SCREW.contact_angle;
-            let grooves = ElasticGrooves {
-                track: (&SCREW).into(),
-                screw_groove_radius: SCREW.screw_groove_radius,
-                nut_groove_radius: SCREW.nut_groove_radius,
-                arc_angles: [angle - 0.02, angle + 0.02, angle + 0.01, angle - 0.01],
-                screw: law(Groove::Screw),
-                nut: law(Groove::Nut),
-                oversize: -clearance,
-            };
-            let ball = PlacedBall {
-                grooves: &grooves,
-                friction: 0.1,
-                direction,
-                axial_load: load,
-                rubbing: Rubbing::default(),
-                alike: None,
-                integration: Integration::Full,
-                rest_spin: STICK_SPIN,
-            };
+            let grooves = ElasticGrooves::of(&SCREW, clearance).unwrap();
+            let grooves = grooves.turned(0.02, -0.01);
+            let ball = PlacedBall::alone(&grooves, 0.1, direction, load, Integration::Full);
             let settled = settle(&ball, Drive::Force(0.3), None).unwrap().state;
             let unit = 1e-6;
             let state = BallState {

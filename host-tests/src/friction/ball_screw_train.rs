@@ -1,8 +1,7 @@
 //! Trains of touching balls in a ball screw with given contacts (Lin 2019, eqs. (3.73) to (3.77)).
 //!
-//! Loads and contact angles are inputs and stay as they are: the in-plane forces between balls, some per cent of the loads, do not move
-//! the contacts here. [`super::ball_screw_elastic`] does without this simplification for two balls; the contact force
-//! differs by up to two per cent.
+//! The in-plane forces between balls, some per cent of the loads, do not move the contacts here: the contact force differs by up to two per
+//! cent from that of [`super::ball_screw_elastic`].
 
 use nalgebra::{SMatrix, Vector4};
 
@@ -86,14 +85,11 @@ impl Train<4> for Rows<'_> {
     }
 }
 
-/// Solves a train with given contacts, rear to front in the direction of orbiting.
+/// Solves a train with given contacts, rear to front in the direction of orbiting, as [`super::chain::solve_chain`]. The force of `n`
+/// newtons acts along the chord between two balls, `cos b` of it along the track, (3.75).
 ///
-/// Each ball moves so that the power is least under the condition that none overtakes the one in front; the forces between balls
-/// follow from it, and friction between them is added as in [`super::chain::solve_chain`]. The force of `n` newtons
-/// acts along the chord between two balls, `cos b` of it along the track, (3.75).
-///
-/// The friction between balls acts on each by virtual power of the slip (3.73), which keeps the power balance exact; the moments of
-/// (3.75) follow, with `cos a` in place of one (1.8 per cent at a lead angle of 11 degrees) in its part along the track.
+/// The friction between balls acts on each by virtual power of the slip (3.73), which keeps the power balance exact; the moments of (3.75)
+/// follow, with `cos a` in place of one (1.8 per cent at a lead angle of 11 degrees) in its part along the track.
 pub fn solve_screw_train(
     track: &ScrewTrack,
     balls: &[Vec<ScrewContact>],

@@ -1,7 +1,6 @@
 //! Chains of balls that touch: ball-to-ball forces (Lin 2019, eqs. (3.26) to (3.31)).
 //!
-//! Balls stand in the order rear to front along the positive direction of the track, all neighbours close enough to touch. Two
-//! balls press on each other when the rear one would be faster. The speeds then are those that minimise the total power under
+//! Balls stand rear to front along the positive direction of the track. The speeds are those that minimise the total power under
 //! `v_j <= v_(j+1)`, and the contact forces are the multipliers.
 
 use nalgebra::{SMatrix, Vector3};
@@ -80,13 +79,11 @@ impl Train<3> for LinearTrain<'_> {
 
 /// Solves a chain of touching balls, rear to front along +z: the `4 n - 1` equations (3.29) to (3.31).
 ///
-/// `ball_friction` is the coefficient between balls; zero leaves the ball-to-ball moments out. Without them the
-/// problem is convex and is solved as such. With them it has no potential; from the convex solution, Newton
-/// steps on the full system of `4 n - 1` unknowns with its contact conditions follow the rising coefficient.
-/// With a negative speed the balls roll the other way, and the front ball of the list becomes the rear one.
+/// `ball_friction` is the coefficient between balls. Without it the problem is convex and is solved as such; from there Newton steps on the
+/// full system follow the rising coefficient. With a negative speed the front ball of the list becomes the rear one.
 ///
-/// Corrected: the count of unknowns after (3.31) is `4 n - 1`; for the front ball of a pair the normal force reverses, but the
-/// moment terms of (3.29) keep their sign (force and arm both reverse).
+/// Corrected: the count of unknowns after (3.31) is `4 n - 1`; for the front ball of a pair the normal force reverses, but the moment terms
+/// of (3.29) keep their sign (force and arm both reverse).
 pub fn solve_chain(
     balls: &[LinearBall],
     ball_friction: f64,

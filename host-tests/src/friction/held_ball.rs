@@ -1,35 +1,26 @@
 //! One ball of a ball screw whose neighbours let it run, or hold it at a speed: the force that they need for it, and what it loses.
 //!
-//! The balance is that of one ball of an [`ElasticRow`](super::ball_screw_row::ElasticRow): seven equations (see `ball_screw_placed`), with
-//! either the force along the track given, or the orbital speed. Grooves deviate by one angle each, as in
-//! [`RowBall`](super::ball_screw_row::RowBall). The law of one ball, folded for an interrupt, is fitted to these answers.
-//!
-//! Friction of the neighbours is that of two balls that move as this one does:
+//! The balance is that of one ball of an [`ElasticRow`](super::ball_screw_row::ElasticRow), to 1e-8 of the contacts' loads, with either the
+//! force along the track given, or the orbital speed. Friction of the neighbours is that of two balls that move as this one does:
 //!
 //! ```text
 //! slip between two balls alike   s = S_rear m + S_front m,   with the motion m of both and the slips S of Lin 2019, eq. (3.73)
 //! friction on this ball          -(f_behind S_front' + f_ahead S_rear') s/|s|
 //! ```
 //!
-//! with the friction forces `f` of the two contacts, N. Friction follows the slip inside Newton's method, as that of the grooves does: with a
-//! friction of given direction a ball has no balance beyond 0.15 to 0.5 of the grooves' friction, with one that follows it has one at any.
-//! Beside friction, neighbours on a curved track push a ball outward, in proportion to their forces on it ([`HeldBall::outward`]).
-//!
-//! Every answer is as exact as that of a row: forces are balanced to 1e-8 of the contacts' loads.
+//! with the friction forces `f` of the two contacts, N. It follows the slip inside Newton's method: with a friction of given direction a
+//! ball has no balance beyond 0.15 to 0.5 of the grooves' friction. Neighbours on a curved track also push a ball outward
+//! ([`HeldBall::outward`]).
 //!
 //! Source: Lin 2019, eqs. (2.11) to (2.14), (3.65) to (3.77).
 
-use super::ball_screw_ball::dimensional;
 use super::ball_screw_grooves::ElasticGrooves;
-use super::ball_screw_placed::{
-    AlikeNeighbours, BallState, Drive, PlacedBall, Rubbing, STICK_SPIN, Solved,
-};
+use super::ball_screw_placed::{AlikeNeighbours, BallState, Drive, PlacedBall, Solved};
 use super::ball_screw_row::RowBallMotion;
 use super::ball_screw_rubbing::BallContact;
 use super::ball_screw_settle::{near, settle, unit};
 use super::patch::Integration;
 use super::rolling_resistance::{RollingResistance, rolling_losses};
-use crate::curvature::Groove;
 use crate::design::BallScrewDesign;
 use crate::error::{ReferenceError, within};
 
@@ -77,13 +68,27 @@ pub struct BallDrive {
     pub outward: f64,
 }
 
+impl BallDrive {
+    /// An axial load, N, alone.
+    pub fn free(axial_load: f64) -> Self {
+        Self {
+            axial_load,
+            along: AlongTrack::Free,
+            rubbing: [0.0; 2],
+            outward: 0.0,
+        }
+    }
+}
+
 /// A state from which the next one starts, when it is near.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BallStart(BallState);
 
 /// How the ball runs while the nut turns forward, and what it takes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeldBallFriction {
+    /// Axial load, N: above zero it opposes the travel of a nut that turns forward.
+    pub axial_load: f64,
     /// Orbital speed over the nut's speed.
     pub orbital_speed: f64,
     /// Force of the neighbours on the ball along the track, in the direction of orbiting, N.
@@ -114,34 +119,30 @@ impl HeldBall {
         nut_deviation: f64,
     ) -> Result<DeviatingBall, ReferenceError> {
         within("friction", self.friction, 1e-3, 1.0)?;
-        let radius = self.design.ball_radius;
-        self.design.check_grooves()?;
-        within("clearance", self.clearance, -0.05 * radius, 0.2 * radius)?;
         self.rolling.check()?;
-        within("screw_deviation", screw_deviation, -0.2, 0.2)?;
-        within("nut_deviation", nut_deviation, -0.2, 0.2)?;
-        let angle = self.design.contact_angle;
-        let grooves = ElasticGrooves {
-            track: (&self.design).into(),
-            screw_groove_radius: self.design.screw_groove_radius,
-            nut_groove_radius: self.design.nut_groove_radius,
-            arc_angles: [
-                angle - screw_deviation,
-                angle + screw_deviation,
-                angle - nut_deviation,
-                angle + nut_deviation,
-            ],
-            screw: self.design.contact(Groove::Screw)?.into(),
-            nut: self.design.contact(Groove::Nut)?.into(),
-            oversize: -self.clearance,
-        };
-        grooves
-            .check()
-            .map_err(|error| error.renamed("contact_angle"))?;
+        let nominal = ElasticGrooves::of(&self.design, self.clearance)?;
         Ok(DeviatingBall {
             ball: *self,
-            grooves,
+            grooves: nominal.deviating(screw_deviation, nut_deviation)?,
         })
+    }
+
+    /// Friction without deviations and neighbours under each of these axial loads, N, none of them zero, all of one sign; in their order.
+    ///
+    /// Each load starts from the state of the load before, which is a hundred times faster than from nothing, and every answer is of the same
+    /// accuracy: a state that Newton's method does not reach from its neighbour is searched for from nothing.
+    pub fn along(
+        &self,
+        axial_loads: &[f64],
+    ) -> Result<Vec<Result<HeldBallFriction, ReferenceError>>, ReferenceError> {
+        let ball = self.in_grooves(0.0, 0.0)?;
+        let mut last: Option<BallStart> = None;
+        let friction = |axial_load: &f64| {
+            let found = ball.solve(&BallDrive::free(*axial_load), last.as_ref());
+            last = found.as_ref().ok().map(|found| found.start);
+            found
+        };
+        Ok(axial_loads.iter().map(friction).collect())
     }
 }
 
@@ -153,16 +154,12 @@ impl DeviatingBall {
     }
 
     fn placed(&self, axial_load: f64) -> PlacedBall<'_> {
-        PlacedBall {
-            grooves: &self.grooves,
-            friction: self.ball.friction,
-            direction: 1.0,
-            axial_load,
-            rubbing: Rubbing::default(),
-            alike: None,
-            integration: self.ball.integration,
-            rest_spin: STICK_SPIN,
-        }
+        let HeldBall {
+            friction,
+            integration,
+            ..
+        } = self.ball;
+        PlacedBall::alone(&self.grooves, friction, 1.0, axial_load, integration)
     }
 
     /// How it runs, found from the state of a neighbouring one, or from nothing.
@@ -238,28 +235,14 @@ impl DeviatingBall {
         solved: &Solved,
     ) -> Result<HeldBallFriction, ReferenceError> {
         let state = &solved.state;
-        let rows = ball.rows_of(state).unwrap_or_default();
-        let found = RowBallMotion {
-            motion: dimensional(
-                &ball.grooves.track,
-                &rows,
-                &state.motion,
-                STICK_SPIN,
-                ball.friction,
-                1.0,
-                solved.residual / ball.friction,
-            ),
-            loads: ball.loads(&state.place),
-            position: [state.place.x, state.place.y],
-            screw_displacement: state.place.z,
-            force: state.force,
-        };
+        let found = RowBallMotion::of(ball, solved, 1.0);
         let HeldBall {
             design, rolling, ..
         } = &self.ball;
         let [hysteresis, lubricant] = rolling_losses(design, rolling, &found, 1.0)?;
         let slip = self.contact().slip(state, state);
         Ok(HeldBallFriction {
+            axial_load: ball.axial_load,
             orbital_speed: state.motion[0],
             force: state.force,
             stiffness: solved.stiffness,
@@ -275,7 +258,6 @@ impl DeviatingBall {
 mod tests {
     use super::*;
     use crate::friction::ball_screw_row::{ElasticRow, RowBall};
-    use crate::friction::caged_ball::CagedBall;
 
     const BALL: HeldBall = HeldBall {
         design: BallScrewDesign::LIN,
@@ -283,13 +265,6 @@ mod tests {
         friction: 0.08,
         rolling: RollingResistance::STEEL,
         integration: Integration::Full,
-    };
-
-    const FREE: BallDrive = BallDrive {
-        axial_load: 60.0,
-        along: AlongTrack::Free,
-        rubbing: [0.0; 2],
-        outward: 0.0,
     };
 
     fn row(balls: Vec<RowBall>, ball_friction: f64) -> ElasticRow {
@@ -311,34 +286,13 @@ mod tests {
     fn a_near_start_leads_to_the_same_ball() {
         for (deviation, axial_load) in [(0.0, -200.0), (0.02, -20.0), (-0.02, 8.0), (0.0, 120.0)] {
             let ball = BALL.in_grooves(0.0, deviation).unwrap();
-            let drive = BallDrive { axial_load, ..FREE };
+            let drive = BallDrive::free(axial_load);
             let expected = ball.solve(&drive, None).unwrap();
             let near = ball.near(axial_load).unwrap();
             let found = ball.solve(&drive, Some(&near)).unwrap();
             assert!((found.torque / expected.torque - 1.0).abs() < 1e-7);
             assert!((found.orbital_speed - expected.orbital_speed).abs() < 1e-7);
             assert!(near.0.motion != expected.start.0.motion);
-        }
-    }
-
-    /// Without deviation, and free, it is the ball of a caged screw. Both balances are accurate to 1e-8 of the loads.
-    #[test]
-    fn without_deviation_it_is_a_caged_ball() {
-        let caged = CagedBall {
-            design: BallScrewDesign::LIN,
-            clearance: BALL.clearance,
-            friction: BALL.friction,
-            rolling: BALL.rolling,
-            integration: BALL.integration,
-        };
-        let ball = BALL.in_grooves(0.0, 0.0).unwrap();
-        for axial_load in [-200.0, -20.0, 8.0, 120.0] {
-            let [expected] = caged.along(&[axial_load]).unwrap().try_into().unwrap();
-            let expected = expected.unwrap();
-            let found = ball.solve(&BallDrive { axial_load, ..FREE }, None).unwrap();
-            assert_eq!(found.force, 0.0);
-            assert!((found.torque / expected.torque - 1.0).abs() < 1e-7);
-            assert!((found.orbital_speed - expected.orbital_speed).abs() < 1e-9);
         }
     }
 
@@ -355,7 +309,7 @@ mod tests {
             };
             let expected = row(vec![alike; 2], 0.0).solve().unwrap();
             let ball = BALL.in_grooves(screw_deviation, nut_deviation).unwrap();
-            let found = ball.solve(&BallDrive { axial_load, ..FREE }, None).unwrap();
+            let found = ball.solve(&BallDrive::free(axial_load), None).unwrap();
             let speed = expected.pressing[0].motion.orbital_speed;
             assert!((found.orbital_speed - speed).abs() < 1e-9);
             for (found, expected) in found.loads.iter().zip(expected.pressing[1].loads) {
@@ -385,7 +339,7 @@ mod tests {
             let held = AlongTrack::Held(motion.motion.orbital_speed);
             let drive = BallDrive {
                 along: held,
-                ..FREE
+                ..BallDrive::free(60.0)
             };
             let found = BALL
                 .in_grooves(ball.screw_deviation, ball.nut_deviation)
@@ -405,7 +359,7 @@ mod tests {
             ..BALL
         };
         let ball = smooth.in_grooves(0.015, -0.006).unwrap();
-        let free = ball.solve(&FREE, None).unwrap();
+        let free = ball.solve(&BallDrive::free(60.0), None).unwrap();
         // Up to nine tenths of the grooves' friction.
         for (axial_load, rubbing, outward) in [
             (60.0, [0.1, 0.02], 0.0),
@@ -422,21 +376,10 @@ mod tests {
             let again = ball.solve(&drive, Some(&free.start)).unwrap();
             assert!((found.force - again.force).abs() < 1e-6 * axial_load.abs());
             let BallStart(state) = found.start;
-            let placed = PlacedBall {
-                grooves: &ball.grooves,
-                friction: smooth.friction,
-                direction: 1.0,
-                axial_load,
-                rubbing: {
-                    let slip = ball.contact().slip(&state, &state).normalize();
-                    let [_, mut sum] = ball.contact().rubbing(rubbing[0], slip);
-                    sum += ball.contact().rubbing(rubbing[1], slip)[0];
-                    sum
-                },
-                alike: None,
-                integration: smooth.integration,
-                rest_spin: STICK_SPIN,
-            };
+            let mut placed = ball.placed(axial_load);
+            let slip = ball.contact().slip(&state, &state).normalize();
+            placed.rubbing = ball.contact().rubbing(rubbing[0], slip)[1];
+            placed.rubbing += ball.contact().rubbing(rubbing[1], slip)[0];
             let rows = placed.rows_of(&state).unwrap();
             let radius = BallScrewDesign::LIN.ball_radius;
             let nut = radius * placed.power_in(&rows, &state.motion);
@@ -456,19 +399,16 @@ mod tests {
         assert_eq!(wrong(0.0, -0.3).field(), Some("nut_deviation"));
         let ball = BALL.in_grooves(0.0, 0.0).unwrap();
         let of = |drive: BallDrive| ball.solve(&drive, None).unwrap_err();
-        let undriven = BallDrive {
-            axial_load: 0.0,
-            ..FREE
-        };
-        assert_eq!(of(undriven), ReferenceError::Undriven);
+        let free = BallDrive::free(60.0);
+        assert_eq!(of(BallDrive::free(0.0)), ReferenceError::Undriven);
         let rubbing = BallDrive {
             rubbing: [0.0, -1.0],
-            ..FREE
+            ..free
         };
         assert_eq!(of(rubbing).field(), Some("rubbing"));
         let fast = BallDrive {
             along: AlongTrack::Held(f64::NAN),
-            ..FREE
+            ..free
         };
         assert_eq!(of(fast).field(), Some("orbital_speed"));
     }

@@ -1,16 +1,10 @@
-//! Speeds and contact forces of a row of balls that push each other, where each ball answers a force in proportion: a ball that
-//! is pushed by `F` from behind and by `F'` from ahead moves at `free + compliance (F - F')`.
-//!
-//! It is the regression of the free speeds by a rising sequence, weighted by `1/compliance`. Two ways that share nothing:
-//! pooling, and the min-max formula.
+//! Speeds and contact forces of a row of balls that push each other: a ball that is pushed by `F` from behind and by `F'` from ahead moves at
+//! `free + compliance (F - F')`.
 
 /// Solves `min sum (x_j - free_j)^2/(2 compliance_j)` under `x_j <= x_(j+1)`: neighbours that break the condition are joined into one
 /// cluster with their weighted mean speed, until none does (pool adjacent violators).
 ///
-/// Returns the speeds and the contact forces between neighbours, `F_j = sum_(i <= j) (free_i - x)/compliance_i` within a cluster.
-/// Exact for the linear model, in at most `2 n - 1` comparisons.
-///
-/// Source: the complementarity form of Lin 2019, eqs. (3.30), (3.31), for the linear model of (3.49).
+/// Returns the speeds and the contact forces between neighbours, `F_j = sum_(i <= j) (free_i - x)/compliance_i` within a cluster. Source: the complementarity form of Lin 2019, eqs. (3.30), (3.31), for the linear model of (3.49).
 pub fn pool_adjacent_violators(free: &[f64], compliance: &[f64]) -> (Vec<f64>, Vec<f64>) {
     struct Cluster {
         weight: f64,
@@ -54,38 +48,5 @@ pub fn pool_adjacent_violators(free: &[f64], compliance: &[f64]) -> (Vec<f64>, V
         }
     }
     forces.pop();
-    (speeds, forces)
-}
-
-/// The same by the min-max formula of isotonic regression, `x_j = max_(i <= j) min_(k >= j) mean(i..k)`, in which nothing is
-/// joined and no order matters: the reference for long chains. Takes `n^3` operations.
-pub fn isotonic_by_min_max(free: &[f64], compliance: &[f64]) -> (Vec<f64>, Vec<f64>) {
-    let n = free.len();
-    let mut weight = vec![0.0];
-    let mut moment = vec![0.0];
-    for (x, s) in free.iter().zip(compliance) {
-        weight.push(weight[weight.len() - 1] + 1.0 / s);
-        moment.push(moment[moment.len() - 1] + x / s);
-    }
-    let mean = |i: usize, k: usize| (moment[k + 1] - moment[i]) / (weight[k + 1] - weight[i]);
-    let speeds: Vec<f64> = (0..n)
-        .map(|j| {
-            (0..=j)
-                .map(|i| (j..n).map(|k| mean(i, k)).fold(f64::INFINITY, f64::min))
-                .fold(f64::NEG_INFINITY, f64::max)
-        })
-        .collect();
-    // Prefix sums over the whole chain: the force behind the first and ahead of the last ball is zero.
-    let mut force = 0.0;
-    let forces = free
-        .iter()
-        .zip(compliance)
-        .zip(&speeds)
-        .take(n.saturating_sub(1))
-        .map(|((x, s), speed)| {
-            force += (x - speed) / s;
-            force
-        })
-        .collect();
     (speeds, forces)
 }

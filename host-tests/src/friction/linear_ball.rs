@@ -263,8 +263,7 @@ pub fn analytic_speed_deviation(
 
 /// Change of a ball's speed deviation per newton of ball-to-ball force.
 ///
-/// `s = tan(b0) Psi/(2 kf mu R_B^(2/3) (F_U^(2/3) + F_D^(2/3)))`, `Psi = semi_major_constant/R_B^(1/3)`;
-/// infinite without friction or load.
+/// `s = tan(b0) Psi/(2 kf mu R_B^(2/3) (F_U^(2/3) + F_D^(2/3)))`, `Psi = semi_major_constant/R_B^(1/3)`; infinite without friction or load.
 ///
 /// Source: Lin 2019, eqs. (3.44) to (3.51). Corrected: `tan b0` as in (3.43), and the exponents of (3.51) are +2/3, not -2/3.
 pub fn analytic_compliance(

@@ -25,26 +25,21 @@ pub(crate) fn coarse_rule() -> &'static [(f64, f64)] {
         .as_node_weight_pairs()
 }
 
-/// Friction force, moment and power of an elliptical Hertzian contact, normalised, as functions of the offset `c/a`
-/// of the velocity centre on the major axis.
+/// Friction force, moment and power of an elliptical Hertzian contact, normalised, as functions of the offset `c/a` of the velocity centre
+/// on the major axis.
 ///
-/// With `kappa` = offset = `V/(w a)` (slip `V` along the minor axis at the contact centre, relative
-/// spin `w`, semi-major axis `a`), `k` = axis ratio `b/a`, `e^2 = 1 - k^2`:
+/// With `kappa` = offset = `V/(w a)` (slip `V` along the minor axis at the contact centre, relative spin `w`, semi-major axis `a`), `k` =
+/// axis ratio `b/a`, `e^2 = 1 - k^2`:
 ///
 /// `P/(mu F a |w|) = Ph(kappa) = 3/8 int_0^psim sqrt(1 - e^2 s^2) (1 - kappa^2 s^2) (1 + kappa^2 (4 - 5 s^2)) dpsi`,
 /// `s = sin psi`, `sin psim = min(1, 1/|kappa|)`
 ///
-/// and `force = Ph'`, `moment = Ph - kappa Ph'`: power, force and moment derive from one convex
-/// potential. The double integrals (3.16) to (3.18) reduce to this line exactly, by polar
-/// coordinates about the velocity centre. For `|kappa| <= 1` the integral is the quartic
-/// `p0 + p2 kappa^2 + p4 kappa^4` with elliptic integrals as coefficients; outside it is evaluated
-/// by a fixed Gauss rule of 160 nodes, after the part that cancels at large offset has been
-/// integrated by hand, so that the moment keeps its relative precision at any offset.
+/// and `force = Ph'`, `moment = Ph - kappa Ph'`: the double integrals (3.16) to (3.18), exactly, by polar coordinates about the velocity
+/// centre. For `|kappa| <= 1` the integral is the quartic `p0 + p2 kappa^2 + p4 kappa^4` with elliptic integrals as coefficients; outside
+/// it is evaluated by a fixed Gauss rule, less the part that cancels at large offset.
 ///
-/// Corrected: the polar form printed in (3.16) and (3.17) lacks the square root of `1 - r^2`, and the area
-/// element of (3.17) lacks the factor `r`.
-///
-/// Source: Lin 2019, eqs. (3.15) to (3.18).
+/// Source: Lin 2019, eqs. (3.15) to (3.18). Corrected: the polar form printed in (3.16) and (3.17) lacks the square root of `1 - r^2`, and
+/// the area element of (3.17) lacks the factor `r`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FrictionMap {
     axis_ratio: f64,

@@ -1,16 +1,13 @@
 //! Friction of balls between grooves and between each other, by the exact Coulomb model (Lin 2019, ch. 3.2 to 3.4).
 //!
-//! The models rest on one fact that the dissertation does not state. For given normal loads and
-//! contact angles, the power lost in the Coulomb contacts is a convex function of the ball's
-//! motion, homogeneous of degree one, and the equilibrium of friction forces and moments
-//! ((3.19), (3.25), the friction rows of (3.69)) is that its gradient vanishes: **a ball moves so
-//! that it loses the least power**. So the motion is the minimum of a convex function: it exists,
-//! the loss and the forces are unique, and a damped Newton method finds it from any start. The
-//! ball-to-ball contact force is the multiplier of the constraint that a ball behind must not be
-//! faster than the ball in front.
+//! For given normal loads and contact angles, the power lost in the Coulomb contacts is a convex function of the ball's motion, homogeneous
+//! of degree one, and the equilibrium of friction forces and moments ((3.19), (3.25), the friction rows of (3.69)) is that its gradient
+//! vanishes: **a ball moves so that it loses the least power**. So the motion exists, the loss and the forces are unique, and a damped
+//! Newton method finds it from any start. The force between two balls is the multiplier of the constraint that a ball behind must not be
+//! faster than the one in front.
 //!
-//! Units: m, rad, s, N, W, Pa. Signs: the velocity of a contact is that of the ball minus that of
-//! the groove; forces and moments are those on the ball.
+//! Units: m, rad, s, N, W, Pa. Signs: the velocity of a contact is that of the ball minus that of the groove; forces and moments are those
+//! on the ball.
 
 pub mod ball_screw_ball;
 pub mod ball_screw_closed;

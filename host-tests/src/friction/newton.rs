@@ -130,8 +130,7 @@ pub fn sharpen<const N: usize>(
 /// Zero of a continuous function between two places where it has different signs, to within tolerances of the place or of its
 /// value: false position by Anderson and Bjorck, one value a step. `None` where the function has no value or no change of sign.
 ///
-/// The function has been asked for its value at the answer last: what it keeps belongs to the answer. That, and an end where there is no
-/// value, are why none of the roots crate's methods serves.
+/// The function has been asked for its value at the answer last: what it keeps belongs to the answer, as with none of the roots crate's methods.
 pub fn root_between(
     (mut low, mut high): (f64, f64),
     (of_place, of_value): (f64, f64),

@@ -6,9 +6,8 @@ use super::maps::{coarse_rule, gauss_rule};
 
 /// One loaded contact ellipse with Coulomb friction.
 ///
-/// Coordinates in the contact plane: 1 along the major axis, 2 along the minor axis, the normal
-/// completing a right-handed system. Velocity of the ball against the groove at the point `(x, y)`:
-/// `(slip_1 - spin y, slip_2 + spin x)`.
+/// Coordinates in the contact plane: 1 along the major axis, 2 along the minor axis, the normal completing a right-handed system. Velocity
+/// of the ball against the groove at the point `(x, y)`: `(slip_1 - spin y, slip_2 + spin x)`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Patch {
     /// Semi-major axis, m.
@@ -170,19 +169,15 @@ impl Centre {
 impl Patch {
     /// Power, force and moment by the exact reduction of the area integrals to one integral.
     ///
-    /// In the plane scaled to the unit disc let the velocity centre lie at distance `e` from the contact centre.
-    /// Along a straight line through the velocity centre, at distance `s` from the contact centre, the
-    /// direction of slip is constant and the pressure is a half-ellipse, so the integral along the
-    /// line is elementary. There remains, with `h^2 = 1 - s^2`, `k^2 = e^2 - s^2`, `s = min(e, 1) sin t` and
-    /// `g` the length of the physical image of the line's unit direction,
+    /// In the plane scaled to the unit disc let the velocity centre lie at distance `e` from the contact centre. Along a straight line
+    /// through it, at distance `s` from the contact centre, the direction of slip is constant and the pressure is a half-ellipse: that
+    /// integral is elementary. There remains, with `h^2 = 1 - s^2`, `k^2 = e^2 - s^2`, `s = min(e, 1) sin t` and `g` the length of the
+    /// physical image of the line's unit direction,
     ///
     /// `P = |w| (3 mu N/4) int h^2 (k^2 + h^2/4) g (min(e, 1) cos t/k) dt`, t from -pi/2 to pi/2,
     ///
-    /// and likewise the force, the moment about the contact centre (in a form that does not cancel when the velocity
-    /// centre is far away) and all second derivatives. One smooth integrand serves a centre inside and outside
-    /// the ellipse; 160 Gauss nodes.
-    ///
-    /// A contact at rest (all three zero) gives zero power, force, moment and Hessian.
+    /// and likewise force, moment and all second derivatives. One smooth integrand serves a centre inside and outside the ellipse. A
+    /// contact at rest gives zero power, force, moment and Hessian.
     ///
     /// Source: Lin 2019, eqs. (3.15) to (3.18) and (3.68); the reduction is not in the text.
     pub fn friction(&self, velocity: PatchVelocity) -> PatchFriction {

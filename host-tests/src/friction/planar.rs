@@ -149,13 +149,9 @@ pub(crate) fn all_move(contacts: &[PlanarContact], y: &Vector3<f64>, rest_spin: 
     })
 }
 
-/// Finds the motion of least dissipation.
-///
-/// The power is smoothed at rest (see [`PlanarContact::friction`]) and minimised by damped Newton steps
-/// for a smoothing that falls tenfold from 0.1 to 1e-8 (spins are of the order of one), each stage from the result
-/// of the last; as soon as every loaded contact moves, the exact power is minimised. A contact
-/// that sticks in the solution (two-point contact, and near it) stays smoothed at the
-/// last stage: its force and moment are inside Coulomb's limit, balance is exact, and `gap` bounds the error of the power.
+/// The motion of least dissipation, by [`sharpen`]; once every loaded contact moves, of the exact power. A contact that sticks in the
+/// solution (two-point contact, and near it) stays smoothed at the last stage: its force and moment are inside Coulomb's limit, balance is
+/// exact, and `gap` bounds the error of the power.
 pub fn least_dissipation(contacts: &[PlanarContact], start: [f64; 3]) -> PlanarMotion {
     let zero = Vector3::zeros();
     let total: f64 = contacts.iter().map(|c| c.friction_limit.max(0.0)).sum();

@@ -1,16 +1,11 @@
-//! Rolling resistance of one contact: what a contact loses that rolls without any slip.
+//! Rolling resistance of one contact: what a contact loses that rolls without any slip, by **elastic hysteresis** and by **drag of the
+//! lubricant**.
 //!
-//! Two losses stand beside Coulomb friction. **Elastic hysteresis**: the material in front of the contact's centre is
-//! loaded and takes up energy, behind it is unloaded and gives back a little less. **Drag of the lubricant**: oil is
-//! pumped into the inlet of the contact against its own viscosity.
+//! Both are forces that resist the contact's travel along its track: loss = force x rolling speed, the speed at which the groove's surface
+//! runs past the contact. They are too small (1e-5 to 1e-4 of the load) to change how a ball moves.
 //!
-//! Both are taken as forces that resist the contact's travel along its track: loss = force x rolling speed, the speed
-//! at which the groove's surface runs past the contact. They are too small (1e-5 to 1e-4 of the load) to change how a
-//! ball moves and are added to its loss.
-//!
-//! Sources: Greenwood, Minshall and Tabor 1961, Proc. Roy. Soc. A 259, with Johnson 1985, Contact Mechanics, section
-//! 9.2 (hysteresis of an elliptical contact); Houpert 2002, Tribology Transactions 45 (lubricant drag of a point
-//! contact).
+//! Sources: Greenwood, Minshall and Tabor 1961, Proc. Roy. Soc. A 259, with Johnson 1985, Contact Mechanics, section 9.2 (hysteresis of an
+//! elliptical contact); Houpert 2002, Tribology Transactions 45 (lubricant drag of a point contact).
 
 use std::f64::consts::TAU;
 
@@ -38,8 +33,7 @@ impl RollingResistance {
         lubricant_drag: 0.0,
     };
 
-    /// Hardened steel without lubricant drag: a share of 0.01, where Johnson gives "of the order of one per cent" for
-    /// metals below yield.
+    /// Hardened steel without lubricant drag: a share of 0.01, where Johnson gives "of the order of one per cent" for metals below yield.
     pub const STEEL: Self = Self {
         hysteresis_loss: 0.01,
         lubricant_drag: 0.0,
@@ -106,8 +100,7 @@ impl LubricatedContact {
     /// Drag under a load, N, at a rolling speed, m/s: `F = 2.86 E' R_x² k^0.348 G^0.022 U^0.66 W^0.47` with `E' = 2
     /// E*`, `k = R_y/R_x`, `G = E'` times the pressure viscosity, `U = viscosity speed/(E' R_x)`, `W = N/(E' R_x²)`.
     ///
-    /// Source: Houpert 2002, for fully flooded, isothermal contacts; [`RollingResistance::lubricant_drag`] is this at
-    /// [`DRAG_LOAD`].
+    /// Source: Houpert 2002, for fully flooded, isothermal contacts; [`RollingResistance::lubricant_drag`] is this at [`DRAG_LOAD`].
     pub fn drag(&self, load: f64, rolling_speed: f64) -> f64 {
         let modulus = 2.0 * self.contact_modulus;
         let rx = self.rolling_radius;
@@ -135,8 +128,7 @@ pub fn relative_radii(
     ])
 }
 
-/// Power that one ball of a ball screw loses by rolling resistance, W: by hysteresis and by the lubricant, of all its
-/// contacts.
+/// Power that one ball of a ball screw loses by rolling resistance, W: by hysteresis and by the lubricant, of all its contacts.
 ///
 /// The groove's surface runs past a contact by `|w_B - w_k| (L/2 pi + R_B cos a n_x)`, with `w_k` zero for the screw
 /// and the nut's speed for the nut.

@@ -95,12 +95,8 @@ pub(crate) struct TrainMinimum<const N: usize> {
     pub iterations: usize,
 }
 
-/// Minimises `sum_j f_j(y_j)` under `y_j[0] <= y_(j+1)[0]` by sequential quadratic programming.
-///
-/// The quadratic model's constraint acts on one unknown of each ball, so that its exact solution (active set
-/// and all `N n + n - 1` unknowns of (3.31)) is `pool_adjacent_violators` on the Newton speeds
-/// with the compliances `(H^-1)_00`. The start is made feasible; each step is a descent direction within the feasible
-/// set, shortened until the total falls.
+/// Minimises `sum_j f_j(y_j)` under `y_j[0] <= y_(j+1)[0]` by sequential quadratic programming: the quadratic model's exact solution is
+/// `pool_adjacent_violators` on the Newton speeds with the compliances `(H^-1)_00`; each step is shortened until the total falls.
 fn minimise_train<const N: usize>(
     start: &[SVector<f64, N>],
     tolerance: f64,
@@ -257,11 +253,9 @@ fn shortened<const N: usize>(
     None
 }
 
-/// The full system at given motions and forces: unbalanced forces, moments and contact conditions, with the Jacobian.
-///
-/// Unknowns: `N` per ball, then the contact forces. Friction between two balls acts on each along the slip's derivative by
-/// its unknowns (virtual power). A contact is closed when its force minus `penalty` times the speed of parting is
-/// positive: then the condition is equal speed, otherwise no force.
+/// The full system at given motions and forces (unknowns: `N` per ball, then the contact forces), with the Jacobian. Friction between two
+/// balls acts on each along the slip's derivative by its unknowns (virtual power). A contact is closed when its force minus `penalty` times
+/// the speed of parting is positive.
 fn full_system<const N: usize>(
     train: &impl Train<N>,
     locals: &[Local<N>],

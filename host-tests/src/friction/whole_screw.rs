@@ -1,13 +1,5 @@
-//! A whole ball screw without cage in closed form: balls that recirculate and press on each other (Lin 2019, section 3.4.4).
-//!
-//! Not exact: each ball moves by the closed form of [`super::ball_screw_closed`] ([`ThreePointModel`]), which the tests hold against
-//! the exact balls of [`super::ball_screw_elastic`]. The exact whole screw is [`super::ball_screw_ring`]: every ball in elastic balance,
-//! friction by contact integrals.
-//!
-//! | what is compared | with |
-//! |---|---|
-//! | the library's scene, whose balls are elastic: its promise, the table `whole_screws` of the report, `simulate --reference` | the exact ring |
-//! | figures 3.24 and 3.25 of the dissertation; `simulate --reference=closed-form` | this module, beside the exact ring |
+//! A whole ball screw without cage in closed form: balls that recirculate and press on each other (Lin 2019, section 3.4.4), each moving by
+//! [`super::ball_screw_closed`]. For figures 3.24 and 3.25 of the dissertation; the exact whole screw is [`super::ball_screw_ring`].
 
 use nalgebra::{DMatrix, DVector};
 
@@ -113,14 +105,12 @@ impl WholeScrew {
         self.balls as f64 * sin.asin() / (std::f64::consts::PI * self.turns)
     }
 
-    /// Simulates from evenly spaced balls, `steps` equal steps of nut angle up to `nut_angle`, each of `substeps`; a
-    /// state at the start and after each step.
+    /// Simulates from evenly spaced balls, `steps` equal steps of nut angle up to `nut_angle`, each of `substeps`; a state at the start and
+    /// after each step.
     ///
-    /// In every substep the balls move at the speeds `w_j = free_j + (Y_j/(L/2 pi)) (F_(j-1) - F_j)/(L/2 pi)`
-    /// that solve `F >= 0`, `gap >= 0` at its end, `F gap = 0`: a linear complementarity problem with an
-    /// M-matrix, solved by growing the set of contacts until no gap is negative, in at most as many linear systems as
-    /// there are balls. Balls never overlap.
-    /// The activation rule printed in (3.77), by the free speeds of two neighbours, lets chains of balls overlap.
+    /// In every substep the balls move at the speeds `w_j = free_j + (Y_j/(L/2 pi)) (F_(j-1) - F_j)/(L/2 pi)` that solve `F >= 0`, `gap >=
+    /// 0` at its end, `F gap = 0`: a linear complementarity problem with an M-matrix, solved by growing the set of contacts until no gap is
+    /// negative. The rule printed in (3.77), by the free speeds of two neighbours, lets chains of balls overlap.
     pub fn simulate(
         &self,
         nut_angle: f64,

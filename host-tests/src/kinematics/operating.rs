@@ -1,7 +1,6 @@
 //! Contact load, contact angle and contact ellipse of the screw that Alberdi et al. analyse.
 //!
-//! Only what the paper's figures need: a single-arc groove with two-point contact, every ball under
-//! the same load.
+//! Only what the paper's figures need: a single-arc groove with two-point contact, every ball under the same load.
 
 use super::input::{KinematicsInput, Raceway};
 use super::revised::Revised;
@@ -49,9 +48,8 @@ pub struct Ellipse {
 /// the ellipticity `k` from its transcendental equation
 /// `R_y / R_x = (k^2 E - K) / (K - E)`, `m = 1 - 1/k^2`. **Corrected:** below (8) `r_nut,y = -r_o`, printed without its sign.
 ///
-/// `cos_squared` is `cos^2 psi` for the curvature of the helical groove, (9) and (10), and 1 for that
-/// of a bearing's ring, which the traditional formulation takes. `None` for a load that is not
-/// positive.
+/// `cos_squared` is `cos^2 psi` for the curvature of the helical groove, (9) and (10), and 1 for that of a bearing's ring, which the
+/// traditional formulation takes. `None` for a load that is not positive.
 pub fn ellipse(
     raceway: Raceway,
     contact_angle: f64,
@@ -165,14 +163,11 @@ pub struct LoadedBall {
     pub load_nut: f64,
 }
 
-/// Contact loads and angles under an axial load (N) at a speed (rad/s): equilibrium of the ball in
-/// the plane of normal and binormal, `W_k sin alpha_k = F / (Z cos psi)` at both contacts and
-/// `W_o cos alpha_o - W_i cos alpha_i` equal to the centrifugal force, with the radial distance of
-/// the groove centres unchanged by the deflections. The gyroscopic moment is left out.
+/// Contact loads and angles under an axial load (N) at a speed (rad/s): equilibrium of the ball in the plane of normal and binormal, `W_k
+/// sin alpha_k = F / (Z cos psi)` at both contacts and `W_o cos alpha_o - W_i cos alpha_i` equal to the centrifugal force, with the radial
+/// distance of the groove centres unchanged by the deflections. The gyroscopic moment is left out. `None` where no equilibrium is found.
 ///
-/// At 1500 N and 1000 rpm: 41.0° and 154.7 N; with `F / Z` in place of `F / (Z cos psi)`, 152.4 N.
-/// The paper's 151 N is neither (2.5 and 0.9 % less) and would need 41.47°. `None` where no
-/// equilibrium is found.
+/// At 1500 N and 1000 rpm: 41.0° and 154.7 N; with `F / Z` in place of `F / (Z cos psi)`, 152.4 N. The paper's 151 N is neither.
 pub fn loaded_ball(axial_load: f64, speed: f64) -> Option<LoadedBall> {
     let cos_psi = LEAD_ANGLE.cos();
     let share = axial_load / (f64::from(BALLS) * cos_psi);

@@ -17,9 +17,8 @@ pub struct Revised {
 impl Revised {
     /// Orbital and spin speed for an input.
     ///
-    /// (22) as printed. **(23) is corrected:** the condition that rolling slip vanishes at `r'_i` is
-    /// `omega_R = (omega - omega_m) A_i / (r'_i b_i)`; printed is `omega_m` in place of
-    /// `omega - omega_m`.
+    /// (22) as printed. **(23) is corrected:** the condition that rolling slip vanishes at `r'_i` is `omega_R = (omega - omega_m) A_i /
+    /// (r'_i b_i)`; printed is `omega_m` in place of `omega - omega_m`.
     pub fn new(input: &KinematicsInput) -> Result<Self, ReferenceError> {
         input.validate()?;
         let path = |raceway| input.rolling_path(raceway);
@@ -53,15 +52,7 @@ impl Revised {
         self.spin_ratio
     }
 
-    /// (23) as printed, per rad/s of the screw; for comparison only.
-    pub fn spin_ratio_as_printed(&self) -> f64 {
-        let inner = Raceway::Screw;
-        self.orbital_ratio * self.input.rolling_path(inner)
-            / (self.input.rolling_radius_screw * self.input.surface_speed_factor(inner))
-    }
-
-    /// The ball's rotation relative to the orbiting frame, in (tangent, normal, binormal), per rad/s
-    /// of the screw: (27).
+    /// The ball's rotation relative to the orbiting frame, in (tangent, normal, binormal), per rad/s of the screw: (27).
     pub fn rotation(&self) -> [f64; 3] {
         let (sin_beta, cos_beta) = self.input.pitch_angle.sin_cos();
         let (sin_yaw, cos_yaw) = self.input.yaw_angle.sin_cos();
@@ -108,9 +99,8 @@ impl Revised {
 
     /// Rolling slip per rad/s of the screw, m.
     ///
-    /// (31) is linear in `S` and, by (22) and (23), zero at `S = r'_k`. It is evaluated from that
-    /// zero, as `(r'_k - S)` times its slope, because the printed difference of two nearly equal
-    /// speeds loses three digits.
+    /// (31) is linear in `S` and, by (22) and (23), zero at `S = r'_k`. It is evaluated from that zero, as `(r'_k - S)` times its slope,
+    /// because the printed difference of two nearly equal speeds loses three digits.
     pub fn rolling_slip(&self, raceway: Raceway, y: f64) -> f64 {
         self.inside_rolling_radius(raceway, y) * self.rolling_gradient(raceway)
     }
@@ -177,9 +167,8 @@ impl Revised {
 
     /// Everything at the contact centres.
     ///
-    /// **(37) and (39)** print an arc tangent of a quotient; taken here is atan2, of the reversed
-    /// components of (36) for the entrainment angle. The ratios come from the coefficients per rad/s,
-    /// so that they exist at standstill.
+    /// **(37) and (39)** print an arc tangent of a quotient; taken here is atan2, of the reversed components of (36) for the entrainment
+    /// angle. The ratios come from the coefficients per rad/s, so that they exist at standstill.
     pub fn evaluate(&self) -> BallKinematics {
         let speed = self.input.speed;
         BallKinematics {
@@ -212,8 +201,7 @@ impl Revised {
         }
     }
 
-    /// Slip in three components (contact frame) at a point, m/s, by the paper's vectors: ball
-    /// (26) + (29) minus nut (19) or screw (21).
+    /// Slip in three components (contact frame) at a point, m/s, by the paper's vectors: ball (26) + (29) minus nut (19) or screw (21).
     ///
     /// **(26) is corrected:** its second term's third component reads
     /// `-x cos psi cos alpha +- y sin psi`; printed is `-+ x cos psi cos alpha`.

@@ -3,8 +3,7 @@
 /// A backbone: concave, zero at zero, with the slope 1.5 there, one in the end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Backbone {
-    /// Slip across the path: `1 - (1 - z)^(3/2)` up to `z = 1` (Cattaneo 1938, Mindlin 1949), exact for a Hertzian contact of any
-    /// ellipse.
+    /// Slip across the path: `1 - (1 - z)^(3/2)` up to `z = 1` (Cattaneo 1938, Mindlin 1949), exact for a Hertzian contact of any ellipse.
     Slip,
     /// Spin: `y / sqrt(1 + y^2)` with `y = 1.5 z`: within 0.004 of bristles on ellipses with axis ratios of 0.17 to 0.22, as balls
     /// have in their grooves, within 0.033 on a circle.

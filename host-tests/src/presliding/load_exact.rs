@@ -1,13 +1,10 @@
 //! Exact hysteresis of a Hertzian contact whose load changes with the slip.
 //!
-//! A contact with slip in one direction is a row of independent springs (method of dimensionality reduction: Popov and Hess 2015;
-//! Jaeger 1993 and Ciavarella 1998 say the same of superposed contacts). The spring at `x` meets the surface at the approach `x^2`; under
-//! the approach `D = load^(2/3)` it carries friction up to `1.5 (D - x^2) dx`, and its stiffness `1.5 dx` never changes. Its deflection `u`
-//! follows `u <- hold(u + turn)` between `-backward (D - x^2)` and `forward (D - x^2)`.
-//!
-//! The limits are linear in `v = x^2`, so `u` is a broken line over `v` for ever: here it is kept as such, and the torque
-//! `1.5 integral of u dx` is taken in closed form. Nothing is divided into finite elements. A path is followed in its own ticks: turn and load of one
-//! tick act at its end.
+//! A contact with slip in one direction is a row of independent springs (method of dimensionality reduction: Popov and Hess 2015; Jaeger
+//! 1993 and Ciavarella 1998 say the same of superposed contacts). The spring at `x` meets the surface at the approach `x^2`; under the
+//! approach `D = load^(2/3)` it carries friction up to `1.5 (D - x^2) dx`, and its stiffness `1.5 dx` never changes. Its deflection `u`
+//! follows `u <- hold(u + turn)` between `-backward (D - x^2)` and `forward (D - x^2)`: over `v = x^2` a broken line for ever, kept as
+//! such, and the torque `1.5 integral of u dx` is taken in closed form. Turn and load of one tick act at its end.
 
 use super::Limits;
 

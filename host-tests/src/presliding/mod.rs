@@ -1,9 +1,8 @@
 //! Friction before gross sliding: a hysteresis in angle, exactly.
 //!
-//! A contact that is turned back does not lose its friction at once: stick gives way to slip from the edge of the contact inwards
-//! (Cattaneo 1938, Mindlin 1949). The first loading is the *backbone*; what follows repeats it, doubled in both directions, from every
-//! turning point (Masing 1926), and a loop that closes is forgotten (Madelung 1905). Parallel elements that stick and slip (Iwan 1966)
-//! do the same for a backbone of straight pieces.
+//! Stick gives way to slip from the edge of the contact inwards (Cattaneo 1938, Mindlin 1949). The first loading is the *backbone*; what
+//! follows repeats it, doubled in both directions, from every turning point (Masing 1926), and a loop that closes is forgotten (Madelung
+//! 1905). Parallel elements that stick and slip (Iwan 1966) do the same for a backbone of straight pieces.
 //!
 //! Units: an angle is one over the breakaway angle of gross slip across, a torque one over the limit under the reference load, a load one
 //! over the reference load. So the first stiffness is 1.5 under any load.

@@ -1,10 +1,9 @@
 //! A row of balls that press on each other, behind elements that stick and slip.
 //!
-//! Sliding friction of a row is found in the direction in which its balls go. What presses there is carried by the friction of the grooves: a ball
-//! pushes the next one with what its own grooves hold it back less than the other's. So the row slides forward with grooves and balls, and against
-//! its direction with the grooves alone, and the elements are limited by the two. After a reversal they take friction from the one to the other; the
-//! balls themselves go back after the play. A limit that falls then begins where it was, over the load, and fades by its own size with each half
-//! width of the play that the balls go on.
+//! Sliding friction of a row is found in the direction in which its balls go. A ball pushes the next one with what its own grooves hold it
+//! back less than the other's: so the row slides forward with grooves and balls, against its direction with the grooves alone, and the
+//! elements are limited by the two. After a reversal the balls themselves go back after the play: a limit that falls then begins where it
+//! was, over the load, and fades by its own size with each half width of the play that the balls go on.
 
 use super::Limits;
 use super::elements::Elements;

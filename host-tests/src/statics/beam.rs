@@ -23,8 +23,7 @@ pub struct Section {
 
 /// Factor `k_r` on the outer diameter that takes the groove's volume off, eq. (C.4)-(C.8).
 ///
-/// The printed (C.4) needs `D_2 = (r_G - r_B) cos(beta) + R_P - D_out/2 <= r_G`, which holds where the
-/// nominal contact lies on the screw.
+/// The printed (C.4) needs `D_2 = (r_G - r_B) cos(beta) + R_P - D_out/2 <= r_G`, which holds where the nominal contact lies on the screw.
 pub fn groove_reduction(geometry: &Geometry, outer_diameter: f64) -> Result<f64, ReferenceError> {
     let (sin, cos) = geometry.contact_angle.sin_cos();
     let radius = geometry.groove_radius;

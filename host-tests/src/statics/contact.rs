@@ -14,10 +14,9 @@ pub enum HertzConvention {
     /// Principal curvatures from `I^-1 II` and the exact contact ellipse.
     #[default]
     Correct,
-    /// Lin 2019, appendix B as printed: principal radii as eigenvalues of the second fundamental form
-    /// alone, eq. (B.4), which are no radii (along the path they are curvature times squared pitch
-    /// radius), and the correction factor `F_1` = 1. Table B.1 reproduces with it and a groove radius of
-    /// 0.56 ball diameters, 3.111 mm, not the 3.254 mm of Table 2.1.
+    /// Lin 2019, appendix B as printed: principal radii as eigenvalues of the second fundamental form alone, eq. (B.4), which are no radii
+    /// (along the path they are curvature times squared pitch radius), and the correction factor `F_1` = 1. Table B.1 reproduces with it
+    /// and a groove radius of 0.56 ball diameters, 3.111 mm, not the 3.254 mm of Table 2.1.
     Dissertation,
 }
 

@@ -42,8 +42,7 @@ impl Contact {
     }
 }
 
-/// Nominal geometry of a single-start, right-handed ball screw with gothic-arch grooves. A lead of
-/// zero is a bearing.
+/// Nominal geometry of a single-start, right-handed ball screw with gothic-arch grooves. A lead of zero is a bearing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Geometry {
     /// Pitch radius `R_P`, m.
@@ -108,8 +107,7 @@ impl Geometry {
         self.excess() * Vector2::new(outward * cos, along * sin)
     }
 
-    /// Nominal contact point, m: its radial vector from the screw's axis (no `z` part), and its `z` from
-    /// the ball centre's.
+    /// Nominal contact point, m: its radial vector from the screw's axis (no `z` part), and its `z` from the ball centre's.
     pub fn contact_point(&self, contact: Contact, azimuth: f64) -> (Vector3<f64>, f64) {
         let [outward, along] = contact.signs();
         let (sin, cos) = self.contact_angle.sin_cos();

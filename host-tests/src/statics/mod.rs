@@ -1,22 +1,14 @@
-//! Static load distribution of a ball screw, after Lin 2019, chapter 2.
+//! Static load distribution of a ball screw, after Lin 2019, chapter 2. Lengths in m, forces in N, angles in rad.
 //!
-//! Every ball touches up to four circular arcs of a gothic-arch groove, two on the screw and two on the
-//! nut. The screw is a Timoshenko beam whose section is reduced by the groove, the nut is rigid, each
-//! contact follows Hertz. Friction and ball-to-ball forces are left out, as in the dissertation.
-//!
-//! The printed equations (2.25) hold contact angles as unknowns. On circular arcs those vanish: the
-//! contact lies on the line from the arc's centre to the ball's, and the equations become the gradient
-//! of one **convex** energy
+//! Every ball touches up to four circular arcs of a gothic-arch groove. The screw is a Timoshenko beam whose section is reduced by the
+//! groove, the nut is rigid, each contact follows Hertz. Friction and ball-to-ball forces are left out. The contact angles of the printed
+//! equations (2.25) vanish on circular arcs: the equations become the gradient of one **convex** energy
 //!
 //! `V(U, p) = U'KU/2 - F'U + sum of (2/5) C^(-3/2) max(delta, 0)^(5/2)`,
 //! `delta = |p - o(U)| - (r_G - r_B) + e`,
 //!
-//! with node displacements `U`, ball centres `p`, arc centres `o`, which move with the screw, and the
-//! ball's oversize `e`. The forces are therefore unique and Newton's method with a Levenberg term and an
-//! energy test converges from any start. Each ball is eliminated by its own 2 x 2 block, which leaves a
-//! banded system in the beam's degrees of freedom ([`StaticLoad::solve`]).
-//!
-//! Lengths in m, forces in N, angles in rad.
+//! with node displacements `U`, ball centres `p`, arc centres `o`, which move with the screw, and the ball's oversize `e`. The forces are
+//! therefore unique and Newton's method with a Levenberg term and an energy test converges from any start ([`StaticLoad::solve`]).
 
 pub mod ball;
 pub mod beam;

@@ -15,8 +15,7 @@ const LARGEST_ITERATIONS: usize = 300;
 const LEAST_LEVENBERG: f64 = 1e-13;
 /// Residual relative to the largest force at which the search ends.
 const TOLERANCE: f64 = 1e-11;
-/// A search that can improve no further because of rounding has converged where its residual, relative to the largest force, is
-/// below this.
+/// A search that can improve no further because of rounding has converged where its residual, relative to the largest force, is below this.
 const ROUNDING: f64 = 1e-7;
 
 impl StaticLoad {
@@ -208,8 +207,7 @@ impl StaticLoad {
         unbalanced <= 4.0 * reach
     }
 
-    /// Largest unbalanced force over the largest of loads, contact forces and held reactions; moments
-    /// count as forces at the pitch radius.
+    /// Largest unbalanced force over the largest of loads, contact forces and held reactions; moments count as forces at the pitch radius.
     fn residual(&self, at: &Evaluation, held: &[Option<f64>]) -> f64 {
         let radius = self.geometry.pitch_radius;
         let as_force = |dof: usize, value: f64| {

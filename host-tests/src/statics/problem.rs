@@ -13,8 +13,7 @@ use crate::curvature::Groove;
 use crate::error::{ReferenceError, within};
 use crate::material::Elastic;
 
-/// Balls evenly along the helix, `spacing` rad apart and centred at `position`, m, the first at
-/// `first_azimuth`, rad.
+/// Balls evenly along the helix, `spacing` rad apart and centred at `position`, m, the first at `first_azimuth`, rad.
 pub fn even_train(
     geometry: &Geometry,
     count: usize,
@@ -310,9 +309,8 @@ fn local_deflection(
             deviation.offset + deviation.bend
         })
         .sum::<f64>();
-    // Towards the ball is convex. Across the path a polar curve of radius r_G - offset has the curvature
-    // (1 + (offset + offset'') / r_G) / r_G; along the path the wave's own curvature is added, by a
-    // central difference over a thousandth of a radian's arc.
+    // Towards the ball is convex. Across the path a polar curve of radius r_G - offset has the curvature (1 + (offset + offset'') / r_G) /
+    // r_G; along the path the wave's own curvature is added, by a central difference over a thousandth of a radian's arc.
     curvatures.kappa2 -= bend / geometry.groove_radius.powi(2);
     let step = 1e-3;
     let wave = (height(ball.azimuth + step) + height(ball.azimuth - step)

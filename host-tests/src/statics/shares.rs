@@ -1,18 +1,13 @@
 //! How balls share loads of changing size and sign, and how many tables of shares that takes.
 //!
-//! A friction model that runs in a loop knows one table: each ball's share of whatever the axial load is. The static
-//! model has another table for each load. A contact gets stiffer with the load (`k ~ F^(1/3)`): under small loads errors
-//! of grooves and balls, which are lengths, decide who carries; under large ones the screw's elasticity does. And
-//! a screw that bends shares a push and a pull differently, because balls always push it inwards, while their axial
-//! force changes its sign.
+//! A friction model that runs in a loop knows one table: each ball's share of whatever the axial load is; the static model has another one
+//! for each load. Under small loads errors of grooves and balls decide who carries, under large ones the screw's elasticity, and a screw
+//! that bends shares a push and a pull differently.
 //!
-//! How much a table errs under another load is told by two figures ([`ShareTable::error_at`]): friction of all grooves,
-//! which goes as the sum of `share^(4/3)` where balls spin (less steeply where they slip across the track: then it goes as
-//! the load, and how that is shared does not matter), and the load of the ball that is most wrong. Within a tolerance of both,
-//! [`ShareTables::fewest`] finds the smallest number of tables that serve a list of loads, [`Served::best_alone`] the
-//! best single one, and [`ShareTable::range`] what a given one serves.
-//!
-//! What grooves press on a ball without any axial load is no share of it: preload is the friction model's own input.
+//! [`ShareTable::error_at`] tells how much a table errs under another load: friction of all grooves, as the sum of `share^(4/3)` where
+//! balls spin (less steeply where they slip across the track), and the load of the ball that is most wrong. [`ShareTables::fewest`] finds
+//! the smallest number of tables that serve a list of loads, [`Served::best_alone`] the best single one, [`ShareTable::range`] what a given
+//! one serves. A preload is no share of the load.
 
 use std::ops::Range;
 
@@ -241,9 +236,8 @@ pub struct Served {
 }
 
 impl Served {
-    /// The one of these tables that does best under all of their loads. Where some serve them all, it is the one with
-    /// the smallest error; else the one whose error is smallest in parts of the largest friction and ball load, so that
-    /// large loads decide. None of none.
+    /// The one of these tables that does best under all of their loads. Where some serve them all, it is the one with the smallest error;
+    /// else the one whose error is smallest in parts of the largest friction and ball load, so that large loads decide. None of none.
     pub fn best_alone(
         loads: &[ShareTable],
         tolerance: &ShareError,
@@ -285,8 +279,7 @@ impl ShareTables {
     /// The smallest number of the given tables such that each serves loads that are neighbours in size; `loads` are
     /// of one sign, in the order of their size.
     ///
-    /// Each range is as long as any table makes it from where it starts. No other choice takes fewer: parts of what a
-    /// table serves are served by it too.
+    /// Each range is as long as any table makes it from where it starts: no other choice takes fewer.
     pub fn fewest(loads: &[ShareTable], tolerance: &ShareError) -> Result<Self, ReferenceError> {
         for part in [tolerance.groove_torque, tolerance.ball_load] {
             within("tolerance", part, 1e-9, 1.0)?;

@@ -79,8 +79,7 @@ impl Scaled {
         }
     }
 
-    /// Cosine and sine of the slip angle at the minor contact, eq. (6), times `eps` inside so that the
-    /// large spin stays finite.
+    /// Cosine and sine of the slip angle at the minor contact, eq. (6), times `eps` inside so that the large spin stays finite.
     fn minor_direction(&self, y: &Unknowns, motion: &Motion) -> (f64, f64) {
         let (s, c) = (self.sin_b, self.cos_b);
         let x = -self.eps * motion.tangential;

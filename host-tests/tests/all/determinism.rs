@@ -1,8 +1,6 @@
-//! The same inputs give the same bits: in debug and release builds, with and without `defmt`, on every
-//! machine.
+//! The same inputs give the same bits: in debug and release builds, with and without `defmt`, on every machine.
 //!
-//! Inputs come from integers by one multiplication, so that nothing but the crate's own arithmetic can
-//! differ.
+//! Inputs come from integers by one multiplication, so that nothing but the crate's own arithmetic can differ.
 
 use crate::remembering::{
     COUNTS, CagedByAngle, LinearBySpeed, TEMPERATURE, TICK, UncagedByCounts, at, caged_by_angle,

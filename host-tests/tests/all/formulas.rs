@@ -1,7 +1,7 @@
 //! Formulas that are called directly, at set-up or beside a step, against their papers and float64.
 
 mod clearance;
-mod constants;
+pub mod constants;
 mod curvature;
 mod efficiency;
 mod friction_map;

@@ -73,6 +73,18 @@ fn refused(what: &str, error: &Error) -> Result<(), String> {
     }
 }
 
+/// What is made answers with finite numbers, or is refused.
+fn asked<T, const N: usize>(
+    what: &str,
+    made: Result<T, Error>,
+    answers: impl FnOnce(T) -> [f32; N],
+) -> Result<(), String> {
+    match made {
+        Ok(made) => all_finite(what, &answers(made)),
+        Err(error) => refused(what, &error),
+    }
+}
+
 fn material(numbers: &mut Numbers) -> Material {
     let youngs_modulus = numbers.size(1e6, 1e13);
     let poisson_ratio = numbers.within(0.0, 0.5);
@@ -247,16 +259,12 @@ fn curvature(numbers: &mut Numbers) -> Result<(), String> {
         offset_h,
         offset_l,
     };
-    match GothicArch::checked(side, &path, &profile, angle) {
-        Ok(arch) => {
-            let found = arch.principal(angle);
-            all_finite(
-                &format!("GothicArch {side:?} {path:?} {profile:?} at {angle:?}"),
-                &[found.kappa1, found.kappa2],
-            )
-        }
-        Err(error) => refused("GothicArch", &error),
-    }
+    let what = format!("GothicArch {side:?} {path:?} {profile:?} at {angle:?}");
+    let arch = GothicArch::checked(side, &path, &profile, angle);
+    asked(&what, arch, |arch| {
+        let found = arch.principal(angle);
+        [found.kappa1, found.kappa2]
+    })
 }
 
 fn hertz(numbers: &mut Numbers) -> Result<(), String> {
@@ -264,22 +272,17 @@ fn hertz(numbers: &mut Numbers) -> Result<(), String> {
     let second = first * numbers.size(1e-5, 1e5);
     let modulus = numbers.size(1e3, 1e15);
     let load = numbers.size(1e-9, 1e7);
-    match HertzContact::checked(first, second, modulus) {
-        Ok(contact) => {
-            let load_counts = if load.is_infinite() { 1.0 } else { load };
-            let ellipse = contact.at(load_counts);
-            all_finite(
-                &format!("HertzContact {first} {second} {modulus} at {load}"),
-                &[
-                    ellipse.semi_major,
-                    ellipse.semi_minor,
-                    ellipse.deflection,
-                    ellipse.max_pressure,
-                ],
-            )
-        }
-        Err(error) => refused("HertzContact", &error),
-    }
+    let what = format!("HertzContact {first} {second} {modulus} at {load}");
+    let contact = HertzContact::checked(first, second, modulus);
+    asked(&what, contact, |contact| {
+        let ellipse = contact.at(if load.is_infinite() { 1.0 } else { load });
+        [
+            ellipse.semi_major,
+            ellipse.semi_minor,
+            ellipse.deflection,
+            ellipse.max_pressure,
+        ]
+    })
 }
 
 fn efficiency(numbers: &mut Numbers) -> Result<(), String> {
@@ -292,30 +295,23 @@ fn efficiency(numbers: &mut Numbers) -> Result<(), String> {
         epas_friction::efficiency::Drive::Driving,
         epas_friction::efficiency::Drive::BackDriving,
     ] {
-        match optimum_contact_angle(drive, lead, friction) {
-            Ok(best) => all_finite(
-                &format!("optimum_contact_angle {drive:?} {lead} {friction}"),
-                &[best.contact_angle.unwrap_or(0.0), best.largest_lead_angle],
-            )?,
-            Err(error) => refused("optimum_contact_angle", &error)?,
-        }
+        let what = format!("optimum_contact_angle {drive:?} {lead} {friction}");
+        let best = optimum_contact_angle(drive, lead, friction);
+        asked(&what, best, |best| {
+            [best.contact_angle.unwrap_or(0.0), best.largest_lead_angle]
+        })?;
     }
     all_finite("optimum_efficiency", &[optimum_efficiency(friction)])?;
-    match EfficiencyGeometry::new(lead, contact, ratio) {
-        Ok(geometry) => {
-            let correction = DynamicCorrection::new(&geometry, friction);
-            // The denominator of eq. (3) vanishes on a line of the domain: its neighbours are large.
-            all_finite(
-                &format!("EfficiencyGeometry {lead} {contact} {ratio} with {friction}"),
-                &[
-                    geometry.sliding_loss(friction),
-                    correction.coefficient(),
-                    geometry.rolling_backdrive_efficiency(friction, 0.0),
-                ],
-            )
-        }
-        Err(error) => refused("EfficiencyGeometry", &error),
-    }
+    let what = format!("EfficiencyGeometry {lead} {contact} {ratio} with {friction}");
+    let geometry = EfficiencyGeometry::new(lead, contact, ratio);
+    // The denominator of eq. (3) vanishes on a line of the domain: its neighbours are large.
+    asked(&what, geometry, |geometry| {
+        [
+            geometry.sliding_loss(friction),
+            DynamicCorrection::new(&geometry, friction).coefficient(),
+            geometry.rolling_backdrive_efficiency(friction, 0.0),
+        ]
+    })
 }
 
 fn kinematics(numbers: &mut Numbers) -> Result<(), String> {
@@ -389,16 +385,11 @@ fn kinematics(numbers: &mut Numbers) -> Result<(), String> {
 fn friction_map(numbers: &mut Numbers) -> Result<(), String> {
     let ratio = numbers.within(0.01, 1.0);
     let offset = numbers.size(1e-6, 1e6);
-    match FrictionMap::new(ratio) {
-        Ok(map) => {
-            let found = map.evaluate(offset);
-            all_finite(
-                &format!("FrictionMap {ratio} at {offset}"),
-                &[found.force, found.moment, found.power],
-            )
-        }
-        Err(error) => refused("FrictionMap", &error),
-    }
+    let what = format!("FrictionMap {ratio} at {offset}");
+    asked(&what, FrictionMap::new(ratio), |map| {
+        let found = map.evaluate(offset);
+        [found.force, found.moment, found.power]
+    })
 }
 
 fn linear_ball(numbers: &mut Numbers) -> Result<(), String> {
@@ -416,22 +407,16 @@ fn linear_ball(numbers: &mut Numbers) -> Result<(), String> {
         friction,
     };
     let what = format!("{parameters:?} {:?}", numbers.0);
-    match AnalyticLinearBall::new(&parameters, slope) {
-        Ok(ball) => {
-            let rear = ball.speed_deviation(&numbers.several(), &numbers.several());
-            let front: SpeedDeviation =
-                ball.speed_deviation(&numbers.several(), &numbers.several());
-            all_finite(
-                &what,
-                &[
-                    rear.speed_deviation,
-                    rear.compliance,
-                    rear.contact_force(&front),
-                ],
-            )
-        }
-        Err(error) => refused("AnalyticLinearBall", &error),
-    }
+    let ball = AnalyticLinearBall::new(&parameters, slope);
+    asked(&what, ball, |ball| {
+        let mut one = || ball.speed_deviation(&numbers.several(), &numbers.several());
+        let [rear, front]: [SpeedDeviation; 2] = [one(), one()];
+        [
+            rear.speed_deviation,
+            rear.compliance,
+            rear.contact_force(&front),
+        ]
+    })
 }
 
 fn press(numbers: &mut Numbers) -> Result<(), String> {
@@ -506,26 +491,19 @@ fn design(numbers: &mut Numbers) -> Result<(), String> {
         rotation,
         material: material(numbers),
     };
-    match request.figures() {
-        Ok(figures) => all_finite(
-            &format!("{request:?}"),
-            &[
-                figures.contact_angle,
-                figures.contact_force,
-                figures.max_pressure_screw,
-                figures.max_pressure_nut,
-                figures.sliding_efficiency,
-                figures.lead,
-            ],
-        ),
-        Err(error) => refused("DesignRequest", &error),
-    }
+    asked(&format!("{request:?}"), request.figures(), |figures| {
+        [
+            figures.contact_angle,
+            figures.contact_force,
+            figures.max_pressure_screw,
+            figures.max_pressure_nut,
+            figures.sliding_efficiency,
+            figures.lead,
+        ]
+    })
 }
 
 fn shares(numbers: &mut Numbers) -> Result<(), String> {
     let share = numbers.size(0.01, 100.0);
-    match LoadShare::new(share) {
-        Ok(share) => all_finite("LoadShare", &[share.share()]),
-        Err(error) => refused("LoadShare", &error),
-    }
+    asked("LoadShare", LoadShare::new(share), |share| [share.share()])
 }

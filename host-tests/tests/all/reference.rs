@@ -15,7 +15,7 @@ mod kinematics_reference;
 mod linear_ball_reference;
 pub mod linear_cases;
 mod load_shares;
-mod presliding_reference;
+pub mod presliding_reference;
 mod recorded_runs;
 mod statics;
 mod steady_state;

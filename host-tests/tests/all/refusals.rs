@@ -45,8 +45,7 @@ impl Refusal for ReferenceError {
 /// The field that the error names, a change of the sound parameters, and values that are refused.
 pub type Wrong<P, V> = (&'static str, fn(&mut P, V), &'static [V]);
 
-/// The sound parameters are taken; with each of these values, with NaN and with infinities they are refused by the name of the
-/// field.
+/// The sound parameters are taken; with each of these values, with NaN and with infinities they are refused by the name of the field.
 pub fn assert_refused<P: Clone, V: Number, T, E: Refusal>(
     sound: &P,
     make: impl Fn(&P) -> Result<T, E>,

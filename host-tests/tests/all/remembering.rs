@@ -70,6 +70,26 @@ pub fn with_memory<C, E, A>(scene: C, elements: E, angle: A) -> WithMemoryConfig
     }
 }
 
+/// A counter with so many counts in its period, each of a turn, rad.
+pub fn counter(period: u32, turn_per_count: f32, largest_turn: f32) -> CountSensor {
+    CountSensor::new(CountSensorParameters {
+        period,
+        turn_per_count,
+        largest_turn,
+    })
+    .unwrap()
+}
+
+/// An angle that wraps at both ends of a period, rad.
+pub fn wrapped(lowest: f32, period: f32, largest_turn: f32) -> WrappedAngle {
+    WrappedAngle::new(WrappedAngleParameters {
+        lowest,
+        period,
+        largest_turn,
+    })
+    .unwrap()
+}
+
 /// Elements in slip with a limit, which all slide from a turn on.
 pub fn slip_by(limit: f32, breakaway_angle: f32) -> Slip {
     let part = Part {
@@ -87,25 +107,13 @@ pub fn slip(limit: f32) -> Slip {
 
 /// The configuration of [`CagedByAngle`].
 pub fn caged_by_angle() -> WithMemoryConfiguration<CagedConfiguration, Slip, WrappedAngle> {
-    let angle = WrappedAngle::new(WrappedAngleParameters {
-        lowest: 0.0,
-        period: TAU,
-        largest_turn: 1.0,
-    })
-    .unwrap();
-    with_memory(caged(), slip(0.05), angle)
+    with_memory(caged(), slip(0.05), wrapped(0.0, TAU, 1.0))
 }
 
 /// The configuration of [`UncagedByCounts`].
 pub fn uncaged_by_counts()
 -> WithMemoryConfiguration<UncagedConfiguration, SpinAndSeat, Deadband<CountSensor>> {
-    let sensor = CountSensor::new(CountSensorParameters {
-        period: COUNTS,
-        turn_per_count: TAU / COUNTS as f32,
-        largest_turn: 1.0,
-    })
-    .unwrap();
-    let sensor = Deadband::new(sensor, 2e-4).unwrap();
+    let sensor = Deadband::new(counter(COUNTS, TAU / COUNTS as f32, 1.0), 2e-4).unwrap();
     let spin = ProportionalElements::new(
         0.02,
         &[Part {

@@ -14,7 +14,7 @@ mod load_proportional;
 mod memory;
 mod noise;
 mod phases;
-mod preloaded;
+pub mod preloaded;
 mod promises;
 mod scene_constants;
 mod step_promises;

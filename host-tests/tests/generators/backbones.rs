@@ -153,19 +153,6 @@ fn the_best_line_has_the_error_that_it_is_found_for() {
     }
 }
 
-/// Chords between points of the curve, in closed form, are as far off on one side alone: 0.167/N².
-#[test]
-fn chords_are_within_their_closed_form() {
-    for count in [4, 6, 8, 10] {
-        let corners: Vec<(f64, f64)> = (1..=count)
-            .map(|i| 1.0 - (1.0 - f64::from(i) / f64::from(count)).powf(4.0 / 3.0))
-            .map(|z| (z, slip(z)))
-            .collect();
-        let error = SLIP.error(&elements(&corners)) * f64::from(count * count);
-        assert!((0.12..0.17).contains(&error));
-    }
-}
-
 /// The stored ones were fitted to loops, by a search that stopped. They are what stored cases were made with.
 #[test]
 fn stored_tables_are_near_the_best_ones() {

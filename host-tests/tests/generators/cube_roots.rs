@@ -7,9 +7,8 @@ use crate::remez::{equioscillates, minimax, polynomial};
 
 /// Least and largest `x y³` of the seed `y` with the bits of `seed` less a third of the bits of `x`.
 ///
-/// One power of eight is enough: the next one repeats it. Between the places where an exponent of `x` or `y` changes,
-/// which are visited, `x y³` is the product of a linear function and the cube of another: a scan in steps of 2^-17
-/// meets an extreme there to the square of that.
+/// One power of eight is enough: the next one repeats it. Between the places where an exponent of `x` or `y` changes, which are visited, `x
+/// y³` is the product of a linear function and the cube of another: a scan in steps of 2^-17 meets an extreme there to the square of that.
 fn range(seed: u32) -> (f64, f64) {
     const EXPONENT: u32 = 1 << 23;
     let product = |bits: u32| {

@@ -1,6 +1,5 @@
-//! Makes every fitted coefficient of the crate again, from its definition and in float64, and compares it with the
-//! stored one; and shows, for every constant that was chosen and not derived, that the chosen value lies where nothing
-//! is gained by another one.
+//! Makes every fitted coefficient of the crate again, from its definition and in float64, and compares it with the stored one; and shows,
+//! for every constant that was chosen and not derived, that the chosen value lies where nothing is gained by another one.
 //!
 //! | module | stored in |
 //! |---|---|

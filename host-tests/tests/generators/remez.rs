@@ -27,9 +27,8 @@ pub fn polynomial(coefficients: &[f64], x: f64) -> f64 {
 
 /// The quotient of degrees `numerator` and `denominator` whose largest `weight(x) |fit(x) - f(x)|` is least.
 ///
-/// The error of that quotient takes its largest size, with alternating sign, at `numerator + denominator + 2`
-/// places (Chebyshev). Each round solves for the quotient whose error does so at assumed places, and then moves the
-/// places to the extremes of the error it finds.
+/// The error of that quotient takes its largest size, with alternating sign, at `numerator + denominator + 2` places (Chebyshev). Each
+/// round solves for the quotient whose error does so at assumed places, and then moves the places to the extremes of the error it finds.
 pub fn minimax(
     f: impl Fn(f64) -> f64,
     weight: impl Fn(f64) -> f64,
@@ -157,8 +156,7 @@ pub fn extremes(error: impl Fn(f64) -> f64, (low, high): (f64, f64)) -> Vec<(f64
     found
 }
 
-/// Asserts that an error alternates between at least `count` extremes of one size, to a part of `within`, and returns
-/// the largest one.
+/// Asserts that an error alternates between at least `count` extremes of one size, to a part of `within`, and returns the largest one.
 ///
 /// By the theorem of de la Vallée-Poussin the best fit of the same form is no better than the least of them: the fit
 /// is within that part of the best.

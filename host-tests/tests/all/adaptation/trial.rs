@@ -98,11 +98,3 @@ fn the_level_keeps_its_promise() {
     }
     errors.assert_promised(promises::of("adaptation"));
 }
-
-#[test]
-fn a_drive_repeats_to_the_bit() {
-    let run = || drive(&configuration(5.0), NOISE, wandering, 20.0, true);
-    let (one, other) = (run(), run());
-    assert_eq!(one.last, other.last);
-    assert_eq!(one.errors, other.errors);
-}

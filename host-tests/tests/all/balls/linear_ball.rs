@@ -1,5 +1,4 @@
-//! One ball and pairs of balls in a linear bearing: published tables, tabulated cases, and the
-//! exact ball of the reference.
+//! One ball and pairs of balls in a linear bearing: published tables, tabulated cases, and the exact ball of the reference.
 
 use crate::reference::linear_cases;
 use crate::refusals::assert_refused;
@@ -7,8 +6,6 @@ use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SL
 use epas_reference::friction::linear_ball::LinearBall;
 use epas_reference::promises;
 use epas_testkit::errors::Errors;
-use epas_testkit::golden;
-use epas_testkit::measured;
 use epas_testkit::random::Random;
 use std::f64::consts::FRAC_PI_4;
 
@@ -90,29 +87,6 @@ fn table_3_5_ball_to_ball_force() {
 }
 
 #[test]
-fn tabulated_single_balls() {
-    for (name, near) in [
-        ("four-point", false),
-        ("next to the two-point switch", true),
-    ] {
-        let mut errors = Errors::of(format!("{name}, (3.43)"));
-        for case in golden::list("single") {
-            if case["near_two_point"].as_bool().unwrap() != near {
-                continue;
-            }
-            let (angles, forces) = turned(
-                golden::number(&case, "theta_deg"),
-                golden::number(&case, "rho"),
-            );
-            let eps = golden::number(&case, "eps");
-            let formula = analytic().speed_deviation(&single(angles), &single(forces));
-            errors.add(f64::from(formula.speed_deviation) - eps);
-        }
-        errors.assert_measured();
-    }
-}
-
-#[test]
 fn random_contact_angles_and_side_forces() {
     let mut random = Random(1);
     let mut errors = Errors::of("random linear ball, (3.43)");
@@ -126,82 +100,6 @@ fn random_contact_angles_and_side_forces() {
         errors.add_at(error, format_args!("deviations {deviations:?} rho {rho}"));
     }
     errors.assert_promised(promises::of("analytic_ball"));
-}
-
-#[test]
-fn side_force_sweep_up_to_two_point_rolling() {
-    for rho in [
-        0.0, 0.2, 0.4, 0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.93, 0.96, 0.99,
-    ] {
-        let mut worst = 0.0_f64;
-        for degrees in -3..=3 {
-            for side in [-1.0, 1.0] {
-                let (angles, forces) = turned(f64::from(degrees), side * rho);
-                let eps = exact(angles, forces);
-                let formula = analytic().speed_deviation(&single(angles), &single(forces));
-                worst = worst.max((f64::from(formula.speed_deviation) - eps).abs());
-            }
-        }
-        if rho <= 0.6 {
-            measured::assert("side force to 0.6, (3.43)", worst);
-        }
-    }
-}
-
-#[test]
-fn tabulated_pairs() {
-    for near in [false, true] {
-        let kind = if near {
-            "pairs near the switch"
-        } else {
-            "pairs"
-        };
-        let mut errors = Errors::of(format!("{kind}, (3.51)"));
-        for case in golden::list("pair") {
-            if (golden::number(&case, "rho").abs() > 0.8) != near {
-                continue;
-            }
-            let (degrees, rho) = (
-                golden::number(&case, "theta_deg"),
-                golden::number(&case, "rho"),
-            );
-            let pair = [turned(degrees, rho), turned(degrees, -rho)];
-            let [rear, front] =
-                pair.map(|(a, f)| analytic().speed_deviation(&single(a), &single(f)));
-            errors.add(f64::from(rear.contact_force(&front)) - golden::number(&case, "F_mu0"));
-        }
-        errors.assert_measured();
-    }
-}
-
-#[test]
-fn any_input_gives_a_finite_ball() {
-    let odd = [
-        f32::NAN,
-        f32::INFINITY,
-        f32::NEG_INFINITY,
-        f32::MAX,
-        -1.0,
-        0.0,
-        1e-30,
-        0.785,
-        100.0,
-    ];
-    for (first, angle) in odd.into_iter().enumerate() {
-        for force in odd {
-            let mut angles = [0.785_f32; 4];
-            let mut forces = [70.0_f32; 4];
-            angles[first % 4] = angle;
-            forces[(first + 1) % 4] = force;
-            for all in [false, true] {
-                if all {
-                    (angles, forces) = ([angle; 4], [force; 4]);
-                }
-                let formula = analytic().speed_deviation(&angles, &forces);
-                assert!(formula.speed_deviation.is_finite() && formula.compliance.is_finite());
-            }
-        }
-    }
 }
 
 #[test]

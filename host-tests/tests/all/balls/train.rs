@@ -1,5 +1,4 @@
-//! The train of balls: the pooling pass against exhaustive search, a general complementarity solver
-//! and stored chains; positions over many ticks.
+//! The train of balls: the pooling pass against exhaustive search; positions.
 
 use crate::refusals::assert_refused;
 use epas_friction::train::{Press, Train};
@@ -76,34 +75,6 @@ impl Case {
             }
         }
         panic!("no active set fits {self:?}");
-    }
-
-    fn relaxation(&self) -> Vec<f64> {
-        let n = self.balls();
-        let mut force = vec![0.0_f64; n];
-        let omega = 2.0 / (1.0 + std::f64::consts::PI / n as f64);
-        for _ in 0..200_000 {
-            let mut moved = 0.0_f64;
-            let mut largest = 0.0_f64;
-            for j in 0..n {
-                let ahead = (j + 1) % n;
-                if self.room[j].is_infinite() || ahead == j {
-                    continue;
-                }
-                let behind = (j + n - 1) % n;
-                let v = self.free[j] + self.compliance[j] * (force[behind] - force[j]);
-                let w = self.free[ahead] + self.compliance[ahead] * (force[j] - force[ahead]);
-                let step = (v - w - self.room[j]) / (self.compliance[j] + self.compliance[ahead]);
-                let next = (force[j] + omega * step).max(0.0);
-                moved = moved.max((next - force[j]).abs());
-                largest = largest.max(next);
-                force[j] = next;
-            }
-            if moved <= 1e-13 * largest {
-                break;
-            }
-        }
-        force
     }
 }
 
@@ -187,8 +158,7 @@ fn compare_with_exhaustive_search<const N: usize>(
     (worst, joins)
 }
 
-/// Rounding: each force is a sum of at most N terms (v - u) / Y, each good to a few 2^-24 of the
-/// largest speed difference.
+/// Rounding: each force is a sum of at most N terms (v - u) / Y, each good to a few 2^-24 of the largest speed difference.
 #[test]
 fn forces_equal_an_exhaustive_search_over_all_sets_of_contacts() {
     let random = &mut Random(1);
@@ -203,9 +173,8 @@ fn forces_equal_an_exhaustive_search_over_all_sets_of_contacts() {
     assert_eq!(results[4].1, 7);
 }
 
-/// Light balls between heavy ones, impedances that differ by up to a factor 1e6. What rounding of the
-/// common speed leaves would be 0.06 of the light balls' forces; taken out, 2^-24 of it remains beside
-/// the rounding of the sums.
+/// Light balls between heavy ones, impedances that differ by up to a factor 1e6. What rounding of the common speed leaves would be 0.06 of
+/// the light balls' forces; taken out, 2^-24 of it remains beside the rounding of the sums.
 #[test]
 fn stiff_trains_keep_their_forces() {
     let random = &mut Random(4);
@@ -215,101 +184,6 @@ fn stiff_trains_keep_their_forces() {
         compare_with_exhaustive_search::<9>(random, 1e3),
     ];
     println!("largest force error over largest force, most joins: {results:?}");
-}
-
-fn compare_with_relaxation<const N: usize>(random: &mut Random, trials: usize) -> (f64, f64) {
-    let (mut worst, mut sum) = (0.0_f64, 0.0);
-    for trial in 0..trials {
-        let (free, impedance, room) = random_train::<N>(
-            random,
-            [0.3, 0.8, 0.97, 1.0][trial % 4],
-            trial % 2 == 0,
-            2.0,
-        );
-        let mut found = Press::<N>::new();
-        assert!(found.solve(&free, &impedance, &room));
-        let speed: Vec<_> = found.speeds().collect();
-        let case = Case::of(&free, &impedance, &room);
-        let exact = case.relaxation();
-        check_speeds(&case, &speed, &exact);
-        // A closed ring leaves the forces open by a constant: the least is zero by definition.
-        let least = if room.iter().all(|&room| room == 0.0) {
-            exact.iter().fold(f64::INFINITY, |m, &f| m.min(f))
-        } else {
-            0.0
-        };
-        let exact: Vec<f64> = exact.iter().map(|f| f - least).collect();
-        let error = force_error(&case, &found, &exact);
-        measured::assert_at(
-            "press, relaxation",
-            error,
-            format_args!("N = {N}, trial {trial}: error {error}, rooms {room:?}"),
-        );
-        worst = worst.max(error);
-        sum += error;
-    }
-    (worst, sum / trials as f64)
-}
-
-#[test]
-fn long_trains_agree_with_a_general_complementarity_solver() {
-    let random = &mut Random(2);
-    println!("N = 37: {:?}", compare_with_relaxation::<37>(random, 40));
-    println!("N = 64: {:?}", compare_with_relaxation::<64>(random, 40));
-}
-
-/// Smallest distance of a train, and whether its balls still stand in their order: the distances and the
-/// balls add up to the track, once around.
-fn check_order<const N: usize>(train: &Train<N>, length: f64, pitch: f64) -> f64 {
-    let sum: f64 = train.gaps().map(f64::from).sum();
-    let rounding = 2e-7 * length;
-    assert!(
-        (sum + N as f64 * pitch - length).abs() < rounding,
-        "the balls fill {} of {length}",
-        sum + N as f64 * pitch
-    );
-    train
-        .gaps()
-        .fold(f64::INFINITY, |m, gap| m.min(f64::from(gap)))
-}
-
-/// A million ticks of 37 balls on a track they fill to 97.8 per cent, at speeds that vary along the
-/// track, with reversals and standstill: the balls neither overlap nor get lost.
-///
-/// Balls that press are set in contact exactly; others lose at most a unit of 2^-32 of the track each to
-/// rounding (1e-10 m here), so 1e-9 m is ten times what is left.
-#[test]
-fn a_million_ticks_leave_no_overlap() {
-    const N: usize = 37;
-    let (length, pitch) = (0.2248_f64, 0.00594_f64);
-    let mut train = Train::<N>::evenly_spaced(length as f32, pitch as f32, N).unwrap();
-    let (mut worst, mut pressing, mut most) = (f64::INFINITY, 0, 0);
-    let mut phase = 0.0_f64;
-    for tick in 0..1_000_000_u32 {
-        let way = match tick / 1000 % 4 {
-            0 => 2e-4,
-            1 => 0.0,
-            2 => -1.3e-4,
-            _ => 3.7e-6,
-        };
-        phase += way / length;
-        let sense = if way < 0.0 { -1.0_f32 } else { 1.0 };
-        let mut free = [0.0; N];
-        for (free, position) in free.iter_mut().zip(train.positions()) {
-            let at = f64::from(position) / 4_294_967_296.0 + phase;
-            *free = sense * (0.05 * (3.0 * std::f64::consts::TAU * at).sin()) as f32;
-        }
-        train.step(&free, &[1e3; N], way as f32);
-        let contacts = train.forces().filter(|&force| force > 0.0).count();
-        pressing += contacts;
-        most = most.max(contacts);
-        if tick % 64 == 0 {
-            worst = worst.min(check_order(&train, length, pitch));
-        }
-    }
-    worst = worst.min(check_order(&train, length, pitch));
-    assert!(worst > -1e-9, "overlap {worst} m");
-    assert!(most > 5 && pressing > 1_000_000, "the balls hardly met");
 }
 
 #[test]
@@ -439,39 +313,6 @@ fn the_least_excess_of_speed_joins() {
     assert_eq!(joins, 1);
     // Half of 2^-23 / 64 on an impedance of 1024.
     assert_eq!(forces, [f32::EPSILON * 8.0, 0.0]);
-}
-
-#[test]
-fn invalid_inputs_do_no_harm() {
-    let wild = [
-        f32::NAN,
-        f32::INFINITY,
-        f32::NEG_INFINITY,
-        f32::MAX,
-        -f32::MAX,
-        f32::MIN_POSITIVE,
-        -0.0,
-        1e-45,
-        1.0,
-        -1.0,
-        1e4,
-    ];
-    let random = &mut Random(3);
-    let mut train = Train::<7>::new(0.1, 0.01, &[0.0, 0.0, 1e-4, 0.0, 1e-3, 0.0, 0.0]).unwrap();
-    for _ in 0..20_000 {
-        let mut pick = || wild[(random.between(0.0, 1.0) * wild.len() as f64) as usize];
-        let free: [f32; 7] = std::array::from_fn(|_| pick());
-        let impedance: [f32; 7] = std::array::from_fn(|_| pick());
-        let travel = pick();
-        train.step(&free, &impedance, travel);
-        for (force, speed) in train.forces().zip(train.speeds()) {
-            assert!(
-                force.is_finite() && force >= 0.0 && speed.is_finite(),
-                "{free:?} {impedance:?} {travel}: {train:?}"
-            );
-        }
-        assert!(check_order(&train, 0.1, 0.01) > -1e-8);
-    }
 }
 
 /// A travel beyond 3 % of the track counts as that, either way, and NaN as none.

@@ -1,8 +1,7 @@
 //! What a compiler folds and what the target would compute are the same bits.
 //!
-//! A constant takes each set-up from one list of numbers; at run time the same functions take the same
-//! numbers from behind `black_box`. Bits are compared through the `Debug` text, which prints every
-//! number of a structure so that it can be read back exactly.
+//! A constant takes each set-up from one list of numbers; at run time the same functions take the same numbers from behind `black_box`.
+//! Bits are compared through the `Debug` text, which prints every number of a structure so that it can be read back exactly.
 
 use std::fmt::Debug;
 use std::hint::black_box;
@@ -15,6 +14,7 @@ use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;
 use epas_friction::kinematics::{ContactKinematics, EllipticContact, KinematicsParameters};
 use epas_friction::{BallScrew, CATALOGUE, math};
+use epas_testkit::gears::folded;
 
 #[derive(Clone, Copy, Debug)]
 #[allow(dead_code)] // Read through `Debug`.
@@ -91,19 +91,12 @@ const SIZES: usize = CATALOGUE.len();
 const FRICTION: f32 = 0.075;
 const ROLLING_TANGENT: f32 = 1e-3;
 
-const fn unwrapped<E: Copy>(result: Result<BallScrew, E>) -> BallScrew {
-    match result {
-        Ok(design) => design,
-        Err(_) => panic!("a built-in design is out of range"),
-    }
-}
-
 const CATALOGUE_SET_UPS: [SetUp; SIZES] = {
-    let first = unwrapped(CATALOGUE[0].design());
+    let first = folded(CATALOGUE[0].design());
     let mut all = [SetUp::of(first, FRICTION, ROLLING_TANGENT); SIZES];
     let mut index = 1;
     while index < SIZES {
-        let design = unwrapped(CATALOGUE[index].design());
+        let design = folded(CATALOGUE[index].design());
         all[index] = SetUp::of(design, FRICTION, ROLLING_TANGENT);
         index += 1;
     }
@@ -112,7 +105,7 @@ const CATALOGUE_SET_UPS: [SetUp; SIZES] = {
 
 /// `Debug` prints the shortest text that reads back as the same number, and the sign of a zero: equal
 /// texts are equal bits. No NaN may hide among them.
-fn same_bits(folded: &impl Debug, computed: &impl Debug) {
+pub fn same_bits(folded: &impl Debug, computed: &impl Debug) {
     let (folded, computed) = (format!("{folded:?}"), format!("{computed:?}"));
     assert!(!folded.contains("NaN"), "{folded}");
     assert_eq!(folded, computed);
@@ -170,8 +163,7 @@ const BALL: KinematicsParameters = KinematicsParameters {
     semi_minor_nut: 0.097e-3,
 };
 
-/// The kinematics' set-up takes other kernels than its update in the loop: the same contact given again
-/// must change nothing.
+/// The kinematics' set-up takes other kernels than its update in the loop: the same contact given again must change nothing.
 #[test]
 fn folded_kinematics_have_the_bits_of_those_made_at_run_time() {
     const FOLDED: ContactKinematics = match ContactKinematics::new(&BALL) {

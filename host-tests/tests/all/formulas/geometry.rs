@@ -1,8 +1,8 @@
 //! Designs: every field of every constructor with every kind of bad number; derived constants.
 
 use crate::refusals::assert_refused;
-use epas_friction::curvature::{GothicArch, LiteratureCurvature};
-use epas_friction::geometry::{ContactAngle, Groove, HelixPath};
+
+use epas_friction::geometry::{Groove, HelixPath};
 use epas_friction::{
     BallScrew, BallScrewParameters, CATALOGUE, DISSERTATION_DESIGNS, Error, GrooveSize,
     LinearBearing,
@@ -142,39 +142,6 @@ fn path_from_lead_equals_path_from_lead_angle() {
         // Six roundings.
         assert!((f64::from(path.curvature) / curvature - 1.0).abs() < 4e-7);
         assert!((f64::from(path.torsion) / (curvature * tan) - 1.0).abs() < 4e-7);
-    }
-}
-
-/// Without lead a ball screw is a ball bearing, and without offsets its curvature the literature's.
-#[test]
-fn zero_lead_is_a_bearing() {
-    // Races of Lin 2019, Table 3.1, with the groove radius of conformity 0.54.
-    let screw = &BallScrew::new(BallScrewParameters {
-        pitch_radius: 35e-3,
-        lead: 0.0,
-        ball_radius: 6.25e-3,
-        screw_groove: GrooveSize::Radius(6.75e-3),
-        nut_groove: GrooveSize::Radius(6.75e-3),
-        contact_angle: 0.785,
-        ..good()
-    })
-    .unwrap();
-    assert_eq!(screw.path().torsion, 0.0);
-    assert_eq!(screw.tan_lead_angle(), 0.0);
-    for groove in [Groove::Screw, Groove::Nut] {
-        let arch = GothicArch::of(screw, groove);
-        for degrees in [0.0_f32, 20.0, 45.0, 70.0] {
-            let angle = ContactAngle::new(degrees.to_radians());
-            // On the circle of radius r_m + zeta H through the arc's centre, with r_s for r_b.
-            let radius = 35e-3 + groove.sign() * screw.profile(groove).offset_h;
-            let circle = LiteratureCurvature::new(groove, radius, 6.75e-3).first(angle);
-            let exact = arch.principal(angle).kappa1;
-            // Eight roundings of 2^-24.
-            assert!(
-                (circle / exact - 1.0).abs() < 5e-7,
-                "{groove:?} at {degrees}"
-            );
-        }
     }
 }
 

@@ -40,43 +40,6 @@ fn reference_equals_tabulated_contacts() {
     }
 }
 
-/// Lin 2019, Table B.1 with the right curvatures (the first fundamental form taken into account):
-/// curvatures of the Weingarten map and the ellipse that follows. Lengths in mm, C in mm/N^(2/3).
-#[test]
-fn reference_equals_tabulated_ball_screw_contacts() {
-    let table = file("ballscrew");
-    for (name, groove, groove_radius) in [
-        ("S_rG3.11136", curvature::Groove::Screw, 3.11136),
-        ("S_rG3.254", curvature::Groove::Screw, 3.254),
-        ("N_rG3.11136", curvature::Groove::Nut, 3.11136),
-        ("N_rG3.254", curvature::Groove::Nut, 3.254),
-    ] {
-        let offset = (groove_radius - 2.778) * std::f64::consts::FRAC_1_SQRT_2;
-        let surface = curvature::Surface {
-            groove,
-            pitch_radius: 16.5,
-            lead_angle: (20.0 / (std::f64::consts::TAU * 16.5)).atan(),
-            groove_radius,
-            offset_h: offset,
-            offset_l: offset,
-        };
-        let principal = surface.principal(std::f64::consts::FRAC_PI_4);
-        let along = 1.0 / (1.0 / 2.778 + principal.kappa1);
-        let across = 1.0 / (1.0 / 2.778 + principal.kappa2);
-        let modulus = hertz::contact_modulus((210e3, 0.28), (210e3, 0.28));
-        let contact = Hertz::new(along, across, modulus).unwrap();
-        let expected = &table["hertz"][name]["correct"];
-        // A dozen and a half roundings of 1.1e-16.
-        for (computed, key) in [(contact.semi_major, "Ca"), (contact.deflection, "C")] {
-            let expected = expected[key].as_f64().unwrap();
-            assert!(
-                (computed / expected - 1.0).abs() < 2e-15,
-                "{name} {key}: {computed}"
-            );
-        }
-    }
-}
-
 /// Equal relative radii `R` give a circle, in closed form: `a³ = 3 F R / (4 E*)`, `delta = a² / R`.
 #[test]
 fn equal_radii_give_a_circle() {
@@ -95,29 +58,8 @@ fn equal_radii_give_a_circle() {
 }
 
 #[test]
-fn load_enters_with_its_powers_and_a_lost_contact_has_no_ellipse() {
+fn a_lost_contact_has_no_ellipse() {
     let contact = HertzContact::of(&CATALOGUE[15].design().unwrap(), Groove::Nut);
-    for load in [0.001_f32, 1.0, 50.0, 14_500.0, 1e6] {
-        let ellipse = contact.at(load);
-        let root = f64::from(load).cbrt();
-        let close = |computed: f32, exact: f64| (f64::from(computed) / exact - 1.0).abs() < 2e-7;
-        assert!(close(
-            ellipse.semi_major,
-            f64::from(contact.semi_major_coefficient()) * root
-        ));
-        assert!(close(
-            ellipse.semi_minor,
-            f64::from(contact.semi_minor_coefficient()) * root
-        ));
-        assert!(close(
-            ellipse.deflection,
-            f64::from(contact.deflection_coefficient()) * root * root
-        ));
-        assert!(close(
-            ellipse.max_pressure,
-            f64::from(contact.max_pressure_coefficient()) * root
-        ));
-    }
     for lost in [0.0, -0.0, -5.0, f32::NEG_INFINITY, f32::NAN] {
         let ellipse = contact.at(lost);
         assert_eq!(ellipse.semi_major, 0.0);
@@ -144,8 +86,7 @@ fn designs_give_the_contact_of_their_surface() {
     }
 }
 
-/// Lin 2019, Table 3.3: a linear bearing with ball radius 5 mm and conformity 0.56 has an axis ratio of
-/// 0.2321.
+/// Lin 2019, Table 3.3: a linear bearing with ball radius 5 mm and conformity 0.56 has an axis ratio of 0.2321.
 #[test]
 fn linear_bearing_of_table_3_3() {
     let design = LinearBearing::new(LINEAR_BEARING).unwrap();

@@ -68,8 +68,7 @@ fn the_crate_follows_the_reference() {
     }
 }
 
-/// Power is force times speed, and one whole ball's power is that of the reference with the reference's own loads and
-/// speeds.
+/// Power is force times speed, and one whole ball's power is that of the reference with the reference's own loads and speeds.
 #[test]
 fn a_balls_power_is_that_of_the_reference() {
     use epas_reference::friction::ball_screw_efficiency::LoadedScrew;

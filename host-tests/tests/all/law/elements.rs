@@ -9,6 +9,7 @@ use epas_friction::law::{Elements, SlidingLimits};
 use epas_reference::promises;
 
 use crate::law::transcription;
+use crate::scenes::preloaded::exact_sum;
 use epas_testkit::errors::Errors;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
@@ -338,15 +339,6 @@ fn nan_and_infinity_do_no_harm() {
 /// of the reference limit.
 #[test]
 fn rounding_is_as_promised() {
-    let table = |backbone: &[BackboneElement]| {
-        let of = |f: fn(&BackboneElement) -> f32| {
-            backbone
-                .iter()
-                .map(|element| f64::from(f(element)))
-                .collect::<Vec<_>>()
-        };
-        transcription::Elements::of_table(&of(|e| e.angle), &of(|e| e.weight))
-    };
     fn compare<E: Elements>(
         elements: &E,
         exact: &mut transcription::Elements,
@@ -366,27 +358,15 @@ fn rounding_is_as_promised() {
             });
         }
     }
+    fn in_proportion<const N: usize>(backbone: &Backbone<N>, errors: &mut Errors) {
+        let mut exact = transcription::Elements::of_backbone(&backbone.elements);
+        compare(&proportional(backbone, 1.0, 1.0), &mut exact, errors);
+    }
     let mut proportional_errors = Errors::default();
-    compare(
-        &proportional(&SLIP_8, 1.0, 1.0),
-        &mut table(&SLIP_8.elements),
-        &mut proportional_errors,
-    );
-    compare(
-        &proportional(&SPIN_8, 1.0, 1.0),
-        &mut table(&SPIN_8.elements),
-        &mut proportional_errors,
-    );
-    compare(
-        &proportional(&SLIP_6, 1.0, 1.0),
-        &mut table(&SLIP_6.elements),
-        &mut proportional_errors,
-    );
-    compare(
-        &proportional(&SPIN_4, 1.0, 1.0),
-        &mut table(&SPIN_4.elements),
-        &mut proportional_errors,
-    );
+    in_proportion(&SLIP_8, &mut proportional_errors);
+    in_proportion(&SPIN_8, &mut proportional_errors);
+    in_proportion(&SLIP_6, &mut proportional_errors);
+    in_proportion(&SPIN_4, &mut proportional_errors);
     proportional_errors.assert_promised(promises::of("memory"));
     let mut errors = Errors::default();
     compare(
@@ -397,27 +377,7 @@ fn rounding_is_as_promised() {
     errors.assert_promised(promises::of("memory_load_exact"));
 }
 
-/// Sum of two flanks' loads over that without an axial load, from the load that a caged screw tells over the same, `1 + F/(2 sqrt(2) P)`:
-/// both share one Hertzian deflection, `F1^(2/3) + F2^(2/3) = 2 P^(2/3)`, until one is lost.
-fn both_flanks(told: f64) -> f64 {
-    let lost = 8.0_f64.sqrt();
-    let load = (told - 1.0) * lost;
-    if load > lost {
-        return 0.5 * load;
-    }
-    let (mut low, mut high) = (load, load + 2.0);
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if middle.powf(2.0 / 3.0) + (middle - load).powf(2.0 / 3.0) < 2.0 {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    0.5 * (low + (low - load))
-}
-
-/// Elements of a preloaded screw against elements in f64 under the exact load of both flanks.
+/// Elements of a preloaded screw against elements in f64 under the exact load of both flanks; a caged screw tells `1 + F/(2 sqrt(2) P)`.
 #[test]
 fn flanks_share_as_promised() {
     let elements = PreloadedElements::new(LoadExactElements::<8>::new(1.0, 1.0, 4.0).unwrap());
@@ -431,7 +391,12 @@ fn flanks_share_as_promised() {
         let limits = sliding_limits(forward, backward, load);
         let found = f64::from(elements.follow(&mut state, turn, &limits));
         let [turn, forward, backward, load] = [turn, forward, backward, load].map(f64::from);
-        let wanted = exact.follow(turn, forward, backward, both_flanks(load));
+        let wanted = exact.follow(
+            turn,
+            forward,
+            backward,
+            exact_sum(8_f64.sqrt() * (load - 1.0), 1.0),
+        );
         errors.add_case(found - wanted, || format!("{tick}: {load}"));
     }
     errors.assert_promised(promises::of("memory_preloaded"));

@@ -13,46 +13,10 @@ use epas_reference::presliding::masing::Masing;
 use serde_json::Value;
 
 use crate::law::transcription;
+use crate::reference::presliding_reference::path;
 use epas_testkit::errors::Errors;
-use epas_testkit::golden::{number, numbers};
+use epas_testkit::golden::{file, number, numbers};
 use epas_testkit::random::Random;
-
-fn golden() -> Value {
-    let text = include_str!(concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/golden/presliding.json"
-    ));
-    serde_json::from_str(text).unwrap()
-}
-
-/// A path of angles or loads: strokes of equal ticks, or sines, which count from where they start.
-fn path(of: &Value) -> Vec<f64> {
-    if of["kind"] == "points" {
-        let points = numbers(of, "points");
-        let ticks = number(of, "ticks");
-        let stroke = |pair: &[f64]| {
-            let (from, way) = (pair[0], pair[1] - pair[0]);
-            (1..=ticks as u32).map(move |tick| from + way * (f64::from(tick) / ticks))
-        };
-        std::iter::once(points[0])
-            .chain(points.windows(2).flat_map(stroke))
-            .collect()
-    } else {
-        let count = number(of, "n");
-        let start = number(of, "start");
-        let terms = of["terms"].as_array().unwrap();
-        let wave = |tick: u32| {
-            let sines = terms.iter().map(|term| {
-                let [size, waves, phase] = [0, 1, 2].map(|i: usize| term[i].as_f64().unwrap());
-                size * (TAU * waves * f64::from(tick) / count + phase).sin()
-            });
-            sines.sum::<f64>()
-        };
-        (0..=count as u32)
-            .map(|tick| start + (wave(tick) - wave(0)))
-            .collect()
-    }
-}
 
 struct Case {
     angles: Vec<f64>,
@@ -134,7 +98,7 @@ fn elements<const N: usize>(backbone: &Backbone<N>) -> ProportionalElements<N> {
 
 #[test]
 fn golden_cases() {
-    let golden = golden();
+    let golden = file("presliding");
     for case in golden["cases"].as_array().unwrap() {
         let table = &case["element_table"];
         let found = if let Some(name) = table.as_str() {
@@ -165,7 +129,7 @@ fn golden_cases() {
 
 #[test]
 fn tables_are_the_golden_ones() {
-    let golden = golden();
+    let golden = file("presliding");
     let check = |name: &str, elements: &[epas_friction::law::memory::BackboneElement]| {
         let of = &golden["tables"][name];
         let pairs = numbers(of, "theta").into_iter().zip(numbers(of, "weight"));

@@ -8,26 +8,9 @@ use epas_friction::law::motion::{
 };
 use epas_reference::promises;
 
+use crate::remembering::{counter, wrapped};
 use epas_testkit::errors::Errors;
 use epas_testkit::random::Random;
-
-fn counter(period: u32, turn_per_count: f32, largest_turn: f32) -> CountSensor {
-    let parameters = CountSensorParameters {
-        period,
-        turn_per_count,
-        largest_turn,
-    };
-    CountSensor::new(parameters).unwrap()
-}
-
-fn angle(lowest: f32, period: f32, largest_turn: f32) -> WrappedAngle {
-    let parameters = WrappedAngleParameters {
-        lowest,
-        period,
-        largest_turn,
-    };
-    WrappedAngle::new(parameters).unwrap()
-}
 
 /// A random walk of counts, some of them across the end of the counter: every turn is the count, rounded once.
 #[test]
@@ -106,7 +89,7 @@ fn gaps_are_spanned() {
     assert_eq!(sensor.turn(&mut state, 5_000), Turn::Limited(1.0));
     assert_eq!(sensor.turn(&mut state, 0), Turn::Limited(-1.0));
 
-    let sensor = angle(-3.0, 6.0, 0.5);
+    let sensor = wrapped(-3.0, 6.0, 0.5);
     let mut state = WrappedAngle::FRESH;
     sensor.turn(&mut state, 2.875);
     for bad in [
@@ -180,7 +163,7 @@ fn angles_lose_nothing_across_either_end() {
     let mut errors = Errors::default();
     let full = TAU as f32;
     for lowest in [0.0, -0.5 * full] {
-        let sensor = angle(lowest, full, 3.0);
+        let sensor = wrapped(lowest, full, 3.0);
         let (low, period) = (f64::from(lowest), f64::from(full));
         let (mut state, mut last) = (WrappedAngle::FRESH, f64::from(lowest));
         sensor.turn(&mut state, lowest);
@@ -312,7 +295,7 @@ fn set_ups_are_refused_by_field() {
     assert_eq!(count(100, f32::NAN, 1e-3), "turn_per_count");
     assert_eq!(count(100, -1e-3, 0.06), "largest_turn");
     assert_eq!(count(0, 1e-3, f32::INFINITY), "largest_turn");
-    let wrapped = |lowest, period, largest_turn| {
+    let angle = |lowest, period, largest_turn| {
         let parameters = WrappedAngleParameters {
             lowest,
             period,
@@ -320,9 +303,9 @@ fn set_ups_are_refused_by_field() {
         };
         WrappedAngle::new(parameters).unwrap_err().field()
     };
-    assert_eq!(wrapped(f32::NAN, 6.0, 1.0), "lowest");
-    assert_eq!(wrapped(0.0, 0.0, 1.0), "period");
-    assert_eq!(wrapped(0.0, 6.0, 3.5), "largest_turn");
+    assert_eq!(angle(f32::NAN, 6.0, 1.0), "lowest");
+    assert_eq!(angle(0.0, 0.0, 1.0), "period");
+    assert_eq!(angle(0.0, 6.0, 3.5), "largest_turn");
     assert_eq!(SpeedOverTick::new(0.0, 1.0).unwrap_err().field(), "tick");
     assert_eq!(
         SpeedOverTick::new(1e-3, 0.0).unwrap_err().field(),

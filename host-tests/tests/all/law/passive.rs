@@ -141,19 +141,3 @@ fn friction_makes_no_energy() {
 fn friction_makes_no_energy_in_a_long_run() {
     every_kind(200_000_000);
 }
-
-/// The test can tell: stiffness that follows the load makes energy in the same ticks.
-#[test]
-fn a_stiffness_that_follows_the_load_makes_energy() {
-    let (mut ticks, mut deflection, mut before) = (Ticks::new(6), 0.0_f64, 0.0);
-    let mut least = 0.0_f64;
-    for _ in 0..10_000 {
-        let (turn, limits) = ticks.next();
-        let (turn, load) = (f64::from(turn), f64::from(limits.load));
-        deflection = (deflection + turn).clamp(-1.0 / 1.5, 1.0 / 1.5);
-        let stored = 0.75 * load * deflection * deflection;
-        least = least.min(1.5 * load * deflection * turn - (stored - before));
-        before = stored;
-    }
-    assert!(least < -0.1);
-}

@@ -2,8 +2,7 @@
 
 use epas_friction::law::Elements;
 use epas_friction::law::memory::{
-    Backbone, BackboneElement, Hysteresis, ParallelElements, SLIP_6, SLIP_8, SPIN_4, SPIN_8,
-    SeatElement, SeatState,
+    Hysteresis, ParallelElements, SLIP_6, SLIP_8, SPIN_4, SPIN_8, SeatElement, SeatState,
 };
 use epas_reference::promises;
 
@@ -68,12 +67,6 @@ fn play_is_free_and_sliding_is_full() {
     }
 }
 
-fn exact<const N: usize>(backbone: &Backbone<N>) -> transcription::Elements {
-    let of =
-        |f: fn(&BackboneElement) -> f32| backbone.elements.map(|element| f64::from(f(&element)));
-    transcription::Elements::of_table(&of(|e| e.angle), &of(|e| e.weight))
-}
-
 /// Two kinds with 0.3 and 0.7 of the limits: four elements beside six, and eight beside a seat. The sum of both in f64, from the same
 /// place of the seat.
 #[test]
@@ -87,7 +80,8 @@ fn together_they_are_the_sum_of_both() {
     .unwrap();
     let seat = SeatElement::new(1.0 - share, 0.5, 1.0).unwrap();
     let seated = ParallelElements::new(proportional(&SLIP_8, share, 1.0), seat, share).unwrap();
-    let [mut four, mut six, mut eight] = [exact(&SPIN_4), exact(&SLIP_6), exact(&SLIP_8)];
+    let [mut four, mut six, mut eight] = [&SPIN_4.elements[..], &SLIP_6.elements, &SLIP_8.elements]
+        .map(transcription::Elements::of_backbone);
     let (mut of_tables_state, mut seated_state) = (virgin(&of_tables), virgin(&seated));
     let (mut random, mut place) = (Random(11), 0.0_f64);
     let mut errors = Errors::default();

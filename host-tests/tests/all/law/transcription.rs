@@ -1,5 +1,7 @@
 //! The elements' update in f64, straight from its formula, and their stored energy.
 
+use epas_friction::law::memory::BackboneElement;
+
 pub struct Elements {
     pub stiffnesses: Vec<f64>,
     pub shares: Shares,
@@ -18,6 +20,13 @@ impl Elements {
             torques: vec![0.0; angles.len()],
             shares: Shares::Constant(weights.to_vec()),
         }
+    }
+
+    pub fn of_backbone(backbone: &[BackboneElement]) -> Self {
+        let of = |number: fn(&BackboneElement) -> f32| -> Vec<f64> {
+            backbone.iter().map(|e| number(e).into()).collect()
+        };
+        Self::of_table(&of(|e| e.angle), &of(|e| e.weight))
     }
 
     pub fn by_load(count: usize, largest_load: f64) -> Self {

@@ -14,10 +14,9 @@ const LEVELS: i32 = 24;
 
 /// Power and its gradient by `(slip_major, slip_minor, spin)` by a two-dimensional Gauss rule over the ellipse.
 ///
-/// With `x = a sin p cos q` and `y = b sin q` the half-ellipsoid of pressure is smooth up to the rim.
-/// The direction of slip jumps at the velocity centre, so the panels are halved towards it in both
-/// directions, which makes the rule converge to about 1e-12 of the friction limit for a
-/// centre in any place, on the rim too. Takes some ten million evaluations: for tests, not for solvers.
+/// With `x = a sin p cos q` and `y = b sin q` the half-ellipsoid of pressure is smooth up to the rim. The direction of slip jumps at the
+/// velocity centre, so the panels are halved towards it in both directions, which makes the rule converge to about 1e-12 of the friction
+/// limit for a centre in any place, on the rim too. Takes some ten million evaluations: for tests, not for solvers.
 ///
 /// Returns `(power, gradient)` in the units of [`Patch`].
 ///

@@ -30,8 +30,7 @@ fn table_3_6() -> BallScrewDesign {
     given::ball_screw(&DISSERTATION_DESIGNS[1].parameters)
 }
 
-/// The work that the pressure of the front half of the ellipse does while the surfaces close in, `dA p x/R_x` over `x >
-/// 0`, by quadrature.
+/// The work that the pressure of the front half of the ellipse does while the surfaces close in, `dA p x/R_x` over `x > 0`, by quadrature.
 #[test]
 fn hysteresis_is_a_share_of_the_front_halfs_work() {
     let (load, semi_major, semi_minor, radius) = (70.0, 3e-4, 5e-5, 2.6e-3);
@@ -88,8 +87,7 @@ fn no_friction_and_no_resistance_lose_nothing() {
     }
 }
 
-/// Each part is in proportion to its parameter, and none changes another: the balance of the ball does not feel rolling
-/// resistance.
+/// Each part is in proportion to its parameter, and none changes another: the balance of the ball does not feel rolling resistance.
 #[test]
 fn parts_of_the_torque_follow_their_parameters() {
     let one = screw(table_3_6(), 50.0);

@@ -205,7 +205,6 @@ fn balls_meet_and_part_without_overlap() {
     }
 }
 
-/// Turned about the radial direction: the nut's other way, loads of the other sign, deviations mirrored along the track. Torque is odd.
 #[test]
 fn torque_is_odd_under_mirror() {
     let pressing = [-3e-6, 0.0, 4e-6].map(|clearance| {
@@ -418,9 +417,7 @@ fn outward_force_moves_balls() {
     ring.chord = false;
     let plain = one(&ring, TAU, -150.0);
     assert!(plain.largest_force() > 0.5);
-    let (sin, _) = ScrewTrack::from(&SCREW).ball_contact_angle();
     let change = chord.largest_force() / plain.largest_force() - 1.0;
-    println!("chord: {change:e}, sin b {sin}");
     // An outward force of a sixth of the force between balls shifts the loads of 70 N by less than 1 N.
     assert!(change != 0.0, "{change}");
     measured::assert("ring, force that points outward", change);

@@ -4,8 +4,6 @@ use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ball::ScrewTrack;
-use epas_reference::friction::ball_screw_elastic::{BallSlip, ElasticBalls, ScrewSupport};
-use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall, RowMotion};
 use epas_reference::friction::patch::Integration;
 use epas_reference::material::Elastic;
@@ -136,9 +134,6 @@ fn stored_pairs_by_their_own_rule() {
     compare(Integration::Coarse).assert("stored rows, 32 nodes");
 }
 
-/// What 32 nodes leave of precision in the stored cases. Forces of up to 3 N differ by up to 2.9e-4 N (measured); where free speeds are
-/// nearly equal that is a large part of a small force: all pairs but five are within 1e-4 of theirs, and the worst of these (0.07 N, four
-/// contacts at an axis ratio of 0.17) within 4.1e-3.
 #[test]
 fn stored_pairs_by_exact_integrals() {
     compare(Integration::Full).assert("stored rows, exact");
@@ -226,51 +221,6 @@ fn no_friction_no_loss() {
     }
     row.friction = 0.0;
     assert_eq!(row.solve().unwrap_err().field(), Some("friction"));
-}
-
-/// One ball is that of the two-ball model, which follows Coulomb's law where every contact moves. The smoothing of 1e-4 of the nut's speed
-/// changes friction by its square.
-#[test]
-fn one_ball_is_that_of_the_pair_model() {
-    let all = file("ballscrew_exact");
-    for (load, clearance) in [(50.0, 0.0), (-30.0, -3e-6), (80.0, 3e-6)] {
-        let mut row = typical(&all);
-        row.clearance = clearance;
-        row.balls.truncate(1);
-        row.balls[0].axial_load = load;
-        let found = row.solve().unwrap();
-        let ball = row.balls[0];
-        let angle = row.design.contact_angle;
-        let law = |groove| row.design.contact(groove).unwrap().into();
-        let other = ElasticBalls {
-            grooves: vec![ElasticGrooves {
-                track: (&row.design).into(),
-                screw_groove_radius: row.design.screw_groove_radius,
-                nut_groove_radius: row.design.nut_groove_radius,
-                arc_angles: [
-                    angle - ball.screw_deviation,
-                    angle + ball.screw_deviation,
-                    angle - ball.nut_deviation,
-                    angle + ball.nut_deviation,
-                ],
-                screw: law(epas_reference::curvature::Groove::Screw),
-                nut: law(epas_reference::curvature::Groove::Nut),
-                oversize: -clearance,
-            }],
-            friction: row.friction,
-            ball_friction: 0.0,
-            nut_speed: row.nut_speed,
-            ball_slip: BallSlip::Orbiting,
-        };
-        let other = other.solve(ScrewSupport::Load(load)).unwrap();
-        let (here, there) = (&found.free[0].motion, &other.balls[0]);
-        let speed = here.orbital_speed / there.orbital_speed - 1.0;
-        measured::assert("row of one and elastic balls, speed", speed);
-        let loss = here.power_loss / there.power_loss - 1.0;
-        measured::assert("row of one and elastic balls, power loss", loss);
-        let place = found.free[0].position[0] - other.positions[0][0];
-        measured::assert("row of one and elastic balls, place in m", place);
-    }
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! Chains of touching balls: stored chains, the linear model by two methods, and the laws of contact.
 
-use super::linear_cases::{ball, tilted};
+use super::linear_cases::{balance, ball, tilted};
 use epas_testkit::golden::{file as golden, list_of as list};
 use epas_testkit::measured;
 use epas_testkit::random::Random;
@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_4;
 
 use epas_reference::ReferenceError;
 use epas_reference::friction::chain::{LinearChain, solve_chain};
-use epas_reference::friction::isotonic::{isotonic_by_min_max, pool_adjacent_violators};
+use epas_reference::friction::isotonic::pool_adjacent_violators;
 use epas_reference::friction::linear_ball::{LinearBall, PUBLISHED_FORCE_SLOPE};
 
 /// Equations (3.29) to (3.31) row by row from the forces of the solution, and the energy: power in = power lost.
@@ -23,26 +23,8 @@ fn check_laws(
     let mut input = 0.0;
     let mut loss = 0.0;
     for (j, (ball, motion)) in balls.iter().zip(&chain.balls).enumerate() {
-        let r = ball.ball_radius;
-        let [bl, br, tr, tl] = ball.contact_angles;
         let f = motion.contacts.map(|c| c.force);
-        let m = motion.contacts.map(|c| -c.moment / r);
-        let mut rows = [
-            f[0] + f[1] + f[2] + f[3],
-            -bl.cos() * f[0] - br.cos() * f[1]
-                + tr.cos() * f[2]
-                + tl.cos() * f[3]
-                + bl.sin() * m[0]
-                - br.sin() * m[1]
-                - tr.sin() * m[2]
-                + tl.sin() * m[3],
-            bl.sin() * f[0] - br.sin() * f[1] - tr.sin() * f[2]
-                + tl.sin() * f[3]
-                + bl.cos() * m[0]
-                + br.cos() * m[1]
-                - tr.cos() * m[2]
-                - tl.cos() * m[3],
-        ];
+        let mut rows = balance(ball, motion);
         for k in [j.wrapping_sub(1), j] {
             let Some(&force) = chain.contact_forces.get(k) else {
                 continue;
@@ -196,36 +178,6 @@ fn reversal_swaps_rear_and_front() {
     );
 }
 
-#[test]
-fn linear_model_two_ways() {
-    let mut random = Random(88172645463325252);
-    for n in (1..=9).chain([37, 64, 200]) {
-        for _ in 0..30 {
-            let free: Vec<_> = (0..n).map(|_| random.signed()).collect();
-            let compliance: Vec<_> = (0..n).map(|_| 10_f64.powf(random.signed())).collect();
-            let (speeds, forces) = pool_adjacent_violators(&free, &compliance);
-            let (other, others) = isotonic_by_min_max(&free, &compliance);
-            let scale = forces.iter().fold(1.0_f64, |m, f| m.max(*f));
-            // Two hundred terms in another order, 1.1e-16 each; forces add them up once more.
-            for (one, other) in speeds.iter().zip(&other) {
-                assert!((one - other).abs() < 1e-13, "n = {n}: {one} {other}");
-            }
-            for (one, other) in forces.iter().zip(&others) {
-                let allowed = 1e-13 * scale * f64::from(n);
-                assert!((one - other).abs() < allowed, "n = {n}: {one} {other}");
-            }
-        }
-    }
-    assert_eq!(
-        pool_adjacent_violators(&[0.3; 4], &[1.0; 4]),
-        (vec![0.3; 4], vec![0.0; 3])
-    );
-    assert_eq!(pool_adjacent_violators(&[0.3], &[2.0]), (vec![0.3], vec![]));
-    assert_eq!(pool_adjacent_violators(&[], &[]), (vec![], vec![]));
-}
-
-/// The exact chain has one solution: every other set of contacts violates it. Checked by solving the pieces of the chain that
-/// a set of contacts leaves, and comparing the total power: the accepted set minimises it among the feasible ones.
 #[test]
 fn long_chain_is_solved_and_balanced() {
     let mut random = Random(42);

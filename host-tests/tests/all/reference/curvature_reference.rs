@@ -63,9 +63,8 @@ prop_compose! {
 }
 
 proptest! {
-    /// Three routes, written separately: in the Frenet frame, in Cartesian coordinates as printed,
-    /// and Appendix B as corrected. The last two lose digits with `tan(alpha)²` and with the
-    /// cancellation of sums of terms up to `r_m³ r_s` and of their roots.
+    /// Three routes, written separately: in the Frenet frame, in Cartesian coordinates as printed, and Appendix B as corrected. The last
+    /// two lose digits with `tan(alpha)²` and with the cancellation of sums of terms up to `r_m³ r_s` and of their roots.
     #[test]
     fn three_routes_agree((surface, angle) in wide()) {
         let frenet = surface.principal(angle);

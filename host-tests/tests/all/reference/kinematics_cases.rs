@@ -1,6 +1,6 @@
 //! Inputs of contact kinematics: the stored cases, and random ones.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use epas_reference::kinematics::{KinematicsInput, Raceway};
 use serde_json::Value;
@@ -56,28 +56,44 @@ pub const fn side_of(raceway: Raceway) -> &'static str {
     }
 }
 
+/// The domain that the documentation of the crate's `ContactKinematics` states.
 pub fn random_input(random: &mut Random) -> KinematicsInput {
-    let pitch_radius = random.between(5e-3, 60e-3);
+    let pitch_radius = random.between(2e-3, 80e-3);
     let ball_diameter = 2.0 * pitch_radius * random.between(0.04, 0.29);
     let half = 0.5 * ball_diameter;
     let contact_angle = random.between(10.0, 80.0) * DEGREE;
-    let [major_screw, major_nut] = [(); 2].map(|()| half * random.between(0.01, 0.3));
-    KinematicsInput {
+    let [major_screw, major_nut] = [(); 2].map(|()| half * random.between(0.005, 0.3 - 1e-6));
+    // One in eight each: no lead; the customary axis and radii.
+    let special = random.between(0.0, 8.0);
+    let mut input = KinematicsInput {
         ball_diameter,
         pitch_radius,
-        lead_angle: random.between(-40.0, 40.0) * DEGREE,
+        lead_angle: random.between(0.0, 40.0) * DEGREE,
         groove_radius_screw: ball_diameter * random.between(0.505, 0.58),
         groove_radius_nut: ball_diameter * random.between(0.505, 0.58),
         contact_angle_screw: contact_angle,
         contact_angle_nut: contact_angle + random.between(-0.1, 0.1),
-        pitch_angle: contact_angle + random.between(-0.15, 0.15),
+        pitch_angle: contact_angle + random.between(-0.17, 0.17),
         yaw_angle: random.between(-0.1, 0.1),
         rolling_radius_screw: half * random.between(0.99, 1.01),
         rolling_radius_nut: half * random.between(0.99, 1.01),
-        speed: random.between(-400.0, 400.0),
+        speed: random.between(-1000.0, 1000.0),
         semi_major_screw: major_screw,
         semi_minor_screw: major_screw * random.between(0.05, 0.3),
         semi_major_nut: major_nut,
         semi_minor_nut: major_nut * random.between(0.05, 0.3),
+    };
+    if special < 1.0 {
+        input.lead_angle = 0.0;
+    } else if special < 2.0 {
+        input.yaw_angle = 0.0;
+        input.rolling_radius_screw = half;
+        input.rolling_radius_nut = half;
     }
+    input
+}
+
+/// Difference of two angles, -pi and pi being one.
+pub fn turn(left: f64, right: f64) -> f64 {
+    (left - right + PI).rem_euclid(TAU) - PI
 }

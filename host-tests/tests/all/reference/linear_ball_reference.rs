@@ -1,6 +1,6 @@
 //! Ball of a linear bearing: stored cases and the laws of the model.
 
-use super::linear_cases::tilted;
+use super::linear_cases::{balance, tilted};
 use crate::refusals::assert_refused;
 use epas_reference::ReferenceError;
 use epas_reference::friction::linear_ball::{LinearBall, LinearMotion};
@@ -10,24 +10,9 @@ use std::f64::consts::FRAC_PI_4;
 
 /// Balance of (3.25) from the forces and moments themselves, energy, and Coulomb's limit.
 fn check_laws(ball: &LinearBall, motion: &LinearMotion, speed: f64) {
-    let r = ball.ball_radius;
-    let [bl, br, tr, tl] = ball.contact_angles;
     let f = motion.contacts.map(|c| c.force);
-    let m = motion.contacts.map(|c| -c.moment / r);
     let largest = ball.contact_forces.iter().fold(0.0_f64, |m, x| m.max(*x)) * ball.friction;
-    let rows = [
-        f[0] + f[1] + f[2] + f[3],
-        -bl.cos() * f[0] - br.cos() * f[1] + tr.cos() * f[2] + tl.cos() * f[3] + bl.sin() * m[0]
-            - br.sin() * m[1]
-            - tr.sin() * m[2]
-            + tl.sin() * m[3],
-        bl.sin() * f[0] - br.sin() * f[1] - tr.sin() * f[2]
-            + tl.sin() * f[3]
-            + bl.cos() * m[0]
-            + br.cos() * m[1]
-            - tr.cos() * m[2]
-            - tl.cos() * m[3],
-    ];
+    let rows = balance(ball, motion);
     for row in rows {
         // A contact that sticks is as stiff as friction limit over rest speed, and rounding leaves 1e-7 of the load.
         let kind = if motion.gap > 0.0 {

@@ -17,7 +17,7 @@ use serde_json::Value;
 use epas_testkit::random::Random;
 
 /// A path of a stored case: straight strokes, or sines less their values at the start.
-fn path(given: &Value) -> Vec<f64> {
+pub fn path(given: &Value) -> Vec<f64> {
     let number = |value: &Value| value.as_f64().unwrap();
     match given["kind"].as_str().unwrap() {
         "points" => {
@@ -206,63 +206,6 @@ fn wander(random: &mut Random, ticks: usize) -> Vec<f64> {
     angles
 }
 
-/// Chords of a backbone between points whose angles are closest where it bends most.
-fn chords(backbone: Backbone, count: usize) -> Elements {
-    let corner = |index: usize| {
-        let share = index as f64 / count as f64;
-        match backbone {
-            Backbone::Slip => 1.0 - (1.0 - share).powf(4.0 / 3.0),
-            // Even in the angle whose sine is the torque, up to a torque of 1 - 2e-9.
-            Backbone::Spin => (share * 1.5e4_f64.atan()).tan() / 1.5,
-        }
-    };
-    let corners: Vec<_> = (0..=count).map(corner).collect();
-    let end = backbone.torque(corners[count]);
-    let mut slopes: Vec<_> = corners
-        .windows(2)
-        .map(|pair| {
-            (backbone.torque(pair[1]) - backbone.torque(pair[0])) / (pair[1] - pair[0]) / end
-        })
-        .collect();
-    slopes.push(0.0);
-    let shares: Vec<_> = slopes
-        .windows(2)
-        .zip(&corners[1..])
-        .map(|(pair, angle)| (pair[0] - pair[1]) * angle)
-        .collect();
-    Elements::proportional(&corners[1..], &shares)
-}
-
-#[test]
-fn a_stack_of_turning_points_is_a_thousand_elements() {
-    let mut random = Random(13);
-    for ratio in [
-        Limits::UNIT,
-        Limits {
-            forward: 1.3,
-            backward: 0.6,
-        },
-    ] {
-        // Chords err by 0.167 / N^2 = 2e-8 on first loading and by twice that on a branch, in which errors of the turning points before add up;
-        // measured: 8.1e-8 (slip), 3.6e-7 (spin).
-        for (backbone, bound) in [(Backbone::Slip, 1e-7), (Backbone::Spin, 1e-5)] {
-            let angle = wander(&mut random, 4_000);
-            let path = Path {
-                angle: &angle,
-                load: None,
-                ratio,
-            };
-            let dense = path.torque(chords(backbone, 3000));
-            let mut exact = Masing::new(backbone, ratio);
-            let exact: Vec<_> = std::iter::once(0.0)
-                .chain(angle[1..].iter().map(|angle| exact.follow(*angle)))
-                .collect();
-            let off = apart(&exact, &dense);
-            assert!(off < bound, "{backbone:?} {ratio:?} {off:e}");
-        }
-    }
-}
-
 /// Two exact forms that share nothing: under a constant load the contact of springs is Mindlin's, whose branches are Masing's.
 #[test]
 fn a_contact_under_constant_load_is_masings() {
@@ -316,29 +259,6 @@ fn compare_dense_elements(convergence: bool) {
             assert!(many <= some / 20.0 || some < 1e-12);
         }
         assert!(apart(&exact, &answers(&path, &case.form).exact.unwrap()) < 2e-6);
-    }
-}
-
-/// 3000 elements are Mindlin's law at S = 0.2, 1 and 5 to 4e-7 of the limit. Measured: 3.2e-7.
-#[test]
-fn dense_elements_are_mindlins_law_at_any_load() {
-    for load in [0.2_f64, 1.0, 5.0] {
-        let breakaway = load.cbrt().powi(2);
-        let angle: Vec<_> = (0..=300)
-            .map(|tick| 1.5 * breakaway * f64::from(tick) / 300.0)
-            .collect();
-        let loads = vec![load; angle.len()];
-        let path = Path {
-            angle: &angle,
-            load: Some(&loads),
-            ratio: Limits::UNIT,
-        };
-        let found = path.torque(Elements::dense(3000, 5.0));
-        let mindlin: Vec<_> = angle
-            .iter()
-            .map(|angle| load * Backbone::Slip.torque(angle / breakaway))
-            .collect();
-        assert!(apart(&found, &mindlin) < 4e-7 * load);
     }
 }
 

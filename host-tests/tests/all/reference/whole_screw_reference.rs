@@ -95,8 +95,7 @@ fn balls_never_overlap_and_forces_only_push() {
                         .all(|f| *f >= 0.0 && f.is_finite())
                 );
                 assert!(state.ball_torque * speed >= 0.0 && state.groove_torque() * speed > 0.0);
-                // Balls that press are equally fast at the end of the substep; here within the gap they still close.
-                // Measured: 1.3e-13.
+                // Balls that press are equally fast at the end of the substep; here within the gap they still close. Measured: 1.3e-13.
                 for j in 0..37 {
                     let closing = (state.speeds[j] - state.speeds[(j + 1) % 37]) * speed.signum();
                     if state.contact_forces[j] > 0.0 {

@@ -4,11 +4,14 @@ use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SL
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, Faults,
-    FrictionBranch, FrictionModel, LinearBearingTrain, LoadShare, Regime,
+    FrictionBranch, FrictionModel, LinearBearingTrain, LoadShare, Regime, Scene,
 };
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 
 use epas_testkit::gears;
+
+type Uncaged = gears::UncagedScrew<{ gears::SCREW_BALLS }>;
+type Linear = LinearBearingTrain<{ gears::LINEAR_BALLS }>;
 
 fn closed_form(configuration: &ClosedFormScrewConfiguration) -> FrictionModel<ClosedFormScrew> {
     FrictionModel::new(configuration).unwrap()
@@ -28,44 +31,37 @@ fn border(mut below: f32, mut beyond: f32, is_beyond: impl Fn(f32) -> bool) -> (
     (below, beyond)
 }
 
-/// Standing is slower than the reversal speed; at it, the mechanism moves. In all scenes, both ways.
-#[test]
-fn at_the_reversal_speed_a_mechanism_moves() {
-    let configuration = gears::caged();
-    let speed = configuration.reversal_speed;
-    let mut model = FrictionModel::<gears::CagedScrew>::new(&configuration).unwrap();
-    for (nut_speed, regime) in [
+fn moves_from<S: Scene>(
+    configuration: &S::Configuration,
+    speed: f32,
+    regime: impl Fn(&mut FrictionModel<S>, f32) -> Regime,
+) {
+    let mut model = FrictionModel::<S>::new(configuration).unwrap();
+    for (speed, expected) in [
         (speed, Regime::Driving),
         (speed.next_down(), Regime::Standing),
         (-speed.next_down(), Regime::Standing),
     ] {
-        let inputs = screw_inputs(nut_speed, 1000.0);
-        assert_eq!(model.step(inputs).regime, regime, "{nut_speed}");
+        assert_eq!(regime(&mut model, speed), expected, "{speed}");
     }
+}
 
-    let configuration = gears::uncaged();
-    let speed = configuration.folded.reversal_speed;
-    let mut model =
-        FrictionModel::<gears::UncagedScrew<{ gears::SCREW_BALLS }>>::new(&configuration).unwrap();
-    for (nut_speed, regime) in [
-        (speed, Regime::Driving),
-        (speed.next_down(), Regime::Standing),
-    ] {
-        let inputs = screw_inputs(nut_speed, 1000.0);
-        assert_eq!(model.step(inputs).regime, regime, "{nut_speed}");
-    }
-
-    let configuration = gears::linear();
-    let speed = configuration.reversal_speed;
-    let mut model =
-        FrictionModel::<LinearBearingTrain<{ gears::LINEAR_BALLS }>>::new(&configuration).unwrap();
-    for (speed, regime) in [
-        (speed, Regime::Driving),
-        (speed.next_down(), Regime::Standing),
-    ] {
-        let inputs = linear_inputs(speed, 1000.0, 0.0);
-        assert_eq!(model.step(inputs).regime, regime, "{speed}");
-    }
+/// Standing is slower than the reversal speed; at it, the mechanism moves. In all scenes, both ways.
+#[test]
+fn at_the_reversal_speed_a_mechanism_moves() {
+    let caged = gears::caged();
+    moves_from::<gears::CagedScrew>(&caged, caged.reversal_speed, |model, speed| {
+        model.step(screw_inputs(speed, 1000.0)).regime
+    });
+    let uncaged = gears::uncaged();
+    let speed = uncaged.folded.reversal_speed;
+    moves_from::<Uncaged>(&uncaged, speed, |model, speed| {
+        model.step(screw_inputs(speed, 1000.0)).regime
+    });
+    let linear = gears::linear();
+    moves_from::<Linear>(&linear, linear.reversal_speed, |model, speed| {
+        model.step(linear_inputs(speed, 1000.0, 0.0)).regime
+    });
 }
 
 #[test]
@@ -78,8 +74,7 @@ fn without_a_load_a_screw_drives() {
     }
 }
 
-/// A load that turns the nut backwards does so as long as the efficiency is positive, to the last number of the rolling
-/// resistance.
+/// A load that turns the nut backwards does so as long as the efficiency is positive, to the last number of the rolling resistance.
 #[test]
 fn back_driving_ends_where_the_efficiency_does() {
     let mut parameters = CATALOGUE[0].parameters();
@@ -116,42 +111,31 @@ fn a_drive_locks_at_a_thousand_pitch_radii() {
     let (geometry, radius) = (EfficiencyGeometry::of(&design), design.pitch_radius());
     let torque =
         |friction| geometry.sliding_torque_per_load(Drive::Driving, radius, friction) / radius;
-    let driven = |friction| {
+    let stepped = |friction, nut_speed, axial_load| {
         let configuration = ClosedFormScrewConfiguration {
             design,
             friction,
             ..gears::closed_form(FrictionBranch::Sliding)
         };
-        closed_form(&configuration).step(screw_inputs(50.0, 1000.0))
+        closed_form(&configuration).step(screw_inputs(nut_speed, axial_load))
     };
+    let driven = |friction| stepped(friction, 50.0, 1000.0);
     let (moves, locked) = border(1e-3, 0.5, |friction| {
         driven(friction).regime == Regime::Locked
     });
     assert!((0.0..1e3).contains(&torque(moves)), "{}", torque(moves));
     assert!(!(0.0..1e3).contains(&torque(locked)), "{}", torque(locked));
     assert!(driven(locked).faults.contains(Faults::FRICTION_LIMIT));
-    let idle = |nut_speed| {
-        let configuration = ClosedFormScrewConfiguration {
-            design,
-            friction: locked,
-            ..gears::closed_form(FrictionBranch::Sliding)
-        };
-        closed_form(&configuration)
-            .step(screw_inputs(nut_speed, 0.0))
-            .regime
-    };
-    assert_eq!(
-        (idle(50.0), idle(-50.0)),
-        (Regime::Driving, Regime::Driving)
-    );
+    for nut_speed in [50.0, -50.0] {
+        assert_eq!(stepped(locked, nut_speed, 0.0).regime, Regime::Driving);
+    }
 }
 
 /// A ball screw without cage is locked where friction takes more than the load gives.
 #[test]
 fn an_uncaged_screw_is_locked_by_its_own_friction() {
     let configuration = gears::uncaged();
-    let mut model =
-        FrictionModel::<gears::UncagedScrew<{ gears::SCREW_BALLS }>>::new(&configuration).unwrap();
+    let mut model = FrictionModel::<Uncaged>::new(&configuration).unwrap();
     for step in 0..400_u16 {
         let axial_load = -2.0 * f32::from(step);
         let outputs = model.step(screw_inputs(20.0, axial_load));
@@ -169,12 +153,8 @@ fn an_uncaged_screw_is_locked_by_its_own_friction() {
 
 #[test]
 fn every_scene_counts_its_faults() {
-    let mut screw =
-        FrictionModel::<gears::UncagedScrew<{ gears::SCREW_BALLS }>>::new(&gears::uncaged())
-            .unwrap();
-    let mut bearing =
-        FrictionModel::<LinearBearingTrain<{ gears::LINEAR_BALLS }>>::new(&gears::linear())
-            .unwrap();
+    let mut screw = FrictionModel::<Uncaged>::new(&gears::uncaged()).unwrap();
+    let mut bearing = FrictionModel::<Linear>::new(&gears::linear()).unwrap();
     for tick in 1..=3 {
         let _ = screw.step(screw_inputs(f32::NAN, 1.0));
         let _ = bearing.step(linear_inputs(0.1, f32::NAN, 1.0));

@@ -1,53 +1,30 @@
 //! Compensation of friction in the loop: motor, delay, encoder and exact friction.
 
+use crate::refusals::assert_refused;
 use epas_testkit::gears::screw_inputs;
-use std::convert::Infallible;
 
-use embedded_hal::pwm::{ErrorType, SetDutyCycle};
 use epas_friction::hal::{FaultReaction, FeedForwardConfiguration, FrictionFeedForward};
 use epas_friction::law::Elements;
-use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
 use epas_friction::law::compensation::CompensationMargin;
 use epas_friction::law::memory::LoadExactElements;
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
-use epas_friction::scene::{
-    Freshness, SceneOutputs, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
-};
+use epas_friction::law::motion::{CountSensor, Deadband};
+use epas_friction::scene::{SceneOutputs, WithMemory, WithMemoryConfiguration, WithMemoryInputs};
 use epas_friction::{Faults, FrictionModel, Inputs, Outputs, UncagedOutputs};
 use epas_reference::closed_loop::{ClosedLoop, Swing};
 
-use crate::remembering::{at, slip_by};
+use super::hal::Channel;
+use super::memory::by_friction;
+use super::noise::counts;
+use crate::remembering::{TEMPERATURE, at, slip_by};
 use epas_testkit::gears::{CAGED_PRELOAD, CagedScrew, caged};
 use epas_testkit::random::Random;
 
-const TEMPERATURE: f32 = 313.15;
-
-struct Bridge(u16);
-
-impl Bridge {
-    const SCALE: u16 = u16::MAX - 1;
-
-    /// Torque of a duty, N m, where all of it is `full_torque`.
-    fn torque(duty: u16, full_torque: f32) -> f64 {
-        let duty = f64::from(duty) / f64::from(Self::SCALE);
-        f64::from(full_torque) * (2.0 * duty - 1.0)
-    }
+/// Torque of a duty, N m, where all of it is `full_torque`.
+fn torque(duty: u16, full_torque: f32) -> f64 {
+    f64::from(full_torque) * (2.0 * f64::from(duty) / f64::from(SCALE) - 1.0)
 }
 
-impl ErrorType for Bridge {
-    type Error = Infallible;
-}
-
-impl SetDutyCycle for Bridge {
-    fn max_duty_cycle(&self) -> u16 {
-        Self::SCALE
-    }
-
-    fn set_duty_cycle(&mut self, duty: u16) -> Result<(), Infallible> {
-        self.0 = duty;
-        Ok(())
-    }
-}
+const SCALE: u16 = u16::MAX - 1;
 
 type Caged<E> = FrictionModel<WithMemory<CagedScrew, E, Deadband<CountSensor>>>;
 
@@ -57,21 +34,11 @@ const PRELOAD: f64 = 2.0 * std::f64::consts::SQRT_2 * CAGED_PRELOAD as f64;
 /// A model whose elements follow the counts beyond a play, rad, at this preload over their reference.
 fn model<E: Elements + Copy>(elements: E, play: f64, load: f64) -> Caged<E> {
     let scene = caged();
-    let counts = CountSensor::new(CountSensorParameters {
-        period: 16384,
-        turn_per_count: ClosedLoop::COUNT as f32,
-        largest_turn: 0.5,
-    })
-    .unwrap();
+    let angle = Deadband::new(counts(), play as f32).unwrap();
     Caged::new(&WithMemoryConfiguration {
-        scene,
-        elements,
-        angle: Deadband::new(counts, play as f32).unwrap(),
         reference_load: (PRELOAD / load) as f32,
         play: 0.0,
-        coefficient: CoefficientLaw::constant(scene.friction).unwrap(),
-        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
-        freshness: Freshness::DEFAULT,
+        ..by_friction(scene, scene.friction, elements, angle)
     })
     .unwrap()
 }
@@ -190,20 +157,20 @@ impl Case {
                 tick += 1;
                 let Ok(applied) = stage.apply(&outputs);
                 assert!(!applied.neutral && !applied.saturated);
-                Bridge::torque(applied.duty, 4.0 * full)
+                torque(applied.duty, 4.0 * full)
             },
         )
     }
 }
 
-fn stage(full_torque: f32, share: f32) -> FrictionFeedForward<Bridge> {
+fn stage(full_torque: f32, share: f32) -> FrictionFeedForward<Channel> {
     let configuration = FeedForwardConfiguration {
         full_torque,
         largest_torque: full_torque,
         share,
         reaction: FaultReaction::NeutralOnAnyFault,
     };
-    FrictionFeedForward::new(Bridge(0), &configuration).unwrap()
+    FrictionFeedForward::new(Channel::of(SCALE), &configuration).unwrap()
 }
 
 fn all_are(cases: &[Case], good: impl Fn(&Case, &Swing) -> bool + Sync) {
@@ -357,68 +324,6 @@ fn all_of_the_friction_never_comes_to_rest() {
     });
 }
 
-/// Without a play, less friction and less stiffness than there are do not keep the loop quiet: with 0.92 of the friction and
-/// 0.97 of the stiffness it swings by more than two breakaway angles for ever, because the model loses more than the contact does.
-#[test]
-fn an_early_breakaway_hums_without_a_play() {
-    let mut cases = Vec::new();
-    for (earlier, share, loops) in [
-        (1.05, 0.924, &[(10_000, 1), (20_000, 1), (20_000, 3)][..]),
-        (
-            1.11,
-            0.95,
-            &[(1000, 1), (10_000, 1), (20_000, 1), (20_000, 3)],
-        ),
-    ] {
-        for &(rate, delay) in loops {
-            for breakaway in [5e-3, 10e-3] {
-                for form in FORMS {
-                    let case = Case {
-                        form,
-                        breakaway,
-                        earlier,
-                        share,
-                        play: 0.0,
-                        rate,
-                        delay,
-                        kick: 0.0,
-                        push: 0.5,
-                        ..QUIET
-                    };
-                    assert_eq!(refused(&case), "play");
-                    cases.push(case);
-                }
-            }
-        }
-    }
-    all_are(&cases, |case, swing| swing.counts > 2.0 * case.counts());
-}
-
-#[test]
-fn noise_without_a_play_hums() {
-    let mut cases = Vec::new();
-    for (breakaway, rate) in [(1e-3, 10_000), (1e-3, 20_000), (2e-3, 20_000)] {
-        for form in [
-            Form::Proportional,
-            Form::LoadExact(1.0),
-            Form::LoadExact(0.4),
-        ] {
-            let noise = 0.3;
-            let case = Case {
-                form,
-                breakaway,
-                rate,
-                kick: 0.0,
-                noise,
-                ..QUIET
-            };
-            let play = -(0.5 + 3.0 * noise) / case.counts();
-            cases.push(Case { play, ..case });
-        }
-    }
-    all_are(&cases, |case, swing| swing.counts > 2.0 * case.counts());
-}
-
 fn refused(case: &Case) -> &'static str {
     let error = case.margin().checked_share(case.share).unwrap_err();
     error.field()
@@ -462,7 +367,7 @@ fn a_share_beyond_the_margin_is_named_with_its_range() {
             share,
             reaction: FaultReaction::NeutralOnAnyFault,
         };
-        FrictionFeedForward::with_memory(Bridge(0), &configuration, &margin).map(|_| ())
+        FrictionFeedForward::with_memory(Channel::of(SCALE), &configuration, &margin).map(|_| ())
     };
     assert_eq!(margin.largest_share(), Ok(0.95));
     assert_eq!(with(0.95, margin), Ok(()));
@@ -503,22 +408,15 @@ fn a_share_beyond_the_margin_is_named_with_its_range() {
     assert_eq!(weak.checked_share(1.0), Ok(1.0));
     assert_eq!(weak.checked_share(1.01).unwrap_err().field(), "share");
 
-    type Spoil = fn(&mut CompensationMargin, f32);
-    let fields: [(&str, Spoil, &[f32]); 4] = [
-        ("breakaway_angle", |m, x| m.breakaway_angle = x, &[0.0, 2e3]),
-        (
-            "largest_breakaway_angle",
-            |m, x| m.largest_breakaway_angle = x,
-            &[0.0, 2e3],
-        ),
-        ("friction_ratio", |m, x| m.friction_ratio = x, &[0.0, 11.0]),
-        ("play", |m, x| m.play = x, &[0.0, 7.9e-5, 2e3]),
-    ];
-    for (name, spoil, values) in fields {
-        for &value in [f32::NAN, f32::INFINITY, -1.0].iter().chain(values) {
-            let mut spoiled = margin;
-            spoil(&mut spoiled, value);
-            assert_eq!(with(0.1, spoiled).unwrap_err().field(), name, "{value}");
-        }
-    }
+    #[rustfmt::skip]
+    assert_refused(
+        &margin,
+        |margin| with(0.1, *margin),
+        &[
+            ("breakaway_angle", |m, x| m.breakaway_angle = x, &[-1.0, 0.0, 2e3]),
+            ("largest_breakaway_angle", |m, x| m.largest_breakaway_angle = x, &[-1.0, 0.0, 2e3]),
+            ("friction_ratio", |m, x| m.friction_ratio = x, &[-1.0, 0.0, 11.0]),
+            ("play", |m, x| m.play = x, &[-1.0, 0.0, 7.9e-5, 2e3]),
+        ],
+    );
 }

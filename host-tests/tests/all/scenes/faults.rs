@@ -147,10 +147,9 @@ fn a_caged_screw_recovers_at_once() {
 
 #[test]
 fn trains_recover_at_once_but_for_where_the_balls_are() {
-    // A train keeps where its balls and the screw are. After a failure of the speed these differ from
-    // where they would be, as after a start at another angle; friction stays what it can be at any angle.
-    // Speed deviations that are larger than their mean make friction between balls vary by a factor of
-    // some two with the angle, which bounds the band.
+    // A train keeps where its balls and the screw are. After a failure of the speed these differ from where they would be, as after a start
+    // at another angle; friction stays what it can be at any angle. Speed deviations that are larger than their mean make friction between
+    // balls vary by a factor of some two with the angle, which bounds the band.
     let limits = gears::LIMITS;
     let friction = |a: f32, b: f32, line: u32| {
         measured::assert_at(

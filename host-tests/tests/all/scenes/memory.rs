@@ -8,24 +8,20 @@ use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::f32::consts::TAU;
 
 use epas_friction::defaults::COEFFICIENT;
-use epas_friction::law::coefficient::{
-    CoefficientLaw, CoefficientParameters, OneCoefficient, TemperatureFade,
-};
+use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, OneCoefficient};
 use epas_friction::law::memory::MemoryState;
-use epas_friction::law::motion::{
-    CountSensor, CountSensorParameters, NutAngle, SpeedOverTick, WrappedAngle,
-    WrappedAngleParameters,
-};
+use epas_friction::law::motion::{CountSensor, NutAngle, SpeedOverTick, WrappedAngle};
 use epas_friction::law::{Elements, SlidingLimits};
 use epas_friction::scene::{
-    CagedBallScrew, Freshness, Motion, Sliding, WithMemory, WithMemoryConfiguration,
-    WithMemoryInputs,
+    CagedBallScrew, Motion, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
 };
 use epas_friction::{
     ClosedFormScrew, Faults, FrictionBranch, FrictionModel, Inputs, LinearBearingTrain, Regime,
 };
 
-use crate::remembering::{Slip, at, slip, slip_by};
+use crate::remembering::{
+    Slip, TEMPERATURE, TICK, at, counter, slip, slip_by, with_memory, wrapped,
+};
 use epas_testkit::gears::{
     CagedScrew, LINEAR_BALLS, SCREW_BALLS, UncagedScrew, caged, changed, closed_form, linear,
     printed_phase, uncaged, worn,
@@ -36,24 +32,17 @@ type Caged<A> = FrictionModel<WithMemory<CagedScrew, Slip, A>>;
 
 /// Turn from no friction to full sliding, rad (m).
 const BREAKAWAY: f32 = 2e-3;
-const TICK: f32 = 1e-4;
-const TEMPERATURE: f32 = 313.15;
 
-fn with_memory<C, A>(
+/// A scene with memory and one friction coefficient.
+pub(super) fn by_friction<C, E, A>(
     scene: C,
-    elements: Slip,
-    angle: A,
     friction: f32,
-) -> WithMemoryConfiguration<C, Slip, A> {
+    elements: E,
+    angle: A,
+) -> WithMemoryConfiguration<C, E, A> {
     WithMemoryConfiguration {
-        scene,
-        elements,
-        angle,
-        reference_load: 1000.0,
-        play: BREAKAWAY,
         coefficient: CoefficientLaw::constant(friction).unwrap(),
-        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
-        freshness: Freshness::DEFAULT,
+        ..with_memory(scene, elements, angle)
     }
 }
 
@@ -62,12 +51,7 @@ fn speed_sensor() -> SpeedOverTick {
 }
 
 fn angle_sensor() -> WrappedAngle {
-    WrappedAngle::new(WrappedAngleParameters {
-        lowest: -0.5 * TAU,
-        period: TAU,
-        largest_turn: 1.0,
-    })
-    .unwrap()
+    wrapped(-0.5 * TAU, TAU, 1.0)
 }
 
 fn fresh<I, R>(scene: I, reading: R) -> WithMemoryInputs<I, R> {
@@ -76,11 +60,12 @@ fn fresh<I, R>(scene: I, reading: R) -> WithMemoryInputs<I, R> {
 
 fn caged_by_angle() -> Caged<WrappedAngle> {
     let configuration = caged();
-    Caged::new(&with_memory(
+    let friction = configuration.friction;
+    Caged::new(&by_friction(
         configuration,
+        friction,
         slip(0.5),
         angle_sensor(),
-        configuration.friction,
     ))
     .unwrap()
 }
@@ -156,7 +141,7 @@ where
         FrictionModel::<WithMemory<S, Slip, SpeedOverTick>>::new(&WithMemoryConfiguration {
             play: 0.0,
             coefficient,
-            ..with_memory(configuration, slip(0.5), speed_sensor(), 0.1)
+            ..by_friction(configuration, 0.1, slip(0.5), speed_sensor())
         })
         .unwrap()
     };
@@ -197,9 +182,9 @@ fn churned_lubricant_adds_to_the_friction() {
 const BRANCHES: [FrictionBranch; 2] = [FrictionBranch::Rolling, FrictionBranch::Sliding];
 
 #[derive(Clone, Copy, Debug)]
-struct Figures {
-    friction: f32,
-    regime: Regime,
+pub(super) struct Figures {
+    pub friction: f32,
+    pub regime: Regime,
     /// Of a caged screw; 0 where the outputs have none.
     efficiency: f32,
 }
@@ -364,17 +349,11 @@ fn wrong_inputs_are_flagged_and_friction_holds() {
         (fresh(screw(5.0, 2000.0), f32::NAN), Faults::ANGLE_NOT_VALID),
         (fresh(screw(5.0, 2000.0), 99.0), Faults::ANGLE_NOT_VALID),
         (
-            WithMemoryInputs {
-                temperature: f32::NAN,
-                ..fresh(screw(5.0, 2000.0), angle)
-            },
+            at(screw(5.0, 2000.0), angle, f32::NAN),
             Faults::TEMPERATURE_RANGE,
         ),
         (
-            WithMemoryInputs {
-                temperature: 1e9,
-                ..fresh(screw(5.0, 2000.0), angle)
-            },
+            at(screw(5.0, 2000.0), angle, 1e9),
             Faults::TEMPERATURE_RANGE,
         ),
         (
@@ -443,18 +422,17 @@ fn an_old_load_fades() {
         10.0,
         f32::NAN,
     ] {
-        for _ in 0..50 {
+        let mut step = || {
             angle += 0.2e-3;
             model.step(WithMemoryInputs {
                 load_age: age,
                 ..fresh(screw(5.0, 3000.0), angle)
-            });
+            })
+        };
+        for _ in 0..50 {
+            step();
         }
-        angle += 0.2e-3;
-        let outputs = model.step(WithMemoryInputs {
-            load_age: age,
-            ..fresh(screw(5.0, 3000.0), angle)
-        });
+        let outputs = step();
         // `Freshness::DEFAULT`: a load counts in full for 0.01 s, and no more from 0.1 s on.
         assert_eq!(outputs.faults.any(), !(age <= 0.01), "{age}");
         assert_eq!(outputs.faults.contains(Faults::LOAD_STALE), !(age <= 0.01));
@@ -485,18 +463,9 @@ fn an_old_load_fades() {
 fn between_steps_the_memory_goes_on() {
     let configuration = uncaged();
     type Model = FrictionModel<WithMemory<UncagedScrew<SCREW_BALLS>, Slip, CountSensor>>;
-    let sensor = CountSensor::new(CountSensorParameters {
-        period: 1 << 14,
-        turn_per_count: 1e-4,
-        largest_turn: 0.5,
-    })
-    .unwrap();
-    let configuration = with_memory(
-        configuration,
-        slip(0.5),
-        sensor,
-        configuration.folded.friction,
-    );
+    let sensor = counter(1 << 14, 1e-4, 0.5);
+    let friction = configuration.folded.friction;
+    let configuration = by_friction(configuration, friction, slip(0.5), sensor);
     let mut fast = Model::new(&configuration).unwrap();
     let mut slow = Model::new(&configuration).unwrap();
     assert_eq!(fast.between(7).friction_torque, 0.0);
@@ -547,15 +516,10 @@ fn phase_of(state: &impl std::fmt::Debug) -> u32 {
 #[test]
 fn balls_catch_up_with_a_turn_that_was_missed() {
     type Model = FrictionModel<WithMemory<UncagedScrew<SCREW_BALLS>, Slip, CountSensor>>;
-    let sensor = CountSensor::new(CountSensorParameters {
-        period: 1 << 16,
-        turn_per_count: 1e-3,
-        largest_turn: 30.0,
-    })
-    .unwrap();
+    let sensor = counter(1 << 16, 1e-3, 30.0);
     let scene = uncaged();
     let limits = scene.folded.limits;
-    let configuration = with_memory(scene, slip(0.5), sensor, scene.folded.friction);
+    let configuration = by_friction(scene, scene.folded.friction, slip(0.5), sensor);
     // Half of what balls may turn in a tick.
     let counts = (0.5 * limits.nut_speed * scene.tick / 1e-3) as u32;
     let [mut gap, mut sound] = [(); 2].map(|()| Model::new(&configuration).unwrap());
@@ -589,7 +553,7 @@ fn an_angle_is_set_once() {
     type Model = FrictionModel<WithMemory<UncagedScrew<SCREW_BALLS>, Slip, WrappedAngle>>;
     let scene = uncaged();
     let friction = scene.folded.friction;
-    let configuration = with_memory(scene, slip(0.5), angle_sensor(), friction);
+    let configuration = by_friction(scene, friction, slip(0.5), angle_sensor());
     let configuration = WithMemoryConfiguration {
         play: 0.0,
         ..configuration
@@ -614,7 +578,7 @@ fn an_angle_is_set_once() {
 #[test]
 fn without_a_load_a_nut_that_turns_does_not_stand() {
     let scene = worn();
-    let configuration = with_memory(scene, slip(0.5), angle_sensor(), scene.friction);
+    let configuration = by_friction(scene, scene.friction, slip(0.5), angle_sensor());
     let mut model =
         FrictionModel::<WithMemory<CagedBallScrew, Slip, WrappedAngle>>::new(&configuration)
             .unwrap();
@@ -668,7 +632,7 @@ fn changes_while_it_runs_keep_the_memory() {
         let mut scene = configuration;
         scene.folded = changed(scene.folded, |folded| folded.friction = friction);
         scene.turns = turns;
-        let whole = with_memory(scene, slip(0.5), speed_sensor(), friction);
+        let whole = by_friction(scene, friction, slip(0.5), speed_sensor());
         <Scene as epas_friction::Scene>::constants(&whole).unwrap()
     };
     let (first, second, other) = (of(0.075, 2.5), of(0.1, 2.5), of(0.075, 2.6));

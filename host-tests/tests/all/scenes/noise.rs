@@ -1,14 +1,14 @@
 //! Hands off the wheel, with a noisy angle: how often the regime changes, and how far the torque steps.
 
-use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
-use epas_friction::law::memory::{Hysteresis, ProportionalElements};
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband, NutAngle};
-use epas_friction::scene::{Freshness, Sliding, WithMemory, WithMemoryConfiguration};
-use epas_friction::{FrictionModel, Inputs, Outputs, Regime, UncagedOutputs};
+use epas_friction::law::memory::Hysteresis;
+use epas_friction::law::motion::{CountSensor, Deadband, NutAngle};
+use epas_friction::scene::{Sliding, WithMemory, WithMemoryConfiguration};
+use epas_friction::{FrictionModel, Inputs, Regime};
 use epas_reference::closed_loop::ClosedLoop;
 use epas_testkit::gears::screw_inputs;
 
-use crate::remembering::{at, slip};
+use super::memory::{Figures, by_friction};
+use crate::remembering::{Slip, TEMPERATURE, at, counter, slip};
 use epas_testkit::gears::{
     CagedScrew, SCREW_BALLS, UncagedConfiguration, UncagedScrew, caged, uncaged,
 };
@@ -16,7 +16,6 @@ use epas_testkit::random::Random;
 
 const TICK: f64 = 1e-3;
 const TICKS: usize = 4900;
-const TEMPERATURE: f32 = 313.15;
 const BREAKAWAY: f32 = 2e-3;
 const LOAD: f32 = 300.0;
 
@@ -49,22 +48,6 @@ impl Restlessness {
     }
 }
 
-trait Friction {
-    fn friction(&self) -> (Regime, f32);
-}
-
-impl Friction for Outputs {
-    fn friction(&self) -> (Regime, f32) {
-        (self.regime, self.friction_torque)
-    }
-}
-
-impl Friction for UncagedOutputs {
-    fn friction(&self) -> (Regime, f32) {
-        (self.regime, self.friction_torque)
-    }
-}
-
 /// A normal deviate, cut at six: the sum of twelve uniform ones.
 fn normal(random: &mut Random) -> f64 {
     (0..12).map(|_| random.between(-0.5, 0.5)).sum()
@@ -74,13 +57,8 @@ fn speed(random: &mut Random) -> f32 {
     (SPEED_NOISE * normal(random)) as f32
 }
 
-fn counts() -> CountSensor {
-    CountSensor::new(CountSensorParameters {
-        period: 16384,
-        turn_per_count: ClosedLoop::COUNT as f32,
-        largest_turn: 0.5,
-    })
-    .unwrap()
+pub fn counts() -> CountSensor {
+    counter(16384, ClosedLoop::COUNT as f32, 0.5)
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,21 +71,11 @@ enum Rest {
 /// The restlessness of a scene with memory, whose angle has the noise that makes that of the speed.
 fn with_memory<S, A>(scene: S::Configuration, friction: f32, angle: A, rest: Rest) -> Restlessness
 where
-    S: Sliding<Inputs = Inputs, Constants: Copy, Configuration: Copy, Outputs: Friction>,
+    S: Sliding<Inputs = Inputs, Constants: Copy, Configuration: Copy, Outputs: Into<Figures>>,
     A: NutAngle<Reading = u32> + Copy,
 {
-    let mut model =
-        FrictionModel::<WithMemory<S, ProportionalElements<8>, A>>::new(&WithMemoryConfiguration {
-            scene,
-            elements: slip(FULL),
-            angle,
-            reference_load: 1000.0,
-            play: BREAKAWAY,
-            coefficient: CoefficientLaw::constant(friction).unwrap(),
-            temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
-            freshness: Freshness::DEFAULT,
-        })
-        .unwrap();
+    let configuration = by_friction(scene, friction, slip(FULL), angle);
+    let mut model = FrictionModel::<WithMemory<S, Slip, A>>::new(&configuration).unwrap();
     let mut random = Random(11);
     let mut step = |turn: f64, random: &mut Random| {
         // The speed is a difference of two angles over a tick.
@@ -118,7 +86,8 @@ where
             count % 16384,
             TEMPERATURE,
         ));
-        outputs.friction()
+        let figures: Figures = outputs.into();
+        (figures.regime, figures.friction)
     };
     for tick in 0..200 {
         step(1e-4 * f64::from(tick), &mut random);
@@ -201,17 +170,11 @@ fn full_at_5_kn() -> f32 {
 
 /// Friction of the caged screw under 5 kN at such counts, one a tick, behind a dead band of `half_width` counts to either side.
 fn under_5_kn(half_width: f32, counts_of_ticks: impl IntoIterator<Item = i32>) -> Vec<f32> {
-    type Model =
-        FrictionModel<WithMemory<CagedScrew, ProportionalElements<8>, Deadband<CountSensor>>>;
+    type Model = FrictionModel<WithMemory<CagedScrew, Slip, Deadband<CountSensor>>>;
+    let angle = Deadband::new(counts(), half_width * ClosedLoop::COUNT as f32).unwrap();
     let mut model = Model::new(&WithMemoryConfiguration {
-        scene: caged(),
-        elements: slip(full_at_5_kn()),
-        angle: Deadband::new(counts(), half_width * ClosedLoop::COUNT as f32).unwrap(),
         reference_load: 5e3,
-        play: BREAKAWAY,
-        coefficient: CoefficientLaw::constant(caged().friction).unwrap(),
-        temperature: TemperatureFade::new(TEMPERATURE, 60.0, 60.0).unwrap(),
-        freshness: Freshness::DEFAULT,
+        ..by_friction(caged(), caged().friction, slip(full_at_5_kn()), angle)
     })
     .unwrap();
     let friction = |count: i32| {

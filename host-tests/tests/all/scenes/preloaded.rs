@@ -19,7 +19,7 @@ const PRELOAD: f32 = 300.0;
 
 /// Sum of both flanks under an axial load, over that without: they share one Hertzian deflection,
 /// `F1^(2/3) + F2^(2/3) = 2 P^(2/3)` with `F1 - F2 = F`, until one of them is lost.
-fn exact_sum(load: f64, preload: f64) -> f64 {
+pub fn exact_sum(load: f64, preload: f64) -> f64 {
     if load > 8.0_f64.sqrt() * preload {
         return load / (2.0 * preload);
     }

@@ -1,5 +1,6 @@
 //! A whole gear folded by the compiler is the gear that a program would set up, to the bit, and runs like it.
 
+use crate::formulas::constants::same_bits;
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 use std::fmt::Debug;
 use std::hint::black_box;
@@ -11,46 +12,17 @@ use epas_friction::ball::{
 use epas_friction::contact::FrictionMap;
 use epas_friction::scene::FoldedBall;
 use epas_friction::{
-    BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration,
-    ClosedFormScrewConstants, DISSERTATION_DESIGNS, DeviationMap, Error, FrictionBranch,
-    FrictionModel, GrooveSize, Harmonic, Inputs, Limits, LinearBearing, LinearBearingConfiguration,
-    LinearBearingParameters, LinearBearingTrain, LinearConstants, LinearLimits, LoadShare,
-    LoadShares, Material, Outputs, Scene, UncagedBallScrew, UncagedBallScrewConfiguration,
-    UncagedConstants, UncagedOutputs,
+    BallScrew, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants,
+    DISSERTATION_DESIGNS, Error, FrictionBranch, FrictionModel, Inputs, LinearBearingConfiguration,
+    LinearBearingTrain, LinearConstants, LinearLimits, LoadShare, LoadShares, Outputs, Scene,
+    UncagedBallScrew, UncagedBallScrewConfiguration, UncagedConstants, UncagedOutputs,
 };
 
-use epas_testkit::gears::{BALL, BALL_NODES, BALL_RANGE, UncagedScrew};
+use epas_testkit::gears::{
+    self, BALL, BALL_NODES, BALL_NUT_MAP, BALL_RANGE, BALL_SCREW_MAP, LINEAR_BALLS, UncagedScrew,
+    folded,
+};
 
-const fn folded<T: Copy>(set_up: Result<T, Error>) -> T {
-    match set_up {
-        Ok(folded) => folded,
-        Err(_) => panic!("a field is out of range"),
-    }
-}
-
-static WAVES: DeviationMap = folded(DeviationMap::from_harmonics(
-    1,
-    &[
-        Harmonic {
-            order: 2,
-            cosine: 0.0,
-            sine: 0.7 * BALL.law.deviations[0],
-        },
-        Harmonic {
-            order: 5,
-            cosine: 0.1 * BALL.law.deviations[0],
-            sine: -0.05 * BALL.law.deviations[0],
-        },
-    ],
-));
-static SLOW_WAVE: DeviationMap = folded(DeviationMap::from_harmonics(
-    2,
-    &[Harmonic {
-        order: 3,
-        cosine: 0.4 * BALL.law.deviations[1],
-        sine: 0.8 * BALL.law.deviations[1],
-    }],
-));
 static SHARES: [LoadShare; 3] = [
     folded(LoadShare::new(0.4)),
     LoadShare::MEAN,
@@ -58,22 +30,11 @@ static SHARES: [LoadShare; 3] = [
 ];
 static REVERSED: [LoadShare; 3] = [SHARES[2], SHARES[1], SHARES[0]];
 
-const LIMITS: Limits = Limits {
-    nut_speed: 300.0,
-    axial_load: 20_000.0,
-    friction_torque: 5.0,
-};
-
 const fn closed_form(branch: FrictionBranch, clearance: Clearance) -> ClosedFormScrewConfiguration {
     ClosedFormScrewConfiguration {
-        design: folded(CATALOGUE[15].design()),
-        friction: 0.075,
         rolling_tangent: 1e-3,
-        branch,
         clearance,
-        loaded_balls: 40,
-        reversal_speed: 0.5,
-        limits: LIMITS,
+        ..gears::closed_form(branch)
     }
 }
 
@@ -87,8 +48,8 @@ const fn uncaged<const NODES: usize>(
         balls,
         turns: 2.0,
         return_length: 0.03,
-        screw_deviation: &WAVES,
-        nut_deviation: &SLOW_WAVE,
+        screw_deviation: &BALL_SCREW_MAP,
+        nut_deviation: &BALL_NUT_MAP,
         load_shares: LoadShares {
             positive: &SHARES,
             negative: &REVERSED,
@@ -99,29 +60,9 @@ const fn uncaged<const NODES: usize>(
 
 const fn linear() -> LinearBearingConfiguration {
     LinearBearingConfiguration {
-        bearing: folded(LinearBearing::new(LinearBearingParameters {
-            ball_radius: 0.005,
-            groove: GrooveSize::Conformity(0.54),
-            contact_angle: 0.7,
-            ball_material: Material::SILICON_NITRIDE,
-            groove_material: Material::STEEL,
-        })),
-        friction: 0.1,
-        ball_friction: 0.15,
-        balls: 24,
-        loaded_length: 0.16,
         return_length: 0.09,
-        wavelength: 0.06,
-        rail_deviation: &WAVES,
-        carriage_deviation: &SLOW_WAVE,
         load_shares: &SHARES,
-        reversal_speed: 1e-3,
-        tick: 1e-4,
-        limits: LinearLimits {
-            speed: 3.0,
-            load: 5_000.0,
-            friction_force: 500.0,
-        },
+        ..gears::linear()
     }
 }
 
@@ -151,15 +92,7 @@ static RANGE: UncagedConstants<37, BALL_NODES> =
     folded(UncagedConstants::new(&uncaged(&BALL_RANGE, 37)));
 static PRELOADED: UncagedConstants<24> =
     folded(UncagedConstants::new(&uncaged(&PRELOADED_BALL, 24)));
-static CARRIAGE: LinearConstants<24> = folded(LinearConstants::new(&linear()));
-
-/// `Debug` prints the shortest text that reads back as the same number, and the sign of a zero: equal texts
-/// are equal bits. No NaN may hide among them.
-fn same_bits(folded: &impl Debug, computed: &impl Debug) {
-    let (folded, computed) = (format!("{folded:?}"), format!("{computed:?}"));
-    assert!(!folded.contains("NaN"), "{folded}");
-    assert_eq!(folded, computed);
-}
+static CARRIAGE: LinearConstants<LINEAR_BALLS> = folded(LinearConstants::new(&linear()));
 
 fn manoeuvre() -> impl Iterator<Item = (f32, f32)> {
     (0..4000_i16).map(|tick| {
@@ -231,7 +164,7 @@ fn a_folded_ball_screw_without_cage_is_the_one_set_up_at_run_time() {
 
 #[test]
 fn a_folded_linear_bearing_is_the_one_set_up_at_run_time() {
-    same_gear::<LinearBearingTrain<24>>(&CARRIAGE, &linear(), |speed, load| {
+    same_gear::<LinearBearingTrain<LINEAR_BALLS>>(&CARRIAGE, &linear(), |speed, load| {
         linear_inputs(0.01 * speed, 2_000.0, 0.1 * load)
     });
 }
@@ -257,7 +190,7 @@ fn a_refused_gear_names_its_field() {
             ..uncaged(&BALL, 37)
         });
     const CROWDED: Result<UncagedConstants<60>, Error> = UncagedConstants::new(&uncaged(&BALL, 60));
-    const HASTY: Result<LinearConstants<24>, Error> =
+    const HASTY: Result<LinearConstants<LINEAR_BALLS>, Error> =
         LinearConstants::new(&LinearBearingConfiguration {
             limits: LinearLimits {
                 speed: f32::NAN,

@@ -1,6 +1,7 @@
 //! What a step promises, and what it calls: measured against the float64 reference.
 
-use crate::remembering::at;
+use super::stiff::exact_row;
+use crate::remembering::{Slip, at, slip_by};
 use epas_testkit::errors::Errors;
 use epas_testkit::gears::{LIMITS, closed_form, linear, linear_inputs, screw_inputs};
 use epas_testkit::random::Random;
@@ -8,7 +9,6 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 
 use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SLOPE};
 use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
-use epas_friction::law::memory::{Part, ProportionalElements, SLIP_8};
 use epas_friction::law::motion::SpeedOverTick;
 use epas_friction::scene::{
     CoefficientFor, Freshness, Sliding, WithMemory, WithMemoryConfiguration, WithMemoryInputs,
@@ -22,7 +22,6 @@ use epas_friction::{
 };
 use epas_reference::efficiency::Screw;
 use epas_reference::friction::chain::solve_chain;
-use epas_reference::friction::isotonic::isotonic_by_min_max;
 use epas_reference::friction::linear_ball::{EllipseLaw, LinearBall, contact_forces};
 use epas_reference::hertz::{Hertz, contact_modulus};
 use epas_reference::promises;
@@ -134,8 +133,7 @@ fn load_proportional() {
 
 /// A scene with a memory whose elements slide fully within a tick of the motions here, and whose balls follow every turn: in steady
 /// motion its friction is that of the scene. The breakaway angle, rad (m), is that under 1 N m (1 N).
-pub type Remembering<S, L> =
-    FrictionModel<WithMemory<S, ProportionalElements<8>, SpeedOverTick, L>>;
+pub type Remembering<S, L> = FrictionModel<WithMemory<S, Slip, SpeedOverTick, L>>;
 
 pub fn remembering<S: Sliding<Constants: Copy>, L: CoefficientFor<S::Inputs>>(
     scene: S::Configuration,
@@ -144,15 +142,7 @@ pub fn remembering<S: Sliding<Constants: Copy>, L: CoefficientFor<S::Inputs>>(
 ) -> Remembering<S, L> {
     FrictionModel::new(&WithMemoryConfiguration {
         scene,
-        elements: ProportionalElements::new(
-            1.0,
-            &[Part {
-                backbone: &SLIP_8.elements,
-                share: 1.0,
-                breakaway_angle,
-            }],
-        )
-        .unwrap(),
+        elements: slip_by(1.0, breakaway_angle),
         angle: SpeedOverTick::new(tick, 1.0).unwrap(),
         reference_load: 1000.0,
         play: 0.0,
@@ -184,8 +174,7 @@ fn train() {
         let mut train = Train::<37>::new(1.0, 0.005, &[0.0; 37]).unwrap();
         train.step(&free, &impedance, 1e-6);
         let exact = |numbers: &[f32]| numbers.iter().map(|&x| f64::from(x)).collect::<Vec<_>>();
-        let compliance: Vec<f64> = exact(&impedance).iter().map(|x| 1.0 / x).collect();
-        let (_, forces) = isotonic_by_min_max(&exact(&free), &compliance);
+        let (_, forces) = exact_row(&exact(&free), &exact(&impedance));
         let largest = forces
             .iter()
             .fold(1e-30, |most: f64, force| most.max(*force));

@@ -12,7 +12,7 @@ use epas_testkit::random::Random;
 use epas_testkit::random_scenes::{Trial, sound_train};
 
 /// Speeds and forces of a row in contact by the max-min formula of isotonic regression, in f64.
-fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {
+pub fn exact_row(free: &[f64], impedance: &[f64]) -> (Vec<f64>, Vec<f64>) {
     let n = free.len();
     let mean = |from: usize, to: usize| {
         let weight: f64 = impedance[from..=to].iter().sum();
@@ -197,8 +197,7 @@ fn a_thousand_million_ticks() {
 
 #[test]
 fn the_row_goes_as_far_as_the_nut_turns() {
-    // Without deviations balls keep their distances and the row advances by the sum of travels: f32
-    // rounds each to 6e-8 of itself.
+    // Without deviations balls keep their distances and the row advances by the sum of travels: f32 rounds each to 6e-8 of itself.
     let mut train = Train::<8>::evenly_spaced(0.25, 0.01, 8).unwrap();
     let start: Vec<u32> = train.positions().collect();
     let travel = 3.7e-5_f32;
@@ -238,8 +237,7 @@ fn standstill_is_smooth_at_the_least_reversal_speed() {
                 "width {width} speed {speed}: {ahead} {last}"
             );
             let share = f64::from(speed) / f64::from(speed).hypot(f64::from(width));
-            // The flanks' sum and difference blend with the speed as well: between the two torques.
-            // Beyond what f32 rounds to nothing.
+            // The flanks' sum and difference blend with the speed as well: between the two torques. Beyond what f32 rounds to nothing.
             let over = (f64::from(ahead) - 1e-12).max(0.0) / (share * f64::from(full));
             measured::assert_at(
                 "low speeds, friction over its share of the full",

@@ -96,24 +96,13 @@ impl Manoeuvre {
 }
 
 /// A kind of scene with what the tests do to it.
-trait Kept: StoredScene<Outputs: Debug, State: Debug + PartialEq> {
+trait Kept: StoredScene<Outputs: Debug, State: Debug + PartialEq> + Sized {
     const STILL: bool = false;
 
-    fn model() -> FrictionModel<Self>
-    where
-        Self: Sized;
-    fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs
-    where
-        Self: Sized;
-    fn set(_: &mut FrictionModel<Self>)
-    where
-        Self: Sized,
-    {
-    }
-    fn import(model: &mut FrictionModel<Self>, block: &[u8]) -> Result<(), Refusal>
-    where
-        Self: Sized,
-    {
+    fn model() -> FrictionModel<Self>;
+    fn drive(model: &mut FrictionModel<Self>, manoeuvre: &Manoeuvre, tick: u32) -> Self::Outputs;
+    fn set(_: &mut FrictionModel<Self>) {}
+    fn import(model: &mut FrictionModel<Self>, block: &[u8]) -> Result<(), Refusal> {
         model.import(block)
     }
 }

@@ -3,7 +3,7 @@
 
 use epas_friction::law::coefficient::{OneCoefficient, TemperatureFade};
 use epas_friction::law::motion::WrappedAngle;
-use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
+use epas_friction::law::motion::{CountSensor, Deadband};
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
 };
@@ -13,7 +13,7 @@ use epas_friction::{
 };
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 
-use crate::remembering::{Slip, TEMPERATURE, at, caged_by_angle, slip, with_memory};
+use crate::remembering::{Slip, TEMPERATURE, at, caged_by_angle, counter, slip, with_memory};
 use epas_testkit::gears::{
     CagedConfiguration, CagedScrew, LINEAR_BALLS, caged, closed_form, linear,
     linear_of_smaller_balls, preloaded, worn,
@@ -54,13 +54,7 @@ fn a_caged_screw_is_that_of_its_new_constants() {
 fn a_swap_turns_nothing() {
     type Counted = FrictionModel<WithMemory<CagedScrew, Slip, Deadband<CountSensor>>>;
     let with = |period: u32, half_width: f32, play: f32| {
-        let counts = CountSensor::new(CountSensorParameters {
-            period,
-            turn_per_count: 1e-3,
-            largest_turn: 0.4,
-        })
-        .unwrap();
-        let sensor = Deadband::new(counts, half_width).unwrap();
+        let sensor = Deadband::new(counter(period, 1e-3, 0.4), half_width).unwrap();
         let whole = with_memory(caged(), slip(0.05), sensor);
         Counted::new(&WithMemoryConfiguration { play, ..whole }).unwrap()
     };

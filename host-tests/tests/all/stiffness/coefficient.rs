@@ -118,24 +118,7 @@ fn the_rational_form_is_near_the_full_law() {
     warming.assert_promised(promises::of("friction_coefficient_warming"));
 }
 
-/// Tabulated: 0.057, against `1/(1 + (x/x_1)^0.67)^2` with the best half-share speed; half a unit of its last digit.
-#[test]
-fn the_form_with_its_best_speed() {
-    let share = |x: f64| (1.0 + (2_f64.sqrt() - 1.0) * x.powf(0.67)).powi(-2);
-    let largest = |half: f64| {
-        (0..=600)
-            .map(|step| 1e-6 * 1e12_f64.powf(f64::from(step) / 600.0))
-            .map(|x| (1.0 / (1.0 + x / half) - share(x)).abs())
-            .fold(0.0, f64::max)
-    };
-    let best = (0..=200)
-        .map(|step| largest(0.5 + 0.005 * f64::from(step)))
-        .fold(f64::MAX, f64::min);
-    assert!((best - 0.057).abs() < 5e-4, "{best}");
-}
-
-/// Measured, over the exact law, as the table of `Viscosity` prints it, with two decimals: half a unit. The pole to a tenth
-/// of a degree.
+/// Measured, over the exact law, as the table of `Viscosity` prints it, with two decimals: half a unit. The pole to a tenth of a degree.
 #[test]
 fn viscosities_by_two_points() {
     let worst = |found: &Viscosity, oil: &dyn Fn(f64) -> f64, from: i32, to: i32| {

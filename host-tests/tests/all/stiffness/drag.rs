@@ -7,6 +7,7 @@ use epas_friction::law::coefficient::{
 use epas_friction::{BallScrew, defaults};
 use epas_reference::drag::{RollingFilm, inlet_shear_heating, screw_torque};
 
+use crate::scenes::preloaded::exact_sum;
 use epas_testkit::errors::Errors;
 use epas_testkit::given;
 
@@ -182,19 +183,9 @@ fn preloaded_flanks_drag_together() {
     let lift_off = 8_f64.sqrt();
     for step in 0..=60 {
         let load = 0.2 * f64::from(step);
-        // Deflections of both flanks over that of the preload; the larger one grows until the load is there.
-        let (mut small, mut large) = (0.0, 5.0);
-        for _ in 0..80 {
-            let deflection: f64 = 0.5 * (small + large);
-            let other = (2.0 - deflection).max(0.0);
-            if deflection.powf(1.5) - other.powf(1.5) < load {
-                small = deflection;
-            } else {
-                large = deflection;
-            }
-        }
-        let (deflection, other) = (small, (2.0 - small).max(0.0));
-        let expected = deflection.powf(0.375) + other.powf(0.375);
+        let sum = exact_sum(load, 1.0);
+        let [more, less] = [0.5, -0.5].map(|part| sum + part * load);
+        let expected = more.powf(0.25) + less.max(0.0).powf(0.25);
         let found = f64::from(now.drag_torque(1.0, load as f32, lift_off as f32));
         let error = found / expected - 1.0;
         assert!(error.abs() < 0.23, "{load}: {error}");

@@ -335,30 +335,6 @@ fn parts_make_the_whole() {
     }
 }
 
-/// With a fixed ball: `T ~ Q`, `K ~ Q^(1/3)`, angle `~ Q^(2/3)` for slip; `T ~ Q^(4/3)`, `K ~ Q`, angle `~ Q^(1/3)` for spin. Eight
-/// times the load, to four roundings.
-#[test]
-fn powers_of_the_load() {
-    let design = CATALOGUE[15].design().unwrap();
-    let contacts = ScrewContacts::of(&design);
-    let ratios = |mechanism: fn(&ScrewContacts, f32) -> epas_design::breakaway::Resistance| {
-        let (one, eight) = (mechanism(&contacts, 10.0), mechanism(&contacts, 80.0));
-        [
-            eight.limit / one.limit,
-            eight.stiffness / one.stiffness,
-            eight.breakaway() / one.breakaway(),
-        ]
-    };
-    let slip = ratios(|contacts, load| contacts.slip(0.1, load));
-    let spin = ratios(|contacts, load| contacts.spin(0.1, load, Rolling::TwoPoint));
-    for (found, truth) in slip.into_iter().zip([8.0, 2.0, 4.0]) {
-        assert!((found / truth - 1.0).abs() < 2.4e-7, "{found}");
-    }
-    for (found, truth) in spin.into_iter().zip([16.0, 8.0, 2.0]) {
-        assert!((found / truth - 1.0).abs() < 2.4e-7, "{found}");
-    }
-}
-
 /// Drift and angle rise with the share of slip, from none; they end where the grooves' slope alone would hold the ball, at the
 /// latest. An oversized ball drifts less than one that fits, one with play more.
 #[test]

@@ -15,8 +15,8 @@ use epas_friction::{
 use epas_testkit::gears::linear_inputs;
 
 use super::{
-    BRANCHES, BREAKAWAY, Caged, Slip, TEMPERATURE, angle_sensor, caged_by_angle, fresh, screw,
-    slip, slip_by, speed_sensor, with_memory,
+    BRANCHES, BREAKAWAY, Caged, Slip, TEMPERATURE, angle_sensor, by_friction, caged_by_angle,
+    fresh, screw, slip, slip_by, speed_sensor,
 };
 use epas_testkit::gears::{
     CROWD, CagedScrew, LINEAR_BALLS, UncagedScrew, caged, closed_form, crowded, linear,
@@ -36,11 +36,11 @@ fn a_coefficient_by_a_law_is_one_that_is_set() {
     plain.reversal_speed = 1e-6;
     let by_law = WithMemoryConfiguration {
         coefficient: law,
-        ..with_memory(
+        ..by_friction(
             plain,
+            COEFFICIENT.boundary,
             slip_by(0.5, 1e-9),
             speed_sensor(),
-            COEFFICIENT.boundary,
         )
     };
     let mut by_law = Model::new(&by_law).unwrap();
@@ -66,7 +66,7 @@ fn a_coefficient_by_a_law_is_one_that_is_set() {
 #[test]
 fn equal_coefficients_are_one() {
     let scene = caged();
-    let by_law = with_memory(scene, slip(0.5), speed_sensor(), scene.friction);
+    let by_law = by_friction(scene, scene.friction, slip(0.5), speed_sensor());
     let mut by_law = Model::new(&by_law).unwrap();
     let one =
         WithMemoryConfiguration::new(scene, scene.friction, slip(0.5), speed_sensor(), 1000.0);
@@ -99,7 +99,7 @@ fn coefficients_beyond_the_scene_are_refused() {
     .unwrap();
     let configuration = WithMemoryConfiguration {
         coefficient: steep,
-        ..with_memory(scene, slip(0.5), angle_sensor(), scene.friction)
+        ..by_friction(scene, scene.friction, slip(0.5), angle_sensor())
     };
     let refused = Caged::new(&configuration).unwrap_err();
     assert_eq!((refused.field(), refused.value()), ("coefficient", 0.7));
@@ -252,7 +252,7 @@ fn backward_is_forward_under_the_opposite_load() {
 fn a_level_leaves_the_drag_that_is_said() {
     use epas_friction::law::FrictionLevel;
     let model = || {
-        let configuration = with_memory(caged(), slip(0.5), speed_sensor(), 0.12);
+        let configuration = by_friction(caged(), 0.12, slip(0.5), speed_sensor());
         let coefficient = CoefficientLaw::new(&CoefficientParameters {
             churning: 0.05,
             ..COEFFICIENT
@@ -308,7 +308,7 @@ fn drag_beyond_its_fit_is_flagged() {
         .unwrap()
     };
     let model = |coefficient| {
-        let configuration = with_memory(caged(), slip(0.5), speed_sensor(), 0.12);
+        let configuration = by_friction(caged(), 0.12, slip(0.5), speed_sensor());
         Model::new(&WithMemoryConfiguration {
             coefficient,
             ..configuration

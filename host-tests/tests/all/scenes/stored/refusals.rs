@@ -4,12 +4,12 @@ use std::f32::consts::TAU;
 use std::fmt::Debug;
 
 use epas_friction::law::memory::{LoadExactElements, ParallelElements, SeatElement};
-use epas_friction::law::motion::{WrappedAngle, WrappedAngleParameters};
+use epas_friction::law::motion::WrappedAngle;
 use epas_friction::scene::{StoredScene, WithMemory, WithMemoryConfiguration};
 use epas_friction::stored::VERSION;
 use epas_friction::{Faults, FrictionModel, LinearBearingTrain, Refusal, UncagedBallScrew};
 
-use crate::remembering::{COUNTS, CagedByAngle, UncagedByCounts, slip, with_memory};
+use crate::remembering::{COUNTS, CagedByAngle, UncagedByCounts, slip, with_memory, wrapped};
 use epas_testkit::gears::{
     BALL_RANGE, CagedConfiguration, CagedScrew, LINEAR_BALLS, UncagedConfiguration, UncagedScrew,
     caged, changed, linear, linear_of_smaller_balls, uncaged,
@@ -158,15 +158,6 @@ where
     }
 }
 
-fn wrapped(lowest: f32) -> WrappedAngle {
-    WrappedAngle::new(WrappedAngleParameters {
-        lowest,
-        period: TAU,
-        largest_turn: 0.5,
-    })
-    .unwrap()
-}
-
 /// Constants with which a state's numbers mean something else, and those that may change from one ignition to the next.
 #[test]
 fn blocks_of_other_constants_are_refused() {
@@ -221,8 +212,8 @@ fn blocks_of_other_constants_are_refused() {
     refused_by_all::<Linear>(&block, &others);
 
     let block = export(&CagedByAngle::model());
-    let angle = wrapped(0.0);
-    let other = wrapped(-3.0);
+    let angle = wrapped(0.0, TAU, 0.5);
+    let other = wrapped(-3.0, TAU, 0.5);
     let import = |elements, angle, play| {
         let configuration = WithMemoryConfiguration {
             play,
@@ -246,7 +237,7 @@ fn blocks_of_other_constants_are_refused() {
 /// Elements of every kind count: a state that others left means something else.
 #[test]
 fn states_of_other_elements_are_refused() {
-    let angle = wrapped(0.0);
+    let angle = wrapped(0.0, TAU, 0.5);
     macro_rules! check {
         ($kind:ty, $own:expr, $others:expr) => {{
             let model = |elements: $kind| {

@@ -1,7 +1,6 @@
 //! Laws of a screw without cage, tick by tick: balances of the balls, where the torque comes from, mirrors, and what is no matter.
 
 use epas_testkit::gears::screw_inputs;
-use std::f64::consts::TAU;
 
 use epas_friction::ball::pressed::{
     BallNumbers, FreeMotion, NeighbourNumbers, RUBBINGS, RowConstants, RubbedNode,
@@ -264,122 +263,6 @@ fn the_torque_is_what_the_balls_lose() {
     }
 }
 
-/// A screw in a mirror: direction and load turned round, waves that a mirror leaves as they are, balls at mirrored places.
-#[test]
-fn a_mirrored_screw_has_the_mirrored_torque() {
-    const BALLS: usize = SCREW_BALLS;
-    let configuration = UncagedBallScrewConfiguration {
-        // Whole turns, in which both waves are odd about the start.
-        turns: 2.0,
-        nut_deviation: wave(1, 3, 0.0, 0.9 * BALL.law.deviations[1]),
-        ..gears::full(screw_wave(0.9), TICK)
-    };
-    // Every tick rounds a ball's travel to whole units of its position, by up to half a unit, its mirror image's the other way: after `n` ticks
-    // two balls and their images are up to `2 n` units closer or further apart, and where they meet they press by what takes these units
-    // from the speed of a tick.
-    let law = &configuration.folded.law;
-    let interval = law.interval(configuration.folded.friction);
-    let track = 2.0 * TAU * f64::from(configuration.folded.path_radius);
-    let travel = 10.0 * f64::from(TICK) * f64::from(configuration.folded.speed);
-    let units = 2.0 * track / 2_f64.powi(32) / travel;
-    let mut pressing = 0;
-    for load in [4000.0, -4000.0] {
-        let numbers = law.numbers(
-            law.load_of(load / BALLS as f32),
-            usize::from(load < 0.0),
-            interval,
-        );
-        let impedance: f32 = numbers.impedance.map(f32::abs).iter().sum();
-        let [mut there, mut back] = [(); 2]
-            .map(|()| FrictionModel::<UncagedBallScrew<BALLS>>::new(&configuration).unwrap());
-        for tick in 1..=600 {
-            let allowed = f64::from(tick) * units * f64::from(impedance);
-            let one = there.step(inputs(10.0, load));
-            let other = back.step(inputs(-10.0, -load));
-            // Both sums of the balls' torques round at every ball, in another order; forces that differ rub.
-            let sum = f64::from(one.friction_torque) + f64::from(other.friction_torque);
-            let ulp = 2_f64.powi(-23) * f64::from(one.friction_torque.abs());
-            let rounding = BALLS as f64 * ulp;
-            // As much as the steepest piece of the loss by friction between balls, twice for both neighbours.
-            let steepest = steepest_loss(&configuration, load);
-            let rubs = 2.0 * BALLS as f64 * allowed * steepest;
-            assert!(sum.abs() <= rounding + rubs, "{load} N: {sum} N m");
-            let forces = |model: &FrictionModel<UncagedBallScrew<BALLS>>| -> Vec<f32> {
-                model.state().circuit.train.forces().collect()
-            };
-            let (one, other) = (forces(&there), forces(&back));
-            for ball in 0..BALLS {
-                // Ball `j` stands where ball `-j` does in the mirror, and presses on the one that is then behind.
-                let mirrored = other[(2 * BALLS - ball - 1) % BALLS];
-                let error = f64::from(one[ball]) - f64::from(mirrored);
-                assert!(
-                    error.abs() <= allowed,
-                    "{load} N, ball {ball}: {error} N, {allowed} allowed"
-                );
-                pressing += u32::from(one[ball] > 0.0);
-            }
-        }
-    }
-    assert!(pressing > 1000, "{pressing}");
-}
-
-/// Largest change of the torque of a ball with a force of a neighbour, m: of the pieces between the nodes, and by the outward force.
-fn steepest_loss(configuration: &UncagedBallScrewConfiguration, load: f32) -> f64 {
-    let law = &configuration.folded.law;
-    let load_of_ball = law.load_of(load / SCREW_BALLS as f32);
-    let branch = usize::from(load < 0.0);
-    let interval = law.interval(configuration.folded.friction);
-    let numbers = law.numbers(load_of_ball, branch, interval);
-    let row = configuration.folded.row(configuration.ball_friction);
-    let neighbours = law
-        .neighbours(load_of_ball, branch, interval, &numbers, row)
-        .numbers;
-    let sizes = neighbours
-        .nodes
-        .map(|node| node.torque.map(f32::abs).iter().sum::<f32>());
-    let steepest = (sizes[0] / RUBBINGS[0])
-        .max((sizes[0] + sizes[1]) / (RUBBINGS[1] - RUBBINGS[0]))
-        .max((sizes[1] + sizes[2]) / (RUBBINGS[2] - RUBBINGS[1]));
-    f64::from(row.ball_friction * steepest + neighbours.outward_torque.abs())
-}
-
-/// Balls have no numbers: a state whose balls are counted from another one on goes on as it would have.
-#[test]
-fn which_ball_is_the_first_is_no_matter() {
-    /// Header of a block, and what a train carries over.
-    const TRAIN: usize = 16 + 4;
-    const BALL_BYTES: usize = 9;
-    let configuration = configuration(0.1);
-    let mut model = Model::new(&configuration).unwrap();
-    for _ in 0..200 {
-        model.step(inputs(10.0, 4000.0));
-    }
-    let mut block = vec![0; Model::STATE_BYTES];
-    model.export(&mut block).unwrap();
-    for turned in [1, 17, 36] {
-        let mut other = block.clone();
-        let balls = TRAIN + 1..TRAIN + 1 + BALL_BYTES * SCREW_BALLS;
-        other[balls].rotate_left(turned * BALL_BYTES);
-        let foremost = usize::from(block[TRAIN]) + SCREW_BALLS - turned;
-        other[TRAIN] = (foremost % SCREW_BALLS) as u8;
-        let body = other.len() - 4;
-        let checksum = crc32fast::hash(&other[..body]);
-        other[body..].copy_from_slice(&checksum.to_le_bytes());
-        let mut renumbered = Model::new(&configuration).unwrap();
-        renumbered.import(&other).unwrap();
-        let mut model = model;
-        let mut pressing = 0;
-        for _ in 0..300 {
-            let expected = model.step(inputs(10.0, 4000.0));
-            let found = renumbered.step(inputs(10.0, 4000.0));
-            let error = f64::from(found.friction_torque / expected.friction_torque - 1.0);
-            measured::assert("screw without cage, counted from another ball", error);
-            pressing += u32::from(found.contacts);
-        }
-        assert!(pressing > 1000, "{pressing}");
-    }
-}
-
 #[test]
 fn without_deviation_no_ball_presses() {
     let configuration = UncagedBallScrewConfiguration {
@@ -398,23 +281,4 @@ fn without_deviation_no_ball_presses() {
             assert_eq!(*first.get_or_insert(outputs), outputs);
         }
     }
-}
-
-/// Balls without friction between them press harder: it takes a part of what they push with.
-#[test]
-fn balls_without_friction_between_them_still_press() {
-    let mut rough = Model::new(&configuration(0.1)).unwrap();
-    let mut smooth = Model::new(&configuration(0.0)).unwrap();
-    let (mut pressed, mut differs) = (0, 0);
-    for _ in 0..1500 {
-        let (with, without) = (
-            rough.step(inputs(3.0, 3000.0)),
-            smooth.step(inputs(3.0, 3000.0)),
-        );
-        assert_eq!(without.ball_torque, 0.0);
-        assert!(with.ball_torque >= 0.0);
-        pressed += u32::from(without.contacts);
-        differs += u32::from(with.largest_contact_force != without.largest_contact_force);
-    }
-    assert!(pressed > 1000 && differs > 500, "{pressed} {differs}");
 }

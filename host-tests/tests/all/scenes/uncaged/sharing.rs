@@ -122,15 +122,10 @@ fn borders_of_the_load_make_no_ripple() {
 /// The exact ring has it too; its loads add up to the axial load to the last digit, and the scene's torque is its torque.
 #[test]
 fn loads_of_the_exact_ring_add_up() {
-    for (name, clearance, folded, deviations) in [
-        ("plain", Clearance::ZERO, &*PLAIN, [0.0; 2]),
-        ("preloaded", oversize(), &*PRELOADED, [0.0; 2]),
-        (
-            "plain with deviations",
-            Clearance::ZERO,
-            &*PLAIN,
-            DEVIATIONS,
-        ),
+    for (clearance, folded, deviations) in [
+        (Clearance::ZERO, &*PLAIN, [0.0; 2]),
+        (oversize(), &*PRELOADED, [0.0; 2]),
+        (Clearance::ZERO, &*PLAIN, DEVIATIONS),
     ] {
         let states = exact(clearance, 48, deviations);
         let failed = states.iter().filter(|state| !state.solved()).count();
@@ -152,10 +147,6 @@ fn loads_of_the_exact_ring_add_up() {
         let worst = errors
             .iter()
             .fold(0.0, |worst: f64, error| worst.max(error.abs()));
-        println!(
-            "{name}: {failed} unsolved, ripple {:.5}, scene off by {worst:.5} at most",
-            ripple(&exact)
-        );
         let squares: f64 = errors.iter().map(|error| error * error).sum();
         let rms = (squares / errors.len() as f64).sqrt();
         if deviations == [0.0; 2] {
