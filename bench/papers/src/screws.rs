@@ -12,6 +12,7 @@ use rayon::prelude::*;
 use epas_bench::exact_ring::{Case, Comparison, Off, compare};
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
+use epas_reference::design::BallScrewDesign;
 
 /// Balls of every screw.
 const BALLS: usize = 16;
@@ -59,14 +60,20 @@ fn case(number: u32) -> Case {
             between(1.0, 4.999).floor() as u8,
         )
     };
+    let waves = [wave(), wave()];
+    let groove_radius = 1e-3 * conformity * ball;
     Case {
-        pitch_radius: 0.5e-3 * diameter,
-        lead: 1e-3 * lead,
-        ball_radius: 0.5e-3 * ball,
-        groove_radius: 1e-3 * conformity * ball,
-        screw: wave(),
-        nut: wave(),
-        contact_angle: between(42.0, 48.0) / 360.0 * TAU,
+        design: BallScrewDesign {
+            pitch_radius: 0.5e-3 * diameter,
+            lead: 1e-3 * lead,
+            ball_radius: 0.5e-3 * ball,
+            screw_groove_radius: groove_radius,
+            nut_groove_radius: groove_radius,
+            contact_angle: between(42.0, 48.0) / 360.0 * TAU,
+            ..BallScrewDesign::LIN
+        },
+        screw: waves[0],
+        nut: waves[1],
         friction: between(0.05, 0.15),
         ball_friction: between(0.05, 0.15),
         clearance: between(-5e-6, 5e-6),

@@ -9,7 +9,6 @@ use epas_bench::report::draw::table;
 use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 
-/// The section.
 pub fn section(_: &Context) -> Result<Section, Failure> {
     let records = records()?;
     let (agreeing, rest): (Vec<&Record>, Vec<&Record>) = records
@@ -53,26 +52,16 @@ fn counts(records: &[Record]) -> Table {
         let counts = counts.map(|count| Cell::fixed(count, 0));
         std::iter::once(paper.into()).chain(counts).collect()
     });
-    let [reproduces, convention, misprint, open] = Verdict::ALL.map(Verdict::name);
-    let columns = ["paper", reproduces, convention, misprint, open];
+    let columns = format!("paper | {}", Verdict::ALL.map(Verdict::name).join(" | "));
     let caption = "Printed numbers by verdict";
     table("published_counts", caption, &columns, rows.collect())
 }
 
 fn numbers(name: &'static str, caption: &str, records: &[&Record]) -> Table {
-    let columns = [
-        "paper",
-        "place",
-        "quantity",
-        "unit",
-        "printed",
-        "computed",
-        "deviation",
-        "verdict",
-        "why, or which convention",
-    ];
+    let columns = "paper | place | quantity | unit | printed | computed | deviation | verdict | \
+         why, or which convention";
     let rows = records.iter().map(|record| row(record)).collect();
-    table(name, caption, &columns, rows)
+    table(name, caption, columns, rows)
 }
 
 fn row(record: &Record) -> Vec<Cell> {

@@ -19,14 +19,12 @@ fn designs() -> impl Iterator<Item = BallScrewParameters> {
         .step_by(2)
 }
 
-/// The clearances and friction coefficients in turn.
 fn fold(parameters: BallScrewParameters, place: usize) -> Result<CagedFold, Failure> {
     let clearance = TESTED_CLEARANCES[place % TESTED_CLEARANCES.len()];
     let friction = TESTED_FRICTIONS[place % TESTED_FRICTIONS.len()];
     Ok(tested(parameters, clearance, friction)?)
 }
 
-/// Friction torque of a step, over all designs, or over every fifth.
 pub fn step(quick: bool) -> Result<Accuracy, Failure> {
     let (skip, stride) = if quick { (2, 5) } else { (0, 1) };
     let designs: Vec<_> = designs().enumerate().skip(skip).step_by(stride).collect();
