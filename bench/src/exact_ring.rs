@@ -393,7 +393,6 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
 mod tests {
     use super::*;
 
-    /// Cases of one design share a law, whatever the speed and the load up to 300 N a ball; a case without one is refused.
     #[test]
     fn a_law_is_shared() {
         let law = Case::LIN.law().unwrap();

@@ -54,7 +54,8 @@ pub struct Printed {
     #[serde(default)]
     pub unit: String,
     /// As printed, digit by digit.
-    pub printed: String,
+    #[serde(rename = "printed")]
+    pub digits: String,
     /// Largest difference that counts as reproduced; half a unit of the last printed digit where none is given.
     pub tolerance: Option<f64>,
     #[serde(default)]
@@ -95,7 +96,7 @@ pub struct Record {
 
 impl Record {
     pub fn value(&self) -> f64 {
-        self.printed.printed.parse().unwrap_or(f64::NAN)
+        self.printed.digits.parse().unwrap_or(f64::NAN)
     }
 
     pub fn deviation(&self) -> f64 {
@@ -104,7 +105,7 @@ impl Record {
 
     /// Whether computed and printed number agree within the tolerance.
     pub fn agrees(&self) -> bool {
-        let half = half_unit(&self.printed.printed);
+        let half = half_unit(&self.printed.digits);
         self.deviation().abs() <= self.printed.tolerance.unwrap_or(half)
     }
 }

@@ -198,7 +198,6 @@ mod tests {
         assert!(figures.require().is_err());
     }
 
-    /// The page of accuracy prints what is stored.
     #[test]
     fn accuracy_page_says_how_long_the_longest_paths_are() {
         let figures = stored().unwrap();

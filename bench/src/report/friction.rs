@@ -12,7 +12,6 @@ use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Series, thin};
 
-/// Cycles in a millisecond of a processor of 168 MHz.
 const CYCLES_A_MILLISECOND: f64 = 168_000.0;
 
 pub fn section(context: &Context) -> Result<Section, Failure> {

@@ -14,6 +14,9 @@ use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 const CURVATURE: &str = "31 sizes, both grooves, contact angles 0-70 deg";
 const EFFICIENCY: &str = "friction to 0.3, lead to 60, contact 10-80 deg";
 
+/// Name, mark, and keys of the times, texts and errors of points.
+type PointGroup<'a> = (&'a str, Mark, Vec<&'a str>, &'a [&'a str], &'a [f64]);
+
 /// Key of the time, name, kind of error and domain of each formula.
 #[rustfmt::skip]
 const FORMULAS: [[&str; 4]; 8] = [
@@ -150,7 +153,7 @@ fn picture(context: &Context, errors: &[Errors; 4]) -> Result<Block, Failure> {
     let doubles = curvature::double_errors()?;
     let errors = errors.map(|errors| errors.largest);
     let keys = |rows: &[[&'static str; 3]]| rows.iter().map(|[key, ..]| *key).collect();
-    let groups: [(&str, Mark, Vec<&str>, &[&str], &[f64]); 3] = [
+    let groups: [PointGroup; 3] = [
         (
             "f32, cosine and sine given",
             Mark::Triangles,

@@ -88,7 +88,6 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
         .collect())
 }
 
-/// A contact angle up to 70 degrees.
 fn angle(share: f64) -> f64 {
     (70.0 * share).to_radians()
 }

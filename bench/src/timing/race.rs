@@ -86,7 +86,6 @@ impl Race {
         self.competitor(own, inputs, function)
     }
 
-    /// Adds a competitor over the same inputs as a baseline.
     pub fn competitor<I: Feed + 'static, O: Taken + 'static>(
         &mut self,
         baseline: Place,

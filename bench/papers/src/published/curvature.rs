@@ -131,7 +131,7 @@ fn size(
             printed: Printed {
                 quantity: format!("{size}: {quantity}"),
                 unit: unit.into(),
-                printed,
+                digits: printed,
                 tolerance: None,
                 verdict,
                 reason: reason.into(),

@@ -83,7 +83,7 @@ fn row(record: &Record) -> Vec<Cell> {
     let Printed {
         quantity,
         unit,
-        printed,
+        digits,
         verdict,
         reason,
         ..
@@ -93,7 +93,7 @@ fn row(record: &Record) -> Vec<Cell> {
         record.place.clone().into(),
         quantity.into(),
         unit.into(),
-        Cell::Number(value, printed),
+        Cell::Number(value, digits),
         computed,
         deviation,
         verdict.name().into(),
@@ -106,13 +106,13 @@ fn shown(record: &Record) -> Cell {
     let Record {
         printed, computed, ..
     } = record;
-    let (mantissa, power) = printed.printed.split_once('e').unzip();
-    let mantissa = mantissa.unwrap_or(&printed.printed);
+    let (mantissa, power) = printed.digits.split_once('e').unzip();
+    let mantissa = mantissa.unwrap_or(&printed.digits);
     let decimals = mantissa.split_once('.').map_or(0, |(_, after)| after.len()) + 1;
     let text = match power.and_then(|power| power.parse().ok()) {
         Some(power) => format!("{:.decimals$}e{power}", computed / 10_f64.powi(power)),
         None if *computed == 0.0 => "0".into(),
-        None if printed.printed == "0" => format!("{computed:.1e}"),
+        None if printed.digits == "0" => format!("{computed:.1e}"),
         None => format!("{computed:.decimals$}"),
     };
     Cell::Number(*computed, text)

@@ -14,7 +14,9 @@ fn axial_load_is_shared_evenly_and_is_that_of_one_ball() {
         .unwrap();
     for arcs in [[true; 4], [true, false, false, true]] {
         let mut balls = row(&geometry, 9, 0.0);
-        balls.iter_mut().for_each(|ball| ball.arcs = arcs);
+        for ball in &mut balls {
+            ball.arcs = arcs;
+        }
         let loaded = TurningLoad::default()
             .loaded(geometry, balls, [0.0, 900.0])
             .unwrap();

@@ -9,10 +9,8 @@ use super::Accuracy;
 use epas_design::files::built_in;
 use epas_page::failure::Failure;
 
-/// Largest pitch radius, m: diameters to 63 mm.
 const PITCH_RADIUS: f32 = 35e-3;
 
-/// Every second built-in design to a diameter of 63 mm.
 fn designs() -> impl Iterator<Item = BallScrewParameters> {
     let all = built_in().map(|(_, parameters, _)| parameters);
     all.filter(|parameters| parameters.pitch_radius < PITCH_RADIUS)

@@ -28,7 +28,6 @@ use epas_page::failure::Failure;
 const BALLS: usize = 24;
 const CONFORMITY: f32 = 0.56;
 
-/// Every quantity, in the order of the page; of whole sweeps, or of samples of them.
 pub fn measured(flagship: &Flagship, quick: bool) -> Result<Vec<Accuracy>, Failure> {
     const CURVATURES: &str =
         "curvature, relative: 31 catalogue sizes, both grooves, contact angles 0 to 70 degrees";

@@ -7,7 +7,6 @@ use epas_reference::promises;
 const README: &str = include_str!("../../../../README.md");
 const ACCURACY: &str = include_str!("../../../accuracy.md");
 
-/// Which error of a quantity is printed.
 #[derive(Clone, Copy)]
 enum Of {
     Largest(&'static str),
@@ -100,7 +99,6 @@ fn cycles_of(functions: &[&str]) -> Vec<f64> {
     functions.iter().map(cycles).collect()
 }
 
-/// Every row prints its errors, rounded to the digits that it shows.
 fn prints(page: &str, rows: &[Line]) {
     for (begin, errors, promise, cycles) in rows {
         let begin = format!("| {begin}");

@@ -146,7 +146,6 @@ fn row(design: &str, setting: &str, found: &Comparison) -> Vec<Cell> {
 mod tests {
     use super::*;
 
-    /// A screw that is not folded stands in the table, with its reason.
     #[test]
     fn rows_are_as_long_as_the_headings() {
         let compared = row("33 x 20", "50 N", &Comparison::default());
