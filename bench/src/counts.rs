@@ -8,7 +8,6 @@ pub use figures::{Figures, FunctionFigures, SceneFigures};
 
 use epas_page::failure::Failure;
 
-/// The counts that stand in `bench/target.json`.
 const STORED: &str = include_str!("../target.json");
 
 /// The stored figures.

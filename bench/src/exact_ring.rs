@@ -10,40 +10,29 @@ use epas_design::uncaged::Folded;
 use epas_design::{CagedDesign, UncagedDesign, UncagedFold};
 use epas_friction::scene::FoldedBall;
 use epas_friction::{
-    BallScrew, BallScrewParameters, Clearance, DeviationMap, FrictionModel, GrooveSize, Harmonic,
-    Inputs, Limits, LoadShares, Material, RollingResistance, UncagedBallScrew,
-    UncagedBallScrewConfiguration, UncagedOutputs,
+    Clearance, DeviationMap, FrictionModel, Harmonic, Inputs, Limits, LoadShares,
+    RollingResistance, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 use epas_reference::design::BallScrewDesign;
 use epas_reference::friction::ball_screw_ring::{
     ElasticRing, GrooveDeviation, RingSample, RingState,
 };
 use epas_reference::friction::patch::Integration;
-use epas_reference::material::Elastic;
 
+use crate::report::statistics::Errors;
+use crate::study::screw_of;
 use epas_design::uncaged_scene::{LEAST_DEVIATION, MARGIN, folded, loads_holding};
 
 /// Slack of the track, where a case does not say its length, over the distance of two balls that touch: as such screws are filled, half of all pairs
 /// press.
 const SLACK: f64 = 0.1;
 
-const YOUNGS_MODULUS: f64 = 210e9;
-const POISSON_RATIO: f64 = 0.28;
-
 /// What is asked of one screw. Lengths in m, angles in rad, forces in N.
 #[derive(Clone, Copy, Debug)]
 pub struct Case {
-    /// Design; both grooves have the same radius.
-    pub pitch_radius: f64,
-    /// Lead, m.
-    pub lead: f64,
-    /// Radius of a ball, m.
-    pub ball_radius: f64,
-    /// Radius of both grooves, m.
-    pub groove_radius: f64,
-    /// Nominal contact angle, rad.
-    pub contact_angle: f64,
-    /// Friction coefficients of balls and grooves, and between balls.
+    /// Design.
+    pub design: BallScrewDesign,
+    /// Friction coefficient of balls and grooves.
     pub friction: f64,
     /// Friction coefficient between balls.
     pub ball_friction: f64,
@@ -55,13 +44,13 @@ pub struct Case {
     pub track: Option<f64>,
     /// Part of the track that carries load.
     pub loaded: f64,
-    /// Amplitude of the deviation, and waves in a turn, of screw and nut.
+    /// Amplitude of the screw's deviation, and waves in a turn.
     pub screw: (f64, u8),
     /// The same of the nut.
     pub nut: (f64, u8),
     /// Turns of the nut a second, negative backward.
     pub speed: f64,
-    /// Turns of the nut that are followed, and states that are compared on the way.
+    /// Turns of the nut that are followed.
     pub turns: f64,
     /// States that are compared.
     pub states: usize,
@@ -72,11 +61,7 @@ pub struct Case {
 impl Case {
     /// Lin 2019, Table 3.6, under 50 N a ball, with deviations of 1 degree on the screw and 0.5 degrees in the nut.
     pub const LIN: Self = Self {
-        pitch_radius: 16.5e-3,
-        lead: 20e-3,
-        ball_radius: 2.778e-3,
-        groove_radius: 3.254e-3,
-        contact_angle: std::f64::consts::FRAC_PI_4,
+        design: BallScrewDesign::LIN,
         friction: 0.1,
         ball_friction: 0.1,
         clearance: 0.0,
@@ -95,57 +80,39 @@ impl Case {
 /// Largest, rms and mean error, each at the same state as the exact value.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Off {
-    largest: f64,
-    squares: f64,
-    sum: f64,
-    count: f64,
+    errors: Errors,
     scale: f64,
 }
 
 impl Off {
-    /// An error, and what it is a part of: the largest of these counts for all.
-    fn add(&mut self, error: f64, of: f64) {
-        self.largest = self.largest.max(error.abs());
-        self.squares += error * error;
-        self.sum += error;
-        self.count += 1.0;
-        self.scale = self.scale.max(of.abs());
-    }
-
     /// A value that may be zero, such as a force between balls: its error counts over the largest exact one of all states.
     fn add_of_largest(&mut self, found: f64, exact: f64) {
-        self.add(found - exact, exact);
+        self.errors.add(found - exact);
+        self.scale = self.scale.max(exact.abs());
     }
 
     /// A value that never is: its error counts over the exact one of its own state.
     fn add_of_own(&mut self, found: f64, exact: f64) {
-        self.add(found / exact - 1.0, 1.0);
+        self.errors.add(found / exact - 1.0);
+        self.scale = 1.0;
     }
 
     /// Largest, rms and mean; NaN where nothing was compared or every exact value is zero.
     pub fn relative(&self) -> [f64; 3] {
-        [
-            self.largest,
-            (self.squares / self.count).sqrt(),
-            self.sum / self.count,
-        ]
-        .map(|off| off / self.scale)
+        [self.errors.largest, self.errors.rms(), self.errors.mean()].map(|off| off / self.scale)
     }
 }
 
-/// Scene and exact screw at one state.
+/// The scene at one state.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment {
     /// Angle of the nut since the start, rad.
     pub nut_angle: f64,
-    /// Groove torque, ball torque, N m, largest force between two balls, N, and pairs that press: scene and exact.
-    pub scene: [f64; 4],
-    /// The same of the exact screw.
-    pub exact: [f64; 4],
-    /// Whether the scene flags this state, and whether the exact screw has it.
+    /// Torque of the grooves and between balls, N m.
+    pub torques: [f64; 2],
+    /// Whether the scene flags this state.
     pub flagged: bool,
-    /// Whether the exact screw has a solution.
-    pub solved: bool,
+    pressing: usize,
 }
 
 /// What both found.
@@ -163,7 +130,7 @@ pub struct Comparison {
     pub speed: Off,
     /// Difference of the number of pairs that press, over the largest.
     pub pairs: Off,
-    /// States compared, those among them that the scene flags, and those that the exact screw does not have.
+    /// States compared.
     pub compared: usize,
     /// States that the scene flags.
     pub flagged: usize,
@@ -179,8 +146,8 @@ impl Comparison {
     /// Mean number of pairs that press in the exact screw.
     #[must_use]
     pub fn pressing(&self) -> f64 {
-        let pairs = self.course.iter().map(|moment| moment.exact[3]);
-        pairs.sum::<f64>() / self.course.len() as f64
+        let pairs = self.course.iter().map(|moment| moment.pressing);
+        pairs.sum::<usize>() as f64 / self.course.len() as f64
     }
 }
 
@@ -205,24 +172,10 @@ fn samples((amplitude, order): (f64, u8)) -> GrooveDeviation {
     }
 }
 
-/// The exact screw with so many balls.
 fn ring(case: &Case, balls: usize) -> ElasticRing {
     let (path, turns) = case.track(balls);
-    let steel = Elastic {
-        youngs_modulus: YOUNGS_MODULUS,
-        poisson_ratio: POISSON_RATIO,
-    };
     ElasticRing {
-        design: BallScrewDesign {
-            pitch_radius: case.pitch_radius,
-            lead: case.lead,
-            ball_radius: case.ball_radius,
-            screw_groove_radius: case.groove_radius,
-            nut_groove_radius: case.groove_radius,
-            contact_angle: case.contact_angle,
-            ball: steel,
-            groove: steel,
-        },
+        design: case.design,
         clearance: case.clearance,
         friction: case.friction,
         ball_friction: case.ball_friction,
@@ -239,7 +192,6 @@ fn ring(case: &Case, balls: usize) -> ElasticRing {
     }
 }
 
-/// The scene of a case.
 struct Followed<const N: usize> {
     model: FrictionModel<UncagedBallScrew<N>>,
     /// Path radius of the balls; speed of a nominal ball and its speed against the nut, m per unit of nut speed.
@@ -273,8 +225,9 @@ impl<const N: usize> Followed<N> {
             tick: case.ticks().1 as f32,
         })
         .map_err(|error| error.to_string())?;
-        let cos_lead_angle = case.pitch_radius / path;
-        let rolling = case.ball_radius * cos_lead_angle * case.contact_angle.cos();
+        let design = case.design;
+        let cos_lead_angle = design.pitch_radius / path;
+        let rolling = design.ball_radius * cos_lead_angle * design.contact_angle.cos();
         let nominal = 0.5 * (path + rolling);
         Ok(Self {
             model,
@@ -284,7 +237,6 @@ impl<const N: usize> Followed<N> {
         })
     }
 
-    /// Takes one state of the scene in, with the exact one of the same time.
     fn add(
         &self,
         comparison: &mut Comparison,
@@ -323,23 +275,7 @@ impl Case {
     /// [`MARGIN`] times the case's load where that is more, and for its deviations.
     pub fn law(&self) -> Result<&'static FoldedBall, String> {
         let named = |error: epas_friction::Error| error.to_string();
-        let material = Material {
-            youngs_modulus: YOUNGS_MODULUS as f32,
-            poisson_ratio: POISSON_RATIO as f32,
-            ..Material::STEEL
-        };
-        let groove = GrooveSize::Radius(self.groove_radius as f32);
-        let design = BallScrew::new(BallScrewParameters {
-            pitch_radius: self.pitch_radius as f32,
-            lead: self.lead as f32,
-            ball_radius: self.ball_radius as f32,
-            screw_groove: groove,
-            nut_groove: groove,
-            contact_angle: self.contact_angle as f32,
-            ball_material: material,
-            groove_material: material,
-        })
-        .map_err(named)?;
+        let design = screw_of(&self.design).map_err(named)?;
         let mut fold = UncagedFold::of(UncagedDesign {
             gear: CagedDesign {
                 design,
@@ -385,8 +321,8 @@ impl Case {
 
     /// Path radius of the balls, m, and turns of the whole track of so many.
     fn track(&self, balls: usize) -> (f64, f64) {
-        let path = self.pitch_radius.hypot(self.lead / TAU);
-        let pitch = 2.0 * (self.ball_radius / path).asin();
+        let path = self.design.pitch_radius.hypot(self.design.lead / TAU);
+        let pitch = 2.0 * (self.design.ball_radius / path).asin();
         let turns = self.track;
         (path, turns.unwrap_or((balls as f64 + SLACK) * pitch / TAU))
     }
@@ -439,20 +375,9 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
         let solved = state.solved();
         comparison.course.push(Moment {
             nut_angle: state.nut_angle,
-            scene: [
-                outputs.groove_torque.into(),
-                outputs.ball_torque.into(),
-                outputs.largest_contact_force.into(),
-                outputs.contacts.into(),
-            ],
-            exact: [
-                state.groove_torque,
-                state.ball_torque,
-                state.largest_force(),
-                state.pressing() as f64,
-            ],
+            torques: [outputs.groove_torque, outputs.ball_torque].map(f64::from),
+            pressing: state.pressing(),
             flagged,
-            solved,
         });
         comparison.flagged += usize::from(flagged);
         comparison.failed += usize::from(!solved);
@@ -468,7 +393,6 @@ pub fn follow<const N: usize>(case: &Case, states: &[RingState]) -> Result<Compa
 mod tests {
     use super::*;
 
-    /// Cases of one design share a law, whatever the speed and the load up to 300 N a ball; a case without one is refused.
     #[test]
     fn a_law_is_shared() {
         let law = Case::LIN.law().unwrap();
@@ -487,7 +411,6 @@ mod tests {
         assert!(refused.contains("clearance"), "{refused}");
     }
 
-    /// Scene and exact screw over a few degrees of the nut.
     #[test]
     fn the_scene_is_near_the_exact_screw() {
         let found = compare::<4>(&Case {

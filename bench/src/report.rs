@@ -2,12 +2,10 @@
 //! screen and as Markdown, one HTML page, SVG, CSV and JSON in a folder.
 
 mod accuracy;
-mod context;
 mod cortex_m;
 pub mod curvature;
 pub mod draw;
 mod efficiency;
-mod flagship;
 mod friction;
 mod hertz;
 mod kernels;
@@ -23,14 +21,27 @@ mod weave;
 
 use std::path::PathBuf;
 
-use crate::counts;
-use crate::timing::compete;
-use context::Context;
+use crate::counts::{self, Figures};
+use crate::timing::{Competition, compete};
+use accuracy::Accuracy;
 use epas_page::document::{Document, Part, Section};
 use epas_page::failure::Failure;
 use epas_page::folder;
-use flagship::Flagship;
 use stages::Stages;
+use uncaged::Flagship;
+
+/// What every section works with.
+pub(crate) struct Context {
+    /// Whether coarser sweeps are enough.
+    quick: bool,
+    competition: Vec<Competition>,
+    /// Stored counts on the target.
+    counts: Figures,
+    /// The ball screw without cage beside the exact one.
+    flagship: Flagship,
+    /// Errors that README and the page of accuracy print.
+    accuracy: Vec<Accuracy>,
+}
 
 /// Timing rounds by default: a median that is right to some per cent within two seconds.
 const ROUNDS: usize = 90;

@@ -18,7 +18,6 @@ use epas_friction::{
 };
 use epas_reference::curvature::Groove;
 use epas_reference::design::BallScrewDesign;
-use epas_reference::friction::ball_screw_ball::ScrewTrack;
 use epas_reference::friction::ball_screw_elastic::{BallSlip, ElasticBalls};
 use epas_reference::friction::ball_screw_grooves::ElasticGrooves;
 use epas_reference::friction::contact_law::HertzLaw;
@@ -71,66 +70,43 @@ pub fn turned_ball(degrees: f64, side_force_ratio: f64) -> LinearBall {
     }
 }
 
-/// The track of the ball screw of Table 3.6.
-pub const TRACK: ScrewTrack = ScrewTrack {
-    pitch_radius: 16.5e-3,
-    lead: 20e-3,
-    ball_radius: 2.778e-3,
-};
+/// The ball screw of Table 3.6, with the groove radius of Table 2.1.
+const LIN: BallScrewDesign = BallScrewDesign::LIN;
 
-const GROOVE_RADIUS: f64 = 3.254e-3;
-const YOUNGS_MODULUS: f64 = 210e9;
-const POISSON_RATIO: f64 = 0.28;
-
-/// The ball screw of Table 3.6, with the groove radius of Table 2.1, for the crate.
-pub fn ball_screw() -> Result<BallScrew, Failure> {
-    let material = Material {
-        youngs_modulus: YOUNGS_MODULUS as f32,
-        poisson_ratio: POISSON_RATIO as f32,
+/// A design of the reference for the crate.
+pub fn screw_of(design: &BallScrewDesign) -> Result<BallScrew, epas_friction::Error> {
+    let material = |elastic: Elastic| Material {
+        youngs_modulus: elastic.youngs_modulus as f32,
+        poisson_ratio: elastic.poisson_ratio as f32,
         ..Material::STEEL
     };
     BallScrew::new(BallScrewParameters {
-        pitch_radius: TRACK.pitch_radius as f32,
-        lead: TRACK.lead as f32,
-        ball_radius: TRACK.ball_radius as f32,
-        screw_groove: GrooveSize::Radius(GROOVE_RADIUS as f32),
-        nut_groove: GrooveSize::Radius(GROOVE_RADIUS as f32),
-        contact_angle: FRAC_PI_4 as f32,
-        ball_material: material,
-        groove_material: material,
+        pitch_radius: design.pitch_radius as f32,
+        lead: design.lead as f32,
+        ball_radius: design.ball_radius as f32,
+        screw_groove: GrooveSize::Radius(design.screw_groove_radius as f32),
+        nut_groove: GrooveSize::Radius(design.nut_groove_radius as f32),
+        contact_angle: design.contact_angle as f32,
+        ball_material: material(design.ball),
+        groove_material: material(design.groove),
     })
-    .map_err(|error| Failure::Data(error.to_string()))
 }
 
-/// Contact law of one of its grooves in the reference.
-fn law(groove: Groove) -> Result<HertzLaw, Failure> {
-    let material = Elastic {
-        youngs_modulus: YOUNGS_MODULUS,
-        poisson_ratio: POISSON_RATIO,
-    };
-    let design = BallScrewDesign {
-        pitch_radius: TRACK.pitch_radius,
-        lead: TRACK.lead,
-        ball_radius: TRACK.ball_radius,
-        screw_groove_radius: GROOVE_RADIUS,
-        nut_groove_radius: GROOVE_RADIUS,
-        contact_angle: FRAC_PI_4,
-        ball: material,
-        groove: material,
-    };
-    Ok(design.contact(groove)?.into())
+/// The ball screw of Table 3.6 for the crate.
+pub fn ball_screw() -> Result<BallScrew, Failure> {
+    Ok(screw_of(&LIN)?)
 }
 
 /// Two balls of it, from rear to front, where the screw's contact angles deviate by so many degrees: more
 /// on the right flank, less on the left.
 pub fn screw_pair(degrees: [f64; 2]) -> Result<ElasticBalls, Failure> {
-    let (screw, nut) = (law(Groove::Screw)?, law(Groove::Nut)?);
+    let [screw, nut] = [LIN.contact(Groove::Screw)?, LIN.contact(Groove::Nut)?].map(HertzLaw::from);
     let grooves = degrees.map(|degrees| {
         let turn = degrees.to_radians();
         ElasticGrooves {
-            track: TRACK,
-            screw_groove_radius: GROOVE_RADIUS,
-            nut_groove_radius: GROOVE_RADIUS,
+            track: (&LIN).into(),
+            screw_groove_radius: LIN.screw_groove_radius,
+            nut_groove_radius: LIN.nut_groove_radius,
             arc_angles: [-turn, turn, 0.0, 0.0].map(|deviation| FRAC_PI_4 + deviation),
             screw,
             nut,

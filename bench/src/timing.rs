@@ -16,7 +16,7 @@
 mod competitors;
 mod feed;
 mod group;
-pub mod kernels;
+pub(crate) mod kernels;
 mod measure;
 mod race;
 mod trains;

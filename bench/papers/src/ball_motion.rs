@@ -29,7 +29,6 @@ use epas_reference::steady_state::BallScrewState;
 /// less, and the difference of two surface speeds would round it away.
 pub type State<T> = SVector<T, 4>;
 
-/// A contact: the groove it is on, and where.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Contact {
     pub groove: Groove,
@@ -51,7 +50,6 @@ pub struct Motion {
     /// Speeds of screw and nut; their difference is 1 or -1.
     pub screw: f64,
     pub nut: f64,
-    /// The groove with the minor contact.
     pub minor: Groove,
     /// `F0 f r_b / (I Omega²)`.
     pub grip: f64,
@@ -125,7 +123,6 @@ impl Motion {
         self.screw - self.nut
     }
 
-    /// A, B and the minor contact.
     fn contacts(&self) -> [Contact; 3] {
         let (s, c) = (self.sin_b, self.cos_b);
         let at = |groove, normal, binormal| Contact {
@@ -161,19 +158,6 @@ impl Motion {
         }
     }
 
-    /// The state of given speeds.
-    pub fn state(&self, speeds: &Speeds<f64>) -> State<f64> {
-        let rolling = self.rolling();
-        let [[t, n, b], [t0, n0, b0]] = [speeds.ball, rolling.ball];
-        State::new(
-            t - t0,
-            n - n0,
-            b - b0,
-            self.arm() * (speeds.orbital - rolling.orbital),
-        )
-    }
-
-    /// The speeds of a state.
     pub fn speeds<T: DualNum<f64> + Copy>(&self, state: &State<T>) -> Speeds<T> {
         let rolling = self.rolling();
         let [t, n, b, advance] = (*state).into();
@@ -268,7 +252,6 @@ impl Motion {
     }
 }
 
-/// Solution of three linear equations.
 fn cramer<T: DualNum<f64> + Copy>(rows: [[T; 3]; 3], right: [T; 3]) -> [T; 3] {
     let determinant = |m: [[T; 3]; 3]| {
         let [[a, b, c], [d, e, f], [g, h, i]] = m;

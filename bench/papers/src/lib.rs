@@ -6,7 +6,6 @@
 //! | [`measured`] | measured and catalogue figures of real ball screws beside the exact model |
 //! | [`kinematics`] | figures and rival formulations of Alberdi et al. |
 //! | [`rolling_ball`] | equations of motion of one ball, Lin, Velinsky, Ravani 1994, from a rolling start |
-//! | [`stability`] | small disturbances of its steady state |
 //! | [`load_studies`] | applications of the static load distribution, Lin 2019, chapter 4 |
 //! | [`rotary_ball`], [`rotary_bearing`] | four-point rotary bearings, Lin 2019, sections 3.2 and 4.3.1 |
 //! | [`report`] | the page of all of them, with rival laws of friction beside the crate's |
@@ -20,14 +19,15 @@
 #![allow(rustdoc::private_intra_doc_links)]
 
 mod ball_motion;
-pub mod kinematics;
-pub mod load_studies;
-pub mod measured;
+mod kinematics;
+mod load_studies;
+mod measured;
 mod peers;
-pub mod published;
+mod published;
 pub mod report;
-pub mod rolling_ball;
-pub mod rotary_ball;
-pub mod rotary_bearing;
+mod rolling_ball;
+mod rotary_ball;
+mod rotary_bearing;
 pub mod screws;
-pub mod stability;
+#[cfg(test)]
+mod tests;

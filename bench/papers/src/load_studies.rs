@@ -12,7 +12,6 @@ use epas_reference::statics::problem::StaticLoad;
 use epas_reference::statics::solution::StaticSolution;
 use epas_reference::statics::surface::HarmonicError;
 
-/// Called after each point of a study.
 pub type Tick<'a> = &'a (dyn Fn() + Sync);
 
 /// Error of the screw's grooves: section 4.3.2, Figure 4.10.
@@ -37,21 +36,5 @@ impl Waviness {
             surface.push(Arc::new(error));
         }
         StaticLoad::new(setup)?.solve()
-    }
-}
-
-/// Case 1 of section 2.4 with more balls: as many turns as they need at the same distance, on a screw as much longer, under the same
-/// load per ball.
-pub fn long_nut(balls: usize) -> CaseStudy {
-    let case = CaseStudy::table_2_1();
-    let factor = balls as f64 / case.balls as f64;
-    let nut = factor * case.balls as f64 * case.ball_spacing * case.geometry.advance();
-    let screw_length = case.screw_length.max(nut + 0.2);
-    CaseStudy {
-        balls,
-        axial_load: factor * case.axial_load,
-        screw_length,
-        nut_position: 0.5 * screw_length,
-        ..case
     }
 }

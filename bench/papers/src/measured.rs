@@ -13,7 +13,7 @@ pub mod studies;
 use rayon::prelude::*;
 
 use epas_page::failure::Failure;
-pub use figure::{Measured, Size, Standing, Usual};
+pub use figure::{Measured, Standing, Usual};
 
 /// All figures, computed in parallel. `step` is called after each of the [`COUNT`].
 pub fn records(usual: &Usual, step: &(dyn Fn() + Sync)) -> Result<Vec<Measured>, Failure> {
@@ -27,5 +27,4 @@ pub fn records(usual: &Usual, step: &(dyn Fn() + Sync)) -> Result<Vec<Measured>,
         .collect()
 }
 
-/// Number of figures.
 pub const COUNT: usize = rows::ROWS.len();

@@ -5,23 +5,18 @@
 
 pub mod candidates;
 pub mod compare;
-pub mod fit;
 mod laws;
 pub mod noise;
 pub mod paths;
 
 use epas_reference::presliding::answers::{Path, Tick};
 
-/// A law of friction over angle, with what it remembers.
 pub trait Law {
-    /// Torque after a tick.
     fn follow(&mut self, tick: &Tick) -> f64;
 
-    /// Stored energy, over limit times breakaway angle.
     fn energy(&self) -> f64;
 }
 
-/// Torques of a law over a path: one for every angle, the first zero.
 pub fn torques(law: &mut dyn Law, path: &Path<'_>) -> Vec<f64> {
     std::iter::once(0.0)
         .chain(path.ticks().map(|tick| law.follow(&tick)))

@@ -8,12 +8,10 @@ pub mod kinematics;
 pub mod loads;
 
 use std::collections::BTreeMap;
-use std::fmt;
 
 use epas_page::failure::Failure;
 use serde::Deserialize;
 
-/// What became of a printed number.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -22,14 +20,11 @@ pub enum Verdict {
     Reproduces,
     /// Computed to the printed digits once something is taken as the text does not say; what.
     Convention,
-    /// The print is wrong; how.
     Misprint,
-    /// Not reached from what the text states; why, and how near.
     NotReproducible,
 }
 
 impl Verdict {
-    /// Every verdict.
     pub const ALL: [Self; 4] = [
         Self::Reproduces,
         Self::Convention,
@@ -37,7 +32,6 @@ impl Verdict {
         Self::NotReproducible,
     ];
 
-    /// In words.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Reproduces => "reproduces",
@@ -47,7 +41,6 @@ impl Verdict {
         }
     }
 
-    /// Whether printed and computed number agree.
     pub const fn agrees(self) -> bool {
         matches!(self, Self::Reproduces | Self::Convention)
     }
@@ -57,24 +50,20 @@ impl Verdict {
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Printed {
-    /// What it is.
     pub quantity: String,
-    /// Unit of both numbers.
     #[serde(default)]
     pub unit: String,
     /// As printed, digit by digit.
-    pub printed: String,
+    #[serde(rename = "printed")]
+    pub digits: String,
     /// Largest difference that counts as reproduced; half a unit of the last printed digit where none is given.
     pub tolerance: Option<f64>,
-    /// What became of it.
     #[serde(default)]
     pub verdict: Verdict,
-    /// Why, or which convention; in the file a text, or the name of one that several numbers share.
     #[serde(default)]
     pub reason: String,
 }
 
-/// Numbers of one table, figure or section.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Place {
@@ -95,62 +84,29 @@ fn file() -> Result<File, Failure> {
     Ok(toml::from_str(include_str!("../published.toml"))?)
 }
 
-/// A printed number beside the computed one.
 #[derive(Clone, Debug)]
 pub struct Record {
-    /// Paper as cited.
     pub paper: String,
     /// Table, figure or section.
     pub place: String,
-    /// What is printed.
     pub printed: Printed,
     /// As computed; NaN where the text leaves out what the computation needs.
     pub computed: f64,
 }
 
 impl Record {
-    /// The printed number.
     pub fn value(&self) -> f64 {
-        self.printed.printed.parse().unwrap_or(f64::NAN)
+        self.printed.digits.parse().unwrap_or(f64::NAN)
     }
 
-    /// Computed less printed.
     pub fn deviation(&self) -> f64 {
         self.computed - self.value()
     }
 
-    /// Largest difference that counts as reproduced.
-    pub fn tolerance(&self) -> f64 {
-        let half = half_unit(&self.printed.printed);
-        self.printed.tolerance.unwrap_or(half)
-    }
-
     /// Whether computed and printed number agree within the tolerance.
     pub fn agrees(&self) -> bool {
-        self.deviation().abs() <= self.tolerance()
-    }
-}
-
-impl fmt::Display for Record {
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Printed {
-            quantity,
-            unit,
-            printed,
-            verdict,
-            reason,
-            ..
-        } = &self.printed;
-        write!(
-            formatter,
-            "{}, {}, {quantity}: printed {printed} {unit}, computed {}, off {}, tolerance {}; {} {reason}",
-            self.paper,
-            self.place,
-            self.computed,
-            self.deviation(),
-            self.tolerance(),
-            verdict.name(),
-        )
+        let half = half_unit(&self.printed.digits);
+        self.deviation().abs() <= self.printed.tolerance.unwrap_or(half)
     }
 }
 
@@ -167,7 +123,7 @@ pub fn half_unit(printed: &str) -> f64 {
 type Computed = Vec<(&'static str, Vec<f64>)>;
 
 /// The printed numbers of the four papers, in their order: all that can be computed, and those that cannot because the text leaves
-/// out what the computation needs.
+/// out what the computation needs. Fails where a verdict is not what the numbers say.
 pub fn records() -> Result<Vec<Record>, Failure> {
     let file = file()?;
     let mut records = curvature::records(&file.radius_tables)?;
@@ -213,5 +169,18 @@ pub fn records() -> Result<Vec<Record>, Failure> {
             record.printed.reason.clone_from(reason);
         }
     }
-    Ok(records)
+    let wrong = |record: &&Record| record.agrees() != record.printed.verdict.agrees();
+    let wrong: Vec<String> = records
+        .iter()
+        .filter(wrong)
+        .map(|record| format!("{record:?}"))
+        .collect();
+    if wrong.is_empty() {
+        Ok(records)
+    } else {
+        let wrong = wrong.join("\n");
+        Err(Failure::Data(format!(
+            "verdicts of published.toml that the numbers do not bear out:\n{wrong}"
+        )))
+    }
 }

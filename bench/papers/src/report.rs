@@ -6,7 +6,7 @@ mod curvature;
 mod efficiency;
 mod kinematics;
 mod loads;
-pub mod measured;
+pub(crate) mod measured;
 mod memory;
 mod published;
 mod uncaged;

@@ -21,12 +21,10 @@ use epas_reference::steady_state::BallScrewState;
 /// Slip speed over which friction is smoothed where none is given, over the slip of rolling.
 pub const SMOOTHING: f64 = 1e-3;
 
-/// What is turned, which way, and how friction is smoothed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RollingBall {
     /// Geometry, speed, load per ball, friction. With a positive speed the load is moved, with a negative one it drives.
     pub ball: BallScrewState,
-    /// The part that turns; the other one moves along the axis.
     pub turning: Groove,
     /// The groove with the third, minor contact: the nut's at A', or the screw's at B'.
     pub minor: Groove,
@@ -34,18 +32,14 @@ pub struct RollingBall {
     pub smoothing: f64,
 }
 
-/// The ball at an instant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Instant {
     /// Angle the driven part has turned, rad.
     pub angle: f64,
-    /// Efficiency of this instant: of driving the load, or of the load driving.
     pub efficiency: f64,
     /// Torque on the screw for this ball, N m.
     pub torque: f64,
-    /// Normal load at B, N.
     pub normal_screw: f64,
-    /// Normal load at A, N.
     pub normal_nut: f64,
     /// Normal load at the minor contact, N.
     pub normal_minor: f64,

@@ -28,32 +28,23 @@ pub enum RotaryConvention {
 /// A four-point-contact rotary ball bearing (Table 3.1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotaryBearing {
-    /// Ball radius, m.
     pub ball_radius: f64,
-    /// Pitch radius, m.
     pub pitch_radius: f64,
     /// Groove radius over ball diameter.
     pub conformity: f64,
-    /// Nominal contact angle, rad.
     pub contact_angle: f64,
-    /// Young's modulus of balls and rings, Pa.
     pub youngs_modulus: f64,
-    /// Poisson's ratio of balls and rings.
     pub poisson_ratio: f64,
-    /// Conventions of curvature and contact.
     pub convention: RotaryConvention,
 }
 
-/// Contact angles and loads of one ball, IL, IR, OR, OL.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotaryContacts {
     /// Contact angles, rad; of a lost contact, the direction to the groove.
     pub contact_angles: [f64; 4],
-    /// Loads, N.
     pub contact_forces: [f64; 4],
 }
 
-/// Motion and friction of one ball.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RotaryMotion {
     /// Orbital speed of the ball, rad/s.

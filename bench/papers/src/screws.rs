@@ -1,7 +1,6 @@
 //! `epas-papers screws`: random whole screws in the loop against the exact ones.
 
 use std::f64::consts::TAU;
-use std::io::{self, Write as _};
 
 use clap::Parser;
 use rand::RngExt;
@@ -10,8 +9,13 @@ use rayon::iter::Either;
 use rayon::prelude::*;
 
 use epas_bench::exact_ring::{Case, Comparison, Off, compare};
+use epas_bench::report::draw::{table, told};
+use epas_bench::report::statistics::Errors;
+use epas_bench::timing::Spread;
+use epas_page::document::{Block, Cell, Section};
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
+use epas_reference::design::BallScrewDesign;
 
 /// Balls of every screw.
 const BALLS: usize = 16;
@@ -59,14 +63,20 @@ fn case(number: u32) -> Case {
             between(1.0, 4.999).floor() as u8,
         )
     };
+    let waves = [wave(), wave()];
+    let groove_radius = 1e-3 * conformity * ball;
     Case {
-        pitch_radius: 0.5e-3 * diameter,
-        lead: 1e-3 * lead,
-        ball_radius: 0.5e-3 * ball,
-        groove_radius: 1e-3 * conformity * ball,
-        screw: wave(),
-        nut: wave(),
-        contact_angle: between(42.0, 48.0) / 360.0 * TAU,
+        design: BallScrewDesign {
+            pitch_radius: 0.5e-3 * diameter,
+            lead: 1e-3 * lead,
+            ball_radius: 0.5e-3 * ball,
+            screw_groove_radius: groove_radius,
+            nut_groove_radius: groove_radius,
+            contact_angle: between(42.0, 48.0) / 360.0 * TAU,
+            ..BallScrewDesign::LIN
+        },
+        screw: waves[0],
+        nut: waves[1],
         friction: between(0.05, 0.15),
         ball_friction: between(0.05, 0.15),
         clearance: between(-5e-6, 5e-6),
@@ -87,40 +97,33 @@ const QUANTITIES: [Quantity; 5] = [
     ("pairs that press", |found| &found.pairs),
 ];
 
-/// Errors of a quantity over many screws.
-#[derive(Debug, Default, PartialEq)]
-struct Over {
-    screws: usize,
-    largest: f64,
-    /// Root of the mean square of the screws' own, and the mean of their means.
-    rms: f64,
-    mean: f64,
-    median: f64,
-    /// Largest of the screws' own rms, and its screw's number.
-    worst: (f64, u32),
-}
+const COLUMNS: &str =
+    "quantity | screws | largest | rms | mean | median of rms | worst rms | its screw";
 
-impl Over {
-    /// Of the largest, rms and mean error of each screw; screws without the quantity have none.
-    fn of(all: impl Iterator<Item = (u32, [f64; 3])>) -> Self {
-        let mut over = Self::default();
-        let mut own: Vec<f64> = Vec::new();
-        for (number, [largest, rms, mean]) in all.filter(|(_, errors)| errors[1].is_finite()) {
-            over.largest = over.largest.max(largest);
-            over.mean += mean;
-            if rms > over.worst.0 {
-                over.worst = (rms, number);
-            }
-            own.push(rms);
-        }
-        over.screws = own.len();
-        let count = own.len() as f64;
-        over.rms = (own.iter().map(|rms| rms * rms).sum::<f64>() / count).sqrt();
-        over.mean /= count;
-        own.sort_by(f64::total_cmp);
-        over.median = own.get(own.len() / 2).copied().unwrap_or(f64::NAN);
-        over
-    }
+/// Errors of a quantity over many screws, from the largest, rms and mean error of each by its number; screws without the quantity have none.
+fn row(name: &str, of_screws: impl Iterator<Item = (u32, [f64; 3])>) -> Vec<Cell> {
+    let own: Vec<_> = of_screws
+        .filter(|(_, errors)| errors[1].is_finite())
+        .collect();
+    let Some((number, [_, worst, _])) = own
+        .iter()
+        .max_by(|(_, one), (_, other)| one[1].total_cmp(&other[1]))
+    else {
+        return told(COLUMNS, [name, "0"], "none of these screws has it");
+    };
+    let of = |which: usize| own.iter().map(move |(_, errors)| 100.0 * errors[which]);
+    let rms: Errors = of(1).collect();
+    let means: Errors = of(2).collect();
+    vec![
+        name.into(),
+        Cell::fixed(own.len() as f64, 0),
+        Cell::fixed(of(0).fold(0.0, f64::max), 2),
+        Cell::fixed(rms.rms(), 3),
+        Cell::fixed(means.mean(), 3),
+        Cell::fixed(Spread::of(&of(1).collect::<Vec<_>>()).median, 3),
+        Cell::fixed(100.0 * worst, 3),
+        format!("--screws 1 --first {number}").into(),
+    ]
 }
 
 /// Runs them.
@@ -138,72 +141,48 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
             }
         });
     drop(progress);
-    let mut stdout = io::stdout().lock();
     // A screw whose ball is not folded has no firmware, and no error: it is told.
-    writeln!(
-        stdout,
-        "{} of {screws} screws are folded and compared",
-        found.len()
-    )?;
-    for refused in &refused {
-        writeln!(stdout, "not folded: {refused}")?;
-    }
-    writeln!(
-        stdout,
-        "errors at the same state in per cent, flagged states in the count: torques of screw and grooves over their own exact value, the others \
-         over the largest of each screw"
-    )?;
-    writeln!(
-        stdout,
-        "quantity             screws   largest       rms      mean    median of rms   worst rms, its screw"
-    )?;
-    for (name, of) in QUANTITIES {
-        let over = Over::of(
-            found
-                .iter()
-                .map(|(number, found)| (*number, of(found).relative())),
-        );
-        if over.screws == 0 {
-            writeln!(stdout, "{name:20} {:6} none of these screws has it", 0)?;
-            continue;
-        }
-        let [largest, rms, mean, median, worst] =
-            [over.largest, over.rms, over.mean, over.median, over.worst.0].map(|part| 100.0 * part);
-        writeln!(
-            stdout,
-            "{name:20} {:6} {largest:9.2} {rms:9.3} {mean:+9.3} {median:16.3} {worst:12.3}, epas-papers screws --screws 1 --first {}",
-            over.screws, over.worst.1
-        )?;
-    }
+    let mut blocks = vec![Block::Text(format!(
+        "{} of {screws} screws are folded and compared. {}",
+        found.len(),
+        refused.join(" ")
+    ))];
+    let rows = QUANTITIES.map(|(name, of)| {
+        let own = found.iter();
+        row(
+            name,
+            own.map(|(number, found)| (*number, of(found).relative())),
+        )
+    });
+    blocks.push(Block::Table(table(
+        "screws",
+        "Errors at the same state in per cent, flagged states in the count: torques of screw and grooves over their own exact value, the others \
+         over the largest of each screw",
+        COLUMNS,
+        rows.into(),
+    )));
     let sum =
         |of: fn(&Comparison) -> usize| found.iter().map(|(_, found)| of(found)).sum::<usize>();
     let compared = || found.iter().filter(|(_, found)| found.compared > 0);
     let within = |found: &Comparison| found.torque.relative()[1] <= 0.01;
     let unflagged = || compared().filter(|(_, found)| found.flagged == 0);
-    writeln!(
-        stdout,
-        "friction torque within 1 % rms: {} of {} screws; {} of the {} of which no state is flagged",
+    blocks.push(Block::Text(format!(
+        "Friction torque within 1 % rms: {} of {} screws; {} of the {} of which no state is flagged. States: {} compared, {} of them flagged; {} \
+         without an exact solution, not compared.",
         compared().filter(|(_, found)| within(found)).count(),
         compared().count(),
         unflagged().filter(|(_, found)| within(found)).count(),
         unflagged().count(),
-    )?;
-    writeln!(
-        stdout,
-        "states: {} compared, {} of them flagged; {} without an exact solution, not compared",
         sum(|found| found.compared),
         sum(|found| found.flagged),
         sum(|found| found.failed)
-    )?;
+    )));
     if let [(number, found)] = found.as_slice() {
-        writeln!(
-            stdout,
-            "largest force {:.3} N; {:?}",
-            found.largest_force,
-            case(*number)
-        )?;
+        let (force, case) = (found.largest_force, case(*number));
+        blocks.push(Block::Text(format!("Largest force {force:.3} N; {case:?}")));
     }
-    Ok(())
+    let title = "Random whole screws";
+    Section { title, blocks }.print()
 }
 
 #[cfg(test)]
@@ -225,15 +204,19 @@ mod tests {
 
     #[test]
     fn errors_over_screws() {
-        let over = Over::of(
-            [
-                (3, [0.5, 0.3, 0.1]),
-                (4, [0.9, 0.4, -0.3]),
-                (5, [f64::NAN; 3]),
-            ]
-            .into_iter(),
-        );
-        assert_eq!((over.screws, over.largest, over.worst), (2, 0.9, (0.4, 4)));
-        assert!((over.rms - 0.125_f64.sqrt()).abs() < 1e-15 && (over.mean + 0.1).abs() < 1e-15);
+        let own = [
+            (3, [0.5, 0.3, 0.1]),
+            (4, [0.9, 0.4, -0.3]),
+            (5, [f64::NAN; 3]),
+        ];
+        let shown = |row: &[Cell]| -> Vec<String> {
+            row.iter().map(|cell| cell.shown().to_owned()).collect()
+        };
+        let row = |own: &[(u32, [f64; 3])]| shown(&row("force", own.iter().copied()));
+        let found = row(&own);
+        assert_eq!(found[1..3], ["2", "90.00"]);
+        assert_eq!(found[3..7], ["35.355", "-10.000", "35.000", "40.000"]);
+        assert_eq!(found[7], "--screws 1 --first 4");
+        assert_eq!(row(&own[2..])[1], "0");
     }
 }

@@ -101,7 +101,6 @@ mod tests {
     use super::*;
     use crate::counts::stored;
 
-    /// Each stored count has one promise, and all promises hold. (`epas-target` holds the counts to the functions that the firmware counts.)
     #[test]
     fn every_stored_count_keeps_its_promise() {
         let figures = stored().unwrap();
@@ -127,7 +126,6 @@ mod tests {
         }
     }
 
-    /// A function of the loop is counted; only what runs at set-up has no cycles.
     #[test]
     fn every_promise_of_cycles_is_counted() {
         for promise in PROMISES.all() {
@@ -136,7 +134,6 @@ mod tests {
         }
     }
 
-    /// A promise far above what it is for says nothing.
     #[test]
     fn no_promise_of_cycles_is_far_above_its_count() {
         let figures = stored().unwrap();

@@ -108,70 +108,68 @@ impl Figures {
         above.chain(broken).collect()
     }
 
+    /// What has to hold of the images: whether it does, what it is, and what to say where it does not.
+    fn conditions(&self) -> [(bool, &'static str, String); 8] {
+        let beyond = self.beyond_longest();
+        let none = |what: &'static str, wrong: &str, names: &[String]| {
+            (
+                names.is_empty(),
+                what,
+                format!("{wrong}: {}", names.join(", ")),
+            )
+        };
+        [
+            (
+                self.equal_to_host,
+                "results equal to the host's bit for bit",
+                "results on the target differ from the host's".into(),
+            ),
+            (
+                self.panic_free,
+                "no way to a panic",
+                "a way to the panic handler is left".into(),
+            ),
+            (
+                !self.soft_double,
+                "no double precision by software",
+                "double precision by software is linked".into(),
+            ),
+            (
+                self.scenes_equal,
+                "scenes alone equal to all in one",
+                "a scene gives other numbers alone than among the others".into(),
+            ),
+            none(
+                "no allocator, no formatting",
+                "unwanted in an image",
+                &self.unwanted,
+            ),
+            none("no recursion", "recursive", &self.recursive),
+            none(
+                "every scene without what it leaves out",
+                "not left out",
+                &self.out_of_place,
+            ),
+            none(
+                "no count above the longest path nor its limits",
+                "beyond the longest path",
+                &beyond,
+            ),
+        ]
+    }
+
     /// What holds of the images, a line each.
     pub fn proofs(&self) -> String {
         let yes = |yes: bool| if yes { "yes" } else { "NO" };
-        [
-            (
-                "results equal to the host's bit for bit",
-                self.equal_to_host,
-            ),
-            ("no way to a panic", self.panic_free),
-            ("no double precision by software", !self.soft_double),
-            ("scenes alone equal to all in one", self.scenes_equal),
-            ("no allocator, no formatting", self.unwanted.is_empty()),
-            ("no recursion", self.recursive.is_empty()),
-            (
-                "every scene without what it leaves out",
-                self.out_of_place.is_empty(),
-            ),
-            (
-                "no count above the longest path nor its limits",
-                self.beyond_longest().is_empty(),
-            ),
-        ]
-        .map(|(what, holds)| format!("{what}: {}", yes(holds)))
-        .join("\n")
+        self.conditions()
+            .map(|(holds, what, _)| format!("{what}: {}", yes(holds)))
+            .join("\n")
     }
 
     /// Fails where something does not hold that must hold whatever it costs.
     pub fn require(&self) -> Result<(), Failure> {
-        let mut broken = Vec::new();
-        let mut require = |holds: bool, what: String| {
-            if !holds {
-                broken.push(what);
-            }
-        };
-        require(
-            self.equal_to_host,
-            "results on the target differ from the host's".into(),
-        );
-        require(self.panic_free, "a way to the panic handler is left".into());
-        require(
-            !self.soft_double,
-            "double precision by software is linked".into(),
-        );
-        require(
-            self.scenes_equal,
-            "a scene gives other numbers alone than among the others".into(),
-        );
-        require(
-            self.unwanted.is_empty(),
-            format!("unwanted in an image: {}", self.unwanted.join(", ")),
-        );
-        require(
-            self.recursive.is_empty(),
-            format!("recursive: {}", self.recursive.join(", ")),
-        );
-        require(
-            self.out_of_place.is_empty(),
-            format!("not left out: {}", self.out_of_place.join(", ")),
-        );
-        let beyond = self.beyond_longest();
-        require(
-            beyond.is_empty(),
-            format!("beyond the longest path: {}", beyond.join(", ")),
-        );
+        let broken = self.conditions().into_iter().filter(|(holds, ..)| !holds);
+        let broken: Vec<String> = broken.map(|(_, _, wrong)| wrong).collect();
         if broken.is_empty() {
             Ok(())
         } else {
@@ -200,7 +198,6 @@ mod tests {
         assert!(figures.require().is_err());
     }
 
-    /// The page of accuracy prints what is stored.
     #[test]
     fn accuracy_page_says_how_long_the_longest_paths_are() {
         let figures = stored().unwrap();

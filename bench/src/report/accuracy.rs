@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-pub use measured::{measured, memory_against_exact};
+pub use measured::{measured, memory};
 
 use super::statistics::Errors;
 use crate::report::draw;
@@ -24,26 +24,19 @@ use epas_page::files::{self, Existing};
 /// print.
 const SAME: f64 = 1e-3;
 
-/// Errors of one quantity, each at the same state as the exact value.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Accuracy {
-    /// Name of the quantity.
     pub name: String,
-    /// What the error is of, and over which states.
     pub error: String,
-    /// Largest error.
     pub largest: f64,
-    /// Its root mean square.
     pub rms: f64,
     /// Share of the states that are flagged; they count in the errors.
     pub flagged: f64,
-    /// States.
     pub states: u64,
 }
 
 impl Accuracy {
-    /// Errors of a function, which flags nothing.
     fn of(name: &str, error: &str, errors: &Errors) -> Self {
         Self {
             name: name.into(),
@@ -55,7 +48,6 @@ impl Accuracy {
         }
     }
 
-    /// Whether another run has found the same.
     fn same(&self, other: &Self) -> bool {
         let near = |one: f64, other: f64| (one - other).abs() <= SAME * one.abs();
         near(self.largest, other.largest)
@@ -68,14 +60,12 @@ fn path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("accuracy.json")
 }
 
-/// Stores errors.
 pub fn store(found: &[Accuracy]) -> Result<(), Failure> {
     let json = serde_json::to_string_pretty(found)
         .map_err(|error| Failure::Data(format!("cannot write JSON: {error}")))?;
     files::write(&path(), &(json + "\n"), Existing::Replace)
 }
 
-/// What was stored when the program was built.
 pub fn stored() -> Result<Vec<Accuracy>, Failure> {
     serde_json::from_str(include_str!("../../accuracy.json"))
         .map_err(|error| Failure::Data(format!("bench/accuracy.json: {error}")))
@@ -94,7 +84,6 @@ pub fn gate(found: &[Accuracy]) -> Result<(), Failure> {
     )))
 }
 
-/// A line on each quantity whose errors differ, or that is missing on either side.
 fn differing(stored: &[Accuracy], found: &[Accuracy]) -> Vec<String> {
     let of = |list: &[Accuracy], name: &str| list.iter().find(|entry| entry.name == name).cloned();
     let changed = stored.iter().filter_map(|before| match of(found, &before.name) {
@@ -120,7 +109,6 @@ fn differing(stored: &[Accuracy], found: &[Accuracy]) -> Vec<String> {
     changed.chain(new).collect()
 }
 
-/// The section of the report.
 pub fn section(found: &[Accuracy], quick: bool) -> Result<Section, Failure> {
     Ok(Section {
         title: "Errors of scenes and formulas",
@@ -128,7 +116,6 @@ pub fn section(found: &[Accuracy], quick: bool) -> Result<Section, Failure> {
     })
 }
 
-/// The table of the report: what this run found beside what a full one has stored.
 fn errors(found: &[Accuracy], quick: bool) -> Result<Table, Failure> {
     let stored = stored()?;
     let row = |entry: &Accuracy| {
@@ -151,16 +138,8 @@ fn errors(found: &[Accuracy], quick: bool) -> Result<Table, Failure> {
             "Errors at the same state, flagged states counted: {sweeps} of this run, beside those of the whole sweeps (`epas-bench --full`) that README and \
              bench/accuracy.md print; those over every f32 are recorded"
         ),
-        &[
-            "quantity",
-            "largest error",
-            "rms",
-            "flagged (%)",
-            "states",
-            "stored: largest",
-            "rms",
-            "error of what, over which states",
-        ],
+        "quantity | largest error | rms | flagged (%) | states | stored: largest | rms | \
+         error of what, over which states",
         found.iter().map(row).collect(),
     ))
 }

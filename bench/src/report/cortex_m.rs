@@ -1,8 +1,9 @@
 //! What everything costs on a Cortex-M4F: error against cycles, functions, scenes, promises.
 
 use epas_friction::math;
+use micromath::F32Ext;
 
-use super::context::Context;
+use super::Context;
 use super::curvature::{FORMS, catalogue_errors};
 use super::kernels;
 use super::trains::closed_form_errors;
@@ -12,146 +13,110 @@ use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 
-/// A formula or a backend: its error and its cycles.
 struct Point {
-    name: String,
+    name: &'static str,
     error: f64,
     cycles: f64,
 }
 
-/// What can stand in for each other.
 struct Rivals {
     title: &'static str,
     points: Vec<Point>,
 }
 
-/// Largest relative error over all magnitudes.
-fn relative(kernel: impl Fn(f32) -> f32, exact: impl Fn(f64) -> f64) -> f64 {
-    kernels::relative(kernel, exact).largest
-}
-
-/// Largest absolute error of sine and cosine within two turns.
-fn absolute(kernel: impl Fn(f32) -> (f32, f32)) -> f64 {
-    kernels::absolute(kernel).largest
-}
-
-/// Cycles by the name of a count.
-struct Counts<'a>(&'a Figures);
-
-impl Counts<'_> {
-    fn cycles(&self, name: &str) -> Result<f64, Failure> {
-        self.0
-            .function(name)
-            .map(|entry| f64::from(entry.cycles_max))
-            .ok_or_else(|| Failure::Data(format!("nothing was counted as {name}")))
-    }
-
-    fn point(&self, name: &str, count: &str, error: f64) -> Result<Point, Failure> {
-        Ok(Point {
-            name: name.into(),
-            error,
-            cycles: self.cycles(count)?,
-        })
-    }
-}
+type Entry = (&'static str, f64, &'static str, f64);
 
 fn rivals(context: &Context) -> Result<Vec<Rivals>, Failure> {
-    let counts = Counts(&context.counts);
-    let mut all = vec![curvature_rivals(&counts, context.quick)?];
-    all.extend(root_rivals(&counts)?);
-    all.push(angle_rivals(&counts)?);
-    all.push(ball_rivals(&counts)?);
-    Ok(all)
-}
-
-fn curvature_rivals(counts: &Counts, quick: bool) -> Result<Rivals, Failure> {
-    let names = [
+    type Kernel = fn(f32) -> f32;
+    let relative = |kernel: Kernel, exact: fn(f64) -> f64| kernels::relative(kernel, exact).largest;
+    let root = |kernel: Kernel| relative(kernel, f64::sqrt);
+    let cube_root = |kernel: Kernel| relative(kernel, f64::cbrt);
+    let power = |kernel: Kernel| relative(kernel, |x| x.cbrt().powi(2));
+    let turn = |kernel: fn(f32) -> (f32, f32)| kernels::absolute(kernel).largest;
+    let counted = [
         "curvature_literature",
         "curvature_circular_groove",
         "curvature_fitted",
         "curvature_exact",
     ];
-    Ok(Rivals {
-        title: "First curvature, relative error",
-        points: FORMS
-            .iter()
-            .zip(names)
-            .zip(catalogue_errors(quick)?)
-            .map(|((form, name), errors)| counts.point(form, name, errors.largest))
-            .collect::<Result<_, _>>()?,
-    })
-}
-
-fn root_rivals(counts: &Counts) -> Result<[Rivals; 3], Failure> {
-    let two_thirds = |x: f64| x.cbrt().powi(2);
-    Ok([
-        Rivals {
-            title: "Square root, relative error",
-            points: vec![
-                counts.point("own", "sqrt", relative(math::sqrt, f64::sqrt))?,
-                counts.point("libm", "libm_sqrtf", relative(libm::sqrtf, f64::sqrt))?,
-                counts.point(
-                    "micromath",
-                    "micromath_sqrt",
-                    relative(micromath::F32Ext::sqrt, f64::sqrt),
-                )?,
+    let curvatures = FORMS.into_iter().zip(counted);
+    let curvatures = curvatures
+        .zip(catalogue_errors(context.quick)?)
+        .map(|((form, counted), errors)| (form, errors.largest, counted, 1.0));
+    let linear = closed_form_errors(0.8)?.largest;
+    let all: [(&'static str, Vec<Entry>); 6] = [
+        ("First curvature, relative error", curvatures.collect()),
+        (
+            "Square root, relative error",
+            vec![
+                ("own", root(math::sqrt), "sqrt", 1.0),
+                ("libm", root(libm::sqrtf), "libm_sqrtf", 1.0),
+                ("micromath", root(F32Ext::sqrt), "micromath_sqrt", 1.0),
             ],
-        },
-        Rivals {
-            title: "Cube root, relative error",
-            points: vec![
-                counts.point("own", "cbrt", relative(math::cbrt, f64::cbrt))?,
-                counts.point("libm", "libm_cbrtf", relative(libm::cbrtf, f64::cbrt))?,
+        ),
+        (
+            "Cube root, relative error",
+            vec![
+                ("own", cube_root(math::cbrt), "cbrt", 1.0),
+                ("libm", cube_root(libm::cbrtf), "libm_cbrtf", 1.0),
             ],
-        },
-        Rivals {
-            title: "Power of 2/3, relative error",
-            points: vec![
-                counts.point(
+        ),
+        (
+            "Power of 2/3, relative error",
+            vec![
+                (
                     "own",
+                    power(|x| math::cbrt_and_squared(x).1),
                     "cbrt_and_squared",
-                    relative(|x| math::cbrt_and_squared(x).1, two_thirds),
-                )?,
-                counts.point(
+                    1.0,
+                ),
+                (
                     "libm",
+                    power(|x| libm::powf(x, 2.0 / 3.0)),
                     "libm_powf",
-                    relative(|x| libm::powf(x, 2.0 / 3.0), two_thirds),
-                )?,
-                counts.point(
+                    1.0,
+                ),
+                (
                     "micromath",
+                    power(|x| F32Ext::powf(x, 2.0 / 3.0)),
                     "micromath_powf",
-                    relative(|x| micromath::F32Ext::powf(x, 2.0 / 3.0), two_thirds),
-                )?,
+                    1.0,
+                ),
             ],
-        },
-    ])
-}
-
-fn angle_rivals(counts: &Counts) -> Result<Rivals, Failure> {
-    Ok(Rivals {
-        title: "Sine and cosine, absolute error",
-        points: vec![
-            counts.point("own", "sin_cos", absolute(math::sin_cos))?,
-            counts.point("libm", "libm_sincosf", absolute(libm::sincosf))?,
-            Point {
-                name: "micromath".into(),
-                error: absolute(micromath::F32Ext::sin_cos),
+        ),
+        (
+            "Sine and cosine, absolute error",
+            vec![
+                ("own", turn(math::sin_cos), "sin_cos", 1.0),
+                ("libm", turn(libm::sincosf), "libm_sincosf", 1.0),
                 // It computes the two one after the other.
-                cycles: 2.0 * counts.cycles("micromath_cos")?,
-            },
-        ],
-    })
-}
-
-fn ball_rivals(counts: &Counts) -> Result<Rivals, Failure> {
-    Ok(Rivals {
-        title: "Ball in a linear bearing, error of its speed over v/2",
-        points: vec![counts.point(
-            "closed form",
-            "linear_ball_speed",
-            closed_form_errors(0.8)?.largest,
-        )?],
-    })
+                ("micromath", turn(F32Ext::sin_cos), "micromath_cos", 2.0),
+            ],
+        ),
+        (
+            "Ball in a linear bearing, error of its speed over v/2",
+            vec![("closed form", linear, "linear_ball_speed", 1.0)],
+        ),
+    ];
+    let point = |(name, error, counted, calls): Entry| {
+        let entry = context.counts.function(counted);
+        let entry =
+            entry.ok_or_else(|| Failure::Data(format!("nothing was counted as {counted}")))?;
+        Ok(Point {
+            name,
+            error,
+            cycles: calls * f64::from(entry.cycles_max),
+        })
+    };
+    all.into_iter()
+        .map(|(title, entries)| {
+            let points = entries.into_iter().map(point);
+            Ok(Rivals {
+                title,
+                points: points.collect::<Result<_, Failure>>()?,
+            })
+        })
+        .collect()
 }
 
 impl Rivals {
@@ -194,7 +159,7 @@ impl Rivals {
                 .iter()
                 .map(|point| Note {
                     at: (point.cycles, point.error),
-                    text: point.name.clone(),
+                    text: point.name.into(),
                 })
                 .collect(),
         })
@@ -210,15 +175,8 @@ fn functions(figures: &Figures) -> Table {
         "target_functions",
         "Instructions and modelled cycles of every function, from its first instruction to its \
                   return, least and most over the inputs",
-        &[
-            "function",
-            "instructions, least",
-            "most",
-            "cycles, least",
-            "most",
-            "most, built for size",
-            "instructions on a Cortex-M7",
-        ],
+        "function | instructions, least | most | cycles, least | most | most, built for size | \
+         instructions on a Cortex-M7",
         figures
             .functions
             .iter()
@@ -241,16 +199,8 @@ fn scenes(figures: &Figures) -> Table {
     table(
         "target_scenes",
         "Size of one image for each scene, bytes",
-        &[
-            "scene",
-            "flash",
-            "beyond the empty program",
-            "RAM",
-            "stack of a step",
-            "stack of the set-up",
-            "flash, built for size",
-            "stack of a step, built for size",
-        ],
+        "scene | flash | beyond the empty program | RAM | stack of a step | \
+         stack of the set-up | flash, built for size | stack of a step, built for size",
         figures
             .scenes
             .iter()
@@ -276,7 +226,7 @@ fn promised(figures: &Figures) -> Table {
     table(
         "target_budgets",
         "What the crate promises, and what was found",
-        &["promise", "at most", "found", "kept"],
+        "promise | at most | found | kept",
         budgets(figures)
             .into_iter()
             .map(|budget| {
@@ -294,7 +244,6 @@ fn promised(figures: &Figures) -> Table {
     )
 }
 
-/// Where the cycles go.
 const WHERE: &str = "Where the cycles go. Square root: 14 are the instruction, 9 the frame and \
     the return, 6 the way of the operand through a general register and back, which inline assembly of stable Rust \
     prescribes. Cube root: 64 for common numbers, one chain of operations whose results are used at once, to an error of \
@@ -304,7 +253,6 @@ const WHERE: &str = "Where the cycles go. Square root: 14 are the instruction, 9
     ball for the deviations of both grooves and three polynomials of them; with a load of its own for each ball 300 more a ball, for its place among \
     the knots and both ends of its interval.";
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let figures = &context.counts;
     let rivals = rivals(context)?;
@@ -314,7 +262,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             rivals.points.iter().map(|point| {
                 vec![
                     rivals.title.into(),
-                    point.name.as_str().into(),
+                    point.name.into(),
                     Cell::power(point.error),
                     Cell::fixed(point.cycles, 0),
                 ]
@@ -336,7 +284,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
             ),
             figure("error_against_cycles", "Largest error against cycles on a Cortex-M4F, one point for each formula and \
                           backend, with the Pareto front", (2, 460, 340), rivals.iter().map(Rivals::panel).collect()),
-            Block::Table(table("errors_and_cycles", "Largest error and most cycles", &["what", "formula or backend", "largest error", "cycles"], rows)),
+            Block::Table(table("errors_and_cycles", "Largest error and most cycles", "what | formula or backend | largest error | cycles", rows)),
             Block::Table(functions(figures)),
             Block::Table(scenes(figures)),
             Block::Table(promised(figures)),
@@ -353,7 +301,7 @@ mod tests {
     #[test]
     fn the_front_leaves_out_what_is_dearer_and_worse() {
         let point = |cycles, error| Point {
-            name: String::new(),
+            name: "",
             error,
             cycles,
         };

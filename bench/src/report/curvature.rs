@@ -74,9 +74,7 @@ pub fn catalogue_errors(quick: bool) -> Result<[Errors; 4], Failure> {
     let steps = if quick { 70 } else { 700 };
     let mut all = [Errors::default(); 4];
     for size in CATALOGUE {
-        let design = size
-            .design()
-            .map_err(|error| Failure::Data(error.to_string()))?;
+        let design = size.design()?;
         for groove in GROOVES {
             let forms = Forms::of(&design, groove.0);
             let surface = surface(&design, groove.0, groove.1);

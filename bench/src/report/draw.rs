@@ -14,23 +14,27 @@ pub fn chart(title: &str, x: Axis, y: Axis, series: Vec<Series>) -> Panel {
     })
 }
 
-/// A map in bands of a quantity; each bound with its text.
+/// A map in bands of a quantity between bounds.
 pub fn map(
     title: &str,
     (x, y): (Axis, Axis),
-    (quantity, bounds): (&str, &[(f64, &str)]),
+    (quantity, bounds): (&str, &[f64]),
     values: Vec<Vec<f64>>,
 ) -> Panel {
+    let text = |bound: f64| {
+        if bound.abs() < 0.01 && bound != 0.0 {
+            format!("{bound:e}")
+        } else {
+            bound.to_string()
+        }
+    };
     Panel::Map(ColourMap {
         title: title.into(),
         x,
         y,
         quantity: quantity.into(),
-        colours: Colours::of(bounds.iter().map(|(bound, _)| bound)),
-        bounds: bounds
-            .iter()
-            .map(|(bound, text)| (*bound, (*text).to_owned()))
-            .collect(),
+        colours: Colours::of(bounds),
+        bounds: bounds.iter().map(|bound| (*bound, text(*bound))).collect(),
         values,
     })
 }
@@ -56,19 +60,32 @@ pub fn figure(
     })
 }
 
-/// A table.
+/// A table; its headings with ` | ` between them.
 pub fn table(
     name: &'static str,
     caption: impl Into<String>,
-    columns: &[&str],
+    columns: &str,
     rows: Vec<Vec<Cell>>,
 ) -> Table {
     Table {
         name,
         caption: caption.into(),
-        columns: columns.iter().map(|name| (*name).to_owned()).collect(),
+        columns: columns.split(" | ").map(str::to_owned).collect(),
         rows,
     }
+}
+
+/// Number of headings.
+pub fn width(columns: &str) -> usize {
+    columns.split(" | ").count()
+}
+
+/// A row of texts and then nothing, but for a text in its last cell.
+pub fn told<const N: usize>(columns: &str, first: [&str; N], last: &str) -> Vec<Cell> {
+    let mut row: Vec<Cell> = first.map(Cell::from).into();
+    row.resize(width(columns) - 1, "".into());
+    row.push(last.into());
+    row
 }
 
 /// A number, or nothing where there is none.

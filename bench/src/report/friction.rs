@@ -1,9 +1,9 @@
 //! Friction of the whole screw, first of all: what the scenes that firmware runs say over a manoeuvre, their error and their cost.
 
 use crate::timing;
-use epas_reference::promises::{self, Promise};
+use epas_reference::promises;
 
-use super::context::Context;
+use super::Context;
 use super::statistics::Errors;
 use super::times::time;
 use super::weave::{Row, Weave};
@@ -12,10 +12,8 @@ use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Series, thin};
 
-/// Cycles in a millisecond of a processor of 168 MHz.
 const CYCLES_A_MILLISECOND: f64 = 168_000.0;
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let weave = Weave::new()?;
     Ok(Section {
@@ -35,101 +33,61 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     })
 }
 
-/// Largest and rms of an error with their words.
-struct Found {
-    largest: f64,
-    rms: f64,
-    kind: String,
-}
-
-impl Found {
-    fn of(errors: &Errors, kind: &str) -> Self {
-        Self {
-            largest: errors.largest,
-            rms: errors.rms(),
-            kind: kind.into(),
-        }
-    }
-}
-
-/// One scene.
-struct SceneRow {
-    scene: &'static str,
-    found: Found,
-    promise: &'static Promise,
-    time: &'static str,
-    counted: &'static str,
-}
+type SceneRow = (&'static str, [f64; 2], String, [&'static str; 3]);
 
 fn errors_and_costs(context: &Context, weave: &Weave) -> Result<Table, Failure> {
-    let memory = super::accuracy::memory_against_exact()?;
-    let [whole_largest, whole_rms, _] = context.flagship.comparison.torque.relative();
-    let rows = [
-        SceneRow {
-            scene: "balls in a cage",
-            found: Found::of(&weave.errors, "torque, relative: weave, exact ball"),
-            promise: promises::of("step_caged"),
-            time: "step_caged",
-            counted: "step_caged",
-        },
-        SceneRow {
-            scene: "balls in a cage, with memory",
-            found: Found::of(
-                &memory,
-                "torque over that of sliding: eight elements, random strokes, exact hysteresis",
+    let of = |errors: &Errors| [errors.largest, errors.rms()];
+    let [_, memory] = super::accuracy::memory(20_000)?;
+    let [largest, rms, _] = context.flagship.comparison.torque.relative();
+    let rows: [SceneRow; 3] = [
+        (
+            "balls in a cage",
+            of(&weave.errors),
+            "torque, relative: weave, exact ball".into(),
+            ["step_caged"; 3],
+        ),
+        (
+            "balls in a cage, with memory",
+            of(&memory),
+            "torque over that of sliding: eight elements, random strokes, exact hysteresis".into(),
+            ["step_caged", "step_caged_memory", "step_caged_memory"],
+        ),
+        (
+            "37 balls that press on each other",
+            [largest, rms],
+            format!(
+                "torque, relative: {} turns under 50 N a ball, exact whole screw",
+                context.flagship.turns
             ),
-            promise: promises::of("step_caged"),
-            time: "step_caged_memory",
-            counted: "step_caged_memory",
-        },
-        SceneRow {
-            scene: "37 balls that press on each other",
-            found: Found {
-                largest: whole_largest,
-                rms: whole_rms,
-                kind: format!(
-                    "torque, relative: {} turns under 50 N a ball, exact whole screw",
-                    context.flagship.turns
-                ),
-            },
-            promise: promises::of("step_uncaged"),
-            time: "step_train_37",
-            counted: "step_train_37_pressing",
-        },
+            ["step_uncaged", "step_train_37", "step_train_37_pressing"],
+        ),
     ];
     let rows = rows
-        .iter()
+        .into_iter()
         .map(|row| cells(context, row))
         .collect::<Result<_, _>>()?;
-    let columns = [
-        "scene",
-        "largest error (%)",
-        "rms (%)",
-        "of what, against what",
-        "promised largest (%)",
-        "time of a step here (ns)",
-        "cycles",
-        "of a 168 MHz core at 1 kHz (%)",
-    ];
+    let columns = "scene | largest error (%) | rms (%) | of what, against what | \
+         promised largest (%) | time of a step here (ns) | cycles | of a 168 MHz core at 1 kHz (%)";
     Ok(table(
         "friction",
         "Error and cost of a step. What was found in this run; the largest error promised holds over the whole domain of the scene (table \"promises\"), \
          for memory beyond the reversal alone, for 37 balls without the ticks in which balls meet, which what was found has too. Cycles: the most on a Cortex-M4F.",
-        &columns,
+        columns,
         rows,
     ))
 }
 
-fn cells(context: &Context, row: &SceneRow) -> Result<Vec<Cell>, Failure> {
-    let function = context.counts.function(row.counted);
+fn cells(context: &Context, row: SceneRow) -> Result<Vec<Cell>, Failure> {
+    let (scene, [largest, rms], kind, [promise, time_of, counted]) = row;
+    let function = context.counts.function(counted);
     let cycles = function.map(|function| f64::from(function.cycles_max));
     Ok(vec![
-        row.scene.into(),
-        Cell::power(100.0 * row.found.largest),
-        Cell::power(100.0 * row.found.rms),
-        row.found.kind.as_str().into(),
-        Cell::power(100.0 * row.promise.largest),
-        time(&timing::times(&context.competition, row.time)?.latency, 0),
+        scene.into(),
+        Cell::power(100.0 * largest),
+        Cell::power(100.0 * rms),
+        kind.into(),
+        Cell::power(100.0 * promises::of(promise).largest),
+        time(&timing::times(&context.competition, time_of)?.latency, 0),
         cycles.map_or("not counted".into(), |cycles| Cell::fixed(cycles, 0)),
         cycles.map_or("".into(), |cycles| {
             Cell::fixed(100.0 * cycles / CYCLES_A_MILLISECOND, 1)

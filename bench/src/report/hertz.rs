@@ -3,7 +3,7 @@
 use epas_friction::hertz::HertzContact;
 use epas_reference::hertz::Hertz;
 
-use super::context::Context;
+use super::Context;
 use super::statistics::{Errors, evenly};
 use crate::report::draw::{chart, figure, table};
 use epas_page::document::{Block, Cell, Section};
@@ -25,10 +25,8 @@ fn sweep(quick: bool) -> Result<Vec<(f64, [f64; 5])>, Failure> {
     evenly(0.0, 4.999, if quick { 200 } else { 2000 })
         .map(|exponent| {
             let large = (f64::from(SMALL) * 10f64.powf(exponent)) as f32;
-            let fast = HertzContact::checked(SMALL, large, MODULUS)
-                .map_err(|error| Failure::Data(error.to_string()))?;
-            let exact = Hertz::new(f64::from(SMALL), f64::from(large), f64::from(MODULUS))
-                .map_err(|error| Failure::Data(error.to_string()))?;
+            let fast = HertzContact::checked(SMALL, large, MODULUS)?;
+            let exact = Hertz::new(f64::from(SMALL), f64::from(large), f64::from(MODULUS))?;
             let error = |computed: f32, exact: f64| f64::from(computed) / exact - 1.0;
             Ok((
                 f64::from(large) / f64::from(SMALL),
@@ -44,7 +42,6 @@ fn sweep(quick: bool) -> Result<Vec<(f64, [f64; 5])>, Failure> {
         .collect()
 }
 
-/// Error of the largest part.
 pub fn largest_error(quick: bool) -> Result<Errors, Failure> {
     Ok(sweep(quick)?
         .into_iter()
@@ -52,7 +49,6 @@ pub fn largest_error(quick: bool) -> Result<Errors, Failure> {
         .collect())
 }
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let sweep = sweep(context.quick)?;
     let mut rows = Vec::new();
@@ -93,7 +89,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                 "hertz_errors",
                 "Errors of the crate's contact ellipse in f32 against exact elliptic integrals, \
                           ratios of the relative radii 1 to 1e5",
-                &["quantity", "largest", "rms", "mean"],
+                "quantity | largest | rms | mean",
                 rows,
             )),
             figure(

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::context::Context;
+use super::Context;
 use super::statistics::{Errors, evenly};
 use super::times::time;
 use crate::report::draw::table;
@@ -11,10 +11,10 @@ use crate::timing::kernels::{libm, micromath, own};
 use epas_page::document::{Block, Cell, Section};
 use epas_page::failure::Failure;
 
-/// Inputs of a sweep.
 const INPUTS: usize = 400_000;
 
-/// Relative errors over all magnitudes.
+const BACKENDS: [&str; 3] = ["own", "libm", "micromath"];
+
 pub fn relative(kernel: impl Fn(f32) -> f32, exact: impl Fn(f64) -> f64) -> Errors {
     evenly(-37.9, 38.5, INPUTS)
         .map(|exponent| 10f64.powf(exponent) as f32)
@@ -22,7 +22,6 @@ pub fn relative(kernel: impl Fn(f32) -> f32, exact: impl Fn(f64) -> f64) -> Erro
         .collect()
 }
 
-/// Absolute errors of sine and cosine within two turns.
 pub fn absolute(kernel: impl Fn(f32) -> (f32, f32)) -> Errors {
     evenly(-TAU, TAU, INPUTS)
         .flat_map(|angle| {
@@ -34,63 +33,40 @@ pub fn absolute(kernel: impl Fn(f32) -> (f32, f32)) -> Errors {
         .collect()
 }
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
-    let sqrt = f64::sqrt as fn(f64) -> f64;
-    let cbrt = f64::cbrt as fn(f64) -> f64;
-    let entries: [(&str, &str, &str, Errors); 9] = [
+    let sqrt = |kernel: fn(f32) -> f32| relative(kernel, f64::sqrt);
+    let cbrt = |kernel: fn(f32) -> f32| relative(kernel, f64::cbrt);
+    let kernels = [
         (
             "square root",
-            "own (instruction)",
-            "sqrt",
-            relative(epas_friction::math::sqrt, sqrt),
+            ["sqrt", "sqrt_libm", "sqrt_micromath"],
+            [epas_friction::math::sqrt, ::libm::sqrtf, micromath::sqrt].map(sqrt),
         ),
-        (
-            "square root",
-            "libm",
-            "sqrt_libm",
-            relative(::libm::sqrtf, sqrt),
-        ),
-        (
-            "square root",
-            "micromath",
-            "sqrt_micromath",
-            relative(micromath::sqrt, sqrt),
-        ),
-        ("cube root", "own", "cbrt", relative(own::cbrt, cbrt)),
-        ("cube root", "libm", "cbrt_libm", relative(libm::cbrt, cbrt)),
         (
             "cube root",
-            "micromath",
-            "cbrt_micromath",
-            relative(micromath::cbrt, cbrt),
-        ),
-        ("sine and cosine", "own", "sin_cos", absolute(own::sin_cos)),
-        (
-            "sine and cosine",
-            "libm",
-            "sin_cos_libm",
-            absolute(libm::sin_cos),
+            ["cbrt", "cbrt_libm", "cbrt_micromath"],
+            [own::cbrt, libm::cbrt, micromath::cbrt].map(cbrt),
         ),
         (
             "sine and cosine",
-            "micromath",
-            "sin_cos_micromath",
-            absolute(micromath::sin_cos),
+            ["sin_cos", "sin_cos_libm", "sin_cos_micromath"],
+            [own::sin_cos, libm::sin_cos, micromath::sin_cos].map(absolute),
         ),
     ];
     let mut rows = Vec::new();
-    for (kernel, backend, key, errors) in entries {
-        let times = timing::times(&context.competition, key)?;
-        rows.push(vec![
-            kernel.into(),
-            backend.into(),
-            Cell::power(errors.largest),
-            Cell::power(errors.rms()),
-            Cell::power(errors.mean()),
-            time(&times.latency, 2),
-            time(&times.throughput, 2),
-        ]);
+    for (kernel, keys, errors) in kernels {
+        for ((backend, key), errors) in BACKENDS.into_iter().zip(keys).zip(errors) {
+            let times = timing::times(&context.competition, key)?;
+            rows.push(vec![
+                kernel.into(),
+                backend.into(),
+                Cell::power(errors.largest),
+                Cell::power(errors.rms()),
+                Cell::power(errors.mean()),
+                time(&times.latency, 2),
+                time(&times.throughput, 2),
+            ]);
+        }
     }
     Ok(Section {
         title: "Scalar kernels",
@@ -101,15 +77,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                  Cortex-M4F that is software, over a thousand instructions a call."
                     .into(),
             ),
-            Block::Table(table("kernels", "Scalar kernels of the three backends", &[
-                    "kernel",
-                    "backend",
-                    "largest error",
-                    "rms",
-                    "mean",
-                    "latency (ns)",
-                    "throughput (ns)",
-                ], rows)),
+            Block::Table(table("kernels", "Scalar kernels of the three backends", "kernel | backend | largest error | rms | mean | latency (ns) | throughput (ns)", rows)),
         ],
     })
 }

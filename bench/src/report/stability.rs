@@ -9,28 +9,17 @@ use epas_reference::promises::PROMISES;
 
 pub use recorded::errors as recorded_errors;
 
-use super::context::Context;
+use super::Context;
 use super::statistics::Errors;
 use crate::report::draw::{figure, table};
 use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 
-/// The table of promises.
 fn table_of_promises() -> Table {
     table(
         "promises",
         "What the functions of the loop promise; cycles of a Cortex-M4F, ceilings",
-        &[
-            "function",
-            "domain",
-            "error",
-            "largest",
-            "rms",
-            "mean",
-            "outside",
-            "NaN, infinities",
-            "cycles",
-        ],
+        "function | domain | error | largest | rms | mean | outside | NaN, infinities | cycles",
         PROMISES
             .all()
             .map(|promise| {
@@ -50,7 +39,6 @@ fn table_of_promises() -> Table {
     )
 }
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let cells = if context.quick { 24 } else { 60 };
     let mut panels = Vec::new();
@@ -73,7 +61,7 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
                 .into(),
         ),
         Block::Table(table("stability", "Worst cases over the maps below. Apart from the inputs that are compared, points are counted that crate or reference \
-                      refuse, those where the reference has no number or none that counts, and those where the crate alone has none", &maps::COLUMNS, rows)),
+                      refuse, those where the reference has no number or none that counts, and those where the crate alone has none", maps::COLUMNS, rows)),
         figure("stability_maps", "Errors of the formulas in f32 against the reference, from the same numbers; nothing is \
                       drawn where a request is refused or the quantity does not exist.", (3, 540, 420), panels),
     ];

@@ -1,20 +1,21 @@
 //! Error against run time of every formula: the table and the picture.
 
-use super::context::Context;
+use super::Context;
+use super::curvature::{self, FORMS};
 use super::statistics::Errors;
 use super::times::{quartiles, ratio, time};
-use super::{curvature, efficiency, hertz};
+use super::{efficiency, hertz};
 use crate::report::draw::{figure, table};
 use crate::timing;
 use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 
-/// Key of the time, name and error of a formula.
-type Point = (&'static str, &'static str, f64);
-
 const CURVATURE: &str = "31 sizes, both grooves, contact angles 0-70 deg";
 const EFFICIENCY: &str = "friction to 0.3, lead to 60, contact 10-80 deg";
+
+/// Name, mark, and keys of the times, texts and errors of points.
+type PointGroup<'a> = (&'a str, Mark, Vec<&'a str>, &'a [&'a str], &'a [f64]);
 
 /// Key of the time, name, kind of error and domain of each formula.
 #[rustfmt::skip]
@@ -46,7 +47,6 @@ const CURVATURES: [[&str; 3]; 12] = [
     ["appendix_b_f64", "Appendix B, f64", "71.5"],
 ];
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let [literature, circular, fitted, exact] = curvature::catalogue_errors(context.quick)?;
     let [rolling, sliding, loss] = efficiency::form_errors(context.quick)?;
@@ -89,40 +89,8 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     })
 }
 
-/// The tick of 37 balls that press on each other, against the exact whole screw.
-fn flagship(context: &Context) -> Result<Vec<Vec<Cell>>, Failure> {
-    let step = timing::times(&context.competition, "step_train_37")?;
-    let found = &context.flagship.comparison;
-    let rows = [
-        (
-            "ball screw without cage, 37 balls: step(), force",
-            &found.force,
-            "of the largest",
-        ),
-        ("the same, friction torque", &found.torque, "relative"),
-    ];
-    Ok(rows
-        .into_iter()
-        .map(|(name, off, kind)| {
-            let [largest, rms, mean] = off.relative().map(Cell::power);
-            vec![
-                Cell::from(name),
-                largest,
-                rms,
-                mean,
-                kind.into(),
-                time(&step.latency, 2),
-                ratio(step.latency.over_unit(), 1),
-                time(&step.throughput, 2),
-                "Table 3.6's screw, 50 N a ball".into(),
-            ]
-        })
-        .collect())
-}
-
-/// Errors of every formula beside its times, the whole screw first; the last row is the tick of a whole scene.
 fn errors_and_times(context: &Context, errors: [&Errors; 8]) -> Result<Table, Failure> {
-    let mut rows = flagship(context)?;
+    let mut rows = Vec::new();
     for ([key, name, kind, domain], errors) in FORMULAS.into_iter().zip(errors) {
         let times = timing::times(&context.competition, key)?;
         rows.push(vec![
@@ -152,17 +120,8 @@ fn errors_and_times(context: &Context, errors: [&Errors; 8]) -> Result<Table, Fa
     Ok(table(
         "summary",
         "Error and run time",
-        &[
-            "formula",
-            "largest error",
-            "rms",
-            "mean",
-            "kind",
-            "latency (ns)",
-            "in multiply-adds",
-            "throughput (ns)",
-            "domain",
-        ],
+        "formula | largest error | rms | mean | kind | latency (ns) | in multiply-adds | \
+         throughput (ns) | domain",
         rows,
     ))
 }
@@ -185,68 +144,49 @@ fn ratios(context: &Context) -> Result<Table, Failure> {
     Ok(table(
         "curvature_times",
         "Curvature: time of one call over that of the literature formula of the same kind",
-        &[
-            "formula",
-            "latency (ns)",
-            "quartiles",
-            "ratio",
-            "printed ratio",
-            "throughput (ns)",
-            "ratio",
-        ],
+        "formula | latency (ns) | quartiles | ratio | printed ratio | throughput (ns) | ratio",
         rows,
     ))
 }
 
-/// One point a formula: time of a call and largest error of the first curvature.
 fn picture(context: &Context, errors: &[Errors; 4]) -> Result<Block, Failure> {
-    let [weingarten, appendix_b] = curvature::double_errors()?;
-    let [literature, circular, fitted, exact] = errors.map(|errors| errors.largest);
-    let groups: [(&str, Mark, Vec<Point>); 3] = [
+    let doubles = curvature::double_errors()?;
+    let errors = errors.map(|errors| errors.largest);
+    let keys = |rows: &[[&'static str; 3]]| rows.iter().map(|[key, ..]| *key).collect();
+    let groups: [PointGroup; 3] = [
         (
             "f32, cosine and sine given",
             Mark::Triangles,
-            vec![
-                ("literature", "literature", literature),
-                ("circular_groove", "circular groove", circular),
-                ("fitted", "fitted", fitted),
-                ("exact", "exact", exact),
-            ],
+            keys(&CURVATURES[..4]),
+            &FORMS,
+            &errors,
         ),
         (
             "f32, from the contact angle",
             Mark::Circles,
-            vec![
-                ("literature_angle", "literature", literature),
-                ("circular_groove_angle", "circular groove", circular),
-                ("fitted_angle", "fitted", fitted),
-                ("exact_angle", "exact", exact),
-            ],
+            keys(&CURVATURES[4..8]),
+            &FORMS,
+            &errors,
         ),
         (
             "f64 reference, from the contact angle",
             Mark::Crosses,
-            vec![
-                ("weingarten_f64", "Weingarten map", weingarten),
-                ("appendix_b_f64", "Appendix B", appendix_b),
-            ],
+            vec!["weingarten_f64", "appendix_b_f64"],
+            &["Weingarten map", "Appendix B"],
+            &doubles,
         ),
     ];
     let mut series = Vec::new();
     let mut notes = Vec::new();
-    for (colour, (name, mark, points)) in groups.into_iter().enumerate() {
+    for (colour, (name, mark, keys, texts, errors)) in groups.into_iter().enumerate() {
         let mut places = Vec::new();
-        for (key, text, error) in points {
-            let at = (
-                timing::times(&context.competition, key)?
-                    .latency
-                    .at_least_resolved(),
-                error,
-            );
+        for ((key, text), error) in keys.into_iter().zip(texts).zip(errors) {
+            let times = timing::times(&context.competition, key)?;
+            let at = (times.latency.at_least_resolved(), *error);
             places.push(at);
             notes.push(Note {
                 at,
-                text: text.into(),
+                text: (*text).into(),
             });
         }
         series.push(Series::new(name, colour, mark, places));

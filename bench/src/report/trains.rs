@@ -6,11 +6,10 @@ mod screw;
 
 pub use linear::{Closed, closed_form_errors};
 
-use super::context::Context;
+use super::Context;
 use epas_page::document::{Block, Section};
 use epas_page::failure::Failure;
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let mut blocks = vec![Block::Text(
         "Balls are driven apart or together by small differences of their speeds, and where they press on \

@@ -16,7 +16,6 @@ use super::statistics::Errors;
 use crate::study::{fresh, remembering};
 use epas_page::failure::Failure;
 
-/// The screw of Lin 2019, Section 3.4.4: pitch circle of 33 mm, lead 20 mm, 37 balls.
 const DESIGN: &str = "lin-3.6";
 
 /// Moments, s apart, and their number.
@@ -26,39 +25,25 @@ const TICKS: usize = 5000;
 /// Steps of the 37 balls from one moment to the next: at the largest speed of the nut a ball may not travel further than its room in one.
 const STEPS: usize = 4;
 
-/// Every so many ticks the exact ball is solved.
 const STRIDE: usize = 50;
 
-/// What the scenes say to one moment, N m.
 pub struct Row {
-    /// Time, s.
     pub time: f64,
-    /// Speed of the nut, rad/s.
     pub speed: f64,
-    /// Axial load, N.
     pub load: f64,
-    /// Torque that holds the load.
     pub load_torque: f64,
-    /// Friction of balls in a cage.
     pub caged: f64,
-    /// The same with memory.
     pub memory: f64,
     /// Friction of 37 balls with memory: all of it, of the grooves, between balls.
     pub balls: [f64; 3],
 }
 
-/// The weave.
 pub struct Weave {
-    /// Its moments.
     pub rows: Vec<Row>,
-    /// Relative errors of the caged torque at the moments at which the exact ball was solved.
     pub errors: Errors,
-    /// Moments at which a scene sets a flag: balls in a cage, the same with memory, 37 balls.
-    pub flagged: [usize; 3],
 }
 
 impl Weave {
-    /// Runs all three scenes.
     pub fn new() -> Result<Self, Failure> {
         let source: DesignSource = DESIGN.parse().map_err(Failure::Data)?;
         let design = source.load()?;
@@ -73,7 +58,6 @@ impl Weave {
         let mut weave = Self {
             rows: Vec::new(),
             errors: Errors::default(),
-            flagged: [0; 3],
         };
         weave.run(&design, &balls, moments, mean as f32)?;
         weave.compare(&design, moments);
@@ -116,10 +100,6 @@ impl Weave {
             };
             let caged = caged.step(inputs);
             let memory = memory.step(fresh(inputs, reading));
-            let faults = [caged.faults, memory.faults, balls.faults];
-            for (flagged, faults) in self.flagged.iter_mut().zip(faults) {
-                *flagged += usize::from(faults.any());
-            }
             self.rows.push(Row {
                 time: moment.time,
                 speed: moment.speed,
@@ -167,7 +147,6 @@ impl Weave {
     }
 }
 
-/// The row of 37 balls of a design.
 fn row_of_37(
     design: &Design,
     balls: &UncagedDesign,

@@ -54,7 +54,7 @@ pub fn times<'a>(competition: &'a [Competition], key: &str) -> Result<&'a Compet
 /// Times everything.
 pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
     // Through `black_box`, or the constants would be folded into the loops.
-    let design = black_box(CATALOGUE[15].design().map_err(refused)?);
+    let design = black_box(CATALOGUE[15].design()?);
     let mut race = Race::default();
     let mut list = List::new();
     curvatures(&mut race, &mut list, &design);
@@ -88,11 +88,6 @@ pub fn compete(rounds: usize) -> Result<Vec<Competition>, Failure> {
         .collect())
 }
 
-fn refused(error: epas_friction::Error) -> Failure {
-    Failure::Data(error.to_string())
-}
-
-/// A contact angle up to 70 degrees.
 fn angle(share: f64) -> f64 {
     (70.0 * share).to_radians()
 }
@@ -191,7 +186,7 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
         design,
         friction: 0.075,
         rolling_resistance: RollingResistance::STEEL,
-        clearance: black_box(Clearance::new(-1e-6).map_err(refused)?),
+        clearance: black_box(Clearance::new(-1e-6)?),
         loaded_balls: 40,
         reversal_speed: 0.5,
         limits: Limits {
@@ -204,7 +199,7 @@ fn caged_step(race: &mut Race, list: &mut List, design: BallScrew) -> Result<(),
         return Err(Failure::Data("one friction coefficient is one node".into()));
     };
     let folded = black_box(folded);
-    let mut model = FrictionModel::<CagedBallScrew>::new(&folded).map_err(refused)?;
+    let mut model = FrictionModel::<CagedBallScrew>::new(&folded)?;
     let mut remembering = study::remembering::<CagedBallScrew>(&caged, folded, 1000.0)?;
     let mut angle = 0.0;
     Group::new(

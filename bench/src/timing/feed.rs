@@ -5,7 +5,6 @@ use epas_friction::geometry::ContactAngle;
 use epas_friction::hertz::{ContactEllipse, HertzContact};
 use epas_friction::{Inputs, Outputs};
 
-/// An input that can be made to wait for an output.
 pub trait Feed: Copy {
     /// The same number, `by` being zero; the processor does not know.
     fn shifted(self, by: f32) -> Self;
@@ -41,9 +40,7 @@ impl Feed for Inputs {
     }
 }
 
-/// An output that the next input can wait for.
 pub trait Taken {
-    /// One number of it.
     fn value(&self) -> f32;
 }
 

@@ -3,10 +3,8 @@
 use super::feed::{Feed, Taken};
 use super::race::{Place, Race};
 
-/// Inputs of a batch.
 const INPUTS: usize = 256;
 
-/// Functions that are measured against one empty call.
 pub struct Group<'a, I> {
     race: &'a mut Race,
     list: &'a mut List,
@@ -15,7 +13,6 @@ pub struct Group<'a, I> {
     unit: Option<Place>,
 }
 
-/// Key, place and unit of each competitor.
 pub type List = Vec<(&'static str, Place, Place)>;
 
 impl<'a, I: Feed + 'static> Group<'a, I> {
@@ -36,7 +33,6 @@ impl<'a, I: Feed + 'static> Group<'a, I> {
         }
     }
 
-    /// Adds a function; the first is the unit of the others.
     pub fn time<O: Taken + 'static>(
         mut self,
         key: &'static str,

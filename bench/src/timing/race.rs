@@ -6,12 +6,9 @@ use std::time::Instant;
 use super::feed::{Feed, Taken};
 use super::measure::{Measure, quantile};
 
-/// How calls follow each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Mode {
-    /// Each waits for the one before.
     Latency,
-    /// They are independent.
     Throughput,
 }
 
@@ -20,23 +17,17 @@ const MODES: [Mode; 2] = [Mode::Latency, Mode::Throughput];
 /// Least time of a batch, ns: reading the clock takes some tens of nanoseconds, and so less than a hundredth of it.
 const BATCH: f64 = 10_000.0;
 
-/// Most repetitions of a batch.
 const MOST: usize = 1000;
 
-/// Steps of the unit's chain in a call.
 const CHAIN: usize = 64;
 
 /// Places of the stack, and bytes between two of them at least: together a page, after which places repeat.
 const DEPTHS: usize = 20;
 const STEP: usize = 208;
 
-/// Calls over all inputs, so many times over.
 struct Batch {
-    /// Runs it.
     run: Box<dyn FnMut(usize)>,
-    /// Calls in one repetition.
     calls: usize,
-    /// How often it is repeated.
     repeats: usize,
 }
 
@@ -49,14 +40,12 @@ impl Batch {
         }
     }
 
-    /// Nanoseconds of a call.
     fn time(&mut self) -> f64 {
         let start = Instant::now();
         (self.run)(self.repeats);
         start.elapsed().as_secs_f64() * 1e9 / (self.calls * self.repeats) as f64
     }
 
-    /// Repeats it as often as makes it long enough.
     fn lengthen(&mut self) {
         // The first call is slow: the machine has not seen it yet.
         self.time();
@@ -73,25 +62,21 @@ struct Sample {
     unit: f64,
 }
 
-/// A competitor with its two batches and what they took.
 struct Entry {
     baseline: usize,
     batches: [Batch; 2],
     samples: [Vec<Sample>; 2],
 }
 
-/// Competitors that run in turns.
 #[derive(Default)]
 pub struct Race {
     entries: Vec<Entry>,
 }
 
-/// A competitor's place in a race.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place(usize);
 
 impl Race {
-    /// Adds the empty call over some inputs, which others are measured against.
     pub fn baseline<I: Feed + 'static, O: Taken + 'static>(
         &mut self,
         inputs: &[I],
@@ -101,7 +86,6 @@ impl Race {
         self.competitor(own, inputs, function)
     }
 
-    /// Adds a competitor over the same inputs as a baseline.
     pub fn competitor<I: Feed + 'static, O: Taken + 'static>(
         &mut self,
         baseline: Place,
@@ -121,7 +105,6 @@ impl Race {
         place
     }
 
-    /// Runs the rounds; `done` is called after each.
     pub fn run(&mut self, rounds: usize, done: &dyn Fn()) {
         let mut unit = unit();
         unit.lengthen();
@@ -138,7 +121,6 @@ impl Race {
         }
     }
 
-    /// A batch of each kind, between the empty call and the unit.
     fn turn(&mut self, place: usize, unit: &mut Batch) {
         for mode in 0..MODES.len() {
             let baseline = self.entries[place].baseline;
@@ -153,13 +135,11 @@ impl Race {
         &self.entries[place.0].samples[usize::from(mode == MODES[1])]
     }
 
-    /// Time of a competitor in each round, less that of the empty call beside it.
     fn net(&self, place: Place, mode: Mode) -> Vec<f64> {
         let samples = self.samples(place, mode).iter();
         samples.map(|sample| sample.time - sample.empty).collect()
     }
 
-    /// Median, quartiles and rounds of a competitor.
     pub fn measure(&self, place: Place, mode: Mode) -> Measure {
         let rounds = self.net(place, mode);
         let samples = self.samples(place, mode).iter();
@@ -199,7 +179,6 @@ fn deeper(steps: usize, call: &mut dyn FnMut()) {
     black_box(room);
 }
 
-/// The unit: a chain of multiplications and additions, each of which waits for the one before.
 fn unit() -> Batch {
     const CALLS: usize = 64;
     let run = |repeats: usize| {
@@ -249,7 +228,6 @@ mod tests {
     use super::super::measure::Ratio;
     use super::*;
 
-    /// Twice the dependent work takes about twice the time; the bounds leave room for a busy machine.
     #[test]
     fn the_empty_call_is_taken_off() {
         let work = |steps: usize| {

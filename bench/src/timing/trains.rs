@@ -64,40 +64,28 @@ impl Taken for UncagedOutputs {
     }
 }
 
-/// Adds all of them.
 pub(super) fn trains(race: &mut Race, list: &mut List) -> Result<(), Failure> {
-    let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
     let parameters = black_box(study::linear_ball());
-    let analytic = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE).map_err(failure)?;
+    let analytic = AnalyticLinearBall::new(&parameters, PUBLISHED_SLOPE)?;
     one_ball(race, list, analytic);
     two_balls(race, list, analytic);
-    press::<1>(race, list, "press_1");
-    press::<2>(race, list, "press_2");
-    press::<4>(race, list, "press_4");
-    press::<8>(race, list, "press_8");
-    press::<16>(race, list, "press_16");
-    press::<32>(race, list, "press_32");
-    press::<37>(race, list, "press_37");
-    press::<48>(race, list, "press_48");
-    press::<64>(race, list, "press_64");
     screw_pair(race, list)?;
-    step::<1>(race, list, ["train_1", "step_train_1"])?;
-    step::<2>(race, list, ["train_2", "step_train_2"])?;
-    step::<4>(race, list, ["train_4", "step_train_4"])?;
-    step::<8>(race, list, ["train_8", "step_train_8"])?;
-    step::<16>(race, list, ["train_16", "step_train_16"])?;
-    step::<32>(race, list, ["train_32", "step_train_32"])?;
-    step::<37>(race, list, ["train_37", "step_train_37"])?;
-    step::<48>(race, list, ["train_48", "step_train_48"])?;
-    step::<64>(race, list, ["train_64", "step_train_64"])
+    train::<1>(race, list, ["press_1", "train_1", "step_train_1"])?;
+    train::<2>(race, list, ["press_2", "train_2", "step_train_2"])?;
+    train::<4>(race, list, ["press_4", "train_4", "step_train_4"])?;
+    train::<8>(race, list, ["press_8", "train_8", "step_train_8"])?;
+    train::<16>(race, list, ["press_16", "train_16", "step_train_16"])?;
+    train::<32>(race, list, ["press_32", "train_32", "step_train_32"])?;
+    train::<37>(race, list, ["press_37", "train_37", "step_train_37"])?;
+    train::<48>(race, list, ["press_48", "train_48", "step_train_48"])?;
+    train::<64>(race, list, ["press_64", "train_64", "step_train_64"])
 }
 
 /// Two balls of a ball screw under 50 N each, the one in front turned by up to three degrees.
 fn screw_pair(race: &mut Race, list: &mut List) -> Result<(), Failure> {
-    let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
     let design = black_box(study::ball_screw()?);
     let friction = black_box(study::FRICTION as f32);
-    let row = ScrewRow::new(&design, friction, GrooveFit::Zero).map_err(failure)?;
+    let row = ScrewRow::new(&design, friction, GrooveFit::Zero)?;
     Group::new(
         race,
         list,
@@ -127,16 +115,15 @@ fn screw_loads(turn: f32) -> Loads {
     }
 }
 
-/// A tick of the train alone, and of the whole scene that moves it.
-fn step<const N: usize>(
+fn train<const N: usize>(
     race: &mut Race,
     list: &mut List,
-    [of_train, of_scene]: [&'static str; 2],
+    [of_forces, of_train, of_scene]: [&'static str; 3],
 ) -> Result<(), Failure> {
-    let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
+    press::<N>(race, list, of_forces);
     // As full as the screw of Lin 2019, Section 3.4.4.
     let (length, pitch) = (5.68e-3 * N as f32, 5.555e-3);
-    let mut train = black_box(Train::<N>::evenly_spaced(length, pitch, N).map_err(failure)?);
+    let mut train = black_box(Train::<N>::evenly_spaced(length, pitch, N)?);
     Group::new(race, list, |share| share as f32, |share: f32| share).time(of_train, move |share| {
         let mut free = [0.0; N];
         for (free, position) in free.iter_mut().zip(train.positions()) {

@@ -11,25 +11,19 @@ const REFILL: u32 = 2;
 /// A division: the manual says 2 to 12, and it depends on the operands.
 const INTEGER_DIVISION: u32 = 12;
 
-/// An instruction by what it costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Instruction {
-    /// Length, bytes.
     pub size: u32,
     /// Cycles when the next instruction in memory follows.
     cycles: u32,
-    /// Cycles more when another one follows.
     taken: u32,
-    /// Whether it calls a function.
     pub call: bool,
     /// Single-precision registers that it computes, a bit each.
     result: u32,
-    /// Single-precision registers that it reads.
     operands: u32,
 }
 
 impl Instruction {
-    /// From its length and disassembly.
     pub fn new(size: u32, mnemonic: &str, operands: &str) -> Self {
         let name = mnemonic.split('.').next().unwrap_or(mnemonic);
         let double = mnemonic
@@ -182,7 +176,6 @@ mod tests {
         Instruction::new(4, mnemonic, operands).cycles(&next, false)
     }
 
-    /// Rows of the two tables.
     #[test]
     fn costs_are_those_of_the_manual() {
         assert_eq!(cycles("vmul.f32", "s0, s1, s2"), 1);

@@ -9,7 +9,6 @@ pub struct Debugger<W, R> {
 }
 
 impl<W: Write, R: Read> Debugger<W, R> {
-    /// Speaks through these.
     pub fn new(to: W, answers: R) -> Self {
         Self { to, answers }
     }
@@ -38,7 +37,6 @@ impl<W: Write, R: Read> Debugger<W, R> {
         fine(&answer)
     }
 
-    /// Lets the processor run for good.
     pub fn detach(&mut self) -> Result<()> {
         self.done("D")
     }

@@ -16,7 +16,6 @@ use epas_page::failure::Failure;
 /// Where the memory begins that is not flash.
 const RAM: u64 = 0x2000_0000;
 
-/// An image as read.
 #[derive(Debug, Default)]
 pub struct Image {
     /// Bytes of flash: vectors, code, constants, and what variables begin with.
@@ -35,7 +34,6 @@ struct Function {
 }
 
 impl Image {
-    /// Reads an image.
     pub fn read(path: &Path) -> Result<Self, Failure> {
         let bytes = fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
         let file = ElfFile32::<Endianness>::parse(&*bytes)
@@ -92,7 +90,6 @@ impl Image {
         Ok(image)
     }
 
-    /// The address of a function.
     pub fn address(&self, name: &str) -> Option<u32> {
         self.functions
             .iter()
@@ -100,7 +97,6 @@ impl Image {
             .and_then(|(&address, _)| u32::try_from(address).ok())
     }
 
-    /// Names of all functions.
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.functions
             .values()

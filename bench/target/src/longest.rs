@@ -40,11 +40,9 @@ use epas_page::failure::Failure;
 use origin::Origins;
 use worst::Worst;
 
-/// The longest path of a function.
 pub struct Longest {
     /// Cycles from its first instruction to its return, or why they are not known.
     pub cycles: Result<u32, String>,
-    /// The limits on which they rest.
     pub watch: Watch,
 }
 

@@ -25,7 +25,6 @@ struct Line {
     set_up: u64,
 }
 
-/// Builds, runs and counts everything.
 pub fn measure() -> Result<Figures, Failure> {
     check()?;
     stored::check_cases()?;
@@ -202,7 +201,6 @@ pub fn longest_paths() -> Result<(Vec<Beside>, Vec<String>), Failure> {
 
 /// Most cycles of a function over the inputs, and on its longest path.
 pub struct Beside {
-    /// Its name.
     pub name: &'static str,
     /// Most cycles over the inputs.
     pub counted: u32,
@@ -216,7 +214,6 @@ struct Counted {
     /// For each function the place of its address, and how many with the same address come before it:
     /// functions with the same instructions share one.
     places: Vec<(&'static str, usize, usize)>,
-    /// Where counting begins.
     from: u32,
 }
 
@@ -227,7 +224,6 @@ struct Counts {
 }
 
 impl Counted {
-    /// Of an image.
     fn of(path: &Path) -> Result<Self, Failure> {
         let image = Image::read(path)?;
         let mut addresses = Vec::new();
@@ -252,7 +248,6 @@ impl Counted {
         })
     }
 
-    /// Counts every function.
     fn count(&self, core: Core, path: &Path, watches: Vec<Watch>) -> Result<Counts, Failure> {
         let counts = core.count(path, self.from, &self.addresses, watches)?;
         let inputs = COUNTED as usize;

@@ -93,14 +93,12 @@ fn figures_path() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../target.json")
 }
 
-/// Stores figures.
 pub fn write_figures(figures: &Figures) -> Result<(), Failure> {
     let json = serde_json::to_string_pretty(figures)
         .map_err(|error| Failure::Data(format!("cannot write JSON: {error}")))?;
     files::write(&figures_path(), &(json + "\n"), Existing::Replace)
 }
 
-/// Fails where a function has grown.
 pub fn gate(now: &Figures) -> Result<(), Failure> {
     let grown = grown(&counts::stored()?, now);
     if grown.is_empty() {

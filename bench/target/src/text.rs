@@ -5,7 +5,6 @@ use std::fmt::Write as _;
 use super::measure::Beside;
 use epas_bench::counts::{Figures, budgets};
 
-/// Everything as text.
 pub fn text(figures: &Figures) -> String {
     [
         functions(figures),
@@ -53,7 +52,6 @@ fn cycles(cycles: Option<u32>) -> String {
     cycles.map_or_else(|| "none".into(), |cycles| cycles.to_string())
 }
 
-/// Longest paths beside counts over inputs.
 pub fn longest(paths: &[Beside]) -> String {
     let mut text = format!(
         "{:30}{:>9}{:>9}{:>8}\n",

@@ -15,13 +15,10 @@ use epas_page::failure::Failure;
 /// The target's name.
 pub const TARGET: &str = "thumbv7em-none-eabihf";
 
-/// The emulator.
 const QEMU: &str = "qemu-system-arm";
 
-/// A run that takes longer hangs.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// Folder of the firmware.
 pub fn firmware() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../firmware")
 }
@@ -65,9 +62,7 @@ fn target_missing() -> Result<Option<String>, Failure> {
     Ok(Some(format!("rustup target add {TARGET}{toolchain}")))
 }
 
-/// How a build ended.
 pub enum Built {
-    /// All images are in this folder.
     In(PathBuf),
     /// The linker found a way to the panic handler; what it said.
     Panics(String),
@@ -121,20 +116,16 @@ fn output(command: &mut Command, name: &str) -> Result<Output, Failure> {
 
 /// What a program printed, and whether it passed.
 pub struct Run {
-    /// Its output.
     pub output: Vec<u8>,
-    /// Whether it ended with success.
     pub passed: bool,
 }
 
 impl Run {
-    /// Its output as text.
     pub fn text(&self) -> String {
         String::from_utf8_lossy(&self.output).into_owned()
     }
 }
 
-/// A core, as QEMU has it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Core {
     /// Cortex-M4F of Arm's MPS2 with AN386.
@@ -144,7 +135,6 @@ pub enum Core {
 }
 
 impl Core {
-    /// Its name for the compiler.
     pub const fn name(self) -> &'static str {
         match self {
             Self::M4 => "cortex-m4",
@@ -171,7 +161,6 @@ impl Core {
         command
     }
 
-    /// Runs an image.
     pub fn run(self, image: &Path) -> Result<Run, Failure> {
         let mut command = self.emulator(image);
         command.stdout(Stdio::piped()).stderr(Stdio::inherit());

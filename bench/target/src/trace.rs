@@ -25,7 +25,6 @@ impl Calls {
     }
 }
 
-/// A call under way.
 struct Open {
     function: usize,
     back: u32,
@@ -33,10 +32,8 @@ struct Open {
     cycles: u32,
 }
 
-/// What a log holds.
 #[derive(Debug, Default)]
 pub struct Counts {
-    /// Calls of each function.
     pub calls: Vec<Calls>,
     /// For each function what its calls have exceeded of its limits.
     pub broken: Vec<Vec<String>>,

@@ -8,16 +8,12 @@ use std::ops::Range;
 pub struct Bounded {
     /// Addresses of an instruction and of the next one of the same function, with the factor.
     pub terms: Vec<((u32, u32), f64)>,
-    /// The most.
     pub most: f64,
-    /// What it bounds.
     pub what: String,
 }
 
-/// A function under watch.
 struct Function {
     end: u32,
-    /// Its limits among all.
     limits: Range<usize>,
     /// The instruction of it that was executed last.
     last: u32,
@@ -26,13 +22,10 @@ struct Function {
 /// Watches a function and all that it calls.
 #[derive(Default)]
 pub struct Watch {
-    /// Functions by their first addresses.
     functions: BTreeMap<u32, Function>,
-    /// Limits by the steps that count.
     steps: HashMap<(u32, u32), Vec<(usize, f64)>>,
     limits: Vec<(f64, String)>,
     sums: Vec<f64>,
-    /// Limits that a call has exceeded.
     broken: Vec<usize>,
 }
 
@@ -80,7 +73,6 @@ impl Watch {
         }
     }
 
-    /// What was exceeded.
     pub fn broken(&self) -> impl Iterator<Item = &str> {
         let broken = self.broken.iter();
         broken.map(|&limit| self.limits[limit].1.as_str())

@@ -2,7 +2,6 @@
 //! speeds in m/s and rad/s.
 
 use super::pitch_angle;
-use super::power::HertzMean;
 use super::traditional::Traditional;
 use epas_bench::report::statistics::evenly;
 use epas_reference::error::ReferenceError;
@@ -14,26 +13,19 @@ const DEGREE: f64 = std::f64::consts::PI / 180.0;
 /// One contact by one formulation, as Figure 6 draws it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FormulationValues {
-    /// Semi-major axis, m.
     pub semi_major: f64,
-    /// Entrainment speed, m/s.
     pub entrainment_speed: f64,
     /// Slip along the direction of rolling at the centre, m/s.
     pub rolling_slip: f64,
     /// Slip across it, m/s.
     pub side_slip: f64,
-    /// Spin, rad/s.
     pub spin: f64,
 }
 
-/// A row of Figure 6.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HelixRow {
-    /// Helix (lead) angle, rad.
     pub lead_angle: f64,
-    /// Revised formulation at screw and nut.
     pub revised: [FormulationValues; 2],
-    /// Traditional formulation at screw and nut.
     pub traditional: [FormulationValues; 2],
 }
 
@@ -83,7 +75,6 @@ pub fn helix_sweep(steps: usize) -> Result<Vec<HelixRow>, ReferenceError> {
     Ok(rows)
 }
 
-/// Which formulation a field is drawn by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Formulation {
     /// Alberdi et al.
@@ -95,13 +86,9 @@ pub enum Formulation {
 /// Slip at one point of the ellipse, m and m/s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FieldPoint {
-    /// Along the direction of rolling.
     pub x: f64,
-    /// Across it.
     pub y: f64,
-    /// Total slip along `x`.
     pub slip_x: f64,
-    /// Total slip along `y`.
     pub slip_y: f64,
 }
 
@@ -158,17 +145,14 @@ pub fn case_one(lead_angle: f64) -> Result<Revised, ReferenceError> {
 /// Figure 9: three slip fields with one slide-to-roll ratio.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SameSlideToRoll {
-    /// The ratio that all three share.
     pub slide_to_roll: f64,
     /// The screw's contact as it is: rolling, side and spin slip.
     pub reference: Vec<FieldPoint>,
     /// The same without spin: what magnitude and angle of the ratio reconstruct.
     pub without_spin: Vec<FieldPoint>,
-    /// All slip along the direction of rolling: what the magnitude alone lets one assume.
     pub rolling_only: Vec<FieldPoint>,
 }
 
-/// Figure 9: the ambiguity of the slide-to-roll ratio.
 pub fn same_slide_to_roll(steps: usize) -> Result<SameSlideToRoll, ReferenceError> {
     let revised = case_one(operating::LEAD_ANGLE)?;
     let slip = revised.evaluate().screw;
@@ -237,18 +221,17 @@ impl Constraint {
 
 /// Methods of Figure 13; the angle of balanced spin power stands in the place of ITE, which cannot be reconstructed. DAL has the
 /// contradictions of Table 1 resolved.
-pub const METHODS: [&str; 7] = [
+pub const METHODS: [&str; 6] = [
     "CONST",
     "IRC",
     "ORC",
     "GEO",
     "DAL (unverified)",
     "balanced spin power",
-    "least power",
 ];
 
 /// Pitch angles of a loaded ball by each of [`METHODS`], rad; `None` where one does not exist.
-pub fn pitch_angles(ball: &LoadedBall, rule: &HertzMean) -> Option<[f64; 7]> {
+pub fn pitch_angles(ball: &LoadedBall) -> Option<[f64; 6]> {
     let LoadedBall {
         input,
         load_screw,
@@ -261,18 +244,16 @@ pub fn pitch_angles(ball: &LoadedBall, rule: &HertzMean) -> Option<[f64; 7]> {
         pitch_angle::mean_contact_angle(input),
         pitch_angle::d_alembert(input, *load_screw, *load_nut)?,
         pitch_angle::balanced_spin(input, *load_screw, *load_nut)?,
-        pitch_angle::least_power(input, rule, *load_screw, *load_nut)?,
     ])
 }
 
 /// Figure 13: pitch angles over the axial load, 500 to 3500 N, at a speed (rad/s; the paper's are 1000 and 3500 rpm). Loads without
 /// an equilibrium are left out.
-pub fn load_sweep(speed: f64, steps: usize) -> Vec<(f64, [f64; 7])> {
-    let rule = HertzMean::new(16, 32);
+pub fn load_sweep(speed: f64, steps: usize) -> Vec<(f64, [f64; 6])> {
     evenly(500.0, 3500.0, steps)
         .filter_map(|axial_load| {
             let ball = operating::loaded_ball(axial_load, speed)?;
-            Some((axial_load, pitch_angles(&ball, &rule)?))
+            Some((axial_load, pitch_angles(&ball)?))
         })
         .collect()
 }

@@ -1,11 +1,10 @@
-//! Ways to choose the pitch angle: Alberdi et al., Table 1, and two from power.
+//! Ways to choose the pitch angle: Alberdi et al., Table 1, and one from power.
 //!
 //! The raceway controls and the balanced angle are found as roots of the kinematics themselves, not
 //! from closed forms. `None`: no such angle within 0.6 rad of the mean contact angle.
 //!
 //! Table 1's iterative method (ITE) is not defined in the paper and its 44° cannot be reconstructed.
 
-use super::power::{HertzMean, mean_slip};
 use ellip::ellipe;
 use epas_reference::kinematics::Revised;
 use epas_reference::kinematics::{KinematicsInput, Raceway};
@@ -21,21 +20,16 @@ fn at(input: &KinematicsInput, pitch_angle: f64) -> Option<Revised> {
     .ok()
 }
 
-fn root(low: f64, high: f64, f: impl Fn(f64) -> f64) -> Option<f64> {
-    let mut convergency = SimpleConvergency {
-        eps: 1e-15,
-        max_iter: 100,
-    };
-    find_root_brent(low, high, f, &mut convergency).ok()
-}
-
 fn root_near_contact_angle(input: &KinematicsInput, f: impl Fn(&Revised) -> f64) -> Option<f64> {
     let centre = 0.5 * (input.contact_angle_screw + input.contact_angle_nut);
     let low = (centre - 0.6).max(-FRAC_PI_2);
     let high = (centre + 0.6).min(FRAC_PI_2);
-    root(low, high, |angle| {
-        at(input, angle).map_or(f64::NAN, |revised| f(&revised))
-    })
+    let mut convergency = SimpleConvergency {
+        eps: 1e-15,
+        max_iter: 100,
+    };
+    let value = |angle| at(input, angle).map_or(f64::NAN, |revised| f(&revised));
+    find_root_brent(low, high, value, &mut convergency).ok()
 }
 
 /// IRC, exact for a helix: no spin at the screw.
@@ -112,38 +106,4 @@ pub fn balanced_spin(input: &KinematicsInput, load_screw: f64, load_nut: f64) ->
     root_near_contact_angle(input, |revised| {
         screw * revised.spin(Raceway::Screw) - nut * revised.spin(Raceway::Nut)
     })
-}
-
-/// Least friction power of both contacts in the pitch angle, at the input's yaw angle and rolling
-/// radii; between the two raceway controls. Root of the power's central difference over 1e-4 rad.
-pub fn least_power(
-    input: &KinematicsInput,
-    rule: &HertzMean,
-    load_screw: f64,
-    load_nut: f64,
-) -> Option<f64> {
-    // The angle does not depend on the speed, and at standstill every power is zero: take 1 rad/s.
-    let input = KinematicsInput {
-        speed: 1.0,
-        ..*input
-    };
-    let power = |angle| {
-        at(&input, angle).map_or(f64::NAN, |revised| {
-            load_screw * mean_slip(&revised, rule, Raceway::Screw).total
-                + load_nut * mean_slip(&revised, rule, Raceway::Nut).total
-        })
-    };
-    let low = outer_raceway_control(&input)?;
-    let high = inner_raceway_control(&input)?;
-    let mut convergency = SimpleConvergency {
-        eps: 1e-8,
-        max_iter: 60,
-    };
-    find_root_brent(
-        low,
-        high,
-        |angle: f64| power(angle + 5e-5) - power(angle - 5e-5),
-        &mut convergency,
-    )
-    .ok()
 }

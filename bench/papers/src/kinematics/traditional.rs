@@ -46,6 +46,7 @@ impl Traditional {
 
     /// The same formula fed with the revised speeds and the *absolute* rotation of the ball,
     /// `(omega_t + omega_m sin psi, omega_n, omega_b + omega_m cos psi)`: equal to the revised formulation, because what (26) adds is `omega_m e_Z x r`.
+    #[cfg(test)]
     pub fn with_absolute_rotation(revised: &Revised) -> Self {
         let input = revised.input();
         let (sin_psi, cos_psi) = input.lead_angle.sin_cos();
@@ -61,16 +62,6 @@ impl Traditional {
             ],
             distances: Raceway::BOTH.map(|raceway| revised.distance(raceway, 0.0)),
         }
-    }
-
-    /// `omega_m / omega`.
-    pub const fn orbital_ratio(&self) -> f64 {
-        self.orbital_ratio
-    }
-
-    /// Magnitude of the ball's rotation over `omega`.
-    pub fn spin_ratio(&self) -> f64 {
-        self.rotation.iter().map(|w| w * w).sum::<f64>().sqrt()
     }
 
     /// `S_k` at the centre of a contact, m.
@@ -114,7 +105,6 @@ impl Traditional {
         [0, 1].map(|i| self.input.speed * (ball[i] - race[i]))
     }
 
-    /// Spin, rad/s.
     pub fn spin(&self, raceway: Raceway) -> f64 {
         let (sin_alpha, cos_alpha) = self.input.contact(raceway).contact_angle.sin_cos();
         let [_, normal, binormal] = self.rotation;

@@ -10,25 +10,20 @@ use epas_reference::statics::ball::Ball;
 use epas_reference::statics::cases::CaseStudy;
 use epas_reference::statics::geometry::Geometry;
 use epas_reference::statics::problem::{Load, StaticLoad, Support};
+use epas_reference::statics::solution::StaticSolution;
 
 /// Where the balls lie on a track that they do not fill (Figure 4.2; the text shows but does not define them).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pattern {
-    /// Evenly distributed.
     Even,
-    /// Touching each other, from the start of the track on.
     OneEnd,
-    /// Touching each other in rows that leave the same sector of each turn empty.
     OneSide,
-    /// Touching each other in two halves at both ends of the track.
     HalfHalf,
 }
 
 impl Pattern {
-    /// All four, in the order of Figure 4.2.
     pub const ALL: [Self; 4] = [Self::Even, Self::OneEnd, Self::OneSide, Self::HalfHalf];
 
-    /// What the figure calls it.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Even => "evenly distributed",
@@ -92,99 +87,64 @@ impl Pattern {
     }
 }
 
-/// A lash test. The nut is held.
-#[derive(Clone, Debug, PartialEq)]
+/// Turns of the loaded track of Table 4.1.
+pub const TURNS: f64 = 3.75;
+/// Largest axial force, N.
+const AXIAL_FORCE: f64 = 200.0;
+/// Largest lateral force, N; not printed.
+const LATERAL_FORCE: f64 = 10.0;
+
+/// A lash test of the ball screw of Table 4.1. The nut is held, and the screw is kept from turning at its loaded end: the helix makes a torque
+/// of the axial force, so that the shaft's torsion up to there adds to the axial displacement.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LashTest {
-    /// Ball screw, with its number of balls and nut position; its loads and its spacing are not used.
-    pub case: CaseStudy,
-    /// Turns of the loaded track.
-    pub turns: f64,
-    /// Largest axial force, N: printed, 200.
-    pub axial_force: f64,
-    /// Largest lateral force, N; not printed, 10.
-    pub lateral_force: f64,
-    /// Where the lateral force acts and its displacement is measured, m; not printed, the far end.
-    pub lateral_position: f64,
-    /// Where the screw is kept from turning about its axis, m: the loaded end. The helix makes a torque of the
-    /// axial force, so that the shaft's torsion up to there adds to the axial displacement.
-    pub turn_position: f64,
+    /// Oversize of the balls' radius, m; not printed.
+    pub oversize: f64,
     /// Forces from the negative of the largest to the largest.
     pub steps: usize,
 }
 
 impl LashTest {
-    /// Table 4.1, with an oversize of the balls' radius, m, which the text does not print.
-    pub fn table_4_1(oversize: f64) -> Self {
+    fn solve(self, pattern: Pattern, load: Load) -> Result<StaticSolution, ReferenceError> {
         let case = CaseStudy::table_4_1();
-        Self {
-            lateral_position: case.screw_length,
-            turn_position: 0.0,
-            case: CaseStudy {
-                ball_oversize: vec![oversize],
-                ..case
-            },
-            turns: 3.75,
-            axial_force: 200.0,
-            lateral_force: 10.0,
-            steps: 21,
-        }
-    }
-
-    fn balls(&self, pattern: Pattern) -> Result<Vec<Ball>, ReferenceError> {
-        let geometry = &self.case.geometry;
-        let middle = 0.5 * self.turns * TAU;
-        let oversize = self.case.ball_oversize.first().copied().unwrap_or(0.0);
-        Ok(pattern
-            .azimuths(geometry, self.case.balls, self.turns)?
-            .into_iter()
-            .map(|azimuth| {
-                let position = self.case.nut_position + (azimuth - middle) * geometry.advance();
-                Ball {
-                    oversize,
-                    ..Ball::new(azimuth, position)
-                }
-            })
-            .collect())
-    }
-
-    fn load(&self, pattern: Pattern, load: Load) -> Result<StaticLoad, ReferenceError> {
-        let mut setup = self.case.setup()?;
-        setup.balls = self.balls(pattern)?;
+        let mut setup = case.setup()?;
+        let middle = 0.5 * TURNS * TAU;
+        let azimuths = pattern.azimuths(&case.geometry, case.balls, TURNS)?;
+        let ball = |azimuth: f64| Ball {
+            oversize: self.oversize,
+            ..Ball::new(
+                azimuth,
+                case.nut_position + (azimuth - middle) * case.geometry.advance(),
+            )
+        };
+        setup.balls = azimuths.into_iter().map(ball).collect();
         setup.supports = vec![Support {
-            position: self.turn_position,
+            position: 0.0,
             held: [None, None, None, None, None, Some(0.0)],
         }];
         setup.loads = vec![load];
-        StaticLoad::new(setup)
+        StaticLoad::new(setup)?.solve()
     }
 
     /// Axial displacement, m, of the left end under an axial force, N. Only the balls hold the screw aside.
-    pub fn axial(&self, pattern: Pattern, force: f64) -> Result<f64, ReferenceError> {
-        let load = Load::axial(0.0, force);
-        let case = self.load(pattern, load)?;
-        Ok(case.solve()?.axial_displacement())
+    pub fn axial(self, pattern: Pattern, force: f64) -> Result<f64, ReferenceError> {
+        let solution = self.solve(pattern, Load::axial(0.0, force))?;
+        Ok(solution.axial_displacement())
     }
 
-    /// Lateral displacement, m, where a lateral force, N, acts; only the balls hold the screw, and what keeps
+    /// Lateral displacement, m, of the far end under a lateral force there, N; only the balls hold the screw, and what keeps
     /// it from turning. Larger balls in an uneven pattern push the screw aside without any force.
-    pub fn conical(&self, pattern: Pattern, force: f64) -> Result<f64, ReferenceError> {
+    pub fn conical(self, pattern: Pattern, force: f64) -> Result<f64, ReferenceError> {
         let load = Load {
-            position: self.lateral_position,
+            position: CaseStudy::table_4_1().screw_length,
             force: [force, 0.0, 0.0],
             moment: [0.0; 3],
         };
-        let solution = self.load(pattern, load)?.solve()?;
-        let node = solution
-            .positions
-            .partition_point(|place| *place < self.lateral_position - 1e-9);
-        Ok(solution
-            .displacements
-            .get(node)
-            .map_or(0.0, |moved| moved[0]))
+        let solution = self.solve(pattern, load)?;
+        Ok(solution.displacements.last().map_or(0.0, |moved| moved[0]))
     }
 
-    /// Both curves of all patterns.
-    pub fn curves(&self, tick: Tick<'_>) -> Result<Vec<LashCurves>, ReferenceError> {
+    pub fn curves(self, tick: Tick<'_>) -> Result<Vec<LashCurves>, ReferenceError> {
         if !(2..=10_000).contains(&self.steps) {
             return Err(ReferenceError::input("steps", "must be 2 to 10000"));
         }
@@ -198,7 +158,7 @@ impl LashTest {
             .par_iter()
             .map(|(pattern, share)| {
                 let pattern = Pattern::ALL[*pattern];
-                let (axial, lateral) = (share * self.axial_force, share * self.lateral_force);
+                let (axial, lateral) = (share * AXIAL_FORCE, share * LATERAL_FORCE);
                 let point = [
                     (axial, self.axial(pattern, axial)?),
                     (lateral, self.conical(pattern, lateral)?),
@@ -222,27 +182,15 @@ impl LashTest {
 /// Force (N) and displacement (m) of both tests of one pattern.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LashCurves {
-    /// Where the balls lie.
     pub pattern: Pattern,
-    /// Axial test.
     pub axial: Vec<(f64, f64)>,
-    /// Conical test.
     pub conical: Vec<(f64, f64)>,
 }
 
-/// Difference of the largest and the smallest of some values over their mean.
 pub fn spread(values: &[f64]) -> f64 {
     let (least, most) = values.iter().fold(
         (f64::INFINITY, f64::NEG_INFINITY),
         |(least, most), value| (least.min(*value), most.max(*value)),
     );
     (most - least) * values.len() as f64 / values.iter().sum::<f64>().abs()
-}
-
-/// Displacement over the whole range of the force, which leaves out what the balls push without any.
-pub fn range(curve: &[(f64, f64)]) -> f64 {
-    match (curve.first(), curve.last()) {
-        (Some(first), Some(last)) => last.1 - first.1,
-        _ => 0.0,
-    }
 }

@@ -2,7 +2,6 @@
 
 use std::f64::consts::PI;
 
-/// Constant of the theoretical efficiency.
 const K: f64 = 0.018;
 
 /// Share of the theoretical efficiency that is left in practice, with wipers and seals.
@@ -21,11 +20,6 @@ pub fn efficiency(diameter: f64, lead: f64) -> f64 {
 /// Source: Rexroth's catalogue, seen.
 pub const CHART_FRICTION: [f64; 2] = [0.005, 0.01];
 
-/// Efficiency by the chart.
-pub fn chart_efficiency(lead_angle: f64, friction: f64) -> f64 {
-    lead_angle.tan() / (lead_angle + friction.atan()).tan()
-}
-
 /// Friction coefficient of the chart at which a plain screw has an efficiency.
 pub fn chart_friction(lead_angle: f64, efficiency: f64) -> f64 {
     ((lead_angle.tan() / efficiency).atan() - lead_angle).tan()
@@ -38,5 +32,4 @@ pub fn drag_coefficient(diameter: f64, lead: f64) -> f64 {
     0.05 / (lead / (PI * diameter)).sqrt()
 }
 
-/// Range of the same coefficient in two makers' manuals, seen.
 pub const DRAG_RANGE: [f64; 2] = [0.1, 0.3];

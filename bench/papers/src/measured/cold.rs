@@ -33,7 +33,6 @@ pub const LOADS: [f64; 2] = [0.0, 5000.0];
 /// Speed of the nut, rad/s, and axial load, N, at which friction falls furthest in the cold: slow parking.
 pub const LEAST: (f64, f64) = (0.7, 14_000.0);
 
-/// A lubricant and its film, as the crate assumes them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lubricant {
     /// Two temperatures, degrees Celsius, with the viscosities, Pa s, between which it goes with the fifth power of the distance from a pole.
@@ -74,23 +73,18 @@ impl Lubricant {
     }
 }
 
-/// Friction at one state.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    /// Temperature, degrees Celsius.
     pub celsius: f64,
     /// Speed of the nut, rad/s.
     pub speed: f64,
     /// Axial load, N.
     pub load: f64,
-    /// Friction of the grooves, N m.
     pub grooves: f64,
-    /// Drag of the lubricant, N m.
     pub drag: f64,
 }
 
 impl Friction {
-    /// All of it, N m.
     pub fn torque(&self) -> f64 {
         self.grooves + self.drag
     }

@@ -12,33 +12,25 @@ use serde::Deserialize;
 /// Parameters of friction that no drawing prints.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Usual {
-    /// Friction coefficient of the grooves.
     pub friction: f64,
     /// Radial gap of every contact, m; below zero for oversize.
     pub clearance: f64,
-    /// Rolling resistance.
     pub rolling: RollingResistance,
 }
 
 /// A ball screw by the numbers on its drawing, mm, with contact angles of 45 degrees, in steel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
-    /// Name.
     pub name: &'static str,
-    /// Diameter of the circle of ball centres.
     pub diameter: f64,
-    /// Lead.
     pub lead: f64,
-    /// Ball diameter.
     pub ball: f64,
     /// Groove radius over ball diameter.
     pub conformity: f64,
-    /// Balls that carry.
     pub balls: f64,
 }
 
 impl Size {
-    /// The design.
     pub fn design(&self) -> BallScrewDesign {
         let groove_radius = 1e-3 * self.conformity * self.ball;
         BallScrewDesign {
@@ -66,21 +58,17 @@ impl Size {
     }
 }
 
-/// What became of a figure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// The computed number lies in the figure's band.
     Within,
-    /// It lies outside.
     Apart,
     /// The figure is a tendency or an order, which the model shares.
     InKind,
-    /// The model has no such effect, or too much is missing.
     NotComputed,
 }
 
 impl Standing {
-    /// As printed.
     pub fn name(self) -> &'static str {
         match self {
             Self::Within => "within the band",
@@ -90,7 +78,6 @@ impl Standing {
         }
     }
 
-    /// Whether a range of computed numbers lies in a band.
     pub fn of(computed: [f64; 2], band: [f64; 2]) -> Self {
         if computed[0] >= band[0] && computed[1] <= band[1] {
             Self::Within
@@ -114,7 +101,6 @@ struct Words {
     needed: String,
 }
 
-/// What was computed of a figure: the numbers of its words.
 pub(super) struct Found {
     standing: Standing,
     computed: Vec<String>,
@@ -138,12 +124,10 @@ impl Found {
     }
 }
 
-/// A number with so many decimals.
 pub(super) fn fixed(value: f64, decimals: usize) -> String {
     format!("{value:.decimals$}")
 }
 
-/// A text with its numbers in the places of the braces.
 fn filled(text: &str, numbers: &[String]) -> String {
     let mut pieces = text.split("{}");
     let first = pieces.next().unwrap_or_default().to_owned();
@@ -152,25 +136,18 @@ fn filled(text: &str, numbers: &[String]) -> String {
         .fold(first, |text, (piece, number)| text + number + piece)
 }
 
-/// A figure beside the computed one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measured {
-    /// What it is.
     pub what: String,
-    /// As given.
     pub figure: String,
     /// Where it is from, and whether from memory.
     pub source: String,
-    /// As computed, with what had to be assumed.
     pub computed: String,
-    /// What became of it.
     pub standing: Standing,
-    /// Which parameter would have to be what to meet the figure; or what is missing.
     pub needed: String,
 }
 
 impl Measured {
-    /// Of a row's name and numbers.
     pub(super) fn of(name: &str, found: &Found) -> Result<Self, Failure> {
         let mut all: BTreeMap<String, Words> = toml::from_str(include_str!("../../measured.toml"))?;
         let missing = || Failure::Data(format!("measured.toml has no {name}"));

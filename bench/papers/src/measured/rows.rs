@@ -15,7 +15,6 @@ use epas_reference::material::Elastic;
 
 type Row = fn(&Usual) -> Result<Found, ReferenceError>;
 
-/// Every figure, in the order of the page.
 pub(super) const ROWS: [(&str, Row); 21] = [
     ("drag_new", drag_new),
     ("drag_worn", drag_worn),
@@ -45,7 +44,6 @@ const NEW: [f64; 2] = [0.3985, 0.5156];
 const WORN: [f64; 2] = [0.2482, 0.3785];
 /// Two screws of one batch differ by 29 %: no band is narrower than this.
 const BATCH: f64 = 0.15;
-/// Printed preload, N.
 const PRELOAD: f64 = 1500.0;
 /// The data set prints lead, preload and dynamic load rating (16.4 kN); diameter, balls and grooves are assumed.
 pub(super) const PRELOADED: Size = Size {

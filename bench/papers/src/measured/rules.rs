@@ -16,7 +16,6 @@ fn cases(usual: &Usual, direction: f64) -> impl Iterator<Item = (Size, LoadedScr
     })
 }
 
-/// Computed numbers in words: from the least to the largest, about their geometric mean.
 fn spread(values: &[f64]) -> String {
     let [low, high] = range(values.iter().copied());
     let mean = values.iter().map(|value| value.ln()).sum::<f64>() / values.len() as f64;
@@ -73,7 +72,6 @@ pub(super) fn efficiency(usual: &Usual, direction: f64) -> Result<Found, Referen
     Ok(Found::new(standing, computed).needs(needed))
 }
 
-/// Sizes of screws that are sold preloaded.
 const SOLD: [[f64; 3]; 4] = [
     [25.0, 8.0, 4.762],
     [32.0, 10.0, 6.35],
@@ -107,7 +105,6 @@ fn unit(screw: &LoadedScrew) -> f64 {
     screw.axial_load * screw.design.lead / TAU
 }
 
-/// The cases of both rows of drag in words.
 fn preloads() -> String {
     let [least, .., most] = PRELOADS.map(|preload| SQRT_2 * preload);
     format!("25x8, 32x10, 40x8, 40x10; {least:.0} to {most:.0} N a contact")

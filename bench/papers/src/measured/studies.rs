@@ -20,7 +20,6 @@ const fn size(name: &'static str, [diameter, lead, ball]: [f64; 3], conformity: 
     }
 }
 
-/// Screws whose efficiency is compared: three of the papers, and one diameter with seven leads.
 pub const SCREWS: [Size; 10] = [
     size("125x10", [125.0, 10.0, 7.144], 0.528),
     size("29x7", [29.0, 7.0, 4.0], 0.54),
@@ -40,7 +39,6 @@ pub const BALL_LOADS: [f64; 3] = [30.0, 100.0, 300.0];
 /// Load at which parameters are sought that meet the catalogue's rule, N a ball.
 pub const FIT_LOAD: f64 = 100.0;
 
-/// The closed forms of a design.
 fn closed(design: &BallScrewDesign, friction: f64) -> Screw {
     Screw {
         lead_angle: design.lead_angle(),
@@ -51,14 +49,11 @@ fn closed(design: &BallScrewDesign, friction: f64) -> Screw {
     }
 }
 
-/// Efficiency of one screw under one load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EfficiencyRow {
-    /// Screw.
     pub size: Size,
     /// Axial load of a ball, N.
     pub ball_load: f64,
-    /// The exact model, or why it has no answer.
     pub exact: Result<ScrewFriction, ReferenceError>,
     /// Rolling ball, eq. (3) of Lin, Velinsky, Ravani 1994, same friction coefficient.
     pub rolling: f64,
@@ -73,7 +68,6 @@ pub struct EfficiencyRow {
 }
 
 impl EfficiencyRow {
-    /// Friction torque over load and diameter of the exact model.
     pub fn torque_over_diameter(&self) -> f64 {
         self.exact.as_ref().map_or(f64::NAN, |friction| {
             friction.torque() / (self.size.balls * self.ball_load * 1e-3 * self.size.diameter)
@@ -121,10 +115,8 @@ pub const TABLE_3_6: Size = Size {
     ..size("33x20, 37 balls", [33.0, 20.0, 5.556], 0.56)
 };
 
-/// Clearances, um.
 pub const CLEARANCES: [f64; 9] = [-5.0, -2.0, -1.0, 0.0, 1.0, 2.0, 5.0, 10.0, 20.0];
 
-/// Friction coefficients.
 pub const FRICTIONS: [f64; 6] = [0.03, 0.05, 0.075, 0.1, 0.125, 0.15];
 
 /// Axial loads, N.
@@ -135,7 +127,6 @@ pub const LOADS: [f64; 2] = [1500.0, 14500.0];
 pub struct DecidingRow {
     /// Axial load, N.
     pub load: f64,
-    /// Friction coefficient.
     pub friction: f64,
     /// Torque of sliding and spinning at each clearance, N m; NaN where the exact model has no answer.
     pub torques: Vec<f64>,
@@ -183,12 +174,9 @@ pub fn what_decides(step: &(dyn Fn() + Sync)) -> Vec<DecidingRow> {
         .collect()
 }
 
-/// One choice of usual parameters against the makers' rules.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Choice {
-    /// Friction coefficient.
     pub friction: f64,
-    /// Clearance, m.
     pub clearance: f64,
     /// Geometric mean over screws and loads of the friction torque over that of the rule of efficiency in theory.
     pub over_rule: f64,
@@ -196,20 +184,17 @@ pub struct Choice {
     pub spread: f64,
     /// Geometric mean over screws of the drag torque of two braced nuts, whose balls just fit, over that of the rule of drag.
     pub over_drag: f64,
-    /// Mean efficiency at the largest load less that at the smallest.
     pub gain_with_load: f64,
 }
 
 /// Screws of the choice: of leads from 0.08 to 0.6 of the diameter.
 const CHOICE_SCREWS: [Size; 4] = [SCREWS[0], SCREWS[1], SCREWS[5], SCREWS[2]];
 
-/// Loads of a ball, N, of the choice.
 const CHOICE_LOADS: [f64; 3] = [15.0, 50.0, 150.0];
 
 /// Friction coefficients and clearances, um, of the choice.
 const CHOICES: ([f64; 4], [f64; 3]) = ([0.06, 0.08, 0.1, 0.125], [-2.0, -1.0, 0.0]);
 
-/// Number of choices.
 pub const CHOICE_COUNT: usize = CHOICES.0.len() * CHOICES.1.len();
 
 /// Choices of friction coefficient and clearance. `step` is called [`CHOICE_COUNT`] times.

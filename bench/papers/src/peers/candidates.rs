@@ -7,17 +7,15 @@ use epas_friction::law::memory::{
 use epas_reference::presliding::tables;
 
 use super::Law;
-use super::fit::fitted;
 use super::laws::{Dahl, ElastoPlastic, Generalized, Multiplied, Remembered};
 use epas_page::failure::Failure;
 
 /// A law with nothing remembered.
-type Start = Box<dyn Law>;
+pub type Start = Box<dyn Law>;
 
 /// What a step costs on a Cortex-M4F.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cycles {
-    /// Name of the function that is counted on the target, where there is one.
     pub counted: Option<&'static str>,
     /// Static count, not run; or what the step consists of.
     pub expected: &'static str,
@@ -37,11 +35,8 @@ const fn counted(counted: &'static str, expected: &'static str) -> Cycles {
     }
 }
 
-/// A law and how it is made.
 pub struct Candidate {
-    /// Name.
     pub name: String,
-    /// What a step costs.
     pub cycles: Cycles,
     make: Box<dyn Fn() -> Result<Start, Error>>,
 }
@@ -67,7 +62,6 @@ impl Candidate {
         Self::new(name, cycles, move || Ok(Box::new(make())))
     }
 
-    /// The law with nothing remembered.
     pub fn start(&self) -> Result<Start, Failure> {
         Ok((self.make)()?)
     }
@@ -83,10 +77,8 @@ const DAHL: Cycles = expected("38");
 const LUGRE: Cycles = counted("lugre_step", "40");
 const POWER: Cycles = expected("a power");
 const SINE: Cycles = expected("a sine");
-/// Eight elements in proportion.
 const EIGHT: Cycles = counted("memory_8", "185");
 
-/// Laws in use today with the exact first stiffness, as published.
 pub fn published() -> Vec<Candidate> {
     let dahl = |exponent| move || Dahl::new(STIFFNESS, exponent);
     let elastic = |share| move || ElastoPlastic::new(STIFFNESS, share);
@@ -99,66 +91,54 @@ pub fn published() -> Vec<Candidate> {
     ]
 }
 
-/// Start of a fit, cost of a step, the law of some constants, and its name.
-type Peer = (
-    &'static [f64],
-    Cycles,
-    fn(&[f64]) -> Start,
-    fn(&[f64]) -> String,
-);
+/// Name, cost of a step, constants, and the law of some constants.
+pub type Peer = (&'static str, Cycles, &'static [f64], fn(&[f64]) -> Start);
 
-const PEERS: [Peer; 5] = [
+/// The same laws with the constants that come closest to the exact loops: the least rms error over first loading and loops at [`AMPLITUDES`].
+///
+/// [`AMPLITUDES`]: super::paths::AMPLITUDES
+pub const BEST: [Peer; 5] = [
     (
-        &[1.5],
+        "Dahl, LuGre, implicit, best stiffness 1.17",
         DAHL,
+        &[1.1688],
         |c| Box::new(Dahl::new(c[0], None)),
-        |c| format!("Dahl, LuGre, implicit, best stiffness {:.2}", c[0]),
     ),
     (
-        &[1.5],
+        "LuGre, explicit, best stiffness 1.12",
         LUGRE,
+        &[1.1234],
         |c| Box::new(Dahl::new(c[0], Some(1.0))),
-        |c| format!("LuGre, explicit, best stiffness {:.2}", c[0]),
     ),
     (
-        &[1.5, 0.33],
+        "Dahl, explicit, best stiffness 1.22 and exponent 0.23",
         POWER,
+        &[1.2211, 0.23456],
         |c| Box::new(Dahl::new(c[0], Some(c[1]))),
-        |c| {
-            let [stiffness, exponent] = [c[0], c[1]];
-            format!("Dahl, explicit, best stiffness {stiffness:.2} and exponent {exponent:.2}")
-        },
     ),
     (
-        &[1.5, 0.5],
+        "elasto-plastic, best stiffness 1.25, sticks to 0.43",
         SINE,
-        |c| Box::new(ElastoPlastic::new(c[0], c[1].min(0.999))),
-        |c| {
-            let [stiffness, share] = [c[0], c[1].min(0.999)];
-            format!("elasto-plastic, best stiffness {stiffness:.2}, sticks to {share:.2}")
-        },
+        &[1.2532, 0.43485],
+        |c| Box::new(ElastoPlastic::new(c[0], c[1])),
     ),
     (
-        &[0.26, 0.54, 0.78, 0.97, 0.13, 0.31, 0.55],
+        "generalized Maxwell slip, best 4 elements",
         expected("97 and its lag"),
+        &[
+            0.22213, 0.49470, 0.75538, 0.95937, 0.091941, 0.27144, 0.49955,
+        ],
         |c| {
             let (angles, shares) = four(c);
             Box::new(Generalized::new(&angles, &shares, ATTRACTION))
         },
-        |_| "generalized Maxwell slip, best 4 elements".into(),
     ),
 ];
 
-/// The same laws with the constants that come closest to the exact loops.
-pub fn best() -> Result<Vec<Candidate>, Failure> {
-    PEERS
-        .into_iter()
-        .map(|(start, cycles, make, name)| {
-            let constants = fitted(start, &make)?;
-            let name = name(&constants);
-            Ok(Candidate::new(name, cycles, move || Ok(make(&constants))))
-        })
-        .collect()
+pub fn best() -> impl Iterator<Item = Candidate> {
+    BEST.into_iter().map(|(name, cycles, constants, make)| {
+        Candidate::new(name, cycles, move || Ok(make(constants)))
+    })
 }
 
 /// Angles and shares of four elements from seven positive numbers: the angles, and three shares over the fourth.
@@ -169,7 +149,6 @@ fn four(constants: &[f64]) -> (Vec<f64>, Vec<f64>) {
     (angles.to_vec(), shares.collect())
 }
 
-/// The crate's elements in proportion.
 fn proportional<const N: usize>(backbone: &[BackboneElement; N]) -> Result<Start, Error> {
     let part = Part {
         backbone,
@@ -180,13 +159,11 @@ fn proportional<const N: usize>(backbone: &[BackboneElement; N]) -> Result<Start
     Ok(Remembered::start(elements))
 }
 
-/// The crate's load-exact elements.
 fn load_exact<const N: usize>(largest_load: f64) -> Result<Start, Error> {
     let elements = LoadExactElements::<N>::new(1.0, 1.0, largest_load as f32)?;
     Ok(Remembered::start(elements))
 }
 
-/// The crate's elements in proportion.
 pub fn ours() -> Vec<Candidate> {
     let [four, six, ten] = ["97", "141", "229"].map(expected);
     vec![
@@ -207,9 +184,7 @@ pub fn ours() -> Vec<Candidate> {
 
 /// Names of [`under_load`].
 pub const PROPORTIONAL: &str = "in proportion, 8";
-/// As [`PROPORTIONAL`].
 pub const MULTIPLIED: &str = "multiplied, 8";
-/// As [`PROPORTIONAL`].
 pub const LOAD_EXACT: &str = "load-exact, 8";
 
 /// Laws under a load that changes, up to `largest_load`.

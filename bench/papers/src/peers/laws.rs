@@ -10,7 +10,6 @@ use epas_reference::presliding::{Limits, elements};
 
 use super::Law;
 
-/// Limit in the direction of a turn.
 fn limit(tick: &Tick) -> f64 {
     if tick.turn < 0.0 {
         tick.limits.backward
@@ -122,7 +121,6 @@ struct Element {
 }
 
 impl Generalized {
-    /// Elements that slip at these angles, with these shares of the limit.
     pub fn new(angles: &[f64], shares: &[f64], attraction: f64) -> Self {
         let element = |(angle, share): (&f64, &f64)| Element {
             stiffness: share / angle,

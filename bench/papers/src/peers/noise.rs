@@ -17,7 +17,6 @@ pub const COUNT: f64 = TAU / 16_384.0 / 2.5;
 /// Noise of a speed at rest, rms, rad/s.
 pub const SPEED_NOISE: f64 = 0.05;
 
-/// Tick, s.
 pub const TICK: f64 = 1e-3;
 
 /// Ticks of the run at rest: 4.9 s.
@@ -40,13 +39,11 @@ pub fn error_of_counts(
     };
     let found = torques(make()?.as_mut(), &read.path());
     let truth = torques(make()?.as_mut(), &course.path());
-    Ok(super::fit::rms(&found, &truth))
+    Ok(super::paths::rms(&found, &truth))
 }
 
-/// What a law does with noise while nothing moves.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AtRest {
-    /// Changes between standing and sliding, or of the direction of sliding.
     pub changes: usize,
     /// Largest step of the torque from one tick to the next, over the limit.
     pub largest_step: f64,

@@ -2,16 +2,16 @@
 
 use epas_reference::presliding::Limits;
 use epas_reference::presliding::answers::Path;
+use epas_reference::presliding::backbone::Backbone;
+use epas_reference::presliding::masing::Masing;
 use rand::RngExt;
 use rand_pcg::Pcg64;
 
 /// Stream of the generator: its numbers are the same on every machine and in every version.
 pub const STREAM: u128 = 0xa02_bdbf_7bb3_c0a7;
 
-/// A path with its own values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Course {
-    /// Angles, from zero.
     pub angle: Vec<f64>,
     /// Loads, over the reference load.
     pub load: Option<Vec<f64>>,
@@ -73,7 +73,6 @@ impl Course {
     }
 }
 
-/// Straight pieces between points.
 fn straight(points: &[f64], ticks: usize) -> Vec<f64> {
     let mut values: Vec<f64> = points.iter().take(1).copied().collect();
     for (from, to) in points.iter().zip(points.iter().skip(1)) {
@@ -82,4 +81,21 @@ fn straight(points: &[f64], ticks: usize) -> Vec<f64> {
         values.push(*to);
     }
     values
+}
+
+/// Amplitudes of the loops, over the breakaway angle.
+pub const AMPLITUDES: [f64; 4] = [0.3, 0.7, 1.0, 3.0];
+
+/// Exact torques of slip across over a path under constant limits.
+pub fn exact(angle: &[f64]) -> Vec<f64> {
+    let mut exact = Masing::new(Backbone::Slip, Limits::UNIT);
+    angle.iter().map(|angle| exact.follow(*angle)).collect()
+}
+
+pub fn rms(found: &[f64], exact: &[f64]) -> f64 {
+    let squares = found
+        .iter()
+        .zip(exact)
+        .map(|(one, other)| (one - other).powi(2));
+    (squares.sum::<f64>() / exact.len() as f64).sqrt()
 }

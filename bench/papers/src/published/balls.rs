@@ -58,7 +58,6 @@ pub fn linear_pair(theta: f64, rho: f64) -> Result<[LinearBall; 2], ReferenceErr
     ])
 }
 
-/// The same pair as the closed form takes it: two diagonals of equal loads.
 pub fn symmetric_pair(theta: f64, rho: f64) -> Result<[LinearBall; 2], ReferenceError> {
     let with = |ball: LinearBall, rho: f64| {
         let (up, down) = (100.0 * (1.0 - rho) / SQRT_2, 100.0 * (1.0 + rho) / SQRT_2);

@@ -11,7 +11,6 @@ pub const DISPLACEMENTS: [f64; 3] = [0.0, 5.2e-6, 8.0e-6];
 /// Speed of the inner ring of Table 3.2, rad/s.
 pub const INNER_SPEED: f64 = 20.0 * std::f64::consts::PI;
 
-/// The bearing of Table 3.1.
 pub fn table_3_1(convention: RotaryConvention) -> RotaryBearing {
     RotaryBearing {
         ball_radius: 6.25e-3,

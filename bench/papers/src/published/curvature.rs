@@ -103,7 +103,6 @@ pub fn radius_tables() -> Result<[Vec<Row>; 2], Failure> {
     Ok(super::file()?.radius_tables)
 }
 
-/// Every number of Tables A1 and A2.
 pub(super) fn records(tables: &[Vec<Row>; 2]) -> Result<Vec<Record>, ReferenceError> {
     let mut records = Vec::new();
     for (place, rows, groove) in [
@@ -132,7 +131,7 @@ fn size(
             printed: Printed {
                 quantity: format!("{size}: {quantity}"),
                 unit: unit.into(),
-                printed,
+                digits: printed,
                 tolerance: None,
                 verdict,
                 reason: reason.into(),
@@ -214,7 +213,6 @@ fn figure_9(groove: Groove) -> Vec<f64> {
     ]
 }
 
-/// Numbers of figures and text.
 pub(super) fn computed(tables: &[Vec<Row>; 2]) -> Result<Computed, ReferenceError> {
     let mut catalogue = Vec::new();
     for (rows, groove) in tables.iter().zip([Groove::Screw, Groove::Nut]) {

@@ -18,7 +18,6 @@ pub fn ball(lead_angle: f64, contact_angle: f64) -> BallScrewState {
     }
 }
 
-/// The closed forms of a ball screw.
 pub fn closed(ball: &BallScrewState) -> Screw {
     Screw {
         lead_angle: ball.lead_angle,

@@ -2,7 +2,7 @@
 
 use super::Computed;
 use crate::load_studies::lash::{LashTest, Pattern, spread};
-use crate::load_studies::tie_rod::TieRodLoad;
+use crate::load_studies::tie_rod;
 use epas_reference::error::ReferenceError;
 use epas_reference::statics::cases::CaseStudy;
 use epas_reference::statics::contact::GrooveContact;
@@ -27,39 +27,25 @@ pub fn case_3(offset: bool) -> CaseStudy {
     }
 }
 
-/// Hertzian constants of screw and nut of Table 2.1 with another groove radius, m.
-pub fn constants(
-    groove_radius: f64,
-    convention: HertzConvention,
-) -> Result<[GrooveContact; 2], ReferenceError> {
-    let mut geometry = CaseStudy::table_2_1().geometry;
-    geometry.groove_radius = groove_radius;
-    let both = ContactConstants::of_one_material(&geometry, Elastic::STEEL, convention)?;
-    Ok([both.screw, both.nut])
-}
-
-/// Groove radius with which Table B.1 is computed, m: conformity 0.56.
-pub fn radius_of_table_b_1() -> f64 {
-    0.56 * 2.0 * CaseStudy::table_2_1().geometry.ball_radius
-}
-
+/// Hertzian constants of Table 2.1's screw and nut as printed: with a conformity of 0.56.
 fn table_b_1() -> Result<Vec<f64>, ReferenceError> {
     let row = |contact: GrooveContact| {
         let [small, large] = contact.relative_radii;
-        [
+        let [across, along] = contact.principal_radii;
+        let radii = [across, along, small, large, (small * large).sqrt()];
+        let ellipse = [
             contact.eccentricity,
             contact.deflection,
             contact.semi_major,
             contact.semi_minor,
-            1e3 * contact.principal_radii[0],
-            1e3 * contact.principal_radii[1],
-            1e3 * small,
-            1e3 * large,
-            1e3 * (small * large).sqrt(),
-        ]
+        ];
+        ellipse.into_iter().chain(radii.map(|radius| 1e3 * radius))
     };
-    let both = constants(radius_of_table_b_1(), HertzConvention::Dissertation)?;
-    Ok(both.map(row).concat())
+    let mut geometry = CaseStudy::table_2_1().geometry;
+    geometry.groove_radius = 0.56 * 2.0 * geometry.ball_radius;
+    let convention = HertzConvention::Dissertation;
+    let both = ContactConstants::of_one_material(&geometry, Elastic::STEEL, convention)?;
+    Ok(row(both.screw).chain(row(both.nut)).collect())
 }
 
 fn ratio(forces: &[f64]) -> f64 {
@@ -75,15 +61,18 @@ pub(super) fn computed() -> Result<Computed, ReferenceError> {
         ..CaseStudy::table_2_1()
     };
     let fine = fine.load()?.solve()?;
-    let test = LashTest::table_4_1(2e-6);
+    let test = LashTest {
+        oversize: 2e-6,
+        steps: 21,
+    };
     let mut lash = [[0.0; 4]; 2];
     for (index, pattern) in Pattern::ALL.into_iter().enumerate() {
         let range = test.axial(pattern, 200.0)? - test.axial(pattern, -200.0)?;
         lash[0][index] = 0.5 * range;
         lash[1][index] = test.conical(pattern, 10.0)?;
     }
-    let rack = TieRodLoad::default();
-    let [straight, turned] = [rack.at(0.0)?, rack.at(18_f64.to_radians())?].map(|at| at.largest());
+    let [straight, turned] =
+        [tie_rod::at(0.0)?, tie_rod::at(18_f64.to_radians())?].map(|at| at.largest());
     Ok(vec![
         (
             "Figure 2.9 and section 2.4.1.1",

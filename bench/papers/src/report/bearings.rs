@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_4;
 use crate::published::balls::{analytic_force, linear_pair, symmetric_pair};
 use crate::published::bearings::{DISPLACEMENTS, INNER_SPEED, table_3_1, table_3_2};
 use crate::rotary_ball::RotaryConvention;
-use crate::rotary_bearing::{Tilt, TurningLoad, TurningPoint, variation};
+use crate::rotary_bearing::{TurningLoad, TurningPoint, variation};
 use epas_reference::ReferenceError;
 use epas_reference::friction::chain::solve_chain;
 use epas_reference::friction::linear_ball::{LinearBall, analytic_ball_slip};
@@ -17,7 +17,6 @@ use epas_page::document::{Block, Section};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Panel, Series};
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     Ok(Section {
         title: "Bearings",
@@ -82,10 +81,9 @@ fn figure_3_7(quick: bool) -> Result<Block, Failure> {
 
 type Pair = [LinearBall; 2];
 
-/// A map over contact angle deviation and side force ratio.
 fn over_pairs(
     title: &str,
-    bands: (&str, &[(f64, &str)]),
+    bands: (&str, &[f64]),
     quick: bool,
     value: impl Fn(f64, f64) -> Result<f64, ReferenceError>,
 ) -> Result<Panel, Failure> {
@@ -104,17 +102,7 @@ fn over_pairs(
 }
 
 fn figure_3_14(quick: bool) -> Result<Block, Failure> {
-    let bounds = [
-        (-2.0, "-2"),
-        (-1.5, "-1.5"),
-        (-1.0, "-1"),
-        (-0.5, "-0.5"),
-        (0.0, "0"),
-        (0.5, "0.5"),
-        (1.0, "1"),
-        (1.5, "1.5"),
-        (2.0, "2"),
-    ];
+    let bounds = [-2.0, -1.5, -1.0, -0.5, 0.0, 0.5, 1.0, 1.5, 2.0];
     let bands = ("difference (%)", &bounds[..]);
     let exact = over_pairs("exact", bands, quick, |theta, rho| {
         let [rear, front] = linear_pair(theta, rho)?;
@@ -135,23 +123,9 @@ fn figure_3_14(quick: bool) -> Result<Block, Failure> {
 }
 
 fn figure_3_15(quick: bool) -> Result<Block, Failure> {
-    let bounds = [
-        (0.5, "0.5"),
-        (2.0, "2"),
-        (4.0, "4"),
-        (6.0, "6"),
-        (8.0, "8"),
-        (10.0, "10"),
-    ];
+    let bounds = [0.5, 2.0, 4.0, 6.0, 8.0, 10.0];
     let forces = ("force (N)", &bounds[..]);
-    let bounds = [
-        (101.0, "101"),
-        (110.0, "110"),
-        (125.0, "125"),
-        (150.0, "150"),
-        (175.0, "175"),
-        (185.0, "185"),
-    ];
+    let bounds = [101.0, 110.0, 125.0, 150.0, 175.0, 185.0];
     let losses = ("loss (%)", &bounds[..]);
     let baseline = |pair: &Pair| -> Result<f64, ReferenceError> {
         Ok(pair[0].solve(0.01)?.power_loss + pair[1].solve(0.01)?.power_loss)
@@ -186,20 +160,16 @@ fn figure_3_15(quick: bool) -> Result<Block, Failure> {
 
 fn turning_load(quick: bool) -> Result<Block, Failure> {
     let mut series = Vec::new();
-    for (colour, (name, undersize, tilt)) in [
-        ("no play", 0.0, Tilt::Held),
-        ("40 µm undersize", 40e-6, Tilt::Held),
-        ("120 µm undersize", 120e-6, Tilt::Held),
-        ("no play, free to tilt", 0.0, Tilt::Free),
+    for (colour, (name, undersize, tilts)) in [
+        ("no play", 0.0, false),
+        ("40 µm undersize", 40e-6, false),
+        ("120 µm undersize", 120e-6, false),
+        ("no play, free to tilt", 0.0, true),
     ]
     .into_iter()
     .enumerate()
     {
-        let study = TurningLoad {
-            undersize,
-            tilt,
-            ..TurningLoad::default()
-        };
+        let study = TurningLoad { undersize, tilts };
         let points = study.sweep(if quick { 9 } else { 36 })?;
         let [four, double] = variation(&points);
         let mut curve = |name: &str, mark, value: fn(&TurningPoint) -> f64| {

@@ -18,7 +18,6 @@ use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Panel, Series};
 
-/// Groove of the crate, of the reference, and its name.
 type Side = (Groove, reference::Groove, &'static str);
 
 /// Errors of the four forms on one size, contact angles 0 to 70 degrees, relative to the curvature.
@@ -36,7 +35,6 @@ fn size_errors(design: &BallScrew, (groove, same, _): Side, steps: usize) -> [Er
     errors
 }
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let [screw, nut] = radius_tables()?;
     let (screw, screw_matches) = published_table(
@@ -100,17 +98,9 @@ fn published_table(
         line.extend([fitted, exact].map(|errors| Cell::fixed(100.0 * errors.largest, 5)));
         cells.push(line);
     }
-    let columns = [
-        "size (mm)",
-        "lead angle (deg)",
-        "literature mean",
-        "literature max",
-        "circular mean",
-        "circular max",
-        "fitted max",
-        "exact f32 max",
-    ];
-    Ok((table(name, caption, &columns, cells), matches))
+    let columns = "size (mm) | lead angle (deg) | literature mean | literature max | circular mean | \
+         circular max | fitted max | exact f32 max";
+    Ok((table(name, caption, columns, cells), matches))
 }
 
 /// The design of Figures 8 and 9 at a lead angle: `r_m` 8, `r_b` 1.5875, `H = L` 0.0629 mm.
@@ -145,11 +135,7 @@ fn figure_9_forms(lead_degrees: f64, (groove, same, _): Side) -> (Forms, Surface
 }
 
 /// A map over lead angle (upwards) and contact angle, 0 to 80 degrees.
-fn over_angles(
-    title: &str,
-    bands: (&str, &[(f64, &str)]),
-    value: impl Fn(f64, f64) -> f64,
-) -> Panel {
+fn over_angles(title: &str, bands: (&str, &[f64]), value: impl Fn(f64, f64) -> f64) -> Panel {
     let axis = |label| Axis::linear(label).between(0.0, 80.0);
     let axes = (axis("contact angle (deg)"), axis("lead angle (deg)"));
     let centres = || centres((0.0, 80.0), 80);
@@ -158,14 +144,7 @@ fn over_angles(
 }
 
 fn figure_8() -> Block {
-    let bounds = [
-        (10.0, "10"),
-        (20.0, "20"),
-        (50.0, "50"),
-        (100.0, "100"),
-        (300.0, "300"),
-        (1000.0, "1000"),
-    ];
+    let bounds = [10.0, 20.0, 50.0, 100.0, 300.0, 1000.0];
     let panels = GROOVES.map(|side| {
         let title = format!("{}: first radius of curvature", side.2);
         over_angles(&title, ("|radius| (mm)", &bounds), |lead, contact| {
@@ -183,16 +162,7 @@ fn figure_8() -> Block {
 }
 
 fn figure_9() -> Block {
-    let bounds = [
-        (1e-7, "1e-7"),
-        (1e-6, "1e-6"),
-        (1e-5, "1e-5"),
-        (1e-4, "1e-4"),
-        (1e-3, "0.1 %"),
-        (1e-2, "1 %"),
-        (0.1, "10 %"),
-        (1.0, "100 %"),
-    ];
+    let bounds = [1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0];
     let mut panels = Vec::new();
     for (form, name) in FORMS.iter().enumerate() {
         for side in GROOVES {

@@ -16,7 +16,6 @@ use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Series};
 
-/// Friction of the paper.
 const FRICTION: f64 = 0.075;
 
 fn state(lead_degrees: f64, contact_degrees: f64) -> BallScrewState {
@@ -31,7 +30,6 @@ fn geometry(state: &BallScrewState) -> Result<EfficiencyGeometry, Failure> {
     )?)
 }
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     Ok(Section {
         title: "Efficiency",
@@ -83,17 +81,12 @@ fn dynamic_table() -> Result<Table, Failure> {
             Cell::power(corrected - exact),
         ]);
     }
-    let columns = [
-        "rpm",
-        "load of a ball (N)",
-        "exact",
-        "error of (14), f32",
-        "with dynamic correction, f32",
-    ];
+    let columns =
+        "rpm | load of a ball (N) | exact | error of (14), f32 | with dynamic correction, f32";
     Ok(table(
         "efficiency_dynamic",
         "Full sliding against the exact steady state (lead angle 10, contact angle 45 degrees, friction 0.075)",
-        &columns,
+        columns,
         rows,
     ))
 }

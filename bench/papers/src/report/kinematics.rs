@@ -9,7 +9,6 @@ use epas_page::document::{Block, Section};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Panel, Series};
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let steps = if context.quick { 24 } else { 120 };
     let degrees = 180.0 / std::f64::consts::PI;
@@ -128,7 +127,6 @@ fn field_panel(title: &str, revised: &Revised, field: &[FieldPoint]) -> Panel {
     chart(title, x, y, series)
 }
 
-/// Three fields with one slide-to-roll ratio.
 fn figure_9() -> Result<Block, Failure> {
     let revised = figures::case_one(10f64.to_radians())?;
     let same = figures::same_slide_to_roll(4)?;

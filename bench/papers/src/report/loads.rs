@@ -1,20 +1,20 @@
-//! Static loads: Figures 2.9 to 2.14 and 4.10 of Lin 2019, the Hertzian constants of Table B.1, and tables of load shares.
+//! Static loads: Figures 2.9 to 2.14 and 4.10 of Lin 2019, and tables of load shares.
 
 mod shares;
 
 use std::sync::Arc;
 
 use crate::load_studies::Waviness;
-use crate::published::loads::{case_2, case_3, constants, radius_of_table_b_1};
+use crate::published::loads::{case_2, case_3};
 use epas_reference::error::ReferenceError;
 use epas_reference::statics::cases::CaseStudy;
 use epas_reference::statics::shaft::ShaftModel;
 use epas_reference::statics::surface::{HarmonicError, ProfileError};
-use epas_reference::statics::{Contact, HertzConvention, StaticLoad, StaticSolution, SurfaceError};
+use epas_reference::statics::{Contact, StaticLoad, StaticSolution, SurfaceError};
 
 use super::Context;
-use epas_bench::report::draw::{chart, figure, table};
-use epas_page::document::{Block, Cell, Section, Table};
+use epas_bench::report::draw::{chart, figure};
+use epas_page::document::{Block, Section};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Panel, Series};
 
@@ -22,7 +22,6 @@ fn solve(case: &CaseStudy) -> Result<StaticSolution, ReferenceError> {
     case.load()?.solve()
 }
 
-/// The section.
 pub fn section(_: &Context) -> Result<Section, Failure> {
     let nominal = solve(&CaseStudy::table_2_1())?;
     Ok(Section {
@@ -34,7 +33,6 @@ pub fn section(_: &Context) -> Result<Section, Failure> {
                  B.1 is printed with others, without effect on the loads that the figures could show."
                     .into(),
             ),
-            Block::Table(hertz()?),
             figures_2_9_and_10(&nominal)?,
             figures_2_11_and_12(&nominal)?,
             figure_2_14(&nominal)?,
@@ -44,53 +42,10 @@ pub fn section(_: &Context) -> Result<Section, Failure> {
     })
 }
 
-/// Table B.1 beside the right values.
-fn hertz() -> Result<Table, Failure> {
-    let conformal = radius_of_table_b_1();
-    let own = CaseStudy::table_2_1().geometry.groove_radius;
-    let mut rows = Vec::new();
-    for (name, radius, convention) in [
-        ("as printed", conformal, HertzConvention::Dissertation),
-        ("right", conformal, HertzConvention::Correct),
-        ("right", own, HertzConvention::Correct),
-    ] {
-        let both = constants(radius, convention)?;
-        for (side, contact) in ["screw", "nut"].into_iter().zip(both) {
-            let scaled =
-                |value: f64, scale: f64| Cell::Number(value, format!("{:.3}", scale * value));
-            let [across, along] = contact.principal_radii;
-            rows.push(vec![
-                Cell::from(name),
-                Cell::fixed(1e3 * radius, 3),
-                side.into(),
-                Cell::fixed(1e3 * across, 3),
-                Cell::fixed(1e3 * along, 3),
-                scaled(contact.deflection, 1e7),
-                scaled(contact.semi_major, 1e5),
-                scaled(contact.semi_minor, 1e5),
-            ]);
-        }
-    }
-    let columns = [
-        "curvatures",
-        "groove radius (mm)",
-        "side",
-        "radius across (mm)",
-        "radius along (mm)",
-        "deflection (1e-7 m/N^(2/3))",
-        "semi-major (1e-5 m/N^(1/3))",
-        "semi-minor (1e-5 m/N^(1/3))",
-    ];
-    let caption = "Hertzian constants: Table B.1, which takes eigenvalues of the second fundamental form for radii, and the right ones";
-    Ok(table("hertzian_constants", caption, &columns, rows))
-}
-
-/// The largest of some forces, N.
 pub fn largest(forces: &[f64]) -> f64 {
     forces.iter().copied().fold(0.0, f64::max)
 }
 
-/// Points over the number of the ball.
 pub fn by_ball(forces: impl IntoIterator<Item = f64>) -> Vec<(f64, f64)> {
     let numbered = forces.into_iter().enumerate();
     numbered
@@ -98,7 +53,6 @@ pub fn by_ball(forces: impl IntoIterator<Item = f64>) -> Vec<(f64, f64)> {
         .collect()
 }
 
-/// Forces of one contact of every ball: name, colour, mark, solution and contact of each line.
 type Line<'a> = (&'a str, usize, Mark, &'a StaticSolution, Contact);
 
 fn loads(title: &str, lines: &[Line]) -> Panel {

@@ -29,7 +29,6 @@ pub fn usual() -> Usual {
     }
 }
 
-/// The default lubricant and its film; its viscosity through the temperatures that its constant is led through.
 fn lubricant() -> Lubricant {
     let law = defaults::COEFFICIENT;
     let at = |celsius: f32| {
@@ -45,7 +44,6 @@ fn lubricant() -> Lubricant {
     }
 }
 
-/// The section.
 pub fn section(_: &Context) -> Result<Section, Failure> {
     let usual = usual();
     let progress = Progress::new(
@@ -106,7 +104,7 @@ fn verdicts(records: &[Measured]) -> Table {
     table(
         "measured_verdicts",
         "Against measured and catalogue figures: makers' rules by friction torque; the table \"measured\" has sources and what would have to be what",
-        &["what", "figure", "computed", "verdict"],
+        "what | figure | computed | verdict",
         records.iter().map(row).collect(),
     )
 }
@@ -122,11 +120,7 @@ fn sources(records: &[Measured]) -> Table {
     table(
         "measured",
         "Sources of these figures, and what the model would need to meet them",
-        &[
-            "what",
-            "source",
-            "what would have to be what, or is missing",
-        ],
+        "what | source | what would have to be what, or is missing",
         records.iter().map(row).collect(),
     )
 }
@@ -137,7 +131,6 @@ mod tests {
 
     const PAGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../measured.md");
 
-    /// The page that README links has every figure as it is computed today.
     #[test]
     fn the_page_has_every_figure() {
         let rows: Vec<String> = records(&usual(), &|| ())

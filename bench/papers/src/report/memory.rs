@@ -1,6 +1,5 @@
 //! Friction with a memory: the crate's elements beside the exact hysteresis and the laws in use today.
 
-mod breakaway;
 mod compensation;
 mod laws;
 mod loads;
@@ -17,10 +16,9 @@ use epas_page::failure::Failure;
 const WIDE: (usize, u32, u32) = (1, 1080, 440);
 const PAIRS: (usize, u32, u32) = (2, 540, 440);
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let mut candidates = published();
-    candidates.extend(best()?);
+    candidates.extend(best());
     candidates.extend(ours());
     let mut blocks = vec![Block::Text(
         "Friction after a reversal is a hysteresis in the angle: full friction comes back over a breakaway angle, in nested loops that close. The reference is exact: \
@@ -32,12 +30,10 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     )];
     blocks.push(loops::picture()?);
     blocks.extend(laws::blocks(context, &candidates)?);
-    blocks.push(loops::drift()?);
     blocks.extend(loads::blocks(context)?);
     blocks.extend(noise::blocks()?);
     blocks.extend(compensation::blocks()?);
     blocks.extend(trial::blocks(context.quick)?);
-    blocks.extend(breakaway::blocks()?);
     Ok(Section {
         title: "Friction with a memory",
         blocks,

@@ -9,7 +9,6 @@ use epas_bench::report::draw::table;
 use epas_page::document::{Block, Cell, Section, Table};
 use epas_page::failure::Failure;
 
-/// The section.
 pub fn section(_: &Context) -> Result<Section, Failure> {
     let records = records()?;
     let (agreeing, rest): (Vec<&Record>, Vec<&Record>) = records
@@ -53,26 +52,16 @@ fn counts(records: &[Record]) -> Table {
         let counts = counts.map(|count| Cell::fixed(count, 0));
         std::iter::once(paper.into()).chain(counts).collect()
     });
-    let [reproduces, convention, misprint, open] = Verdict::ALL.map(Verdict::name);
-    let columns = ["paper", reproduces, convention, misprint, open];
+    let columns = format!("paper | {}", Verdict::ALL.map(Verdict::name).join(" | "));
     let caption = "Printed numbers by verdict";
     table("published_counts", caption, &columns, rows.collect())
 }
 
 fn numbers(name: &'static str, caption: &str, records: &[&Record]) -> Table {
-    let columns = [
-        "paper",
-        "place",
-        "quantity",
-        "unit",
-        "printed",
-        "computed",
-        "deviation",
-        "verdict",
-        "why, or which convention",
-    ];
+    let columns = "paper | place | quantity | unit | printed | computed | deviation | verdict | \
+         why, or which convention";
     let rows = records.iter().map(|record| row(record)).collect();
-    table(name, caption, &columns, rows)
+    table(name, caption, columns, rows)
 }
 
 fn row(record: &Record) -> Vec<Cell> {
@@ -94,7 +83,7 @@ fn row(record: &Record) -> Vec<Cell> {
     let Printed {
         quantity,
         unit,
-        printed,
+        digits,
         verdict,
         reason,
         ..
@@ -104,7 +93,7 @@ fn row(record: &Record) -> Vec<Cell> {
         record.place.clone().into(),
         quantity.into(),
         unit.into(),
-        Cell::Number(value, printed),
+        Cell::Number(value, digits),
         computed,
         deviation,
         verdict.name().into(),
@@ -117,13 +106,13 @@ fn shown(record: &Record) -> Cell {
     let Record {
         printed, computed, ..
     } = record;
-    let (mantissa, power) = printed.printed.split_once('e').unzip();
-    let mantissa = mantissa.unwrap_or(&printed.printed);
+    let (mantissa, power) = printed.digits.split_once('e').unzip();
+    let mantissa = mantissa.unwrap_or(&printed.digits);
     let decimals = mantissa.split_once('.').map_or(0, |(_, after)| after.len()) + 1;
     let text = match power.and_then(|power| power.parse().ok()) {
         Some(power) => format!("{:.decimals$}e{power}", computed / 10_f64.powi(power)),
         None if *computed == 0.0 => "0".into(),
-        None if printed.printed == "0" => format!("{computed:.1e}"),
+        None if printed.digits == "0" => format!("{computed:.1e}"),
         None => format!("{computed:.decimals$}"),
     };
     Cell::Number(*computed, text)

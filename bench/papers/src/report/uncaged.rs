@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::Context;
 use epas_bench::exact_ring::{Case, exact, follow};
-use epas_bench::report::draw::{chart, figure, table};
+use epas_bench::report::draw::{self, chart, figure, table};
 use epas_page::document::{Block, Cell, Section};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Series};
@@ -20,7 +20,6 @@ use epas_page::plot::{Axis, Mark, Series};
 /// Amplitudes of the screw's deviation, degrees: the text does not print that of Figure 3.23.
 const AMPLITUDES: [f64; 4] = [2.0, 2.3, 2.5, 3.0];
 
-/// Axial load on the 37 balls, N.
 const LOAD: f64 = -1500.0;
 
 /// What Figure 3.25 prints: largest torque between balls over that of the grooves, per cent, its angle, and the angle
@@ -30,13 +29,10 @@ const PRINTED: [f64; 3] = [49.6, 126.0, 306.0];
 /// Nut angle, rad, groove torque and ball torque, N m, of a model.
 type Course = Vec<(f64, f64, f64)>;
 
-/// One amplitude: exact, scene, closed form.
 struct Run {
     degrees: f64,
     courses: [Course; 3],
-    /// States that the scene flags.
     flagged: usize,
-    /// Why the scene has no law.
     refused: Option<String>,
 }
 
@@ -63,7 +59,7 @@ impl Run {
         };
         let flagged = scene.iter().filter(|moment| moment.flagged).count();
         let scene = scene.iter().map(|moment| {
-            let [groove, ball, ..] = moment.scene;
+            let [groove, ball] = moment.torques;
             (moment.nut_angle, groove, ball)
         });
         let exact = exact
@@ -87,7 +83,6 @@ impl Run {
     }
 }
 
-/// The section.
 pub fn section(context: &Context) -> Result<Section, Failure> {
     let [table, picture] = blocks(context.quick)?;
     Ok(Section {
@@ -96,7 +91,6 @@ pub fn section(context: &Context) -> Result<Section, Failure> {
     })
 }
 
-/// Table and figure.
 fn blocks(quick: bool) -> Result<[Block; 2], Failure> {
     let (amplitudes, states) = if quick {
         (&AMPLITUDES[2..3], 180)
@@ -113,7 +107,7 @@ fn blocks(quick: bool) -> Result<[Block; 2], Failure> {
         for (model, course) in MODELS.into_iter().zip(&run.courses) {
             let of_scene = model == SCENE;
             rows.push(match &run.refused {
-                Some(reason) if of_scene => refused(model, &amplitude, reason),
+                Some(reason) if of_scene => draw::told(COLUMNS, [model, &amplitude], reason),
                 _ => {
                     let mut row = row(model, &amplitude, peak_and_release(course.iter().copied()));
                     if of_scene {
@@ -130,31 +124,15 @@ fn blocks(quick: bool) -> Result<[Block; 2], Failure> {
          the scene flags loads under which its law does not hold the forces"
     );
     Ok([
-        Block::Table(table("lin_figure_3_25_exact", caption, &COLUMNS, rows)),
+        Block::Table(table("lin_figure_3_25_exact", caption, COLUMNS, rows)),
         picture(&runs),
     ])
 }
 
-const COLUMNS: [&str; 7] = [
-    "model",
-    "amplitude (deg)",
-    "largest ball torque over groove torque (%)",
-    "at (deg)",
-    "no balls press from (deg)",
-    "states flagged",
-    "not folded",
-];
+const COLUMNS: &str = "model | amplitude (deg) | largest ball torque over groove torque (%) | at (deg) | \
+     no balls press from (deg) | states flagged | not folded";
 
-/// Place of the column of flagged states.
 const FLAGGED: usize = 5;
-
-/// A scene that has no law: the reason in the place of figures.
-fn refused(model: &str, amplitude: &str, reason: &str) -> Vec<Cell> {
-    let mut row = vec![Cell::from(model), amplitude.into()];
-    row.resize(COLUMNS.len() - 1, "".into());
-    row.push(reason.into());
-    row
-}
 
 fn row(model: &str, amplitude: &str, values: [f64; 3]) -> Vec<Cell> {
     let [peak, at, release] = values;

@@ -9,24 +9,20 @@ use super::Accuracy;
 use epas_design::files::built_in;
 use epas_page::failure::Failure;
 
-/// Largest pitch radius, m: diameters to 63 mm.
 const PITCH_RADIUS: f32 = 35e-3;
 
-/// Every second built-in design to a diameter of 63 mm.
 fn designs() -> impl Iterator<Item = BallScrewParameters> {
     let all = built_in().map(|(_, parameters, _)| parameters);
     all.filter(|parameters| parameters.pitch_radius < PITCH_RADIUS)
         .step_by(2)
 }
 
-/// The clearances and friction coefficients in turn.
 fn fold(parameters: BallScrewParameters, place: usize) -> Result<CagedFold, Failure> {
     let clearance = TESTED_CLEARANCES[place % TESTED_CLEARANCES.len()];
     let friction = TESTED_FRICTIONS[place % TESTED_FRICTIONS.len()];
     Ok(tested(parameters, clearance, friction)?)
 }
 
-/// Friction torque of a step, over all designs, or over every fifth.
 pub fn step(quick: bool) -> Result<Accuracy, Failure> {
     let (skip, stride) = if quick { (2, 5) } else { (0, 1) };
     let designs: Vec<_> = designs().enumerate().skip(skip).step_by(stride).collect();

@@ -17,9 +17,9 @@ use rand_pcg::Pcg64;
 
 use super::{Accuracy, caged};
 use crate::exact_ring::Off;
-use crate::report::flagship::Flagship;
 use crate::report::stability::recorded_errors;
 use crate::report::statistics::Errors;
+use crate::report::uncaged::Flagship;
 use crate::report::{curvature, efficiency, hertz, trains};
 use crate::study::{self, turned_ball};
 use epas_page::failure::Failure;
@@ -28,7 +28,6 @@ use epas_page::failure::Failure;
 const BALLS: usize = 24;
 const CONFORMITY: f32 = 0.56;
 
-/// Every quantity, in the order of the page; of whole sweeps, or of samples of them.
 pub fn measured(flagship: &Flagship, quick: bool) -> Result<Vec<Accuracy>, Failure> {
     const CURVATURES: &str =
         "curvature, relative: 31 catalogue sizes, both grooves, contact angles 0 to 70 degrees";
@@ -52,7 +51,7 @@ pub fn measured(flagship: &Flagship, quick: bool) -> Result<Vec<Accuracy>, Failu
         Accuracy::of(
             "memory",
             "friction below breakaway over the limit, eight elements against the same in float64: random turns",
-            &memory(quick)?,
+            &memory(if quick { 5_000 } else { 50_000 })?[0],
         ),
     ];
     found.extend(pressing(flagship));
@@ -66,7 +65,6 @@ pub fn measured(flagship: &Flagship, quick: bool) -> Result<Vec<Accuracy>, Failu
     Ok(found)
 }
 
-/// Torque and forces of 37 balls that press on each other.
 fn pressing(flagship: &Flagship) -> [Accuracy; 2] {
     let found = &flagship.comparison;
     let (turns, pairs) = (flagship.turns, found.pressing());
@@ -93,20 +91,8 @@ fn pressing(flagship: &Flagship) -> [Accuracy; 2] {
     ]
 }
 
-/// Elements in single precision against the same ones in double precision, over random turns.
-fn memory(quick: bool) -> Result<Errors, Failure> {
-    let [same, _] = elements(if quick { 5_000 } else { 50_000 })?;
-    Ok(same)
-}
-
-/// Eight elements against the hysteresis that they stand for, over random turns.
-pub fn memory_against_exact() -> Result<Errors, Failure> {
-    let [_, exact] = elements(20_000)?;
-    Ok(exact)
-}
-
-/// Errors against the same elements in double precision, and against the exact hysteresis.
-fn elements(ticks: usize) -> Result<[Errors; 2], Failure> {
+/// Errors of eight elements over random turns: against the same ones in double precision, and against the hysteresis that they stand for.
+pub fn memory(ticks: usize) -> Result<[Errors; 2], Failure> {
     let mut errors = [Errors::default(); 2];
     for (name, elements) in [("slip8", &SLIP_8.elements), ("spin8", &SPIN_8.elements)] {
         follow(name, elements, ticks, &mut errors)?;
@@ -167,7 +153,6 @@ fn follow(
     Ok(())
 }
 
-/// Friction of the grooves of a linear bearing: straight grooves, side loads to half of the normal load, both directions.
 fn linear_step() -> Result<Accuracy, Failure> {
     let configuration = LinearBearingConfiguration {
         bearing: LinearBearing::new(LinearBearingParameters {

@@ -7,7 +7,6 @@ use epas_reference::promises;
 const README: &str = include_str!("../../../../README.md");
 const ACCURACY: &str = include_str!("../../../accuracy.md");
 
-/// Which error of a quantity is printed.
 #[derive(Clone, Copy)]
 enum Of {
     Largest(&'static str),
@@ -31,7 +30,6 @@ const ROWS_OF_README: [Line; 3] = [
     ("linear bearing, 24 balls", &[Rms("linear_step"), Largest("linear_step")], None, &[]),
 ];
 
-/// Every row of the page's table, in its order.
 #[rustfmt::skip]
 const ROWS_OF_ACCURACY: [Line; 13] = [
     ("groove curvature: literature", &[Largest("curvature_literature"); 2], Some("literature_curvature"), &["curvature_literature"]),
@@ -88,7 +86,6 @@ fn numbers(cell: &str) -> Vec<(f64, f64)> {
     words.iter().enumerate().filter_map(number).collect()
 }
 
-/// The numbers of a cell without their units.
 fn counts_in(cell: &str) -> Vec<f64> {
     numbers(cell)
         .into_iter()
@@ -96,14 +93,12 @@ fn counts_in(cell: &str) -> Vec<f64> {
         .collect()
 }
 
-/// Stored cycles of functions.
 fn cycles_of(functions: &[&str]) -> Vec<f64> {
     let figures = counts::stored().unwrap();
     let cycles = |name: &&str| f64::from(figures.function(name).unwrap().cycles_max);
     functions.iter().map(cycles).collect()
 }
 
-/// Every row prints its errors, rounded to the digits that it shows.
 fn prints(page: &str, rows: &[Line]) {
     for (begin, errors, promise, cycles) in rows {
         let begin = format!("| {begin}");

@@ -15,16 +15,12 @@ use rayon::prelude::*;
 pub use every::MAPS;
 use sample::{Answers, Sample, Tally};
 
-/// Heading and ends of an axis.
 type Axis = (&'static str, f64, f64);
 
-/// One formula over two of its inputs.
 pub struct Map {
-    /// Title of its panel, with what the error is of.
     title: &'static str,
     x: Axis,
     y: Axis,
-    /// What crate and reference answer at a point.
     at: fn(f64, f64) -> Result<Answers, BadField>,
     /// Where the numbers stand in `in_loop` and in `reference` of the answer to the point's line, and in `reference` the one that the error is
     /// over: JSON pointers, an empty one for an absolute error.
@@ -37,7 +33,6 @@ pub struct Map {
     fineness: f64,
 }
 
-/// A map that counts everywhere, as fine as the others.
 const fn map(
     title: &'static str,
     x: Axis,
@@ -59,37 +54,12 @@ const fn map(
 }
 
 /// Bounds of the bands: every half decade where errors of f32 lie.
-const BOUNDS: [(f64, &str); 12] = [
-    (1e-9, "1e-9"),
-    (1e-8, "1e-8"),
-    (3e-8, "3e-8"),
-    (1e-7, "1e-7"),
-    (3e-7, "3e-7"),
-    (1e-6, "1e-6"),
-    (3e-6, "3e-6"),
-    (1e-5, "1e-5"),
-    (1e-4, "1e-4"),
-    (1e-3, "1e-3"),
-    (1e-2, "1e-2"),
-    (0.1, "0.1"),
+const BOUNDS: [f64; 12] = [
+    1e-9, 1e-8, 3e-8, 1e-7, 3e-7, 1e-6, 3e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1,
 ];
 
-/// Headings of the rows that [`Map::draw`] makes.
-pub const COLUMNS: [&str; 13] = [
-    "quantity",
-    "inputs",
-    "refused",
-    "without an exact value",
-    "without a value in the loop",
-    "largest",
-    "rms",
-    "mean",
-    "promised",
-    "in_loop",
-    "reference",
-    "error over",
-    "worst case",
-];
+pub const COLUMNS: &str = "quantity | inputs | refused | without an exact value | without a value in the loop | \
+     largest | rms | mean | promised | in_loop | reference | error over | worst case";
 
 /// What is promised, and where, if it is less than the largest error found.
 fn promised(promise: Option<f64>, found: f64) -> Cell {
@@ -104,10 +74,8 @@ fn promised(promise: Option<f64>, found: f64) -> Cell {
     }
 }
 
-/// A map, drawn.
 pub struct Drawn {
     pub panel: Panel,
-    /// Row under [`COLUMNS`].
     pub row: Vec<Cell>,
     pub requests: u64,
     pub largest: f64,
@@ -120,13 +88,11 @@ impl Map {
         self
     }
 
-    /// The map with a quarter of the cells of a side.
     const fn coarse(mut self) -> Self {
         self.fineness = 0.25;
         self
     }
 
-    /// What became of the points, and the sizes of their errors, line by line.
     fn errors(&self, cells: usize) -> Result<(Tally, Vec<Vec<f64>>), Failure> {
         let place = |(_, low, high): Axis, index: usize| {
             low + (high - low) * (index as f64 + 0.5) / cells as f64
@@ -158,7 +124,6 @@ impl Map {
         Ok((tally, sizes))
     }
 
-    /// The map over its domain.
     pub fn draw(&self, cells: usize) -> Result<Drawn, Failure> {
         let cells = (cells as f64 * self.fineness).ceil() as usize;
         let (tally, values) = self.errors(cells)?;

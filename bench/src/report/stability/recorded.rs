@@ -8,7 +8,6 @@ use crate::report::statistics::Errors;
 use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
 
-/// The file.
 const RECORDED: &str = include_str!(concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/../host-tests/recorded.json"
@@ -23,7 +22,6 @@ struct Recorded {
     limits: Vec<String>,
 }
 
-/// Every input of a function.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Sweep {
@@ -35,7 +33,6 @@ struct Sweep {
     command: String,
 }
 
-/// So many of something.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Run {
@@ -45,7 +42,6 @@ struct Run {
     command: String,
 }
 
-/// What such runs found.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Mended {
@@ -95,7 +91,6 @@ pub fn errors() -> Result<Vec<Accuracy>, Failure> {
     KERNELS.into_iter().map(kernel).collect()
 }
 
-/// A whole number in groups of three digits.
 fn grouped(count: u64) -> Cell {
     let digits = count.to_string();
     let mut text = String::new();
@@ -108,7 +103,6 @@ fn grouped(count: u64) -> Cell {
     Cell::Number(count as f64, text)
 }
 
-/// Tables of the file, beside what this run has swept.
 pub fn blocks(swept: &Errors, requests: u64) -> Result<Vec<Block>, Failure> {
     let recorded = recorded()?;
     let sweeps = recorded.sweeps.into_iter().map(|sweep| {
@@ -143,14 +137,14 @@ pub fn blocks(swept: &Errors, requests: u64) -> Result<Vec<Block>, Failure> {
              are missing or wrong, balls that are lost or overlap."
                 .into(),
         ),
-        Block::Table(table("recorded_sweeps", "Recorded: every f32 of a function's domain against float64", &["quantity", "inputs", "largest", "rms", "mean", "command"], sweeps.collect())),
-        Block::Table(table("recorded_runs", "Recorded: random, failing and extreme inputs", &["what", "count", "failures", "command"], runs.chain([this]).collect())),
-        Block::Table(table("mended", "What such runs found, and what the same input does now", &["found", "now"], recorded
+        Block::Table(table("recorded_sweeps", "Recorded: every f32 of a function's domain against float64", "quantity | inputs | largest | rms | mean | command", sweeps.collect())),
+        Block::Table(table("recorded_runs", "Recorded: random, failing and extreme inputs", "what | count | failures | command", runs.chain([this]).collect())),
+        Block::Table(table("mended", "What such runs found, and what the same input does now", "found | now", recorded
                 .mended
                 .into_iter()
                 .map(|mended| vec![mended.found.into(), mended.now.into()])
                 .collect())),
-        Block::Table(table("known_limits", "Limits that are known and remain", &["limit"], recorded
+        Block::Table(table("known_limits", "Limits that are known and remain", "limit", recorded
                 .limits
                 .into_iter()
                 .map(|limit| vec![limit.into()])

@@ -12,10 +12,8 @@ use epas_page::plot::{Axis, Mark, Panel, Series};
 /// Deviations of the bottom groove, degrees: a side force to the right loads the diagonal whose angle grows,
 /// or the other one.
 const TURNS: [f64; 6] = [-3.0, -2.0, -1.0, 1.0, 2.0, 3.0];
-/// Side-force ratios over which a border is looked for.
 const SIDES: (f64, f64) = (0.7, 0.998);
 const STEPS: u32 = 150;
-/// How far from the border, in side-force ratios, the speeds before and after it are taken.
 const BESIDE: f64 = 1e-3;
 
 /// Where the speed of a ball in a linear bearing jumps.
@@ -74,9 +72,7 @@ fn weakness(ball: &LinearBall) -> f64 {
     up.min(down) / up.max(down)
 }
 
-/// Row of the table: border, jump, and largest errors before, about and after it.
 fn row(closed: &Closed, degrees: f64) -> Result<Vec<Cell>, Failure> {
-    /// About the border: within this of its side-force ratio.
     const NEAR: f64 = 0.01;
     let border = Border::of(degrees)?;
     let mut worst = [0.0_f64; 3];
@@ -123,7 +119,6 @@ fn panel(closed: &Closed, degrees: f64) -> Result<Panel, Failure> {
     Ok(chart(&title, x, y, series))
 }
 
-/// Text, table and the figure.
 pub fn blocks() -> Result<Vec<Block>, Failure> {
     let closed = Closed::new()?;
     let rows = TURNS
@@ -141,16 +136,9 @@ pub fn blocks() -> Result<Vec<Block>, Failure> {
         ),
         Block::Table(table("two_point_linear", "Ball of a linear bearing (Lin 2019, Table 3.3): the border of two-point rolling, and largest \
                       errors of the speed deviation in closed form, over v/2, from a side-force ratio of 0.7 on: more \
-                      than 0.01 before the border, about it, and after it", &[
-                "deviation (deg)",
-                "side force at the border",
-                "weaker over stronger diagonal",
-                "speed deviation before",
-                "after",
-                "error before",
-                "about",
-                "after",
-            ], rows)),
+                      than 0.01 before the border, about it, and after it", "deviation (deg) | side force at the border | \
+                       weaker over stronger diagonal | speed deviation before | after | \
+                       error before | about | after", rows)),
         figure("two_point_contact", "Speed of a ball in a linear bearing as one diagonal gets lighter.", (2, 560, 400), vec![panel(&closed, 2.0)?, panel(&closed, -2.0)?]),
     ])
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 use epas_reference::friction::chain::solve_chain;
 
-use crate::report::context::Context;
+use crate::report::Context;
 use crate::report::draw::{chart, figure, table};
 use crate::report::times::{quartiles, time};
 use crate::study::{self, turned_ball};
@@ -15,27 +15,24 @@ use epas_page::document::{Block, Cell, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Series};
 
-/// Balls of each timed train, and the keys of its forces, its tick and the tick of its scene.
-const TRAINS: [(u8, [&str; 3]); 9] = [
-    (1, ["press_1", "train_1", "step_train_1"]),
-    (2, ["press_2", "train_2", "step_train_2"]),
-    (4, ["press_4", "train_4", "step_train_4"]),
-    (8, ["press_8", "train_8", "step_train_8"]),
-    (16, ["press_16", "train_16", "step_train_16"]),
-    (32, ["press_32", "train_32", "step_train_32"]),
-    (37, ["press_37", "train_37", "step_train_37"]),
-    (48, ["press_48", "train_48", "step_train_48"]),
-    (64, ["press_64", "train_64", "step_train_64"]),
-];
+/// Balls of each timed train.
+const TRAINS: [u8; 9] = [1, 2, 4, 8, 16, 32, 37, 48, 64];
 
-/// What the keys time.
+/// Latency of the forces of a train, of its tick, and of the tick of its scene.
+fn latencies(context: &Context, balls: u8) -> Result<[&Measure; 3], Failure> {
+    let of = |kind: &str| -> Result<&Measure, Failure> {
+        let key = format!("{kind}_{balls}");
+        Ok(&timing::times(&context.competition, &key)?.latency)
+    };
+    Ok([of("press")?, of("train")?, of("step_train")?])
+}
+
 const PARTS: [&str; 3] = [
     "forces alone, from speeds that vary from ball to ball",
     "forces and positions, from speeds of a run",
     "whole tick of the screw",
 ];
 
-/// Tables and figures.
 pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
     Ok(vec![
         Block::Table(printed_times(context)?),
@@ -44,7 +41,6 @@ pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
     ])
 }
 
-/// Median time of a call, s.
 fn median_time(
     calls: usize,
     mut call: impl FnMut() -> Result<(), Failure>,
@@ -118,30 +114,20 @@ fn printed_times(context: &Context) -> Result<Table, Failure> {
         "pair_times",
         "Two balls that press on each other: time on this machine (latency), and the times that Lin 2019 \
                   prints for an Intel i7-3770",
-        &[
-            "model",
-            "time (ns)",
-            "printed model",
-            "printed time (s)",
-            "ratio",
-        ],
+        "model | time (ns) | printed model | printed time (s) | ratio",
         rows,
     ))
 }
 
 fn train_times(context: &Context) -> Result<Table, Failure> {
     let mut rows = Vec::new();
-    for (balls, keys) in TRAINS {
+    for balls in TRAINS {
+        let latencies = latencies(context, balls)?;
         let mut row = vec![Cell::fixed(balls.into(), 0)];
-        for key in keys {
-            let times = timing::times(&context.competition, key)?;
-            row.push(time(&times.latency, 1));
-            row.push(quartiles(&times.latency, 1));
+        for latency in latencies {
+            row.extend([time(latency, 1), quartiles(latency, 1)]);
         }
-        row.push(share(
-            &timing::times(&context.competition, keys[2])?.latency,
-            balls,
-        ));
+        row.push(share(latencies[2], balls));
         rows.push(row);
     }
     Ok(table(
@@ -149,21 +135,12 @@ fn train_times(context: &Context) -> Result<Table, Failure> {
         "Latency in ns of a train: its forces from free speeds and impedances that vary from ball to ball (`Press::solve`, one exact pass), \
                   forces and positions from speeds of a run, where fewer balls press (`Train::step`), and of a tick of the ball screw without cage that holds it; \
                   quartiles, and the latency of the tick for each ball",
-        &[
-            "balls",
-            "forces",
-            "quartiles",
-            "forces and positions",
-            "quartiles",
-            "whole tick",
-            "quartiles",
-            "tick, a ball",
-        ],
+        "balls | forces | quartiles | forces and positions | quartiles | whole tick | \
+         quartiles | tick, a ball",
         rows,
     ))
 }
 
-/// A ball's part of a time, ns.
 fn share(whole: &Measure, balls: u8) -> Cell {
     if whole.is_resolved() {
         Cell::fixed(whole.median / f64::from(balls), 1)
@@ -176,13 +153,9 @@ fn picture(context: &Context) -> Result<Block, Failure> {
     let mut series = Vec::new();
     for (colour, part) in PARTS.into_iter().enumerate() {
         let mut points = Vec::new();
-        for (balls, keys) in TRAINS {
-            points.push((
-                f64::from(balls),
-                timing::times(&context.competition, keys[colour])?
-                    .latency
-                    .at_least_resolved(),
-            ));
+        for balls in TRAINS {
+            let latency = latencies(context, balls)?[colour];
+            points.push((f64::from(balls), latency.at_least_resolved()));
         }
         series.push(Series::new("", colour, Mark::Circles, points.clone()));
         series.push(Series::new(part, colour, Mark::Line, points));

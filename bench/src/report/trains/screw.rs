@@ -2,10 +2,11 @@
 
 use epas_friction::LoadShare;
 use epas_friction::ball::{GrooveFit, ScrewRow};
-use epas_reference::friction::ball_screw_ball::ScrewMotion;
+use epas_reference::design::BallScrewDesign;
+use epas_reference::friction::ball_screw_ball::{ScrewMotion, ScrewTrack};
 use epas_reference::friction::ball_screw_elastic::ScrewSupport;
 
-use crate::report::context::Context;
+use crate::report::Context;
 use crate::report::draw::{chart, figure, table};
 use crate::report::statistics::Errors;
 use crate::report::times::time;
@@ -15,17 +16,13 @@ use epas_page::document::{Block, Cell, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Series};
 
-/// Axial loads on each ball, N.
 const LOADS: [f64; 3] = [10.0, 25.0, 50.0];
 
-/// Which way a deviation changes the load of the third contact, with the name that the table has for it.
 const SIGNS: [&str; 2] = ["favourable", "unfavourable"];
 
-/// A pair: what the elastic model says, and what the closed form says.
 struct Case {
     load: f64,
     degrees: f64,
-    /// Index into [`SIGNS`].
     sign: usize,
     exact: f64,
     force: f64,
@@ -33,11 +30,9 @@ struct Case {
     speed: f64,
 }
 
-/// Table and figure.
 pub fn blocks(context: &Context) -> Result<Vec<Block>, Failure> {
-    let failure = |error: epas_friction::Error| Failure::Data(error.to_string());
     let design = study::ball_screw()?;
-    let row = ScrewRow::new(&design, study::FRICTION as f32, GrooveFit::Zero).map_err(failure)?;
+    let row = ScrewRow::new(&design, study::FRICTION as f32, GrooveFit::Zero)?;
     let parts: u8 = if context.quick { 3 } else { 12 };
     let mut cases = Vec::new();
     for load in LOADS {
@@ -88,11 +83,11 @@ fn case(row: &ScrewRow, axial_load: f64, degrees: f64) -> Result<Case, Failure> 
         sign: usize::from(third_load(&deviating) < third_load(&nominal)),
         exact,
         force: f64::from(if force > 0.0 { force } else { 0.0 }),
-        speed: f64::from(speed) / study::TRACK.path_radius() - deviating.orbital_speed,
+        speed: f64::from(speed) / ScrewTrack::from(&BallScrewDesign::LIN).path_radius()
+            - deviating.orbital_speed,
     })
 }
 
-/// Load of the lightest contact of three.
 fn third_load(ball: &ScrewMotion) -> f64 {
     let mut loads: Vec<_> = ball.contacts.iter().map(|c| c.contact.load).collect();
     loads.sort_by(f64::total_cmp);
@@ -130,16 +125,8 @@ fn errors(context: &Context, cases: &[Case]) -> Result<Table, Failure> {
         "Closed form of a row: force between two balls of a ball screw (per cent) and orbital speed (over the \
                   nut's) against the elastic model, in which the force also moves the contacts; screw's contact angles \
                   turned by up to 3 degrees at one of them, friction 0.1. The time is that of both balls and the force",
-        &[
-            "deviation",
-            "load a ball (N)",
-            "largest force error (%)",
-            "rms",
-            "mean",
-            "largest speed error",
-            "latency (ns)",
-            "throughput (ns)",
-        ],
+        "deviation | load a ball (N) | largest force error (%) | rms | mean | \
+         largest speed error | latency (ns) | throughput (ns)",
         rows,
     ))
 }

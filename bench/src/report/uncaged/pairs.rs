@@ -21,7 +21,6 @@ const LEAST_FORCE: f64 = 0.02;
 /// Axial load of a ball, N, as decimal logarithms.
 const LOADS: (f64, f64) = (0.699, 2.4771);
 
-/// What stands on the vertical axis.
 #[derive(Clone, Copy)]
 enum Over {
     Friction,
@@ -86,17 +85,14 @@ struct Found {
     request: String,
 }
 
-/// What the exact pair does.
 #[derive(Clone, Copy, Default, PartialEq, Eq)]
 enum Exact {
-    /// No answer was found that meets every balance.
     Unsolved,
     /// The balls do not press.
     #[default]
     Apart,
     /// They press; a ball of them stands in two contacts only.
     OnTwo,
-    /// They press; each stands in three or four contacts.
     OnMore,
 }
 
@@ -151,7 +147,6 @@ fn finite(number: Option<f64>) -> Option<f64> {
     number.filter(|number| number.is_finite())
 }
 
-/// Force between the two balls.
 fn force(row: &Row) -> Option<f64> {
     finite(row.contact_force.as_ref()?.first().copied())
 }
@@ -174,7 +169,6 @@ fn line(over: Over, place: f64, columns: usize) -> Result<[Vec<Found>; 2], BadFi
     Ok([errors(more)?, errors(less)?])
 }
 
-/// Table and figure.
 pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
     let (columns, lines) = if quick { (8, 2) } else { (26, 6) };
     let mut panels = Vec::new();
@@ -210,7 +204,7 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
                  where none was found. Where both light contacts of a ball are open one of its grooves sticks. The \
                  last column reproduces the largest error of the force"
             ),
-            &COLUMNS,
+            COLUMNS,
             rows,
         )),
         figure(
@@ -224,7 +218,6 @@ pub fn blocks(quick: bool) -> Result<Vec<Block>, Failure> {
     ])
 }
 
-/// A quantity and its error.
 type Quantity = (&'static str, fn(&Found) -> Option<f64>);
 
 const QUANTITIES: [Quantity; 2] = [
@@ -232,19 +225,7 @@ const QUANTITIES: [Quantity; 2] = [
     ("torque", |found| found.torque),
 ];
 
-/// Bounds of the bands, per cent, even about zero.
-const BOUNDS: [(f64, &str); 10] = [
-    (-10.0, "-10"),
-    (-3.0, "-3"),
-    (-1.0, "-1"),
-    (-0.3, "-0.3"),
-    (-0.1, "-0.1"),
-    (0.1, "0.1"),
-    (0.3, "0.3"),
-    (1.0, "1"),
-    (3.0, "3"),
-    (10.0, "10"),
-];
+const BOUNDS: [f64; 10] = [-10.0, -3.0, -1.0, -0.3, -0.1, 0.1, 0.3, 1.0, 3.0, 10.0];
 
 fn panel(
     over: Over,
@@ -271,32 +252,16 @@ fn panel(
     )
 }
 
-const COLUMNS: [&str; 15] = [
-    "over",
-    "deviation (deg)",
-    "contacts",
-    "pairs",
-    "without a law",
-    "flagged",
-    "force: largest error (%)",
-    "rms",
-    "mean",
-    "within 1 % (%)",
-    "torque: largest error (%)",
-    "rms",
-    "mean",
-    "closed form's force, rms (%)",
-    "worst case",
-];
+const COLUMNS: &str = "over | deviation (deg) | contacts | pairs | without a law | flagged | \
+     force: largest error (%) | rms | mean | within 1 % (%) | torque: largest error (%) | rms | \
+     mean | closed form's force, rms (%) | worst case";
 
-/// Pairs of a row of the table, and their name.
 const CONTACTS: [(Exact, &str); 3] = [
     (Exact::OnMore, "three or four"),
     (Exact::OnTwo, "two"),
     (Exact::Unsolved, "no exact answer"),
 ];
 
-/// Pairs that the exact model has so; none where there are none.
 fn row(
     over: Over,
     degrees: f64,
@@ -323,7 +288,7 @@ fn row(
         count(|_| true),
     ];
     if exact == Exact::Unsolved {
-        row.resize(COLUMNS.len() - 1, "".into());
+        row.resize(draw::width(COLUMNS) - 1, "".into());
         row.push(found[0].request.clone().into());
         return Some(row);
     }
@@ -397,7 +362,7 @@ mod tests {
         let [more, two, none] = CONTACTS.map(of);
         let shown = |row: &Option<Vec<Cell>>| -> Vec<String> {
             let row = row.as_ref().unwrap();
-            assert_eq!(row.len(), COLUMNS.len());
+            assert_eq!(row.len(), draw::width(COLUMNS));
             row.iter().map(|cell| cell.shown().to_owned()).collect()
         };
         assert_eq!(shown(&more)[3..8], ["2", "1", "1", "50.000", "50.000"]);

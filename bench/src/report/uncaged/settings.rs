@@ -5,69 +5,47 @@ use std::f64::consts::FRAC_PI_4;
 use rayon::prelude::*;
 
 use crate::exact_ring::{Case, Comparison, Off, compare};
-use crate::report::draw::table;
+use crate::report::draw::{self, table};
 use epas_design::uncaged_scene::MARGIN;
 use epas_page::document::{Block, Cell};
+use epas_reference::design::BallScrewDesign;
 
-/// Balls of every screw of the table.
 const BALLS: usize = 16;
 
 const LIN: Case = Case::LIN;
 
-/// 16 x 5.
-const SMALL: Case = Case {
-    pitch_radius: 8.15e-3,
-    lead: 5e-3,
-    ball_radius: 1.5875e-3,
-    groove_radius: 1.06 * 1.5875e-3,
-    ..LIN
-};
+/// A screw of pitch radius, lead, ball radius and groove radius, m.
+const fn screw([pitch_radius, lead, ball_radius, groove_radius]: [f64; 4]) -> Case {
+    Case {
+        design: BallScrewDesign {
+            pitch_radius,
+            lead,
+            ball_radius,
+            screw_groove_radius: groove_radius,
+            nut_groove_radius: groove_radius,
+            ..BallScrewDesign::LIN
+        },
+        ..LIN
+    }
+}
 
-/// 63 x 20.
-const LARGE: Case = Case {
-    pitch_radius: 32.5e-3,
-    lead: 20e-3,
-    ball_radius: 4.7625e-3,
-    groove_radius: 1.07 * 4.7625e-3,
-    ..LIN
+const SMALL: Case = screw([8.15e-3, 5e-3, 1.5875e-3, 1.06 * 1.5875e-3]);
+const LARGE: Case = screw([32.5e-3, 20e-3, 4.7625e-3, 1.07 * 4.7625e-3]);
+/// Of steering gears; the first is met at 48 degrees.
+const STEERING: Case = {
+    let mut case = screw([13e-3, 10e-3, 1.984_375e-3, 2.143_125e-3]);
+    case.design.contact_angle = FRAC_PI_4 * 48.0 / 45.0;
+    case
 };
-
-/// 25 x 10 of a steering gear, met at 48 degrees.
-const STEERING: Case = Case {
-    pitch_radius: 13e-3,
-    lead: 10e-3,
-    ball_radius: 1.984_375e-3,
-    groove_radius: 2.143_125e-3,
-    contact_angle: FRAC_PI_4 * 48.0 / 45.0,
-    ..LIN
-};
-
-/// 21 x 7 of a steering gear.
-const SLIM: Case = Case {
-    pitch_radius: 10.5e-3,
-    lead: 7e-3,
-    ball_radius: 1.5e-3,
-    groove_radius: 1.08 * 1.5e-3,
-    ..LIN
-};
-
-/// 29 x 7 of a rack.
-const RACK: Case = Case {
-    pitch_radius: 14.5e-3,
-    lead: 7e-3,
-    ball_radius: 2e-3,
-    groove_radius: 2.16e-3,
-    ..LIN
-};
+const SLIM: Case = screw([10.5e-3, 7e-3, 1.5e-3, 1.08 * 1.5e-3]);
+const RACK: Case = screw([14.5e-3, 7e-3, 2e-3, 2.16e-3]);
 
 const DEGREE: f64 = std::f64::consts::PI / 180.0;
 
-/// A row: the screw, its setting in words, its case, and what the setting changes.
 type Setting = (&'static str, &'static str, Case, fn(&mut Case));
 
 const SCREW: &str = "33 x 20 x 5.556";
 
-/// Every row; the first ones are those of a quick look.
 #[rustfmt::skip]
 const CASES: [Setting; 31] = [
     (SCREW, "50 N", LIN, |_| ()),
@@ -103,7 +81,6 @@ const CASES: [Setting; 31] = [
     ("21 x 7 x 3", "-40 N, oversize 2 um", SLIM, |case| (case.load_per_ball, case.clearance) = (-40.0, -2e-6)),
 ];
 
-/// The table.
 pub fn blocks(quick: bool) -> Vec<Block> {
     // The first two have the law of the 37 balls.
     let cases: Vec<_> = CASES
@@ -122,7 +99,7 @@ pub fn blocks(quick: bool) -> Vec<Block> {
         .par_iter()
         .map(|(design, setting, case)| match compare::<BALLS>(case) {
             Ok(found) => row(design, setting, &found),
-            Err(reason) => refused(design, setting, &reason),
+            Err(reason) => draw::told(COLUMNS, [design, setting], &reason),
         })
         .collect();
     vec![Block::Table(table(
@@ -135,30 +112,14 @@ pub fn blocks(quick: bool) -> Vec<Block> {
              Each law is folded for the deviations of its row and for 5 to 300 N a ball, or up to the power of two above {MARGIN} times the row's load where that is more. States \
              that the scene flags are compared like all others; a state without an exact solution is not. The last column says why a screw is not folded"
         ),
-        &COLUMNS,
+        COLUMNS,
         rows,
     ))]
 }
 
-const COLUMNS: [&str; 17] = [
-    "screw",
-    "setting",
-    "largest force (N)",
-    "force: largest error (%)",
-    "rms",
-    "mean",
-    "torque (%)",
-    "rms",
-    "mean",
-    "groove torque (%)",
-    "ball torque (%)",
-    "speed (%)",
-    "pairs that press (%)",
-    "states compared",
-    "flagged",
-    "no exact solution",
-    "not folded",
-];
+const COLUMNS: &str = "screw | setting | largest force (N) | force: largest error (%) | rms | mean | torque (%) | \
+     rms | mean | groove torque (%) | ball torque (%) | speed (%) | pairs that press (%) | \
+     states compared | flagged | no exact solution | not folded";
 
 fn row(design: &str, setting: &str, found: &Comparison) -> Vec<Cell> {
     let percent = |off: &Off| off.relative().map(|error| Cell::fixed(100.0 * error, 3));
@@ -181,24 +142,15 @@ fn row(design: &str, setting: &str, found: &Comparison) -> Vec<Cell> {
     row
 }
 
-/// A screw that has no law: the reason in the place of figures.
-fn refused(design: &str, setting: &str, reason: &str) -> Vec<Cell> {
-    let mut row = vec![Cell::from(design), setting.into()];
-    row.resize(COLUMNS.len() - 1, "".into());
-    row.push(reason.into());
-    row
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// A screw that is not folded stands in the table, with its reason.
     #[test]
     fn rows_are_as_long_as_the_headings() {
         let compared = row("33 x 20", "50 N", &Comparison::default());
-        let refused = refused("33 x 20", "50 N", "no balance");
-        assert_eq!([compared.len(), refused.len()], [COLUMNS.len(); 2]);
+        let refused = draw::told(COLUMNS, ["33 x 20", "50 N"], "no balance");
+        assert_eq!([compared.len(), refused.len()], [draw::width(COLUMNS); 2]);
         assert_eq!(refused.last().map(Cell::shown), Some("no balance"));
     }
 }

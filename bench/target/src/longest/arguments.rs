@@ -7,7 +7,6 @@ use super::steps::{Step, Steps};
 /// What a register holds where a function is called.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Argument {
-    /// A number.
     Constant(u32),
     /// What it held when the function that calls was called.
     Inherited,

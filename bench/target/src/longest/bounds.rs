@@ -4,10 +4,8 @@
 //! `core` belong to the function that walks. A loop whose function is not in [`LOOPS`] has no bound, and what contains it
 //! no longest path.
 
-/// How many.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Count {
-    /// The balls of the train.
     Balls,
     /// One less than the balls of the train.
     BallsLessOne,
@@ -37,7 +35,6 @@ pub enum Total {
 }
 
 impl Total {
-    /// The most that there are.
     pub const fn most(self) -> Count {
         match self {
             Self::Passed => Count::Balls,
@@ -52,7 +49,6 @@ pub struct Row {
     pub function: &'static str,
     /// A function whose code stands where the loop goes back; none where the row is for every back edge.
     pub through: Option<&'static str>,
-    /// Its bound.
     pub bound: Bound,
 }
 

@@ -12,25 +12,18 @@ use super::flow::Flow;
 use crate::cycles::Instruction;
 use epas_page::failure::Failure;
 
-/// A function of the image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Function {
-    /// Its name, demangled.
     pub name: String,
-    /// The address of its first instruction.
     pub start: u32,
-    /// The address behind its last byte.
     pub end: u32,
 }
 
 /// An instruction as it stands in memory.
 #[derive(Clone, Debug)]
 pub struct Decoded {
-    /// What it costs.
     pub cost: Instruction,
-    /// Where it leads.
     pub flow: Flow,
-    /// Mnemonic and operands.
     pub text: String,
 }
 
@@ -63,7 +56,6 @@ impl Code {
         })
     }
 
-    /// Of an image.
     pub fn of(file: &ElfFile32<'_, Endianness>) -> Result<Self, Failure> {
         let mut sections = Vec::new();
         for section in file.sections() {
@@ -104,7 +96,6 @@ impl Code {
             .ok_or_else(|| Failure::Data(format!("no function begins at {start:#x}")))
     }
 
-    /// Bytes from an address on.
     pub fn bytes(&self, address: u32) -> Option<&[u8]> {
         self.sections.iter().find_map(|(start, bytes)| {
             let offset = address.checked_sub(*start)?;

@@ -5,12 +5,9 @@ use super::bounds::{Count, balls_in};
 use super::origin::Frame;
 use super::steps::Steps;
 
-/// What a function is called with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Context {
-    /// Balls of the train.
     pub balls: Option<u32>,
-    /// Bytes to clear or to move.
     pub bytes: Option<u32>,
 }
 

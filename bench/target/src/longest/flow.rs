@@ -7,13 +7,11 @@ pub enum Flow {
     Next,
     /// To the next one; so many that follow are executed or passed over.
     Condition(u32),
-    /// To an address, always.
     Jump(u32),
     /// To an address, or to the next one.
     Branch(u32),
     /// To the next one, through a function.
     Call(u32),
-    /// Back to the caller.
     Return,
     /// To one of the entries of a table behind it, of one byte or two each.
     Table(u32),
@@ -24,7 +22,6 @@ pub enum Flow {
 }
 
 impl Flow {
-    /// From the disassembly.
     pub fn of(mnemonic: &str, operands: &str) -> Self {
         let name = mnemonic.split('.').next().unwrap_or(mnemonic);
         let target = operands.rsplit('#').next().and_then(|word| {

@@ -8,17 +8,14 @@ use crate::cycles::Instruction;
 /// Instructions of which each is followed by the next alone.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Block {
-    /// Addresses of the instructions.
     pub addresses: Vec<u32>,
 }
 
 impl Block {
-    /// The address of its first instruction.
     pub fn start(&self) -> u32 {
         self.addresses.first().copied().unwrap_or_default()
     }
 
-    /// The address of its last instruction.
     pub fn end(&self) -> u32 {
         self.addresses.last().copied().unwrap_or_default()
     }
@@ -27,7 +24,6 @@ impl Block {
 /// An edge from one block to another or out of the function.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Edge {
-    /// The block that it leaves.
     pub from: usize,
     /// The block that it leads to; none where the function ends.
     pub to: Option<usize>,
@@ -40,9 +36,7 @@ pub struct Edge {
 /// Blocks and edges; the function begins with the first block.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Graph {
-    /// Blocks.
     pub blocks: Vec<Block>,
-    /// Edges.
     pub edges: Vec<Edge>,
 }
 

@@ -12,13 +12,9 @@ use super::steps::{Step, Steps};
 
 /// A function as far as it is known.
 pub struct Known<'known, 'data> {
-    /// Its instructions.
     pub steps: &'known Steps,
-    /// Its flow.
     pub graph: &'known Graph,
-    /// Its loops.
     pub loops: &'known [Loop],
-    /// Where its code comes from.
     pub origins: &'known Origins<'data>,
 }
 
@@ -136,7 +132,6 @@ impl Known<'_, '_> {
     }
 }
 
-/// Bytes that an instruction surely stores.
 fn bytes_stored(step: &Step) -> u32 {
     let (name, operands) = step.decoded.text.split_once(' ').unwrap_or_default();
     if step.conditional {

@@ -13,19 +13,16 @@ type Reader<'data> = gimli::EndianSlice<'data, gimli::LittleEndian>;
 /// A function that was inlined, or the one that all was inlined into.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Frame {
-    /// Its name, demangled.
     pub function: String,
     /// Where its code is called: line and column of the call in the frame around it; none of the outermost one.
     pub called: Option<(u32, u32)>,
 }
 
-/// The debug information of an image.
 pub struct Origins<'data> {
     context: addr2line::Context<Reader<'data>>,
 }
 
 impl<'data> Origins<'data> {
-    /// Of an image.
     pub fn new(
         file: &ElfFile32<'data, Endianness, &'data [u8]>,
         path: &Path,

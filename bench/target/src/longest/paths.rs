@@ -13,11 +13,8 @@ use super::graph::Graph;
 /// What bounds loops: the sum over some edges of their count times a factor is at most a number.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Limit {
-    /// Factors by edges.
     pub terms: BTreeMap<usize, f64>,
-    /// The number.
     pub most: f64,
-    /// What it bounds, for messages.
     pub what: String,
 }
 

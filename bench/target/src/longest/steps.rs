@@ -6,7 +6,6 @@ use super::code::{Code, Decoded, Function};
 use super::flow::Flow;
 use epas_page::failure::Failure;
 
-/// What may follow an instruction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Following {
     /// The next instruction within the function; none where it ends here.
@@ -17,17 +16,12 @@ pub struct Following {
     pub jumps: bool,
 }
 
-/// An instruction that can be reached.
 pub struct Step {
-    /// The instruction.
     pub decoded: Decoded,
-    /// All that may follow.
     pub following: Vec<Following>,
-    /// Whether it may be passed over.
     pub conditional: bool,
 }
 
-/// Instructions of a function by address.
 pub type Steps = BTreeMap<u32, Step>;
 
 /// Follows a function from its first instruction on.

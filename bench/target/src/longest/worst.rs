@@ -13,11 +13,9 @@ use super::steps::steps;
 use crate::watch::{Bounded, Watch};
 use epas_page::failure::Failure;
 
-/// What is known of a function.
 #[derive(Clone)]
 struct Derived {
     cycles: u64,
-    /// Functions that it calls.
     calls: BTreeSet<(u32, Context)>,
     bounded: Vec<Bounded>,
 }
@@ -33,7 +31,6 @@ pub struct Worst<'image> {
 }
 
 impl<'image> Worst<'image> {
-    /// Of an image.
     pub fn new(code: &'image Code, origins: &'image Origins<'image>) -> Self {
         Self {
             code,

@@ -10,10 +10,8 @@ use epas_page::document::{Cell, Table};
 
 const TOLERANCE: ShareError = ShareError::TOLERANCE;
 
-/// Loads of a ball, N.
 const BALL_LOADS: [f64; 2] = [5.0, 300.0];
 
-/// Tables from the smallest to the largest load of one sign.
 fn tables(case: &LoadCase, sign: f64) -> Result<Vec<ShareTable>, ReferenceError> {
     let balls = case.case.balls as f64;
     let [least, most] = BALL_LOADS.map(|of_a_ball| sign * of_a_ball * balls);
@@ -66,25 +64,16 @@ pub fn table() -> Result<Table, ReferenceError> {
             ]);
         }
     }
-    let columns = [
-        "screw",
-        "error of its groove",
-        "tables of a push",
-        "no table of a push up to (N a ball)",
-        "tables of a pull",
-        "no table of a pull up to (N a ball)",
-        "one table: friction (%)",
-        "one table: ball load (%)",
-        "of the largest friction (%)",
-        "of the largest ball load (%)",
-    ];
+    let columns = "screw | error of its groove | tables of a push | no table of a push up to (N a ball) | \
+         tables of a pull | no table of a pull up to (N a ball) | one table: friction (%) | \
+         one table: ball load (%) | of the largest friction (%) | of the largest ball load (%)";
     Ok(draw::table(
         "load_share_tables",
         "Tables of load shares from 5 to 300 N a ball, by push and pull: how many keep friction of the grooves within 1 % of \
          that with each load's own table and each ball's load within 5 % of the largest; up to which load none does, because \
          some balls push against it; and by how much the best single table for all loads errs, of the friction and largest ball \
          load under the same load and under the largest one",
-        &columns,
+        columns,
         rows,
     ))
 }

@@ -10,7 +10,6 @@ use epas_page::document::{Block, Cell, Table};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Series};
 
-/// Text, figure and table.
 pub fn blocks(usual: &Usual, lubricant: &Lubricant) -> Result<Vec<Block>, Failure> {
     let rows = over_temperature(usual, lubricant)?;
     let least = growth(usual, lubricant, LEAST)?;
@@ -21,7 +20,6 @@ pub fn blocks(usual: &Usual, lubricant: &Lubricant) -> Result<Vec<Block>, Failur
     ])
 }
 
-/// Torque at a state, N m.
 fn at(rows: &[Friction], celsius: f64, speed: f64, load: f64) -> f64 {
     rows.iter()
         .find(|row| row.celsius == celsius && row.speed == speed && row.load == load)
@@ -92,13 +90,7 @@ fn torques(rows: &[Friction]) -> Table {
     table(
         "cold_friction",
         "Friction of a steering gear's screw over temperature (N m): slip and spin of the grooves, drag of the lubricant",
-        &[
-            "load (N)",
-            "speed (rad/s)",
-            "temperature (C)",
-            "grooves",
-            "drag",
-        ],
+        "load (N) | speed (rad/s) | temperature (C) | grooves | drag",
         rows.iter().map(row).collect(),
     )
 }

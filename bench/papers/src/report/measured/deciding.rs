@@ -6,7 +6,6 @@ use epas_bench::report::draw::{chart, figure, known, table};
 use epas_page::document::{Block, Cell, Table};
 use epas_page::plot::{Axis, Mark, Series};
 
-/// Tables and figure.
 pub fn blocks(rows: &[DecidingRow], choices: &[Choice]) -> Vec<Block> {
     vec![
         Block::Text(format!(
@@ -29,7 +28,6 @@ pub fn blocks(rows: &[DecidingRow], choices: &[Choice]) -> Vec<Block> {
     ]
 }
 
-/// The ends of the table in words.
 fn spans(rows: &[DecidingRow]) -> String {
     let at = |load: f64, friction: f64, clearance: f64| {
         let column = CLEARANCES.iter().position(|other| *other == clearance);
@@ -57,9 +55,8 @@ fn spans(rows: &[DecidingRow]) -> String {
 
 fn torques(rows: &[DecidingRow]) -> Table {
     let clearances = CLEARANCES.map(|clearance| format!("{clearance} um"));
-    let mut columns = vec!["load (N)", "friction"];
-    columns.extend(clearances.iter().map(String::as_str));
-    columns.push("rolling ball, eq. (3)");
+    let clearances = clearances.join(" | ");
+    let columns = format!("load (N) | friction | {clearances} | rolling ball, eq. (3)");
     let row = |row: &DecidingRow| {
         let mut cells = vec![Cell::fixed(row.load, 0), Cell::fixed(row.friction, 3)];
         cells.extend(row.torques.iter().map(|torque| known(*torque, 3)));
@@ -112,19 +109,13 @@ fn choice(choices: &[Choice]) -> Table {
             known(choice.gain_with_load, 3),
         ]
     };
-    let columns = [
-        "friction",
-        "clearance (um)",
-        "torque over the rule of efficiency in theory",
-        "factor of spread",
-        "drag over the rule of drag",
-        "efficiency at 150 N less that at 15 N",
-    ];
+    let columns = "friction | clearance (um) | torque over the rule of efficiency in theory | \
+         factor of spread | drag over the rule of drag | efficiency at 150 N less that at 15 N";
     table(
         "choice_of_defaults",
         "Choice of the defaults: friction torque over that of makers' rules, 125x10, 29x7, 32x10 and 33x20 at 15, 50 and 150 N a ball; drag with two nuts \
          under 25 N a ball, whose balls just fit. The rule of efficiency in practice means 2 to 5 times the torque of the rule in theory",
-        &columns,
+        columns,
         choices.iter().map(row).collect(),
     )
 }

@@ -11,7 +11,6 @@ use epas_page::plot::{Axis, Mark, Series};
 /// Diameter of the screws that differ in nothing but their lead, mm.
 const ONE_DIAMETER: f64 = 32.0;
 
-/// Table and figure.
 pub fn blocks(rows: &[EfficiencyRow]) -> Vec<Block> {
     vec![
         Block::Text(
@@ -52,20 +51,9 @@ fn efficiencies(rows: &[EfficiencyRow]) -> Table {
             known(1e6 * row.clearance_for_rule.unwrap_or(f64::NAN), 1),
         ]
     };
-    let columns = [
-        "screw",
-        "lead angle (deg)",
-        "load a ball (N)",
-        "exact",
-        "contacts",
-        "torque/(load diameter) (1e-3)",
-        "rolling ball, eq. (3)",
-        "sliding ball, eq. (14)",
-        "rule in theory",
-        "rule in practice",
-        "friction for the rule",
-        "clearance for the rule (um)",
-    ];
+    let columns = "screw | lead angle (deg) | load a ball (N) | exact | contacts | \
+         torque/(load diameter) (1e-3) | rolling ball, eq. (3) | sliding ball, eq. (14) | \
+         rule in theory | rule in practice | friction for the rule | clearance for the rule (um)";
     let caption = format!(
         "Efficiency of driving over lead and load, with the crate's defaults. The rule in theory means a friction torque of 2.86e-3 of load \
          times diameter; in practice {} of its efficiency. Friction coefficient and clearance that meet the rule in theory are sought one at a time, at \
@@ -73,10 +61,9 @@ fn efficiencies(rows: &[EfficiencyRow]) -> Table {
         catalogue::PRACTICE
     );
     let rows = rows.iter().map(row).collect();
-    table("efficiency_over_lead", caption, &columns, rows)
+    table("efficiency_over_lead", caption, columns, rows)
 }
 
-/// Name, colour, mark, load of a ball and value of a line.
 type Line = (&'static str, usize, Mark, f64, fn(&EfficiencyRow) -> f64);
 
 const LINES: [Line; 7] = [

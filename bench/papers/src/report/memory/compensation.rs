@@ -14,13 +14,10 @@ use epas_bench::report::draw::table;
 use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
 
-/// Full friction, N m.
 const FRICTION: f32 = 0.04;
 
-/// Counts of a turn of the encoder.
 const PERIOD: u32 = 16_384;
 
-/// What is compensated.
 #[derive(Clone, Copy)]
 enum Law {
     /// By the speed, with a reversal speed, rad/s.
@@ -43,33 +40,22 @@ struct Case {
     noise: f64,
 }
 
-/// A table of loops.
 pub fn blocks() -> Result<Vec<Block>, Failure> {
     let rows = cases()
         .par_iter()
         .map(Case::row)
         .collect::<Result<_, Failure>>()?;
-    let columns = [
-        "compensation",
-        "share",
-        "largest share allowed",
-        "true breakaway, mrad",
-        "true breakaway over the model's",
-        "play beyond noise, over breakaway",
-        "ticks, 1/s",
-        "delay, ticks",
-        "noise, counts rms",
-        "swing, counts",
-        "swing, breakaway angles",
-        "speed, rad/s",
-    ];
+    let columns = "compensation | share | largest share allowed | true breakaway, mrad | \
+         true breakaway over the model's | play beyond noise, over breakaway | ticks, 1/s | \
+         delay, ticks | noise, counts rms | swing, counts | swing, breakaway angles | \
+         speed, rad/s";
     Ok(vec![Block::Table(table(
         "memory_compensation",
         "Friction compensated in a simulated loop: motor and screw of 4e-4 kg m^2 at the nut, exact friction of 0.04 N m, an encoder of 14 bits behind a ratio of 2.5, and ticks of \
          delay from a reading to its torque. Pushed at 25 Hz with half of the friction for half a second, or with a noisy angle from rest; left alone until 2 s; what the nut does in the \
          second after that, from end to end. Compensation is negative stiffness: the share has to stay below the friction, below the stiffness and below what a swing loses; a play between \
          sensor and elements, a twentieth of the breakaway angle beyond the noise, gives room for the last of these and keeps noise out",
-        &columns,
+        columns,
         rows,
     ))])
 }

@@ -9,24 +9,11 @@ use epas_page::document::{Block, Cell};
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Chart, Mark, Note, Panel, Series};
 
-const COLUMNS: [&str; 14] = [
-    "law",
-    "loop of 0.3: area (%)",
-    "of 0.7",
-    "of 1",
-    "of 3",
-    "random strokes: rms (% of the limit)",
-    "largest",
-    "small loop opens by",
-    "after five",
-    "drift in a cycle, torque 0.3 +- 0.2",
-    "0.5 +- 0.35",
-    "largest turn in a tick",
-    "least loss in a tick",
-    "cycles",
-];
+const COLUMNS: &str = "law | loop of 0.3: area (%) | of 0.7 | of 1 | of 3 | \
+     random strokes: rms (% of the limit) | largest | small loop opens by | after five | \
+     drift in a cycle, torque 0.3 +- 0.2 | 0.5 +- 0.35 | largest turn in a tick | \
+     least loss in a tick | cycles";
 
-/// Table and picture.
 pub fn blocks(context: &Context, candidates: &[Candidate]) -> Result<Vec<Block>, Failure> {
     let found = candidates
         .iter()
@@ -44,7 +31,7 @@ pub fn blocks(context: &Context, candidates: &[Candidate]) -> Result<Vec<Block>,
              Largest turn: the largest one in a tick with which sliding still comes to its limit. Least loss: work less gain of stored energy, limits jumping between 0.1 and 3; \
              below zero a law gives out energy that nobody put in. Below an amplitude of 0.15 no element of six or eight slips: no loss, \
              where the exact one is under 0.4 % of that of full friction. Cycles of a Cortex-M4F: modelled where a function is counted on the target, static counts in brackets",
-            &COLUMNS,
+            COLUMNS,
             rows,
         )),
         picture(context, &found),
@@ -69,7 +56,6 @@ fn row(context: &Context, candidate: &Candidate, found: &Comparison) -> Vec<Cell
     cells
 }
 
-/// Cycles counted on the target, or those expected in brackets.
 pub fn shown(context: &Context, cycles: &Cycles) -> Cell {
     match counted(context, cycles) {
         Some(cycles) => Cell::fixed(cycles, 0),
@@ -77,7 +63,6 @@ pub fn shown(context: &Context, cycles: &Cycles) -> Cell {
     }
 }
 
-/// Cycles counted on the target.
 fn counted(context: &Context, cycles: &Cycles) -> Option<f64> {
     let function = context.counts.function(cycles.counted?)?;
     Some(function.cycles_max.into())

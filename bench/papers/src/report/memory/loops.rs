@@ -1,17 +1,14 @@
-//! Loops and drift as pictures.
+//! Loops as pictures.
 
-use super::{PAIRS, WIDE};
+use super::PAIRS;
 use crate::peers::candidates::{Candidate, ours, published};
-use crate::peers::compare::turn_to;
-use crate::peers::fit::exact;
-use crate::peers::paths::Course;
+use crate::peers::paths::{Course, exact};
 use crate::peers::torques;
 use epas_bench::report::draw::{chart, figure};
 use epas_page::document::Block;
 use epas_page::failure::Failure;
 use epas_page::plot::{Axis, Mark, Series};
 
-/// Strokes with small loops inside large ones.
 const POINTS: [f64; 12] = [
     0.0, 0.8, -0.1, 0.4, -0.1, 0.4, 0.1, 0.3, 0.1, 0.9, -1.0, 1.2,
 ];
@@ -23,7 +20,6 @@ fn named(candidates: Vec<Candidate>, start: &str) -> Result<Candidate, Failure> 
         .ok_or_else(|| Failure::Data(format!("no law is called {start}")))
 }
 
-/// Torque over angle.
 pub fn picture() -> Result<Block, Failure> {
     let course = Course::strokes(&POINTS, 60);
     let truth = exact(&course.angle);
@@ -49,39 +45,5 @@ pub fn picture() -> Result<Block, Failure> {
         "Torque over angle, with small loops inside large ones: exactly, by elements that remember, and by laws whose state is one number.",
         PAIRS,
         panels,
-    ))
-}
-
-/// Angle over the cycles of a torque that swings below breakaway.
-pub fn drift() -> Result<Block, Failure> {
-    const CYCLES: u32 = 10;
-    let mut series = Vec::new();
-    for (colour, law) in [
-        named(ours(), "this crate, 8")?,
-        named(published(), "Dahl, LuGre")?,
-        named(published(), "Dahl, exponent")?,
-        named(published(), "elasto-plastic, sticks to 0.7")?,
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let mut state = law.start()?;
-        let mut angle = turn_to(state.as_mut(), 0.85);
-        let mut points = vec![(0.0, angle)];
-        for cycle in 1..=CYCLES {
-            angle += turn_to(state.as_mut(), 0.15);
-            points.push((f64::from(cycle) - 0.5, angle));
-            angle += turn_to(state.as_mut(), 0.85);
-            points.push((f64::from(cycle), angle));
-        }
-        series.push(Series::new(&law.name, colour, Mark::Line, points));
-    }
-    let x = Axis::linear("cycles of the torque");
-    let y = Axis::linear("angle over the breakaway angle");
-    Ok(figure(
-        "memory_drift",
-        "Angle under a torque that swings between 0.15 and 0.85 of the limit: a nut that is held creeps away by laws whose small loops do not close.",
-        WIDE,
-        vec![chart("Drift below breakaway", x, y, series)],
     ))
 }

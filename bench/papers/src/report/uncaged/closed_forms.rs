@@ -21,7 +21,6 @@ const LOAD: f64 = 50.0;
 const FRICTION: f64 = 0.1;
 const LEAD: f64 = 20e-3;
 
-/// Name and mark of each model.
 const MODELS: [(&str, Mark); 5] = [
     ("exact", Mark::Line),
     ("folded", Mark::Circles),
@@ -90,7 +89,6 @@ const SWEEPS: [Sweep; 3] = [
     }),
 ];
 
-/// The figure.
 pub fn picture(quick: bool) -> Result<Block, Failure> {
     let parts = if quick { 6 } else { 24 };
     let mut panels = Vec::new();

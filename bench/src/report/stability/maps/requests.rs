@@ -15,7 +15,6 @@ fn held(number: f64) -> f64 {
     f64::from(number as f32)
 }
 
-/// `10^exponent`.
 pub fn power(exponent: f64) -> f64 {
     10f64.powf(exponent)
 }
@@ -72,7 +71,6 @@ pub fn efficiency(
     }
 }
 
-/// A screw whose balls have inertia.
 pub fn dynamic(speed: f64, load: f64) -> steady_state::Request {
     steady_state::Request {
         lead_angle: held(0.2),
@@ -86,7 +84,6 @@ pub fn dynamic(speed: f64, load: f64) -> steady_state::Request {
     }
 }
 
-/// A contact whose relative radii have this ratio.
 pub fn ellipse(ratio: f64, load: f64, radius: f64, modulus: f64) -> hertz::Request {
     hertz::Request {
         relative_radius_1: held(radius),
@@ -125,7 +122,6 @@ pub fn kinematics(
     }
 }
 
-/// A contact that slips and spins.
 pub fn friction(axis_ratio: f64, offset: f64) -> friction_map::Request {
     friction_map::Request {
         axis_ratio: held(axis_ratio),
@@ -155,7 +151,6 @@ pub fn linear(balls: impl IntoIterator<Item = (f64, f64)>) -> linear_train::Requ
     }
 }
 
-/// As many balls with side forces that rise from rear to front: every ball presses on the next.
 pub fn rising_row(balls: f64, degrees: f64) -> linear_train::Request {
     let balls = balls.round() as u32;
     linear((0..balls).map(|ball| {

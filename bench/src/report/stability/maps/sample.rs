@@ -7,26 +7,20 @@ use serde_json::Value;
 
 use crate::report::statistics::Errors;
 
-/// The numbers that are compared; none where a quantity does not exist.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Numbers {
-    /// Of the crate.
     pub found: Option<f64>,
-    /// Of the reference.
     pub exact: Option<f64>,
     /// Of the reference, by which the error is divided; 1 for an absolute error.
     pub scale: Option<f64>,
 }
 
-/// A point of a map.
 #[derive(Clone, Debug)]
 pub struct Sample {
-    /// The line that asks `eval` the same.
     pub line: String,
     pub numbers: Numbers,
 }
 
-/// What crate and reference answer to a line.
 pub struct Answers {
     line: String,
     in_loop: Value,
@@ -53,7 +47,6 @@ fn at<'a>(answer: &'a Value, place: &str) -> Result<&'a Value, Failure> {
     Ok(value)
 }
 
-/// The number at a place of an answer, none where it is null.
 fn number(answer: &Value, place: &str) -> Result<Option<f64>, Failure> {
     match at(answer, place)? {
         Value::Null => Ok(None),
@@ -66,7 +59,6 @@ fn number(answer: &Value, place: &str) -> Result<Option<f64>, Failure> {
     }
 }
 
-/// Asks crate and reference; what they refuse is an error.
 pub fn ask<M: Model>(request: &M) -> Result<Answers, BadField> {
     let Both { in_loop, reference } = request.evaluate()?;
     Ok(Answers {
@@ -97,10 +89,8 @@ impl Answers {
     }
 }
 
-/// What became of the points of a map: each is counted once.
 #[derive(Default)]
 pub struct Tally {
-    /// Of the points where both have a number.
     pub errors: Errors,
     pub compared: u32,
     /// Points that the crate or the reference refuses.
@@ -109,12 +99,10 @@ pub struct Tally {
     pub not_exact: u32,
     /// Points where the reference has a number and the crate none.
     pub not_found: u32,
-    /// The point of the largest error.
     pub worst: Option<(f64, Sample)>,
 }
 
 impl Tally {
-    /// Counts a point, and gives the size of its error.
     pub fn add(&mut self, point: Result<Sample, BadField>) -> Option<f64> {
         let Ok(sample) = point else {
             self.refused += 1;

@@ -166,18 +166,6 @@ impl RigidBody {
         .map(|body| [0, 1, 2].map(|i| body[i] - contact[i]))
     }
 
-    /// See [`Self::surface_velocities`]: positions of ball and raceway instead of velocities, in space, at `time`.
-    pub fn separation(
-        &self,
-        raceway: Raceway,
-        x: f64,
-        y: f64,
-        distance: f64,
-        time: f64,
-    ) -> [[f64; 3]; 2] {
-        self.moved(raceway, (x, y, distance), time)
-    }
-
     /// Velocity of the ball's and of the raceway's material point relative to the moving contact, in the contact frame, m/s:
     /// `(x, y, z)` each.
     pub fn surface_velocities(

@@ -1,7 +1,7 @@
 //! Four-point rotary bearing: stored cases, Hertz constants, and the laws of the Coulomb model.
 
-use epas_papers::published::bearings::{DISPLACEMENTS, INNER_SPEED, table_3_1};
-use epas_papers::rotary_ball::{RotaryContacts, RotaryConvention, SIGNS};
+use crate::published::bearings::{DISPLACEMENTS, INNER_SPEED, table_3_1};
+use crate::rotary_ball::{RotaryContacts, RotaryConvention, SIGNS};
 use epas_reference::ReferenceError;
 use epas_reference::friction::contact_law::{Eccentricity, HertzLaw};
 use epas_testkit::measured;

@@ -1,9 +1,9 @@
 //! The ball in time: where the equations of motion lead from a rolling start, against tabulated values,
 //! closed forms and the balance of power.
 
-use epas_papers::published::efficiency::{ball, closed};
-use epas_papers::rolling_ball::{RollingBall, SMOOTHING};
-use epas_papers::stability::growth;
+use super::stability::growth;
+use crate::published::efficiency::{ball, closed};
+use crate::rolling_ball::{RollingBall, SMOOTHING};
 use epas_reference::ReferenceError;
 use epas_reference::curvature::Groove;
 use epas_reference::steady_state::BallScrewState;

@@ -3,7 +3,7 @@
 use nalgebra::SMatrix;
 use num_dual::jacobian;
 
-use crate::ball_motion::{Motion, Speeds};
+use crate::ball_motion::{Motion, State};
 use epas_reference::curvature::Groove;
 use epas_reference::steady_state::{BallScrewState, SteadyState};
 
@@ -29,10 +29,11 @@ pub fn growth(ball: &BallScrewState, steady: &SteadyState) -> Option<Growth> {
     };
     // All three contacts slide: Coulomb friction is smooth there without help.
     let motion = Motion::new(&moving, Groove::Screw, Groove::Nut, 0.0).ok()?;
-    let state = motion.state(&Speeds {
-        orbital: steady.orbital_ratio,
-        ball: steady.ball_speed.map(|speed| speed / ball.speed),
-    });
+    let rolling = motion.rolling();
+    let [t, n, b] = steady.ball_speed.map(|speed| speed / ball.speed);
+    let [t0, n0, b0] = rolling.ball;
+    let advance = motion.arm() * (steady.orbital_ratio - rolling.orbital);
+    let state = State::new(t - t0, n - n0, b - b0, advance);
     let (_, slopes): (_, SMatrix<f64, 4, 4>) = jacobian(|y| motion.rate(&y), &state);
     if !slopes.iter().all(|slope| slope.is_finite()) {
         return None;
