@@ -9,15 +9,14 @@ use crate::controller::Controller;
 use crate::experiment;
 use crate::folder::answered::Answered;
 use crate::folder::{self, Folder, FolderArguments};
-use crate::outputs::{Outcome, OutputArguments, folder_name, print_json};
+use crate::outputs::{Known, Outcome, OutputArguments, folder_name, print_json};
 use crate::page::{self, truth};
-use crate::screw::Request;
 use crate::screw::choice::Wanted;
 use crate::screw::quantities::names;
+use crate::screw::{self, Request};
 use crate::steady;
 use crate::trace::columns::{self, Frame};
 use crate::trace::{Coordinate, Trace};
-use crate::with_design;
 use crate::without_design;
 use crate::without_design::controller::SeenController;
 use epas_design::files::{Design, DesignSource, text};
@@ -183,14 +182,11 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if folder {
         return whole_folder(arguments, trace, design.as_ref(), mapping);
     }
-    match (&design, &text) {
-        (Some(design), Some(text)) => with_design(arguments, trace, (design, text), mapping),
-        _ => free(arguments, trace, mapping),
-    }
+    let design = design.as_ref().zip(text.as_deref());
+    one_trace(arguments, trace, design, mapping)
 }
 
 impl Arguments {
-    /// Ends the program where parameters of a screw are named without its design.
     fn with_a_design(&self) {
         let of_design = [
             ("--estimate", self.estimate.is_some()),
@@ -205,7 +201,6 @@ impl Arguments {
         }
     }
 
-    /// Refuses options that a folder, or that one trace, has no use for.
     fn fits(&self, folder: bool) -> Result<(), Failure> {
         let of_one_trace = [
             ("--design-out", self.outputs.design_out.is_some()),
@@ -226,7 +221,6 @@ impl Arguments {
         Ok(())
     }
 
-    /// What refers motor and carriage to the nut.
     fn frame(&self, design: Option<&Design>) -> Frame {
         let alone = Frame {
             ratio: self.ratio,
@@ -236,7 +230,6 @@ impl Arguments {
         frame.rated(self.rated_torque)
     }
 
-    /// The trace that is not fitted, where there is one.
     fn unseen(&self, frame: &Frame, mapping: Option<&Mapping>) -> Result<Option<Trace>, Failure> {
         self.validate
             .as_deref()
@@ -263,47 +256,38 @@ impl Arguments {
     }
 }
 
-/// A trace of a screw whose design is known.
-fn with_design(
+fn one_trace(
     arguments: &Arguments,
-    trace: &Path,
-    (design, text): (&Design, &str),
+    path: &Path,
+    design: Option<(&Design, &str)>,
     mapping: Option<&Mapping>,
 ) -> Result<(), Failure> {
-    let frame = arguments.frame(Some(design));
-    let truth = truth::of(trace);
-    let trace = columns::read(&Source(trace), Some(&frame), mapping)?;
+    let truth = &truth::of(path);
+    let frame = arguments.frame(design.map(|(design, _)| design));
+    let trace = columns::read(&Source(path), Some(&frame), mapping)?;
+    let unseen = arguments.unseen(&frame, mapping)?;
+    let Some((design, text)) = design else {
+        let told = without_design::calibrate(&trace, unseen.as_ref(), arguments.controller)?;
+        if let Some(controller) = &told.controller {
+            tell(controller, trace.coordinate);
+        }
+        return arguments.outputs.write(Outcome {
+            calibration: &told.answer,
+            picture: &told.picture,
+            of: Known::Drive(&told.drive),
+            truth,
+        });
+    };
     let request = Request {
-        unseen: arguments.unseen(&frame, mapping)?,
+        unseen,
         ..arguments.request()
     };
-    let found = with_design::told(&trace, design, &request)?;
+    let found = screw::calibrate(&trace, design, &request)?;
     arguments.outputs.write(Outcome {
         calibration: &found.answer,
         picture: &found.picture,
-        design: Some(text),
-        screw: Some(&found.screw),
-        drive: None,
-        truth: &truth,
-    })
-}
-
-fn free(arguments: &Arguments, trace: &Path, mapping: Option<&Mapping>) -> Result<(), Failure> {
-    let truth = truth::of(trace);
-    let frame = arguments.frame(None);
-    let trace = columns::read(&Source(trace), Some(&frame), mapping)?;
-    let unseen = arguments.unseen(&frame, mapping)?;
-    let told = without_design::calibrate(&trace, unseen.as_ref(), arguments.controller)?;
-    if let Some(controller) = &told.controller {
-        tell(controller, trace.coordinate);
-    }
-    arguments.outputs.write(Outcome {
-        calibration: &told.answer,
-        picture: &told.picture,
-        design: None,
-        screw: None,
-        drive: Some(&told.drive),
-        truth: &truth,
+        of: Known::Design(text, &found.screw),
+        truth,
     })
 }
 
@@ -385,7 +369,6 @@ fn read(
     columns::read(&Source(path), Some(&arguments.frame(design)), mapping)
 }
 
-/// What one trace of a folder tells.
 fn one(
     arguments: &Arguments,
     design: Option<&Design>,
@@ -396,5 +379,5 @@ fn one(
     let Some(design) = design else {
         return without_design::plain(&trace);
     };
-    with_design::summed(&trace, design, &arguments.request())
+    screw::plain(&trace, design, &arguments.request())
 }

@@ -10,17 +10,6 @@
 //! whole window lies in a stretch of one direction, as the sensor tells it, beyond a way `m` after the turn: the direction `s` is a constant
 //! of the row. `L` and `m` are those with the narrowest intervals. An interval is the jackknife over stretches and pieces of them, joined with
 //! twice what a kernel of twice the length and twice the way say otherwise.
-//!
-//! | module | what |
-//! |---|---|
-//! | [`kernel`] | the kernel and its derivatives |
-//! | [`record`] | a trace as the estimator takes it: motion, its sensor's step and noise |
-//! | [`stretches`] | where the motion has one direction |
-//! | [`rows`] | rows of the regression and their columns |
-//! | [`terms`] | terms of the equation and their columns |
-//! | [`fit`] | least squares with the sensor's noise taken out, intervals |
-//! | [`words`] | what is wrong with a trace, or in it and not in the equation |
-//! | [`choice`] | length of the kernel and way after a turn |
 
 pub(crate) mod choice;
 pub(crate) mod fit;

@@ -24,7 +24,6 @@ use crate::screw::stages::{Prepared, Window};
 use epas_design::files::Design;
 use epas_page::failure::Failure;
 
-/// What is estimated beside the wanted parameter.
 const BESIDE: &str =
     "friction full_film_ratio half_share_speed preload breakaway_angle inertia drag offset gain";
 
@@ -41,7 +40,6 @@ struct Said {
     manoeuvre: Manoeuvre,
     /// Parameters: name, scale, bounds, value.
     all: Vec<(&'static str, Scale, [f64; 2], f64)>,
-    /// The place of the wanted one.
     place: usize,
     /// Information of its rows, and with that of the bounds.
     rows: DMatrix<f64>,
@@ -84,7 +82,6 @@ impl Said {
         })
     }
 
-    /// Half width of the interval by an information.
     fn half_width(&self, information: &DMatrix<f64>) -> f64 {
         let told = information[(self.place, self.place)] > 0.0;
         let covariance = covariance(information).filter(|_| told);
@@ -93,7 +90,6 @@ impl Said {
         })
     }
 
-    /// The 95 % interval that the trace would give.
     fn interval(&self) -> [f64; 2] {
         let half = self.half_width(&self.own);
         let (_, scale, [low, high], value) = self.all[self.place];
@@ -132,7 +128,6 @@ fn covariance(information: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     Some(whole.cholesky()?.inverse())
 }
 
-/// What a manoeuvre says of a screw's parameter.
 fn said(
     design: &Design,
     (name, wanted): (&str, &Wanted),

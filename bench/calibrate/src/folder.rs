@@ -3,11 +3,6 @@
 //! Each trace's answer is written as soon as it is there, and a run that was stopped goes on with the traces that have none. Parts
 //! of a folder may be fitted anywhere and merged: what the traces tell together follows from the list of their answers in the order of
 //! their names, so that every partition has the same answer to the last bit.
-//!
-//! | module | what |
-//! |---|---|
-//! | [`answered`] | what one trace adds |
-//! | [`population`] | what all of them tell together |
 
 pub mod answered;
 mod page;
@@ -101,7 +96,6 @@ pub fn run(
     together.nothing_told().map_or(Ok(()), Err)
 }
 
-/// Answers of all traces, and what follows from them together.
 #[derive(Default)]
 struct Together {
     /// One for each trace, in the order of their names.
@@ -142,13 +136,11 @@ impl Together {
         all.filter_map(|stored| Some((&*stored.trace, stored.ended.as_ref().ok()?)))
     }
 
-    /// Traces that were refused, with the reason.
     fn refused(&self) -> impl Iterator<Item = (&str, &str)> {
         let all = self.traces.iter();
         all.filter_map(|stored| Some((&*stored.trace, &**stored.ended.as_ref().err()?)))
     }
 
-    /// Parameters that are far from those of the other traces.
     fn far(&self) -> Vec<Outlier> {
         let mut all: BTreeMap<&str, Vec<(&str, f64, f64)>> = BTreeMap::new();
         for (trace, told) in self.told() {
@@ -164,7 +156,6 @@ impl Together {
         all.flat_map(|(name, told)| outliers(name, &told)).collect()
     }
 
-    /// The failure where no trace told anything.
     fn nothing_told(&self) -> Option<Failure> {
         if self.told().next().is_some() {
             return None;
@@ -196,7 +187,6 @@ impl Together {
 
 type Fit<'a> = &'a (dyn Fn(&Path) -> Result<(Calibration, Answered), Failure> + Sync);
 
-/// What the traces tell together, fitted or merged.
 fn answer(folder: &Folder<'_>, fit: Fit<'_>) -> Result<Together, Failure> {
     Together::of(match &*folder.arguments.merge {
         [] => fitted(folder, fit)?,

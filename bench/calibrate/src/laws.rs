@@ -47,7 +47,6 @@ pub struct Law {
     pub cost: Cost,
 }
 
-/// What a law costs on the reference core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cost {
     /// Sum of what was counted of these functions of the firmware.
@@ -133,7 +132,6 @@ impl Law {
         parameters
     }
 
-    /// The law at these parameters, at rest before it ever moved.
     pub fn friction(&self, scales: &Scales, values: &[f64]) -> Result<Friction, Error> {
         let mut values = values.iter().copied();
         let mut next = |has: bool, without: f64| {
@@ -173,13 +171,11 @@ impl Scales {
         }
     }
 
-    /// Shortest travel to full sliding that a sensor sees.
     fn shortest(&self) -> f64 {
         (2.0 * self.resolution).max(1e-7 * self.travel)
     }
 }
 
-/// A law of friction with what it remembers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
     law: Law,
@@ -237,7 +233,6 @@ impl Friction {
             .collect()
     }
 
-    /// Friction of sliding at a speed, over its highest level.
     fn level(&self, speed: f64) -> f64 {
         match self.law.level {
             Level::Constant => 1.0,

@@ -7,8 +7,7 @@
 //! | [`fit`] | the estimator: parameters that enter linearly eliminated, the few others searched; intervals, profiles, what the rows do not see |
 //! | [`experiment`] | which manoeuvre tells a parameter |
 //! | [`laws`] | laws of friction of unit level over a motion, and what each costs on the reference core |
-//! | [`screw`] | a trace of a screw whose design is known, as a problem of the estimator |
-//! | [`with_design`] | its calibration |
+//! | [`screw`] | calibration of a trace of a screw whose design is known: the estimator's rows with the law of the ball |
 //! | [`without_design`] | calibration of a trace without a design: models of friction, the period of a wave, the closed loop |
 //! | [`steady`] | runs at one speed each as one measurement |
 //! | [`answer`] | what a calibration answers: parameters with intervals, what cannot be told, scores of models |
@@ -43,7 +42,6 @@ pub mod page;
 pub mod screw;
 pub(crate) mod steady;
 pub mod trace;
-pub mod with_design;
 pub mod without_design;
 
 use std::io::Cursor;

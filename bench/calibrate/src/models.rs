@@ -54,16 +54,13 @@ pub const OWN: [Law; 2] = {
     ]
 };
 
-/// A model on the trace that is fitted, and on another that is not.
 pub struct Entry<'a> {
     pub name: &'a str,
     pub cost: Cost,
-    /// On the fitted trace.
     pub fitted: &'a dyn Separable,
     pub unseen: Option<&'a dyn Separable>,
 }
 
-/// Fits a model, and scores it on what was not fitted.
 pub fn score(entry: &Entry<'_>) -> Result<(ModelScore, Found), Failure> {
     let count = entry.fitted.target().len();
     let border = (FITTED * count as f64) as usize;

@@ -1,11 +1,4 @@
 //! What a calibration writes, and where.
-//!
-//! | module | what |
-//! |---|---|
-//! | [`design_file`] | the user's design file with the calibrated numbers |
-//! | [`firmware`] | what firmware takes of a calibrated design, as plain numbers |
-//! | [`constants`] | the same as Rust constants |
-//! | [`drive`] | Rust constants of a drive without a drawing |
 
 pub(crate) mod constants;
 pub(crate) mod design_file;
@@ -31,7 +24,7 @@ use epas_traces::source::Source;
 
 /// Where the outputs of a calibration go.
 #[derive(Clone, Debug, Default, PartialEq, Eq, clap::Args)]
-pub struct OutputArguments {
+pub(crate) struct OutputArguments {
     /// Folder of the page with its figures and tables [default: target/calibrate/TRACE]
     #[arg(long, value_name = "FOLDER")]
     pub output: Option<PathBuf>,
@@ -49,19 +42,19 @@ pub struct OutputArguments {
     pub json: bool,
 }
 
-/// What is written of a calibration.
+/// What is known of what was calibrated.
 #[derive(Clone, Copy)]
-pub struct Outcome<'a> {
-    /// The answer.
+pub(crate) enum Known<'a> {
+    /// Text of its design file, and the screw that was fitted.
+    Design(&'a str, &'a Screw),
+    Drive(&'a Drive),
+}
+
+#[derive(Clone, Copy)]
+pub(crate) struct Outcome<'a> {
     pub calibration: &'a Calibration,
-    /// What the page draws.
     pub picture: &'a Picture,
-    /// Text of the design file that was calibrated, where there is a design.
-    pub design: Option<&'a str>,
-    /// The screw that was fitted, where there is a design.
-    pub screw: Option<&'a Screw>,
-    /// The drive, where there is none.
-    pub drive: Option<&'a Drive>,
+    pub of: Known<'a>,
     /// What the trace was made with, where its file says it.
     pub truth: &'a Truth,
 }
@@ -69,7 +62,7 @@ pub struct Outcome<'a> {
 impl OutputArguments {
     /// Fails before any work is done where an output would be in the way of a file, or is one of the inputs: the trace or one of those
     /// beside it.
-    pub fn check<const N: usize>(
+    pub(crate) fn check<const N: usize>(
         &self,
         trace: &Path,
         beside: [Option<&Path>; N],
@@ -100,8 +93,7 @@ impl OutputArguments {
         }
     }
 
-    /// Writes the constants of a drive, where they are asked for; what is to be told of it.
-    pub fn write_drive(&self, drive: &Drive, trace: &str) -> Result<Vec<String>, Failure> {
+    pub(crate) fn write_drive(&self, drive: &Drive, trace: &str) -> Result<Vec<String>, Failure> {
         let Some(path) = &self.constants else {
             return Ok(Vec::new());
         };
@@ -111,8 +103,7 @@ impl OutputArguments {
         Ok([wrote].into_iter().chain(numbers.notes).collect())
     }
 
-    /// Folder of the page of a trace.
-    pub fn folder(&self, trace: &str) -> PathBuf {
+    pub(crate) fn folder(&self, trace: &str) -> PathBuf {
         self.output.clone().unwrap_or_else(|| {
             let plain = |letter: char| letter.is_alphanumeric() || "-_".contains(letter);
             let name = trace.replace(|letter| !plain(letter), "_");
@@ -121,19 +112,19 @@ impl OutputArguments {
     }
 
     /// Writes everything, and prints what is to be told: the page's text and tables, or one JSON object.
-    pub fn write(&self, outcome: Outcome<'_>) -> Result<(), Failure> {
+    pub(crate) fn write(&self, outcome: Outcome<'_>) -> Result<(), Failure> {
         let Outcome {
             calibration,
             picture,
-            design,
-            ..
+            of,
+            truth,
         } = outcome;
-        let mut told = match outcome.drive {
-            Some(drive) => self.write_drive(drive, &picture.name)?,
-            None => Vec::new(),
+        let (mut told, design) = match of {
+            Known::Drive(drive) => (self.write_drive(drive, &picture.name)?, None),
+            Known::Design(text, screw) => (Vec::new(), Some((text, screw))),
         };
         let folder = self.folder(&picture.name);
-        let document = page::document(calibration, picture, outcome.truth, design.is_some());
+        let document = page::document(calibration, picture, truth, design.is_some());
         folder::mark(&folder)?;
         document.write(&folder)?;
         let mut write = |path: &Path, text: &str| {
@@ -141,8 +132,8 @@ impl OutputArguments {
             files::write(path, text, self.existing())
         };
         let mut left = Vec::new();
-        if let (Some(text), true) = (design, self.files().next().is_some()) {
-            let told = (calibration, outcome.screw);
+        if let (Some((text, screw)), true) = (design, self.files().next().is_some()) {
+            let told = (calibration, Some(screw));
             let Written {
                 text,
                 design,
@@ -172,16 +163,14 @@ impl OutputArguments {
     }
 }
 
-/// Name of a folder of traces.
-pub fn folder_name(traces: &Path) -> String {
+pub(crate) fn folder_name(traces: &Path) -> String {
     traces.file_name().map_or_else(
         || "folder".into(),
         |name| name.to_string_lossy().into_owned(),
     )
 }
 
-/// One JSON object on a line.
-pub fn print_json(object: &impl Serialize) -> Result<(), Failure> {
+pub(crate) fn print_json(object: &impl Serialize) -> Result<(), Failure> {
     let text = serde_json::to_string(object).map_err(|error| Failure::Data(error.to_string()))?;
     print_line(&text)
 }

@@ -1,11 +1,5 @@
 //! The page of a calibration: what the trace tells, how well the model explains it, and what is left over against everything
 //! that was measured.
-//!
-//! | module | what |
-//! |---|---|
-//! | [`picture`] | what the page draws, as plain data |
-//! | [`shown`] | numbers, tables and charts as they are shown |
-//! | [`truth`] | what a synthetic trace was made with |
 
 pub mod picture;
 pub(crate) mod shown;
@@ -32,7 +26,6 @@ const GROUPS: usize = 40;
 /// Error over the effort from which on a model explains nothing.
 const WORTHLESS: f64 = 0.5;
 
-/// What effort and position are called and measured in.
 struct Words([&'static str; 4]);
 
 impl Words {
@@ -44,8 +37,7 @@ impl Words {
     }
 }
 
-/// The page.
-pub fn document(
+pub(crate) fn document(
     calibration: &Calibration,
     picture: &Picture,
     truth: &Truth,
@@ -73,8 +65,7 @@ pub fn document(
     Document::of(format!("Calibration: {}", picture.name), sections)
 }
 
-/// The page of runs at one speed each: friction over speed.
-pub fn of_runs(steady: &Steady, name: &str) -> Document {
+pub(crate) fn of_runs(steady: &Steady, name: &str) -> Document {
     let words = Words::of(steady.coordinate);
     let Words([effort, unit, _, length]) = words;
     let points = |of: fn(&Run) -> f64| steady.runs.iter().map(|run| (run.speed, of(run))).collect();
@@ -121,7 +112,6 @@ pub fn of_runs(steady: &Steady, name: &str) -> Document {
     Document::of(format!("Calibration: {name}"), sections)
 }
 
-/// Parameters, and what the trace cannot tell.
 fn told(calibration: &Calibration, truth: &Truth, words: &Words) -> Vec<Block> {
     let mut blocks = vec![
         Block::Answer(parameters(&calibration.parameters, truth)),
@@ -140,7 +130,6 @@ fn told(calibration: &Calibration, truth: &Truth, words: &Words) -> Vec<Block> {
     blocks
 }
 
-/// Parameters with their intervals, and the truth beside them where it is known.
 fn parameters(estimates: &[Estimate], truth: &Truth) -> Table {
     let row = |estimate: &Estimate| {
         let Estimate {
@@ -281,7 +270,6 @@ fn over_time(picture: &Picture, words: &Words) -> Figure {
     }
 }
 
-/// The residual against everything that was measured.
 fn residual(picture: &Picture, words: &Words) -> Vec<Block> {
     let residual = picture.residual();
     let turn = picture.position.iter().map(|angle| angle.rem_euclid(TAU));

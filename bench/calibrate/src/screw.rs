@@ -1,16 +1,6 @@
-//! A trace of a screw whose design is known: friction coefficient, preload, breakaway angle and what else the trace can tell.
-//!
-//! | module | what |
-//! |---|---|
-//! | [`quantities`] | everything that has a value: names, units, bounds |
-//! | [`friction`] | friction along the trace: the exact ball behind the memory of the crate |
-//! | [`exact`] | the exact ball on a grid of coefficients and preloads, solved where a fit comes near |
-//! | [`evidence`] | what the trace excites |
-//! | [`choice`] | what is estimated, from where, within which bounds |
-//! | [`problem`] | the whole torque as a separable problem |
-//! | [`stages`] | rows in which the balls slide, then rows about the turns; intervals |
-//! | [`telling`] | what a trace lacks, in sentences |
-//! | [`compared`] | other models of friction on the same trace |
+//! Calibration of a trace of a screw whose design is known. In the estimator's rows, with its kernel, its way after a turn and its intervals,
+//! gross sliding of the exact ball takes the place of Coulomb friction and losses. What reversals tell (breakaway angle, backlash) is fitted to
+//! rows about the turns, after it and from its numbers.
 
 pub mod choice;
 mod compared;
@@ -32,13 +22,15 @@ use self::exact::{Grid, Spacing};
 use self::friction::Screw;
 use self::problem::{Choice, Known};
 use self::quantities::{QUANTITIES, Values};
-use self::stages::{AT_TURNS, Prepared, Sliding, Window};
+use self::stages::{Prepared, Sliding, Window, few};
 use crate::answer::{Calibration, Estimate};
 use crate::estimator::fit::rms;
 use crate::estimator::record::{Record, Smoothed};
-use crate::estimator::words::wrong;
+use crate::estimator::words::screened;
 use crate::fit::problem::Separable as _;
 use crate::fit::uncertainty::{Interval, Uncertainty, effective_rows};
+use crate::folder::answered::Answered;
+use crate::page::picture::Picture;
 use crate::trace::{Coordinate, Trace};
 use crate::without_design::{comparable, placed};
 use epas_design::files::Design;
@@ -69,18 +61,14 @@ impl Request {
 pub struct ScrewCalibration {
     /// The answer.
     pub answer: Calibration,
+    /// What its page draws: the rows over the whole motion.
+    pub picture: Picture,
     /// The screw that was fitted.
     pub screw: Screw,
     /// Its values, estimated or not.
     pub values: Values,
     /// How sure they are.
     pub uncertainty: Uncertainty,
-    /// Samples at the middle of the rows over the whole motion.
-    pub samples: Vec<usize>,
-    /// What was measured there, N m.
-    pub measured: Vec<f64>,
-    /// What the model leaves of it, N m.
-    pub residual: Vec<f64>,
 }
 
 struct Told {
@@ -102,22 +90,22 @@ pub fn calibrate(
     request.check()?;
     of_screw(trace, request.unseen.as_ref())?;
     let trace = &*placed(trace);
-    let late = looked_at(trace, reduced_lead(design))?;
     let evidence = Evidence::of(trace, &Smoothed::of(trace));
     plausible(design, &evidence)?;
+    let (kernel, late) = looked_at(trace, reduced_lead(design))?;
     let mut start = Start::of(design, &evidence, &request.wanted)?;
     let unseen = request.unseen.iter();
     let loads = unseen.flat_map(|unseen| &unseen.load).flatten();
     let screw = &mut start.screw;
     screw.largest_load = loads.fold(screw.largest_load, |most, load| most.max(load.abs()));
-    let (prepared, told) = told(trace, &start, &evidence, request)?;
+    let (prepared, told) = told(trace, &start, &evidence, (request, kernel))?;
     let rows = prepared.rows_over_turns(told.window, true);
     let whole = prepared.remembered(rows, told.known());
-    let measured = whole.target().to_vec();
+    let measured = whole.target();
     let model = whole.model(&told.values);
     let residual: Vec<f64> = measured.iter().zip(model).map(|(a, b)| a - b).collect();
     let uncertainty = uncertainty(&told, &residual);
-    let mut answer = answer(&told, &measured, &residual, &uncertainty);
+    let mut answer = answer(&told, measured, &residual, &uncertainty);
     let said = |name: &str| {
         let words = name.replace('_', " ");
         told.sentences.iter().any(|said| said.starts_with(&words))
@@ -138,15 +126,31 @@ pub fn calibrate(
         let scores = compared::models(&prepared, &told, request.unseen.as_ref());
         answer.compare(scores.into_iter());
     }
+    let names = uncertainty.intervals.iter().map(|of| of.name.into());
+    let errors = (names.collect(), &uncertainty.covariance);
+    let fitted = (measured.to_vec(), &*residual);
     Ok(ScrewCalibration {
         answer,
+        picture: Picture::of(trace, &whole.rows().centres, fitted, errors),
         screw: start.screw,
         values: told.values,
         uncertainty,
-        samples: whole.rows().centres.clone(),
-        measured,
-        residual,
     })
+}
+
+/// One trace of many, and what it adds to the others.
+pub fn plain(
+    trace: &Trace,
+    design: &Design,
+    request: &Request,
+) -> Result<(Calibration, Answered), Failure> {
+    let request = Request {
+        without_models: true,
+        ..request.clone()
+    };
+    let found = calibrate(trace, design, &request)?;
+    let answered = Answered::of(&found.picture.residual(), &found.uncertainty, true)?;
+    Ok((found.answer, answered))
 }
 
 /// Whether a trace is one of a screw, and another one may score its models.
@@ -159,34 +163,64 @@ fn of_screw(trace: &Trace, unseen: Option<&Trace>) -> Result<(), Failure> {
     unseen.map_or(Ok(()), |unseen| comparable(trace, unseen))
 }
 
+/// Rows of one direction, then rows about the turns: with a longer way after a turn where these find a longer breakaway angle.
 fn told<'a>(
     trace: &'a Trace,
     start: &Start,
     evidence: &Evidence,
-    request: &Request,
+    (request, kernel): (&Request, (f64, f64)),
 ) -> Result<(Prepared<'a>, Told), Failure> {
+    let [first, at_turns] = start.choice.clone().at_turns();
+    let mut left_out = Record::of(trace, &[]).rests();
+    let mut prepared = Prepared::new(trace, &left_out, start.screw);
+    let breakaway = start.values.breakaway_angle.max(trace.resolution);
+    let mut window = prepared.window(kernel, breakaway, &first)?;
     let coarse = start.screw.grid(&start.values, Spacing::COARSE)?;
-    let mut at_turns = start.choice.clone();
-    at_turns.linear.clear();
-    at_turns
-        .nonlinear
-        .retain(|(of, _)| AT_TURNS.contains(&of.name));
-    let mut first = start.clone();
-    for name in AT_TURNS {
-        first.choice = first.choice.without(name);
+    let known = Known::of(&start.values, &first, &coarse);
+    let (values, outliers) = prepared.first_fit(window, known)?;
+    let mut said = None;
+    if !outliers.is_empty() {
+        said = Some(format!(
+            "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",
+            outliers.len()
+        ));
+        left_out.extend(outliers);
+        prepared = Prepared::new(trace, &left_out, start.screw);
     }
-    let mut sentences = Vec::new();
-    let (prepared, window, values) =
-        first_look(trace, (&first, &at_turns), &coarse, &mut sentences)?;
-    let set = &request.wanted.fix;
-    let mut choice = first.choice;
-    let mut kept = Vec::new();
-    let mut sliding = prepared.slid(window, Known::of(&values, &choice, &coarse), set)?;
+    loop {
+        let mut told = slid(
+            &prepared,
+            (window, known.with(&values)),
+            (start, evidence),
+            &request.wanted.fix,
+        )?;
+        if !at_turns.nonlinear.is_empty() {
+            told.turn(&prepared, &at_turns, &start.values)?;
+        }
+        let longer = prepared.window(kernel, told.values.breakaway_angle, &first)?;
+        if longer.way <= LONGER * window.way {
+            told.sentences.splice(0..0, said);
+            return Ok((prepared, told));
+        }
+        window = longer;
+    }
+}
+
+/// What rows of one direction tell: what they do not is set, one parameter after the other.
+fn slid(
+    prepared: &Prepared<'_>,
+    (window, known): (Window, Known<'_>),
+    (start, evidence): (&Start, &Evidence),
+    set: &[(String, f64)],
+) -> Result<Told, Failure> {
+    let mut choice = known.choice.clone();
+    let (mut kept, mut sentences) = (Vec::new(), Vec::new());
+    let mut sliding = prepared.slid(window, known, set)?;
     while let Some(untold) = telling::untold(&sliding, &start.values, evidence, &kept) {
         let less = choice.without(untold.name);
         let value = telling::value_of(untold.name, &start.values);
         let without = telling::with(untold.name, value, &sliding.values);
-        let next = prepared.slid(window, Known::of(&without, &less, &coarse), set)?;
+        let next = prepared.slid(window, Known::of(&without, &less, known.grid), set)?;
         if next.residual_rms > GROWTH * sliding.residual_rms {
             // The trace does object to that value.
             kept.push(untold.name);
@@ -199,7 +233,7 @@ fn told<'a>(
     let sliding = prepared.slid(window, Known::of(&sliding.values, &choice, &grid), set)?;
     let bounds = sliding.intervals.iter().filter(|of| of.at_bound);
     sentences.extend(bounds.map(|of| telling::at_bound(of, evidence)));
-    let mut told = Told {
+    Ok(Told {
         values: sliding.values,
         choice,
         intervals: Vec::new(),
@@ -207,35 +241,7 @@ fn told<'a>(
         window,
         sentences,
         grid,
-    };
-    if !at_turns.nonlinear.is_empty() {
-        told.turn(&prepared, at_turns, &start.values)?;
-    }
-    Ok((prepared, told))
-}
-
-/// The trace without outliers, the window of its rows and values near the answer.
-fn first_look<'a>(
-    trace: &'a Trace,
-    (first, at_turns): (&Start, &Choice),
-    grid: &Arc<Grid>,
-    sentences: &mut Vec<String>,
-) -> Result<(Prepared<'a>, Window, Values), Failure> {
-    let mut left_out = Record::of(trace, &[]).rests();
-    let prepared = Prepared::new(trace, &left_out, first.screw);
-    let start = Known::of(&first.values, &first.choice, grid);
-    let (window, values) = prepared.first_way(start, at_turns)?;
-    let (values, outliers) = prepared.first_fit(window, start.with(&values))?;
-    if !outliers.is_empty() {
-        sentences.push(format!(
-            "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",
-            outliers.len()
-        ));
-        left_out.extend(outliers);
-    }
-    let prepared = Prepared::new(trace, &left_out, first.screw);
-    let window = prepared.best_window(window, start.with(&values));
-    Ok((prepared, window, values))
+    })
 }
 
 impl Told {
@@ -247,10 +253,10 @@ impl Told {
     fn turn(
         &mut self,
         prepared: &Prepared<'_>,
-        at_turns: Choice,
+        at_turns: &Choice,
         design: &Values,
     ) -> Result<(), Failure> {
-        let turned = prepared.turned(self.window, &self.sliding, &at_turns, self.known())?;
+        let turned = prepared.turned(self.window, &self.sliding, at_turns, self.known())?;
         let step = prepared.trace.resolution;
         for of in turned.into_iter().flatten() {
             let design = telling::value_of(of.name, design);
@@ -265,14 +271,14 @@ impl Told {
             }
         }
         let told = |name: &str| self.intervals.iter().any(|of| of.name == name);
-        let told = at_turns
-            .nonlinear
-            .into_iter()
-            .filter(|(of, _)| told(of.name));
-        self.choice.nonlinear.extend(told);
+        let told = at_turns.nonlinear.iter().filter(|(of, _)| told(of.name));
+        self.choice.nonlinear.extend(told.cloned());
         Ok(())
     }
 }
+
+/// A longer way after a turn is taken where it is longer by this.
+const LONGER: f64 = 1.5;
 
 /// A parameter stays free where the residual is larger by this without it.
 const GROWTH: f64 = 1.02;
@@ -309,20 +315,20 @@ fn plausible(design: &Design, evidence: &Evidence) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Travel of the screw over the nut's angle, m/rad.
 fn reduced_lead(design: &Design) -> f64 {
     f64::from(design.screw().lead()) / std::f64::consts::TAU
 }
 
-/// Whether signs, units and columns fit: the estimator's words on the trace as a drive with the load's torque, friction whatever it is; and
-/// how late a channel is.
-fn looked_at(trace: &Trace, reduced_lead: f64) -> Result<Option<String>, Failure> {
+/// Whether signs, units and columns fit, by the estimator's words on the trace as a drive with the load's torque, friction whatever it is: the
+/// kernel and the way after a turn of its rows, and how late a channel is.
+fn looked_at(trace: &Trace, reduced_lead: f64) -> Result<((f64, f64), Option<String>), Failure> {
     let mut drive = trace.clone();
     for load in drive.load.iter_mut().flatten() {
         *load *= reduced_lead;
     }
     drive.load_is_effort = true;
-    wrong(&Record::of(&drive, &[]), &drive).map_err(Failure::Data)
+    let found = screened(&Record::of(&drive, &[]), &drive).map_err(Failure::Data)?;
+    found.ok_or_else(few)
 }
 
 /// How sure everything is: both stages' parameters, in the order in which quantities are told; the stages' errors count as independent.

@@ -1,9 +1,4 @@
 //! A measured trace, from the tables of [`epas_traces`].
-//!
-//! | module | what |
-//! |---|---|
-//! | [`columns`] | reads a trace: its columns referred to one coordinate |
-//! | [`free_load`] | a load that never leaves its noise |
 
 pub mod columns;
 pub mod free_load;

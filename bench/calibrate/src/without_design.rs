@@ -1,12 +1,4 @@
 //! Calibration of a trace without a design: the estimator's numbers, its words, and models of friction beside each other.
-//!
-//! | module | what |
-//! |---|---|
-//! | [`models`] | models of friction on a trace, fitted and scored |
-//! | [`slide`] | a trace with a law of friction, turns among its rows, as a separable problem, and as what opposes a motion |
-//! | [`drive`] | what firmware takes of it |
-//! | [`closed_loop`] | the motion that a controller makes of a model |
-//! | [`controller`] | the controller that is seen in a trace |
 
 pub(crate) mod closed_loop;
 pub(crate) mod controller;
@@ -66,7 +58,7 @@ pub fn calibrate(
         wave,
         load: loads(&found.terms),
     };
-    let prepared = Prepared::new(trace, &record);
+    let prepared = Prepared::new(trace, &record, found.length);
     let seen = |trace: &Trace, record: &Record| {
         controller.and_then(|controller| SeenController::of(controller, trace, record))
     };
@@ -77,7 +69,7 @@ pub fn calibrate(
         .and_then(|(other, record)| seen(other, record));
     let other = other
         .as_ref()
-        .map(|(other, record)| Prepared::new(other, record));
+        .map(|(other, record)| Prepared::new(other, record, found.length));
     // At one speed there is nothing to be compared.
     if found.of(Term::Coulomb).is_some() {
         let unseen = other
@@ -223,7 +215,6 @@ pub fn comparable(trace: &Trace, other: &Trace) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The estimate of a record with its words, and the wave number of a wave over the position.
 fn told(
     record: &Record,
     trace: &Trace,
@@ -232,7 +223,6 @@ fn told(
     Ok((found.estimate, found.words, found.wave))
 }
 
-/// Terms of the load.
 fn loads(terms: &[Term]) -> Vec<Term> {
     let load = [Term::Driving, Term::BackDriving, Term::Gain, Term::Loss];
     load.into_iter()
@@ -277,8 +267,7 @@ pub fn of_estimate(
     }
 }
 
-/// The sentence on a load that keeps its size.
-pub const OF_ONE_SIZE: &str = "losses in proportion to the load: it keeps its size; the friction and the offset hold what is lost at this load, and are right at it alone; change the load";
+pub(crate) const OF_ONE_SIZE: &str = "losses in proportion to the load: it keeps its size; the friction and the offset hold what is lost at this load, and are right at it alone; change the load";
 
 /// What the trace does not tell, and what would.
 fn untold(record: &Record, trace: &Trace, found: &choice::Estimate) -> Vec<String> {
@@ -324,7 +313,6 @@ fn untold(record: &Record, trace: &Trace, found: &choice::Estimate) -> Vec<Strin
     sentences
 }
 
-/// What the page draws: the rows of the estimate.
 fn picture(record: &Record, trace: &Trace, found: &choice::Estimate) -> Picture {
     let rows = found.rows.first().and_then(Option::as_ref);
     let centres = rows.map_or(&[][..], |rows| &rows.centres);

@@ -5,11 +5,10 @@ use std::io::Cursor;
 
 use epas_calibrate::answer::{Calibration, Estimate, ModelScore};
 use epas_calibrate::page::picture::Picture;
-use epas_calibrate::screw::Request;
 use epas_calibrate::screw::choice::Wanted;
+use epas_calibrate::screw::{self, Request};
 use epas_calibrate::trace::Trace;
 use epas_calibrate::trace::columns::{self, Frame};
-use epas_calibrate::with_design;
 use epas_calibrate::without_design;
 use epas_cli::bindings::{Controller, Failure};
 use pyo3::prelude::*;
@@ -182,7 +181,7 @@ pub fn calibrate<'py>(
         let design = design.inner.clone();
         interruptible(py, move |_| {
             let trace = read(text, frame.as_ref())?;
-            let told = with_design::told(&trace, &design, &request)?;
+            let told = screw::calibrate(&trace, &design, &request)?;
             Ok((told.answer, told.picture))
         })?
     } else {

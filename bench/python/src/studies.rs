@@ -2,9 +2,8 @@
 
 use epas_calibrate::folder::answered::{Answered, merged};
 use epas_calibrate::folder::population::populations;
-use epas_calibrate::screw::Request;
+use epas_calibrate::screw::{self, Request};
 use epas_calibrate::trace::columns::Frame;
-use epas_calibrate::with_design;
 use epas_calibrate::without_design;
 use epas_cli::design_study::{Design as StudiedDesign, Duty, figures};
 use pyo3::prelude::*;
@@ -173,7 +172,7 @@ pub fn trace_sums(
         Some(design) => {
             let frame = Frame::of(&design, ratio);
             let request = Request::default();
-            with_design::summed(&read(text, Some(&frame))?, &design, &request)
+            screw::plain(&read(text, Some(&frame))?, &design, &request)
         }
     })?;
     let (_, answered) = summed.map_err(|failure| refused(py, told(failure)))?;

@@ -1,19 +1,5 @@
 //! Measurement files of ASAM MDF 4 (`.mf4`): their channels in SI units on one raster, and files that hold what a table would.
 //!
-//! | module | what |
-//! |---|---|
-//! | [`blocks`] | a block within the file's bounds, a text |
-//! | [`chain`] | the bytes of a data group, through lists and compression |
-//! | [`records`] | the records of a channel group among those bytes |
-//! | [`mod@file`] | groups and channels |
-//! | [`samples`] | the values of a channel, and which of them are invalid |
-//! | [`mapping`] | which channel is which column, where names differ |
-//! | [`columns`] | the columns that a command asks for, and gets |
-//! | [`choice`] | the channels of the wanted quantities, their units |
-//! | [`raster`] | channels of several rasters on one |
-//! | [`table`] | a file's columns |
-//! | [`mod@write`] | writes a table |
-//!
 //! The structures of the blocks, the numbers of a record and the conversions are those of the crate `mdf4-rs`. It slices a file
 //! without looking at its size, takes counts as they stand, drops a record that goes over the end of a data block, and knows no
 //! data group of several channel groups; so it is given blocks that were measured before, and the way through the data is ours.
@@ -21,7 +7,6 @@
 pub(crate) mod blocks;
 pub(crate) mod chain;
 pub(crate) mod choice;
-pub(crate) mod columns;
 pub(crate) mod file;
 pub mod mapping;
 pub(crate) mod raster;
@@ -32,9 +17,8 @@ pub(crate) mod table;
 mod tests;
 pub mod write;
 
-pub use columns::{Request, Table, Wanted};
 pub use mapping::Mapping;
-pub use table::read;
+pub use table::{Request, Wanted, read};
 
 use std::path::Path;
 

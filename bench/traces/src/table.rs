@@ -6,7 +6,6 @@ use csv::{ByteRecord, ErrorKind, Reader, ReaderBuilder, Trim};
 
 use crate::front;
 use crate::headings;
-use crate::mdf4;
 use crate::units::{Dimension, Quantity, Unit, cut, heading};
 use epas_page::files::line_of;
 
@@ -65,7 +64,43 @@ pub struct Request<'a> {
     pub rated_torque: Option<f64>,
 }
 
+impl Column {
+    pub(crate) fn of(
+        (name, place): (String, usize),
+        (quantity, unit): (Quantity, Unit),
+        values: Vec<f64>,
+    ) -> Self {
+        Self {
+            name,
+            quantity,
+            unit,
+            values,
+            left_out: Vec::new(),
+            place,
+        }
+    }
+}
+
 impl Table {
+    /// Of columns at times that never go back; a sample at the time of the one before is dropped.
+    pub(crate) fn of(times: &[f64], mut columns: Vec<Column>, notes: Vec<String>) -> Self {
+        let mut kept: Vec<usize> = (0..times.len()).collect();
+        kept.dedup_by(|next, sample| times[*next] == times[*sample]);
+        let at = |values: &[f64]| kept.iter().map(|sample| values[*sample]).collect();
+        for column in &mut columns {
+            column.values = at(&column.values);
+        }
+        Self {
+            times: at(times),
+            columns,
+            repeated: times.len() - kept.len(),
+            rows: kept.iter().map(|sample| *sample as u32 + 1).collect(),
+            ignored: Vec::new(),
+            notes,
+            left_out: Vec::new(),
+        }
+    }
+
     /// The column of a quantity.
     pub fn column(&self, quantity: Quantity) -> Option<&Column> {
         self.columns
@@ -135,38 +170,12 @@ pub fn read(input: impl Read + Seek, request: Request<'_>) -> Result<Table, Stri
         notes: Vec::new(),
         left_out: Vec::new(),
     }
-    .whole(request)
-}
-
-/// The table of a measurement file, with the checks of [`read`].
-pub fn of_measurement(found: mdf4::Table, request: Request<'_>) -> Result<Table, String> {
-    // A sample at the time of the one before is dropped, as of a CSV file.
-    let mut kept: Vec<usize> = (0..found.times.len()).collect();
-    kept.dedup_by(|next, sample| found.times[*next] == found.times[*sample]);
-    let at = |values: &[f64]| -> Vec<f64> { kept.iter().map(|sample| values[*sample]).collect() };
-    let columns = found.columns.iter().map(|column| Column {
-        name: column.name.clone(),
-        quantity: column.quantity,
-        unit: column.unit,
-        values: at(&column.values),
-        left_out: Vec::new(),
-        place: 0,
-    });
-    Table {
-        times: at(&found.times),
-        columns: columns.collect(),
-        repeated: found.times.len() - kept.len(),
-        rows: kept.iter().map(|sample| *sample as u32 + 1).collect(),
-        ignored: found.ignored,
-        notes: found.notes,
-        left_out: Vec::new(),
-    }
-    .whole(request)
+    .whole(request.rated_torque)
 }
 
 impl Table {
     /// The table with every cell filled, shares of a rated torque in N m.
-    fn whole(mut self, request: Request<'_>) -> Result<Self, String> {
+    pub(crate) fn whole(mut self, rated_torque: Option<f64>) -> Result<Self, String> {
         if self.times.len() > MOST_SAMPLES {
             return Err(format!(
                 "a trace has at most {MOST_SAMPLES} samples; cut it"
@@ -176,7 +185,7 @@ impl Table {
             if column.unit.dimension != Dimension::Rated {
                 continue;
             }
-            let Some(torque) = request.rated_torque else {
+            let Some(torque) = rated_torque else {
                 return Err(format!(
                     "column {}: it is in {} of the motor's rated torque, which the file does not say: calibrate --rated-torque takes it in N m, from the motor's data sheet; or give the column in N m",
                     cut(&column.name),
@@ -264,14 +273,8 @@ fn header(
                 cut(name)
             ));
         }
-        table.columns.push(Column {
-            name: name.into(),
-            quantity,
-            unit,
-            values: Vec::new(),
-            left_out: Vec::new(),
-            place,
-        });
+        let column = Column::of((name.into(), place), (quantity, unit), Vec::new());
+        table.columns.push(column);
     }
     let mut columns = table.columns.iter();
     let time = columns

@@ -15,7 +15,6 @@ const RATIO: f64 = std::f64::consts::SQRT_2;
 /// Ways after a turn that are left out, over the median stroke.
 const WAYS: [f64; 6] = [0.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 0.125, 0.25];
 
-/// That with which the length is chosen.
 const FIRST_WAY: usize = 3;
 
 /// Root mean square of a column over the sensor's noise in it, from which on it is told.
@@ -38,7 +37,6 @@ const ROWS: usize = 3;
 /// What is wanted beside what a record tells by itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wanted {
-    /// Terms more.
     pub more: Vec<Term>,
     /// A lag of the motion though its position was measured: the test of a shifted clock.
     pub lag: bool,
@@ -49,7 +47,6 @@ pub struct Wanted {
 
 #[derive(Clone, Debug)]
 pub struct Estimate {
-    /// Terms.
     pub terms: Vec<Term>,
     pub values: Vec<f64>,
     /// Half of each 95 % interval.
@@ -252,7 +249,6 @@ impl<'a> Set<'a> {
         runs.zip(rows).filter_map(block).collect()
     }
 
-    /// One fit, without the systematic share.
     fn fitted(&self, wanted: &Wanted, tried: Tried) -> Option<Estimate> {
         let rows = self.rows(tried);
         let terms = self.terms(&rows, wanted)?;

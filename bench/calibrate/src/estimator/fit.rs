@@ -43,7 +43,6 @@ pub struct Fit {
     pub relative: f64,
 }
 
-/// Sums of the normal equations of one piece.
 struct Piece {
     number: (usize, usize),
     normal: DMatrix<f64>,
@@ -65,7 +64,6 @@ fn solved(normal: &DMatrix<f64>, right: &DVector<f64>) -> DVector<f64> {
         .unwrap_or_else(|_| DVector::zeros(right.len()))
 }
 
-/// Fits blocks of rows with the same columns.
 pub fn fit(blocks: &[Block], meaning: Meaning<'_>) -> Fit {
     let count = blocks.first().map_or(0, |block| block.columns.len());
     let squares = |column: usize| -> f64 {

@@ -1,5 +1,8 @@
 //! Rows of the regression: sums of the kernel over windows that lie in one direction of motion.
 
+use nalgebra::DMatrix;
+
+use super::fit::dot;
 use super::kernel::Kernel;
 use super::record::{QUARTER, Record};
 
@@ -26,6 +29,17 @@ pub struct Rows {
 }
 
 impl Rows {
+    pub(crate) const fn none(kernel: Kernel) -> Self {
+        Self {
+            kernel,
+            centres: Vec::new(),
+            directions: Vec::new(),
+            stretches: Vec::new(),
+            pieces: Vec::new(),
+            stroke: 0.0,
+        }
+    }
+
     /// Rows of a record for a kernel of `half` samples to each side, at least a way `settling`, rad or m, after a turn, and with `spare` samples
     /// of the stretch beyond the window. `None` where there is no stretch.
     pub fn of(record: &Record, half: usize, settling: f64, spare: usize) -> Option<Self> {
@@ -34,14 +48,7 @@ impl Rows {
             return None;
         }
         let hop = (half / ROWS).max(1);
-        let mut rows = Self {
-            kernel: Kernel::new(half, record.tick),
-            centres: Vec::new(),
-            directions: Vec::new(),
-            stretches: Vec::new(),
-            pieces: Vec::new(),
-            stroke: 0.0,
-        };
+        let mut rows = Self::none(Kernel::new(half, record.tick));
         let mut strokes: Vec<(f64, f64)> = Vec::new();
         let mut next_piece = 0;
         for (number, stretch) in stretches.iter().enumerate() {
@@ -96,6 +103,16 @@ impl Rows {
             .iter()
             .map(|centre| self.kernel.at(order, signal, *centre))
             .collect()
+    }
+
+    /// Covariance `sigma^2 sum phi_i phi_j` of the motion's noise in a row's columns, which are these derivatives of the motion, or none.
+    pub fn noise(&self, record: &Record, derivatives: &[Option<usize>]) -> DMatrix<f64> {
+        let weights = |k: usize| Some(self.kernel.weights(record.order(derivatives[k]?)));
+        let entry = |i: usize, j: usize| Some(dot(weights(i)?, weights(j)?));
+        let count = derivatives.len();
+        DMatrix::from_fn(count, count, |i, j| {
+            record.noise.powi(2) * entry(i, j).unwrap_or(0.0)
+        })
     }
 
     /// A signal in every row, so many samples later; what is beyond an end of it counts as the end.

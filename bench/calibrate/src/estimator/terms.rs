@@ -134,6 +134,12 @@ impl Block {
             Term::Asymmetry => signed(derivative(1)),
             Term::Stribeck(speed) => signed(of_speed(&|w| (-w.abs() / speed).exp())),
         };
+        let derivatives = terms.iter().map(|term| match term {
+            Term::Viscous => Some(1),
+            Term::Inertia => Some(2),
+            Term::Lag => Some(3),
+            _ => None,
+        });
         let mut target = rows.sums(0, &record.effort);
         if record.load_is_effort
             && let Some(load) = load
@@ -145,7 +151,7 @@ impl Block {
         Self {
             columns: terms.iter().map(column).collect(),
             target,
-            noise: noise(record, rows, terms),
+            noise: rows.noise(record, &derivatives.collect::<Vec<_>>()),
             stretches: rows.stretches.clone(),
             pieces: rows.pieces.clone(),
         }
@@ -194,22 +200,4 @@ impl Block {
             pieces: vec![0],
         })
     }
-}
-
-/// Covariance of the sensor's noise in the columns of a row: `sigma^2 sum phi_i phi_j`.
-fn noise(record: &Record, rows: &Rows, terms: &[Term]) -> DMatrix<f64> {
-    let order = |term: Term| match term {
-        Term::Viscous => Some(1),
-        Term::Inertia => Some(2),
-        Term::Lag => Some(3),
-        _ => None,
-    };
-    DMatrix::from_fn(terms.len(), terms.len(), |i, j| {
-        let (Some(one), Some(other)) = (order(terms[i]), order(terms[j])) else {
-            return 0.0;
-        };
-        let [one, other] = [one, other].map(|k| rows.kernel.weights(record.order(k)));
-        let product: f64 = one.iter().zip(other).map(|(a, b)| a * b).sum();
-        record.noise.powi(2) * product
-    })
 }

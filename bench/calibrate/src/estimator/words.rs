@@ -45,7 +45,6 @@ const TAKES: f64 = 0.97;
 /// Speeds over which friction changes towards rest, over one that a tenth of the rows exceed. A faster one is a drag that is not linear.
 const STRIBECK: [f64; 3] = [0.02, 0.05, 0.12];
 
-/// What a trace tells with all that was found in it.
 #[derive(Clone, Debug)]
 pub struct Diagnosis {
     pub estimate: Estimate,
@@ -63,20 +62,24 @@ pub fn diagnose(record: &Record, trace: &Trace) -> Result<Diagnosis, String> {
     look.with_more(found)
 }
 
-/// What is wrong with a trace whose friction has another equation, and how late a channel is.
-pub fn wrong(record: &Record, trace: &Trace) -> Result<Option<String>, String> {
+/// Half-width of the kernel, s, and way after a turn that suit a trace whose friction has another equation, and the word on how late a
+/// channel is; nothing where no stretch is long enough. Refused where something is wrong with its columns.
+pub fn screened(
+    record: &Record,
+    trace: &Trace,
+) -> Result<Option<((f64, f64), Option<String>)>, String> {
     let look = Look::at(record, trace);
     let Some(found) = look.screened()? else {
         return Ok(None);
     };
     look.apart(&found).map_or(Ok(()), Err)?;
-    Ok(look.late(&found).map(|(_, word)| word))
+    let late = look.late(&found).map(|(_, word)| word);
+    Ok(Some(((found.length, found.settling), late)))
 }
 
 /// Share of the effort that is left from which on it is said.
 const MUCH: f64 = 0.2;
 
-/// A record with the names of its columns, units, and the terms that were found beside the equation.
 struct Look<'a> {
     record: &'a Record,
     effort: &'a str,
@@ -93,7 +96,6 @@ fn about((value, half): (f64, f64)) -> String {
     format!("{} +- {}", digits(value, 3), digits(half, 2))
 }
 
-/// Below zero by more than its interval.
 fn below(found: &Estimate, term: Term) -> Option<(f64, f64)> {
     found.of(term).filter(|(value, half)| *value < -half)
 }
@@ -148,7 +150,6 @@ impl<'a> Look<'a> {
         wrong.map_or(Ok(found), Err)
     }
 
-    /// Adds the terms that the residual asks for.
     fn with_more(&mut self, mut found: Estimate) -> Result<Diagnosis, String> {
         let (mut words, mut wave) = (Vec::new(), None);
         let moves = found.of(Term::OneSpeed).is_none();
@@ -387,7 +388,6 @@ impl<'a> Look<'a> {
         Some((better, wave, word))
     }
 
-    /// A torque that repeats over the position.
     fn ripple(&self, found: &Estimate) -> Option<(Estimate, f64, String)> {
         // Short kernels let it through.
         let kernel = Some((found.length.min(6e-3), found.settling));
@@ -468,7 +468,6 @@ impl<'a> Look<'a> {
         (value.abs() > 2.0 * half).then_some(other)
     }
 
-    /// Whether a lag that was not measured as such is in the fit.
     fn lags(&self, found: &Estimate) -> bool {
         !self.record.speed_alone && found.of(Term::Lag).is_some()
     }

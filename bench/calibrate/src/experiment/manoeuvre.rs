@@ -6,11 +6,9 @@ use std::fmt;
 use crate::trace::Trace;
 use epas_design::files::Design;
 
-/// A manoeuvre.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Manoeuvre {
     pub name: &'static str,
-    /// How it is driven.
     pub how: &'static str,
     /// The parameters that it identifies: of `calibrate --wanted` for the built-in `lin-4.1` one of the two narrowest intervals is its; for
     /// spin-down and whole turns, what they still identify without a load and at one speed.
@@ -21,7 +19,6 @@ pub(crate) struct Manoeuvre {
     motion: fn(f64, &Reach) -> (f64, f64),
 }
 
-/// What the rig or the vehicle can do.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Reach {
     /// Largest angle from the middle, rad; above 0.
@@ -77,7 +74,6 @@ fn sweep(t: f64, reach: &Reach) -> f64 {
     reach.angle * (0.8 * wave(frequency, t) + 0.2 * wave(0.44 * frequency, t))
 }
 
-/// All of them.
 pub(crate) const MANOEUVRES: [Manoeuvre; 7] = [
     Manoeuvre {
         name: "weave",
@@ -157,11 +153,9 @@ pub(crate) const MANOEUVRES: [Manoeuvre; 7] = [
     },
 ];
 
-/// The one in which the temperature rises.
 const WARM_UP: &str = "warm-up";
 
 impl Manoeuvre {
-    /// Its trace with a tick, s, without the effort.
     pub fn trace(&self, step: f64, reach: &Reach) -> Trace {
         let rows = (self.duration / step).round() as usize;
         let time = |row: usize| row as f64 * step;

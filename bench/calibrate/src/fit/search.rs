@@ -39,12 +39,12 @@ const PATIENCE: usize = 20;
 /// Least singular value of the linear columns, over the largest, that counts.
 const RANK: f64 = 1e-10;
 
-/// A fit.
+/// A fit; parameters in the problem's order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Found {
-    /// Nonlinear parameters, in the problem's order.
+    /// Nonlinear parameters.
     pub nonlinear: Vec<f64>,
-    /// Linear parameters, in the problem's order.
+    /// Linear parameters.
     pub linear: Vec<f64>,
     /// Target less model at every row.
     pub residual: Vec<f64>,

@@ -38,7 +38,6 @@ pub struct Interval {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Uncertainty {
     pub intervals: Vec<Interval>,
-    /// Covariance of the inner coordinates.
     pub covariance: DMatrix<f64>,
     pub effective_rows: f64,
 }

@@ -89,7 +89,6 @@ pub fn write(output: &Path, stored: &Stored) -> Result<(), Failure> {
     files::write(&path, &text, Existing::Replace)
 }
 
-/// All answers of a folder in which a run has written, in the order of their names.
 pub fn all(output: &Path) -> Result<Vec<Stored>, Failure> {
     let folder = output.join("traces");
     let paths = list(&folder, &["json"])?;

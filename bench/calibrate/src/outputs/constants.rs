@@ -14,7 +14,6 @@ use epas_design::files::Design;
 use epas_page::failure::Failure;
 use epas_page::progress::Progress;
 
-/// Constants of a design, to be pasted.
 pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
     let numbers = Numbers::of(design)?;
     let friction = design.caged.friction;
@@ -41,7 +40,6 @@ pub fn text(design: &Design, trace: &str) -> Result<String, Failure> {
     Ok(text)
 }
 
-/// The comment at the top of a file of constants.
 pub(super) fn head(what: &str, trace: &str) -> String {
     format!(
         "// {what}, calibrated by trace {}.\n//\n\
@@ -51,7 +49,6 @@ pub(super) fn head(what: &str, trace: &str) -> String {
     )
 }
 
-/// The value, or a stop of the compiler.
 pub(super) const SOUND: &str = "
 /// The value; a refused one stops the compiler here.
 const fn sound<T: Copy>(checked: Result<T, Error>) -> T {
@@ -71,7 +68,6 @@ fn imports(numbers: &Numbers) -> String {
     format!("{law}use epas_friction::{{Error, scene}};\n")
 }
 
-/// The block of the screw, and the constants of the scene without memory.
 fn screw(folded: &Folded) -> Result<String, Failure> {
     let words = folded.words()?;
     let (count, nodes) = (words.len(), folded.block.nodes());

@@ -30,18 +30,15 @@ const TOGETHER: [&str; 2] = [
     "breakaway_angle largest_load",
 ];
 
-/// Whether a list of keys has this one.
 fn has(keys: &str, name: &str) -> bool {
     keys.split(' ').any(|key| key == name)
 }
 
-/// What a comment of this program starts with.
 const MARK: &str = "calibrated: ";
 
 #[derive(Debug)]
 pub struct Written {
     pub text: String,
-    /// The design that it is read as.
     pub design: Design,
     /// Estimated parameters that a design file has no key for.
     pub left_out: Vec<String>,
@@ -119,7 +116,6 @@ fn ends_at_bound(calibration: &Calibration, name: &str) -> bool {
     ended.any(|other| other.name == name || group.is_some_and(|group| has(group, &other.name)))
 }
 
-/// The keys of a text, with their places.
 fn parsed(text: &str) -> Result<Document<String>, String> {
     Document::parse(text.to_owned()).map_err(|error| error.to_string())
 }
@@ -201,7 +197,6 @@ fn number(value: f64) -> Value {
     short.parse().unwrap_or_else(|_| Value::from(value))
 }
 
-/// The two parts of a wave over the turn: `cosine_1`, `sine_1`.
 const PARTS: [&str; 2] = ["cosine", "sine"];
 
 /// Waves in a turn, of a parameter that is a part of one.
@@ -210,7 +205,6 @@ fn order(name: &str) -> Option<u8> {
     order.parse().ok().filter(|_| PARTS.contains(&part))
 }
 
-/// Estimated waves as the list of a design file, one a line.
 fn waves(told: &[&Estimate], trace: &str) -> Option<Array> {
     let estimated = told.iter().filter(|estimate| !estimate.fixed);
     let mut orders: Vec<u8> = estimated

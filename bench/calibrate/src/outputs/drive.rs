@@ -8,7 +8,6 @@ use crate::outputs::constants::{SOUND, head};
 use crate::without_design::drive::Numbers;
 use epas_page::failure::Failure;
 
-/// Constants of a drive, to be pasted.
 pub fn text(numbers: &Numbers, trace: &str) -> Result<String, Failure> {
     let configuration = configuration(numbers);
     LoadProportionalConstants::new(&configuration)

@@ -77,10 +77,4 @@ impl Picture {
         let rows = self.measured.iter().zip(&self.model);
         rows.map(|(measured, model)| measured - model).collect()
     }
-
-    /// Time between rows, s; none where there are fewer than two.
-    pub fn step(&self) -> Option<f64> {
-        let steps = self.time.len().checked_sub(1).filter(|steps| *steps > 0)?;
-        Some((self.time[steps] - self.time[0]) / steps as f64)
-    }
 }

@@ -25,7 +25,6 @@ pub fn digits(value: f64, digits: usize) -> String {
     }
 }
 
-/// A 95 % interval.
 pub fn interval(low: f64, high: f64) -> String {
     match (low.is_finite(), high.is_finite()) {
         (true, true) => format!("{} to {}", digits(low, 4), digits(high, 4)),
@@ -43,7 +42,6 @@ pub fn one_line(text: &str) -> String {
         .collect()
 }
 
-/// A number with four digits.
 pub fn number(value: f64) -> Cell {
     Cell::Number(value, digits(value, 4))
 }

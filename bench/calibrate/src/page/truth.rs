@@ -15,7 +15,6 @@ const LONGEST: u64 = 1 << 16;
 /// Parameters by their names, in SI units.
 pub type Truth = BTreeMap<String, f64>;
 
-/// What the lines of a trace's file say; nothing where it has none, or is no text.
 pub fn of(path: &Path) -> Truth {
     // What is read from standard input is read once.
     let file = (!standard(path)).then(|| File::open(path).ok()).flatten();

@@ -138,8 +138,7 @@ fn unknown(name: &str) -> Failure {
     Failure::Data(format!("{name}: unknown; known are {}", known.join(", ")))
 }
 
-/// Whether a request names what there is.
-pub fn check_names(wanted: &Wanted) -> Result<(), Failure> {
+pub(crate) fn check_names(wanted: &Wanted) -> Result<(), Failure> {
     for name in wanted.estimate.iter().flatten() {
         if !known(name) && name != HARMONICS {
             return Err(unknown(name));
@@ -161,7 +160,6 @@ pub fn check_names(wanted: &Wanted) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The screw and its values by the design.
 fn begin(
     design: &Design,
     evidence: &Evidence,
@@ -225,7 +223,6 @@ fn varies(evidence: &Evidence) -> bool {
     evidence.load_variation() >= needs::LOAD_VARIATION
 }
 
-/// Whether a trace can tell a nonlinear quantity.
 fn tells(name: &str, evidence: &Evidence, screw: &Screw, fixed: &dyn Fn(&str) -> bool) -> bool {
     let [slow, fast] = evidence.speeds;
     let speeds = fast >= needs::SPEEDS * slow && fast > 0.0;
@@ -242,7 +239,6 @@ fn tells(name: &str, evidence: &Evidence, screw: &Screw, fixed: &dyn Fn(&str) ->
     }
 }
 
-/// Whether a trace can tell a linear quantity.
 fn tells_linear(factor: Factor, evidence: &Evidence) -> bool {
     let [slow, fast] = evidence.speeds;
     match factor {
@@ -259,7 +255,6 @@ fn tells_linear(factor: Factor, evidence: &Evidence) -> bool {
     }
 }
 
-/// Start and bounds of a nonlinear quantity.
 fn parameter(
     of: &Quantity,
     scale: Scale,

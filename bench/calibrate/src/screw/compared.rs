@@ -28,14 +28,12 @@ const LEVEL: LinearParameter = LinearParameter {
     high: f64::INFINITY,
 };
 
-/// A trace, fitted or not, with the crate's own model.
 struct Side<'a> {
     prepared: &'a Prepared<'a>,
     problem: ScrewProblem<'a>,
     told: &'a Told,
 }
 
-/// Models of friction beside each other, on another trace or on the last third of the fitted one.
 pub fn models(
     prepared: &Prepared<'_>,
     told: &Told,

@@ -55,12 +55,10 @@ impl Evidence {
         }
     }
 
-    /// Whether both directions are there.
     pub fn both_ways(&self) -> bool {
         self.directions.iter().all(|share| *share > 0.05)
     }
 
-    /// Largest load, N; 0 where none was measured.
     pub fn largest_load(&self) -> f64 {
         self.load.map_or(0.0, |[low, high]| high.max(-low))
     }
@@ -80,7 +78,6 @@ impl Evidence {
         }
     }
 
-    /// Range of the temperature, K.
     pub fn temperature_range(&self) -> f64 {
         self.temperature.map_or(0.0, |[low, high]| high - low)
     }

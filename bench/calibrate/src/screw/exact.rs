@@ -137,7 +137,6 @@ type Node = (Part, i32, i32);
 /// `T/(mu W)` at rising loads, m, under a load that opposes the motion and under one that assists it.
 type Curves = [Vec<f64>; 2];
 
-/// What is solved at a node, once.
 type Solved = Arc<OnceLock<Result<Arc<Curves>, ReferenceError>>>;
 
 /// The exact ball of a design, solved where it is asked for.
@@ -197,7 +196,7 @@ fn friction_place(friction: f64, logarithm: f64) -> f64 {
 }
 
 impl Grid {
-    /// That of a design under axial loads up to a largest one, N.
+    /// Of a design, under axial loads up to a largest one, N.
     pub fn of(
         caged: &CagedDesign,
         largest_load: f64,
@@ -323,7 +322,6 @@ impl Grid {
             .collect()
     }
 
-    /// What is solved at a node, now or before.
     fn at(&self, node: Node) -> Result<Arc<Curves>, ReferenceError> {
         let solved = {
             let mut all = self.solved.lock().unwrap_or_else(PoisonError::into_inner);

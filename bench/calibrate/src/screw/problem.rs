@@ -20,7 +20,7 @@ use nalgebra::DMatrix;
 use super::exact::Grid;
 use super::friction::Course;
 use super::quantities::{Factor, Kind, QUANTITIES, Quantity, Values};
-use super::stages::Prepared;
+use super::stages::{AT_TURNS, Prepared};
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::QUARTER;
 use crate::estimator::rows::Rows;
@@ -40,6 +40,18 @@ impl Choice {
         choice.nonlinear.retain(|(of, _)| of.name != name);
         choice.linear.retain(|of| of.name != name);
         choice
+    }
+
+    /// What rows of one direction tell, and what rows about the turns do.
+    pub fn at_turns(mut self) -> [Self; 2] {
+        let at_turn = |(of, _): &(Parameter, _)| AT_TURNS.contains(&of.name);
+        let (turns, first) = self.nonlinear.into_iter().partition(at_turn);
+        self.nonlinear = first;
+        let turns = Self {
+            nonlinear: turns,
+            linear: Vec::new(),
+        };
+        [self, turns]
     }
 
     #[must_use]
@@ -63,9 +75,8 @@ pub enum Passage {
 /// Signals of a trace at every sample, smoothed as a kernel's rows need them.
 struct Samples {
     position: Vec<f64>,
-    speed: Vec<f64>,
-    load: Option<Vec<f64>>,
-    temperature: Vec<f64>,
+    /// Without angles where nothing is remembered.
+    course: Course,
     /// 1 or -1 within the window of a row, else 0.
     direction: Vec<f64>,
     /// Cosine and sine of one and of two angles.
@@ -98,18 +109,16 @@ impl<'a> Known<'a> {
         }
     }
 
-    /// The same with other values.
     pub fn with(self, values: &'a Values) -> Self {
         Self { values, ..self }
     }
 }
 
-/// A trace of a screw, with what is estimated and what is not.
 pub struct ScrewProblem<'a> {
     prepared: &'a Prepared<'a>,
     rows: Rows,
     samples: Samples,
-    course: Option<Course>,
+    passage: Passage,
     grid: Arc<Grid>,
     values: Values,
     nonlinear: Vec<&'static Quantity>,
@@ -120,21 +129,14 @@ pub struct ScrewProblem<'a> {
 }
 
 impl<'a> ScrewProblem<'a> {
-    /// Rows of a trace, with values of what is not estimated.
     pub fn new(prepared: &'a Prepared<'_>, rows: Rows, passage: Passage, at: Known<'_>) -> Self {
         let samples = Samples::of(prepared, &rows, passage);
-        let course = (passage == Passage::Remembered).then(|| Course {
-            angle: path(prepared, &rows.kernel),
-            speed: samples.speed.clone(),
-            load: samples.load.clone(),
-            temperature: samples.temperature.clone(),
-        });
         let choice = at.choice.from(at.values);
         let (parameters, nonlinear) = choice.nonlinear.into_iter().unzip();
         let mut problem = Self {
             prepared,
             samples,
-            course,
+            passage,
             grid: Arc::clone(at.grid),
             values: *at.values,
             nonlinear,
@@ -148,7 +150,6 @@ impl<'a> ScrewProblem<'a> {
         problem
     }
 
-    /// Takes the linear quantities that are estimated or not zero.
     fn add_linear(&mut self, values: &Values, estimated: &[&'static Quantity]) {
         for of in &QUANTITIES {
             let Kind::Linear(factor, low) = of.kind else {
@@ -179,7 +180,6 @@ impl<'a> ScrewProblem<'a> {
         }
     }
 
-    /// Whether a column follows what is estimated.
     fn moves(&self, factor: Factor) -> bool {
         let free = |name: &str| self.nonlinear.iter().any(|of| of.name == name);
         match factor {
@@ -197,29 +197,21 @@ impl<'a> ScrewProblem<'a> {
     /// What a law of friction is told at every sample: position, speed, and load, all smoothed by the kernel.
     pub fn signals(&self) -> (&[f64], &[f64], Option<&[f64]>) {
         let samples = &self.samples;
-        (&samples.position, &samples.speed, samples.load.as_deref())
+        let Course { speed, load, .. } = &samples.course;
+        (&samples.position, speed, load.as_deref())
     }
 
     /// Covariance of the sensor's noise in the slopes of a row: in the columns of acceleration and speed.
     pub fn noise(&self) -> DMatrix<f64> {
         let free = self.terms.iter().filter(|term| term.estimated);
-        let orders: Vec<Option<usize>> = free
-            .map(|term| match term.factor {
-                Factor::Acceleration => Some(self.prepared.record.order(2)),
-                Factor::Speed => Some(self.prepared.record.order(1)),
-                _ => None,
-            })
-            .collect();
-        let order = |k: usize| orders.get(k.checked_sub(self.parameters.len())?).copied()?;
-        let count = self.parameters.len() + self.linear.len();
-        DMatrix::from_fn(count, count, |i, j| {
-            let (Some(one), Some(other)) = (order(i), order(j)) else {
-                return 0.0;
-            };
-            let weights = self.rows.kernel.weights(one).iter();
-            let products = weights.zip(self.rows.kernel.weights(other));
-            self.prepared.record.noise.powi(2) * products.map(|(a, b)| a * b).sum::<f64>()
-        })
+        let linear = free.map(|term| match term.factor {
+            Factor::Acceleration => Some(2),
+            Factor::Speed => Some(1),
+            _ => None,
+        });
+        let nonlinear = self.parameters.iter().map(|_| None);
+        let derivatives: Vec<_> = nonlinear.chain(linear).collect();
+        self.rows.noise(&self.prepared.record, &derivatives)
     }
 
     /// Rows in blocks of about as many each: by the size of the speed, and in each of these by the size of the load.
@@ -230,8 +222,12 @@ impl<'a> ScrewProblem<'a> {
             let length = rows.len().div_ceil(count).max(1);
             rows.chunks(length).map(<[usize]>::to_vec).collect()
         };
-        let by_speed = part(&self.samples.speed, (0..self.rows.len()).collect(), speeds);
-        match &self.samples.load {
+        let by_speed = part(
+            &self.samples.course.speed,
+            (0..self.rows.len()).collect(),
+            speeds,
+        );
+        match &self.samples.course.load {
             Some(load) => {
                 let by_load = by_speed.into_iter().map(|rows| part(load, rows, loads));
                 by_load.flatten().collect()
@@ -240,7 +236,6 @@ impl<'a> ScrewProblem<'a> {
         }
     }
 
-    /// All values with these of what is estimated.
     pub fn values(&self, nonlinear: &[f64], linear: &[f64]) -> Values {
         let mut values = self.values;
         let parameters = self.nonlinear.iter().zip(&self.parameters);
@@ -255,7 +250,6 @@ impl<'a> ScrewProblem<'a> {
         values
     }
 
-    /// What is estimated of these values, nonlinear and linear.
     pub fn coordinates(&self, values: &Values) -> (Vec<f64>, Vec<f64>) {
         let free = self.terms.iter().filter(|term| term.estimated);
         (
@@ -266,9 +260,10 @@ impl<'a> ScrewProblem<'a> {
 
     /// Friction in every row, N m; no numbers where the exact ball refuses the values.
     pub fn friction(&self, values: &Values) -> Vec<f64> {
-        let friction = match &self.course {
-            Some(course) => self.prepared.screw.friction(values, course, &self.grid),
-            None => self.sliding(values),
+        let course = &self.samples.course;
+        let friction = match self.passage {
+            Passage::Remembered => self.prepared.screw.friction(values, course, &self.grid),
+            Passage::Sliding => self.sliding(values),
         };
         let friction = friction.unwrap_or_else(|_| vec![f64::NAN; self.prepared.record.len()]);
         self.rows.sums(0, &friction)
@@ -278,18 +273,20 @@ impl<'a> ScrewProblem<'a> {
     fn sliding(&self, values: &Values) -> Result<Vec<f64>, Failure> {
         let law = self.prepared.screw.law(values, &self.grid)?;
         let coefficient = CoefficientLaw::new(&self.prepared.screw.coefficient(values))?;
-        let samples = &self.samples;
+        let Samples {
+            course, direction, ..
+        } = &self.samples;
         let at = |(sample, direction): (usize, &f64)| {
             if *direction == 0.0 {
                 return 0.0;
             }
-            let now = coefficient.at_temperature(samples.temperature[sample] as f32);
-            let both = now.both(samples.speed[sample] as f32);
+            let now = coefficient.at_temperature(course.temperature[sample] as f32);
+            let both = now.both(course.speed[sample] as f32);
             let own = both.of(*direction as f32).0;
-            let load = samples.load.as_ref().map_or(0.0, |load| load[sample]);
+            let load = course.load.as_ref().map_or(0.0, |load| load[sample]);
             direction * law.sliding(load, *direction, own.into())
         };
-        Ok(samples.direction.iter().enumerate().map(at).collect())
+        Ok(direction.iter().enumerate().map(at).collect())
     }
 
     pub fn model(&self, values: &Values) -> Vec<f64> {
@@ -304,7 +301,6 @@ impl<'a> ScrewProblem<'a> {
         sum
     }
 
-    /// What stands beside the friction, for other models of it.
     pub fn beside(&self, values: &Values) -> Evaluation {
         let mut fixed = vec![0.0; self.target.len()];
         let columns = self.add_terms(&mut fixed, values);
@@ -333,7 +329,6 @@ impl<'a> ScrewProblem<'a> {
         }
     }
 
-    /// What a factor is in every row.
     fn column(&self, factor: Factor, values: &Values) -> Vec<f64> {
         let (rows, record) = (&self.rows, &self.prepared.record);
         let motion = |derivative| rows.sums(record.order(derivative), &record.motion);
@@ -361,7 +356,7 @@ impl<'a> ScrewProblem<'a> {
         let reference =
             flank_sum(preload, self.prepared.screw.reference_load).max(f64::MIN_POSITIVE);
         let wave = &self.samples.waves[place];
-        match &self.samples.load {
+        match &self.samples.course.load {
             Some(load) => {
                 let samples = wave.iter().zip(load);
                 samples
@@ -379,7 +374,10 @@ impl<'a> ScrewProblem<'a> {
             let oil = viscosity.as_ref();
             oil.map_or(0.0, |oil| f64::from(oil.at(temperature as f32)))
         };
-        let samples = self.samples.speed.iter().zip(&self.samples.temperature);
+        let Course {
+            speed, temperature, ..
+        } = &self.samples.course;
+        let samples = speed.iter().zip(temperature);
         samples
             .map(|(speed, temperature)| speed * at(*temperature))
             .collect()
@@ -402,12 +400,12 @@ impl<'a> ScrewProblem<'a> {
             return vec![0.0; self.prepared.record.len()];
         };
         let lift_off = 8_f64.sqrt() * self.prepared.screw.axial_preload(values);
-        let Samples {
+        let Course {
             speed,
             load,
             temperature,
             ..
-        } = &self.samples;
+        } = &self.samples.course;
         let at = |(sample, speed): (usize, &f64)| {
             let load = load.as_ref().map_or(0.0, |load| load[sample].abs());
             let now = law.at_temperature(temperature[sample] as f32);
@@ -445,11 +443,17 @@ impl Samples {
         };
         Self {
             position: kernel.along(0, angles),
-            speed: kernel.along(record.order(1), &record.motion),
-            load: trace.load.as_ref().map(|load| load_kernel.along(0, load)),
-            temperature: match &trace.temperature {
-                Some(temperature) => temperature.clone(),
-                None => vec![prepared.screw.reference_temperature; record.len()],
+            course: Course {
+                angle: match passage {
+                    Passage::Sliding => Vec::new(),
+                    Passage::Remembered => path(prepared, kernel),
+                },
+                speed: kernel.along(record.order(1), &record.motion),
+                load: trace.load.as_ref().map(|load| load_kernel.along(0, load)),
+                temperature: match &trace.temperature {
+                    Some(temperature) => temperature.clone(),
+                    None => vec![prepared.screw.reference_temperature; record.len()],
+                },
             },
             direction,
             waves: [

@@ -69,7 +69,6 @@ impl Values {
     }
 }
 
-/// A quantity that a trace may tell.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity {
     pub name: &'static str,
@@ -173,7 +172,6 @@ impl Quantity {
         *(self.of)(&mut values)
     }
 
-    /// The same values with another of this one.
     #[must_use]
     pub fn with(&self, value: f64, values: &Values) -> Values {
         let mut values = *values;
@@ -190,10 +188,8 @@ impl Quantity {
     }
 }
 
-/// Word that stands for all waves over the turn in a request.
 pub const HARMONICS: &str = "harmonics";
 
-/// Names of everything, for a request that is wrong.
 pub fn names() -> impl Iterator<Item = &'static str> {
     QUANTITIES.iter().map(|quantity| quantity.name)
 }

@@ -1,5 +1,4 @@
-//! Two stages of a fit: rows of one direction, in which the balls slide, tell all that does not need a memory; rows about the turns then tell
-//! what comes before sliding, with everything else at the numbers of the first stage.
+//! Both stages of a fit: rows of one direction, then rows about the turns.
 //!
 //! Values and intervals come from the estimator on the linearised problem: its columns are the slopes at the fit, so that the noise of the
 //! motion's sensor is out of the normal equations and the jackknife runs over stretches and pieces of them. To a half-width `h` of the
@@ -14,6 +13,7 @@ use super::friction::Screw;
 use super::problem::{Choice, Known, Passage, ScrewProblem};
 use super::quantities::{QUANTITIES, Values, assumed_deviation};
 use crate::estimator::fit::{Block, Fit, fit as least_squares, solver};
+use crate::estimator::kernel::Kernel;
 use crate::estimator::record::{QUARTER, Record};
 use crate::estimator::rows::Rows;
 use crate::fit::problem::{Scale, Separable, inner};
@@ -22,8 +22,7 @@ use crate::fit::uncertainty::{Interval, QUANTILE, intervals};
 use crate::trace::Trace;
 use epas_page::failure::Failure;
 
-/// Half-widths of the kernel that are tried, s.
-const HALF_WIDTHS: [f64; 5] = [8.5e-3, 17e-3, 34e-3, 68e-3, 136e-3];
+/// Fewest samples to each side of a kernel.
 const LEAST_HALF: usize = 4;
 
 /// Way after a turn over the breakaway angle: friction that was full the other way is full again after twice the angle, and under the
@@ -51,16 +50,16 @@ const ELEMENTS: f64 = 7e-3;
 /// Step of a difference over an assumed quantity, in its standard deviations.
 const ASSUMED_STEP: f64 = 1.0 / 3.0;
 
-/// Time without a step of the sensor, s, from which on a drive may stand and be off.
-const REST: f64 = 0.3;
 /// Fewest turns that tell what comes before sliding.
 const FEWEST_TURNS: usize = 8;
+
+/// Most rows over everything that moves, on which models are compared.
+const ROWS: usize = 12_000;
 
 pub const AT_TURNS: [&str; 2] = ["breakaway_angle", "backlash"];
 
 pub struct Prepared<'a> {
     pub trace: &'a Trace,
-    /// The same as the estimator takes it.
     pub record: Record,
     pub screw: Screw,
 }
@@ -99,99 +98,42 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    fn half(&self, seconds: f64) -> usize {
-        ((seconds / self.record.tick).round() as usize).max(LEAST_HALF)
-    }
-
-    fn rows(&self, window: Window) -> Option<Rows> {
+    /// Rows of one direction, where they are enough for what is estimated.
+    fn rows(&self, window: Window, choice: &Choice) -> Option<Rows> {
         let longest = self.record.len() / 4;
         let rows = (window.half < longest)
             .then(|| Rows::of(&self.record, window.half, window.way, 0))
             .flatten()?;
-        (!rows.is_empty()).then_some(rows)
+        let enough = 3 * (choice.nonlinear.len() + choice.linear.len());
+        (rows.len() > enough).then_some(rows)
     }
 
     fn sliding(&self, window: Window, at: Known<'_>) -> Option<ScrewProblem<'_>> {
-        let rows = self.rows(window)?;
-        let enough = 3 * (at.choice.nonlinear.len() + at.choice.linear.len());
-        (rows.len() > enough).then(|| ScrewProblem::new(self, rows, Passage::Sliding, at))
+        let rows = self.rows(window, at.choice)?;
+        Some(ScrewProblem::new(self, rows, Passage::Sliding, at))
     }
 
-    /// The window of the first fit: the shortest kernel whose rows cover half as much as those of any; a shorter way where the strokes are
-    /// short.
-    fn first_window(&self, breakaway: f64) -> Result<Window, Failure> {
-        for share in [1.0, 0.5, 0.25] {
-            // A kernel of 8.5 ms is no first guess: its rows are the noisiest.
-            let windows = HALF_WIDTHS[1..].iter().map(|half| Window {
-                half: self.half(*half),
-                way: share * WAY * breakaway,
-            });
-            let covered = |window: Window| {
-                let rows = self.rows(window);
-                rows.map_or(0, |rows| rows.len() * window.half)
-            };
-            let pairs: Vec<_> = windows.map(|window| (window, covered(window))).collect();
-            let most = pairs.iter().map(|(_, covered)| *covered).max();
-            let half = most.unwrap_or(0).div_ceil(2).max(1);
-            if let Some((window, _)) = pairs.iter().find(|(_, covered)| *covered >= half) {
-                return Ok(*window);
-            }
-        }
-        Err(Failure::Data(
-            "the motion turns round before the balls slide: no row lies in one direction; measure longer strokes".into(),
-        ))
+    /// The estimator's kernel, and its way after a turn where the breakaway angle asks for no longer one; a shorter way where strokes are short.
+    pub fn window(
+        &self,
+        (length, settling): (f64, f64),
+        breakaway: f64,
+        choice: &Choice,
+    ) -> Result<Window, Failure> {
+        let windows = [1.0, 0.5, 0.25].map(|share| Window {
+            half: ((length / self.record.tick).round() as usize).max(LEAST_HALF),
+            way: settling.max(share * WAY * breakaway),
+        });
+        let mut windows = windows.into_iter();
+        let found = windows.find(|window| self.rows(*window, choice).is_some());
+        found.ok_or_else(|| {
+            Failure::Data(
+                "the motion turns round before the balls slide: too few rows lie in one direction; measure longer strokes".into(),
+            )
+        })
     }
 
-    pub fn best_window(&self, first: Window, at: Known<'_>) -> Window {
-        let fitted = |half: f64| {
-            let window = Window {
-                half: self.half(half),
-                ..first
-            };
-            let problem = self.sliding(window, at)?;
-            Some((window, linearised(&problem, at.values)?.fit))
-        };
-        let tried: Vec<_> = HALF_WIDTHS.into_iter().filter_map(fitted).collect();
-        let score = |place: usize| -> f64 {
-            let (_, fit) = &tried[place];
-            let other = tried.get(place + 1).unwrap_or(&tried[place.max(1) - 1]);
-            let values = fit.values.iter().zip(&other.1.values);
-            let widths = fit.half_widths.iter().zip(values);
-            widths
-                .map(|(half, (one, other))| half.hypot(2.0 * (one - other)).max(1e-12).ln())
-                .sum()
-        };
-        let best = (0..tried.len()).min_by(|one, other| score(*one).total_cmp(&score(*other)));
-        best.map_or(first, |place| tried[place].0)
-    }
-
-    /// Values of a first look, and the way after a turn by the breakaway angle that it finds, on rows after a way by its first guess.
-    pub fn first_way(&self, at: Known<'_>, at_turns: &Choice) -> Result<(Window, Values), Failure> {
-        let guess = at.values.breakaway_angle.max(self.trace.resolution);
-        let window = self.first_window(guess)?;
-        let problem = self.sliding(window, at).ok_or_else(few)?;
-        let found = fit_roughly(&problem)?;
-        let values = problem.values(&found.nonlinear, &found.linear);
-        let mut asked = at_turns.nonlinear.iter();
-        if asked.all(|(of, _)| of.name != AT_TURNS[0]) {
-            return Ok((window, values));
-        }
-        let rows = self.rows_over_turns(window, false);
-        let turns = Known {
-            values: &values,
-            choice: at_turns,
-            ..at
-        };
-        let Ok((problem, found)) = self.turn_fit(rows, turns) else {
-            return Ok((window, values));
-        };
-        let breakaway = problem
-            .values(&found.nonlinear, &found.linear)
-            .breakaway_angle;
-        Ok((self.first_window(guess.max(breakaway))?, values))
-    }
-
-    /// The first fit: from a first look, and from other places of the speed law; and the samples of rows that are no part of it.
+    /// The first fit: from several places of the speed law; and the samples of rows that are no part of it.
     pub fn first_fit(
         &self,
         window: Window,
@@ -202,8 +144,8 @@ impl<'a> Prepared<'a> {
         let speed = speed.filter(|(of, _)| of.name == "half_share_speed");
         let starts = if speed.count() > 0 { 3 } else { 1 };
         for factor in &STARTS[..starts] {
-            let mut values = *at.values;
-            values.half_share_speed *= factor;
+            let mut values = best.as_ref().map_or(*at.values, |(_, values, _)| *values);
+            values.half_share_speed = factor * at.values.half_share_speed;
             let problem = self.sliding(window, at.with(&values));
             let problem = problem.ok_or_else(few)?;
             let found = fit_roughly(&problem)?;
@@ -226,7 +168,6 @@ impl<'a> Prepared<'a> {
         Ok((values, if exceptions { beyond } else { Vec::new() }))
     }
 
-    /// The first stage from values near its answer.
     pub fn slid(
         &self,
         window: Window,
@@ -287,29 +228,15 @@ impl<'a> Prepared<'a> {
 
     /// Rows over turns alone, or over everything that moves.
     pub fn rows_over_turns(&self, window: Window, everywhere: bool) -> Rows {
-        let Window { half, way } = window;
-        let record = &self.record;
+        let (half, record) = (window.half, &self.record);
         let (turn, near) = self.turns(window);
-        let mut rows = Rows {
-            kernel: crate::estimator::kernel::Kernel::new(half, record.tick),
-            centres: Vec::new(),
-            directions: Vec::new(),
-            stretches: Vec::new(),
-            pieces: Vec::new(),
-            stroke: way,
-        };
-        let rest = ((0.5 * REST / record.tick) as usize).max(half);
-        let moves = |centre: usize| {
-            let about = centre.saturating_sub(rest)..(centre + rest).min(record.len());
-            let mut places = record.path[about].iter();
-            let first = places.next().copied().unwrap_or(0.0);
-            places.any(|place| (place - first).abs() > record.noise)
-        };
-        let hop = (half / 3).max(1);
+        let mut rows = Rows::none(Kernel::new(half, record.tick));
+        let most = if everywhere { ROWS } else { usize::MAX };
+        let hop = (half / 3).max(record.len() / most).max(1);
         for centre in (half..record.len().saturating_sub(half)).step_by(hop) {
             let (first, last) = (centre - half, centre + half);
             let turns = near[last + 1] > near[first];
-            if (turns || everywhere) && record.sound(first, last) && moves(centre) {
+            if (turns || everywhere) && record.sound(first, last) {
                 rows.centres.push(centre);
                 rows.directions.push(0.0);
                 rows.stretches.push(turn[centre]);
@@ -347,7 +274,6 @@ impl<'a> Prepared<'a> {
         (turn, near.collect())
     }
 
-    /// A problem with the memory stepped along the whole trace.
     pub fn remembered(&self, rows: Rows, at: Known<'_>) -> ScrewProblem<'_> {
         ScrewProblem::new(self, rows, Passage::Remembered, at)
     }
@@ -431,7 +357,7 @@ impl<'a> Prepared<'a> {
     }
 }
 
-fn few() -> Failure {
+pub fn few() -> Failure {
     Failure::Data("too few rows of one direction for what is estimated: measure longer, or with longer strokes".into())
 }
 
@@ -536,7 +462,6 @@ fn model_errors(
     variance.iter().map(|variance| variance.sqrt()).collect()
 }
 
-/// All values with those of the intervals.
 fn settled(problem: &ScrewProblem<'_>, intervals: &[Interval]) -> Values {
     let values: Vec<f64> = intervals.iter().map(|interval| interval.value).collect();
     let (nonlinear, linear) = values.split_at(problem.nonlinear().len());

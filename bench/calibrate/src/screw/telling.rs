@@ -13,13 +13,10 @@ const CONDITION: f64 = 100.0;
 const PART: f64 = 0.05;
 const VAGUE: f64 = 0.25;
 
-/// Names of the law of the speed.
 const FILM: [&str; 2] = ["full_film_ratio", "half_share_speed"];
 
-/// Names of the rolling resistance.
 const ROLLING: [&str; 2] = ["hysteresis_loss", "lubricant_drag"];
 
-/// What is set because the trace does not tell it.
 pub struct Untold {
     pub name: &'static str,
     /// Why, what would tell it, and what it is set to.
@@ -89,7 +86,6 @@ pub fn untold(
     })
 }
 
-/// Half-width over the value.
 fn vagueness(of: &Interval) -> f64 {
     match of.scale {
         Scale::Logarithmic => of.half_width,
@@ -106,12 +102,10 @@ fn half_range(of: &Interval) -> f64 {
     }
 }
 
-/// Value of a quantity by its name.
 pub fn value_of(name: &str, values: &Values) -> f64 {
     Quantity::named(name).map_or(0.0, |of| of.value(values))
 }
 
-/// The same values with another of a quantity.
 pub fn with(name: &str, value: f64, values: &Values) -> Values {
     Quantity::named(name).map_or(*values, |of| of.with(value, values))
 }
@@ -129,7 +123,6 @@ fn words(names: &[&str]) -> String {
     }
 }
 
-/// What the trace lacks to tell these parameters, and what to measure.
 fn lacking(names: &[&str], evidence: &Evidence) -> Option<String> {
     let has = |name: &str| names.contains(&name);
     let load = 100.0 * evidence.load_variation();
@@ -182,7 +175,6 @@ fn lacking(names: &[&str], evidence: &Evidence) -> Option<String> {
         .then(|| format!("the load's size varies by {load:.0} % only; measure at two loads"))
 }
 
-/// Sentences on what was not estimated because the trace does not excite it.
 pub fn left_out(fixed: &[&str], evidence: &Evidence) -> Vec<String> {
     let wanted = [
         "preload",
@@ -201,7 +193,6 @@ pub fn left_out(fixed: &[&str], evidence: &Evidence) -> Vec<String> {
         .collect()
 }
 
-/// Why a position's step is too coarse for what comes before sliding.
 pub fn too_coarse(name: &str, step: f64, value: f64) -> String {
     let value = value as f32;
     format!(
@@ -211,13 +202,11 @@ pub fn too_coarse(name: &str, step: f64, value: f64) -> String {
     )
 }
 
-/// What of a turn ended at its bound.
 pub fn beyond_bound(name: &str, value: f64) -> String {
     let (name, value) = (words(&[name]), value as f32);
     format!("{name}: it ended at its bound, which no trace tells; {name} is set to {value} rad.")
 }
 
-/// What ended at a bound all the same.
 pub fn at_bound(of: &Interval, evidence: &Evidence) -> String {
     let because = lacking(&[of.name], evidence).map_or(String::new(), |text| format!("; {text}"));
     format!(

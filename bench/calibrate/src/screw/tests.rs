@@ -193,18 +193,6 @@ fn wrong_requests_are_named() {
     refused(&request("", ""), &travel, "angle");
 }
 
-/// How the intervals of one parameter do in several runs.
-#[derive(Default)]
-struct Coverage {
-    /// Runs that estimate it, and those whose interval holds the truth.
-    runs: u64,
-    held: u64,
-    /// Half widths over the truth, or themselves where that is zero.
-    widths: Vec<f64>,
-    /// Sum over the runs of the error over the half width.
-    error: f64,
-}
-
 /// How often each parameter is within its own interval: at least 90 of 100; and how wide intervals are. `RUNS` and `COURSES`
 /// (`vehicle,rig,whole`) in the environment choose less.
 ///
@@ -230,27 +218,24 @@ fn intervals_hold_nine_times_of_ten() {
             .into_par_iter()
             .map(|seed| told(&rig.run(&course, seed).unwrap(), &request("", "")).unwrap())
             .collect();
-        let mut all: BTreeMap<&str, Coverage> = BTreeMap::new();
-        for interval in found.iter().flat_map(|run| &run.uncertainty.intervals) {
-            let truth = truth(interval.name);
-            let sum = all.entry(interval.name).or_default();
-            let half = 0.5 * (interval.high - interval.low);
-            sum.runs += 1;
-            sum.held += u64::from((interval.low..=interval.high).contains(&truth));
-            let size = if truth == 0.0 { 1.0 } else { truth.abs() };
-            sum.widths.push(half / size);
-            sum.error += (interval.value - truth) / half;
+        // Whether each interval holds the truth, and its half-width.
+        let mut all: BTreeMap<&str, Vec<(bool, f64)>> = BTreeMap::new();
+        for of in found.iter().flat_map(|run| &run.uncertainty.intervals) {
+            let held = (of.low..=of.high).contains(&truth(of.name));
+            let half = 0.5 * (of.high - of.low);
+            all.entry(of.name).or_default().push((held, half));
         }
-        for (parameter, mut sum) in all {
-            let Coverage { runs, held, .. } = sum;
-            sum.widths.sort_by(f64::total_cmp);
+        for (parameter, mut told) in all {
+            told.sort_by(|one, other| one.1.total_cmp(&other.1));
+            let (runs, half) = (told.len(), told[told.len() / 2].1);
+            let held = told.iter().filter(|(held, _)| *held).count();
+            let said = format!("{name}, {parameter}: {held} of {runs}");
             println!(
-                "{name}, {parameter}: held in {held} of {runs}, median half width {:.2e}, mean error {:.2} half widths",
-                sum.widths[sum.widths.len() / 2],
-                sum.error / runs as f64
+                "{said}, median half-width {half:.2e} of {:.2e}",
+                truth(parameter)
             );
             if 10 * held < 9 * runs {
-                missed.push(format!("{name}, {parameter}: {held} of {runs}"));
+                missed.push(said);
             }
         }
     }
@@ -344,39 +329,6 @@ fn a_forgotten_ratio_has_a_word() {
     assert!(near.iter().any(|word| said.contains(word)), "{said}");
 }
 
-/// A logger at 2.3 ms, by 4 % more or less each time.
-#[test]
-fn a_clock_that_runs_free_is_interpolated() {
-    let mut trace = short();
-    let last = trace.time[trace.time.len() - 1];
-    let rough = noise(11, trace.time.len(), 0.0).into_iter();
-    let steps = rough.scan(0.0, |time, noise| {
-        Some(std::mem::replace(
-            time,
-            *time + 2.3e-3 * (1.0 + 0.04 * noise),
-        ))
-    });
-    let times: Vec<f64> = steps.take_while(|time| *time <= last).collect();
-    for column in [
-        &mut trace.nut_position,
-        &mut trace.motor_torque,
-        &mut trace.axial_load,
-        &mut trace.temperature,
-    ] {
-        let at = |time: &f64| {
-            let place = time / 1e-3;
-            let before = (place as usize).min(column.len() - 2);
-            let share = place - before as f64;
-            column[before] + share * (column[before + 1] - column[before])
-        };
-        *column = times.iter().map(at).collect();
-    }
-    trace.time = times;
-    let (answer, said) = faulty(&trace).unwrap();
-    assert_eq!(holds(&answer, &[]), 5);
-    assert!(said.contains("a logger that runs free"), "{said}");
-}
-
 /// A drag run of preloaded screws whose load cell reads noise of 4 N: the gain stays 1 and friction the same in both directions, with a word, and
 /// nothing that ended at a bound is an estimate. Preloads lift off at 40 to 2600 N a ball.
 #[test]
@@ -441,128 +393,50 @@ fn a_drag_run_with_a_load_cell_of_noise() {
     }
 }
 
-/// Keeps only these samples of the measured columns.
-fn keep(trace: &mut Measured, wanted: impl Fn(usize) -> bool) {
-    for column in [
-        &mut trace.time,
-        &mut trace.nut_position,
-        &mut trace.motor_torque,
-        &mut trace.axial_load,
-        &mut trace.temperature,
-    ] {
-        let mut samples = 0..;
-        column.retain(|_| wanted(samples.next().unwrap_or(0)));
-    }
-}
-
 fn each(column: &mut [f64], of: impl Fn(f64) -> f64) {
     for value in column {
         *value = of(*value);
     }
 }
 
-/// What is wrong with a trace, whether it is answered, and a part of the sentence with which it is refused, or of what is told beside the
-/// answer.
-type Spoiled = (fn(&mut Measured), bool, &'static str);
-
-const SPOILED: [Spoiled; 11] = [
-    // The motor's channel ends at half of its largest torque.
-    (
-        |trace| {
-            let largest = trace
-                .motor_torque
-                .iter()
-                .fold(0.0_f64, |most, at| most.max(at.abs()));
-            each(&mut trace.motor_torque, |torque| {
-                torque.clamp(-0.5 * largest, 0.5 * largest)
-            });
-        },
-        false,
-        "clipped",
-    ),
+/// What is wrong with a trace beyond what its reader refuses, and a part of the sentence with which it is refused.
+const SPOILED: [(fn(&mut Measured), &str); 6] = [
     (
         |trace| each(&mut trace.nut_position, f64::to_degrees),
-        false,
         "degrees",
     ),
     (
         |trace| each(&mut trace.motor_torque, |torque| -torque),
-        false,
         "turn the sign of motor_torque",
     ),
     (
         |trace| each(&mut trace.axial_load, |load| -load),
-        false,
         "turn the sign of axial_load",
     ),
     (
         |trace| trace.motor_torque.rotate_right(25),
-        false,
         "shift the channels to one clock",
     ),
-    (
-        |trace| {
-            let middle = trace.len() / 2;
-            each(&mut trace.time[middle..], |time| time - 0.5);
-        },
-        false,
-        "time goes back",
-    ),
-    (
-        |trace| {
-            let quarter = trace.len() / 4;
-            (1..4).for_each(|k| trace.motor_torque[k * quarter] = f64::NAN);
-        },
-        true,
-        "interpolated linearly",
-    ),
-    (
-        |trace| keep(trace, |sample| sample % 100 != 50),
-        true,
-        "missing samples",
-    ),
-    (
-        |trace| {
-            let gap = trace.len() / 2..trace.len() / 2 + 1000;
-            keep(trace, |sample| !gap.contains(&sample));
-        },
-        false,
-        "a gap of",
-    ),
-    (|trace| trace.nut_position.fill(0.0), false, "never moves"),
+    (|trace| trace.nut_position.fill(0.0), "never moves"),
     (
         |trace| trace.axial_load.fill(0.0),
-        false,
         "nothing presses the balls",
     ),
 ];
 
-/// A word each, and never a confident wrong number: samples that are missing do not move the friction out of its interval.
 #[test]
-fn spoiled_traces_are_refused_or_told() {
+fn spoiled_traces_are_refused() {
     let measured = measured(Parameters::default(), &Course::vehicle().times(0.3), 3);
-    let mut wrong = Vec::new();
     let mut request = request("", "");
     request.wanted.fix.clear();
-    for (spoil, answered, word) in SPOILED {
+    for (spoil, word) in SPOILED {
         let mut spoiled = measured.clone();
         spoil(&mut spoiled);
         let found = trace(&spoiled, &built_in()).and_then(|trace| {
             let found = calibrate(&trace, &built_in(), &request);
             found.map_err(|failure| format!("{failure:?}"))
         });
-        let (is_answer, text) = match found {
-            Ok(found) => {
-                let friction = found.answer.parameter("friction").unwrap();
-                let held = friction.low < 0.115 && 0.115 < friction.high;
-                assert!(held, "{friction:?}");
-                (true, found.answer.cannot_tell.join("; "))
-            }
-            Err(refusal) => (false, refusal),
-        };
-        if is_answer != answered || !text.contains(word) {
-            wrong.push(format!("{word}: {text}"));
-        }
+        let refusal = found.map(|found| found.answer).unwrap_err();
+        assert!(refusal.contains(word), "{word}: {refusal}");
     }
-    assert!(wrong.is_empty(), "{wrong:#?}");
 }

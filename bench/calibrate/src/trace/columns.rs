@@ -29,7 +29,6 @@ use crate::trace::KnownEffort;
 use crate::trace::free_load;
 use crate::trace::{Coordinate, Origins, Repairs, Trace};
 
-/// Temperatures that a screw can have, K.
 const TEMPERATURES: (f64, f64) = (150.0, 620.0);
 
 /// What refers a motor and a carriage to the nut.
@@ -195,14 +194,14 @@ pub fn measured(
         wanted: &wanted,
         master: &master,
         mapping: channels,
+        rated_torque: frame.and_then(|frame| frame.rated_torque),
     };
     let mut found = mdf4::read(input, &request).map_err(Failure::Data)?;
     for note in std::mem::take(&mut found.notes) {
         say(format_args!("note: {name}: {note}"));
     }
     let frame = frame.copied().unwrap_or_default();
-    let table = table::of_measurement(found, everything(&frame)).map_err(Failure::Data)?;
-    assemble(table, name, &frame).map_err(Failure::Data)
+    assemble(found, name, &frame).map_err(Failure::Data)
 }
 
 /// Reads a trace from a table.
@@ -212,18 +211,14 @@ pub fn from_reader(
     frame: Option<&Frame>,
 ) -> Result<Trace, Failure> {
     let frame = frame.copied().unwrap_or_default();
-    let table = table::read(input, everything(&frame)).map_err(Failure::Data)?;
+    let everything = Request {
+        wants: &|_| true,
+        rated_torque: frame.rated_torque,
+    };
+    let table = table::read(input, everything).map_err(Failure::Data)?;
     assemble(table, name, &frame).map_err(Failure::Data)
 }
 
-fn everything(frame: &Frame) -> Request<'static> {
-    Request {
-        wants: &|_| true,
-        rated_torque: frame.rated_torque,
-    }
-}
-
-/// Parts in the order in which they tell the motion best.
 const PARTS: [Part; 4] = [Part::Nut, Part::Motor, Part::Carriage, Part::Plain];
 
 fn assemble(mut table: Table, name: &str, frame: &Frame) -> Result<Trace, String> {
@@ -348,7 +343,6 @@ fn joined(marked: &[[f64; 2]], clock: &Clock, samples: usize) -> Vec<Range<usize
     joined
 }
 
-/// A position at the ticks of a clock, and the step of its sensor.
 fn position_of(
     own: &(Column, Part),
     frame: &Frame,
@@ -398,7 +392,6 @@ fn measured_load(
     stays.then(|| vec![mean; column.values.len()])
 }
 
-/// Values times a factor.
 fn scaled(values: &[f64], factor: f64) -> Vec<f64> {
     values.iter().map(|value| value * factor).collect()
 }
@@ -412,7 +405,6 @@ fn angle_of(mut column: Column, factor: f64, angle: bool) -> Result<Vec<f64>, St
     Ok(scaled(&column.values, factor))
 }
 
-/// The column of one of two quantities, and whether it is the first.
 fn either(
     table: &mut Table,
     quantities: [Quantity; 2],
@@ -428,7 +420,6 @@ fn either(
     }
 }
 
-/// The effort, and whether it is a torque.
 fn effort(table: &mut Table) -> Result<(Column, bool), String> {
     let found = either(
         table,
@@ -462,7 +453,6 @@ fn load(table: &mut Table, torque: bool, frame: &Frame) -> Result<(Option<Column
     }
 }
 
-/// The column of an effort that is known, of the motor's kind.
 fn known(table: &mut Table, torque: bool) -> Result<Option<Column>, String> {
     let kinds = [Quantity::KnownTorque, Quantity::KnownForce];
     match either(table, kinds, "known effort")? {
@@ -477,7 +467,6 @@ fn known(table: &mut Table, torque: bool) -> Result<Option<Column>, String> {
     }
 }
 
-/// What is missing, beside what is there.
 fn absent(missing: &str, table: &Table) -> String {
     let known = table.columns.iter().map(|column| &column.name);
     let all = known.chain(&table.ignored).map(String::as_str);
@@ -488,7 +477,6 @@ fn absent(missing: &str, table: &Table) -> String {
     format!("{missing}; left are {}", names.join(", "))
 }
 
-/// The column that tells the motion best.
 fn motion(table: &mut Table, of: fn(Part) -> Quantity) -> Option<(Column, Part)> {
     PARTS
         .into_iter()
@@ -499,7 +487,6 @@ fn motion(table: &mut Table, of: fn(Part) -> Quantity) -> Option<(Column, Part)>
 fn check_degrees(name: &str, step: f64) -> Result<(), String> {
     /// Distance from a power of two, of its logarithm. Of encoders with such a step in radians, the first has 18,301 steps in a turn.
     const NEAR: f64 = 2e-5;
-    /// Bits of encoders.
     const BITS: std::ops::RangeInclusive<f64> = 6.0..=24.0;
     let bits = (360.0 / step).log2();
     if !BITS.contains(&bits) || (bits - bits.round()).abs() > NEAR {
@@ -524,7 +511,6 @@ fn check_temperature(column: &Column, table: &Table) -> Result<(), String> {
     ))
 }
 
-/// Position from speed: the sum of trapezoids.
 fn sum_up(speed: &[f64], step: f64) -> Vec<f64> {
     let steps = speed
         .windows(2)

@@ -193,6 +193,7 @@ fn clocks_are_put_on_even_ticks() {
         let counted = [found.missing, found.jittered, found.repeated];
         assert_eq!(counted, repairs[..3]);
         assert!(found.free_running.abs_diff(repairs[3]) <= 3);
+        assert_eq!(trace.told().concat().contains("a logger that runs free"), repairs[3] > 0);
         assert_eq!(trace.left_out.iter().map(ExactSizeIterator::len).sum::<usize>(), marked);
         for (tick, found) in trace.position.iter().enumerate() {
             let wanted = angle(trace.start + trace.step * tick as f64);

@@ -116,7 +116,6 @@ impl Loop<'_> {
 }
 
 impl Course {
-    /// Relative error of the efforts from this share of the trace on.
     pub fn error_after(&self, trace: &Trace, share: f64) -> f64 {
         let start = (trace.len() as f64 * share.clamp(0.0, 1.0)) as usize;
         let [measured, found] = [&trace.effort, &self.effort].map(|effort| &effort[start..]);

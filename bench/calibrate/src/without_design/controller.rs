@@ -16,7 +16,6 @@ pub const SOURCES: [(usize, &str); 4] = [
     (4, "the difference of positions four ticks apart"),
 ];
 
-/// A controller as the trace shows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeenController {
     pub controller: Controller,
@@ -38,7 +37,6 @@ const SMOOTH: usize = 8;
 const UNEXPLAINED: f64 = 0.5;
 
 impl SeenController {
-    /// Effort at every sample from the measured positions.
     fn efforts(
         controller: &Controller,
         trace: &Trace,

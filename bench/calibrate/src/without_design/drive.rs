@@ -8,7 +8,6 @@ use epas_page::failure::Failure;
 /// Factor by which firmware believes in more than the trace has.
 const ROOM: f64 = 2.0;
 
-/// Numbers of a drive without a drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     pub coordinate: Coordinate,
@@ -19,7 +18,6 @@ pub struct Drive {
     pub largest: [f64; 2],
 }
 
-/// What the scene is set up with.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numbers {
     /// Torque of a unit of load, m; 1 where the load is a torque.
@@ -43,7 +41,6 @@ pub struct Numbers {
 }
 
 impl Drive {
-    /// What the scene is set up with.
     pub fn numbers(&self) -> Result<Numbers, Failure> {
         if self.coordinate != Coordinate::Rotation {
             return Err(Failure::Data(

@@ -21,10 +21,8 @@ pub const LOAD_PROPORTIONAL: Law = Law {
 
 const OURS: Law = OWN[1];
 
-/// A trace on which models are compared, with its controller.
 pub type Compared<'a> = (&'a Prepared<'a>, Option<&'a SeenController>);
 
-/// Models beside each other, each with its name.
 pub fn scores(
     fitted: Compared<'_>,
     unseen: Option<Compared<'_>>,

@@ -9,7 +9,6 @@
 
 use std::ops::Range;
 
-use crate::estimator::fit::rms;
 use crate::estimator::kernel::Kernel;
 use crate::estimator::record::{Record, Smoothed};
 use crate::estimator::terms::Term;
@@ -20,11 +19,7 @@ use crate::trace::KnownEffort;
 use crate::trace::channels::range;
 use crate::trace::{Coordinate, Trace};
 
-/// Noise of the acceleration over its own root mean square that is let pass.
-const NOISE: f64 = 0.05;
-
-/// Kernel's half-widths that are tried, s, and its fewest samples.
-const LENGTHS: [f64; 6] = [6e-3, 8.5e-3, 12e-3, 17e-3, 24e-3, 34e-3];
+/// Fewest samples to each side of a kernel.
 const FEWEST: usize = 4;
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,7 +30,6 @@ pub struct Beside {
     pub position: bool,
     /// Wave number of a wave over the position, 1/rad or 1/m.
     pub wave: Option<f64>,
-    /// Terms of the load: those of the estimate.
     pub load: Vec<Term>,
 }
 
@@ -74,17 +68,9 @@ impl Delayed {
 }
 
 impl<'a> Prepared<'a> {
-    /// With the shortest kernel through which hardly any noise of the sensor passes into the acceleration.
-    pub fn new(trace: &'a Trace, record: &Record) -> Self {
-        let of = |length: f64| ((length / trace.step).round() as usize).max(FEWEST);
-        let sharp = |half: &usize| {
-            let kernel = Kernel::new(*half, trace.step);
-            let at = (0..record.len()).step_by(*half);
-            let sizes = at.map(|k| kernel.at(record.order(2), &record.motion, k));
-            record.noise_in(&kernel, 2) <= NOISE * rms(&sizes.collect::<Vec<_>>())
-        };
-        let half = LENGTHS.map(of).into_iter().find(sharp);
-        let half = half.unwrap_or_else(|| of(LENGTHS[LENGTHS.len() - 1]));
+    /// With a kernel of a half-width, s.
+    pub fn new(trace: &'a Trace, record: &Record, length: f64) -> Self {
+        let half = ((length / trace.step).round() as usize).max(FEWEST);
         let stride = trace.len().div_ceil(SAMPLES).clamp(1, half);
         // Both kernels are equally long: (half + 1) ticks.
         let short = ((half + 1) / stride).max(2) - 1;
@@ -127,7 +113,6 @@ impl<'a> Prepared<'a> {
         }
     }
 
-    /// Positions of the rows, rad or m.
     pub fn places(&self) -> Vec<f64> {
         let at = |centre: &usize| self.motion.position[*centre];
         self.centres.iter().map(at).collect()
@@ -149,7 +134,6 @@ impl<'a> Prepared<'a> {
     }
 }
 
-/// What the terms depend on.
 struct Instant {
     position: f64,
     /// Position from the middle of the way.
@@ -162,7 +146,6 @@ struct Instant {
     wave: f64,
 }
 
-/// A term of the sum: its parameter, and what that multiplies.
 struct Addend {
     parameter: LinearParameter,
     of: fn(&Instant) -> f64,
@@ -172,7 +155,6 @@ struct Addend {
     rubs: bool,
 }
 
-/// A model of a trace by a law.
 pub struct Slide<'a> {
     prepared: &'a Prepared<'a>,
     law: Law,
@@ -196,97 +178,70 @@ const BACKWARD: &str = "viscous_friction_backward";
 const STIFFNESS: &str = "position_stiffness";
 const SLOPE: &str = "friction_slope";
 
-/// Terms of the sum, those that follow the law last.
-fn addends(coordinate: Coordinate, beside: &Beside) -> Vec<Addend> {
-    let named = |name, unit, low, of, smooth, rubs| Addend {
-        parameter: LinearParameter {
+impl Addend {
+    fn new([name, unit]: [&'static str; 2], of: fn(&Instant) -> f64) -> Self {
+        let parameter = LinearParameter {
             name,
             unit,
-            low,
+            low: f64::NEG_INFINITY,
             high: f64::INFINITY,
-        },
-        of,
-        smooth,
-        rubs,
-    };
-    let of = |term: Term, low, of: fn(&Instant) -> f64, smooth, rubs| {
-        named(
-            term.name(coordinate),
-            term.unit(coordinate),
-            low,
+        };
+        Self {
+            parameter,
             of,
-            smooth,
-            rubs,
-        )
-    };
-    const FREE: f64 = f64::NEG_INFINITY;
+            smooth: false,
+            rubs: false,
+        }
+    }
+
+    const fn smooth(mut self) -> Self {
+        self.smooth = true;
+        self
+    }
+
+    const fn rubs(mut self) -> Self {
+        self.rubs = true;
+        self
+    }
+
+    const fn not_negative(mut self) -> Self {
+        self.parameter.low = 0.0;
+        self
+    }
+}
+
+/// Terms of the sum, those that follow the law last.
+fn addends(coordinate: Coordinate, beside: &Beside) -> Vec<Addend> {
+    let named = |term: Term| [term.name(coordinate), term.unit(coordinate)];
+    let of = |term: Term, of: fn(&Instant) -> f64| Addend::new(named(term), of);
     let over_position = match coordinate {
         Coordinate::Rotation => "N m/rad",
         Coordinate::Translation => "N/m",
     };
-    let mut all = vec![of(Term::Inertia, 0.0, |at| at.acceleration, true, false)];
+    let inertia = of(Term::Inertia, |at| at.acceleration);
+    let mut all = vec![inertia.smooth().not_negative()];
     if beside.rich {
-        let unit = Term::Viscous.unit(coordinate);
-        all.push(named(
-            FORWARD,
-            unit,
-            FREE,
-            |at| at.speed.max(0.0),
-            false,
-            false,
-        ));
-        all.push(named(
-            BACKWARD,
-            unit,
-            FREE,
-            |at| at.speed.min(0.0),
-            false,
-            false,
-        ));
+        let [_, unit] = named(Term::Viscous);
+        all.push(Addend::new([FORWARD, unit], |at| at.speed.max(0.0)));
+        all.push(Addend::new([BACKWARD, unit], |at| at.speed.min(0.0)));
     } else {
-        all.push(of(Term::Viscous, FREE, |at| at.speed, true, false));
+        all.push(of(Term::Viscous, |at| at.speed).smooth());
     }
-    all.push(of(Term::Offset, FREE, |_| 1.0, true, false));
+    all.push(of(Term::Offset, |_| 1.0).smooth());
     if beside.position {
-        all.push(named(
-            STIFFNESS,
-            over_position,
-            FREE,
-            |at| at.place,
-            true,
-            false,
-        ));
+        all.push(Addend::new([STIFFNESS, over_position], |at| at.place).smooth());
     }
     if let Some(wave) = beside.wave {
-        let [sine, cosine] = [Term::Sine(wave), Term::Cosine(wave)];
-        all.push(of(
-            sine,
-            FREE,
-            |at| (at.wave * at.position).sin(),
-            false,
-            false,
-        ));
-        all.push(of(
-            cosine,
-            FREE,
-            |at| (at.wave * at.position).cos(),
-            false,
-            false,
-        ));
+        all.push(of(Term::Sine(wave), |at| (at.wave * at.position).sin()));
+        all.push(of(Term::Cosine(wave), |at| (at.wave * at.position).cos()));
     }
     if beside.load.contains(&Term::Gain) {
-        all.push(of(Term::Gain, FREE, |at| at.load, true, false));
+        all.push(of(Term::Gain, |at| at.load).smooth());
     }
-    all.push(of(Term::Coulomb, 0.0, |at| at.friction, false, true));
+    all.push(of(Term::Coulomb, |at| at.friction).rubs().not_negative());
     if beside.position {
-        all.push(named(
-            SLOPE,
-            over_position,
-            FREE,
-            |at| at.place * at.friction,
-            false,
-            true,
-        ));
+        let slope = Addend::new([SLOPE, over_position], |at| at.place * at.friction);
+        all.push(slope.rubs());
     }
     for term in &beside.load {
         let lost: fn(&Instant) -> f64 = match term {
@@ -295,13 +250,12 @@ fn addends(coordinate: Coordinate, beside: &Beside) -> Vec<Addend> {
             Term::Loss => |at| at.load.abs() * at.friction,
             _ => continue,
         };
-        all.push(of(*term, 0.0, lost, false, true));
+        all.push(of(*term, lost).rubs().not_negative());
     }
     all
 }
 
 impl<'a> Slide<'a> {
-    /// The model of a trace by a law.
     pub fn new(prepared: &'a Prepared<'a>, law: Law, beside: &Beside) -> Self {
         let (motion, trace) = (&prepared.motion, prepared.trace);
         let scales = Scales::of(
@@ -366,7 +320,6 @@ impl<'a> Slide<'a> {
         self.addends[which].iter().map(column).collect()
     }
 
-    /// What opposes the motion at a fit's parameters.
     pub fn resistance(
         &self,
         nonlinear: &[f64],
@@ -385,7 +338,6 @@ impl<'a> Slide<'a> {
         })
     }
 
-    /// Delay of the effort at a fit's parameters, s.
     pub fn delay(&self, nonlinear: &[f64]) -> f64 {
         let delays = self.nonlinear.iter().zip(nonlinear);
         delays
@@ -433,7 +385,6 @@ impl Separable for Slide<'_> {
     }
 }
 
-/// What opposes the motion of a slide.
 #[derive(Clone)]
 pub struct SlideResistance<'a> {
     slide: &'a Slide<'a>,

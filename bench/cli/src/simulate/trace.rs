@@ -253,14 +253,9 @@ fn channels_of<S: Sample>(
         wanted: &wanted,
         master: &first,
         mapping: channels,
-    };
-    let found = mdf4::read(input, &request)?;
-    let request = Request {
-        wants: &|_| true,
         rated_torque: None,
     };
-    let table = table::of_measurement(found, request)?;
-    samples_of(table, &wanted, "channel", followed)
+    samples_of(mdf4::read(input, &request)?, &wanted, "channel", followed)
 }
 
 /// The samples of a table whose times are a raster without long gaps, with what no mechanism makes left out.

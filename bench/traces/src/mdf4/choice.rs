@@ -1,9 +1,9 @@
 //! The channels of the wanted quantities, and their units.
 
-use super::columns::Wanted;
 use super::file::{Channel, File};
 use super::mapping::{Entry, Mapping};
 use super::samples;
+use super::table::Wanted;
 use crate::units::{self, Quantity, Unit, cut, written};
 
 #[derive(Clone, Copy, Debug)]

@@ -7,9 +7,10 @@
 
 use std::f64::consts::TAU;
 
-use super::columns::{Column, Table, Times};
 use super::samples::Samples;
+use super::table::Times;
 use crate::channels::median;
+use crate::table::{Column, Table};
 use crate::units::{Dimension, Quantity, Unit, cut};
 
 /// Largest share of samples that may be invalid: what `calibrate` fills.
@@ -83,19 +84,10 @@ pub fn align(times: &Times, tracks: &[Track], master: usize) -> Result<Table, St
                 .resample(&grid)
                 .map_err(|message| format!("channel {}: {message}", cut(name)))?
         };
-        columns.push(Column {
-            name: track.name.clone(),
-            quantity: track.quantity,
-            unit: track.unit,
-            values,
-        });
+        let what = (track.quantity, track.unit);
+        columns.push(Column::of((track.name.clone(), 0), what, values));
     }
-    Ok(Table {
-        times: grid,
-        columns,
-        ignored: Vec::new(),
-        notes,
-    })
+    Ok(Table::of(&grid, columns, notes))
 }
 
 /// Which samples are valid; a note where some are not.

@@ -1,24 +1,53 @@
 //! What a command asks of a measurement file, and what it gets: columns in SI units on one raster.
 
+use std::collections::BTreeMap;
 use std::io::Read;
 
 use super::choice::{Chosen, choose, found};
-use super::columns::{Request, Table, Times};
 use super::file::{File, Group};
+use super::mapping::Mapping;
 use super::raster::{Track, align};
 use super::samples::{self, Samples};
-use crate::units::{Quantity, Unit, cut, written};
+use crate::table::Table;
+use crate::units::{Dimension, Quantity, Unit, cut, written};
+
+/// A quantity that a command reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// Its column's name.
+    pub name: &'static str,
+    /// What it is.
+    pub quantity: Quantity,
+    /// What it cannot be measured in.
+    pub refuses: Option<Dimension>,
+}
+
+/// What a command asks for.
+#[derive(Clone, Copy, Debug)]
+pub struct Request<'a> {
+    /// Which quantities.
+    pub wanted: &'a [Wanted],
+    /// Whose raster is taken: the first of these that the file has.
+    pub master: &'a [Quantity],
+    /// Which channels, where not by name.
+    pub mapping: Option<&'a Mapping>,
+    /// The motor's rated torque, N m: 100 % of a torque in percent.
+    pub rated_torque: Option<f64>,
+}
+
+/// Times of the groups by their numbers, each with whether it is valid.
+pub type Times = BTreeMap<usize, Samples>;
 
 /// Most names of channels that are kept.
 const MOST_IGNORED: usize = 50;
 
-/// Reads a table.
+/// Reads a table, with the checks of a CSV file's.
 pub fn read(mut input: impl Read, request: &Request<'_>) -> Result<Table, String> {
     let mut bytes = Vec::new();
     input
         .read_to_end(&mut bytes)
         .map_err(|error| error.to_string())?;
-    of(bytes, request)
+    of(bytes, request)?.whole(request.rated_torque)
 }
 
 /// Reads a table from the bytes of a file.
@@ -39,8 +68,9 @@ pub fn of(bytes: Vec<u8>, request: &Request<'_>) -> Result<Table, String> {
         .take(MOST_IGNORED)
         .map(|channel| cut(&channel.name))
         .collect();
-    let aligned = align(&times, &tracks, master.group)?;
-    Ok(Table { ignored, ..aligned })
+    let mut table = align(&times, &tracks, master.group)?;
+    table.ignored = ignored;
+    Ok(table)
 }
 
 fn absent(file: &File, request: &Request<'_>) -> String {

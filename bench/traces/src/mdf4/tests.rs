@@ -2,8 +2,8 @@
 
 use miniz_oxide::deflate::compress_to_vec_zlib;
 
-use super::columns::{Request, Table, Wanted};
-use super::table::of;
+use super::table::{Request, Wanted, of};
+use crate::table::Table;
 use crate::units::{Part, Quantity};
 
 const WANTED: [Wanted; 2] = [
@@ -24,6 +24,7 @@ fn read(file: &[u8]) -> Result<Table, String> {
         wanted: &WANTED,
         master: &[Quantity::Speed(Part::Nut)],
         mapping: None,
+        rated_torque: None,
     };
     of(file.to_vec(), &request)
 }
