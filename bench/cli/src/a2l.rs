@@ -28,13 +28,8 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Writes the description.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let existing = if arguments.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
+    let existing = Existing::forced(arguments.force);
     refuse_ending("a description", Some(&arguments.output), &["a2l"])?;
     existing.check(&arguments.output)?;
     let image = &arguments.image;

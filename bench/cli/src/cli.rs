@@ -29,7 +29,6 @@ enum Command {
     A2l(a2l::Arguments),
 }
 
-/// Reads the arguments and runs what they ask for.
 pub fn run() -> Result<(), Failure> {
     let matches = parser().get_matches();
     let command = Cli::from_arg_matches(&matches)

@@ -85,7 +85,6 @@ pub struct Arguments {
     gate: bool,
 }
 
-/// Scenes whose blocks are folded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Scene {
     /// A ball screw whose balls do not touch
@@ -94,7 +93,6 @@ enum Scene {
     Uncaged,
 }
 
-/// What a block is written as.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum Format {
     /// A static of checked constants
@@ -124,21 +122,15 @@ struct Target {
     existing: Existing,
 }
 
-/// Ends the program with exit code 2.
 fn usage(kind: ErrorKind, message: &str) -> ! {
     clap::Error::raw(kind, format!("{message}\n")).exit()
 }
 
 impl Arguments {
     const fn existing(&self) -> Existing {
-        if self.force {
-            Existing::Replace
-        } else {
-            Existing::Keep
-        }
+        Existing::forced(self.force)
     }
 
-    /// Where the block goes, if anywhere.
     fn target(&self) -> Result<Option<Target>, Failure> {
         let path = match (&self.output, self.format) {
             (Some(path), _) => path.clone(),
@@ -185,7 +177,6 @@ impl Arguments {
     }
 }
 
-/// Folds the design, writes its block and prints its certificate.
 pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     if let Some(path) = &arguments.new {
         return start(path, arguments.existing());
@@ -218,10 +209,8 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The design file that users start from.
 pub const START: &str = include_str!("../../designs/rack-29x7.toml");
 
-/// Writes a design file to start from.
 fn start(path: &Path, existing: Existing) -> Result<(), Failure> {
     refuse_ending("a design file", Some(path), &["toml"])?;
     if !standard(path) && !ends(path, &["toml"]) {
@@ -242,7 +231,6 @@ fn start(path: &Path, existing: Existing) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Stores the blocks of the built-in designs, or compares the stored ones with a new fold.
 fn built_in(store: bool) -> Result<(), Failure> {
     if store {
         return Ok(folds::store()?);
@@ -255,7 +243,6 @@ fn built_in(store: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The scene that is asked for, or that of balls which press where the table has deviations.
 fn chosen(table: &epas_design::files::fold::FoldTable, asked: Option<Scene>) -> Scene {
     asked.unwrap_or(if table.says_deviations() {
         Scene::Uncaged

@@ -143,34 +143,34 @@ fn clearance(screw: &BallScrew, preload: f32) -> Result<Clearance, Error> {
 
 impl Duty {
     fn check(&self, screw: &BallScrew) -> Result<(), Error> {
-        in_range("axial_load", self.axial_load, 1e-3, 1e7)?;
-        in_range("turns", self.turns, one_ball(screw), 100.0)?;
-        in_range("friction", self.friction, 1e-3, 0.5)?;
-        in_range("ball_friction", self.ball_friction, 0.0, 0.5)?;
-        in_range("deviation", self.deviation, 0.0, 0.2)
+        for (field, value, least, most) in [
+            ("axial_load", self.axial_load, 1e-3, 1e7),
+            ("turns", self.turns, one_ball(screw), 100.0),
+            ("friction", self.friction, 1e-3, 0.5),
+            ("ball_friction", self.ball_friction, 0.0, 0.5),
+            ("deviation", self.deviation, 0.0, 0.2),
+        ] {
+            Range::new(least, most).checked(field, value)?;
+        }
+        Ok(())
     }
 
-    /// Balls side by side on the loaded turns.
     fn loaded_balls(&self, screw: &BallScrew) -> u16 {
         // At least one: the range of the turns begins there, but for rounding.
         ((self.turns / one_ball(screw)) as u16).max(1)
     }
 }
 
-/// Turns that one ball takes.
 fn one_ball(screw: &BallScrew) -> f32 {
     2.0 * screw.ball_radius() * screw.cos_lead_angle() / (TAU * screw.pitch_radius())
 }
 
-/// Balls of a design, under the load of each.
 struct Balls {
-    /// Ball in grooves of any deviation.
     ball: HeldBall,
     axial_load: f64,
     ball_friction: f64,
 }
 
-/// A ball in its grooves, and how it runs by itself.
 struct Alone {
     grooves: DeviatingBall,
     free: HeldBallFriction,
@@ -256,7 +256,6 @@ impl Balls {
         None
     }
 
-    /// As in [`Figures`].
     fn contact_force(&self, nominal: &Alone, deviation: f64) -> Option<f64> {
         if deviation == 0.0 {
             return Some(0.0);
@@ -267,26 +266,6 @@ impl Balls {
         };
         Some(of(deviation)?.max(of(-deviation)?))
     }
-}
-
-fn in_range(field: &'static str, value: f32, minimum: f32, maximum: f32) -> Result<(), Error> {
-    let allowed = Range::new(minimum, maximum);
-    if allowed.contains(value) {
-        return Ok(());
-    }
-    Err(if value.is_finite() {
-        Error::OutOfRange {
-            field,
-            value,
-            allowed,
-        }
-    } else {
-        Error::NotFinite {
-            field,
-            value,
-            allowed,
-        }
-    })
 }
 
 /// Figures of every design of a slice, in order; a design out of range has its error in its place.

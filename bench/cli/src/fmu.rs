@@ -97,16 +97,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         (arguments.scene, &arguments.design, &arguments.output)
     else {
         let mut stdout = io::stdout().lock();
-        for scene in SceneName::ALL {
-            writeln!(stdout, "{:22} {}", scene.name(), scene.about())?;
+        for (_, name, about) in SceneName::ALL {
+            writeln!(stdout, "{name:22} {about}")?;
         }
         return Ok(());
     };
-    let existing = if arguments.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
+    let existing = Existing::forced(arguments.force);
     if !ends(output, &["fmu"]) && !standard(output) {
         return Err(Failure::Data(format!(
             "{}: a unit ends in .fmu",

@@ -23,7 +23,6 @@ use crate::simulate::memory::{self, Remembered};
 /// Most balls of a row: one compiled model serves all numbers up to it.
 const CAPACITY: usize = 64;
 
-/// Elements of a memory.
 pub const ELEMENTS: usize = 8;
 
 /// The elements of a memory that follow from a design.
@@ -170,7 +169,6 @@ impl Clone for Box<dyn Model> {
 /// A model, or the number of its design that is out of range.
 pub type Built = Result<Box<dyn Model>, Error>;
 
-/// A row of balls of a screw, with the elements of a memory or without.
 pub fn uncaged(
     configuration: &ScrewConfiguration,
     remembered: Option<&Remembered>,
@@ -189,7 +187,6 @@ pub fn uncaged(
     }
 }
 
-/// A row of balls of a bearing, with the elements of a memory or without.
 pub fn linear(configuration: LinearBearingConfiguration, remembered: Option<&Remembered>) -> Built {
     let (tick, friction) = (configuration.tick, configuration.friction);
     row::<LinearBearingTrain<CAPACITY>>(configuration, remembered, tick, friction)
@@ -227,20 +224,16 @@ pub trait HostScene:
     + Sync
     + 'static
 {
-    /// What it takes of a tick.
     fn inputs(inputs: &TickInputs) -> Self::Inputs;
 
-    /// As [`Model::pressing`].
     fn pressing(_: &Self::State) -> u64 {
         0
     }
 
-    /// As [`Model::set_place`].
     fn set_place(_: &mut FrictionModel<Self>, _: f32) -> bool {
         false
     }
 
-    /// The same of a scene with memory.
     fn set_remembered_place<E, A, L>(
         _: &mut FrictionModel<WithMemory<Self, E, A, L>>,
         _: f32,
@@ -407,7 +400,6 @@ where
 
 /// A friction coefficient that one number may take the place of.
 pub trait Coefficient: Sized {
-    /// This number alone.
     fn one(friction: f32) -> Result<Self, Error>;
 }
 

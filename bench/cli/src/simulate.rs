@@ -228,7 +228,6 @@ pub struct Arguments {
     force: bool,
 }
 
-/// Every way to say what is simulated.
 const WAYS: &str = "  simulate --manoeuvre parking                      a built-in trace: parking, weave, kerb, turns, stroke; --design as you like
   simulate --design NAME --input TRACE.csv          your trace: columns time, nut_speed, axial_load; or a measurement file .mf4
   simulate --design NAME --mechanism --input TRACE  the nut moves under motor_torque and axial_load
@@ -264,11 +263,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     ];
     refuse_shared(inputs)?;
     refuse_same(inputs, arguments.output.iter().chain(&arguments.plot))?;
-    let existing = if arguments.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
+    let existing = Existing::forced(arguments.force);
     if let (true, Some(source)) = (arguments.loads.wanted(), &arguments.design) {
         // Standard output is where a load table goes by itself.
         let output = arguments.output.as_deref().filter(|path| !standard(path));

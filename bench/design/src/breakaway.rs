@@ -1,13 +1,7 @@
 //! Initial stiffness and breakaway angle from a design.
 //!
-//! Runs on a host, in f32: firmware takes shares and breakaway angles as numbers, in
-//! [`ProportionalElements::new`](epas_friction::law::memory::ProportionalElements::new).
-//!
 //! Before a contact slides it yields: across the ball path by Mindlin's theory, about its normal by the torsion of an
-//! ellipse. [`ContactStiffness`] has both for one contact, [`ScrewContacts`] and [`BearingContacts`] what they come to
-//! for an angle of the nut or a travel of the carriage, [`Seat`] what the ball's own drift between its grooves adds, and
-//! [`Breakaway`] all of it as parts for the elements of a memory: mechanism, share of the friction, breakaway angle,
-//! stiffness.
+//! ellipse.
 //!
 //! | what | known from |
 //! |---|---|
@@ -22,10 +16,8 @@
 mod bearing;
 mod contact;
 mod elements;
-mod halving;
 mod pair;
 mod parts;
-mod resistance;
 mod screw;
 mod seat;
 
@@ -33,7 +25,6 @@ pub use bearing::{BearingBreakaway, BearingContacts};
 pub use contact::ContactStiffness;
 pub use elements::Tables;
 pub use pair::{Rolling, ScrewContacts};
-pub use parts::{BreakawayPart, Mechanism};
-pub use resistance::Resistance;
+pub use parts::{BreakawayPart, Mechanism, Resistance};
 pub use screw::{Breakaway, BreakawayConfiguration};
 pub use seat::Seat;

@@ -16,7 +16,7 @@ use crate::certificate::Certificate;
 use crate::curve::fitted;
 use crate::digest;
 pub use design::CagedDesign;
-pub(crate) use design::{FRICTION, in_range};
+pub(crate) use design::FRICTION;
 pub(crate) use exact::Exact;
 use nodes::{Nodes, aligned};
 
@@ -46,8 +46,8 @@ const SHIFT: f64 = 1.5;
 const LARGEST_ERROR: f64 = 0.03;
 
 /// Largest axial load of a ball, N, and the least ratio of the ends of a range.
-pub(crate) const LARGEST_LOAD: f32 = 1e5;
-pub(crate) const APART: f32 = 1.1;
+const LARGEST_LOAD: f32 = 1e5;
+const APART: f32 = 1.1;
 
 /// A design to be folded.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -183,19 +183,7 @@ impl CagedFold {
     /// Whether every number of the design and of the domain is within its range; nothing is solved.
     pub fn check(&self) -> Result<(), Failure> {
         self.gear.checked()?;
-        let [least, most] = self.axial_load;
-        in_range("axial_load", least, Range::new(0.01, LARGEST_LOAD))?;
-        in_range("axial_load", most, Range::new(APART * least, LARGEST_LOAD))?;
-        if let Some([least, largest]) = self.friction {
-            in_range("friction", least, FRICTION)?;
-            in_range(
-                "friction",
-                largest,
-                Range::new(APART * least, FRICTION.maximum),
-            )?;
-            in_range("friction", self.gear.friction, Range::new(least, largest))?;
-        }
-        Ok(())
+        check_domain(self.gear.friction, self.friction, self.axial_load)
     }
 
     fn configured<const N: usize>(&self, law: LoadLaw<N>) -> CagedBallScrewConfiguration<N> {
@@ -276,13 +264,38 @@ fn shifted_from(exact: &Exact) -> f32 {
     }
 }
 
+/// Whether the coefficients, with the one that a design has, and the loads of a ball are within their ranges.
+pub(crate) fn check_domain(
+    own: f32,
+    friction: Option<[f32; 2]>,
+    [least, most]: [f32; 2],
+) -> Result<(), Failure> {
+    Range::new(0.01, LARGEST_LOAD).checked("axial_load", least)?;
+    Range::new(APART * least, LARGEST_LOAD).checked("axial_load", most)?;
+    if let Some([least, largest]) = friction {
+        FRICTION.checked("friction", least)?;
+        Range::new(APART * least, FRICTION.maximum).checked("friction", largest)?;
+        Range::new(least, largest).checked("friction", own)?;
+    }
+    Ok(())
+}
+
 /// Loads from the largest to a [`BELOW`]th of the least.
 fn loads(least: f64, most: f64) -> Vec<f64> {
+    falling([least, most], [LOADS, LOADS_BELOW], BELOW)
+}
+
+/// So many loads at equal ratios from the largest to the least, and from there to a part of it.
+pub(crate) fn falling(
+    [least, most]: [f64; 2],
+    [within, beyond]: [usize; 2],
+    below: f64,
+) -> Vec<f64> {
     let part = |from: f64, to: f64, count: usize| {
         (0..count).map(move |step| from * (to / from).powf(step as f64 / count as f64))
     };
-    part(most, least, LOADS)
-        .chain(part(least, least / BELOW, LOADS_BELOW))
-        .chain([least / BELOW])
+    part(most, least, within)
+        .chain(part(least, least / below, beyond))
+        .chain([least / below])
         .collect()
 }

@@ -68,7 +68,6 @@ fn read(words: &[u32]) -> Result<Block, Error> {
     const RANGE: u32 = NODES as u32;
     match words.get(3) {
         Some(&RANGE) => Ok(Block::Range(CagedBallScrewConfiguration::read(words)?)),
-        // One that says another number of nodes is refused as this one.
         _ => Ok(Block::One(CagedBallScrewConfiguration::read(words)?)),
     }
 }
@@ -131,21 +130,10 @@ fn check_range(
 )]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CagedScene {
-    /// A folded block for one friction coefficient.
-    One(CagedBallScrewConfiguration<1>),
-    /// One for a range of friction coefficients.
-    Range(CagedBallScrewConfiguration<NODES>),
+    /// A folded block.
+    Folded(Block),
     /// A closed form.
     ClosedForm(ClosedFormScrewConfiguration),
-}
-
-impl From<Block> for CagedScene {
-    fn from(block: Block) -> Self {
-        match block {
-            Block::One(block) => Self::One(block),
-            Block::Range(block) => Self::Range(block),
-        }
-    }
 }
 
 impl CagedScene {
@@ -163,21 +151,21 @@ impl CagedScene {
         }
         let fold = fold_for(design, coefficients).map_err(named)?;
         match block(&fold) {
-            Ok(block) => Ok(block.into()),
+            Ok(block) => Ok(Self::Folded(block)),
             Err(failure) => Err(failure.of(&design.name)),
         }
     }
 
     /// That of a block's words.
     pub fn read(words: &[u32]) -> Result<Self, Error> {
-        read(words).map(Self::from)
+        read(words).map(Self::Folded)
     }
 
     /// A model of it.
     pub fn model(&self) -> Result<CagedModel, Error> {
         Ok(match self {
-            Self::One(block) => CagedModel::One(FrictionModel::new(block)?),
-            Self::Range(block) => CagedModel::Range(FrictionModel::new(block)?),
+            Self::Folded(Block::One(block)) => CagedModel::One(FrictionModel::new(block)?),
+            Self::Folded(Block::Range(block)) => CagedModel::Range(FrictionModel::new(block)?),
             Self::ClosedForm(form) => CagedModel::ClosedForm(FrictionModel::new(form)?, *form),
         })
     }
@@ -245,7 +233,6 @@ pub enum CagedModel {
     ClosedForm(FrictionModel<ClosedFormScrew>, ClosedFormScrewConfiguration),
 }
 
-/// Does the same with whichever model it is.
 macro_rules! each {
     ($model:expr, $of:ident => $does:expr) => {
         match $model {
@@ -394,7 +381,6 @@ mod tests {
         let mut other = words.clone();
         *other.last_mut().unwrap() ^= 1;
         assert_eq!(keep_words(&other).unwrap_err().field(), "checksum");
-        // The model goes on with a block, and not with words that are none.
         let mut model = CagedScene::of(&design).unwrap().model().unwrap();
         let inputs = Inputs {
             nut_speed: 10.0,

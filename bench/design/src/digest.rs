@@ -28,7 +28,6 @@ use crate::uncaged::{self, UncagedFold};
 struct Digest(u64);
 
 impl Digest {
-    /// Begins with the kind of a fold and the version of its algorithm.
     fn of(kind: u32, algorithm: u32) -> Self {
         let mut digest = Self(0xcbf2_9ce4_8422_2325);
         digest.words(&[kind, algorithm]);

@@ -17,7 +17,7 @@ use epas_friction::scene::FoldedBall;
 use rayon::prelude::*;
 
 use crate::Failure;
-use crate::caged::{APART, CagedDesign, Exact, FRICTION, LARGEST_LOAD, in_range};
+use crate::caged::{CagedDesign, Exact, check_domain, falling};
 use crate::digest;
 use ball::{Balls, Speeds, exact_ball};
 pub use certificate::{RowFigures, UncagedCertificate, UncagedFigure};
@@ -142,17 +142,11 @@ impl UncagedFold {
     }
 
     /// Folds it, and measures the block's errors.
-    ///
-    /// # Errors
-    /// [`Failure`] naming a number out of range, or with the reason why the domain cannot be held.
     pub fn folded(&self) -> Result<FoldedUncaged, Failure> {
         self.folded_with(&|_| ())
     }
 
     /// The same; `progress` is told the share that is done, rising from 0 to 1.
-    ///
-    /// # Errors
-    /// As [`Self::folded`].
     pub fn folded_with(&self, progress: &(dyn Fn(f64) + Sync)) -> Result<FoldedUncaged, Failure> {
         let begun = Instant::now();
         progress(0.0);
@@ -207,9 +201,6 @@ impl UncagedFold {
     }
 
     /// The block alone: its errors are not measured.
-    ///
-    /// # Errors
-    /// As [`Self::folded`], but for a domain that only the certificate would refuse.
     pub fn block(&self) -> Result<UncagedBlock, Failure> {
         self.check()?;
         Ok(match self.friction {
@@ -226,25 +217,13 @@ impl UncagedFold {
     }
 
     /// Whether every number of the design and of the domain is within its range; nothing is solved.
-    ///
-    /// # Errors
-    /// [`Failure`] naming the number that is not.
     pub fn check(&self) -> Result<(), Failure> {
         let UncagedDesign { gear, deviations } = self.gear;
         gear.checked()?;
         for deviation in deviations {
-            in_range("deviations", deviation, DEVIATION)?;
+            DEVIATION.checked("deviations", deviation)?;
         }
-        let [least, most] = self.axial_load;
-        in_range("axial_load", least, Range::new(0.01, LARGEST_LOAD))?;
-        in_range("axial_load", most, Range::new(APART * least, LARGEST_LOAD))?;
-        if let Some([least, largest]) = self.friction {
-            in_range("friction", least, FRICTION)?;
-            let above = Range::new(APART * least, FRICTION.maximum);
-            in_range("friction", largest, above)?;
-            in_range("friction", gear.friction, Range::new(least, largest))?;
-        }
-        Ok(())
+        check_domain(gear.friction, self.friction, self.axial_load)
     }
 
     fn folded_ball<const N: usize>(&self, frictions: [f32; N]) -> Result<FoldedBall<N>, Failure> {
@@ -267,7 +246,7 @@ impl UncagedFold {
 
     fn law<const N: usize>(&self, frictions: [f32; N]) -> Result<BallLaw<N>, Failure> {
         let lift_off = Exact::of(&self.gear.gear)?.lift_off;
-        let loads = self.loads();
+        let loads = falling(self.axial_load.map(f64::from), [LOADS, LOADS_BELOW], BELOW);
         let branches = frictions
             .par_iter()
             .flat_map(|&friction| [(friction, 1.0), (friction, -1.0)])
@@ -292,18 +271,6 @@ impl UncagedFold {
             deviations: self.gear.deviations,
             lift_off: lift_off as f32,
         })
-    }
-
-    /// Loads that are solved, N, falling.
-    fn loads(&self) -> Vec<f64> {
-        let [least, most] = self.axial_load.map(f64::from);
-        let part = |from: f64, to: f64, count: usize| {
-            (0..count).map(move |step| from * (to / from).powf(step as f64 / count as f64))
-        };
-        part(most, least, LOADS)
-            .chain(part(least, least / BELOW, LOADS_BELOW))
-            .chain([least / BELOW])
-            .collect()
     }
 
     fn branch(

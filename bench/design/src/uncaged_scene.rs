@@ -123,7 +123,6 @@ fn block_of(words: &[u32]) -> Result<UncagedBlock, Error> {
     const RANGE: u32 = NODES as u32;
     Ok(match words.get(3) {
         Some(&RANGE) => UncagedBlock::Range(FoldedBall::read(words)?),
-        // One that says another number of nodes is refused as this one.
         _ => UncagedBlock::One(FoldedBall::read(words)?),
     })
 }

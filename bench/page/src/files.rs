@@ -18,6 +18,12 @@ pub enum Existing {
 }
 
 impl Existing {
+    /// With `--force` or without.
+    #[must_use]
+    pub const fn forced(force: bool) -> Self {
+        if force { Self::Replace } else { Self::Keep }
+    }
+
     /// Fails before any work is done where a folder is missing, or something would be in the way: any file, or with
     /// [`Existing::Replace`] what is none, such as a device or a pipe.
     pub fn check(self, path: &Path) -> Result<(), Failure> {

@@ -24,7 +24,6 @@ const MEASURED: &str = "MEASURED";
 /// Where the numbers of a page stand in it.
 const NUMBERS: &str = "numbers.";
 
-/// Addresses are written as everybody reads them.
 const HEXADECIMAL: bool = true;
 
 const PLAIN: &str = "plain";

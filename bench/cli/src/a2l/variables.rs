@@ -15,12 +15,9 @@ type Bytes<'a> = EndianSlice<'a, LittleEndian>;
 type Unit<'a> = gimli::Unit<Bytes<'a>>;
 type Entry<'a> = DebuggingInformationEntry<Bytes<'a>>;
 
-/// What a number is in memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Number {
-    /// IEEE 754, 32 bits.
     Float32,
-    /// Without a sign, 32 bits.
     Unsigned32,
 }
 
@@ -31,7 +28,6 @@ pub struct Field {
     /// Its whole path, with the variable's name: what a debugger calls it.
     pub symbol: String,
     pub address: u32,
-    /// Its type.
     pub number: Number,
 }
 
@@ -39,7 +35,6 @@ pub struct Field {
 pub struct Variable {
     pub address: u32,
     pub size: u32,
-    /// Its numbers, in their order.
     pub fields: Vec<Field>,
 }
 
@@ -224,7 +219,6 @@ impl<'a> Variables<'a> {
     }
 }
 
-/// Most fields in fields.
 const DEEPEST: usize = 16;
 
 struct Place<'a> {

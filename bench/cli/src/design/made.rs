@@ -14,13 +14,10 @@ use epas_design::files::{Design, capacity};
 use epas_page::failure::Failure;
 
 pub enum Made {
-    /// Of balls that no other ball presses.
     Caged(Box<Folded>),
-    /// Of balls that press on each other.
     Uncaged(Box<FoldedUncaged>),
 }
 
-/// What `--json` prints.
 #[derive(Serialize)]
 pub struct Shown {
     version: u32,
@@ -62,7 +59,6 @@ impl Made {
         })
     }
 
-    /// Its block in a format, for a constant with a name.
     pub fn written(&self, format: Format, name: &str) -> Result<Vec<u8>, Failure> {
         let text = match (self, format) {
             (Self::Caged(folded), Format::Rust) => folded.rust(name),
@@ -77,7 +73,6 @@ impl Made {
         Ok(text?.into_bytes())
     }
 
-    /// What `--json` prints.
     pub fn shown(&self) -> Result<Shown, Failure> {
         let bytes = 4 * self.words()?.len();
         Ok(match self {
@@ -164,7 +159,6 @@ impl Made {
         }
     }
 
-    /// Prints what was folded, over which domain, and how exact it is.
     pub fn print(&self, out: &mut dyn Write, design: &Design, words: usize) -> io::Result<()> {
         let Head {
             about,

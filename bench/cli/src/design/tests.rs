@@ -23,7 +23,6 @@ fn a_constant_is_named_after_its_file() {
     }
 }
 
-/// A steering screw.
 const DESIGN: &str = "friction = 0.1\nnominal_diameter = 0.028\nlead = 0.007\nball_diameter = 3.969e-3\nconformity = 0.54\n\
                       contact_angle = 0.7853982\nclearance = 0\nloaded_balls = 60\n";
 
@@ -103,7 +102,6 @@ fn every_format_is_the_same_block() {
     );
 }
 
-/// What `--json` says of the block.
 fn said_of(said: &Value, block: &[u32], digest: &toml::Value) {
     let number = |value: &Value| value.as_f64().unwrap();
     let mut wanted = [

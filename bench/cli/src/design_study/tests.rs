@@ -7,7 +7,6 @@ use epas_reference::promises;
 
 use super::*;
 
-/// The dissertation's smallest screw: 29 x 7 x 4.
 const SCREW: Design = Design {
     pitch_radius: 14.5e-3,
     lead: 7e-3,
@@ -136,7 +135,6 @@ fn balls_press_as_in_a_row() {
             forces.push(found);
         }
     }
-    // Friction between balls is in the forces.
     assert!((forces[0] / forces[1] - 1.0).abs() > 1e-3, "{forces:?}");
 }
 

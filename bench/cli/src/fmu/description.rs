@@ -11,9 +11,7 @@ use super::variables::{Causality, Choice, Kind, Variable};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {
-    /// FMI 2.0.
     Two,
-    /// FMI 3.0.
     Three,
 }
 
@@ -76,11 +74,8 @@ fn whole(xml: &mut Xml, unit: &Unit, version: Version) -> io::Result<()> {
         let experiment = vec![("startTime", "0".to_owned()), ("stepSize", step)];
         empty(xml, "DefaultExperiment", &experiment)?;
         element(xml, "ModelVariables", &Vec::new(), |xml| {
-            for (place, variable) in unit.variables.iter().enumerate() {
-                match version {
-                    Version::Two => variable_2(xml, place, variable)?,
-                    Version::Three => variable_3(xml, place, variable)?,
-                }
+            for (place, known) in unit.variables.iter().enumerate() {
+                variable(xml, place, known, version)?;
             }
             Ok(())
         })?;
@@ -199,7 +194,7 @@ fn start(variable: &Variable) -> Option<(&'static str, String)> {
     (variable.causality != Causality::Independent).then(|| ("start", variable.start.to_string()))
 }
 
-fn variable_2(xml: &mut Xml, place: usize, variable: &Variable) -> io::Result<()> {
+fn variable(xml: &mut Xml, place: usize, variable: &Variable, version: Version) -> io::Result<()> {
     let mut attributes = vec![
         ("name", variable.name.to_owned()),
         ("valueReference", place.to_string()),
@@ -207,40 +202,25 @@ fn variable_2(xml: &mut Xml, place: usize, variable: &Variable) -> io::Result<()
     ];
     attributes.extend(roles(variable));
     let mut typed: Attributes<'_> = Vec::new();
-    let name = match variable.kind {
-        Kind::Float64 | Kind::Float32 => "Real",
-        Kind::Int32 => "Integer",
-        Kind::Choice(choice) => {
+    let name = match (variable.kind, version) {
+        (Kind::Choice(choice), _) => {
             typed.push(("declaredType", choice.name().to_owned()));
             "Enumeration"
         }
+        (Kind::Float64 | Kind::Float32, Version::Two) => "Real",
+        (Kind::Int32, Version::Two) => "Integer",
+        (Kind::Float64, Version::Three) => "Float64",
+        (Kind::Float32, Version::Three) => "Float32",
+        (Kind::Int32, Version::Three) => "Int32",
     };
     typed.extend(variable.unit.map(|unit| ("unit", unit.to_owned())));
     typed.extend(start(variable));
-    element(xml, "ScalarVariable", &attributes, |xml| {
-        empty(xml, name, &typed)
-    })
-}
-
-fn variable_3(xml: &mut Xml, place: usize, variable: &Variable) -> io::Result<()> {
-    let mut attributes = vec![
-        ("name", variable.name.to_owned()),
-        ("valueReference", place.to_string()),
-        ("description", variable.about.to_owned()),
-    ];
-    attributes.extend(roles(variable));
-    let name = match variable.kind {
-        Kind::Float64 => "Float64",
-        Kind::Float32 => "Float32",
-        Kind::Int32 => "Int32",
-        Kind::Choice(choice) => {
-            attributes.push(("declaredType", choice.name().to_owned()));
-            "Enumeration"
-        }
-    };
-    attributes.extend(variable.unit.map(|unit| ("unit", unit.to_owned())));
-    attributes.extend(start(variable));
-    empty(xml, name, &attributes)
+    match version {
+        Version::Two => element(xml, "ScalarVariable", &attributes, |xml| {
+            empty(xml, name, &typed)
+        }),
+        Version::Three => empty(xml, name, &[attributes, typed].concat()),
+    }
 }
 
 /// Outputs follow inputs of a step before, and the state: dependencies are left to the default, all.

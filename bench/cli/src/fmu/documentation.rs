@@ -6,7 +6,6 @@ use super::description::Version;
 use super::library::{platform, platforms};
 use super::unit::Unit;
 
-/// The page of a unit with a library for the platform of this program.
 pub fn documentation(unit: &Unit, version: Version, place: &str) -> String {
     let scene = unit.stored.scene;
     let design = escape(unit.stored.design.as_str());

@@ -11,7 +11,6 @@ use epas_page::failure::Failure;
 /// What the library carries, so that another file is noticed.
 pub const MARK: &[u8; 21] = b"epas-friction's units";
 
-/// Folder of its sources below a checkout.
 const SOURCES: &str = "bench/fmu";
 
 /// Folder of its sources: in the checkout that the user is in, else in the one that this program was built from.
@@ -25,7 +24,6 @@ fn sources() -> Option<PathBuf> {
         .find(|sources| sources.join("Cargo.toml").is_file())
 }
 
-/// How a library is built before, for a program that stands alone.
 fn how() -> String {
     format!(
         "the unit's library is built from the sources of epas-friction, and this program stands without them. In a checkout: \
@@ -54,7 +52,6 @@ pub fn platforms(version: Version) -> impl Iterator<Item = (&'static str, String
     })
 }
 
-/// Processor and system of this program.
 pub fn platform() -> String {
     format!("{ARCH} {OS}")
 }
@@ -76,7 +73,6 @@ pub fn place(version: Version) -> Result<String, Failure> {
     Ok(format!("binaries/{folder}/{LIBRARY}{DLL_SUFFIX}"))
 }
 
-/// A library that was built before; its bytes.
 pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     let bytes = fs::read(path).map_err(|error| Failure::file("read", path, &error))?;
     if marked(&bytes) {
@@ -92,7 +88,6 @@ fn marked(bytes: &[u8]) -> bool {
     bytes.windows(MARK.len()).any(|window| window == MARK)
 }
 
-/// Builds the library; its bytes, and the folder of its sources.
 pub fn build() -> Result<(Vec<u8>, PathBuf), Failure> {
     let sources = sources().ok_or_else(|| Failure::Data(how()))?;
     let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());

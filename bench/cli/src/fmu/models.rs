@@ -17,14 +17,12 @@ use epas_design::caged_scene::CagedScene;
 use epas_design::files::Design;
 use epas_design::files::train::{LinearDesign, no_row};
 
-/// A screw whose balls do not touch.
 pub fn caged(design: &Design) -> Result<Box<dyn Running>, String> {
     design.check().map_err(said)?;
     let scene = CagedScene::of(design).map_err(|failure| failure.to_string())?;
     Ok(Box::new(Caged(Box::new(scene.model().map_err(said)?))))
 }
 
-/// The same with friction that remembers.
 pub fn caged_with_memory(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running>, String> {
     let angle = memory::angle().map_err(said)?;
     let sensor = (angle, encoder_step(values)?);
@@ -65,7 +63,6 @@ fn with_memory(
     }
 }
 
-/// What turns with the nut.
 pub fn mechanism(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running>, String> {
     let tick = checked_tick(values)?;
     let [gain, drag, offset] = [
@@ -95,7 +92,6 @@ pub fn mechanism(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running
     Ok(Box::new(Motion { mechanism, tick }))
 }
 
-/// A row of balls of a screw's design.
 pub fn row(design: &Design) -> Result<Uncaged, String> {
     Ok(Uncaged {
         design: design.clone(),
@@ -105,7 +101,6 @@ pub fn row(design: &Design) -> Result<Uncaged, String> {
     })
 }
 
-/// A screw whose balls press on each other.
 pub fn uncaged(
     design: &Design,
     scene: SceneName,
@@ -138,7 +133,6 @@ fn remembered(
     Ok(Some(remembered))
 }
 
-/// A linear bearing whose balls press on each other.
 pub fn linear(
     design: LinearDesign,
     scene: SceneName,

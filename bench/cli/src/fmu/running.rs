@@ -53,7 +53,6 @@ fn regime(regime: Regime) -> f64 {
     }
 }
 
-/// The outputs of every screw.
 fn screw_outputs(outputs: &TickOutputs) -> Vec<f64> {
     vec![
         outputs.friction.into(),
@@ -64,19 +63,16 @@ fn screw_outputs(outputs: &TickOutputs) -> Vec<f64> {
     ]
 }
 
-/// Why a state was refused.
 fn text(refusal: Refusal) -> String {
     format!("the state is refused: {refusal}")
 }
 
-/// Numbers before a model's block.
 fn joined(numbers: &[f64], block: &[u8]) -> Vec<u8> {
     let mut bytes: Vec<u8> = numbers.iter().flat_map(|n| n.to_le_bytes()).collect();
     bytes.extend_from_slice(block);
     bytes
 }
 
-/// The numbers and the block again.
 fn parted<const N: usize>(state: &[u8]) -> Result<([f64; N], &[u8]), String> {
     let mut numbers = [0.0; N];
     let mut rest = state;
@@ -90,7 +86,6 @@ fn parted<const N: usize>(state: &[u8]) -> Result<([f64; N], &[u8]), String> {
     Ok((numbers, rest))
 }
 
-/// A screw without memory whose balls do not touch.
 pub struct Caged(pub Box<dyn Model>);
 
 impl Running for Caged {
@@ -207,7 +202,6 @@ impl Running for Row {
     }
 }
 
-/// What turns with the nut.
 pub struct Motion {
     pub mechanism: Mechanism<Nut<Box<dyn Model>>>,
     /// Tick, s.

@@ -23,49 +23,49 @@ pub enum SceneName {
 }
 
 impl SceneName {
-    /// All of them.
-    pub const ALL: [Self; 7] = [
-        Self::Caged,
-        Self::CagedWithMemory,
-        Self::Uncaged,
-        Self::UncagedWithMemory,
-        Self::Linear,
-        Self::LinearWithMemory,
-        Self::Mechanism,
+    /// All of them, each with its name on the command line and what it is.
+    pub const ALL: [(Self, &'static str, &'static str); 7] = [
+        (Self::Caged, "caged", "ball screw whose balls do not touch"),
+        (
+            Self::CagedWithMemory,
+            "caged-with-memory",
+            "ball screw whose balls do not touch, with friction that remembers",
+        ),
+        (
+            Self::Uncaged,
+            "uncaged",
+            "ball screw whose balls press on each other",
+        ),
+        (
+            Self::UncagedWithMemory,
+            "uncaged-with-memory",
+            "ball screw whose balls press on each other, with friction that remembers",
+        ),
+        (
+            Self::Linear,
+            "linear",
+            "linear bearing whose balls press on each other",
+        ),
+        (
+            Self::LinearWithMemory,
+            "linear-with-memory",
+            "linear bearing whose balls press on each other, with friction that remembers",
+        ),
+        (
+            Self::Mechanism,
+            "mechanism",
+            "what turns with the nut of a ball screw, moved by a motor torque, with friction that remembers",
+        ),
     ];
 
     /// Its name on the command line.
     pub const fn name(self) -> &'static str {
-        match self {
-            Self::Caged => "caged",
-            Self::CagedWithMemory => "caged-with-memory",
-            Self::Uncaged => "uncaged",
-            Self::UncagedWithMemory => "uncaged-with-memory",
-            Self::Linear => "linear",
-            Self::LinearWithMemory => "linear-with-memory",
-            Self::Mechanism => "mechanism",
-        }
+        Self::ALL[self as usize].1
     }
 
     /// What it is.
     pub const fn about(self) -> &'static str {
-        match self {
-            Self::Caged => "ball screw whose balls do not touch",
-            Self::CagedWithMemory => {
-                "ball screw whose balls do not touch, with friction that remembers"
-            }
-            Self::Uncaged => "ball screw whose balls press on each other",
-            Self::UncagedWithMemory => {
-                "ball screw whose balls press on each other, with friction that remembers"
-            }
-            Self::Linear => "linear bearing whose balls press on each other",
-            Self::LinearWithMemory => {
-                "linear bearing whose balls press on each other, with friction that remembers"
-            }
-            Self::Mechanism => {
-                "what turns with the nut of a ball screw, moved by a motor torque, with friction that remembers"
-            }
-        }
+        Self::ALL[self as usize].2
     }
 
     /// Whether its friction remembers.

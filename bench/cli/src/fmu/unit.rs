@@ -27,7 +27,6 @@ const INERTIA: f64 = 4e-4;
 /// Tick of a scene that has one, s, and how often it is halved where that is too long for the limits of a design.
 const TICK: (f64, u32) = (1e-3, 16);
 
-/// A design of any scene.
 #[derive(Clone, Debug)]
 enum Source {
     Screw(Box<Design>),
@@ -226,7 +225,6 @@ impl Unit {
     }
 }
 
-/// The words of the block of a screw, folded for the friction coefficients that its scene takes.
 fn block(scene: SceneName, source: &Source) -> Result<Option<Vec<u32>>, Failure> {
     match source {
         Source::Screw(design) if !scene.has_row() => {

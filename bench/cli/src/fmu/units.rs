@@ -6,7 +6,6 @@ pub struct Known {
     pub exponents: &'static [(&'static str, i8)],
 }
 
-/// All that variables have.
 pub const UNITS: [Known; 12] = [
     known("s", &[("s", 1)]),
     known("m", &[("m", 1)]),

@@ -211,7 +211,6 @@ pub fn outputs(scene: SceneName) -> Vec<Variable> {
     outputs
 }
 
-/// What `faults` means.
 const FAULTS: &str = "what was wrong with the last tick, a sum: 1 speed not finite, 2 load not finite, 4 speed limit, 8 load limit, \
                       16 friction limit, 32 beyond the model, 64 forces between balls not held, 128 angle not valid, 256 temperature out of range";
 

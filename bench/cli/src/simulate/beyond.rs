@@ -21,15 +21,10 @@ const MOST_BANDS: usize = 3;
 /// Why a block does not hold a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// A ball bears more than the block was folded for.
     Load,
-    /// The friction coefficient is none of the block's.
     Coefficient,
-    /// Forces between balls are not held.
     Forces,
-    /// Friction between balls is more than the law holds.
     Grip,
-    /// Neighbours press a bearing's ball off its grooves.
     FourPoints,
 }
 
@@ -46,7 +41,6 @@ const fn by_direction(cause: Cause) -> bool {
     matches!(cause, Cause::Forces | Cause::Grip)
 }
 
-/// One sample.
 #[derive(Clone, Copy, Debug)]
 struct Moment {
     /// Size of the load, N.
@@ -55,7 +49,6 @@ struct Moment {
     cause: Option<Cause>,
 }
 
-/// What a block holds.
 #[derive(Clone, Copy, Debug)]
 enum Held {
     Caged { most: f32 },
@@ -76,7 +69,6 @@ pub struct Beyond {
 }
 
 impl Beyond {
-    /// Of a screw whose balls do not touch, and what is folded of it.
     pub fn caged(design: &Design, fold: &CagedFold) -> Self {
         let CagedFold {
             axial_load: [from, to],
@@ -96,7 +88,6 @@ impl Beyond {
         }
     }
 
-    /// Of a screw whose balls press on each other, and what is folded of it.
     pub fn uncaged(balls: &UncagedDesign, fold: &UncagedFold) -> Self {
         let [from, to] = fold.axial_load;
         Self {
@@ -118,7 +109,6 @@ impl Beyond {
         }
     }
 
-    /// Takes one more sample in.
     pub fn add(&mut self, speed: f64, load: f64, faults: Faults) {
         let inputs = Inputs {
             nut_speed: speed as f32,

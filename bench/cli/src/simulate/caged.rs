@@ -72,7 +72,6 @@ impl Reference {
 type Step = Box<dyn FnMut(&TickInputs) -> TickOutputs>;
 
 impl Caged {
-    /// The model over a trace, and what of its memory the summary tells.
     fn model(&self, trace: &Trace<ScrewSample>) -> Result<(Step, Lines), Failure> {
         let refused = |error: Error| Failure::Data(format!("{}: {error}", self.design.name));
         if self.memory {
@@ -106,7 +105,6 @@ impl Caged {
         Ok((plain, lines))
     }
 
-    /// Every sample with what the models say to it, with the temperature of each where there are any.
     fn follow(
         &self,
         trace: &Trace<ScrewSample>,
@@ -328,7 +326,6 @@ impl Scene for Caged {
 }
 
 impl Caged {
-    /// What the error of this scene is, where it is promised.
     fn promise(&self) -> Option<&'static Promise> {
         let by_law = self.temperature || self.memory && self.design.calibrated.is_some();
         match self.design.branch {

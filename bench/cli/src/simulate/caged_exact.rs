@@ -101,7 +101,6 @@ impl ExactCaged {
         })
     }
 
-    /// Which loads have no solution, if any, and how many of the samples that costs.
     pub fn told(&self, samples: &[ScrewSample]) -> Lines {
         let mut lines = Lines::default();
         let named = self.laws.iter().zip(["against the motion", "with it"]);

@@ -9,7 +9,6 @@ use epas_design::files::DesignSource;
 use epas_design::files::train::{LinearDesign, no_row};
 use epas_page::failure::Failure;
 
-/// A scene of the in-loop model, by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum SceneName {
     /// A ball screw whose balls do not touch
@@ -20,13 +19,9 @@ pub enum SceneName {
     Linear,
 }
 
-/// A scene with its design.
 pub enum Chosen {
-    /// A ball screw whose balls do not touch.
     Caged(Box<Caged>),
-    /// A ball screw whose balls press on each other.
     Uncaged(Box<Uncaged>),
-    /// A linear bearing whose balls press on each other.
     Linear(Box<Linear>),
 }
 

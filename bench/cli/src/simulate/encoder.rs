@@ -14,17 +14,13 @@ const SAME: f64 = 1e-2;
 /// Two angles within half a turn either way differ by this much from what they were before they were rounded to single precision, rad.
 const ROUNDED: f32 = 2.0 * f32::EPSILON;
 
-/// Where a step comes from.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 enum Origin {
     /// No step was asked for, and none is seen.
     #[default]
     None,
-    /// `--encoder-step`.
     Asked,
-    /// Flicker of the trace's position.
     Position,
-    /// Flicker of the trace's speed.
     Speed,
 }
 

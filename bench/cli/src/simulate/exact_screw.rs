@@ -26,7 +26,6 @@ use epas_page::progress::Progress;
 const MOST_STATES: usize = 10_000;
 const BALLS: usize = 37;
 
-/// Samples of a deviation map in its period.
 const SAMPLES: u32 = 64;
 
 /// Friction at every sample, from states at no more than [`MOST_STATES`] of them, with lines that say so.
@@ -77,7 +76,6 @@ pub fn exact_screw(
     Ok((friction(design, samples, &chosen, &sizes), lines))
 }
 
-/// Speeds and loads as the scene lets them in.
 fn within_limits(design: &UncagedDesign, trace: &Trace<ScrewSample>) -> Vec<ScrewSample> {
     let limits = design.gear.limits;
     let within = |value: f64, limit: f32| value.clamp(-f64::from(limit), limit.into());
@@ -128,7 +126,6 @@ fn ring(design: &UncagedDesign, samples: &[ScrewSample]) -> Result<ElasticRing, 
     })
 }
 
-/// The samples of a map, between which it is linear.
 fn deviation(map: &DeviationMap) -> GrooveDeviation {
     GrooveDeviation::Samples {
         turns: map.turns().into(),

@@ -1,6 +1,7 @@
 //! A caged screw without memory whose friction coefficient follows speed and temperature: in every tick the law is asked, and the block told, as
 //! firmware does it.
 
+use epas_design::caged::Block;
 use epas_design::caged_scene::{CagedModel, CagedScene};
 use epas_design::files::Design;
 use epas_friction::Faults;
@@ -11,7 +12,6 @@ use super::reference::Moving;
 use super::remembering::scene;
 use crate::model::{Model, TickInputs, TickOutputs};
 
-/// The screw.
 pub struct Lawful {
     model: CagedModel,
     law: CoefficientLaw,
@@ -26,8 +26,8 @@ impl Lawful {
         let scene = scene(design)?;
         let balls = f32::from(design.caged.loaded_balls);
         let lift_off = match &scene {
-            CagedScene::One(block) => balls * block.law.lift_off,
-            CagedScene::Range(block) => balls * block.law.lift_off,
+            CagedScene::Folded(Block::One(block)) => balls * block.law.lift_off,
+            CagedScene::Folded(Block::Range(block)) => balls * block.law.lift_off,
             CagedScene::ClosedForm(_) => 0.0,
         };
         Ok(Self {

@@ -28,7 +28,6 @@ pub struct Linear {
     pub encoder: EncoderStep,
 }
 
-/// What a linear bearing's quantities are called.
 const WORDS: Words = Words {
     load: "normal load",
     speed: "speed",
@@ -65,7 +64,6 @@ impl Linear {
         memory::of_bearing(configuration, balls, normal_load)
     }
 
-    /// Elements at the trace's mean load, where friction remembers.
     fn remembered(&self, trace: &Trace<LinearSample>) -> Result<Option<Remembered>, Failure> {
         if !self.memory {
             return Ok(None);

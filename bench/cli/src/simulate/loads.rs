@@ -56,7 +56,6 @@ pub struct LoadArguments {
 }
 
 impl LoadArguments {
-    /// Whether a load table is asked for.
     pub const fn wanted(&self) -> bool {
         self.loads
     }
@@ -65,14 +64,10 @@ impl LoadArguments {
 /// Loads of one sign count where the largest of them is this part of the largest of both.
 const COUNTED: f64 = 0.01;
 
-/// Where the loads come from.
 #[derive(Clone, Copy)]
 pub struct Source<'a> {
-    /// A trace.
     pub input: Option<&'a PathBuf>,
-    /// Which of its channels are which columns.
     pub channels: Option<&'a Path>,
-    /// A manoeuvre.
     pub manoeuvre: Option<Manoeuvre>,
 }
 

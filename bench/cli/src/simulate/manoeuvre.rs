@@ -9,7 +9,6 @@ pub use epas_design::manoeuvre::Manoeuvre;
 use super::samples::{LinearSample, ScrewSample};
 use super::trace::Trace;
 
-/// Reads a manoeuvre's name.
 pub fn names() -> impl TypedValueParser<Value = Manoeuvre> {
     let values = Manoeuvre::ALL.map(|(_, name, help)| PossibleValue::new(name).help(help));
     PossibleValuesParser::new(values).map(|name| {

@@ -24,7 +24,9 @@ use super::summary::Lines;
 use super::targets::targets;
 use super::trace::Temperature;
 use crate::model::{Model, TickOutputs};
-use acting::{Acting, Torque, Wanted, moments, tick};
+#[cfg(test)]
+pub use acting::Commanded;
+use acting::{Acting, moments, tick};
 use epas_calibrate::controller::Controller;
 use epas_calibrate::mechanism::Mechanism;
 use epas_design::files::Design;
@@ -72,7 +74,6 @@ fn inertia(text: &str) -> Result<f64, String> {
 }
 
 impl MechanismArguments {
-    /// Whether a mechanism is simulated.
     pub fn wanted(&self) -> bool {
         self.mechanism
     }
@@ -92,7 +93,6 @@ struct Row {
     outputs: TickOutputs,
 }
 
-/// Runs the mechanism of a design over a trace, and writes what is asked for.
 pub fn run(
     design: &Design,
     arguments: &MechanismArguments,
@@ -105,8 +105,8 @@ pub fn run(
     let calibrated = design.calibrated.as_ref();
     let follows = design.follows_temperature();
     let (name, acting, temperature) = match arguments.controller {
-        Some(_) => moments::<Wanted>(&source, mapping.as_ref(), follows, |sample| sample.0)?,
-        None => moments::<Torque>(&source, mapping.as_ref(), follows, |sample| sample.0)?,
+        Some(_) => moments::<true>(&source, mapping.as_ref(), follows)?,
+        None => moments::<false>(&source, mapping.as_ref(), follows)?,
     };
     let mut design = design.clone();
     design.by_default_law = calibrated.is_none() && matches!(temperature, Temperature::Followed(_));

@@ -28,9 +28,7 @@ const LEAST_LOAD: f32 = 0.1;
 /// What elements of a screw follow from.
 pub struct Screw<'a> {
     pub design: &'a BallScrew,
-    /// Friction coefficient of ball and groove.
     pub friction: f32,
-    /// How its balls fit.
     pub clearance: Clearance,
     pub rolling_resistance: RollingResistance,
     pub loaded_balls: f32,
@@ -43,7 +41,6 @@ pub struct Remembered {
     pub reference_load: f32,
     /// Step of the encoder whose noise they do not follow, rad (m); 0 without.
     pub encoder_step: f32,
-    /// What the summary says.
     pub lines: Lines,
 }
 

@@ -9,7 +9,6 @@ pub const STEPS: usize = 4;
 /// A nut with the model's friction.
 #[derive(Clone)]
 pub struct Nut<M> {
-    /// The screw.
     pub model: M,
     /// Torque of the load, over that of a screw without friction.
     pub gain: f64,

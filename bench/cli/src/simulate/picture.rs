@@ -21,39 +21,31 @@ pub struct Moment {
     /// Place along the horizontal axis.
     pub place: f64,
     pub load: f64,
-    /// Load across, where there is one.
     pub side: Option<f64>,
     pub speed: f64,
     /// Motor torque without inertia, where a motor drives: that of the load and of friction.
     pub motor: Option<f64>,
     pub friction: f64,
-    /// Both parts of it, where they are known.
     pub parts: Option<[f64; 2]>,
     /// Promised largest error of the friction, where it holds.
     pub error: Option<f64>,
     pub reference: Option<f64>,
-    /// What holds.
     pub regime: Regime,
-    /// Whether a fault is flagged.
     pub flagged: bool,
 }
 
 /// What stands beside the axes.
 pub struct Labels {
-    /// Above the first panel.
     pub title: String,
-    /// Horizontal axes.
     pub place: &'static str,
     pub loads: [&'static str; 2],
     pub speed: &'static str,
     pub friction: (&'static str, &'static str),
     pub parts: [&'static str; 2],
     pub error: String,
-    /// What the model is compared with, where it is.
     pub reference: &'static str,
 }
 
-/// How finely a picture is drawn, and as what.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
     Svg,
@@ -70,7 +62,6 @@ impl Form {
         }
     }
 
-    /// A curve over rows, as fine as this form shows it.
     pub fn curve<Row>(
         self,
         rows: &[Row],
@@ -89,7 +80,6 @@ impl Form {
     }
 }
 
-/// First and last place of a run.
 pub fn ends(moments: &[Moment]) -> (f64, f64) {
     moments
         .iter()
@@ -98,7 +88,6 @@ pub fn ends(moments: &[Moment]) -> (f64, f64) {
         })
 }
 
-/// A chart over the places between `ends`.
 pub fn chart(
     title: &str,
     place: &str,

@@ -4,14 +4,12 @@ use std::cell::Cell;
 
 use epas_page::progress;
 
-/// How far the work has come.
 pub struct Progress {
     progress: progress::Progress,
     done: Cell<u64>,
 }
 
 impl Progress {
-    /// Work of so many steps, none of them done.
     pub fn new(length: usize) -> Self {
         Self {
             progress: progress::Progress::new("samples", length),
@@ -19,7 +17,6 @@ impl Progress {
         }
     }
 
-    /// One step more is done.
     pub fn step(&self) {
         const STRIDE: u64 = 1 << 14;
         let done = self.done.get() + 1;

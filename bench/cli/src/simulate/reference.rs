@@ -176,7 +176,6 @@ pub struct CagedReference {
 }
 
 impl CagedReference {
-    /// That of a configuration that the in-loop model has accepted.
     pub fn new(configuration: &ClosedFormScrewConfiguration) -> Result<Self, Failure> {
         let design = configuration.design.parameters();
         let pitch_radius = f64::from(design.pitch_radius);
@@ -215,7 +214,6 @@ impl CagedReference {
         })
     }
 
-    /// Friction of one sample, within the same limits as in the loop.
     pub fn friction(&self, sample: &ScrewSample) -> Friction {
         let within = |value: f64, limit: f32| value.clamp(-f64::from(limit), limit.into());
         let speed = within(sample.nut_speed, self.limits.nut_speed);

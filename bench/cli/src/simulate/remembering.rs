@@ -2,7 +2,7 @@
 //! speed and direction, and backlash.
 
 use epas_design::CagedDesign;
-use epas_design::caged::NODES;
+use epas_design::caged::{Block, NODES};
 use epas_friction::law::Elements;
 use epas_friction::law::coefficient::CoefficientLaw;
 use epas_friction::law::memory::Hysteresis;
@@ -43,8 +43,8 @@ pub fn remembering<A: Sensor>(
         step,
     };
     match scene(design)? {
-        CagedScene::One(block) => wanted.around::<CagedBallScrew>(block),
-        CagedScene::Range(block) => wanted.around::<CagedBallScrew<NODES>>(block),
+        CagedScene::Folded(Block::One(block)) => wanted.around::<CagedBallScrew>(block),
+        CagedScene::Folded(Block::Range(block)) => wanted.around::<CagedBallScrew<NODES>>(block),
         CagedScene::ClosedForm(form) => wanted.around::<ClosedFormScrew>(form),
     }
 }
@@ -148,7 +148,6 @@ where
     )?))
 }
 
-/// Elements of a design under a load, N.
 fn by_design(caged: &CagedDesign, mean_load: f32) -> Result<Remembered, Error> {
     let CagedDesign {
         ref design,

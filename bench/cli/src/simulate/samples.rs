@@ -37,13 +37,22 @@ impl Sample for ScrewSample {
 
     const OPTIONAL: &'static [&'static str] = &["nut_position"];
 
-    fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
-        Ok(Self {
-            time: column("time")?,
-            nut_speed: column("nut_speed")?,
-            axial_load: column("axial_load")?,
-            nut_position: column("nut_position")?,
-        })
+    fn of(mut next: impl FnMut() -> f64) -> Self {
+        Self {
+            time: next(),
+            nut_speed: next(),
+            axial_load: next(),
+            nut_position: next(),
+        }
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        vec![
+            self.time,
+            self.nut_speed,
+            self.axial_load,
+            self.nut_position,
+        ]
     }
 
     fn between(low: &Self, high: &Self, of: &dyn Fn(f64, f64) -> f64) -> Self {
@@ -56,17 +65,6 @@ impl Sample for ScrewSample {
             axial_load: of(low.axial_load, high.axial_load),
             nut_position: of(low.nut_position, low.nut_position + turn),
         }
-    }
-
-    fn record(&self) -> Vec<String> {
-        [
-            self.time,
-            self.nut_speed,
-            self.axial_load,
-            self.nut_position,
-        ]
-        .map(|value| value.to_string())
-        .to_vec()
     }
 
     fn time(&self) -> f64 {
@@ -85,19 +83,17 @@ impl Sample for ScrewSample {
 impl Sample for LinearSample {
     const COLUMNS: &'static [&'static str] = &["time", "speed", "normal_load", "side_load"];
 
-    fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
-        Ok(Self {
-            time: column("time")?,
-            speed: column("speed")?,
-            normal_load: column("normal_load")?,
-            side_load: column("side_load")?,
-        })
+    fn of(mut next: impl FnMut() -> f64) -> Self {
+        Self {
+            time: next(),
+            speed: next(),
+            normal_load: next(),
+            side_load: next(),
+        }
     }
 
-    fn record(&self) -> Vec<String> {
-        [self.time, self.speed, self.normal_load, self.side_load]
-            .map(|value| value.to_string())
-            .to_vec()
+    fn numbers(&self) -> Vec<f64> {
+        vec![self.time, self.speed, self.normal_load, self.side_load]
     }
 
     fn time(&self) -> f64 {

@@ -53,21 +53,18 @@ impl<S: Sample> Row<S> {
 /// A column of outputs: its name, and its text by the outputs of a tick and the motion since the first sample.
 pub type Column = (&'static str, fn(&TickOutputs, f64) -> String);
 
-/// Outputs of every ball screw.
 pub const OF_SCREW: [Column; 3] = [
     ("friction_torque", |outputs, _| outputs.friction.to_string()),
     ("load_torque", |outputs, _| outputs.load_torque.to_string()),
     ("efficiency", |outputs, _| outputs.efficiency.to_string()),
 ];
 
-/// Outputs of every scene.
 pub const OF_EVERY: [Column; 3] = [
     ("regime", |outputs, _| regime_name(outputs.regime).into()),
     ("faults", |outputs, _| outputs.faults.bits().to_string()),
     ("fault_words", |outputs, _| flags::words(outputs.faults)),
 ];
 
-/// Outputs of every row of balls.
 pub const OF_ROW: [Column; 4] = [
     ("groove_friction", |outputs, _| outputs.groove.to_string()),
     ("ball_friction", |outputs, _| outputs.ball.to_string()),
@@ -77,7 +74,6 @@ pub const OF_ROW: [Column; 4] = [
     }),
 ];
 
-/// Columns of the reference.
 const REFERENCE: [&str; 2] = ["reference_friction_torque", "reference_efficiency"];
 
 /// Columns of the table: those of the trace, the outputs, the reference.
@@ -90,10 +86,9 @@ pub fn columns<S: Scene>(with_reference: bool) -> Vec<&'static str> {
     columns
 }
 
-/// The values of [`columns`].
 pub fn record<S: Sample>(outputs: &[Column], row: &Row<S>) -> Vec<String> {
-    let mut record = row.sample.record();
-    record.truncate(S::COLUMNS.len());
+    let numbers = row.sample.numbers().into_iter().take(S::COLUMNS.len());
+    let mut record: Vec<String> = numbers.map(|number| number.to_string()).collect();
     record.extend(
         outputs
             .iter()

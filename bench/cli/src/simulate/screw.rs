@@ -92,7 +92,6 @@ fn too_fast(design: &Design, [speed, load]: [f64; 2]) -> Option<String> {
     ))
 }
 
-/// What a ball screw's quantities are called.
 pub const WORDS: Words = Words {
     load: "axial load",
     speed: "nut speed",
@@ -101,15 +100,12 @@ pub const WORDS: Words = Words {
     unit: "N m",
 };
 
-/// What the summary calls the difference from the reference.
 pub const DIFFERENCE: &str = "largest difference from f64";
 
-/// Sums and peaks of a run of a ball screw.
 #[derive(Clone, Debug)]
 pub struct ScrewSummary {
     course: Course,
     peak_motor: f64,
-    /// Work while driving and while back-driving.
     driving: Work,
     back_driving: Work,
     reference: Option<Difference>,
@@ -123,18 +119,15 @@ struct Work {
     load: f64,
 }
 
-/// Largest difference from the reference.
 #[derive(Clone, Copy, Debug, Default)]
 struct Difference {
     torque: f64,
     largest_torque: f64,
     efficiency: f64,
-    /// Samples without a reference.
     open: usize,
 }
 
 impl ScrewSummary {
-    /// Nothing yet, with what the design's block does not hold.
     pub fn new(design: &Design, beyond: Option<Beyond>) -> Self {
         Self {
             course: Course::new(f64::from(design.screw().lead()) / TAU),
@@ -182,7 +175,6 @@ impl ScrewSummary {
         rotation
     }
 
-    /// The lines, with those of balls that press on each other.
     pub fn lines(
         self,
         trace: &Trace<ScrewSample>,

@@ -16,7 +16,6 @@ impl Lines {
         self.0.push((name.into(), text.into()));
     }
 
-    /// One more line where there is something to say.
     pub fn add_some(&mut self, name: &str, text: Option<String>) {
         if let Some(text) = text {
             self.add(name, text);
@@ -42,18 +41,15 @@ impl Lines {
     }
 }
 
-/// What a scene calls its quantities.
 #[derive(Clone, Copy, Debug)]
 pub struct Words {
     pub load: &'static str,
     pub speed: &'static str,
     pub speed_unit: &'static str,
-    /// Torque or force.
     pub friction: &'static str,
     pub unit: &'static str,
 }
 
-/// Sums and peaks that every scene has.
 #[derive(Clone, Debug)]
 pub struct Course {
     /// Travel, m, of a unit of motion.
@@ -71,7 +67,6 @@ pub struct Course {
     flags: Flags,
 }
 
-/// How many samples were flagged, and why.
 #[derive(Clone, Debug, Default)]
 pub struct Flags {
     faulted: usize,
@@ -137,12 +132,10 @@ impl Course {
         motion
     }
 
-    /// Largest load, N.
     pub const fn peak_load(&self) -> f64 {
         self.peak_load
     }
 
-    /// Largest speed, rad/s or m/s.
     pub const fn peak_speed(&self) -> f64 {
         self.peak_speed
     }
@@ -177,12 +170,10 @@ impl Course {
         lines
     }
 
-    /// The energy that friction took.
     pub fn energy(&self, lines: &mut Lines) {
         lines.add("friction energy", format!("{:.3} J", self.energy));
     }
 
-    /// Which regimes took which share.
     pub fn regimes(&self, lines: &mut Lines, samples: usize) {
         let regimes: Vec<_> = REGIMES
             .into_iter()
@@ -196,14 +187,12 @@ impl Course {
         lines.add("regimes", regimes.join(", "));
     }
 
-    /// How many samples were flagged, and why.
     pub fn flags(&self, lines: &mut Lines) {
         self.flags.lines(lines);
     }
 }
 
 impl Flags {
-    /// One sample more.
     pub fn add(&mut self, faults: Faults) {
         self.faulted += usize::from(faults.any());
         for (count, flag) in self.faults.iter_mut().zip(FLAGS) {
@@ -229,7 +218,6 @@ impl Flags {
     }
 }
 
-/// Sums and peaks of balls that press on each other.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Pressing {
     /// Energy that balls turn into heat on each other, J.

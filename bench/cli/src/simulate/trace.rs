@@ -21,33 +21,17 @@ pub trait Sample: Copy {
     /// Columns that a trace may have; where it has none, each of their numbers is 0.
     const OPTIONAL: &'static [&'static str] = &[];
 
-    fn read<E>(column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E>;
+    /// A moment of its numbers in the order of the columns, those that a trace may have behind those that it must have.
+    fn of(next: impl FnMut() -> f64) -> Self;
 
-    /// The numbers in the order of the columns, those that a trace may have behind those that it must have.
-    fn record(&self) -> Vec<String>;
+    /// The numbers in that order.
+    fn numbers(&self) -> Vec<f64>;
 
     /// A moment between two, each of its numbers by this function of theirs.
     #[must_use]
     fn between(low: &Self, high: &Self, of: &dyn Fn(f64, f64) -> f64) -> Self {
-        let numbers = |sample: &Self| -> Vec<f64> {
-            let record = sample.record();
-            // A number that is written reads back as the same one.
-            record
-                .iter()
-                .map(|text| text.parse().unwrap_or(f64::NAN))
-                .collect()
-        };
-        let (low, high) = (numbers(low), numbers(high));
-        let read = Self::read(|name| {
-            let mut columns = Self::COLUMNS.iter().chain(Self::OPTIONAL);
-            let place = columns.position(|column| *column == name);
-            let pair = place.and_then(|place| Some((*low.get(place)?, *high.get(place)?)));
-            Ok::<_, std::convert::Infallible>(pair.map_or(f64::NAN, |(low, high)| of(low, high)))
-        });
-        match read {
-            Ok(sample) => sample,
-            Err(never) => match never {},
-        }
+        let mut pairs = low.numbers().into_iter().zip(high.numbers());
+        Self::of(|| pairs.next().map_or(f64::NAN, |(low, high)| of(low, high)))
     }
 
     /// Time, s.
@@ -155,7 +139,6 @@ impl Temperature {
         }
     }
 
-    /// Refuses what is no temperature, K.
     fn check(value: f64) -> Result<(), String> {
         let (low, high) = TEMPERATURES;
         if !(f64::from(low)..=f64::from(high)).contains(&value) {
@@ -166,7 +149,6 @@ impl Temperature {
         Ok(())
     }
 
-    /// One more value, K.
     fn take(&mut self, value: f64) -> Result<(), String> {
         Self::check(value)?;
         if let Self::Followed(values) = self {
@@ -200,7 +182,6 @@ pub fn samples<S: Sample>(input: impl Read + Seek) -> Result<Vec<S>, String> {
     columns_of(input, Err(UNREAD)).map(|(samples, _)| samples)
 }
 
-/// The samples of a measurement file.
 pub fn measured<S: Sample>(input: impl Read, channels: Option<&Mapping>) -> Result<Vec<S>, String> {
     channels_of(input, channels, Err(UNREAD)).map(|(samples, _)| samples)
 }
@@ -214,7 +195,6 @@ fn refused(column: &str) -> Option<Dimension> {
     }
 }
 
-/// Columns of a scene but the time, those that a trace must have first.
 fn wanted<S: Sample>(followed: Follows) -> Vec<mdf4::Wanted> {
     let names = S::COLUMNS.iter().chain(S::OPTIONAL);
     names
@@ -306,18 +286,19 @@ fn samples_of<S: Sample>(
             temperature.take(*value)?;
         }
     }
-    let values = |name: &str| Some(&table.column(quantity(name)?)?.values[..]);
-    let samples = (0..table.times.len()).map(|row| {
-        S::read(|column| {
-            let values = match column {
-                "time" => Some(&table.times[..]),
-                name => values(name),
-            };
-            let value = values.map_or(Some(0.0), |values| values.get(row).copied());
-            value.ok_or_else(|| "a sample is missing".to_owned())
+    let names = S::COLUMNS.iter().chain(S::OPTIONAL);
+    let columns: Vec<Option<&[f64]>> = names
+        .map(|name| match *name {
+            "time" => Some(&table.times[..]),
+            name => Some(&table.column(quantity(name)?)?.values[..]),
         })
+        .collect();
+    let samples = (0..table.times.len()).map(|row| {
+        let mut columns = columns.iter();
+        let mut next = || columns.next().copied().flatten();
+        S::of(|| next().map_or(0.0, |values| values.get(row).copied().unwrap_or(f64::NAN)))
     });
-    Ok((samples.collect::<Result<_, _>>()?, temperature))
+    Ok((samples.collect(), temperature))
 }
 
 fn tell(table: &Table) {

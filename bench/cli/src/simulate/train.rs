@@ -11,7 +11,6 @@ use epas_page::plot::{Mark, Panel, Series};
 /// Most ticks for each sample of a trace.
 const MOST_TICKS: u32 = 1 << 16;
 
-/// A model of a train over a trace of equal steps.
 pub struct Train {
     model: Box<dyn Model>,
     ticks: u32,
@@ -53,7 +52,6 @@ impl Train {
         }
     }
 
-    /// Its ticks, for the summary.
     pub fn told(&self) -> String {
         let tick = 1e3 * self.step / f64::from(self.ticks);
         match self.ticks {
@@ -62,7 +60,6 @@ impl Train {
         }
     }
 
-    /// What it does at every sample, beside the reference.
     pub fn rows<S: SceneSample>(
         &mut self,
         trace: &Trace<S>,
@@ -124,7 +121,6 @@ pub fn equal_step<S: Sample>(trace: &Trace<S>) -> Result<f64, Failure> {
 /// Moments at which contacts are marked, at most.
 const MOMENTS: usize = 500;
 
-/// Draws the panels of a run, then those of its balls.
 pub fn draw<S>(
     labels: &Labels,
     moments: &[Moment],
@@ -159,7 +155,6 @@ pub fn draw<S>(
     form.draw(&labels.title, &panels)
 }
 
-/// A mark for each ball that presses, counted from one.
 fn marks<S>(points: &[(&Moment, &Row<S>)]) -> Vec<(f64, f64)> {
     let stride = points.len().div_ceil(MOMENTS).max(1);
     points

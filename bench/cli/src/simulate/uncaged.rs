@@ -137,7 +137,6 @@ impl Uncaged {
         settings
     }
 
-    /// Elements at the trace's mean load, where friction remembers.
     fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
         if !self.memory {
             return Ok(None);

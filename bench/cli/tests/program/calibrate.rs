@@ -3,9 +3,8 @@
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 use std::fs;
-use std::path::Path;
 
-use super::{run_in, words};
+use super::{ran, told};
 
 /// Truth: mass, kg; viscous friction, N s/m; Coulomb friction, N; offset, N.
 const MASS: f64 = 40.0;
@@ -53,33 +52,15 @@ fn trace(seconds: usize, shift: f64) -> String {
     text
 }
 
-fn calibrated(folder: &Path, arguments: &[&str]) -> serde_json::Value {
-    let mut all = vec!["calibrate", "slide.csv", "--json", "--output", "out"];
-    all.extend(arguments);
-    let run = run_in(folder, &all, "");
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    serde_json::from_str(&run.stdout).unwrap()
-}
-
 #[test]
 fn a_folder_of_the_users_stays() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("slide.csv"), "time,position\n0,0\n").unwrap();
-    let run = run_in(
-        folder.path(),
-        &["calibrate", "slide.csv", "--output", "."],
-        "",
-    );
-    assert_eq!(run.code, 1);
+    let line = "calibrate slide.csv --output .";
     // Before the trace is looked at.
-    assert!(run.stderr.contains("such as slide.csv"), "{}", run.stderr);
-    let forced = ["calibrate", "slide.csv", "--output", ".", "--force"];
-    let run = run_in(folder.path(), &forced, "");
-    assert!(
-        run.stderr.contains("motor_force is missing"),
-        "{}",
-        run.stderr
-    );
+    told(folder.path(), line).refused("such as slide.csv");
+    let forced = told(folder.path(), &format!("{line} --force"));
+    forced.refused("motor_force is missing");
 }
 
 #[test]
@@ -88,10 +69,9 @@ fn a_slide_is_told_with_intervals_that_hold_the_truth() {
     fs::write(folder.path().join("slide.csv"), trace(8, 0.0)).unwrap();
     fs::write(folder.path().join("other.csv"), trace(6, 0.7)).unwrap();
     let controller = format!("gain_position={POSITION},gain_speed={SPEED}");
-    let answer = calibrated(
-        folder.path(),
-        &["--controller", &controller, "--validate", "other.csv"],
-    );
+    let line = "calibrate slide.csv --json --output out --validate other.csv --controller";
+    let run = ran(folder.path(), &format!("{line} {controller}"));
+    let answer: serde_json::Value = serde_json::from_str(&run.stdout).unwrap();
     // Half a tick of the controller's hold is a delay, which the estimate puts into its numbers: measured 0.2 % of the mass, 0.7 % of both
     // frictions. Its intervals know nothing of it.
     for (name, truth) in [
@@ -154,30 +134,18 @@ fn what_cannot_be_is_refused_with_a_word() {
         .replace("motor_force", "motor_torque");
     fs::write(folder.path().join("screw.csv"), screw).unwrap();
     for (arguments, code, word) in [
-        (&["calibrate", "none.csv"][..], 1, "none.csv"),
+        ("none.csv", 1, "none.csv"),
+        ("slide.csv --controller gain_position=1", 2, "gain_speed"),
+        ("slide.csv --ratio 2", 1, "--design"),
+        ("slide.csv --design lin-4.1 --fix friction", 2, "NAME=VALUE"),
+        ("slide.csv --validate none.csv", 1, "none.csv"),
         (
-            &["calibrate", "slide.csv", "--controller", "gain_position=1"],
-            2,
-            "gain_speed",
-        ),
-        (&["calibrate", "slide.csv", "--ratio", "2"], 1, "--design"),
-        (
-            &words("calibrate slide.csv --design lin-4.1 --fix friction"),
-            2,
-            "NAME=VALUE",
-        ),
-        (
-            &["calibrate", "slide.csv", "--validate", "none.csv"],
-            1,
-            "none.csv",
-        ),
-        (
-            &words("calibrate screw.csv --design lin-4.1 --validate none.csv"),
+            "screw.csv --design lin-4.1 --validate none.csv",
             1,
             "none.csv",
         ),
     ] {
-        let run = run_in(folder.path(), arguments, "");
+        let run = told(folder.path(), &format!("calibrate {arguments}"));
         assert_eq!(run.code, code, "{arguments:?}: {}", run.stderr);
         assert!(run.stderr.contains(word), "{arguments:?}: {}", run.stderr);
     }

@@ -8,7 +8,7 @@ use std::path::Path;
 use serde_json::Value;
 use tempfile::tempdir;
 
-use super::{Run, run_in, words};
+use super::{Run, told, words};
 
 /// A carriage of so many kilograms with 200 N s/m of drag and 20 N of friction, moved to and fro for ten seconds; noise of 0.5 N
 /// that looks random.
@@ -33,9 +33,8 @@ fn trace(mass: f64) -> String {
     text
 }
 
-fn calibrate(folder: &Path, arguments: &[&str]) -> Run {
-    let all: Vec<_> = ["calibrate"].iter().chain(arguments).copied().collect();
-    run_in(folder, &all, "")
+fn calibrate(folder: &Path, arguments: &str) -> Run {
+    told(folder, &format!("calibrate {arguments}"))
 }
 
 fn json(run: &Run) -> Value {
@@ -55,7 +54,7 @@ fn a_folder_is_the_sum_of_its_parts() {
     }
     fs::write(traces.join("bad.csv"), "time,colour\n0,1\n").unwrap();
 
-    let run = calibrate(place.path(), &["traces", "--output", "whole", "--json"]);
+    let run = calibrate(place.path(), "traces --output whole --json");
     let whole = json(&run);
     for mass in masses {
         let told = &whole["traces"][format!("rig{mass}.csv")]["parameters"]["mass"];
@@ -85,18 +84,16 @@ fn a_folder_is_the_sum_of_its_parts() {
 
     for part in ["1/2", "2/2"] {
         let output = format!("part{}", &part[..1]);
-        calibrate(
-            place.path(),
-            &["traces", "--part", part, "--output", &output],
-        );
+        let line = format!("traces --part {part} --output {output}");
+        calibrate(place.path(), &line);
     }
     let merged = json(&calibrate(
         place.path(),
-        &["--merge", "part2", "part1", "--output", "merged", "--json"],
+        "--merge part2 part1 --output merged --json",
     ));
     assert_eq!(merged, whole);
     // Again: nothing is left to fit, and the answer is the same to the letter.
-    let again = calibrate(place.path(), &["traces", "--output", "whole", "--json"]);
+    let again = calibrate(place.path(), "traces --output whole --json");
     assert_eq!(again.stdout, run.stdout);
 }
 
@@ -107,25 +104,19 @@ fn a_folder_that_tells_nothing_ends_with_code_1() {
         if let Some(text) = text {
             fs::write(place.path().join("bad.csv"), text).unwrap();
         }
-        let run = calibrate(place.path(), &[".", "--output", "out"]);
+        let run = calibrate(place.path(), ". --output out");
         assert_eq!(run.code, 1, "{}", run.stdout);
         assert!(run.stderr.contains(word), "{}", run.stderr);
     }
     for (arguments, word) in [
-        (&[".", "--validate", "bad.csv"][..], "--validate"),
+        (". --validate bad.csv", "--validate"),
         (
-            &[".", "--controller", "gain_position=1,gain_speed=1"],
+            ". --controller gain_position=1,gain_speed=1",
             "--controller",
         ),
-        (
-            &[".", "--design", "lin-4.1", "--design-out", "gear.toml"],
-            "--design-out",
-        ),
-        (
-            &[".", "--design", "lin-4.1", "--constants", "gear.rs"],
-            "--constants",
-        ),
-        (&["bad.csv", "--part", "1/3"], "--part"),
+        (". --design lin-4.1 --design-out gear.toml", "--design-out"),
+        (". --design lin-4.1 --constants gear.rs", "--constants"),
+        ("bad.csv --part 1/3", "--part"),
     ] {
         let run = calibrate(place.path(), arguments);
         assert_eq!(run.code, 1, "{arguments:?}: {}", run.stderr);
@@ -135,16 +126,11 @@ fn a_folder_that_tells_nothing_ends_with_code_1() {
     // A name that is wrong is no word of a trace.
     let run = calibrate(
         place.path(),
-        &words(". --design lin-4.1 --estimate foo --output out"),
+        ". --design lin-4.1 --estimate foo --output out",
     );
-    assert_eq!(run.code, 1, "{}", run.stdout);
-    assert!(
-        run.stderr.contains("foo: unknown; known are friction"),
-        "{}",
-        run.stderr
-    );
-    for arguments in [&["--part", "3/2"][..], &["--part", "1/2", "--merge", "out"]] {
-        let all: Vec<_> = ["."].iter().chain(arguments).copied().collect();
-        assert_eq!(calibrate(place.path(), &all).code, 2, "{arguments:?}");
+    run.refused("foo: unknown; known are friction");
+    for arguments in [". --part 3/2", ". --part 1/2 --merge out"] {
+        let run = calibrate(place.path(), arguments);
+        assert_eq!(run.code, 2, "{arguments}");
     }
 }

@@ -13,7 +13,7 @@ use epas_friction::scene::{
 use epas_friction::{FrictionModel, Inputs};
 use tempfile::tempdir;
 
-use super::simulated_design;
+use super::{simulated_design, texts};
 
 #[rustfmt::skip]
 #[expect(dead_code, reason = "firmware takes what it needs")]
@@ -89,17 +89,14 @@ fn a_simulation_runs_what_firmware_evaluates() {
     }
     fs::write(folder.path().join("trace.csv"), trace).unwrap();
     fs::write(folder.path().join("design.toml"), DESIGN).unwrap();
-    let simulated = |memory: &[&str]| {
-        let run = simulated_design(folder.path(), memory);
-        run.stdout
-    };
-    let said = simulated(&[]);
+    let said = simulated_design(folder.path(), "").stdout;
     assert!(
         said.contains("without --memory left out: breakaway_angle")
             && said.contains("293.1 to 333.1 K, followed"),
         "{said}"
     );
-    let said = simulated(&["--memory", "--encoder-step", &STEP.to_string()]);
+    let memory = format!("--memory --encoder-step {STEP}");
+    let said = simulated_design(folder.path(), &memory).stdout;
     assert!(
         said.contains("as calibrated")
             && said.contains("dead band of 1.5340 mrad")
@@ -109,16 +106,9 @@ fn a_simulation_runs_what_firmware_evaluates() {
 
     type Gear = WithMemory<CagedBallScrew<NODES>, ProportionalElements<8>, Sensor, CoefficientLaw>;
     let mut model = FrictionModel::<Gear, &WithMemoryConstants<_, _, _, _>>::of(&GEAR);
-    let out = fs::read_to_string(folder.path().join("out.csv")).unwrap();
-    let mut rows = out.lines();
-    let column = rows
-        .next()
-        .unwrap()
-        .split(',')
-        .position(|name| name == "friction_torque")
-        .unwrap();
+    let told = texts(&folder.path().join("out.csv"), "friction_torque");
     let (mut angle, mut last) = (0.0, samples[0]);
-    for (sample, row) in samples.iter().zip(rows) {
+    for (sample, told) in samples.iter().zip(told) {
         angle += 0.5 * (last[1] + sample[1]) * (sample[0] - last[0]);
         last = *sample;
         let outputs = model.step(WithMemoryInputs {
@@ -131,7 +121,6 @@ fn a_simulation_runs_what_firmware_evaluates() {
             temperature: temperature(sample[0]) as f32,
             temperature_age: 0.0,
         });
-        let told: f32 = row.split(',').nth(column).unwrap().parse().unwrap();
-        assert_eq!(told, outputs.friction_torque, "{row}");
+        assert_eq!(told.parse(), Ok(outputs.friction_torque), "{sample:?}");
     }
 }

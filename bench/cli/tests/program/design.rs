@@ -7,26 +7,14 @@ use epas_friction::scene::{CagedConstants, FoldedBall};
 use serde_json::Value;
 
 use super::eval::number;
-use super::{Run, STORED, run_in};
+use super::{Run, STORED, names, ran, run_in, told};
 
 /// A steering screw, without its friction coefficient.
 const DESIGN: &str = "nominal_diameter = 0.028\nlead = 0.007\nball_diameter = 3.969e-3\nconformity = 0.54\n\
                       contact_angle = 0.7853982\nclearance = 0\nloaded_balls = 60\n";
 
 fn design(folder: &Path, arguments: &str) -> Run {
-    let all: Vec<_> = std::iter::once("design")
-        .chain(arguments.split(' '))
-        .collect();
-    run_in(folder, &all, "")
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let mut names: Vec<_> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
+    told(folder, &format!("design {arguments}"))
 }
 
 /// Words of a text form: each is written as `0x` and eight digits.
@@ -138,9 +126,8 @@ fn refusals_name_their_reason_and_leave_nothing() {
     // Simulation with a cage takes the file: its balls feel no deviations.
     let fold = "[fold]\nscrew_deviation = 0.01\n";
     fs::write(folder.join("screw.toml"), format!("{STORED}{fold}")).unwrap();
-    let arguments = "simulate --design screw.toml --manoeuvre kerb --output kerb.csv";
-    let all: Vec<_> = arguments.split(' ').collect();
-    assert_eq!(run_in(folder, &all, "").code, 0);
+    let line = "simulate --design screw.toml --manoeuvre kerb --output kerb.csv";
+    ran(folder, line);
 }
 
 /// A file that is there stays, and an output is not called what it is not. What replaces it is of the table's coefficient.

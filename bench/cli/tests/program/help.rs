@@ -86,8 +86,7 @@ fn a_missing_folder_is_named_and_not_made() {
         "fmu --scene caged --design lin-4.1 --output absent/gear.fmu",
         "a2l --image a.elf --output absent/a.a2l",
     ] {
-        let all: Vec<_> = arguments.split(' ').collect();
-        let run = crate::run_in(place.path(), &all, "");
+        let run = crate::told(place.path(), arguments);
         assert_eq!(run.code, 1, "{arguments}: {}", run.stderr);
         assert!(
             run.stderr.contains("the folder absent is missing"),

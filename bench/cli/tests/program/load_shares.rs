@@ -4,6 +4,7 @@
 /// It serves loads of 667 to 9600 N
 /// and, the other way, of -552 to -9600 N
 /// within 1 % of the grooves' friction and 5 % of the largest ball load.
+#[allow(clippy::unreadable_literal, reason = "written by a program")]
 pub static LOAD_SHARES: [epas_friction::LoadShare; 32] = {
     const fn share(share: f32) -> epas_friction::LoadShare {
         match epas_friction::LoadShare::new(share) {

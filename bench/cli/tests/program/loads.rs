@@ -7,7 +7,7 @@ use std::path::Path;
 use epas_friction::LoadShare;
 use tempfile::tempdir;
 
-use super::{Run, STORED_UNCAGED, ran, run, run_in, words};
+use super::{Run, STORED_UNCAGED, ran, run, told, words};
 
 mod pasted {
     include!("load_shares.rs");
@@ -35,13 +35,8 @@ axial_load = 5000
 turns = 2
 ";
 
-fn loads(folder: &Path, arguments: &[&str]) -> Run {
-    let all: Vec<_> = ["simulate", "--loads"]
-        .iter()
-        .chain(arguments)
-        .copied()
-        .collect();
-    run_in(folder, &all, "")
+fn loads(folder: &Path, arguments: &str) -> Run {
+    told(folder, &format!("simulate --loads {arguments}"))
 }
 
 fn shares(toml: &str) -> Vec<f64> {
@@ -55,9 +50,7 @@ fn shares(toml: &str) -> Vec<f64> {
 #[test]
 fn rust_constants_are_ready_to_paste() {
     let printed = run(
-        &[
-            "simulate", "--loads", "--design", "lin-2.1", "--format", "rust",
-        ],
+        &words("simulate --loads --design lin-2.1 --format rust"),
         "",
     );
     assert_eq!(printed.code, 0, "{}", printed.stderr);
@@ -97,7 +90,7 @@ fn a_table_goes_into_the_design_file() {
         // The file's angle is rounded to f32, and so are the built-in lengths.
         assert!((own - built_in).abs() < 1e-5, "{own} {built_in}");
     }
-    let again = loads(path, &["--design", "screw.toml", "--output", "shares.toml"]);
+    let again = loads(path, "--design screw.toml --output shares.toml");
     again.refused("--force");
 
     // The scene takes the table of its own balls.
@@ -124,7 +117,7 @@ fn other_loads_and_errors_change_the_table() {
     ] {
         let file = format!("{name}.toml");
         fs::write(path.join(&file), format!("{DESIGN}{LOADS}{more}")).unwrap();
-        let made = loads(path, &["--design", &file, "--axial-load=-1000"]);
+        let made = loads(path, &format!("--design {file} --axial-load=-1000"));
         assert_eq!(made.code, 0, "{}", made.stderr);
         assert!(made.stdout.contains("-1000 N"), "{}", made.stdout);
         let shares = shares(&made.stdout);
@@ -177,11 +170,7 @@ fn a_table_says_which_loads_it_serves() {
     ] {
         let made = loads(
             path,
-            &[
-                "--design",
-                "pitch.toml",
-                &format!("--axial-load={axial_load}"),
-            ],
+            &format!("--design pitch.toml --axial-load={axial_load}"),
         );
         assert_eq!(made.code, 0, "{}", made.stderr);
         let said = folded_words(&made.stdout);
@@ -207,7 +196,7 @@ fn a_trace_gets_the_tables_it_needs() {
     trace("one.csv", &[100.0, 0.0, 3000.0, -20.0]);
     trace("wide.csv", &[50.0, 9000.0, -50.0, -9000.0]);
     let of = |name: &str| {
-        let made = loads(path, &["--design", "screw.toml", "--input", name]);
+        let made = loads(path, &format!("--design screw.toml --input {name}"));
         assert_eq!(made.code, 0, "{name}: {}", made.stderr);
         (folded_words(&made.stdout), made.stdout)
     };
@@ -238,8 +227,10 @@ fn a_trace_gets_the_tables_it_needs() {
         format!("{STORED_UNCAGED}{LOADS}"),
     )
     .unwrap();
-    let arguments = "--design uncaged.toml --input wide.csv --output shares.toml";
-    let made = loads(path, &arguments.split(' ').collect::<Vec<_>>());
+    let made = loads(
+        path,
+        "--design uncaged.toml --input wide.csv --output shares.toml",
+    );
     assert!(
         folded_words(&made.stdout).contains("one table does not serve"),
         "{}",
@@ -249,15 +240,8 @@ fn a_trace_gets_the_tables_it_needs() {
     let lists = table.split_once("[uncaged]\n").unwrap().1;
     fs::write(path.join("whole.toml"), format!("{STORED_UNCAGED}{lists}")).unwrap();
     let friction = |design: &str, trace: &str| {
-        let run = run_in(
-            path,
-            &[
-                "simulate", "--scene", "uncaged", "--design", design, "--input", trace, "--output",
-                "out.csv", "--force",
-            ],
-            "",
-        );
-        assert_eq!(run.code, 0, "{}", run.stderr);
+        let line = "simulate --scene uncaged --output out.csv --force";
+        ran(path, &format!("{line} --design {design} --input {trace}"));
         fs::read_to_string(path.join("out.csv")).unwrap()
     };
     trace("push.csv", &[1000.0; 20]);
@@ -318,7 +302,7 @@ fn what_gives_no_table_says_why() {
     let folder = tempdir().unwrap();
     let path = folder.path();
     fs::write(path.join("bare.toml"), DESIGN).unwrap();
-    let bare = loads(path, &["--design", "bare.toml"]);
+    let bare = loads(path, "--design bare.toml");
     bare.refused("[loads]");
     for (from, to, said) in [
         ("turns = 2\n", "", "turns"),
@@ -348,7 +332,7 @@ fn what_gives_no_table_says_why() {
     ] {
         let text = format!("{DESIGN}{}", LOADS.replace(from, to));
         fs::write(path.join("bad.toml"), text).unwrap();
-        let run = loads(path, &["--design", "bad.toml"]);
+        let run = loads(path, "--design bad.toml");
         assert_eq!(
             (run.code, run.stdout.as_str()),
             (1, ""),
@@ -364,17 +348,15 @@ fn what_gives_no_table_says_why() {
     )
     .unwrap();
     for (arguments, said) in [
-        (&["--input", "idle.csv"][..], "no load along the axis"),
-        (&["--input", "none.csv"], "none.csv"),
-        (&["--axial-load=0,0"], "no load along the axis"),
-        (&["--axial-load=1,inf"], "axial_load"),
-        (&["--axial-load=1e9"], "axial_load"),
-        (&["--manoeuvre", "stroke"], "linear bearing"),
-        (&["--input", "idle.csv", "--output", "idle.csv"], "idle.csv"),
+        ("--input idle.csv", "no load along the axis"),
+        ("--input none.csv", "none.csv"),
+        ("--axial-load=0,0", "no load along the axis"),
+        ("--axial-load=1,inf", "axial_load"),
+        ("--axial-load=1e9", "axial_load"),
+        ("--manoeuvre stroke", "linear bearing"),
+        ("--input idle.csv --output idle.csv", "idle.csv"),
     ] {
-        let mut all = vec!["--design", "good.toml"];
-        all.extend(arguments);
-        let run = loads(path, &all);
+        let run = loads(path, &format!("--design good.toml {arguments}"));
         assert_eq!(
             (run.code, run.stdout.as_str()),
             (1, ""),
@@ -384,13 +366,13 @@ fn what_gives_no_table_says_why() {
         assert!(run.stderr.contains(said), "{arguments:?}: {}", run.stderr);
     }
     for arguments in [
-        &["--loads"][..],
-        &["--loads", "--design", "lin-2.1", "--plot", "p.svg"],
-        &words("--loads --design lin-2.1 --manoeuvre parking --axial-load 5"),
-        &words("--loads --design lin-2.1 --manoeuvre parking --input t.csv"),
-        &words("--design lin-2.1 --manoeuvre parking --format rust"),
+        "--loads",
+        "--loads --design lin-2.1 --plot p.svg",
+        "--loads --design lin-2.1 --manoeuvre parking --axial-load 5",
+        "--loads --design lin-2.1 --manoeuvre parking --input t.csv",
+        "--design lin-2.1 --manoeuvre parking --format rust",
     ] {
-        let all: Vec<_> = ["simulate"].iter().chain(arguments).copied().collect();
-        assert_eq!(run(&all, "").code, 2, "{arguments:?}");
+        let run = told(path, &format!("simulate {arguments}"));
+        assert_eq!(run.code, 2, "{arguments}");
     }
 }

@@ -62,20 +62,9 @@ fn run_in(folder: &Path, arguments: &[&str], input: &str) -> Run {
 }
 
 /// What `simulate` makes of `design.toml` and `trace.csv` in a folder: `out.csv` there.
-fn simulated_design(folder: &Path, more: &[&str]) -> Run {
-    let common = [
-        "simulate",
-        "--design",
-        "design.toml",
-        "--input",
-        "trace.csv",
-        "--force",
-        "--output",
-        "out.csv",
-    ];
-    let run = run_in(folder, &[&common, more].concat(), "");
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    run
+fn simulated_design(folder: &Path, more: &str) -> Run {
+    let line = "simulate --design design.toml --input trace.csv --force --output out.csv";
+    ran(folder, format!("{line} {more}").trim_end())
 }
 
 /// Runs the program in a folder with some input and some variables of its environment changed.
@@ -116,11 +105,47 @@ fn words(line: &str) -> Vec<&str> {
     line.split(' ').collect()
 }
 
+/// A run of a line in a folder.
+fn told(folder: &Path, line: &str) -> Run {
+    run_in(folder, &words(line), "")
+}
+
 /// A run of a line in a folder that succeeds.
 fn ran(folder: &Path, line: &str) -> Run {
-    let run = run_in(folder, &words(line), "");
+    let run = told(folder, line);
     assert_eq!(run.code, 0, "{line}: {}", run.stderr);
     run
+}
+
+/// Names of what a folder has.
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+/// A column of a table in a folder, by its name.
+fn texts(table: &Path, name: &str) -> Vec<String> {
+    let mut reader = csv::Reader::from_path(table).unwrap();
+    let place = reader
+        .headers()
+        .unwrap()
+        .iter()
+        .position(|head| head == name);
+    let place = place.unwrap_or_else(|| panic!("no column {name}"));
+    let records = reader.records();
+    records
+        .map(|record| record.unwrap()[place].to_owned())
+        .collect()
+}
+
+/// The numbers of a column of `out.csv` in a folder.
+fn column(folder: &Path, name: &str) -> Vec<f64> {
+    let texts = texts(&folder.join("out.csv"), name);
+    texts.iter().map(|text| text.parse().unwrap()).collect()
 }
 
 impl Run {
@@ -171,7 +196,7 @@ fn foreign_endings_are_refused() {
         ("calibrate a.csv --design lin-4.1 --constants a.csv", ".rs"),
         ("simulate --manoeuvre kerb --design gear.TOML", "gear.TOML"),
     ] {
-        let run = run_in(folder.path(), &words(arguments), "");
+        let run = told(folder.path(), arguments);
         assert_eq!(run.code, 1, "{arguments}: {}", run.stderr);
         assert!(run.stderr.contains(word), "{}", run.stderr);
     }

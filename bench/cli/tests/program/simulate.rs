@@ -1,11 +1,10 @@
 //! `simulate`: manoeuvres, traces and designs of users, and what is refused.
 
 use std::fs;
-use std::path::Path;
 
 use tempfile::{TempDir, tempdir};
 
-use super::{Run, STORED, ran, run, run_in, words};
+use super::{STORED, column, names, ran, run, run_in, texts, told, words};
 
 const TRACE: &str = "time,nut_speed,axial_load\n0,10,1000\n0.001,0,-1000\n0.002,-10,1000\n";
 
@@ -32,20 +31,6 @@ fn stored_folder() -> TempDir {
     let folder = folder();
     fs::write(folder.path().join("design.toml"), STORED).unwrap();
     folder
-}
-
-fn simulate(folder: &Path, arguments: &[&str]) -> Run {
-    let all: Vec<_> = ["simulate"].iter().chain(arguments).copied().collect();
-    run_in(folder, &all, "")
-}
-
-fn files(folder: &Path) -> Vec<String> {
-    let mut names: Vec<_> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .collect();
-    names.sort();
-    names
 }
 
 #[test]
@@ -81,19 +66,14 @@ fn standard_input_and_output_are_a_dash() {
     let both = ["simulate", "--design", "-", "--input", "-"];
     let run = run_in(folder.path(), &both, STORED);
     run.refused("can be read once");
-    assert!(!files(folder.path()).contains(&"-".to_string()));
+    assert!(!names(folder.path()).contains(&"-".to_string()));
 }
 
 #[test]
 fn a_mapping_comes_from_standard_input_too() {
     let folder = stored_folder();
-    let measured = words("simulate --design design.toml --input trace.csv");
-    let run = run_in(
-        folder.path(),
-        &[&measured[..], &["--output", "out.mf4"]].concat(),
-        "",
-    );
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    let measured = "simulate --design design.toml --input trace.csv --output";
+    ran(folder.path(), &format!("{measured} out.mf4"));
     let mapped = words("simulate --design design.toml --input out.mf4 --output - --channels -");
     let run = run_in(
         folder.path(),
@@ -101,11 +81,7 @@ fn a_mapping_comes_from_standard_input_too() {
         "nut_speed = \"nut_speed\"\naxial_load = \"axial_load\"\n",
     );
     assert_eq!(run.code, 0, "{}", run.stderr);
-    let there = run_in(
-        folder.path(),
-        &[&measured[..], &["--output", "-"]].concat(),
-        "",
-    );
+    let there = told(folder.path(), &format!("{measured} -"));
     assert_eq!(run.stdout, there.stdout);
     let wrong = run_in(
         folder.path(),
@@ -131,20 +107,10 @@ fn a_name_that_is_near_is_suggested() {
 /// The model runs over a manoeuvre beside one ball in exact balance.
 fn runs_beside_the_reference(manoeuvre: &str) {
     let folder = tempdir().unwrap();
-    let run = simulate(
-        folder.path(),
-        &[
-            "--manoeuvre",
-            manoeuvre,
-            "--output",
-            "out.csv",
-            "--plot",
-            "out.svg",
-            "--reference",
-        ],
-    );
-    assert_eq!(run.code, 0, "{}", run.stderr);
-    assert_eq!(files(folder.path()), ["out.csv", "out.svg"]);
+    let line =
+        format!("simulate --manoeuvre {manoeuvre} --output out.csv --plot out.svg --reference");
+    let run = ran(folder.path(), &line);
+    assert_eq!(names(folder.path()), ["out.csv", "out.svg"]);
     let svg = fs::read_to_string(folder.path().join("out.svg")).unwrap();
     assert!(svg.starts_with("<svg") && svg.contains("friction torque (N m)"));
 
@@ -200,15 +166,10 @@ fn a_users_trace_and_design_give_their_own_numbers() {
         "simulate --design design.toml --input trace.csv --output out.csv",
     );
     assert_eq!(
-        files(folder.path()),
+        names(folder.path()),
         ["design.toml", "out.csv", "trace.csv"]
     );
-    let table = fs::read_to_string(folder.path().join("out.csv")).unwrap();
-    let regimes: Vec<_> = table
-        .lines()
-        .skip(1)
-        .map(|line| line.split(',').nth(6).unwrap())
-        .collect();
+    let regimes = texts(&folder.path().join("out.csv"), "regime");
     assert_eq!(regimes, ["driving", "standing", "back-driving"]);
     assert!(run.stdout.contains("rack") && run.stdout.contains("40 loaded balls"));
     assert!(run.stdout.contains("2 rad/s (default)") && !run.stdout.contains("um (default)"));
@@ -219,7 +180,7 @@ fn default_names_say_what_was_run() {
     let folder = folder();
     ran(folder.path(), "simulate --design lin-3.6 --input trace.csv");
     assert_eq!(
-        files(&folder.path().join("target").join("simulate")),
+        names(&folder.path().join("target").join("simulate")),
         ["trace-lin-3.6.csv", "trace-lin-3.6.svg"]
     );
 }
@@ -245,190 +206,60 @@ fn a_flag_says_which_output_is_not_held() {
 }
 
 #[test]
-fn an_existing_file_is_replaced_only_by_force() {
-    let folder = folder();
-    let arguments = words("--design lin-4.1 --input trace.csv --output out.csv");
-    fs::write(folder.path().join("out.csv"), "precious").unwrap();
-    let refused = simulate(folder.path(), &arguments);
-    assert_eq!(refused.code, 1);
-    assert!(refused.stderr.contains("out.csv") && refused.stderr.contains("--force"));
-    let content = || fs::read_to_string(folder.path().join("out.csv")).unwrap();
-    assert_eq!(content(), "precious");
-
-    let forced = simulate(folder.path(), &[&arguments[..], &["--force"]].concat());
-    assert_eq!(forced.code, 0, "{}", forced.stderr);
-    assert!(content().starts_with("time,"));
-}
-
-#[test]
 fn a_plot_in_the_way_leaves_no_table() {
     let folder = folder();
     fs::write(folder.path().join("out.svg"), "precious").unwrap();
-    let run = simulate(
+    let run = told(
         folder.path(),
-        &words("--design lin-4.1 --input trace.csv --output out.csv --plot out.svg"),
+        "simulate --design lin-4.1 --input trace.csv --output out.csv --plot out.svg",
     );
     assert_eq!(run.code, 1);
     assert_eq!(
-        files(folder.path()),
+        names(folder.path()),
         ["design.toml", "out.svg", "trace.csv"]
     );
 }
 
-#[test]
-fn the_trace_is_never_overwritten() {
-    let folder = folder();
-    for output in ["trace.csv", "./trace.csv"] {
-        let run = simulate(
-            folder.path(),
-            &[
-                "--design",
-                "lin-4.1",
-                "--input",
-                "trace.csv",
-                "--output",
-                output,
-                "--force",
-            ],
-        );
-        assert_eq!(run.code, 1);
-    }
-    let twice = simulate(
-        folder.path(),
-        &words("--manoeuvre kerb --output out --plot ./out --force"),
-    );
-    assert_eq!(twice.code, 1);
-    assert_eq!(files(folder.path()), ["design.toml", "trace.csv"]);
-    assert_eq!(
-        fs::read_to_string(folder.path().join("trace.csv")).unwrap(),
-        TRACE
-    );
-}
-
+/// (The tests of `simulate::trace` hold what is refused of a table, each with its word.)
 #[test]
 fn a_malformed_trace_stops_with_its_line_and_leaves_nothing() {
-    for (text, line, word) in [
-        ("", "line 1", "empty"),
-        ("time,nut_speed,axial_load\n", "trace.csv", "empty"),
-        ("time,axial_load\n0,1\n", "trace.csv", "nut_speed"),
-        (
-            "time,nut_speed,axial_load\n0,1,2\n1,fast,2\n",
-            "line 3",
-            "nut_speed",
-        ),
-        (
-            "time,nut_speed,axial_load\n0,1,2\n\n1,2,heavy\n",
-            "line 4",
-            "axial_load",
-        ),
-        (
-            "time,nut_speed,axial_load\n0,1,2\n2,1,2\n1,1,2\n",
-            "line 4",
-            "back",
-        ),
-        (
-            "time,nut_speed,axial_load\n0,1,2\n1,inf,2\n",
-            "line 3",
-            "finite",
-        ),
-        (
-            "time,nut_speed,axial_load\n0,1,2\n1,1e99,2\n",
-            "line 3",
-            "range",
-        ),
-        (
-            "time,nut_speed,axial_load\n0,1,2\n1,1\n",
-            "line 3",
-            "columns",
-        ),
-    ] {
-        let folder = folder();
-        fs::write(folder.path().join("trace.csv"), text).unwrap();
-        let run = simulate(
-            folder.path(),
-            &words("--design lin-4.1 --input trace.csv --output out.csv --plot out.svg"),
-        );
-        assert_eq!(run.code, 1, "{text:?}");
-        assert!(
-            run.stderr.contains(line) && run.stderr.contains(word),
-            "{text:?}: {}",
-            run.stderr
-        );
-        assert_eq!(files(folder.path()), ["design.toml", "trace.csv"]);
-    }
+    let folder = folder();
+    let text = "time,nut_speed,axial_load\n0,1,2\n1,fast,2\n";
+    fs::write(folder.path().join("trace.csv"), text).unwrap();
+    let run = told(
+        folder.path(),
+        "simulate --design lin-4.1 --input trace.csv --output out.csv --plot out.svg",
+    );
+    run.refused("trace.csv: line 3: nut_speed");
+    assert_eq!(names(folder.path()), ["design.toml", "trace.csv"]);
 }
 
+/// (The tests of `epas_design::files` hold what is refused of a design file, each with its word.)
 #[test]
 fn a_wrong_design_file_is_named_with_its_field() {
-    for (from, to, field) in [
-        ("lead = 0.02", "lead = -0.02", "lead"),
-        ("lead = 0.02", "", "lead"),
+    let folder = folder();
+    for (addition, words) in [
+        ("", "design.toml: loaded_balls is missing"),
         (
-            "lead = 0.02",
-            "lead = 7",
-            "0 to 0.2 m; lengths are in metres",
-        ),
-        (
-            "= 0.032",
-            "= 32",
-            "nominal_diameter = 32 is out of range; allowed: 0.002 to 1 m; lengths are in metres (32 mm? that is 0.032)",
-        ),
-        ("= 6.35e-3", "= 6.35", "ball_diameter = 6.35 is"),
-        (
-            "preload = 7",
-            "preload = 7\nclearance = 0",
-            "clearance and preload",
-        ),
-        ("preload = 7", "fit = \"play\"", "clearance (m"),
-        ("loaded_balls = 40", "", "loaded_balls"),
-        ("lead = 0.02", "lead = \"long\"", "lead"),
-        ("conformity = 0.528", "conformity = 0.5", "conformity"),
-        ("friction = 0.1", "friction = nan", "friction"),
-        ("friction = 0.1", "fricton = 0.1", "fricton"),
-        (
-            "friction = 0.1",
-            "foo = 0.1",
-            "`preload`, `axial_play`, `axial_preload`, `reversal_speed`",
-        ),
-        (
-            "friction = 0.1",
-            "limits = { nut_speed = -1 }",
+            "loaded_balls = 40\nlimits = { nut_speed = -1 }",
             "limits: nut_speed = -1",
         ),
-        ("name = \"rack\"", "name = ", "line 1"),
+        ("name = ", "line 9"),
     ] {
-        let folder = folder();
-        fs::write(folder.path().join("design.toml"), DESIGN.replace(from, to)).unwrap();
-        let run = simulate(
+        let design = DESIGN.replace("loaded_balls = 40", addition);
+        fs::write(folder.path().join("design.toml"), design).unwrap();
+        let run = told(
             folder.path(),
-            &words("--design design.toml --manoeuvre kerb --output out.csv"),
+            "simulate --design design.toml --manoeuvre kerb --output out.csv",
         );
-        assert_eq!(run.code, 1, "{to}");
-        assert!(
-            run.stderr.contains("design.toml") && run.stderr.contains(field),
-            "{to}: {}",
-            run.stderr
-        );
-        assert_eq!(files(folder.path()), ["design.toml", "trace.csv"]);
+        run.refused(words);
+        assert_eq!(names(folder.path()), ["design.toml", "trace.csv"]);
     }
-    let missing = simulate(
-        Path::new("."),
-        &["--design", "no-such-design.toml", "--manoeuvre", "kerb"],
+    let missing = told(
+        folder.path(),
+        "simulate --design no-such-design.toml --manoeuvre kerb",
     );
     missing.refused("no-such-design.toml");
-}
-
-#[test]
-fn a_design_without_lead_is_a_bearing() {
-    let folder = folder();
-    let design = DESIGN.replace("lead = 0.02", "lead = 0");
-    fs::write(folder.path().join("design.toml"), design).unwrap();
-    for input in [["--manoeuvre", "kerb"], ["--input", "trace.csv"]] {
-        let mut arguments = vec!["--design", "design.toml", "--output", "out.csv"];
-        arguments.extend(input);
-        let run = simulate(folder.path(), &arguments);
-        run.refused("lead = 0 is a bearing's");
-    }
 }
 
 #[test]
@@ -441,27 +272,15 @@ fn a_mechanism_tells_one_moment_in_a_row() {
         .chain(rows)
         .collect();
     fs::write(folder.path().join("torque.csv"), trace).unwrap();
-    let run = simulate(
-        folder.path(),
-        &[
-            "--mechanism",
-            "--design",
-            "design.toml",
-            "--inertia",
-            &INERTIA.to_string(),
-            "--input",
-            "torque.csv",
-            "--output",
-            "out.csv",
-        ],
+    let line = format!(
+        "simulate --mechanism --design design.toml --inertia {INERTIA} --input torque.csv --output out.csv"
     );
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    let run = ran(folder.path(), &line);
     assert!(
         run.stdout.contains("flagged samples                0"),
         "{}",
         run.stdout
     );
-    let table = fs::read_to_string(folder.path().join("out.csv")).unwrap();
     let [time, position, speed, friction, load] = [
         "time",
         "nut_position",
@@ -469,12 +288,7 @@ fn a_mechanism_tells_one_moment_in_a_row() {
         "friction_torque",
         "load_torque",
     ]
-    .map(|name| {
-        let numbers = column(&table, name).into_iter();
-        numbers
-            .map(|value| value.parse().unwrap())
-            .collect::<Vec<f64>>()
-    });
+    .map(|name| column(folder.path(), name));
     assert_eq!([time[0], position[0], speed[0], friction[0]], [0.0; 4]);
     // It slides; the step is divided in four, over which friction hardly changes.
     for row in 60..100 {
@@ -485,17 +299,6 @@ fn a_mechanism_tells_one_moment_in_a_row() {
             "{row}"
         );
     }
-}
-
-fn column(table: &str, name: &str) -> Vec<String> {
-    let mut lines = table.lines();
-    let place = lines
-        .next()
-        .and_then(|header| header.split(',').position(|column| column == name))
-        .unwrap();
-    lines
-        .map(|line| line.split(',').nth(place).unwrap().to_owned())
-        .collect()
 }
 
 /// Away from reversals friction is that without memory; a reversal takes an angle, not a speed, and the summary names
@@ -518,29 +321,17 @@ fn friction_remembers_where_it_is_asked_for() {
         .collect();
     fs::write(folder.path().join("reversal.csv"), trace).unwrap();
     for (design, scene) in [("design.toml", "caged"), ("lin-3.6", "uncaged")] {
-        let run = |memory: &[&str], output: &str| {
-            let common = [
-                "--design",
-                design,
-                "--scene",
-                scene,
-                "--input",
-                "reversal.csv",
-                "--output",
-                output,
-            ];
-            let done = simulate(folder.path(), &[&common, memory].concat());
-            assert_eq!(done.code, 0, "{}", done.stderr);
-            let table = fs::read_to_string(folder.path().join(output)).unwrap();
-            let friction: Vec<f64> = column(&table, "friction_torque")
-                .iter()
-                .map(|value| value.parse().unwrap())
-                .collect();
-            (friction, column(&table, "regime"), done.stdout)
+        let run = |memory: &str| {
+            let line = format!(
+                "simulate --design {design} --scene {scene} --input reversal.csv --output out.csv --force{memory}"
+            );
+            let said = ran(folder.path(), &line).stdout;
+            let regimes = texts(&folder.path().join("out.csv"), "regime");
+            (column(folder.path(), "friction_torque"), regimes, said)
         };
-        let (plain, _, said) = run(&[], &format!("{scene}-plain.csv"));
+        let (plain, _, said) = run("");
         assert!(!said.contains("initial stiffness"));
-        let (friction, regimes, said) = run(&["--memory"], &format!("{scene}-memory.csv"));
+        let (friction, regimes, said) = run(" --memory");
         assert!(
             said.contains("initial stiffness") && said.contains("breakaway angle"),
             "{said}"

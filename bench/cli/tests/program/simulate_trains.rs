@@ -6,7 +6,7 @@ use std::path::Path;
 
 use tempfile::tempdir;
 
-use super::{Run, STORED_UNCAGED as SCREW, ran, run_in, words};
+use super::{STORED_UNCAGED as SCREW, column, ran, told};
 
 const BEARING: &str = "\
 ball_diameter = 0.01
@@ -21,37 +21,17 @@ carriage_deviation = [{ order = 2, cosine = 0.01 }]
 load_shares = [0.9, 1.1]
 ";
 
-fn simulate(folder: &Path, arguments: &[&str]) -> Run {
-    let all: Vec<_> = ["simulate"].iter().chain(arguments).copied().collect();
-    run_in(folder, &all, "")
-}
-
-fn column(folder: &Path, name: &str) -> Vec<f64> {
-    let mut reader = csv::Reader::from_path(folder.join("out.csv")).unwrap();
-    let place = reader
-        .headers()
-        .unwrap()
-        .iter()
-        .position(|head| head == name)
-        .unwrap_or_else(|| panic!("no column {name}"));
-    reader
-        .records()
-        .map(|record| record.unwrap()[place].parse().unwrap())
-        .collect()
-}
-
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |largest, value| value.max(largest))
 }
 
 /// The screw of the study, run over a manoeuvre or a trace beside the exact whole screw.
-fn follows_the_reference(folder: &Path, over: &[&str]) {
-    let outputs = ["--output", "out.csv", "--plot", "out.svg", "--reference"];
-    let run = simulate(
+fn follows_the_reference(folder: &Path, over: &str) {
+    let outputs = "--output out.csv --plot out.svg --reference";
+    let run = ran(
         folder,
-        &[&["--design", "screw.toml", "--force"][..], over, &outputs].concat(),
+        &format!("simulate --design screw.toml --force {over} {outputs}"),
     );
-    assert_eq!(run.code, 0, "{}", run.stderr);
     assert!(
         run.stdout.contains("peak ball-to-ball torque"),
         "{}",
@@ -98,9 +78,10 @@ fn the_first_turn_of_an_uncaged_screw_follows_the_reference() {
     let folder = tempdir().unwrap();
     let folder = folder.path();
     fs::write(folder.join("screw.toml"), SCREW).unwrap();
-    let turns = ["--design", "screw.toml", "--manoeuvre", "turns"];
-    let run = simulate(folder, &[&turns[..], &["--output", "out.csv"]].concat());
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    ran(
+        folder,
+        "simulate --design screw.toml --manoeuvre turns --output out.csv",
+    );
     let [time, speed, load] = ["time", "nut_speed", "axial_load"].map(|name| column(folder, name));
     assert_eq!(time.len(), 2001);
     let mut trace = String::from("time,nut_speed,axial_load\n");
@@ -109,7 +90,7 @@ fn the_first_turn_of_an_uncaged_screw_follows_the_reference() {
         writeln!(trace, "{time},{speed},{load}").unwrap();
     }
     fs::write(folder.join("turn.csv"), trace).unwrap();
-    follows_the_reference(folder, &["--scene", "uncaged", "--input", "turn.csv"]);
+    follows_the_reference(folder, "--scene uncaged --input turn.csv");
 }
 
 #[test]
@@ -117,7 +98,7 @@ fn the_first_turn_of_an_uncaged_screw_follows_the_reference() {
 fn two_turns_of_an_uncaged_screw_follow_the_reference_whole() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("screw.toml"), SCREW).unwrap();
-    follows_the_reference(folder.path(), &["--manoeuvre", "turns"]);
+    follows_the_reference(folder.path(), "--manoeuvre turns");
 }
 
 /// A sample takes as many ticks as the limit of the speed needs, whatever the speed is: balls move by 3 % of the track at most in one.
@@ -153,27 +134,14 @@ fn ticks_follow_the_limit_of_the_speed() {
 #[test]
 fn the_closed_form_runs_beside_by_its_name() {
     let folder = tempdir().unwrap();
-    let with = |reference: &str| {
-        simulate(
-            folder.path(),
-            &[
-                "--manoeuvre",
-                "turns",
-                "--output",
-                "out.csv",
-                "--force",
-                reference,
-            ],
-        )
-    };
-    let run = with("--reference=closed-form");
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    let line = "simulate --manoeuvre turns --output out.csv --force --reference=";
+    let run = ran(folder.path(), &format!("{line}closed-form"));
     assert!(run.stdout.contains("closed form, at every sample"));
     let [closed, friction] =
         ["reference_friction_torque", "friction_torque"].map(|name| column(folder.path(), name));
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     assert!((mean(&closed) / mean(&friction) - 1.0).abs() < 0.1);
-    let run = with("--reference=other");
+    let run = told(folder.path(), &format!("{line}other"));
     assert_eq!(run.code, 2);
     assert!(run.stderr.contains("closed-form"), "{}", run.stderr);
 }
@@ -260,10 +228,8 @@ fn what_a_train_cannot_run_is_named() {
             "speed",
         ),
     ] {
-        let run = simulate(
-            folder.path(),
-            &words(&format!("{arguments} --output out.csv")),
-        );
+        let line = format!("simulate {arguments} --output out.csv");
+        let run = told(folder.path(), &line);
         run.refused(word);
         assert!(!folder.path().join("out.csv").exists());
     }
@@ -305,10 +271,8 @@ fn what_a_train_cannot_run_is_named() {
         ("clearance = 0", "clearance = 1e-3", "clearance"),
     ] {
         fs::write(folder.path().join("bad.toml"), SCREW.replace(from, to)).unwrap();
-        let run = simulate(
-            folder.path(),
-            &words("--scene uncaged --design bad.toml --manoeuvre turns --output out.csv"),
-        );
+        let line = "simulate --scene uncaged --design bad.toml --manoeuvre turns --output out.csv";
+        let run = told(folder.path(), line);
         run.refused(field);
         assert!(!folder.path().join("out.csv").exists());
     }
@@ -351,9 +315,9 @@ fn maps_as_measured_run() {
             .all(|torque| *torque > 0.0)
     );
     fs::remove_file(inner.join("screw.csv")).unwrap();
-    let missing = simulate(
+    let missing = told(
         folder,
-        &["--design", "gears/gear.toml", "--input", "trace.csv"],
+        "simulate --design gears/gear.toml --input trace.csv",
     );
     missing.refused("screw.csv");
 }

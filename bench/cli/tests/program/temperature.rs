@@ -8,7 +8,7 @@ use epas_design::files::read;
 use epas_friction::law::coefficient::CoefficientLaw;
 use tempfile::tempdir;
 
-use super::simulated_design;
+use super::{column, simulated_design};
 
 /// A steering gear's screw.
 const DESIGN: &str = "\
@@ -33,19 +33,10 @@ fn trace() -> String {
 }
 
 /// What a run says, and the friction torque of its samples, N m.
-fn simulated(folder: &Path, design: &str, more: &[&str]) -> (String, Vec<f64>) {
+fn simulated(folder: &Path, design: &str, more: &str) -> (String, Vec<f64>) {
     fs::write(folder.join("design.toml"), design).unwrap();
     let run = simulated_design(folder, more);
     (run.stdout, column(folder, "friction_torque"))
-}
-
-fn column(folder: &Path, name: &str) -> Vec<f64> {
-    let out = fs::read_to_string(folder.join("out.csv")).unwrap();
-    let mut rows = out.lines();
-    let mut names = rows.next().unwrap().split(',');
-    let place = names.position(|found| found == name).unwrap();
-    rows.map(|row| row.split(',').nth(place).unwrap().parse().unwrap())
-        .collect()
 }
 
 /// With memory and without, friction goes by the default law: the coefficient of each tick gives its torque, and the lubricant's drag is added.
@@ -61,11 +52,11 @@ fn a_trace_is_followed_by_the_default_law() {
         let friction = now.at(5.0);
         let text =
             DESIGN.to_owned() + &format!("friction = {friction}\nfriction_law = \"constant\"\n");
-        let (_, alone) = simulated(folder.path(), &text, &["--no-memory"]);
+        let (_, alone) = simulated(folder.path(), &text, "--no-memory");
         alone[90] + drag
     });
     for memory in ["--no-memory", "--memory"] {
-        let (said, torques) = simulated(folder.path(), DESIGN, &[memory]);
+        let (said, torques) = simulated(folder.path(), DESIGN, memory);
         assert!(
             said.contains("253.1 to 293.1 K, followed by the friction coefficient"),
             "{said}"
@@ -90,7 +81,7 @@ fn a_design_file_switches_the_law_off() {
     fs::write(folder.path().join("trace.csv"), trace()).unwrap();
     let constant = DESIGN.to_owned() + "friction_law = \"constant\"\n";
     for memory in ["--no-memory", "--memory"] {
-        let (said, torques) = simulated(folder.path(), &constant, &[memory]);
+        let (said, torques) = simulated(folder.path(), &constant, memory);
         assert!(
             said.contains("the trace's is ignored: the design file says friction_law"),
             "{said}"
@@ -105,7 +96,7 @@ fn a_design_file_switches_the_law_off() {
 fn a_reference_has_one_coefficient() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("trace.csv"), trace()).unwrap();
-    let (said, torques) = simulated(folder.path(), DESIGN, &["--no-memory", "--reference"]);
+    let (said, torques) = simulated(folder.path(), DESIGN, "--no-memory --reference");
     assert!(
         said.contains("the trace's is ignored: the reference has one"),
         "{said}"
@@ -127,7 +118,7 @@ fn the_default_law_of_the_crate_runs() {
     let text = DESIGN.to_owned()
         + "friction = 0.12\n[calibration]\nfull_film_ratio = 0.4166667\nhalf_share_speed = 15.35\n\
            viscosity_pole = 199.0\nrolling_drag = 1.0\n";
-    simulated(folder.path(), &text, &["--memory"]);
+    simulated(folder.path(), &text, "--memory");
 }
 
 /// A design that follows a closed form stands beside the exact ball, not beside itself: a rolling ball has less than half of its friction.
@@ -136,11 +127,7 @@ fn a_closed_form_is_compared_with_the_exact_ball() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("trace.csv"), trace()).unwrap();
     let rolling = DESIGN.to_owned() + "branch = \"rolling\"\n";
-    let (said, torques) = simulated(
-        folder.path(),
-        &rolling,
-        &["--no-memory", "--reference=exact"],
-    );
+    let (said, torques) = simulated(folder.path(), &rolling, "--no-memory --reference=exact");
     assert!(
         said.contains("one ball in elastic balance, another model"),
         "{said}"
@@ -152,7 +139,7 @@ fn a_closed_form_is_compared_with_the_exact_ball() {
     let (said, torques) = simulated(
         folder.path(),
         &rolling,
-        &["--no-memory", "--reference=closed-form"],
+        "--no-memory --reference=closed-form",
     );
     assert!(said.contains("the design's closed form"), "{said}");
     let same = column(folder.path(), "reference_friction_torque");

@@ -5,17 +5,14 @@ use std::fs;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use super::{run, run_in, words};
+use super::{ran, run, told, words};
+
+const KERB: &str = "simulate --design design.toml --manoeuvre kerb";
 
 /// Runs `simulate` on a trace and says how it ended; outputs go to `out.csv`.
 fn trace(folder: &Path, path: &str) -> super::Run {
-    run_in(
-        folder,
-        &[
-            "simulate", "--design", "lin-4.1", "--input", path, "--output", "out.csv",
-        ],
-        "",
-    )
+    let line = format!("simulate --design lin-4.1 --input {path} --output out.csv");
+    told(folder, &line)
 }
 
 #[test]
@@ -152,11 +149,7 @@ fn messages_are_short_and_obey_no_file() {
         "lead = \"\u{1b}]0;title\u{7}\"\n\u{1b}[2J".to_owned(),
     ] {
         fs::write(folder.path().join("design.toml"), text).unwrap();
-        let run = run_in(
-            folder.path(),
-            &["simulate", "--design", "design.toml", "--manoeuvre", "kerb"],
-            "",
-        );
+        let run = told(folder.path(), KERB);
         assert_eq!(run.code, 1);
         assert!(run.stderr.len() < 2100, "{}", run.stderr.len());
         assert!(
@@ -183,31 +176,20 @@ fn force_replaces_outputs_only() {
     std::os::unix::fs::symlink("nowhere.csv", path("dangling.csv")).unwrap();
     // A socket stands for every file that is none; a pipe or a device would be gone as well.
     let _socket = std::os::unix::net::UnixListener::bind(path("socket")).unwrap();
-    let simulate = |output: &str, more: &[&str]| {
-        let mut arguments = vec![
-            "simulate",
-            "--design",
-            "design.toml",
-            "--manoeuvre",
-            "kerb",
-            "--output",
-            output,
-        ];
-        arguments.extend(more);
-        run_in(folder.path(), &arguments, "")
+    let simulate = |output: &str| {
+        let line = format!("simulate --design design.toml --manoeuvre kerb --output {output}");
+        told(folder.path(), &line)
     };
     for output in words("link.csv dangling.csv precious.csv socket folder") {
-        assert_eq!(simulate(output, &[]).code, 1, "{output}");
+        assert_eq!(simulate(output).code, 1, "{output}");
     }
+    simulate("precious.csv").refused("--force");
     for output in ["design.toml", "./folder/../design.toml", "socket", "folder"] {
-        let run = simulate(output, &["--force"]);
+        let run = simulate(&format!("{output} --force"));
         assert_eq!(run.code, 1, "{output}: {}", run.stderr);
     }
-    let loads = run_in(
-        folder.path(),
-        &words("simulate --loads --design design.toml --output design.toml --force"),
-        "",
-    );
+    let line = "simulate --loads --design design.toml --output design.toml --force";
+    let loads = told(folder.path(), line);
     assert_eq!(loads.code, 1, "{}", loads.stderr);
     // Nor is what stands beside the first input.
     let beside = ["gear.toml", "map.csv", "image.a2l", "trace.csv"];
@@ -221,12 +203,14 @@ fn force_replaces_outputs_only() {
     for (command, outputs) in [
         (mechanism, "--output alias.csv"),
         (mapped, "--output map.csv"),
+        (mapped, "--output ./trace.csv"),
+        ("simulate --manoeuvre kerb", "--output out --plot ./out"),
         ("a2l --image image.a2l", "--output image.a2l"),
         (calibrated, "--validate gear.toml --design-out gear.toml"),
         (calibrated, "--channels gear.toml --design-out gear.toml"),
     ] {
         let all = format!("{command} {outputs} --force");
-        let run = run_in(folder.path(), &all.split(' ').collect::<Vec<_>>(), "");
+        let run = told(folder.path(), &all);
         assert_eq!(run.code, 1, "{all}: {}", run.stderr);
         assert!(run.stderr.contains("named twice"), "{all}: {}", run.stderr);
     }
@@ -234,7 +218,7 @@ fn force_replaces_outputs_only() {
         assert_eq!(fs::read_to_string(path(file)).unwrap(), "precious");
     }
     // A link is replaced, not what it leads to.
-    assert_eq!(simulate("link.csv", &["--force"]).code, 0);
+    assert_eq!(simulate("link.csv --force").code, 0);
     assert_eq!(
         fs::read_to_string(path("precious.csv")).unwrap(),
         "precious"
@@ -251,13 +235,10 @@ fn a_device_is_read_no_further_than_a_file() {
     let folder = tempfile::tempdir().unwrap();
     let endless = folder.path().join("endless.toml");
     std::os::unix::fs::symlink("/dev/zero", &endless).unwrap();
-    let run = run_in(
-        folder.path(),
-        &words("simulate --design endless.toml --manoeuvre kerb"),
-        "",
-    );
+    let line = "simulate --design endless.toml --manoeuvre kerb";
+    let run = told(folder.path(), line);
     run.refused("larger than");
-    let run = run_in(folder.path(), &["eval", "endless.toml"], "");
+    let run = told(folder.path(), "eval endless.toml");
     assert_eq!(run.code, 1);
     assert!(run.stderr.contains("more than") && run.stdout.is_empty());
 }
@@ -271,11 +252,7 @@ fn a_deep_design_file_is_refused() {
         format!("name = \"{}\"", "x".repeat(1 << 20)),
     ] {
         fs::write(folder.path().join("design.toml"), text).unwrap();
-        let run = run_in(
-            folder.path(),
-            &["simulate", "--design", "design.toml", "--manoeuvre", "kerb"],
-            "",
-        );
+        let run = told(folder.path(), KERB);
         run.refused("design.toml");
     }
 }
@@ -293,12 +270,7 @@ fn a_name_leads_nowhere_else() {
          conformity = 0.528\ncontact_angle = 0.785\n",
     )
     .unwrap();
-    let run = run_in(
-        &work,
-        &["simulate", "--design", "design.toml", "--manoeuvre", "kerb"],
-        "",
-    );
-    assert_eq!(run.code, 0, "{}", run.stderr);
+    ran(&work, KERB);
     let outside: Vec<_> = fs::read_dir(folder.path()).unwrap().collect();
     assert_eq!(outside.len(), 1);
     assert_eq!(

@@ -1,8 +1,8 @@
 //! Initial stiffness and breakaway travel of a linear bearing.
 
 use super::contact::ContactStiffness;
+use super::parts::Resistance;
 use super::parts::{BreakawayPart, Mechanism};
-use super::resistance::Resistance;
 use epas_friction::contact::{RollingContact, RollingResistance};
 use epas_friction::error::{Error, Range};
 use epas_friction::geometry::LinearBearing;
@@ -146,7 +146,6 @@ impl BearingBreakaway {
     }
 }
 
-/// Rolling resistance of one contact; none under no load.
 fn rolled(contacts: &BearingContacts, resistance: &RollingContact, load: f32) -> Resistance {
     if load > 0.0 {
         contacts.contact.rolling(resistance, load, PATH)

@@ -2,7 +2,7 @@
 
 use core::f32::consts::PI;
 
-use super::resistance::{Resistance, SLOPE};
+use super::parts::{Resistance, SLOPE};
 use epas_friction::contact::RollingContact;
 use epas_friction::geometry::{BallScrew, Groove, LinearBearing};
 use epas_friction::hertz::HertzContact;

@@ -35,39 +35,20 @@ impl<'a> Tables<'a> {
         parts: [BreakawayPart; 3],
         whole: f32,
     ) -> Result<ProportionalElements<N>, Error> {
-        let mut taken = [Part {
-            backbone: &[],
-            share: 0.0,
-            breakaway_angle: 1.0,
-        }; 3];
-        let mut sum = 0.0;
-        let (mut count, mut place) = (0, 0);
-        while place < parts.len() {
-            let part = parts[place];
-            let backbone = self.of(part.mechanism);
-            if !backbone.is_empty() {
-                let share = if part.share > LEAST_SHARE {
-                    part.share
-                } else {
-                    LEAST_SHARE
-                };
-                taken[count] = Part {
-                    backbone,
-                    share,
-                    breakaway_angle: part.breakaway_angle,
-                };
-                sum += share;
-                count += 1;
-            }
-            place += 1;
+        let mut taken: Vec<Part> = parts
+            .iter()
+            .map(|part| Part {
+                backbone: self.of(part.mechanism),
+                share: part.share.max(LEAST_SHARE),
+                breakaway_angle: part.breakaway_angle,
+            })
+            .filter(|part| !part.backbone.is_empty())
+            .collect();
+        let sum: f32 = taken.iter().map(|part| part.share).sum();
+        for part in &mut taken {
+            part.share /= sum;
         }
-        place = 0;
-        while place < count {
-            taken[place].share /= sum;
-            place += 1;
-        }
-        let (taken, _) = taken.split_at(count);
-        ProportionalElements::new(whole, taken)
+        ProportionalElements::new(whole, &taken)
     }
 }
 

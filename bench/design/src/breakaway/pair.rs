@@ -1,8 +1,8 @@
 //! The two loaded contacts of a ball in a screw.
 
 use super::contact::ContactStiffness;
-use super::halving::first_not_below;
-use super::resistance::Resistance;
+use super::parts::Resistance;
+use super::parts::first_not_below;
 use epas_friction::ball::Clearance;
 use epas_friction::contact::{RollingContact, RollingResistance, slip_and_spin};
 use epas_friction::error::{Error, Range};

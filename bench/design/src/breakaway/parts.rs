@@ -1,7 +1,5 @@
 //! What the elements of a memory are built from.
 
-use super::resistance::{Resistance, SLOPE};
-
 /// Breakaway angle of a part without friction, rad: any number above zero would do, because its share is none.
 const NO_PART: f32 = 1e-3;
 
@@ -63,4 +61,73 @@ impl BreakawayPart {
             self
         }
     }
+}
+
+/// Slope of both backbones at their beginning: stiffness times breakaway angle over the limit.
+///
+/// Slip: `1 - (1 - z)^(3/2)`. Spin: `1.5 z / sqrt(1 + 2.25 z^2)`.
+pub(super) const SLOPE: f32 = 1.5;
+
+/// Largest friction and initial stiffness of one mechanism; its motion is an angle of the nut, rad, or a travel of the
+/// carriage, m.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Resistance {
+    /// Friction of gross sliding, N m or N.
+    pub limit: f32,
+    /// Initial stiffness, N m/rad or N/m: friction over motion at the beginning of the backbone, and by Masing's rule right after each
+    /// reversal.
+    pub stiffness: f32,
+}
+
+impl Resistance {
+    /// Nothing resists.
+    pub const NONE: Self = Self {
+        limit: 0.0,
+        stiffness: 0.0,
+    };
+
+    /// `number` of it side by side: the balls of a screw.
+    #[must_use]
+    pub fn times(self, number: f32) -> Self {
+        Self {
+            limit: number * self.limit,
+            stiffness: number * self.stiffness,
+        }
+    }
+
+    /// This one and another side by side.
+    #[must_use]
+    pub fn beside(self, other: Self) -> Self {
+        Self {
+            limit: self.limit + other.limit,
+            stiffness: self.stiffness + other.stiffness,
+        }
+    }
+
+    /// Breakaway angle, rad, or travel, m: `1.5 limit / stiffness`, in which the curve of Mindlin's slip reaches the limit.
+    /// The curve of spin has 83 % of its limit there. 0 where nothing resists.
+    #[must_use]
+    pub fn breakaway(self) -> f32 {
+        if self.stiffness > 0.0 {
+            SLOPE * self.limit / self.stiffness
+        } else {
+            0.0
+        }
+    }
+}
+
+/// Halvings: 24 for the digits of an f32, and 16 for roots that are small beside the interval.
+const HALVINGS: u8 = 40;
+
+/// Upper end of the interval in which `is_below` changes from true to false, after 40 halvings of the interval from `low` to `high`.
+pub fn first_not_below(mut low: f32, mut high: f32, is_below: impl Fn(f32) -> bool) -> f32 {
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if is_below(middle) {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    high
 }

@@ -1,8 +1,8 @@
 //! Initial stiffness and breakaway angle of a ball screw.
 
 use super::pair::{Rolling, ScrewContacts};
+use super::parts::Resistance;
 use super::parts::{BreakawayPart, Mechanism};
-use super::resistance::Resistance;
 use super::seat::Seat;
 use epas_friction::ball::Clearance;
 use epas_friction::contact::RollingResistance;
@@ -70,8 +70,7 @@ impl Gross {
         }
         let mut low = contacts.spin_per_angle(Rolling::TwoPoint);
         let mut high = if low < full { full } else { low };
-        let mut halving = 0;
-        while halving < HALVINGS {
+        for _ in 0..HALVINGS {
             let middle = 0.5 * (low + high);
             let at = Held::at(contacts, seat, friction, load, middle);
             if at.sliding * middle > at.spin.limit * full {
@@ -79,7 +78,6 @@ impl Gross {
             } else {
                 high = middle;
             }
-            halving += 1;
         }
         let at = Held::at(contacts, seat, friction, load, low);
         let left = 1.0 - low / full;

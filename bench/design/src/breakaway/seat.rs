@@ -1,7 +1,7 @@
 //! What holds a ball across its path.
 
-use super::halving::first_not_below;
 use super::pair::ScrewContacts;
+use super::parts::first_not_below;
 use epas_friction::ball::Clearance;
 use epas_friction::geometry::{BallScrew, Groove};
 use epas_friction::math::constant;

@@ -8,7 +8,6 @@ use epas_reference::friction::rolling_resistance::RollingResistance as ExactResi
 
 use crate::drawing::drawing;
 
-/// Range of the reversal speed, rad/s.
 const REVERSAL_SPEED: Range = Range::new(1e-6, 1e3);
 
 /// Range of a friction coefficient that is folded.
@@ -39,10 +38,10 @@ impl CagedDesign {
     /// The design, checked.
     pub fn checked(self) -> Result<Self, Error> {
         let contact_angle = self.design.parameters().contact_angle;
-        in_range("contact_angle", contact_angle, ROLLING_CONTACT_ANGLE)?;
-        in_range("friction", self.friction, FRICTION)?;
-        in_range("loaded_balls", self.loaded_balls.into(), LOADED_BALLS)?;
-        in_range("reversal_speed", self.reversal_speed, REVERSAL_SPEED)?;
+        ROLLING_CONTACT_ANGLE.checked("contact_angle", contact_angle)?;
+        FRICTION.checked("friction", self.friction)?;
+        LOADED_BALLS.checked("loaded_balls", self.loaded_balls.into())?;
+        REVERSAL_SPEED.checked("reversal_speed", self.reversal_speed)?;
         Ok(Self {
             rolling_resistance: self.rolling_resistance.checked()?,
             clearance: self.clearance.checked(&self.design)?,
@@ -66,24 +65,5 @@ impl CagedDesign {
             },
             integration: Integration::Full,
         }
-    }
-}
-
-/// Refuses a number that is not within its range.
-pub(crate) fn in_range(field: &'static str, value: f32, allowed: Range) -> Result<(), Error> {
-    if allowed.contains(value) {
-        Ok(())
-    } else if value.is_finite() {
-        Err(Error::OutOfRange {
-            field,
-            value,
-            allowed,
-        })
-    } else {
-        Err(Error::NotFinite {
-            field,
-            value,
-            allowed,
-        })
     }
 }

@@ -16,7 +16,6 @@ const UNSOLVED: f64 = 0.01;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exact {
-    /// The ball, whatever its friction coefficient.
     ball: CagedBall,
     /// Axial load of a ball at which the unloaded side lifts off, N.
     pub lift_off: f64,
@@ -68,7 +67,6 @@ impl Exact {
                 let load = found.axial_load.abs();
                 let whole = load + self.lift_off;
                 Sample {
-                    // What the step computes of it.
                     at: log2_biased(whole as f32).into(),
                     value: found.torque / (whole * f64::from(friction)),
                     weight: if load < least { WEIGHT_BELOW } else { 1.0 },

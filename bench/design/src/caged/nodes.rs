@@ -138,7 +138,6 @@ fn path(error: impl Fn(usize, usize) -> f64) -> [usize; NODES] {
     places
 }
 
-/// A shift, and the largest relative error with it.
 #[derive(Clone, Copy, Debug)]
 struct Shifted {
     shift: f64,

@@ -124,27 +124,12 @@ impl Calibrated {
             check("cosine", wave.cosine, TORQUE)?;
             check("sine", wave.sine, TORQUE)?;
         }
-        for (field, there, other, beside) in [
-            (
-                "half_share_speed",
-                self.half_share_speed,
-                "full_film_ratio",
-                self.full_film_ratio,
-            ),
-            (
-                "full_film_ratio",
-                self.full_film_ratio,
-                "half_share_speed",
-                self.half_share_speed,
-            ),
-            (
-                "breakaway_angle",
-                self.breakaway_angle,
-                "largest_load",
-                self.largest_load,
-            ),
-        ] {
-            if there.is_none() && beside.is_some() {
+        let film = ("full_film_ratio", self.full_film_ratio.is_some());
+        let speed = ("half_share_speed", self.half_share_speed.is_some());
+        let angle = ("breakaway_angle", self.breakaway_angle.is_some());
+        let load = ("largest_load", self.largest_load.is_some());
+        for ((field, there), (other, beside)) in [(speed, film), (film, speed), (angle, load)] {
+            if beside && !there {
                 return Err(format!("{field} is missing beside {other}"));
             }
         }
@@ -164,26 +149,18 @@ impl Calibrated {
     /// Keys with which friction that remembers follows it, those that are there: those of the memory, and of the law with it.
     pub fn remembered(&self, with_law: bool) -> Vec<&'static str> {
         [
-            (
-                "full_film_ratio",
-                with_law && self.full_film_ratio.is_some(),
-            ),
-            (
-                "half_share_speed",
-                with_law && self.half_share_speed.is_some(),
-            ),
-            ("viscosity_pole", with_law && self.viscosity_pole.is_some()),
-            (
-                "direction_asymmetry",
-                with_law && self.direction_asymmetry.is_some(),
-            ),
-            ("breakaway_angle", self.breakaway_angle.is_some()),
-            ("backlash", self.backlash.is_some()),
-            ("churning", with_law && self.churning.is_some()),
-            ("rolling_drag", with_law && self.rolling_drag.is_some()),
+            (true, "full_film_ratio", self.full_film_ratio),
+            (true, "half_share_speed", self.half_share_speed),
+            (true, "viscosity_pole", self.viscosity_pole),
+            (true, "direction_asymmetry", self.direction_asymmetry),
+            (false, "breakaway_angle", self.breakaway_angle),
+            (false, "backlash", self.backlash),
+            (true, "churning", self.churning),
+            (true, "rolling_drag", self.rolling_drag),
         ]
         .into_iter()
-        .filter_map(|(key, there)| there.then_some(key))
+        .filter(|(of_law, _, value)| value.is_some() && (with_law || !of_law))
+        .map(|(_, key, _)| key)
         .collect()
     }
 

@@ -1,15 +1,12 @@
 //! Deviations of a groove as a design file gives them: waves, samples at equal distances, or the chart of a measuring machine.
 
 use std::f64::consts::TAU;
-use std::fmt;
 use std::path::Path;
 
 use csv::{ReaderBuilder, StringRecord, Trim};
 use epas_friction::{DeviationMap, Harmonic};
 use nalgebra::{DMatrix, DVector};
 use serde::Deserialize;
-use serde::de::value::MapAccessDeserializer;
-use serde::de::{Deserializer, MapAccess, SeqAccess, Visitor};
 use toml::de::DeTable;
 
 use super::tables::text_of;
@@ -44,7 +41,8 @@ pub struct Wavelet {
     pub sine: f32,
 }
 
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Deserialize)]
+#[serde(try_from = "toml::Value")]
 pub enum Given {
     Waves(Vec<Wavelet>),
     /// Deviations at equal distances along the period, from its start, rad.
@@ -86,17 +84,11 @@ pub fn of_waves(
 ) -> Result<&'static DeviationMap, String> {
     let harmonics: Vec<_> = waves
         .iter()
-        .map(
-            |&Wavelet {
-                 order,
-                 cosine,
-                 sine,
-             }| Harmonic {
-                order,
-                cosine,
-                sine,
-            },
-        )
+        .map(|wave| Harmonic {
+            order: wave.order,
+            cosine: wave.cosine,
+            sine: wave.sine,
+        })
         .collect();
     let map = DeviationMap::from_harmonics(turns, &harmonics)
         .map_err(|error| format!("{field}: {error}"))?;
@@ -331,79 +323,48 @@ fn column(headings: &StringRecord, quantity: &str) -> Result<(usize, f64), Strin
     }
 }
 
-enum Entry {
-    Wave(Wavelet),
-    Sample(f32),
-}
+impl TryFrom<toml::Value> for Given {
+    type Error = String;
 
-impl<'de> Deserialize<'de> for Entry {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Entries;
-
-        impl<'de> Visitor<'de> for Entries {
-            type Value = Entry;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(
-                    "waves, such as { order = 2, sine = 0.01 }, or numbers at equal distances, rad",
-                )
-            }
-
-            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Entry, A::Error> {
-                Wavelet::deserialize(MapAccessDeserializer::new(map)).map(Entry::Wave)
-            }
-
-            fn visit_f64<E>(self, number: f64) -> Result<Entry, E> {
-                Ok(Entry::Sample(number as f32))
-            }
-
-            fn visit_i64<E>(self, number: i64) -> Result<Entry, E> {
-                Ok(Entry::Sample(number as f32))
-            }
-        }
-
-        deserializer.deserialize_any(Entries)
-    }
-}
-
-impl<'de> Deserialize<'de> for Given {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct Forms;
-
-        impl<'de> Visitor<'de> for Forms {
-            type Value = Given;
-
-            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(
+    fn try_from(value: toml::Value) -> Result<Self, String> {
+        let wrong = |value: &toml::Value, wanted: &str| {
+            Err(format!(
+                "invalid type: {}, expected {wanted}",
+                value.type_str()
+            ))
+        };
+        let entries = match value {
+            toml::Value::String(name) => return Ok(Self::Chart(name)),
+            toml::Value::Array(entries) => entries,
+            other => {
+                return wrong(
+                    &other,
                     "a list of waves or of deviations at equal distances, or the name of a chart in quotes, such as \"screw.csv\"",
-                )
+                );
             }
-
-            fn visit_str<E>(self, name: &str) -> Result<Given, E> {
-                Ok(Given::Chart(name.into()))
-            }
-
-            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Given, A::Error> {
-                let (mut waves, mut samples) = (Vec::new(), Vec::new());
-                while let Some(entry) = list.next_element()? {
-                    match entry {
-                        Entry::Wave(wave) => waves.push(wave),
-                        Entry::Sample(sample) => samples.push(sample),
-                    }
+        };
+        let (mut waves, mut samples) = (Vec::new(), Vec::new());
+        for entry in entries {
+            match entry {
+                toml::Value::Table(_) => {
+                    let wave = entry.try_into();
+                    waves.push(wave.map_err(|error| error.to_string())?);
                 }
-                if waves.is_empty() && !samples.is_empty() {
-                    return Ok(Given::Samples(samples));
+                toml::Value::Float(number) => samples.push(number as f32),
+                toml::Value::Integer(number) => samples.push(number as f32),
+                other => {
+                    return wrong(
+                        &other,
+                        "waves, such as { order = 2, sine = 0.01 }, or numbers at equal distances, rad",
+                    );
                 }
-                if samples.is_empty() {
-                    return Ok(Given::Waves(waves));
-                }
-                Err(serde::de::Error::custom(
-                    "a list is one of waves, or one of deviations at equal distances",
-                ))
             }
         }
-
-        deserializer.deserialize_any(Forms)
+        match (waves.is_empty(), samples.is_empty()) {
+            (true, false) => Ok(Self::Samples(samples)),
+            (_, true) => Ok(Self::Waves(waves)),
+            _ => Err("a list is one of waves, or one of deviations at equal distances".into()),
+        }
     }
 }
 

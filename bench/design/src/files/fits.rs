@@ -172,6 +172,18 @@ mod tests {
         *source.load().unwrap().screw()
     }
 
+    fn fits(key: &str, value: f32) -> Fits {
+        let mut fits = Fits::default();
+        let own = match key {
+            "clearance" => &mut fits.clearance,
+            "preload" => &mut fits.preload,
+            "axial_play" => &mut fits.axial_play,
+            _ => &mut fits.axial_preload,
+        };
+        *own = Some(value);
+        fits
+    }
+
     fn of(fits: Fits) -> Result<Clearance, String> {
         fits.of(&screw(), Some(71), &LIMITS)
     }
@@ -179,35 +191,14 @@ mod tests {
     #[test]
     fn four_keys_say_one_clearance() {
         let screw = screw();
-        let force = of(Fits {
-            preload: Some(30.0),
-            ..Fits::default()
-        })
-        .unwrap();
+        let force = of(fits("preload", 30.0)).unwrap();
         // The 2/3 power and its inverse: a few roundings.
         assert!((force.preload(&screw) / 30.0 - 1.0).abs() < 1e-5);
-        let nut = of(Fits {
-            axial_preload: Some(force.axial_preload(&screw, 71)),
-            ..Fits::default()
-        })
-        .unwrap();
+        let nut = of(fits("axial_preload", force.axial_preload(&screw, 71))).unwrap();
         assert!((nut.gap() / force.gap() - 1.0).abs() < 1e-5);
-        let play = of(Fits {
-            axial_play: Some(20e-6),
-            ..Fits::default()
-        })
-        .unwrap();
+        let play = of(fits("axial_play", 20e-6)).unwrap();
         assert!((play.axial_play(&screw) / 20e-6 - 1.0).abs() < 1e-4);
-        for fits in [
-            Fits {
-                preload: Some(0.0),
-                ..Fits::default()
-            },
-            Fits {
-                axial_preload: Some(0.0),
-                ..Fits::default()
-            },
-        ] {
+        for fits in [fits("preload", 0.0), fits("axial_preload", 0.0)] {
             assert_eq!(of(fits).unwrap(), Clearance::ZERO);
         }
     }
@@ -231,26 +222,17 @@ mod tests {
         let screw = screw();
         let tightest = capacity::tightest(&screw);
         for gap in [1.01 * tightest.gap(), -20e-6] {
-            let refused = of(Fits {
-                clearance: Some(gap),
-                ..Fits::default()
-            });
+            let refused = of(fits("clearance", gap));
             let words = refused.unwrap_err();
             assert!(
                 words.contains("GPa") && words.contains("ISO 3408-5"),
                 "{words}"
             );
         }
-        let allowed = Fits {
-            clearance: Some(0.999 * tightest.gap()),
-            ..Fits::default()
-        };
+        let allowed = fits("clearance", 0.999 * tightest.gap());
         assert!(of(allowed).is_ok());
         // What a catalogue gives for the nut is no force of a contact.
-        let nut = Fits {
-            preload: Some(1.1 * tightest.preload(&screw)),
-            ..Fits::default()
-        };
+        let nut = fits("preload", 1.1 * tightest.preload(&screw));
         let words = of(nut).unwrap_err();
         assert!(
             words.contains("that of the nut is axial_preload"),
@@ -262,25 +244,15 @@ mod tests {
     #[test]
     fn a_preload_of_the_nut_in_the_key_of_a_contact_is_refused() {
         let screw = screw();
-        let fits = |preload| Fits {
-            preload: Some(preload),
-            ..Fits::default()
-        };
-        let words = of(fits(744.0)).unwrap_err();
+        let words = of(fits("preload", 744.0)).unwrap_err();
         assert!(words.contains("axial_preload = 744"), "{words}");
         // The force of a contact at which 71 balls have the largest load together.
         let most = LIMITS.axial_load / (71.0 * screw.axial_per_normal());
-        assert!(of(fits(1.001 * most)).is_err());
-        let clearance = of(fits(0.999 * most)).unwrap();
-        let nut = Fits {
-            axial_preload: Some(744.0),
-            ..Fits::default()
-        };
+        assert!(of(fits("preload", 1.001 * most)).is_err());
+        let clearance = of(fits("preload", 0.999 * most)).unwrap();
+        let nut = fits("axial_preload", 744.0);
         assert!(of(nut).is_ok());
-        let gap = Fits {
-            clearance: Some(1.01 * clearance.gap()),
-            ..Fits::default()
-        };
+        let gap = fits("clearance", 1.01 * clearance.gap());
         assert!(of(gap).is_ok());
     }
 }

@@ -218,24 +218,13 @@ pub fn groove_size(
 
 /// A body's own constants, those given for both, or steel's.
 pub fn material(own: Option<&MaterialTable>, common: &MaterialTable) -> Material {
-    let pick = |own: Option<Option<f32>>, common: Option<f32>, steel: f32| {
-        own.flatten().or(common).unwrap_or(steel)
+    let pick = |of: fn(&MaterialTable) -> Option<f32>, steel: f32| {
+        own.and_then(of).or_else(|| of(common)).unwrap_or(steel)
     };
+    let steel = Material::STEEL;
     Material {
-        youngs_modulus: pick(
-            own.map(|table| table.youngs_modulus),
-            common.youngs_modulus,
-            Material::STEEL.youngs_modulus,
-        ),
-        poisson_ratio: pick(
-            own.map(|table| table.poisson_ratio),
-            common.poisson_ratio,
-            Material::STEEL.poisson_ratio,
-        ),
-        density: pick(
-            own.map(|table| table.density),
-            common.density,
-            Material::STEEL.density,
-        ),
+        youngs_modulus: pick(|table| table.youngs_modulus, steel.youngs_modulus),
+        poisson_ratio: pick(|table| table.poisson_ratio, steel.poisson_ratio),
+        density: pick(|table| table.density, steel.density),
     }
 }

@@ -226,26 +226,14 @@ struct LinearLimitsTable {
 /// The built-in train of a ball screw of Lin 2019: Section 3.4.4, with the amplitude of the deviation that
 /// gives the printed peak of Figure 3.25.
 pub fn built_in(name: &str, gear: CagedDesign, balls: u16) -> Option<UncagedDesign> {
-    if name != "lin-3.6" {
-        return None;
-    }
-    let table = UncagedTable {
-        balls: balls as u8,
-        turns: 2.0,
-        ball_friction: None,
-        fit: None,
-        return_length: None,
-        deviation_turns: None,
-        screw_deviation: Some(Given::Waves(vec![Wavelet {
-            order: 2,
-            cosine: 0.0,
-            sine: 0.040_143,
-        }])),
-        nut_deviation: None,
-        load_shares: None,
-        negative_load_shares: None,
-    };
-    table.design(gear).ok()
+    let text = format!(
+        "balls = {balls}
+turns = 2.0
+screw_deviation = [{{ order = 2, sine = 0.040143 }}]
+"
+    );
+    let table = (name == "lin-3.6").then(|| parsed::<UncagedTable>(&text));
+    table?.ok()?.design(gear).ok()
 }
 
 impl UncagedTable {
@@ -315,36 +303,19 @@ impl LinearDesign {
     /// The bearing of Lin 2019, Table 3.3; number of balls, length and deviation are this program's: the
     /// text has two balls.
     pub fn built_in() -> Result<Self, Failure> {
-        let file = LinearFile {
-            name: Some(LINEAR.into()),
-            ball_radius: Some(5e-3),
-            ball_diameter: None,
-            conformity: Some(0.56),
-            groove_radius: None,
-            contact_angle: std::f32::consts::FRAC_PI_4,
-            youngs_modulus: None,
-            poisson_ratio: None,
-            density: None,
-            ball_material: None,
-            groove_material: None,
-            friction: Some(0.1),
-            ball_friction: Some(BALL_FRICTION),
-            balls: 12,
-            loaded_length: 0.1,
-            return_length: Some(0.0205),
-            wavelength: Some(0.04),
-            rail_deviation: Some(vec![Wavelet {
-                order: 1,
-                cosine: 0.0,
-                sine: 0.034_9,
-            }]),
-            carriage_deviation: None,
-            load_shares: None,
-            reversal_speed: None,
-            limits: None,
-        };
-        file.design(LINEAR)
-            .map_err(|message| Failure::Domain(format!("{LINEAR}: {message}")))
+        const TEXT: &str = "\
+ball_radius = 5e-3
+conformity = 0.56
+contact_angle = 0.7853982
+friction = 0.1
+ball_friction = 0.1
+balls = 12
+loaded_length = 0.1
+return_length = 0.0205
+wavelength = 0.04
+rail_deviation = [{ order = 1, sine = 0.0349 }]
+";
+        Self::parse(TEXT, LINEAR).map_err(|message| Failure::Domain(format!("{LINEAR}: {message}")))
     }
 
     /// The bearing of a design file's text; its name where it has none.

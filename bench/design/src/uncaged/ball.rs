@@ -63,7 +63,6 @@ fn deviations(point: usize) -> [f64; 2] {
 pub(super) struct Speeds {
     path: f64,
     nominal: f64,
-    /// Against the nut.
     pub against_nut: f64,
     /// Outward force of neighbours over that along the track: the tangent of the chord's angle.
     pub outward: f64,
@@ -84,12 +83,10 @@ impl Speeds {
         }
     }
 
-    /// Deviation of an orbital speed over the nut's.
     pub fn deviation(&self, orbital_speed: f64) -> f64 {
         (self.path * orbital_speed - self.nominal) / self.against_nut
     }
 
-    /// Orbital speed over the nut's of a deviation.
     pub fn orbital(&self, deviation: f64) -> f64 {
         (self.nominal + self.against_nut * deviation) / self.path
     }
@@ -120,16 +117,13 @@ pub(super) struct BallSample {
     pub load: f64,
     /// Held speed, a deviation: the one at which the mean force over the box is about zero.
     pub held: f64,
-    /// Balls of the grid.
     pub points: [BallPoint; POINTS],
-    /// What neighbours change, under some of the loads.
     pub neighbours: Option<Neighbours>,
 }
 
 /// What neighbours change in balls under one load, at a speed that is kept.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Neighbours {
-    /// By friction of both.
     pub rubbed: Vec<RubbedBall>,
     /// By an outward force of one newton: the points of the grid, net push and friction torque, m, each over the friction coefficient.
     pub outward: Vec<(usize, f64, f64)>,
@@ -138,13 +132,10 @@ pub(super) struct Neighbours {
 /// What friction of both neighbours changes in a ball; over `mu W`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RubbedBall {
-    /// Point of the grid.
     pub point: usize,
-    /// Friction of both.
     pub rubbing: f64,
     /// Speed less the held one, a deviation.
     pub shift: f64,
-    /// Net push.
     pub push: f64,
     /// Friction torque, with the ball's part of the loss between balls, m.
     pub torque: f64,
@@ -171,9 +162,6 @@ type Along = Vec<Option<HeldBallFriction>>;
 
 impl Balls<'_> {
     /// Balls under each load, at rising loads; loads without an answer are left out.
-    ///
-    /// # Errors
-    /// [`Failure`] of a design out of range, or where more than a few loads have no answer.
     pub fn samples(&self) -> Result<Vec<BallSample>, Failure> {
         let speeds = Speeds::of(&self.ball.design);
         let balls = self.balls()?;

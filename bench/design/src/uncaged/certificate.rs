@@ -77,12 +77,10 @@ pub struct UncagedFigure {
     pub worst_friction: f64,
 }
 
-/// A row with both its answers.
 struct Found {
     row: Row,
     exact: RowAnswer,
     folded: RowAnswer,
-    /// Whether its deviations go in waves.
     in_waves: bool,
 }
 

@@ -45,14 +45,11 @@ pub(super) struct Numbers {
     pub work: f64,
 }
 
-/// A fitted branch.
 #[derive(Clone, Debug)]
 pub(super) struct Branch {
     /// Knots: load, N, and numbers.
     pub knots: Vec<(f64, Numbers)>,
-    /// What neighbours change, at knots of its own.
     pub neighbours: Vec<(f64, neighbours::Numbers)>,
-    /// Errors at each load.
     pub errors: Vec<Errors>,
 }
 
@@ -90,7 +87,6 @@ impl Grid {
         self.columns.transpose() * SVector::<f64, POINTS>::from_fn(|point, _| values(point))
     }
 
-    /// Coefficients of the powers.
     fn coefficients(&self, coordinates: &SVector<f64, POWERS>) -> SVector<f64, POWERS> {
         self.triangle
             .solve_upper_triangular(coordinates)
@@ -98,16 +94,13 @@ impl Grid {
     }
 }
 
-/// Root mean square.
 fn rms(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     let count = values.len() as f64;
     (values.map(|value| value * value).sum::<f64>() / count).sqrt()
 }
 
-/// What a fit works on.
 pub(super) struct Fit<'a> {
     samples: &'a [BallSample],
-    /// Weight of each load.
     weights: &'a [f64],
     /// Speed against the nut, m per unit of nut speed.
     against_nut: f64,
@@ -134,7 +127,6 @@ impl<'a> Fit<'a> {
         }
     }
 
-    /// The branch with the least errors.
     pub fn branch(&self) -> Branch {
         let loads: Vec<f64> = self.samples.iter().map(|sample| sample.load).collect();
         let knots = Knots::placed(&loads, &self.columns(), KNOTS);
@@ -413,7 +405,6 @@ impl<'a> Fit<'a> {
             .collect()
     }
 
-    /// Errors of the forces that hold balls under each load.
     fn errors(&self, speeds: &[SVector<f64, TOGETHER>], places: &[Between]) -> Vec<Errors> {
         let all = self.samples.iter().zip(places).zip(&self.forces);
         all.map(|((sample, place), size)| {
@@ -444,7 +435,6 @@ fn limit_impedance(numbers: &mut SVector<f64, TOGETHER>) {
     }
 }
 
-/// Numbers at a place between knots.
 fn blended<const N: usize>(knots: &[SVector<f64, N>], place: &Between) -> SVector<f64, N> {
     let [low, high] = place.shares;
     knots[place.knot] * low + knots[place.knot + 1] * high

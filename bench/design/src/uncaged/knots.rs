@@ -20,10 +20,8 @@ pub(super) struct Knots<'a> {
     pub at: Vec<usize>,
 }
 
-/// A load among knots.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Between {
-    /// Knot below.
     pub knot: usize,
     /// Shares of the knot below and of the one above.
     pub shares: [f64; 2],
@@ -50,7 +48,6 @@ impl<'a> Knots<'a> {
         knots
     }
 
-    /// Place of each load among the knots.
     pub fn places(&self) -> Vec<Between> {
         let mut knot = 0;
         (0..self.loads.len())
@@ -188,7 +185,6 @@ impl<'a> Knots<'a> {
     }
 }
 
-/// The knots with the least error; the first of equals.
 fn best<'a>(candidates: Vec<Knots<'a>>, columns: &[Column]) -> Option<(f64, Knots<'a>)> {
     let mut least: Option<(f64, Knots<'a>)> = None;
     for knots in candidates {

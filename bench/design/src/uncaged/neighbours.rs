@@ -36,7 +36,6 @@ pub(super) struct Numbers {
     pub outward_torque: f64,
 }
 
-/// All numbers of a knot in one list.
 const ALL: usize = 3 * PART + LINE + 1;
 
 /// Knots with their loads, N, rising.
@@ -86,7 +85,6 @@ impl From<[f64; ALL]> for Numbers {
     }
 }
 
-/// Numbers under one load.
 fn under_load(neighbours: &Neighbours) -> [f64; ALL] {
     let Neighbours { rubbed, outward } = neighbours;
     let push = least_squares(rubbed, LINE, |ball| ball.push);

@@ -11,15 +11,12 @@ use epas_reference::friction::rolling_resistance::rolling_losses;
 
 use super::ball::Speeds;
 
-/// Balls of a row.
 pub(super) const BALLS: usize = 37;
 
 /// What balls of a row meet.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
-    /// Friction coefficient of the grooves.
     pub friction: f32,
-    /// Friction coefficient between balls.
     pub ball_friction: f32,
     /// Axial load of each ball, N; positive where it opposes the motion.
     pub axial_load: f32,
@@ -27,22 +24,16 @@ pub(super) struct Row {
     pub deviations: [[f32; 2]; BALLS],
 }
 
-/// What they do.
 #[derive(Clone, Debug)]
 pub(super) struct RowAnswer {
     /// Friction torque on the nut, N m.
     pub torque: f64,
     /// Forces between neighbours, N.
     pub forces: Vec<f64>,
-    /// Whether the step flags it.
     pub flagged: bool,
 }
 
 impl Row {
-    /// By the exact solver.
-    ///
-    /// # Errors
-    /// [`ReferenceError`] where it has no answer.
     pub fn exact(
         &self,
         ball: &CagedBall,
@@ -82,7 +73,6 @@ impl Row {
         })
     }
 
-    /// By a law, as a step evaluates it.
     pub fn folded<const N: usize>(&self, law: &BallLaw<N>, speeds: &Speeds) -> RowAnswer {
         let interval = law.interval(self.friction);
         let (load, branch) = self.load(law);
@@ -128,12 +118,11 @@ impl Row {
 pub struct PressedRow {
     /// Forces between neighbours along the track, N.
     pub forces: Vec<f64>,
-    /// What the balls lose more than alone.
+    /// What each ball meets.
     pub torques: PressedTorques,
 }
 
 impl PressedRow {
-    /// Most balls of a row.
     const MOST: usize = 255;
 
     /// None where a ball runs further from nominal rolling than a step takes, or there are none or too many.
@@ -176,7 +165,6 @@ impl PressedRow {
     }
 }
 
-/// What each ball meets.
 fn found<const N: usize>(press: &Press<N>) -> Vec<Neighbours> {
     let behind = std::iter::once(0.0).chain(press.forces());
     let pressed = behind.zip(press.forces()).zip(press.speeds());

@@ -20,12 +20,10 @@ impl Values<'_> {
             .map_or(f64::NAN, |(_, value)| *value)
     }
 
-    /// The same in single precision.
     pub fn single(&self, name: &str) -> f32 {
         self.of(name) as f32
     }
 
-    /// The same within a range.
     pub fn within(&self, name: &str, low: f64, high: f64) -> Result<f64, String> {
         let value = self.of(name);
         if (low..=high).contains(&value) {
@@ -36,19 +34,6 @@ impl Values<'_> {
             ))
         }
     }
-}
-
-/// A parameter of single precision.
-pub fn single(
-    list: &mut Vec<Variable>,
-    name: &'static str,
-    unit: Option<&'static str>,
-    about: &'static str,
-    start: f32,
-) {
-    // The shortest text of the number stands in a model description, and is read in double precision.
-    let start = start.to_string().parse().unwrap_or(f64::from(start));
-    list.push(parameter(Kind::Float32, name, unit, about, start));
 }
 
 pub struct MaterialNames([&'static str; 3]);
@@ -69,26 +54,18 @@ pub const GROOVE: MaterialNames = MaterialNames([
 impl MaterialNames {
     pub fn list(&self, list: &mut Vec<Variable>, material: &Material) {
         let [modulus, ratio, density] = self.0;
-        single(
-            list,
-            modulus,
-            Some("Pa"),
+        let about = [
             "Young's modulus, 1e6 to 1e13",
-            material.youngs_modulus,
-        );
-        single(
-            list,
-            ratio,
-            None,
             "Poisson's ratio, 0 to 0.5",
-            material.poisson_ratio,
-        );
-        single(
-            list,
-            density,
-            Some("kg/m3"),
             "density, 1 to 1e5",
-            material.density,
+        ];
+        self::list(
+            list,
+            [
+                (modulus, Some("Pa"), about[0], material.youngs_modulus),
+                (ratio, None, about[1], material.poisson_ratio),
+                (density, Some("kg/m3"), about[2], material.density),
+            ],
         );
     }
 
@@ -102,7 +79,6 @@ impl MaterialNames {
     }
 }
 
-/// Names of a groove's size, as conformity and as radius.
 pub struct GrooveNames([&'static str; 2]);
 
 pub const SCREW: GrooveNames = GrooveNames(["screw_conformity", "screw_groove_radius"]);
@@ -113,22 +89,17 @@ impl GrooveNames {
     /// The size as the design has it: the one follows from the other only to rounding.
     pub fn list(&self, list: &mut Vec<Variable>, size: GrooveSize) {
         let [conformity, radius] = self.0;
-        match size {
-            GrooveSize::Conformity(value) => single(
-                list,
-                conformity,
-                None,
-                "groove radius over ball diameter, 0.5005 to 0.7",
-                value,
-            ),
-            GrooveSize::Radius(value) => single(
-                list,
-                radius,
-                Some("m"),
-                "groove radius, 0.5005 to 0.7 ball diameters",
-                value,
-            ),
-        }
+        let row = match size {
+            GrooveSize::Conformity(value) => {
+                let about = "groove radius over ball diameter, 0.5005 to 0.7";
+                (conformity, None, about, value)
+            }
+            GrooveSize::Radius(value) => {
+                let about = "groove radius, 0.5005 to 0.7 ball diameters";
+                (radius, Some("m"), about, value)
+            }
+        };
+        self::list(list, [row]);
     }
 
     pub fn of(&self, values: &Values<'_>, as_in: GrooveSize) -> GrooveSize {
@@ -145,11 +116,12 @@ pub type Row = (&'static str, Option<&'static str>, &'static str, f32);
 
 pub fn list<const N: usize>(l: &mut Vec<Variable>, rows: [Row; N]) {
     for (name, unit, about, start) in rows {
-        single(l, name, unit, about, start);
+        // The shortest text of the number stands in a model description, and is read in double precision.
+        let start = start.to_string().parse().unwrap_or(f64::from(start));
+        l.push(parameter(Kind::Float32, name, unit, about, start));
     }
 }
 
-/// A material's error under the name of its parameter.
 pub fn named(error: &Error, ball: &Material) -> String {
     let text = error.to_string();
     let own = [

@@ -1,10 +1,9 @@
 //! Parameters of a ball screw.
 
-use epas_friction::{
-    BallScrew, BallScrewParameters, Clearance, FrictionBranch, Limits, RollingResistance,
-};
+use epas_design::CagedDesign;
+use epas_friction::{BallScrew, BallScrewParameters, FrictionBranch, Limits};
 
-use super::named::{BALL, GROOVE, NUT, SCREW, Values, list, named, single};
+use super::named::{BALL, GROOVE, NUT, SCREW, Values, list, named};
 use crate::fmu::scene::SceneName;
 use crate::fmu::variables::{Choice, Kind, Variable, parameter};
 use epas_design::files::Design;
@@ -13,91 +12,72 @@ use epas_design::files::plausible::{self, Given};
 use epas_design::files::train::UncagedDesign;
 
 /// What both scenes of a ball screw have; a built-in design has other numbers of its own where its balls press on each other.
-struct Common {
-    friction: f32,
-    rolling_resistance: RollingResistance,
-    clearance: Clearance,
-    reversal_speed: f32,
-    limits: Limits,
-}
-
-impl Common {
-    fn of(design: &Design, scene: SceneName) -> Self {
-        let gear = match (scene.has_row(), &design.uncaged) {
-            (true, Some(train)) => &train.gear,
-            _ => &design.caged,
-        };
-        Self {
-            friction: gear.friction,
-            rolling_resistance: gear.rolling_resistance,
-            clearance: gear.clearance,
-            reversal_speed: gear.reversal_speed,
-            limits: gear.limits,
-        }
+fn gear(design: &Design, scene: SceneName) -> &CagedDesign {
+    match (scene.has_row(), &design.uncaged) {
+        (true, Some(train)) => &train.gear,
+        _ => &design.caged,
     }
 }
 
 pub fn of_screw(design: &Design, scene: SceneName) -> Vec<Variable> {
-    let common = Common::of(design, scene);
+    let gear = gear(design, scene);
     let mut l = Vec::new();
     geometry(&mut l, design.screw().parameters());
-    common.contacts(&mut l);
+    contacts(&mut l, gear);
     match (scene.has_row(), &design.uncaged) {
         (true, Some(train)) => row(&mut l, train),
         _ => caged(&mut l, design),
     }
-    common.limits(&mut l);
+    limits(&mut l, &gear.limits);
     l
 }
 
-impl Common {
-    fn contacts(&self, l: &mut Vec<Variable>) {
-        let friction = "Coulomb friction coefficient of ball and groove, 1e-6 to 0.5";
-        let loss = "share of the elastic energy that is lost while a contact passes, 0 to 0.2";
-        let drag = "drag of the lubricant on one contact under 100 N, 0 to 10";
-        let gap = "radial gap of every contact without load; play above 0, oversize below; -0.02 to 0.05 ball radii, contact pressure without load up to 4.2 GPa";
-        let reversal = "nut speed over which friction changes its direction, 1e-6 to 1e3";
-        let rolling = self.rolling_resistance;
-        list(
-            l,
-            [
-                ("friction", None, friction, self.friction),
-                ("hysteresis_loss", None, loss, rolling.hysteresis_loss),
-                ("lubricant_drag", Some("N"), drag, rolling.lubricant_drag),
-                ("clearance", Some("m"), gap, self.clearance.gap()),
-                (
-                    "reversal_speed",
-                    Some("rad/s"),
-                    reversal,
-                    self.reversal_speed,
-                ),
-            ],
-        );
-    }
+fn contacts(l: &mut Vec<Variable>, gear: &CagedDesign) {
+    let friction = "Coulomb friction coefficient of ball and groove, 1e-6 to 0.5";
+    let loss = "share of the elastic energy that is lost while a contact passes, 0 to 0.2";
+    let drag = "drag of the lubricant on one contact under 100 N, 0 to 10";
+    let gap = "radial gap of every contact without load; play above 0, oversize below; -0.02 to 0.05 ball radii, contact pressure without load up to 4.2 GPa";
+    let reversal = "nut speed over which friction changes its direction, 1e-6 to 1e3";
+    let rolling = gear.rolling_resistance;
+    list(
+        l,
+        [
+            ("friction", None, friction, gear.friction),
+            ("hysteresis_loss", None, loss, rolling.hysteresis_loss),
+            ("lubricant_drag", Some("N"), drag, rolling.lubricant_drag),
+            ("clearance", Some("m"), gap, gear.clearance.gap()),
+            (
+                "reversal_speed",
+                Some("rad/s"),
+                reversal,
+                gear.reversal_speed,
+            ),
+        ],
+    );
+}
 
-    fn limits(&self, l: &mut Vec<Variable>) {
-        let Limits {
-            nut_speed,
-            axial_load,
-            friction_torque,
-        } = self.limits;
-        let speed = "largest nut speed that is believed, 1e-3 to 1e6";
-        let load = "largest axial load that is believed, 1e-3 to 1e7";
-        let torque = "largest friction torque output, 1e-6 to 1e6";
-        list(
-            l,
-            [
-                ("limits.nut_speed", Some("rad/s"), speed, nut_speed),
-                ("limits.axial_load", Some("N"), load, axial_load),
-                (
-                    "limits.friction_torque",
-                    Some("N.m"),
-                    torque,
-                    friction_torque,
-                ),
-            ],
-        );
-    }
+fn limits(l: &mut Vec<Variable>, limits: &Limits) {
+    let Limits {
+        nut_speed,
+        axial_load,
+        friction_torque,
+    } = *limits;
+    let speed = "largest nut speed that is believed, 1e-3 to 1e6";
+    let load = "largest axial load that is believed, 1e-3 to 1e7";
+    let torque = "largest friction torque output, 1e-6 to 1e6";
+    list(
+        l,
+        [
+            ("limits.nut_speed", Some("rad/s"), speed, nut_speed),
+            ("limits.axial_load", Some("N"), load, axial_load),
+            (
+                "limits.friction_torque",
+                Some("N.m"),
+                torque,
+                friction_torque,
+            ),
+        ],
+    );
 }
 
 fn row(l: &mut Vec<Variable>, train: &UncagedDesign) {
@@ -119,48 +99,34 @@ fn row(l: &mut Vec<Variable>, train: &UncagedDesign) {
 }
 
 fn geometry(l: &mut Vec<Variable>, screw: &BallScrewParameters) {
-    single(
+    let pitch = "radius of the cylinder on which the ball centres run, 1e-3 to 0.5";
+    let lead =
+        "axial travel in one turn, from the ball diameter to 0.2; a lead angle up to 60 degrees";
+    let ball = "ball radius, 1e-4 to 0.05; 0.01 to 0.5 pitch radii";
+    let angle = "nominal contact angle, 0.01 to 1.5533";
+    list(
         l,
-        "pitch_radius",
-        Some("m"),
-        "radius of the cylinder on which the ball centres run, 1e-3 to 0.5",
-        screw.pitch_radius,
-    );
-    single(
-        l,
-        "lead",
-        Some("m"),
-        "axial travel in one turn, from the ball diameter to 0.2; a lead angle up to 60 degrees",
-        screw.lead,
-    );
-    single(
-        l,
-        "ball_radius",
-        Some("m"),
-        "ball radius, 1e-4 to 0.05; 0.01 to 0.5 pitch radii",
-        screw.ball_radius,
+        [
+            ("pitch_radius", Some("m"), pitch, screw.pitch_radius),
+            ("lead", Some("m"), lead, screw.lead),
+            ("ball_radius", Some("m"), ball, screw.ball_radius),
+        ],
     );
     SCREW.list(l, screw.screw_groove);
     NUT.list(l, screw.nut_groove);
-    single(
+    list(
         l,
-        "contact_angle",
-        Some("rad"),
-        "nominal contact angle, 0.01 to 1.5533",
-        screw.contact_angle,
+        [("contact_angle", Some("rad"), angle, screw.contact_angle)],
     );
     BALL.list(l, &screw.ball_material);
     GROOVE.list(l, &screw.groove_material);
 }
 
-/// What only a screw without ball-to-ball friction has.
 fn caged(l: &mut Vec<Variable>, design: &Design) {
-    single(
+    let tangent = "lever arm of rolling friction over ball_radius sin(contact_angle), 0 to 0.1; for the closed forms alone";
+    list(
         l,
-        "rolling_tangent",
-        None,
-        "lever arm of rolling friction over ball_radius sin(contact_angle), 0 to 0.1; for the closed forms alone",
-        design.rolling_tangent,
+        [("rolling_tangent", None, tangent, design.rolling_tangent)],
     );
     let branch = match design.branch {
         None => 0.0,

@@ -12,9 +12,7 @@ pub const BALL_LOADS: [f64; 2] = [5.0, 300.0];
 const TOLERANCE: ShareError = ShareError::TOLERANCE;
 
 pub struct Answer {
-    /// Lines of text.
     pub said: Vec<String>,
-    /// What is written.
     pub tables: Tables,
 }
 
@@ -228,7 +226,6 @@ fn newtons(load: f64) -> String {
     format!("{load:.digits$}")
 }
 
-/// An error of the static model in words.
 pub fn text(error: impl std::fmt::Display) -> String {
     error.to_string()
 }

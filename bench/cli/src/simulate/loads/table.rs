@@ -7,7 +7,6 @@ use epas_reference::statics::ShareTable;
 use epas_reference::statics::cases::ScrewEnd;
 use epas_reference::statics::shares::LEAST_SHARE;
 
-/// How a load table is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Format {
     /// A table [uncaged] of a design file
@@ -17,28 +16,22 @@ pub enum Format {
     Rust,
 }
 
-/// Most entries of a load table.
 const MOST_ENTRIES: usize = 256;
 
 /// A table with the words for its heading.
 pub struct Wording {
-    /// The table.
     pub table: ShareTable,
     /// Its load, N.
     pub load: String,
-    /// Where the load acts.
     pub loaded_end: ScrewEnd,
 }
 
 /// The tables that are written: one for both signs of the load, or one for each.
 pub enum Tables {
-    /// For all loads.
     One(Wording),
-    /// For loads above zero and below.
     Two(Wording, Wording),
 }
 
-/// The whole text.
 pub fn text(
     format: Format,
     name: &str,
@@ -147,7 +140,8 @@ fn toml(text: &mut String, first: bool, field: &str, shares: &[f32]) {
 fn rust(text: &mut String, name: &str, shares: &[f32]) {
     let _ = write!(
         text,
-        "pub static {name}: [epas_friction::LoadShare; {}] = {{\n\
+        "#[allow(clippy::unreadable_literal, reason = \"written by a program\")]\n\
+         pub static {name}: [epas_friction::LoadShare; {}] = {{\n\
          \x20   const fn share(share: f32) -> epas_friction::LoadShare {{\n\
          \x20       match epas_friction::LoadShare::new(share) {{\n\
          \x20           Ok(share) => share,\n\

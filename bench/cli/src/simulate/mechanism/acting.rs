@@ -29,70 +29,61 @@ impl Acting {
     }
 }
 
+/// A moment of a motor torque, or of a wanted angle where the loop is closed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Torque(pub Acting);
+pub struct Commanded<const CLOSED: bool>(pub Acting);
 
-/// A moment of a wanted angle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wanted(pub Acting);
-
-macro_rules! sample {
-    ($name:ident, $command:literal) => {
-        impl Sample for $name {
-            const COLUMNS: &'static [&'static str] = &["time", $command, "axial_load"];
-
-            const OPTIONAL: &'static [&'static str] = &["known_torque", "known_force"];
-
-            fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
-                Ok(Self(Acting {
-                    time: column("time")?,
-                    command: column($command)?,
-                    axial_load: column("axial_load")?,
-                    known_torque: column("known_torque")?,
-                    known_force: column("known_force")?,
-                }))
-            }
-
-            fn record(&self) -> Vec<String> {
-                let Acting {
-                    time,
-                    command,
-                    axial_load,
-                    known_torque,
-                    known_force,
-                } = self.0;
-                [time, command, axial_load, known_torque, known_force]
-                    .map(|value| value.to_string())
-                    .to_vec()
-            }
-
-            fn time(&self) -> f64 {
-                self.0.time
-            }
-
-            fn speed(&self) -> f64 {
-                0.0
-            }
-
-            fn load(&self) -> f64 {
-                self.0.axial_load
-            }
-        }
+impl<const CLOSED: bool> Sample for Commanded<CLOSED> {
+    const COLUMNS: &'static [&'static str] = if CLOSED {
+        &["time", "reference_position", "axial_load"]
+    } else {
+        &["time", "motor_torque", "axial_load"]
     };
+
+    const OPTIONAL: &'static [&'static str] = &["known_torque", "known_force"];
+
+    fn of(mut next: impl FnMut() -> f64) -> Self {
+        Self(Acting {
+            time: next(),
+            command: next(),
+            axial_load: next(),
+            known_torque: next(),
+            known_force: next(),
+        })
+    }
+
+    fn numbers(&self) -> Vec<f64> {
+        let Acting {
+            time,
+            command,
+            axial_load,
+            known_torque,
+            known_force,
+        } = self.0;
+        vec![time, command, axial_load, known_torque, known_force]
+    }
+
+    fn time(&self) -> f64 {
+        self.0.time
+    }
+
+    fn speed(&self) -> f64 {
+        0.0
+    }
+
+    fn load(&self) -> f64 {
+        self.0.axial_load
+    }
 }
 
-sample!(Torque, "motor_torque");
-sample!(Wanted, "reference_position");
-
 /// What acts over a trace: its name, its moments, its temperatures.
-pub fn moments<S: Sample>(
+pub fn moments<const CLOSED: bool>(
     source: &Source<'_>,
     channels: Option<&Mapping>,
     follows: Follows,
-    acting: fn(&S) -> Acting,
 ) -> Result<(String, Vec<Acting>, Temperature), Failure> {
-    let (trace, temperature) = read::<S>(source, channels, follows)?;
-    let moments = trace.samples.iter().map(acting).collect();
+    let (trace, temperature) = read::<Commanded<CLOSED>>(source, channels, follows)?;
+    let moments = trace.samples.iter().map(|sample| sample.0).collect();
     Ok((trace.name, moments, temperature))
 }
 

@@ -25,19 +25,16 @@ const COLUMNS: [&str; 9] = [
 /// Column of the known effort, as a torque at the nut.
 const KNOWN: &str = "known_torque";
 
-/// Columns of the table, with that of a known effort or without.
 pub fn columns(known: bool) -> Vec<&'static str> {
     let mut columns = COLUMNS.to_vec();
     columns.extend(known.then_some(KNOWN));
     columns
 }
 
-/// Whether the trace has an effort that is known.
 pub fn is_known(rows: &[Row]) -> bool {
     rows.iter().any(|row| row.known != 0.0)
 }
 
-/// The values of [`columns`].
 pub fn record(row: &Row, known: bool) -> Vec<String> {
     let numbers = [
         row.acting.time,
@@ -123,7 +120,6 @@ pub fn summary(rows: &[Row], inertia: f64, tick: f64, mut beyond: Option<Beyond>
     lines
 }
 
-/// The picture: torques, angle and speed over time.
 pub fn drawn(trace: &str, design: &str, rows: &[Row], form: Form) -> Result<String, Failure> {
     let title = format!("{trace} on {design}");
     let curve = |value: &dyn Fn(&Row) -> f64| form.curve(rows, &|row| row.acting.time, value);

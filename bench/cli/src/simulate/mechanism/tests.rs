@@ -9,6 +9,16 @@ fn design() -> Design {
     "lin-4.1".parse::<DesignSource>().unwrap().load().unwrap()
 }
 
+const fn at(time: f64, command: f64, axial_load: f64) -> Acting {
+    Acting {
+        time,
+        command,
+        axial_load,
+        known_torque: 0.0,
+        known_force: 0.0,
+    }
+}
+
 fn moved_by(acting: &[Acting], controller: Option<Controller>, tick: f64) -> Vec<Row> {
     let course = Course {
         design: &design(),
@@ -28,13 +38,7 @@ fn held(tick: f64, samples: u32) -> Vec<Row> {
     let acting: Vec<Acting> = (0..samples)
         .map(|sample| {
             let time = tick * f64::from(sample);
-            Acting {
-                time,
-                command: load_torque + 0.18 * (0.5 * time).min(1.0),
-                axial_load: 3000.0,
-                known_torque: 0.0,
-                known_force: 0.0,
-            }
+            at(time, load_torque + 0.18 * (0.5 * time).min(1.0), 3000.0)
         })
         .collect();
     moved_by(&acting, None, tick)
@@ -75,13 +79,7 @@ fn released_a_nut_comes_to_rest() {
             .map(|sample| {
                 let time = tick * f64::from(sample);
                 let torque = (0.1 * time).min(0.1 - 0.1 * (time - 1.0)).max(0.0);
-                Acting {
-                    time,
-                    command: load_torque + torque,
-                    axial_load: 3000.0,
-                    known_torque: 0.0,
-                    known_force: 0.0,
-                }
+                at(time, load_torque + torque, 3000.0)
             })
             .collect();
         let rows = moved_by(&acting, None, tick);
@@ -102,13 +100,7 @@ fn a_day_below_breakaway_is_a_day_at_rest() {
 /// Moments of 0.3 s at 1 kHz: a command, and a pulse of 0.1 s that this makes of them.
 fn pulsed(command: f64, pulse: impl Fn(&mut Acting)) -> Vec<Acting> {
     let moments = (0..300_u16).map(|sample| {
-        let mut acting = Acting {
-            time: 1e-3 * f64::from(sample),
-            command,
-            axial_load: 500.0,
-            known_torque: 0.0,
-            known_force: 0.0,
-        };
+        let mut acting = at(1e-3 * f64::from(sample), command, 500.0);
         if (100..200).contains(&sample) {
             pulse(&mut acting);
         }

@@ -1,46 +1,20 @@
 //! Tables of traces, good and refused.
 
 use super::*;
+use crate::simulate::mechanism::Commanded;
+use crate::simulate::samples::ScrewSample;
 use std::io::Cursor;
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Moment {
-    time: f64,
-    speed: f64,
-    load: f64,
-}
-
-impl Sample for Moment {
-    const COLUMNS: &'static [&'static str] = &["time", "nut_speed", "axial_load"];
-
-    fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
-        Ok(Self {
-            time: column("time")?,
-            speed: column("nut_speed")?,
-            load: column("axial_load")?,
-        })
-    }
-
-    fn record(&self) -> Vec<String> {
-        [self.time, self.speed, self.load]
-            .map(|x| x.to_string())
-            .to_vec()
-    }
-
-    fn time(&self) -> f64 {
-        self.time
-    }
-
-    fn speed(&self) -> f64 {
-        self.speed
-    }
-
-    fn load(&self) -> f64 {
-        0.0
+const fn moment(time: f64, nut_speed: f64, axial_load: f64) -> ScrewSample {
+    ScrewSample {
+        time,
+        nut_speed,
+        axial_load,
+        nut_position: 0.0,
     }
 }
 
-fn parse(text: &[u8]) -> Result<Vec<Moment>, String> {
+fn parse(text: &[u8]) -> Result<Vec<ScrewSample>, String> {
     samples(Cursor::new(text))
 }
 
@@ -48,14 +22,7 @@ fn parse(text: &[u8]) -> Result<Vec<Moment>, String> {
 fn columns_stand_in_any_order_among_others() {
     let text = "\u{feff}axial_load, gear ,time,nut_speed\n1e3,3,0,-2\n\n1e3,3,0.5,2\n";
     let samples = parse(text.as_bytes()).unwrap();
-    assert_eq!(
-        samples,
-        [(0.0, -2.0), (0.5, 2.0)].map(|(time, speed)| Moment {
-            time,
-            speed,
-            load: 1e3,
-        })
-    );
+    assert_eq!(samples, [moment(0.0, -2.0, 1e3), moment(0.5, 2.0, 1e3)]);
 }
 
 #[test]
@@ -63,14 +30,7 @@ fn headings_say_their_units() {
     let text = "Time [ms],Nut speed (1/min),axial_load_kN\n0,60,1\n500,-60,-0\n";
     let samples = parse(text.as_bytes()).unwrap();
     let turn = 60.0 * (std::f64::consts::TAU / 60.0);
-    assert_eq!(
-        samples,
-        [(0.0, turn, 1e3), (0.5, -turn, 0.0)].map(|(time, speed, load)| Moment {
-            time,
-            speed,
-            load
-        })
-    );
+    assert_eq!(samples, [moment(0.0, turn, 1e3), moment(0.5, -turn, 0.0)]);
 }
 
 fn of(lines: &str) -> String {
@@ -162,7 +122,7 @@ fn samples_stay_at_their_times() {
         format!("{:.3},1,{load}\n", 1e-3 * row as f64)
     });
     let loads = parse(noisy.as_bytes()).unwrap();
-    assert!(loads.iter().all(|moment| moment.load >= 500.0));
+    assert!(loads.iter().all(|moment| moment.axial_load >= 500.0));
 }
 
 #[test]
@@ -174,62 +134,60 @@ fn lines_above_units_below_and_empty_cells() {
     // The row without a speed is left out.
     assert_eq!(
         samples,
-        [(0.0, turn, 1500.0), (0.5, -turn, 500.0)].map(|(time, speed, load)| Moment {
-            time,
-            speed,
-            load
-        })
+        [moment(0.0, turn, 1500.0), moment(0.5, -turn, 500.0)]
     );
     let text = "time,nut_speed,axial_load\n0,1,10\n1,1,\n2,1,nan\n3,1,40\n";
     let loads = parse(text.as_bytes()).unwrap();
     assert_eq!(
-        loads.iter().map(|moment| moment.load).collect::<Vec<_>>(),
+        loads
+            .iter()
+            .map(|moment| moment.axial_load)
+            .collect::<Vec<_>>(),
         [10.0, 20.0, 30.0, 40.0]
     );
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-struct Pushed([f64; 3]);
-
-impl Sample for Pushed {
-    const COLUMNS: &'static [&'static str] = &["time", "motor_torque"];
-
-    const OPTIONAL: &'static [&'static str] = &["known_torque"];
-
-    fn read<E>(mut column: impl FnMut(&'static str) -> Result<f64, E>) -> Result<Self, E> {
-        Ok(Self([
-            column("time")?,
-            column("motor_torque")?,
-            column("known_torque")?,
-        ]))
-    }
-
-    fn record(&self) -> Vec<String> {
-        self.0.map(|x| x.to_string()).to_vec()
-    }
-
-    fn time(&self) -> f64 {
-        self.0[0]
-    }
-
-    fn speed(&self) -> f64 {
-        0.0
-    }
-
-    fn load(&self) -> f64 {
-        0.0
-    }
-}
-
 #[test]
 fn a_column_that_may_be_missing_reads_zero() {
-    let parse = |text: &str| samples::<Pushed>(Cursor::new(text.as_bytes().to_vec()));
-    let without = parse("time,motor_torque\n0,1\n1,2\n").unwrap();
-    assert_eq!(without, [Pushed([0.0, 1.0, 0.0]), Pushed([1.0, 2.0, 0.0])]);
-    let with = parse("time,Known torque [mNm],motor_torque\n0,500,1\n1,-500,2\n").unwrap();
-    assert_eq!(with, [Pushed([0.0, 1.0, 0.5]), Pushed([1.0, 2.0, -0.5])]);
-    let middle = Pushed::between(&with[0], &with[1], &|low, high| 0.5 * (low + high));
-    assert_eq!(middle, Pushed([0.5, 1.5, 0.0]));
-    let fault = parse("time,motor_torque,known_torque\n0,1,x\n1,1,1\n").unwrap_err();
+    let parse = |text: &str| {
+        let samples = samples::<Commanded<false>>(Cursor::new(text.as_bytes().to_vec()));
+        let numbers = |moments: Vec<Commanded<false>>| -> Vec<Vec<f64>> {
+            moments.iter().map(Sample::numbers).collect()
+        };
+        samples.map(numbers)
+    };
+    let without = parse(
+        "time,motor_torque,axial_load
+0,1,9
+1,2,9
+",
+    )
+    .unwrap();
+    assert_eq!(
+        without,
+        [[0.0, 1.0, 9.0, 0.0, 0.0], [1.0, 2.0, 9.0, 0.0, 0.0]]
+    );
+    let text = "time,Known torque [mNm],motor_torque,axial_load
+0,500,1,9
+1,-500,2,9
+";
+    let with = parse(text).unwrap();
+    assert_eq!(
+        with,
+        [[0.0, 1.0, 9.0, 0.5, 0.0], [1.0, 2.0, 9.0, -0.5, 0.0]]
+    );
+    let [low, high] = [0, 1].map(|row| {
+        let mut numbers = with[row].iter().copied();
+        Commanded::<false>::of(|| numbers.next().unwrap())
+    });
+    let middle = Commanded::between(&low, &high, &|low, high| 0.5 * (low + high));
+    assert_eq!(middle.numbers(), [0.5, 1.5, 9.0, 0.0, 0.0]);
+    let fault = parse(
+        "time,motor_torque,axial_load,known_torque
+0,1,9,x
+1,1,9,1
+",
+    )
+    .unwrap_err();
     assert!(fault.contains("known_torque = \"x\""), "{fault}");
 }
