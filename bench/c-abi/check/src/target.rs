@@ -194,7 +194,7 @@ fn no_panic_path(archive: &Path) -> Outcome<()> {
     Ok(())
 }
 
-fn compiler() -> Command {
+pub fn compiler() -> Command {
     let mut command = Command::new("arm-none-eabi-gcc");
     command.args(CORE);
     command
@@ -286,7 +286,7 @@ fn nothing_unwanted(image: &Path) -> Outcome<()> {
 }
 
 /// What the program says; it ends the machine with its result. Semihosting speaks where errors are printed.
-fn run_in_qemu(machine: &str, image: &Path) -> Outcome<String> {
+pub fn run_in_qemu(machine: &str, image: &Path) -> Outcome<String> {
     if Command::new("qemu-system-arm")
         .arg("--version")
         .output()
