@@ -14,10 +14,21 @@
 #include <float.h>
 #include <stddef.h>
 
+/* `epas_friction::math::sqrt` */
 #if defined(__GNUC__) && defined(__ARM_FP) && !defined(EPAS_PLAIN_C99)
-#define EPAS_GEAR_HAS_ROOT
+static inline float square_root(float number)
+{
+    float root;
+
+    __asm("vsqrt.f32 %0, %1" : "=t"(root) : "t"(number));
+    return root;
+}
 #else
 #include <math.h>
+static inline float square_root(float number)
+{
+    return sqrtf(number);
+}
 #endif
 
 /* -- The block ------------------------------------------------------------------------------------------------------------------ */
@@ -53,27 +64,24 @@ typedef union {
 /* `f32::to_bits` */
 static inline uint32_t bits_of(float number)
 {
-    word_t word;
+    const word_t word = {.number = number};
 
-    word.number = number;
     return word.bits;
 }
 
 /* `f32::to_bits().cast_signed()`: rises with a number that is not negative. */
 static inline int32_t rank_of(float number)
 {
-    word_t word;
+    const word_t word = {.number = number};
 
-    word.number = number;
     return word.signed_bits;
 }
 
 /* `f32::from_bits` */
 static inline float number_of(uint32_t bits)
 {
-    word_t word;
+    const word_t word = {.bits = bits};
 
-    word.bits = bits;
     return word.number;
 }
 
@@ -81,19 +89,6 @@ static inline float number_of(uint32_t bits)
 static inline float size_of(float number)
 {
     return number_of(bits_of(number) & 0x7FFFFFFFu);
-}
-
-/* `epas_friction::math::sqrt` */
-static inline float square_root(float number)
-{
-#if defined(EPAS_GEAR_HAS_ROOT)
-    float root;
-
-    __asm("vsqrt.f32 %0, %1" : "=t"(root) : "t"(number));
-    return root;
-#else
-    return sqrtf(number);
-#endif
 }
 
 /* `Range::contains` */
@@ -156,10 +151,13 @@ static inline float log2_biased(float number)
 static inline float curve_at(const curve_t *curve, float log2)
 {
     const int32_t rank = rank_of(log2);
-    uint32_t part = (rank >= rank_of(curve->starts[4])) ? 4u : 0u;
     const float *cubic;
     float along;
+    uint32_t part = 0u;
 
+    if (rank >= rank_of(curve->starts[4])) {
+        part = 4u;
+    }
     if (rank >= rank_of(curve->starts[part + 2u])) {
         part += 2u;
     }
@@ -244,6 +242,9 @@ typedef struct {
     bool standing;
 } reversal_t;
 
+/* That of `SceneOutputs::safe` */
+static const reversal_t standing_still = {0.0f, 1.0f, true};
+
 /* `Limits::check_inputs`: whether both are finite; they are then within their limits. */
 static inline bool check_inputs(float *nut_speed, float *axial_load, uint32_t *faults)
 {
@@ -259,30 +260,16 @@ static inline bool check_inputs(float *nut_speed, float *axial_load, uint32_t *f
 
         finite = speed_finite && load_finite;
         if (finite) {
-            if (speed_beyond) {
-                *nut_speed = (speed < 0.0f) ? -SPEED_LIMIT : SPEED_LIMIT;
-                *faults |= EPAS_GEAR_SPEED_RANGE;
-            }
-            if (load_beyond) {
-                *axial_load = (load < 0.0f) ? -LOAD_LIMIT : LOAD_LIMIT;
-                *faults |= EPAS_GEAR_LOAD_RANGE;
-            }
+            *nut_speed = speed_beyond ? (direction_of(speed) * SPEED_LIMIT) : speed;
+            *axial_load = load_beyond ? (direction_of(load) * LOAD_LIMIT) : load;
+            *faults |= speed_beyond ? EPAS_GEAR_SPEED_RANGE : 0u;
+            *faults |= load_beyond ? EPAS_GEAR_LOAD_RANGE : 0u;
         } else {
             *faults |= speed_finite ? 0u : EPAS_GEAR_SPEED_NOT_FINITE;
             *faults |= load_finite ? 0u : EPAS_GEAR_LOAD_NOT_FINITE;
         }
     }
     return finite;
-}
-
-/* `SceneOutputs::safe` */
-static inline void safe(epas_gear_outputs_t *outputs, uint32_t faults)
-{
-    outputs->friction_torque = 0.0f;
-    outputs->load_torque = 0.0f;
-    outputs->efficiency = 0.0f;
-    outputs->regime = EPAS_GEAR_STANDING;
-    outputs->faults = faults;
 }
 
 /* `Outputs::new`, of the friction, N m, and of sliding friction in the direction of motion, N m */
@@ -293,18 +280,12 @@ static inline void set_outputs(epas_gear_outputs_t *outputs, float friction, flo
     const float opposing = reversal->direction * load_torque;
     float torque = friction;
     float efficiency = 0.0f;
-    uint32_t regime = EPAS_GEAR_LOCKED;
+    uint32_t regime;
 
     outputs->faults = faults;
     if (!(size_of(friction) <= TORQUE_LIMIT)) {
         outputs->faults |= EPAS_GEAR_FRICTION_LIMIT;
-        if (friction > 0.0f) {
-            torque = TORQUE_LIMIT;
-        } else if (friction < 0.0f) {
-            torque = -TORQUE_LIMIT;
-        } else {
-            torque = 0.0f;
-        }
+        torque = (size_of(friction) > 0.0f) ? (direction_of(friction) * TORQUE_LIMIT) : 0.0f;
     }
     if (reversal->standing) {
         regime = EPAS_GEAR_STANDING;
@@ -335,7 +316,7 @@ static inline uint32_t counted_faults(uint32_t ticks, uint32_t faults)
     uint32_t counted = 0u;
 
     if ((faults & ~EPAS_GEAR_BEYOND_MODEL) != 0u) {
-        counted = (ticks < UINT32_MAX) ? (ticks + 1u) : UINT32_MAX;
+        counted = (ticks < 0xFFFFFFFFu) ? (ticks + 1u) : ticks;
     }
     return counted;
 }
@@ -353,21 +334,21 @@ void epas_gear_step(epas_gear_t *model, float nut_speed, float axial_load, epas_
     float speed = nut_speed;
     float load = axial_load;
     uint32_t faults = 0u;
+    reversal_t reversal = standing_still;
+    float sliding = 0.0f;
 
     if (check_inputs(&speed, &load, &faults)) {
-        reversal_t reversal;
         const float total_load = size_of(load) + LIFT_OFF;
         const float log2 = log2_within(total_load * PER_BALL, &faults);
-        float sliding;
 
         reversal.factor = speed / square_root((speed * speed) + REVERSAL_SQUARED);
         reversal.direction = direction_of(speed);
         reversal.standing = size_of(speed) < REVERSAL_SPEED;
         sliding = total_load * torque_over_load(log2, ((reversal.direction * load) < 0.0f) ? 1u : 0u, &model->interval);
-        set_outputs(outputs, reversal.factor * sliding, sliding, load, &reversal, faults);
     } else {
-        safe(outputs, faults);
+        load = 0.0f;
     }
+    set_outputs(outputs, reversal.factor * sliding, sliding, load, &reversal, faults);
     model->faulted_ticks = counted_faults(model->faulted_ticks, outputs->faults);
 }
 
@@ -402,24 +383,18 @@ static void set_temperature(epas_gear_memory_t *model, float temperature)
 /* `FrictionModel::set_coefficient` of a `CoefficientLaw` with other coefficients, and else that of the block */
 bool epas_gear_memory_set_coefficient(epas_gear_memory_t *model, float boundary, float full_film)
 {
-    bool allowed = true;
-    float slow[2];
-    float fast[2];
+    bool allowed = within(boundary, 1e-6f, 1.0f) && within(full_film, 1e-6f, 1.0f);
     uint32_t side;
 
     for (side = 0u; side < 2u; side++) {
-        slow[side] = direction_factors[side] * boundary;
-        fast[side] = direction_factors[side] * full_film;
-        slow[side] = slow[side] - fast[side];
-        allowed = allowed && within(direction_factors[side] * boundary, 1e-6f, 1.0f) && within(fast[side], 1e-6f, 0.5f)
-                  && within(fast[side] + slow[side], 1e-6f, 0.5f);
+        const float slow = direction_factors[side] * boundary;
+        const float fast = direction_factors[side] * full_film;
+
+        allowed = allowed && within(slow, 1e-6f, 1.0f) && within(fast, 1e-6f, 0.5f) && within(fast + (slow - fast), 1e-6f, 0.5f);
     }
-    allowed = allowed && within(boundary, 1e-6f, 1.0f) && within(full_film, 1e-6f, 1.0f);
-    if (allowed) {
-        for (side = 0u; side < 2u; side++) {
-            model->full_film[side] = fast[side];
-            model->difference[side] = slow[side];
-        }
+    for (side = 0u; allowed && (side < 2u); side++) {
+        model->full_film[side] = direction_factors[side] * full_film;
+        model->difference[side] = (direction_factors[side] * boundary) - model->full_film[side];
     }
     return allowed;
 }
@@ -438,14 +413,24 @@ bool epas_gear_memory_init(epas_gear_memory_t *model, const epas_gear_sensors_t 
     const bool allowed = encoder && load && temperature;
 
     if (allowed) {
-        const epas_gear_memory_t fresh = {0};
+        uint32_t element;
 
-        *model = fresh;
+        model->faulted_ticks = 0u;
+        model->drag_torque = 0.0f;
         model->sensors = *sensors;
         model->load_rate = 1.0f / sensors->load_fade;
         model->temperature_rate = 1.0f / sensors->temperature_fade;
+        for (element = 0u; element < EPAS_GEAR_ELEMENTS; element++) {
+            model->held[element] = 0.0f;
+        }
+        model->play_position = 0.0f;
+        model->last_count = 0u;
+        model->counted = false;
+        model->stepped = false;
         model->level[FORWARD] = 1.0f;
         model->level[BACKWARD] = 1.0f;
+        model->nut_speed = 0.0f;
+        model->axial_load = 0.0f;
         (void)epas_gear_memory_set_coefficient(model, BOUNDARY, FULL_FILM);
         set_temperature(model, sensors->fallback_temperature);
     }
@@ -528,25 +513,27 @@ static inline float turn_of(epas_gear_memory_t *model, uint32_t count, uint32_t 
     return moved;
 }
 
-/* `Elements::follow` of `ProportionalElements`: N m, after a turn, rad, between these limits, N m */
+/* What an element holds, N m, after a turn, rad, between these limits, N m */
+static inline float held_after(float held, float rate, float turn, float low, float high)
+{
+    float force = held + (rate * turn);
+
+    force = (force > high) ? high : force;
+    return (force < low) ? low : force;
+}
+
+/* `Elements::follow` of `ProportionalElements` */
 static inline float elements_follow(float held[EPAS_GEAR_ELEMENTS], float turn, float low, float high)
 {
     const float moved = (size_of(turn) < 1048576.0f) ? turn : 0.0f;
+    const float base = held_after(held[0], rates[0], moved, low, high);
     float friction = -0.0f; /* its sum with any number is that number */
-    float base = 0.0f;
     uint32_t element;
 
-    for (element = 0u; element < EPAS_GEAR_ELEMENTS; element++) {
-        float force = held[element] + (rates[element] * moved);
-
-        force = (force > high) ? high : force;
-        force = (force < low) ? low : force;
-        held[element] = force;
-        if (element == 0u) {
-            base = force;
-        } else {
-            friction += shares[element] * (force - base);
-        }
+    held[0] = base;
+    for (element = 1u; element < EPAS_GEAR_ELEMENTS; element++) {
+        held[element] = held_after(held[element], rates[element], moved, low, high);
+        friction += shares[element] * (held[element] - base);
     }
     return base + friction;
 }
@@ -554,28 +541,30 @@ static inline float elements_follow(float held[EPAS_GEAR_ELEMENTS], float turn, 
 /* `WithMemoryConstants::follow` */
 static void follow(epas_gear_memory_t *model, float turn, uint32_t faults, epas_gear_outputs_t *outputs)
 {
+    reversal_t reversal = standing_still;
+
     if (model->stepped) {
         const float forward = model->sliding[FORWARD] * model->level[FORWARD];
         const float backward = model->sliding[BACKWARD] * model->level[BACKWARD];
         const float friction = elements_follow(model->held, turn, -backward, forward);
         const float limit = (friction < 0.0f) ? backward : forward;
-        const bool slides = limit > 0.0f;
-        const float factor = slides ? (friction / limit) : 0.0f;
         const bool too_fast = (size_of(model->nut_speed) > 60.0f) && (DRAG_TORQUE > 0.0f);
-        reversal_t reversal;
 
-        reversal.factor = factor * model->level[side_of(friction)];
-        reversal.direction = direction_of(slides ? friction : turn);
-        if (slides) {
+        if (limit > 0.0f) {
+            const float factor = friction / limit;
+
+            reversal.factor = factor * model->level[side_of(friction)];
+            reversal.direction = direction_of(friction);
             reversal.standing = (size_of(factor) < 0.99f) || ((turn * friction) < 0.0f);
         } else {
+            reversal.direction = direction_of(turn);
             reversal.standing = !(size_of(turn) > 0.0f);
         }
         set_outputs(outputs, (reversal.factor * model->sliding[side_of(reversal.factor)]) + model->drag_torque,
                     model->sliding[side_of(reversal.direction)], model->axial_load, &reversal,
                     faults | model->sliding_faults | (too_fast ? EPAS_GEAR_BEYOND_MODEL : 0u));
     } else {
-        safe(outputs, faults);
+        set_outputs(outputs, 0.0f, 0.0f, 0.0f, &reversal, faults);
     }
 }
 

@@ -87,14 +87,22 @@ typedef struct {
     uint32_t faulted_ticks; /* to read: as of epas_gear_t */
     float drag_torque;      /* to read: lubricant drag in the friction torque of the last step, N m, which no level scales */
     epas_gear_sensors_t sensors;
-    float load_rate, temperature_rate;
+    float load_rate;
+    float temperature_rate;
     float held[EPAS_GEAR_ELEMENTS];
     float play_position;
     uint32_t last_count;
-    bool counted, stepped;
-    float full_film[2], difference[2], level[2];
-    float temperature, half_share_speed, churning, fluidity;
-    float nut_speed, axial_load;
+    bool counted;
+    bool stepped;
+    float full_film[2];
+    float difference[2];
+    float level[2];
+    float temperature;
+    float half_share_speed;
+    float churning;
+    float fluidity;
+    float nut_speed;
+    float axial_load;
     float sliding[2];
     uint32_t sliding_faults;
 } epas_gear_memory_t;

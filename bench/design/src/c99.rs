@@ -109,21 +109,53 @@ fn numbers<const NODES: usize>(
     let [least_log2, most_log2] = law.ends;
     let mut text = String::new();
     for (name, number, what) in [
-        ("FRICTION", block.friction, "friction coefficient before it is set"),
-        ("LEAST_LOG2", least_log2, "least and largest biased logarithm of a ball's load"),
+        (
+            "FRICTION",
+            block.friction,
+            "friction coefficient before it is set",
+        ),
+        (
+            "LEAST_LOG2",
+            least_log2,
+            "least and largest biased logarithm of a ball's load",
+        ),
         ("MOST_LOG2", most_log2, ""),
-        ("SHIFTED_FROM", law.shifted_from, "that from which on loads are shifted between nodes"),
+        (
+            "SHIFTED_FROM",
+            law.shifted_from,
+            "that from which on loads are shifted between nodes",
+        ),
         ("PER_BALL", 1.0 / balls, "1 over the number of loaded balls"),
         ("LIFT_OFF", balls * law.lift_off, "N, of all balls"),
-        ("REDUCED_LEAD", block.lead / std::f32::consts::TAU, "m, lead over 2 pi"),
-        ("REVERSAL_SPEED", block.reversal_speed, "rad/s, and its square"),
-        ("REVERSAL_SQUARED", block.reversal_speed * block.reversal_speed, ""),
+        (
+            "REDUCED_LEAD",
+            block.lead / std::f32::consts::TAU,
+            "m, lead over 2 pi",
+        ),
+        (
+            "REVERSAL_SPEED",
+            block.reversal_speed,
+            "rad/s, and its square",
+        ),
+        (
+            "REVERSAL_SQUARED",
+            block.reversal_speed * block.reversal_speed,
+            "",
+        ),
         ("SPEED_LIMIT", block.limits.nut_speed, "rad/s"),
         ("LOAD_LIMIT", block.limits.axial_load, "N"),
         ("TORQUE_LIMIT", block.limits.friction_torque, "N m"),
-        ("BOUNDARY", boundary, "friction coefficients at standstill and on a full film"),
+        (
+            "BOUNDARY",
+            boundary,
+            "friction coefficients at standstill and on a full film",
+        ),
         ("FULL_FILM", full_film, ""),
-        ("SCALE", scale, "of the half-share speed's fifth root by temperature"),
+        (
+            "SCALE",
+            scale,
+            "of the half-share speed's fifth root by temperature",
+        ),
         ("POLE", pole, "K"),
         ("COLDEST", coldest, ""),
         ("WARMEST", warmest, ""),
@@ -132,8 +164,16 @@ fn numbers<const NODES: usize>(
         ("DRAG_TORQUE", drag.torque, "N m at 1 Pa s, 1 rad/s, 1 N"),
         ("DRAG_HEATING", drag.heating, ""),
     ] {
-        let meaning = if what.is_empty() { String::new() } else { format!(", {what}") };
-        let _ = writeln!(text, "#define {name} {} /* {number}{meaning} */", hex(number));
+        let meaning = if what.is_empty() {
+            String::new()
+        } else {
+            format!(", {what}")
+        };
+        let _ = writeln!(
+            text,
+            "#define {name} {} /* {number}{meaning} */",
+            hex(number)
+        );
     }
     let [rates, shares] = memory.elements.numbers();
     for (name, of) in [
@@ -141,7 +181,11 @@ fn numbers<const NODES: usize>(
         ("shares[EPAS_GEAR_ELEMENTS]", &shares),
         ("direction_factors[2]", &[forward, backward]),
     ] {
-        let _ = write!(text, "\nstatic const float {name} = {{\n{}}};\n", listed(of, 1));
+        let _ = write!(
+            text,
+            "\nstatic const float {name} = {{\n{}}};\n",
+            listed(of, 1)
+        );
     }
     let _ = writeln!(text, "\nstatic const node_t nodes[NODES] = {{");
     for node in &law.nodes {
@@ -168,7 +212,10 @@ fn curve(curve: &LoadCurve) -> String {
         .iter()
         .map(|cubic| {
             let numbers = listed(cubic, 0);
-            format!("                    {{{}}},\n", numbers.trim().trim_end_matches(','))
+            format!(
+                "                    {{{}}},\n",
+                numbers.trim().trim_end_matches(',')
+            )
         })
         .collect();
     format!(
@@ -195,6 +242,10 @@ fn hex(number: f32) -> String {
     match (exponent, mantissa) {
         (0, 0) => format!("{sign}0.0f"),
         (0, _) => format!("{sign}0x0.{:06x}p-126f", mantissa << 1),
-        _ => format!("{sign}0x1.{:06x}p{:+}f", mantissa << 1, exponent as i32 - 127),
+        _ => format!(
+            "{sign}0x1.{:06x}p{:+}f",
+            mantissa << 1,
+            exponent as i32 - 127
+        ),
     }
 }

@@ -1,7 +1,6 @@
 //! The C99 file of `epas design`: the bits of the crate with every compiler at every level, on the host and on a Cortex-M4F, its own check of
 //! the arithmetic, MISRA, and what it costs beside Rust.
 
-use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -21,30 +20,47 @@ use crate::gears;
 use crate::outcome::Outcome;
 use crate::setups;
 use crate::target::{compiler, run_in_qemu};
-use crate::tools::{WARNINGS, run, run_to_end};
+use crate::tools::{WARNINGS, run};
 
 #[path = "../../../design/src/c99.rs"]
 mod generator;
 
-/// Ticks of each gear: those that are stored, and a thousand times this many in all.
-const STORED: usize = 1000;
-const THOUSANDS: usize = 50;
-const WORDS: usize = 18;
+/// Ticks of each of the two gears.
+const TICKS: usize = 50_000;
 
+/// Of `epas_outputs_t`, drag, and what was set.
 const SEED: u32 = 0x2026_0099;
 
-type Remembering<const NODES: usize> =
-    WithMemory<CagedBallScrew<NODES>, ProportionalElements<8>, Deadband<CountSensor>, CoefficientLaw>;
+const NAN: f32 = f32::NAN;
 
-/// `period`, `turn_per_count`, `largest_turn`, `play`, `load_hold`, `load_fade`, `fallback_temperature`, `temperature_hold`, `temperature_fade`:
-/// those of `test/c99.c`.
-const SENSORS: [(u32, [f32; 8]); 3] = [
-    (16384, [1.533_981e-4, 1.2, 1e-4, 0.01, 0.09, 313.15, 10.0, 60.0]),
+/// Fields of `rack_sensors_t`, and with each of them out of its range.
+const SENSORS: [(u32, [f32; 8]); 13] = [
+    (
+        16384,
+        [1.533_981e-4, 1.2, 1e-4, 0.01, 0.09, 313.15, 10.0, 60.0],
+    ),
     (0, [-2e-3, 0.5, 0.0, 0.0, 0.5, 280.0, 0.0, 1e-3]),
     (5, [0.01, 0.025, 5e-3, 0.02, 1e-6, 500.0, 1.0, 7.0]),
+    (1, [0.01, 0.005, 0.0, 0.0, 1.0, 300.0, 1.0, 1.0]),
+    (5, [NAN, 0.02, 0.0, 0.0, 1.0, 300.0, 1.0, 1.0]),
+    (5, [0.0, 0.02, 0.0, 0.0, 1.0, 300.0, 1.0, 1.0]),
+    (5, [0.01, 0.026, 0.0, 0.0, 1.0, 300.0, 1.0, 1.0]),
+    (5, [0.01, 0.02, -1e-3, 0.0, 1.0, 300.0, 1.0, 1.0]),
+    (5, [0.01, 0.02, 0.0, NAN, 1.0, 300.0, 1.0, 1.0]),
+    (5, [0.01, 0.02, 0.0, 0.0, 0.0, 300.0, 1.0, 1.0]),
+    (5, [0.01, 0.02, 0.0, 0.0, 1.0, 20.0, 1.0, 1.0]),
+    (5, [0.01, 0.02, 0.0, 0.0, 1.0, 300.0, 1e5, 1.0]),
+    (5, [0.01, 0.02, 0.0, 0.0, 1.0, 300.0, 1.0, f32::INFINITY]),
 ];
 
-/// What `test/c99.c` has, in Rust.
+type Remembering<const NODES: usize> = WithMemory<
+    CagedBallScrew<NODES>,
+    ProportionalElements<8>,
+    Deadband<CountSensor>,
+    CoefficientLaw,
+>;
+
+/// A screw of the crate under random ticks.
 struct Screw<const NODES: usize> {
     block: CagedBallScrewConfiguration<NODES>,
     numbers: Numbers,
@@ -60,7 +76,16 @@ fn remembering<const NODES: usize>(
     sensors: usize,
 ) -> Result<FrictionModel<Remembering<NODES>>, Error> {
     let (period, numbers) = SENSORS[sensors];
-    let [turn_per_count, largest_turn, play, load_hold, load_fade, fallback, hold, fade] = numbers;
+    let [
+        turn_per_count,
+        largest_turn,
+        play,
+        load_hold,
+        load_fade,
+        fallback,
+        hold,
+        fade,
+    ] = numbers;
     let elements = setups::elements()?;
     let counts = CountSensor::new(CountSensorParameters {
         period,
@@ -84,160 +109,164 @@ fn remembering<const NODES: usize>(
 
 impl<const NODES: usize> Screw<NODES> {
     fn new(block: CagedBallScrewConfiguration<NODES>) -> Result<Self, Error> {
-        let mut memory = remembering(block, 0)?;
-        memory.between(5);
         Ok(Self {
             block,
             numbers: Numbers(SEED),
             caged: FrictionModel::<CagedBallScrew<NODES>>::new(&block)?,
-            memory,
+            memory: remembering(block, 0)?,
             period: SENSORS[0].0,
             count: 0,
         })
     }
 
-    fn within(&mut self, bound: f32) -> f32 {
-        ((self.numbers.word() >> 8) as f32 - 8_388_608.0) * (bound / 8_388_608.0)
+    /// One of so many times.
+    fn seldom(&mut self, times: u32) -> bool {
+        self.numbers.below(times) == 0
     }
 
-    fn between(&mut self, least: f32, most: f32) -> f32 {
-        least + (self.numbers.word() >> 8) as f32 * ((most - least) / 16_777_216.0)
-    }
-
+    /// A number up to a little more than a bound, of any size and sign; now and then a special one, or any bits.
     fn quantity(&mut self, bound: f32) -> f32 {
-        const SPECIAL: [u32; 8] = [
-            0x7FC0_0000,
-            0x7F80_0000,
-            0xFF80_0000,
-            0,
-            0x8000_0000,
-            0x0000_0123,
-            0x8040_0000,
-            0x7F7F_FFFF,
+        let specials = [
+            NAN,
+            f32::INFINITY,
+            f32::NEG_INFINITY,
+            0.0,
+            -0.0,
+            4e-43,
+            -f32::MIN_POSITIVE,
+            f32::MAX,
+            bound,
         ];
-        let kind = self.numbers.word() % 64;
-        let size = self.numbers.word() % 16;
-        let found = (0..size).fold(self.within(1.1 * bound), |found, _| 0.5 * found);
-        match (SPECIAL.get(kind as usize), kind) {
-            (Some(&bits), _) => f32::from_bits(bits),
-            (None, 8) => bound,
-            (None, 9) => f32::from_bits(self.numbers.word()),
-            _ => found,
+        let special = self.numbers.below(64) as usize;
+        let size = 0.5_f32.powi(self.numbers.below(16) as i32);
+        let any = f32::from_bits(self.numbers.word());
+        match specials.get(special) {
+            Some(&special) => special,
+            None if special == 63 => any,
+            None => size * self.numbers.within(-1.1 * bound, 1.1 * bound),
         }
     }
 
+    /// The next count, near the last one or far from it; seldom none.
     fn turned(&mut self) -> u32 {
-        let kind = self.numbers.word() % 64;
-        let most = if kind < 8 { 4000 } else { 3 };
-        let ahead = self.numbers.word() % (2 * most + 1);
-        self.count = if self.period == 0 {
-            self.count.wrapping_add(ahead).wrapping_sub(most)
+        let most = if self.seldom(8) { 4000 } else { 3 };
+        let ahead = i64::from(self.numbers.below(2 * most + 1)) - i64::from(most);
+        let period = if self.period == 0 {
+            1 << 32
         } else {
-            (self.count + ahead + (most * self.period - most)) % self.period
+            i64::from(self.period)
         };
-        if kind == 63 { u32::MAX } else { self.count }
-    }
-
-    fn change(&mut self) -> u32 {
-        let kind = self.numbers.word() % 256;
-        let (first, second) = (self.between(0.02, 0.6), self.between(0.02, 0.2));
-        let set = |done: bool| u32::from(done);
-        match kind {
-            0..8 => set(self.caged.set_friction(first).is_ok()),
-            8..12 => {
-                let law = setups::law_of(first, second).and_then(|law| CoefficientLaw::new(&law));
-                set(law
-                    .and_then(|law| self.memory.set_coefficient(law))
-                    .is_ok())
-            }
-            12..16 => {
-                let (forward, backward) = (10.0 * first, 10.0 * second);
-                let level = FrictionLevel { forward, backward };
-                set(self.memory.set_level(level).is_ok())
-            }
-            16 => {
-                let sensors = (self.numbers.word() % 3) as usize;
-                let made = remembering(self.block, sensors);
-                (self.period, self.count) = (SENSORS[sensors].0, 0);
-                set(made.map(|made| self.memory = made).is_ok())
-            }
-            17 => {
-                let friction = self.quantity(0.1);
-                set(self.caged.set_friction(friction).is_ok())
-            }
-            _ => 2,
+        self.count = (i64::from(self.count) + ahead).rem_euclid(period) as u32;
+        if self.seldom(64) {
+            u32::MAX
+        } else {
+            self.count
         }
     }
 
-    /// This age, or seldom any up to a bound.
-    fn age(&mut self, bound: f32, age: f32) -> f32 {
-        if self.numbers.word() % 8 == 0 {
+    /// What is set now and then, with its numbers, and whether it was.
+    fn set(&mut self) -> [u32; 4] {
+        let what = self.numbers.below(128);
+        let (first, second) = (
+            self.numbers.within(0.02, 0.6),
+            self.numbers.within(0.02, 0.2),
+        );
+        let done = |what, first: f32, second: f32, done: bool| {
+            [what, first.to_bits(), second.to_bits(), done.into()]
+        };
+        match what {
+            0..4 => {
+                let friction = if what == 0 {
+                    self.quantity(0.1)
+                } else {
+                    0.3 * first
+                };
+                done(1, friction, 0.0, self.caged.set_friction(friction).is_ok())
+            }
+            4..8 => {
+                let law = setups::law_of(first, second).and_then(|law| CoefficientLaw::new(&law));
+                let set = law.and_then(|law| self.memory.set_coefficient(law));
+                done(2, first, second, set.is_ok())
+            }
+            8..12 => {
+                let [forward, backward] = [20.0 * first, 10.0 * second];
+                let set = self.memory.set_level(FrictionLevel { forward, backward });
+                done(3, forward, backward, set.is_ok())
+            }
+            12 => {
+                let sensors = self.numbers.below(SENSORS.len() as u32);
+                let made = remembering(self.block, sensors as usize);
+                if made.is_ok() {
+                    (self.period, self.count) = (SENSORS[sensors as usize].0, 0);
+                }
+                done(
+                    4,
+                    sensors as f32,
+                    0.0,
+                    made.map(|made| self.memory = made).is_ok(),
+                )
+            }
+            _ => done(0, 0.0, 0.0, true),
+        }
+    }
+
+    /// An age, or seldom any up to a bound.
+    fn age(&mut self, age: f32, bound: f32) -> f32 {
+        if self.seldom(8) {
             self.quantity(bound)
         } else {
             age
         }
     }
 
+    /// A tick as `test/c99.c` reads it.
     fn tick(&mut self) -> Vec<u32> {
-        let mut row = vec![self.change()];
+        let [set, first, second, done] = self.set();
         let scene = Inputs {
             nut_speed: self.quantity(100.0),
             axial_load: self.quantity(20_000.0),
         };
-        row.extend(self.caged.step(scene).words());
-        let reading = self.turned();
         let inputs = WithMemoryInputs {
             scene,
-            reading,
-            load_age: self.age(0.2, 0.001),
-            temperature: if self.numbers.word() % 16 == 0 {
+            reading: self.turned(),
+            load_age: self.age(0.001, 0.2),
+            temperature: if self.seldom(16) {
                 self.quantity(600.0)
             } else {
-                self.between(240.0, 380.0)
+                self.numbers.within(240.0, 380.0)
             },
-            temperature_age: self.age(100.0, 0.5),
+            temperature_age: self.age(0.5, 100.0),
         };
+        let between = self.turned();
+        let mut row = vec![
+            set,
+            first,
+            second,
+            scene.nut_speed.to_bits(),
+            scene.axial_load.to_bits(),
+            inputs.reading,
+        ];
+        row.extend([inputs.load_age, inputs.temperature, inputs.temperature_age].map(f32::to_bits));
+        row.extend([between, done]);
+        row.extend(self.caged.step(scene).words());
         row.extend(self.memory.step(inputs).words());
-        let reading = self.turned();
-        let between: Outputs = self.memory.between(reading);
-        row.extend(between.words());
+        row.extend(self.memory.between(between).words());
         row.push(self.memory.drag_torque().to_bits());
         row.push(self.caged.faulted_ticks() + self.memory.faulted_ticks());
         row
     }
 }
 
-/// What `test/c99.c` compares with: the first ticks with all outputs, and sums over all that went before after every thousand.
-fn expected<const NODES: usize>(block: CagedBallScrewConfiguration<NODES>) -> Outcome<String> {
-    let mut screw = Screw::new(block)?;
-    let mut text = format!(
-        "#include <stdint.h>\n\n#define SEED {SEED}u\n#define WORDS {WORDS}u\n#define THOUSANDS {THOUSANDS}u\n\n\
-         static const uint32_t stored[{STORED}][WORDS] = {{\n"
-    );
-    let mut sums = String::new();
-    let mut sum = 0x811c_9dc5_u32;
-    for tick in 0..1000 * THOUSANDS {
-        let row = screw.tick();
-        assert_eq!(row.len(), WORDS);
-        for word in &row {
-            sum = (sum ^ word).wrapping_mul(0x0100_0193);
-        }
-        if tick < STORED {
-            let row: Vec<_> = row.iter().map(|word| format!("0x{word:08x}u")).collect();
-            writeln!(text, "    {{{}}},", row.join(", "))?;
-        }
-        if tick % 1000 == 999 {
-            writeln!(sums, "    {sum}u,")?;
-        }
+/// A float as an expression of C.
+fn float(number: f32) -> String {
+    if number.is_finite() {
+        format!("{number:e}f")
+    } else {
+        format!("({}.0f / 0.0f)", u8::from(!number.is_nan()))
     }
-    write!(
-        text,
-        "}};\n\nstatic const uint32_t sums[THOUSANDS] = {{\n{sums}}};\n"
-    )?;
-    Ok(text)
 }
 
-/// Writes a gear and what is expected of it; its folder.
+/// Writes a gear, and the ticks that are expected of it; its folder.
 fn written<const NODES: usize>(root: &Path, name: &str, words: &[u32]) -> Outcome<PathBuf> {
     let folder = root.join("target/c/c99").join(name);
     fs::create_dir_all(&folder)?;
@@ -246,16 +275,36 @@ fn written<const NODES: usize>(root: &Path, name: &str, words: &[u32]) -> Outcom
         elements: setups::elements()?,
         law: setups::law_of(0.12, 0.05)?,
     };
-    let summary = [format!("A gear of the tests: {name} of friction coefficients.")];
-    let files = generator::files(&summary, "rack", &block, &memory)?;
+    let files = generator::files(&["A gear of the tests.".into()], "rack", &block, &memory)?;
     fs::write(folder.join("rack.h"), files.header)?;
     fs::write(folder.join("rack.c"), files.source)?;
-    fs::write(folder.join("expected.h"), expected(block)?)?;
+    let mut screw = Screw::new(block)?;
+    let ticks: Vec<u8> = (0..TICKS)
+        .flat_map(|_| screw.tick())
+        .flat_map(u32::to_le_bytes)
+        .collect();
+    fs::write(folder.join("ticks.bin"), ticks)?;
+    let sensors = SENSORS
+        .map(|(period, numbers)| format!("{{{period}u, {}}}", numbers.map(float).join(", ")));
+    fs::write(
+        folder.join("ticks.h"),
+        format!(
+            "#define TICKS {:?}\n#define NUMBER {TICKS}u\n#define SENSORS {}\n",
+            folder.join("ticks.bin"),
+            sensors.join(", ")
+        ),
+    )?;
     Ok(folder)
 }
 
 /// A C compiler of the host or of the target, with what it needs to make the test of a gear.
-fn compile(root: &Path, mut command: Command, folder: &Path, flags: &[&str], image: &Path) -> Outcome<()> {
+fn compile(
+    root: &Path,
+    mut command: Command,
+    folder: &Path,
+    flags: &[&str],
+    image: &Path,
+) -> Outcome<()> {
     run(command
         .args(["-std=c99", "-pedantic"])
         .args(WARNINGS)
@@ -274,11 +323,18 @@ fn on_host(root: &Path, folder: &Path) -> Outcome<()> {
     let image = folder.join("host");
     for name in ["gcc", "clang"] {
         for level in ["-O0", "-O2", "-O3", "-O2 -DEPAS_PLAIN_C99"] {
-            let flags: Vec<_> = level.split(' ').chain(["-ffp-contract=off", "-lm"]).collect();
+            let flags: Vec<_> = level
+                .split(' ')
+                .chain(["-ffp-contract=off", "-lm"])
+                .collect();
             compile(root, Command::new(name), folder, &flags, &image)?;
             run(&mut Command::new(&image)).map_err(|error| format!("{name} {level}: {error}"))?;
         }
-        for wrong in ["-ffp-contract=fast -mfma", "-ffp-contract=off -DFLUSH", "-ffast-math"] {
+        for wrong in [
+            "-ffp-contract=fast -mfma",
+            "-ffp-contract=off -DFLUSH",
+            "-ffast-math",
+        ] {
             let flags: Vec<_> = wrong.split(' ').chain(["-O2", "-lm"]).collect();
             compile(root, Command::new(name), folder, &flags, &image)?;
             unsound(run(&mut Command::new(&image)), &format!("{name} {wrong}"))?;
@@ -296,12 +352,53 @@ fn unsound(ran: Outcome<String>, flags: &str) -> Outcome<()> {
     }
 }
 
-/// Checks both gears on the host.
-pub fn check(root: &Path, _host_only: bool) -> Outcome<()> {
+/// The same on a Cortex-M4F in QEMU; what the program says of its steps at -O2.
+fn on_target(root: &Path, folder: &Path) -> Outcome<String> {
+    let image = folder.join("target.elf");
+    let firmware =
+        ["include", "test", "firmware"].map(|part| format!("-I{}", root.join(part).display()));
+    let tick = |flags: &str| -> Outcome<String> {
+        let mut command = compiler();
+        command
+            .args([
+                "-ffreestanding",
+                "-nostdlib",
+                "-ffunction-sections",
+                "-fdata-sections",
+            ])
+            .args(&firmware)
+            .args(["startup.c", "semihosting.c"].map(|file| root.join("firmware").join(file)))
+            .args(["-Wl,--gc-sections", "-Wl,-z,noexecstack", "-L"])
+            .arg(root.join("../.."))
+            .arg("-T")
+            .arg(root.join("firmware/link.ld"));
+        compile(
+            root,
+            command,
+            folder,
+            &flags.split(' ').collect::<Vec<_>>(),
+            &image,
+        )?;
+        run_in_qemu("mps2-an386", &image)
+    };
+    for level in ["-O0", "-O3"] {
+        tick(&format!("{level} -ffp-contract=off"))?;
+    }
+    for wrong in ["-ffp-contract=fast", "-ffp-contract=off -DFLUSH"] {
+        unsound(tick(&format!("-O2 {wrong}")), wrong)?;
+    }
+    tick("-O2 -ffp-contract=off")
+}
+
+/// Checks both gears.
+pub fn check(root: &Path, host_only: bool) -> Outcome<()> {
     for folder in gears_of(root)? {
         on_host(root, &folder)?;
+        if !host_only {
+            print!("{}", on_target(root, &folder)?);
+        }
     }
-    println!("C99: {} ticks have the bits of the crate", 2000 * THOUSANDS);
+    println!("C99: {} ticks have the bits of the crate", 2 * TICKS);
     Ok(())
 }
 

@@ -35,12 +35,12 @@ impl Numbers {
         (self.word() >> 8) as f32 / 16_777_216.0
     }
 
-    fn below(&mut self, most: u32) -> u32 {
+    pub fn below(&mut self, most: u32) -> u32 {
         self.next();
         self.0 % most
     }
 
-    fn within(&mut self, least: f32, most: f32) -> f32 {
+    pub fn within(&mut self, least: f32, most: f32) -> f32 {
         least + (most - least) * self.next()
     }
 }
