@@ -28,7 +28,7 @@ static tick_t ticks[50];
 #define SYST_RVR (*(volatile uint32_t *)0xE000E014u)
 #define SYST_CVR (*(volatile uint32_t *)0xE000E018u)
 #define INSTRUCTIONS 40u /* in a tick of the timer, where QEMU counts one instruction a nanosecond */
-#define CALLS 400u
+#define CALLS 100u
 
 void test_put(const char *text);
 void test_put_number(uint32_t number);
@@ -58,6 +58,14 @@ static void nothing(void) { __asm volatile("" : : : "memory"); }
 static void step(void) { rack_step(&caged, ticks[0].inputs.nut_speed, ticks[0].inputs.axial_load, &outputs); }
 static void memory_step(void) { rack_memory_step(&memory, &ticks[0].inputs, &outputs); }
 static void memory_between(void) { rack_memory_between(&memory, ticks[0].inputs.count, &outputs); }
+
+static void say(const char *name, uint32_t number)
+{
+    test_put(name);
+    test_put(" ");
+    test_put_number(number);
+    test_put("\n");
+}
 
 static uint32_t time_of(void (*volatile function)(void))
 {
@@ -89,10 +97,7 @@ static void count_of(const char *name, void (*function)(void))
         instructions = ((time_of(function) - time_of(nothing)) * INSTRUCTIONS) / CALLS;
         most = (instructions > most) ? instructions : most;
     }
-    test_put(name);
-    test_put(" ");
-    test_put_number(most);
-    test_put(" instructions\n");
+    say(name, most);
 }
 
 static void counts(void)
@@ -101,6 +106,8 @@ static void counts(void)
     count_of("step", step);
     count_of("memory_step", memory_step);
     count_of("memory_between", memory_between);
+    say("ram", sizeof(rack_t));
+    say("memory_ram", sizeof(rack_memory_t));
 }
 
 void sys_tick_handler(void)

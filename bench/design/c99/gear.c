@@ -8,6 +8,7 @@
  * MISRA C:2012: no required rule is violated. Advisory ones that are, with the reason:
  *   1.2   (language extension) the square root as an instruction of Arm, encapsulated in square_root; without one a call would need a library
  *   8.7   (external linkage) functions are for the application, which is another translation unit
+ *   8.9   (object of one function) the numbers of a screw stand together, above all functions
  *   19.2  (union) a number's bits, for its logarithm and its sign: `memcpy` between unlike types would violate the required rule 21.15 */
 #include "@HEADER@"
 
@@ -316,7 +317,7 @@ static inline uint32_t counted_faults(uint32_t ticks, uint32_t faults)
     uint32_t counted = 0u;
 
     if ((faults & ~EPAS_GEAR_BEYOND_MODEL) != 0u) {
-        counted = (ticks < 0xFFFFFFFFu) ? (ticks + 1u) : ticks;
+        counted = ticks + ((ticks == 0xFFFFFFFFu) ? 0u : 1u);
     }
     return counted;
 }

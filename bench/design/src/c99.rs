@@ -3,6 +3,7 @@
 //! No number is computed in C that the crate folds: the block's constants are those of `CagedConstants`, the elements' and the coefficient law's
 //! those of their constructors. Floats are written as hexadecimal ones, which are exact.
 
+use std::f32::consts::TAU;
 use std::fmt::Write as _;
 
 use epas_friction::Error;
@@ -38,55 +39,39 @@ pub struct Files {
     pub source: String,
 }
 
-/// A screw in C99: what was folded, as lines of a comment; its name, in small letters, with which every function begins and which the files
-/// have; its block and its memory.
+/// A screw in C99: what was folded, as lines of a comment; the name with which every function begins, in small letters, and that of both files
+/// without an ending; its block and its memory.
 ///
 /// # Errors
 /// [`Error`] naming a field of the block or of the law that the crate refuses.
 pub fn files<const NODES: usize>(
     summary: &[String],
-    name: &str,
+    [name, stem]: [&str; 2],
     block: &CagedBallScrewConfiguration<NODES>,
     memory: &Memory,
 ) -> Result<Files, Error> {
     CagedConstants::new(block)?;
-    let mut comment = String::new();
-    for line in summary {
-        let _ = writeln!(comment, " * {}", line.replace("*/", "* /"));
-    }
+    let comment: Vec<_> = summary.iter().map(|line| format!(" * {line}")).collect();
     let (least, largest) = block.law.friction_range();
-    let header = filled(
-        HEADER,
-        name,
-        &[
-            ("@SUMMARY@", comment.trim_end()),
-            ("@LEAST@", &hex(least)),
-            ("@LARGEST@", &hex(largest)),
-            ("@FRICTION@", &block.friction.to_string()),
-        ],
-    );
     let numbers = numbers(block, memory)?;
-    let source = filled(
-        SOURCE,
-        name,
-        &[
-            ("@HEADER@", &format!("{name}.h")),
-            ("@NODES@", &NODES.to_string()),
-            ("@BLOCK@", numbers.trim_end()),
-        ],
-    );
+    let places = [
+        ("@SUMMARY@", comment.join("\n")),
+        ("@LEAST@", hex(least)),
+        ("@LARGEST@", hex(largest)),
+        ("@FRICTION@", block.friction.to_string()),
+        ("@HEADER@", format!("{stem}.h")),
+        ("@NODES@", NODES.to_string()),
+        ("@BLOCK@", numbers.trim_end().to_owned()),
+        ("epas_gear", name.to_owned()),
+        ("EPAS_GEAR", name.to_ascii_uppercase()),
+    ];
+    let [header, source] = [HEADER, SOURCE].map(|template| {
+        let text = template.to_owned();
+        places
+            .iter()
+            .fold(text, |text, (place, with)| text.replace(place, with))
+    });
     Ok(Files { header, source })
-}
-
-/// A template with a screw's name and numbers.
-fn filled(template: &str, name: &str, places: &[(&str, &str)]) -> String {
-    places
-        .iter()
-        .fold(template.to_owned(), |text, (place, with)| {
-            text.replace(place, with)
-        })
-        .replace("epas_gear", name)
-        .replace("EPAS_GEAR", &name.to_ascii_uppercase())
 }
 
 /// The constants as definitions, and the tables of nodes and elements.
@@ -96,6 +81,7 @@ fn numbers<const NODES: usize>(
 ) -> Result<String, Error> {
     let law = &block.law;
     let balls = f32::from(block.loaded_balls);
+    let reversal = block.reversal_speed;
     let CoefficientParameters {
         boundary,
         full_film,
@@ -109,71 +95,41 @@ fn numbers<const NODES: usize>(
     let [least_log2, most_log2] = law.ends;
     let mut text = String::new();
     for (name, number, what) in [
-        (
-            "FRICTION",
-            block.friction,
-            "friction coefficient before it is set",
-        ),
-        (
-            "LEAST_LOG2",
-            least_log2,
-            "least and largest biased logarithm of a ball's load",
-        ),
-        ("MOST_LOG2", most_log2, ""),
+        ("FRICTION", block.friction, "before it is set"),
+        ("LEAST_LOG2", least_log2, "of a ball's load, biased"),
+        ("MOST_LOG2", most_log2, "of a ball's load, biased"),
         (
             "SHIFTED_FROM",
             law.shifted_from,
-            "that from which on loads are shifted between nodes",
+            "the same, from which on nodes differ",
         ),
-        ("PER_BALL", 1.0 / balls, "1 over the number of loaded balls"),
+        ("PER_BALL", 1.0 / balls, "1 over loaded balls"),
         ("LIFT_OFF", balls * law.lift_off, "N, of all balls"),
-        (
-            "REDUCED_LEAD",
-            block.lead / std::f32::consts::TAU,
-            "m, lead over 2 pi",
-        ),
-        (
-            "REVERSAL_SPEED",
-            block.reversal_speed,
-            "rad/s, and its square",
-        ),
-        (
-            "REVERSAL_SQUARED",
-            block.reversal_speed * block.reversal_speed,
-            "",
-        ),
+        ("REDUCED_LEAD", block.lead / TAU, "m, over 2 pi"),
+        ("REVERSAL_SPEED", reversal, "rad/s"),
+        ("REVERSAL_SQUARED", reversal * reversal, "its square"),
         ("SPEED_LIMIT", block.limits.nut_speed, "rad/s"),
         ("LOAD_LIMIT", block.limits.axial_load, "N"),
         ("TORQUE_LIMIT", block.limits.friction_torque, "N m"),
-        (
-            "BOUNDARY",
-            boundary,
-            "friction coefficients at standstill and on a full film",
-        ),
-        ("FULL_FILM", full_film, ""),
-        (
-            "SCALE",
-            scale,
-            "of the half-share speed's fifth root by temperature",
-        ),
+        ("BOUNDARY", boundary, "friction coefficient at standstill"),
+        ("FULL_FILM", full_film, "friction coefficient at high speed"),
+        ("SCALE", scale, "1/K, of the half-share speed"),
         ("POLE", pole, "K"),
-        ("COLDEST", coldest, ""),
-        ("WARMEST", warmest, ""),
+        ("COLDEST", coldest, "temperature above the pole, scaled"),
+        ("WARMEST", warmest, "temperature above the pole, scaled"),
         ("CHURNING", churning, "N m"),
-        ("FLUIDITY", fluidity, ""),
+        ("FLUIDITY", fluidity, "of the drag, at the reference"),
         ("DRAG_TORQUE", drag.torque, "N m at 1 Pa s, 1 rad/s, 1 N"),
-        ("DRAG_HEATING", drag.heating, ""),
+        ("DRAG_HEATING", drag.heating, "at 1 Pa s, 1 rad/s"),
     ] {
-        let meaning = if what.is_empty() {
-            String::new()
-        } else {
-            format!(", {what}")
-        };
-        let _ = writeln!(
-            text,
-            "#define {name} {} /* {number}{meaning} */",
-            hex(number)
-        );
+        // One node is not shifted.
+        if NODES > 1 || name != "SHIFTED_FROM" {
+            let _ = writeln!(
+                text,
+                "#define {name} {} /* {number}, {what} */",
+                hex(number)
+            );
+        }
     }
     let [rates, shares] = memory.elements.numbers();
     for (name, of) in [
@@ -189,13 +145,13 @@ fn numbers<const NODES: usize>(
     }
     let _ = writeln!(text, "\nstatic const node_t nodes[NODES] = {{");
     for node in &law.nodes {
-        text.push_str(&self::node(node));
+        text.push_str(&node_of(node));
     }
     text.push_str("};\n");
     Ok(text)
 }
 
-fn node(node: &FrictionNode) -> String {
+fn node_of(node: &FrictionNode) -> String {
     let curves: String = node.curves.iter().map(curve).collect();
     format!(
         "    {{\n        {}, /* {} */\n        {},\n        {{\n{curves}        }},\n        {{\n{}        }},\n    }},\n",

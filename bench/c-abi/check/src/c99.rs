@@ -13,14 +13,14 @@ use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
     WithMemoryInputs,
 };
-use epas_friction::{Error, FrictionModel, Inputs, Outputs};
+use epas_friction::{Error, FrictionModel, Inputs};
 
 use crate::cases::{Numbers, Words as _};
 use crate::gears;
 use crate::outcome::Outcome;
 use crate::setups;
-use crate::target::{compiler, run_in_qemu};
-use crate::tools::{WARNINGS, run};
+use crate::target::{compiler, flash_alone, run_in_qemu};
+use crate::tools::{WARNINGS, run, run_to_end};
 
 #[path = "../../../design/src/c99.rs"]
 mod generator;
@@ -275,7 +275,12 @@ fn written<const NODES: usize>(root: &Path, name: &str, words: &[u32]) -> Outcom
         elements: setups::elements()?,
         law: setups::law_of(0.12, 0.05)?,
     };
-    let files = generator::files(&["A gear of the tests.".into()], "rack", &block, &memory)?;
+    let files = generator::files(
+        &["A gear of the tests.".into()],
+        ["rack", "rack"],
+        &block,
+        &memory,
+    )?;
     fs::write(folder.join("rack.h"), files.header)?;
     fs::write(folder.join("rack.c"), files.source)?;
     let mut screw = Screw::new(block)?;
@@ -390,15 +395,124 @@ fn on_target(root: &Path, folder: &Path) -> Outcome<String> {
     tick("-O2 -ffp-contract=off")
 }
 
-/// Checks both gears.
-pub fn check(root: &Path, host_only: bool) -> Outcome<()> {
-    for folder in gears_of(root)? {
-        on_host(root, &folder)?;
-        if !host_only {
-            print!("{}", on_target(root, &folder)?);
+/// Advisory rules of MISRA C:2012 that the file's head says it violates; no required one is among them.
+const DEVIATIONS: [&str; 3] = ["8.7", "8.9", "19.2"];
+
+/// What cppcheck finds beyond the deviations, and whether the head names each.
+fn misra(folder: &Path) -> Outcome<()> {
+    let head = fs::read_to_string(folder.join("rack.c"))?;
+    let (_, said) = run_to_end(
+        Command::new("cppcheck")
+            .args([
+                "--std=c99",
+                "--addon=misra",
+                "--enable=warning,style,performance,portability",
+            ])
+            .args(["--suppress=unusedStructMember", "--quiet"])
+            .arg(folder.join("rack.c")),
+    )?;
+    for line in said.lines().filter(|line| line.contains("rack.")) {
+        let deviates = DEVIATIONS.iter().any(|rule| {
+            line.ends_with(&format!("[misra-c2012-{rule}]"))
+                && head.contains(&format!("\n *   {rule} "))
+        });
+        if !deviates {
+            return Err(format!("cppcheck: {line}").into());
         }
     }
-    println!("C99: {} ticks have the bits of the crate", 2 * TICKS);
+    if said.contains("[misra-c2012-19.2]") {
+        Ok(())
+    } else {
+        Err(format!(
+            "cppcheck finds no deviation, not even that of the union: did the addon run?\n{said}"
+        )
+        .into())
+    }
+}
+
+/// A whole number of the function or the scene with a name in `bench/target.json`.
+fn in_rust(root: &Path, name: &str, key: &str) -> Outcome<u32> {
+    let text = fs::read_to_string(root.join("../target.json"))?;
+    let after = |text: &str, what: &str| Some(text.split_once(what)?.1.to_owned());
+    let found = after(&text, &format!("\"name\": \"{name}\""))
+        .and_then(|rest| after(&rest, &format!("\"{key}\": ")))
+        .and_then(|rest| rest.split([',', '\n']).next()?.parse().ok());
+    Ok(found.ok_or(format!("target.json has no {key} of {name}"))?)
+}
+
+/// Prints what the target says of the C file beside the same of Rust, and refuses more than a few times that.
+fn beside(root: &Path, said: &str, step: &str, scene: Option<&str>) -> Outcome<()> {
+    let mut figures = vec![
+        ("step", step, "instructions_max", 1.2),
+        ("memory_step", "step_caged_law", "instructions_max", 1.2),
+        ("memory_between", "between_caged", "instructions_max", 1.2),
+        ("memory_ram", "caged_with_memory", "ram", 1.3),
+        ("ram", "caged_ball_screw", "ram", 1.3),
+    ];
+    figures.extend(scene.map(|scene| ("flash", scene, "flash_beyond_empty", 1.3)));
+    for (figure, name, key, most) in figures {
+        let mut lines = said.lines();
+        let found =
+            lines.find_map(|line| line.strip_prefix(figure)?.strip_prefix(' ')?.parse().ok());
+        let found: u32 = found.ok_or(format!("no {figure}: {said}"))?;
+        let known = in_rust(root, name, key)?;
+        let ratio = found as f32 / known as f32;
+        println!("C99, {figure}: {found}, {ratio:.2} times {key} of {name} in Rust ({known})");
+        if ratio > most {
+            return Err(format!(
+                "{figure}: {found} is more than {most} times that of Rust, {known}"
+            )
+            .into());
+        }
+    }
+    Ok(())
+}
+
+/// Flash of block and step alone, bytes.
+fn flash(folder: &Path) -> Outcome<u32> {
+    let image = folder.join("step.elf");
+    run(compiler()
+        .args([
+            "-std=c99",
+            "-O2",
+            "-ffp-contract=off",
+            "-nostdlib",
+            "-ffunction-sections",
+            "-fdata-sections",
+        ])
+        .args([
+            "-Wl,--gc-sections",
+            "-Wl,--entry=0",
+            "-Wl,--undefined=rack_init",
+            "-Wl,--undefined=rack_step",
+        ])
+        .arg(folder.join("rack.c"))
+        .arg("-o")
+        .arg(&image))?;
+    flash_alone(&image)
+}
+
+/// Checks both gears.
+pub fn check(root: &Path, host_only: bool) -> Outcome<()> {
+    let [one, range] = gears_of(root)?;
+    for folder in [&one, &range] {
+        misra(folder)?;
+        on_host(root, folder)?;
+    }
+    println!(
+        "C99: {} ticks have the bits of the crate on the host",
+        2 * TICKS
+    );
+    if host_only {
+        return Ok(());
+    }
+    let said = on_target(root, &one)? + &format!("flash {}\n", flash(&one)?);
+    beside(root, &said, "step_caged", Some("caged_ball_screw"))?;
+    beside(root, &on_target(root, &range)?, "step_caged_range", None)?;
+    println!(
+        "C99: {} ticks have the bits of the crate on the target",
+        2 * TICKS
+    );
     Ok(())
 }
 

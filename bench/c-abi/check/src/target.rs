@@ -215,7 +215,7 @@ fn link_part(archive: &Path, out: &Path, part: &str, functions: &[&str]) -> Outc
 }
 
 /// Code and constants, bytes. The library has no data of its own, initialised or not.
-fn flash_alone(image: &Path) -> Outcome<u32> {
+pub fn flash_alone(image: &Path) -> Outcome<u32> {
     let listed = run(Command::new("arm-none-eabi-size").arg("-A").arg(image))?;
     let mut flash = 0;
     for line in listed.lines() {

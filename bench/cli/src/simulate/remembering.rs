@@ -149,7 +149,7 @@ where
 }
 
 /// Elements of a design under a load, N.
-fn by_design(caged: &CagedDesign, mean_load: f32) -> Result<Remembered, Error> {
+pub fn by_design(caged: &CagedDesign, mean_load: f32) -> Result<Remembered, Error> {
     let CagedDesign {
         ref design,
         friction,
