@@ -523,17 +523,16 @@ static inline float held_after(float held, float rate, float turn, float low, fl
     return (force < low) ? low : force;
 }
 
-/* `Elements::follow` of `ProportionalElements` */
+/* `Elements::follow` of `ProportionalElements`; a turn is within the sensors' largest */
 static inline float elements_follow(float held[EPAS_GEAR_ELEMENTS], float turn, float low, float high)
 {
-    const float moved = (size_of(turn) < 1048576.0f) ? turn : 0.0f;
-    const float base = held_after(held[0], rates[0], moved, low, high);
+    const float base = held_after(held[0], rates[0], turn, low, high);
     float friction = -0.0f; /* its sum with any number is that number */
     uint32_t element;
 
     held[0] = base;
     for (element = 1u; element < EPAS_GEAR_ELEMENTS; element++) {
-        held[element] = held_after(held[element], rates[element], moved, low, high);
+        held[element] = held_after(held[element], rates[element], turn, low, high);
         friction += shares[element] * (held[element] - base);
     }
     return base + friction;

@@ -28,19 +28,16 @@ mod generator;
 /// Ticks of each of the two gears.
 const TICKS: usize = 50_000;
 
-/// Of `epas_outputs_t`, drag, and what was set.
 const SEED: u32 = 0x2026_0099;
 
 const NAN: f32 = f32::NAN;
 
-/// Fields of `rack_sensors_t`, and with each of them out of its range.
+/// Fields of `rack_sensors_t`: sound ones, and then each out of its range.
+#[rustfmt::skip]
 const SENSORS: [(u32, [f32; 8]); 13] = [
-    (
-        16384,
-        [1.533_981e-4, 1.2, 1e-4, 0.01, 0.09, 313.15, 10.0, 60.0],
-    ),
+    (16384, [1.533_981e-4, 1.2, 1e-4, 0.01, 0.09, 313.15, 10.0, 60.0]),
     (0, [-2e-3, 0.5, 0.0, 0.0, 0.5, 280.0, 0.0, 1e-3]),
-    (5, [0.01, 0.025, 5e-3, 0.02, 1e-6, 500.0, 1.0, 7.0]),
+    (5, [0.01, 0.024, 5e-3, 0.02, 1e-6, 500.0, 1.0, 7.0]),
     (1, [0.01, 0.005, 0.0, 0.0, 1.0, 300.0, 1.0, 1.0]),
     (5, [NAN, 0.02, 0.0, 0.0, 1.0, 300.0, 1.0, 1.0]),
     (5, [0.0, 0.02, 0.0, 0.0, 1.0, 300.0, 1.0, 1.0]),
@@ -51,6 +48,12 @@ const SENSORS: [(u32, [f32; 8]); 13] = [
     (5, [0.01, 0.02, 0.0, 0.0, 1.0, 20.0, 1.0, 1.0]),
     (5, [0.01, 0.02, 0.0, 0.0, 1.0, 300.0, 1e5, 1.0]),
     (5, [0.01, 0.02, 0.0, 0.0, 1.0, 300.0, 1.0, f32::INFINITY]),
+];
+
+/// Numbers that an input may be now and then; the last two are the reversal speed of the gears and the drag's largest speed.
+#[rustfmt::skip]
+const SPECIALS: [f32; 10] = [
+    NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, -0.0, 4e-43, -f32::MIN_POSITIVE, f32::MAX, 0.5, 60.0,
 ];
 
 type Remembering<const NODES: usize> = WithMemory<
@@ -126,23 +129,13 @@ impl<const NODES: usize> Screw<NODES> {
 
     /// A number up to a little more than a bound, of any size and sign; now and then a special one, or any bits.
     fn quantity(&mut self, bound: f32) -> f32 {
-        let specials = [
-            NAN,
-            f32::INFINITY,
-            f32::NEG_INFINITY,
-            0.0,
-            -0.0,
-            4e-43,
-            -f32::MIN_POSITIVE,
-            f32::MAX,
-            bound,
-        ];
         let special = self.numbers.below(64) as usize;
         let size = 0.5_f32.powi(self.numbers.below(16) as i32);
         let any = f32::from_bits(self.numbers.word());
-        match specials.get(special) {
+        match SPECIALS.get(special) {
             Some(&special) => special,
             None if special == 63 => any,
+            None if special == 62 => bound,
             None => size * self.numbers.within(-1.1 * bound, 1.1 * bound),
         }
     }
@@ -158,7 +151,7 @@ impl<const NODES: usize> Screw<NODES> {
         };
         self.count = (i64::from(self.count) + ahead).rem_euclid(period) as u32;
         if self.seldom(64) {
-            u32::MAX
+            self.period
         } else {
             self.count
         }
@@ -167,19 +160,17 @@ impl<const NODES: usize> Screw<NODES> {
     /// What is set now and then, with its numbers, and whether it was.
     fn set(&mut self) -> [u32; 4] {
         let what = self.numbers.below(128);
-        let (first, second) = (
-            self.numbers.within(0.02, 0.6),
-            self.numbers.within(0.02, 0.2),
-        );
+        let [first, second] = [0.6; 2].map(|most| self.numbers.within(0.02, most));
         let done = |what, first: f32, second: f32, done: bool| {
             [what, first.to_bits(), second.to_bits(), done.into()]
         };
         match what {
             0..4 => {
-                let friction = if what == 0 {
-                    self.quantity(0.1)
-                } else {
-                    0.3 * first
+                let node = self.numbers.below(NODES as u32) as usize;
+                let friction = match what {
+                    0 => self.quantity(0.1),
+                    1 => self.block.law.nodes[node].friction,
+                    _ => 0.3 * first,
                 };
                 done(1, friction, 0.0, self.caged.set_friction(friction).is_ok())
             }
