@@ -31,9 +31,8 @@ use made::Made;
 /// .bin (each word with its least significant byte first, for a calibration page). --format without --output prints the block, and the
 /// certificate to standard error.
 ///
-/// --output gear.c writes C99, the header gear.h beside it: the block as constants, and with it the step of a caged screw, its coefficient in a range, and
-/// friction that remembers, with the bits of the Rust crate and without a library: for processors without a Rust compiler. Its memory is by the
-/// design, or by the table [calibration] of its file. A screw without cage is refused there.
+/// --output gear.c writes C99 for processors without a Rust compiler, and gear.h beside it: constants, step and memory of a caged screw, with the
+/// bits of the Rust crate. The memory is by the design, or by the table [calibration] of its file. A screw without cage is refused.
 ///
 /// --new gear.toml writes a design file to start from. A design file may say the domain in a table [fold]: friction (a number, or [least, most]
 /// for coefficients that change while firmware runs; the design's without), axial_load ([least, most] of a ball, N; [5, 300] without),

@@ -1,5 +1,5 @@
 /* Friction of one ball screw with a cage or spacer balls, in C99: the block that follows from its drawing, the step of a control
- * interrupt, and friction that remembers. Written by `epas design --format c99`; not to be edited, but written anew.
+ * interrupt, and friction that remembers. Written by `epas design --format c99`.
  *
 @SUMMARY@
  *

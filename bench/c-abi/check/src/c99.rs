@@ -2,7 +2,7 @@
 //! the arithmetic, MISRA, and what it costs beside Rust.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
 use epas_friction::law::FrictionLevel;
@@ -19,7 +19,7 @@ use crate::cases::{Numbers, Words as _};
 use crate::gears;
 use crate::outcome::Outcome;
 use crate::setups;
-use crate::target::{compiler, flash_alone, run_in_qemu};
+use crate::target::{flash_alone, run_in_qemu};
 use crate::tools::{WARNINGS, run, run_to_end};
 
 #[path = "../../../design/src/c99.rs"]
@@ -258,8 +258,12 @@ fn float(number: f32) -> String {
 }
 
 /// Writes a gear, and the ticks that are expected of it; its folder.
-fn written<const NODES: usize>(root: &Path, name: &str, words: &[u32]) -> Outcome<PathBuf> {
-    let folder = root.join("target/c/c99").join(name);
+fn written<const NODES: usize>(
+    root: &Path,
+    name: &'static str,
+    words: &[u32],
+) -> Outcome<&'static str> {
+    let folder = root.join(name);
     fs::create_dir_all(&folder)?;
     let block = CagedBallScrewConfiguration::<NODES>::read(words)?;
     let memory = generator::Memory {
@@ -290,100 +294,70 @@ fn written<const NODES: usize>(root: &Path, name: &str, words: &[u32]) -> Outcom
             sensors.join(", ")
         ),
     )?;
-    Ok(folder)
+    Ok(name)
 }
 
-/// A C compiler of the host or of the target, with what it needs to make the test of a gear.
-fn compile(
-    root: &Path,
-    mut command: Command,
-    folder: &Path,
-    flags: &[&str],
-    image: &Path,
-) -> Outcome<()> {
-    run(command
-        .args(["-std=c99", "-pedantic"])
-        .args(WARNINGS)
-        .arg("-I")
-        .arg(folder)
-        .arg(folder.join("rack.c"))
-        .arg(root.join("test/c99.c"))
-        .arg("-o")
-        .arg(image)
-        .args(flags))?;
+/// Runs a compiler in the root, with its warnings as errors.
+fn compile(root: &Path, line: &str) -> Outcome<()> {
+    let mut words = line.split_whitespace();
+    let compiler = words.next().unwrap_or_default();
+    let mut command = Command::new(compiler);
+    run(command.current_dir(root).args(WARNINGS).args(words))?;
     Ok(())
 }
 
-/// Ticks on the host with every compiler at every level, and flags under which the file's own check has to fail.
-fn on_host(root: &Path, folder: &Path) -> Outcome<()> {
-    let image = folder.join("host");
-    for name in ["gcc", "clang"] {
-        for level in ["-O0", "-O2", "-O3", "-O2 -DEPAS_PLAIN_C99"] {
-            let flags: Vec<_> = level
-                .split(' ')
-                .chain(["-ffp-contract=off", "-lm"])
-                .collect();
-            compile(root, Command::new(name), folder, &flags, &image)?;
-            run(&mut Command::new(&image)).map_err(|error| format!("{name} {level}: {error}"))?;
+/// Levels of optimisation, and flags under which the file's own check of the arithmetic has to fail.
+const SOUND: [&str; 4] = ["-O0", "-O2", "-O3", "-O2 -DEPAS_PLAIN_C99"];
+const UNSOUND: [&str; 3] = ["-O2 -ffp-contract=fast", "-O2 -DFLUSH", "-O2 -ffast-math"];
+
+/// The ticks of a gear with every compiler at every level, by a function that compiles with a compiler and flags, and runs.
+fn with_all_flags(sound: &[&str], ran: impl Fn(&str, &str) -> Outcome<String>) -> Outcome<()> {
+    for compiler in ["gcc", "clang"] {
+        for flags in sound {
+            ran(compiler, &format!("-ffp-contract=off {flags}"))
+                .map_err(|error| format!("{compiler} {flags}: {error}"))?;
         }
-        for wrong in [
-            "-ffp-contract=fast -mfma",
-            "-ffp-contract=off -DFLUSH",
-            "-ffast-math",
-        ] {
-            let flags: Vec<_> = wrong.split(' ').chain(["-O2", "-lm"]).collect();
-            compile(root, Command::new(name), folder, &flags, &image)?;
-            unsound(run(&mut Command::new(&image)), &format!("{name} {wrong}"))?;
+        for flags in UNSOUND {
+            let error = ran(compiler, &format!("-ffp-contract=off {flags}")).err();
+            if !error.is_some_and(|error| error.to_string().contains("arithmetic is not sound")) {
+                return Err(format!("{compiler} {flags}: the file does not find it out").into());
+            }
         }
     }
     Ok(())
 }
 
-/// Sees that a program has refused its arithmetic.
-fn unsound(ran: Outcome<String>, flags: &str) -> Outcome<()> {
-    match ran {
-        Err(error) if error.to_string().contains("arithmetic is not sound") => Ok(()),
-        Err(error) => Err(format!("{flags}: {error}").into()),
-        Ok(_) => Err(format!("{flags}: the file's own check of the arithmetic has passed").into()),
-    }
+fn on_host(root: &Path, folder: &str) -> Outcome<()> {
+    with_all_flags(&SOUND, |compiler, flags| {
+        let files = format!("-I{folder} {folder}/rack.c test/c99.c -o {folder}/host -lm");
+        compile(root, &format!("{compiler} -std=c99 -mfma {flags} {files}"))?;
+        run(&mut Command::new(root.join(folder).join("host")))
+    })
 }
 
-/// The same on a Cortex-M4F in QEMU; what the program says of its steps at -O2.
-fn on_target(root: &Path, folder: &Path) -> Outcome<String> {
-    let image = folder.join("target.elf");
-    let firmware =
-        ["include", "test", "firmware"].map(|part| format!("-I{}", root.join(part).display()));
-    let tick = |flags: &str| -> Outcome<String> {
-        let mut command = compiler();
-        command
-            .args([
-                "-ffreestanding",
-                "-nostdlib",
-                "-ffunction-sections",
-                "-fdata-sections",
-            ])
-            .args(&firmware)
-            .args(["startup.c", "semihosting.c"].map(|file| root.join("firmware").join(file)))
-            .args(["-Wl,--gc-sections", "-Wl,-z,noexecstack", "-L"])
-            .arg(root.join("../.."))
-            .arg("-T")
-            .arg(root.join("firmware/link.ld"));
-        compile(
-            root,
-            command,
-            folder,
-            &flags.split(' ').collect::<Vec<_>>(),
-            &image,
-        )?;
-        run_in_qemu("mps2-an386", &image)
+/// On a Cortex-M4F in QEMU, the gear compiled by one compiler and the program around it by GCC; what it says.
+fn on_target(root: &Path, folder: &str, compiler: &str, flags: &str) -> Outcome<String> {
+    let core = "-std=c99 -mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -ffreestanding -ffunction-sections -fdata-sections";
+    let compiler = match compiler {
+        "gcc" => "arm-none-eabi-gcc",
+        _ => "clang --target=arm-none-eabi",
     };
-    for level in ["-O0", "-O3"] {
-        tick(&format!("{level} -ffp-contract=off"))?;
-    }
-    for wrong in ["-ffp-contract=fast", "-ffp-contract=off -DFLUSH"] {
-        unsound(tick(&format!("-O2 {wrong}")), wrong)?;
-    }
-    tick("-O2 -ffp-contract=off")
+    compile(
+        root,
+        &format!("{compiler} {core} {flags} -c {folder}/rack.c -o {folder}/rack.o"),
+    )?;
+    let program =
+        "-Iinclude -Itest -Ifirmware firmware/startup.c firmware/semihosting.c test/c99.c";
+    let linked = "-nostdlib -Wl,--gc-sections -Wl,-z,noexecstack -L../.. -Tfirmware/link.ld";
+    let gcc = format!(
+        "arm-none-eabi-gcc {core} -O2 {linked} {}",
+        flags.replace("-ffast-math", "")
+    );
+    compile(
+        root,
+        &format!("{gcc} -I{folder} {program} {folder}/rack.o -o {folder}/target.elf"),
+    )?;
+    run_in_qemu("mps2-an386", &root.join(folder).join("target.elf"))
 }
 
 /// Advisory rules of MISRA C:2012 that the file's head says it violates; no required one is among them.
@@ -460,34 +434,24 @@ fn beside(root: &Path, said: &str, step: &str, scene: Option<&str>) -> Outcome<(
 }
 
 /// Flash of block and step alone, bytes.
-fn flash(folder: &Path) -> Outcome<u32> {
-    let image = folder.join("step.elf");
-    run(compiler()
-        .args([
-            "-std=c99",
-            "-O2",
-            "-ffp-contract=off",
-            "-nostdlib",
-            "-ffunction-sections",
-            "-fdata-sections",
-        ])
-        .args([
-            "-Wl,--gc-sections",
-            "-Wl,--entry=0",
-            "-Wl,--undefined=rack_init",
-            "-Wl,--undefined=rack_step",
-        ])
-        .arg(folder.join("rack.c"))
-        .arg("-o")
-        .arg(&image))?;
-    flash_alone(&image)
+fn flash(root: &Path, folder: &str) -> Outcome<u32> {
+    let alone = "-nostdlib -Wl,--gc-sections -Wl,--entry=0 -Wl,--undefined=rack_init -Wl,--undefined=rack_step";
+    let core = "-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16";
+    compile(
+        root,
+        &format!("arm-none-eabi-gcc {core} {alone} {folder}/rack.o -o {folder}/step.elf"),
+    )?;
+    flash_alone(&root.join(folder).join("step.elf"))
 }
 
 /// Checks both gears.
 pub fn check(root: &Path, host_only: bool) -> Outcome<()> {
-    let [one, range] = gears_of(root)?;
-    for folder in [&one, &range] {
-        misra(folder)?;
+    let [one, range] = [
+        written::<1>(root, "target/c/c99/one", gears::GEAR_33X20)?,
+        written::<5>(root, "target/c/c99/range", gears::GEAR_33X20_RANGE)?,
+    ];
+    for folder in [one, range] {
+        misra(&root.join(folder))?;
         on_host(root, folder)?;
     }
     println!(
@@ -497,19 +461,22 @@ pub fn check(root: &Path, host_only: bool) -> Outcome<()> {
     if host_only {
         return Ok(());
     }
-    let said = on_target(root, &one)? + &format!("flash {}\n", flash(&one)?);
-    beside(root, &said, "step_caged", Some("caged_ball_screw"))?;
-    beside(root, &on_target(root, &range)?, "step_caged_range", None)?;
+    for (folder, step, scene) in [
+        (one, "step_caged", Some("caged_ball_screw")),
+        (range, "step_caged_range", None),
+    ] {
+        with_all_flags(&SOUND[..3], |compiler, flags| on_target(root, folder, compiler, flags))?;
+        let said = on_target(root, folder, "gcc", "-O2 -ffp-contract=off")?;
+        beside(
+            root,
+            &format!("{said}flash {}\n", flash(root, folder)?),
+            step,
+            scene,
+        )?;
+    }
     println!(
         "C99: {} ticks have the bits of the crate on the target",
         2 * TICKS
     );
     Ok(())
-}
-
-fn gears_of(root: &Path) -> Outcome<[PathBuf; 2]> {
-    Ok([
-        written::<1>(root, "one", gears::GEAR_33X20)?,
-        written::<5>(root, "range", gears::GEAR_33X20_RANGE)?,
-    ])
 }

@@ -194,7 +194,7 @@ fn no_panic_path(archive: &Path) -> Outcome<()> {
     Ok(())
 }
 
-pub fn compiler() -> Command {
+fn compiler() -> Command {
     let mut command = Command::new("arm-none-eabi-gcc");
     command.args(CORE);
     command
