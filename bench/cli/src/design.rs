@@ -1,5 +1,6 @@
 //! `design`: a ball screw solved once, on this machine, into the constants that firmware evaluates, with a certificate of their errors.
 
+mod c99;
 mod made;
 #[cfg(test)]
 mod tests;
@@ -29,6 +30,9 @@ use made::Made;
 /// The certificate is printed. --output also writes the block, in the format that the file's ending names: .rs (Rust), .h (C), .toml, or
 /// .bin (each word with its least significant byte first, for a calibration page). --format without --output prints the block, and the
 /// certificate to standard error.
+///
+/// --output gear.c writes C99 for processors without a Rust compiler, and gear.h beside it: constants, step and memory of a caged screw, with the
+/// bits of the Rust crate. The memory is by the design, or by the table [calibration] of its file. A screw without cage is refused.
 ///
 /// --new gear.toml writes a design file to start from. A design file may say the domain in a table [fold]: friction (a number, or [least, most]
 /// for coefficients that change while firmware runs; the design's without), axial_load ([least, most] of a ball, N; [5, 300] without),
@@ -103,6 +107,8 @@ pub enum Format {
     Toml,
     /// The words alone
     Binary,
+    /// A source and its header: constants, step and memory of a caged screw
+    C99,
 }
 
 impl Format {
@@ -112,6 +118,7 @@ impl Format {
             Self::C => &["h"],
             Self::Toml => &["toml"],
             Self::Binary => &["bin"],
+            Self::C99 => &["c"],
         }
     }
 }
@@ -119,6 +126,8 @@ impl Format {
 struct Target {
     format: Format,
     path: PathBuf,
+    /// Of C99, beside it.
+    header: Option<PathBuf>,
     existing: Existing,
 }
 
@@ -146,10 +155,10 @@ impl Arguments {
             formats.into_iter().find(|one| ends(&path, one.endings()))
         };
         let Some(format) = self.format.or_else(named) else {
-            refuse_ending("a block", Some(&path), &["rs", "h", "toml", "bin"])?;
+            refuse_ending("a block", Some(&path), &["rs", "h", "toml", "bin", "c"])?;
             usage(
                 ErrorKind::MissingRequiredArgument,
-                "the output's ending names no format: .rs, .h, .toml and .bin do, as does --format",
+                "the output's ending names no format: .rs, .h, .toml, .bin and .c do, as does --format",
             );
         };
         refuse_ending("a block of this format", Some(&path), format.endings())?;
@@ -165,13 +174,23 @@ impl Arguments {
                 "a terminal shows no binary block; --output names a file for it",
             );
         }
+        if format == Format::C99 && !ends(&path, format.endings()) {
+            usage(
+                ErrorKind::MissingRequiredArgument,
+                "C99 is two files, a source and its header: --output gear.c names both",
+            );
+        }
+        let header = (format == Format::C99).then(|| c99::header(&path));
         let existing = self.existing();
-        existing.check(&path)?;
+        for path in std::iter::once(&path).chain(&header) {
+            existing.check(path)?;
+        }
         let file = self.design.as_ref().and_then(DesignSource::file);
-        refuse_same([file], std::iter::once(&path))?;
+        refuse_same([file], std::iter::once(&path).chain(&header))?;
         Ok(Some(Target {
             format,
             path,
+            header,
             existing,
         }))
     }
@@ -187,6 +206,13 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let target = arguments.target()?;
     let design = source.load()?;
+    let in_c99 = target
+        .as_ref()
+        .is_some_and(|target| target.header.is_some());
+    let is_caged = design.branch.is_none() && chosen(&design.fold, arguments.scene) == Scene::Caged;
+    if in_c99 && !is_caged {
+        return Err(Failure::Data(format!("{}: {}", design.name, c99::HAS)));
+    }
     let made = made(&design, arguments.scene)?;
     let words = made.words()?.len();
     if let Some(target) = &target {
@@ -195,8 +221,19 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         } else {
             target.path.file_stem().unwrap_or_default()
         });
-        let block = made.written(target.format, &name)?;
-        write(target, &block)?;
+        if let (Some(header), Made::Caged(folded)) = (&target.header, &made) {
+            let stem = target
+                .path
+                .file_stem()
+                .unwrap_or_default()
+                .to_string_lossy();
+            let files = c99::files(folded, &design, [&name.to_ascii_lowercase(), &stem])?;
+            files::write(header, &files.header, target.existing)?;
+            files::write(&target.path, &files.source, target.existing)?;
+        } else {
+            let block = made.written(target.format, &name)?;
+            write(target, &block)?;
+        }
     }
     let mut out = told(target.iter().map(|target| &target.path));
     if arguments.json {

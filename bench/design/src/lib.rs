@@ -27,6 +27,7 @@
 //! | [`curve`] | piecewise cubics of least largest error |
 //! | [`certificate`] | errors of a folded block on states that were not fitted |
 //! | [`output`] | a block as Rust, C, TOML and bytes |
+//! | [`c99`] | a caged block as C99, with its step and its memory |
 //! | [`drawing`] | a design of the crate as one of the reference |
 //! | [`breakaway`] | initial stiffness and breakaway angle from a design: parts for the elements of a memory |
 //! | [`efficiency`] | contact angle of least loss, design procedure, inertia of the balls |
@@ -42,6 +43,7 @@
 
 pub mod breakaway;
 pub mod built_in;
+pub mod c99;
 pub mod caged;
 pub mod caged_scene;
 pub mod certificate;

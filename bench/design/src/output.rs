@@ -7,6 +7,7 @@ use std::path::Path;
 
 use epas_friction::scene::{CagedBallScrewConfiguration, FoldedBall};
 
+use crate::c99;
 use crate::caged::{Block, CagedDesign, NODES};
 use crate::uncaged::{self, UncagedBlock};
 use crate::{Failure, Folded, FoldedUncaged};
@@ -107,6 +108,20 @@ impl Folded {
     /// A C header with an array of this name.
     pub fn c(&self, name: &str) -> Result<String, Failure> {
         Ok(c(&self.summary(), name, &self.words()?))
+    }
+
+    /// C99 with step and memory, see [`c99::files`]; more lines for the comment above it.
+    pub fn c99(
+        &self,
+        names: [&str; 2],
+        memory: &c99::Memory,
+        more: &[String],
+    ) -> Result<c99::Files, Failure> {
+        let summary = [self.summary().as_slice(), more].concat();
+        Ok(match &self.block {
+            Block::One(block) => c99::files(&summary, names, block, memory),
+            Block::Range(block) => c99::files(&summary, names, block, memory),
+        }?)
     }
 
     /// TOML: the summary as comments, the words as one array.

@@ -156,6 +156,22 @@ impl CoefficientLaw {
         Self::new(&CoefficientParameters::constant(friction, viscosity))
     }
 
+    /// What [`Self::at_temperature`] computes with beside coefficients and drag, for a program in another language: scale, pole, both ends,
+    /// churning, fluidity.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn numbers(&self) -> [f32; 6] {
+        let [coldest, warmest] = self.ends;
+        [
+            self.scale,
+            self.pole,
+            coldest,
+            warmest,
+            self.churning,
+            self.fluidity,
+        ]
+    }
+
     /// Least and largest coefficient that the law gives, in either direction.
     pub const fn extremes(&self) -> (f32, f32) {
         let (low, high) = self.forward.ends();

@@ -135,6 +135,13 @@ impl<const N: usize> ProportionalElements<N> {
         self
     }
 
+    /// Stiffness over share, N m/rad (N/m), and share of each element: what `follow` computes with, for a program in another language.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn numbers(&self) -> [[f32; N]; 2] {
+        [self.rates, self.shares]
+    }
+
     /// Stiffness of each element, N m/rad (N/m): `k_i`.
     pub fn stiffnesses(&self) -> [f32; N] {
         let mut stiffnesses = self.rates;

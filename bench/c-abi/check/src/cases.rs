@@ -21,22 +21,26 @@ use crate::setups;
 const TICKS: u32 = 256;
 
 /// Numbers from 0 to 1, the same at each run (xorshift).
-struct Numbers(u32);
+pub struct Numbers(pub u32);
 
 impl Numbers {
-    fn next(&mut self) -> f32 {
+    pub fn word(&mut self) -> u32 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 17;
         self.0 ^= self.0 << 5;
-        (self.0 >> 8) as f32 / 16_777_216.0
+        self.0
     }
 
-    fn below(&mut self, most: u32) -> u32 {
+    fn next(&mut self) -> f32 {
+        (self.word() >> 8) as f32 / 16_777_216.0
+    }
+
+    pub fn below(&mut self, most: u32) -> u32 {
         self.next();
         self.0 % most
     }
 
-    fn within(&mut self, least: f32, most: f32) -> f32 {
+    pub fn within(&mut self, least: f32, most: f32) -> f32 {
         least + (most - least) * self.next()
     }
 }
@@ -108,7 +112,7 @@ where
         .collect()
 }
 
-trait Words {
+pub trait Words {
     fn words(&self) -> Vec<u32>;
 }
 

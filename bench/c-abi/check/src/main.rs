@@ -4,9 +4,11 @@
 //! ```text
 //! cargo run -p epas-c-check               # check everything
 //! cargo run -p epas-c-check -- --host     # without cross compiler and QEMU
+//! cargo run -p epas-c-check -- --c99     # only the C99 file of `epas design`
 //! cargo run -p epas-c-check -- --write    # write sizes, header and stored cases first
 //! ```
 
+mod c99;
 mod cases;
 mod gears;
 mod header;
@@ -27,17 +29,24 @@ fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let mut write = false;
     let mut host_only = false;
+    let mut c99_only = false;
     for argument in std::env::args().skip(1) {
         match argument.as_str() {
             "--write" => write = true,
             "--host" => host_only = true,
+            "--c99" => c99_only = true,
             _ => {
-                eprintln!("usage: epas-c-check [--write] [--host]");
+                eprintln!("usage: epas-c-check [--write] [--host] [--c99]");
                 return ExitCode::from(2);
             }
         }
     }
-    match run(&root, write, host_only) {
+    let ran = if c99_only {
+        c99::check(&root, host_only)
+    } else {
+        run(&root, write, host_only)
+    };
+    match ran {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             eprintln!("error: {error}");
@@ -58,6 +67,7 @@ fn run(root: &Path, write: bool, host_only: bool) -> Outcome<()> {
     up_to_date(root, "test/stored.h", &stored, write)?;
     cases::told(root, &stored)?;
     host::check(root)?;
+    c99::check(root, host_only)?;
     if !host_only {
         target::check(root)?;
     }

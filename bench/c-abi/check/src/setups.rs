@@ -85,9 +85,14 @@ pub const TURN_PER_COUNT: f32 = 1.533_981e-4;
 
 /// The gear's friction coefficient by speed and temperature, with this one at standstill.
 pub fn law(boundary: f32) -> Result<CoefficientLaw, Error> {
-    CoefficientLaw::new(&CoefficientParameters {
+    CoefficientLaw::new(&law_of(boundary, 0.05)?)
+}
+
+/// The same with this coefficient on a full film.
+pub fn law_of(boundary: f32, full_film: f32) -> Result<CoefficientParameters, Error> {
+    Ok(CoefficientParameters {
         boundary,
-        full_film: 0.05,
+        full_film,
         half_share_speed: 4.9,
         reference_temperature: 293.15,
         viscosity: Viscosity::of_oil(&OilData {
@@ -122,8 +127,8 @@ const SLIP_SHARE: f32 = 0.3717;
 const SLIP_ANGLE: f32 = 23.5e-3;
 const SPIN_ANGLE: f32 = 0.3017e-3;
 
-fn remembering(block: &[u32]) -> Result<RememberingConfiguration, Error> {
-    let scene = CagedBallScrewConfiguration::read(block)?;
+/// Elements of the gear.
+pub fn elements() -> Result<ProportionalElements<8>, Error> {
     let slip = Part {
         backbone: &SLIP_4.elements,
         share: SLIP_SHARE,
@@ -134,7 +139,12 @@ fn remembering(block: &[u32]) -> Result<RememberingConfiguration, Error> {
         share: 1.0 - SLIP_SHARE,
         breakaway_angle: SPIN_ANGLE,
     };
-    let elements = ProportionalElements::<8>::new(REFERENCE_TORQUE, &[slip, spin])?;
+    ProportionalElements::new(REFERENCE_TORQUE, &[slip, spin])
+}
+
+fn remembering(block: &[u32]) -> Result<RememberingConfiguration, Error> {
+    let scene = CagedBallScrewConfiguration::read(block)?;
+    let elements = elements()?;
     let counts = CountSensor::new(CountSensorParameters {
         period: 16_384,
         turn_per_count: TURN_PER_COUNT,

@@ -215,7 +215,7 @@ fn link_part(archive: &Path, out: &Path, part: &str, functions: &[&str]) -> Outc
 }
 
 /// Code and constants, bytes. The library has no data of its own, initialised or not.
-fn flash_alone(image: &Path) -> Outcome<u32> {
+pub fn flash_alone(image: &Path) -> Outcome<u32> {
     let listed = run(Command::new("arm-none-eabi-size").arg("-A").arg(image))?;
     let mut flash = 0;
     for line in listed.lines() {
@@ -286,7 +286,7 @@ fn nothing_unwanted(image: &Path) -> Outcome<()> {
 }
 
 /// What the program says; it ends the machine with its result. Semihosting speaks where errors are printed.
-fn run_in_qemu(machine: &str, image: &Path) -> Outcome<String> {
+pub fn run_in_qemu(machine: &str, image: &Path) -> Outcome<String> {
     if Command::new("qemu-system-arm")
         .arg("--version")
         .output()

@@ -36,7 +36,7 @@ pub fn run_to_end(command: &mut Command) -> Outcome<(String, String)> {
     let output = command.output().map_err(|error| match error.kind() {
         ErrorKind::NotFound => format!(
             "{name} is not there. On Debian or Ubuntu: apt-get install build-essential \
-             gcc-arm-none-eabi qemu-system-arm. Without the last two: --host"
+             gcc-arm-none-eabi qemu-system-arm clang cppcheck. Without cross compiler and QEMU: --host"
         ),
         _ => format!("{name}: {error}"),
     })?;

@@ -61,6 +61,8 @@ impl Made {
 
     pub fn written(&self, format: Format, name: &str) -> Result<Vec<u8>, Failure> {
         let text = match (self, format) {
+            // Two files, which `c99::files` makes of a caged screw.
+            (_, Format::C99) => return Err(Failure::Data(super::c99::HAS.into())),
             (Self::Caged(folded), Format::Rust) => folded.rust(name),
             (Self::Caged(folded), Format::C) => folded.c(name),
             (Self::Caged(folded), Format::Toml) => folded.toml(),
@@ -251,6 +253,16 @@ impl Made {
                         out,
                         "    #include \"{file}\"    /* {name}_BLOCK, {words} words: what CagedConstants::<{nodes}>::from_block takes */"
                     ),
+                    Format::C99 => {
+                        let name = name.to_ascii_lowercase();
+                        let header = file.trim_end_matches(".c");
+                        writeln!(
+                            out,
+                            "    #include \"{header}.h\"    /* compile {file} with -ffp-contract=off */\n    static {name}_t model;\n    \
+                             {name}_init(&model);    /* once, where {name}_arithmetic_is_sound() */\n    \
+                             {name}_step(&model, nut_speed, axial_load, &outputs);"
+                        )
+                    }
                     Format::Toml | Format::Binary => writeln!(
                         out,
                         "    let constants = CagedConstants::<{nodes}>::from_block(&words)?;    // {words} words\n    \
@@ -269,7 +281,7 @@ impl Made {
                         out,
                         "    #include \"{file}\"    /* {name}_BLOCK, {words} words: what FoldedBall::<{nodes}>::read takes */"
                     ),
-                    Format::Toml | Format::Binary => writeln!(
+                    Format::Toml | Format::Binary | Format::C99 => writeln!(
                         out,
                         "    let folded = FoldedBall::<{nodes}>::read(&words)?;    // {words} words: the field `folded` of an \
                          UncagedBallScrewConfiguration<{nodes}>"

@@ -148,7 +148,8 @@ where
     )?))
 }
 
-fn by_design(caged: &CagedDesign, mean_load: f32) -> Result<Remembered, Error> {
+/// Elements of a design under a load, N.
+pub fn by_design(caged: &CagedDesign, mean_load: f32) -> Result<Remembered, Error> {
     let CagedDesign {
         ref design,
         friction,

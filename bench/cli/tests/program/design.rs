@@ -152,6 +152,12 @@ fn outputs_of_a_block_are_safe() {
         ("screw.toml --output - --format c --json", 2, "--output"),
         ("screw.toml --force", 2, "--output"),
         ("screw.toml --format pdf", 2, "binary"),
+        ("screw.toml --format c99", 2, "gear.c"),
+        (
+            "screw.toml --scene uncaged --output gear.c",
+            1,
+            "static library",
+        ),
         ("33x20x6.35", 2, "simulate --list"),
     ] {
         let run = design(folder, arguments);
@@ -174,6 +180,45 @@ fn outputs_of_a_block_are_safe() {
         "{text}"
     );
     CagedConstants::<1>::from_block(&words(&text)).unwrap();
+}
+
+/// A source and the header that it includes, of a caged screw with its memory.
+#[test]
+fn c99_is_a_source_and_its_header() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    let fold = "[fold]\nfriction = [0.05, 0.15]\naxial_load = [100, 120]\n";
+    fs::write(
+        folder.join("screw.toml"),
+        format!("friction = 0.1\n{DESIGN}{fold}"),
+    )
+    .unwrap();
+    fs::write(
+        folder.join("closed.toml"),
+        format!("branch = \"rolling\"\n{DESIGN}"),
+    )
+    .unwrap();
+    let run = design(folder, "closed.toml --output my-gear.c");
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    assert!(run.stderr.contains("static library"), "{}", run.stderr);
+    let run = design(folder, "screw.toml --output my-gear.c");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    assert_eq!(
+        names(folder),
+        ["closed.toml", "my-gear.c", "my-gear.h", "screw.toml"]
+    );
+    let read = |name| fs::read_to_string(folder.join(name)).unwrap();
+    let (source, header) = (read("my-gear.c"), read("my-gear.h"));
+    assert!(source.contains("#include \"my-gear.h\"") && source.contains("#define NODES 5u"));
+    assert!(
+        source.contains("0x1.111112p-6f /* 0.016666668, 1 over loaded balls */"),
+        "{source}"
+    );
+    assert!(
+        header.contains("void my_gear_step(my_gear_t *model,") && header.contains("certificate: ")
+    );
+    assert!(!source.contains('@') && !header.contains('@'));
+    assert!(run.stdout.contains("-ffp-contract=off"), "{}", run.stdout);
 }
 
 /// Each block that the program brings with it has the bits of a new fold.

@@ -1,0 +1,207 @@
+//! A caged screw as C99 with its step and its memory: the templates in `c99`, with the numbers of one screw in them.
+//!
+//! No number is computed in C that the crate folds: the block's constants are those of `CagedConstants`, the elements' and the coefficient law's
+//! those of their constructors. Floats are written as hexadecimal ones, which are exact.
+
+use std::f32::consts::TAU;
+use std::fmt::Write as _;
+
+use epas_friction::Error;
+use epas_friction::ball::folded::{FrictionNode, LoadCurve, log2_biased};
+use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters};
+use epas_friction::law::memory::ProportionalElements;
+use epas_friction::scene::{CagedBallScrewConfiguration, CagedConstants};
+
+const HEADER: &str = include_str!("../c99/gear.h");
+const SOURCE: &str = include_str!("../c99/gear.c");
+
+/// Elements of the memory in C.
+pub const ELEMENTS: usize = 8;
+
+/// Numbers in a line.
+const IN_A_LINE: usize = 4;
+
+/// What the memory of a screw follows from.
+#[derive(Clone, Copy, Debug)]
+pub struct Memory {
+    /// Its elements.
+    pub elements: ProportionalElements<ELEMENTS>,
+    /// The friction coefficient by speed, temperature and direction.
+    pub law: CoefficientParameters,
+}
+
+/// The two files of a screw.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Files {
+    /// `NAME.h`
+    pub header: String,
+    /// `NAME.c`
+    pub source: String,
+}
+
+/// A screw in C99: what was folded, as lines of a comment; the name with which every function begins, in small letters, and that of both files
+/// without an ending; its block and its memory.
+///
+/// # Errors
+/// [`Error`] naming a field of the block or of the law that the crate refuses.
+pub fn files<const NODES: usize>(
+    summary: &[String],
+    [name, stem]: [&str; 2],
+    block: &CagedBallScrewConfiguration<NODES>,
+    memory: &Memory,
+) -> Result<Files, Error> {
+    CagedConstants::new(block)?;
+    let comment: Vec<_> = summary.iter().map(|line| format!(" * {line}")).collect();
+    let (least, largest) = block.law.friction_range();
+    let numbers = numbers(block, memory)?;
+    let places = [
+        ("@SUMMARY@", comment.join("\n")),
+        ("@LEAST@", hex(least)),
+        ("@LARGEST@", hex(largest)),
+        ("@FRICTION@", block.friction.to_string()),
+        ("@HEADER@", format!("{stem}.h")),
+        ("@NODES@", NODES.to_string()),
+        ("@BLOCK@", numbers.trim_end().to_owned()),
+        ("epas_gear", name.to_owned()),
+        ("EPAS_GEAR", name.to_ascii_uppercase()),
+    ];
+    let [header, source] = [HEADER, SOURCE].map(|template| {
+        let text = template.to_owned();
+        places
+            .iter()
+            .fold(text, |text, (place, with)| text.replace(place, with))
+    });
+    Ok(Files { header, source })
+}
+
+/// The constants as definitions, and the tables of nodes and elements.
+fn numbers<const NODES: usize>(
+    block: &CagedBallScrewConfiguration<NODES>,
+    memory: &Memory,
+) -> Result<String, Error> {
+    let law = &block.law;
+    let balls = f32::from(block.loaded_balls);
+    let reversal = block.reversal_speed;
+    let CoefficientParameters {
+        boundary,
+        full_film,
+        forward,
+        backward,
+        drag,
+        ..
+    } = memory.law;
+    let [scale, pole, coldest, warmest, churning, fluidity] =
+        CoefficientLaw::new(&memory.law)?.numbers();
+    let [least_log2, most_log2] = law.ends;
+    let mut text = String::new();
+    for (name, number, what) in [
+        ("FRICTION", block.friction, "before it is set"),
+        ("LEAST_LOG2", least_log2, "of a ball's load, biased"),
+        ("MOST_LOG2", most_log2, "of a ball's load, biased"),
+        (
+            "SHIFTED_FROM",
+            law.shifted_from,
+            "the same, from which on nodes differ",
+        ),
+        ("PER_BALL", 1.0 / balls, "1 over loaded balls"),
+        ("LIFT_OFF", balls * law.lift_off, "N, of all balls"),
+        ("REDUCED_LEAD", block.lead / TAU, "m, over 2 pi"),
+        ("REVERSAL_SPEED", reversal, "rad/s"),
+        ("REVERSAL_SQUARED", reversal * reversal, "its square"),
+        ("SPEED_LIMIT", block.limits.nut_speed, "rad/s"),
+        ("LOAD_LIMIT", block.limits.axial_load, "N"),
+        ("TORQUE_LIMIT", block.limits.friction_torque, "N m"),
+        ("BOUNDARY", boundary, "friction coefficient at standstill"),
+        ("FULL_FILM", full_film, "friction coefficient at high speed"),
+        ("SCALE", scale, "1/K, of the half-share speed"),
+        ("POLE", pole, "K"),
+        ("COLDEST", coldest, "temperature above the pole, scaled"),
+        ("WARMEST", warmest, "temperature above the pole, scaled"),
+        ("CHURNING", churning, "N m"),
+        ("FLUIDITY", fluidity, "of the drag, at the reference"),
+        ("DRAG_TORQUE", drag.torque, "N m at 1 Pa s, 1 rad/s, 1 N"),
+        ("DRAG_HEATING", drag.heating, "at 1 Pa s, 1 rad/s"),
+    ] {
+        // One node is not shifted.
+        if NODES > 1 || name != "SHIFTED_FROM" {
+            let _ = writeln!(
+                text,
+                "#define {name} {} /* {number}, {what} */",
+                hex(number)
+            );
+        }
+    }
+    let [rates, shares] = memory.elements.numbers();
+    for (name, of) in [
+        ("rates[EPAS_GEAR_ELEMENTS]", rates.as_slice()),
+        ("shares[EPAS_GEAR_ELEMENTS]", &shares),
+        ("direction_factors[2]", &[forward, backward]),
+    ] {
+        let _ = write!(
+            text,
+            "\nstatic const float {name} = {{\n{}}};\n",
+            listed(of, 1)
+        );
+    }
+    let _ = writeln!(text, "\nstatic const node_t nodes[NODES] = {{");
+    for node in &law.nodes {
+        text.push_str(&node_of(node));
+    }
+    text.push_str("};\n");
+    Ok(text)
+}
+
+fn node_of(node: &FrictionNode) -> String {
+    let curves: String = node.curves.iter().map(curve).collect();
+    format!(
+        "    {{\n        {}, /* {} */\n        {},\n        {{\n{curves}        }},\n        {{\n{}        }},\n    }},\n",
+        hex(node.friction),
+        node.friction,
+        hex(log2_biased(node.friction)),
+        listed(&node.shift, 3),
+    )
+}
+
+fn curve(curve: &LoadCurve) -> String {
+    let cubics: String = curve
+        .cubics
+        .iter()
+        .map(|cubic| {
+            let numbers = listed(cubic, 0);
+            format!(
+                "                    {{{}}},\n",
+                numbers.trim().trim_end_matches(',')
+            )
+        })
+        .collect();
+    format!(
+        "            {{\n                {{\n{}                }},\n                {{\n{cubics}                }},\n            }},\n",
+        listed(&curve.starts, 5)
+    )
+}
+
+/// Numbers in lines that stand in so many steps.
+fn listed(numbers: &[f32], depth: usize) -> String {
+    let mut text = String::new();
+    for line in numbers.chunks(IN_A_LINE) {
+        let line: Vec<_> = line.iter().map(|&number| hex(number)).collect();
+        let _ = writeln!(text, "{:1$}{2},", "", 4 * depth, line.join(", "));
+    }
+    text
+}
+
+/// A finite number as a hexadecimal constant of C99, which is exact.
+fn hex(number: f32) -> String {
+    let bits = number.to_bits();
+    let sign = if number.is_sign_negative() { "-" } else { "" };
+    let (exponent, mantissa) = ((bits >> 23) & 0xff, bits & 0x7f_ffff);
+    match (exponent, mantissa) {
+        (0, 0) => format!("{sign}0.0f"),
+        (0, _) => format!("{sign}0x0.{:06x}p-126f", mantissa << 1),
+        _ => format!(
+            "{sign}0x1.{:06x}p{:+}f",
+            mantissa << 1,
+            exponent as i32 - 127
+        ),
+    }
+}
