@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use nalgebra::{Matrix2, SMatrix, Vector2, Vector3};
 
-use super::geometry::{Contact, Geometry};
+use super::geometry::{Contact, Geometry, centre_signs};
 use super::shaft::Shaft;
 use super::surface::{Deviation, SurfaceError};
 
@@ -115,15 +115,15 @@ impl Arm {
         let (radial, along) = geometry.contact_point(contact, ball.azimuth);
         let place = ball.position + along;
         let axes = geometry.section_axes(ball.azimuth);
-        let (node, motion) = if contact.is_screw() {
-            let (node, point) = input.shaft.point(place, radial);
-            (Some(node), axes * point)
-        } else {
+        let (node, motion) = if contact.on_nut() {
             let arm = radial + Vector3::new(0.0, 0.0, place - input.nut.position);
             let moved = Vector3::from(input.nut.displacement)
                 + Vector3::from(input.nut.rotation).cross(&arm);
             shift += axes * moved;
             (None, SMatrix::zeros())
+        } else {
+            let (node, point) = input.shaft.point(place, radial);
+            (Some(node), axes * point)
         };
         Self {
             contact,
@@ -189,7 +189,7 @@ impl Arm {
     /// The point of a bent section that is nearest to the ball's centre, which lies at `distance` from
     /// the section's centre in the direction `outward`.
     fn foot_point(&self, outward: Vector2<f64>, distance: f64) -> Foot {
-        let [mirror_x, mirror_z] = self.contact.signs();
+        let [mirror_x, mirror_z] = centre_signs(self.contact);
         // Mirrored, the section is R(gamma) (cos gamma, sin gamma) and the ball is at `start`.
         let start = (-mirror_z * outward.y).atan2(-mirror_x * outward.x);
         let sample = |angle: f64| {

@@ -4,42 +4,13 @@ use nalgebra::{Matrix2x3, Vector2, Vector3};
 
 use crate::error::{ReferenceError, within};
 
-/// One of the four arcs that a ball can touch; left is towards smaller `z`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Contact {
-    /// Screw, left flank (SL).
-    ScrewLeft,
-    /// Screw, right flank (SR).
-    ScrewRight,
-    /// Nut, left flank (NL).
-    NutLeft,
-    /// Nut, right flank (NR).
-    NutRight,
-}
+/// One of the four arcs that a ball can touch; lists of four have their order.
+pub use crate::friction::ball_screw_ball::Groove as Contact;
 
-impl Contact {
-    /// All four, in the order of every list of four in this module.
-    pub const ALL: [Self; 4] = [
-        Self::ScrewLeft,
-        Self::ScrewRight,
-        Self::NutLeft,
-        Self::NutRight,
-    ];
-
-    /// Signs of the arc centre's coordinates: outward and along the screw.
-    pub const fn signs(self) -> [f64; 2] {
-        match self {
-            Self::ScrewLeft => [1.0, 1.0],
-            Self::ScrewRight => [1.0, -1.0],
-            Self::NutLeft => [-1.0, 1.0],
-            Self::NutRight => [-1.0, -1.0],
-        }
-    }
-
-    /// Whether the arc belongs to the screw.
-    pub const fn is_screw(self) -> bool {
-        matches!(self, Self::ScrewLeft | Self::ScrewRight)
-    }
+/// Signs of the arc centre's coordinates: outward and along the screw.
+pub(super) const fn centre_signs(contact: Contact) -> [f64; 2] {
+    let (outward, along) = contact.signs();
+    [-outward, -along]
 }
 
 /// Nominal geometry of a single-start, right-handed ball screw with gothic-arch grooves. A lead of zero is a bearing.
@@ -102,14 +73,14 @@ impl Geometry {
 
     /// Centre of an arc from the nominal ball centre, m, in the section: eq. (2.4).
     pub fn arc_centre(&self, contact: Contact) -> Vector2<f64> {
-        let [outward, along] = contact.signs();
+        let [outward, along] = centre_signs(contact);
         let (sin, cos) = self.contact_angle.sin_cos();
         self.excess() * Vector2::new(outward * cos, along * sin)
     }
 
     /// Nominal contact point, m: its radial vector from the screw's axis (no `z` part), and its `z` from the ball centre's.
     pub fn contact_point(&self, contact: Contact, azimuth: f64) -> (Vector3<f64>, f64) {
-        let [outward, along] = contact.signs();
+        let [outward, along] = centre_signs(contact);
         let (sin, cos) = self.contact_angle.sin_cos();
         let in_section = -self.ball_radius * Vector2::new(outward * cos, along * sin);
         let from_ball = self.section_axes(azimuth).transpose() * in_section;

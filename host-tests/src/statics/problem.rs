@@ -6,10 +6,9 @@ use nalgebra::Vector2;
 
 use super::ball::{Arm, ArmInput, Ball, Errors, NutPose};
 use super::contact::{ContactConstants, exact, nominal_curvatures};
-use super::geometry::{Contact, Geometry};
+use super::geometry::{Contact, Geometry, centre_signs};
 use super::shaft::{Shaft, ShaftModel};
 use super::surface::SurfaceError;
-use crate::curvature::Groove;
 use crate::error::{ReferenceError, within};
 use crate::material::Elastic;
 
@@ -262,7 +261,7 @@ fn arms(
         if !ball.arcs[index] {
             continue;
         }
-        let nominal = of_all.deflection[usize::from(!which.is_screw())];
+        let nominal = of_all.deflection[usize::from(which.on_nut())];
         let deflection = match local_curvature {
             Some(materials) => {
                 let errors = &of_all.errors[index];
@@ -283,14 +282,10 @@ fn local_deflection(
     errors: &Errors,
     [screw, nut, sphere]: [Elastic; 3],
 ) -> Result<f64, ReferenceError> {
-    let (groove, metal) = if which.is_screw() {
-        (Groove::Screw, screw)
-    } else {
-        (Groove::Nut, nut)
-    };
-    let mut curvatures = nominal_curvatures(geometry, groove)?;
+    let metal = if which.on_nut() { nut } else { screw };
+    let mut curvatures = nominal_curvatures(geometry, which.part())?;
     let angle = geometry.contact_angle;
-    let [outward, along] = which.signs();
+    let [outward, along] = centre_signs(which);
     let height = |azimuth: f64| {
         errors
             .iter()

@@ -1,6 +1,6 @@
 //! What a load case gives.
 
-use super::geometry::Contact;
+use super::geometry::{Contact, centre_signs};
 use super::problem::{State, StaticLoad};
 use super::system::Evaluation;
 
@@ -68,7 +68,7 @@ impl StaticSolution {
                 let mut angles = [nominal; 4];
                 for ((angle, touch), contact) in angles.iter_mut().zip(four).zip(Contact::ALL) {
                     if let Some(touch) = touch {
-                        let [outward, along] = contact.signs();
+                        let [outward, along] = centre_signs(contact);
                         *angle = (-along * touch.normal.y).atan2(-outward * touch.normal.x);
                     }
                 }
@@ -171,7 +171,7 @@ fn on_nut(case: &StaticLoad, at: &Evaluation) -> [f64; 6] {
     for (ball, four) in case.balls.iter().zip(&at.touches) {
         let axes = case.geometry.section_axes(ball.azimuth);
         for (touch, contact) in four.iter().zip(Contact::ALL) {
-            let (Some(touch), false) = (touch, contact.is_screw()) else {
+            let (Some(touch), true) = (touch, contact.on_nut()) else {
                 continue;
             };
             let push = axes.transpose() * (touch.force * touch.normal);

@@ -11,7 +11,7 @@ mod chain_reference;
 mod curvature_reference;
 mod friction_maps_reference;
 pub mod kinematics_cases;
-mod kinematics_reference;
+pub mod kinematics_reference;
 mod linear_ball_reference;
 pub mod linear_cases;
 mod load_shares;

@@ -42,12 +42,14 @@ fn flags_are_bits() {
     }
 }
 
+type Changed = (AdaptationFlags, fn(&mut AdaptationInputs));
+
 #[test]
 fn what_does_not_count_changes_nothing_and_says_why() {
     let good = sound(0.05, 0.04, 8.0);
     let mut adaptation = running();
     let before = adaptation;
-    let cases: [(AdaptationFlags, fn(&mut AdaptationInputs)); 17] = [
+    let cases: [Changed; 17] = [
         (AdaptationFlags::STANDING, |i| i.regime = Regime::Standing),
         (AdaptationFlags::STANDING, |i| i.nut_speed = 0.1),
         (AdaptationFlags::STANDING, |i| i.nut_speed = -8.0),
@@ -55,21 +57,21 @@ fn what_does_not_count_changes_nothing_and_says_why() {
         (AdaptationFlags::SATURATED, |i| i.saturated = true),
         (AdaptationFlags::FAULTED, |i| i.faults = Faults::LOAD_STALE),
         (AdaptationFlags::FAULTED, |i| {
-            i.faults = Faults::TEMPERATURE_STALE
+            i.faults = Faults::TEMPERATURE_STALE;
         }),
         (AdaptationFlags::FAULTED, |i| {
-            i.faults = Faults::BEYOND_MODEL
+            i.faults = Faults::BEYOND_MODEL;
         }),
         (AdaptationFlags::INPUT_RANGE, |i| i.observed = 11.0),
         (AdaptationFlags::INPUT_RANGE, |i| i.observed = f32::NAN),
         (AdaptationFlags::INPUT_RANGE, |i| i.modelled = f32::INFINITY),
         (AdaptationFlags::INPUT_RANGE, |i| {
-            i.lubricant_drag = f32::NAN
+            i.lubricant_drag = f32::NAN;
         }),
         (AdaptationFlags::INPUT_RANGE, |i| i.nut_speed = f32::NAN),
         (AdaptationFlags::INPUT_RANGE, |i| i.nut_speed = 1e9),
         (AdaptationFlags::INPUT_RANGE, |i| {
-            i.load_torque = f32::NEG_INFINITY
+            i.load_torque = f32::NEG_INFINITY;
         }),
         (AdaptationFlags::INPUT_RANGE, |i| i.level.forward = 0.0),
         (AdaptationFlags::INPUT_RANGE, |i| i.level.forward = f32::NAN),

@@ -1,6 +1,7 @@
 //! The in-loop kinematics (f32) against the float64 reference.
 
-use crate::reference::kinematics_cases::{self, random_input, turn};
+use crate::reference::kinematics_cases::{self, random_input};
+use crate::reference::kinematics_reference::turn;
 use crate::refusals::assert_refused;
 use epas_friction::geometry::Groove;
 use epas_friction::hertz::HertzContact;

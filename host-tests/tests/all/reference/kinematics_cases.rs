@@ -1,6 +1,6 @@
 //! Inputs of contact kinematics: the stored cases, and random ones.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::PI;
 
 use epas_reference::kinematics::{KinematicsInput, Raceway};
 use serde_json::Value;
@@ -91,9 +91,4 @@ pub fn random_input(random: &mut Random) -> KinematicsInput {
         input.rolling_radius_nut = half;
     }
     input
-}
-
-/// Difference of two angles, -pi and pi being one.
-pub fn turn(left: f64, right: f64) -> f64 {
-    (left - right + PI).rem_euclid(TAU) - PI
 }

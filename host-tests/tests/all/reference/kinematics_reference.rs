@@ -1,13 +1,18 @@
 //! The reference kinematics against first principles, the published numbers and golden cases.
 
-use super::kinematics_cases::{cases, input, number, random_input, side_of, turn};
+use super::kinematics_cases::{cases, input, number, random_input, side_of};
 use crate::refusals::assert_refused;
 use epas_reference::kinematics::{KinematicsInput, Raceway, Revised, operating};
 use epas_testkit::measured;
 use epas_testkit::random::Random;
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 const DEGREE: f64 = PI / 180.0;
+
+/// Difference of two angles, -pi and pi being one.
+pub fn turn(left: f64, right: f64) -> f64 {
+    (left - right + PI).rem_euclid(TAU) - PI
+}
 
 /// The golden cases are correct to one unit in the last place; twelve digits remain after some twenty
 /// operations in float64, slip counted against the entrainment speed.

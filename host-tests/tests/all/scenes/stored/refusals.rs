@@ -33,6 +33,14 @@ fn refused<S: Kept>(model: &mut FrictionModel<S>, block: &[u8]) -> Refusal {
     refusal
 }
 
+/// A block with other bytes from a place on, and the checksum of these.
+fn patched(block: &[u8], at: usize, bytes: impl AsRef<[u8]>) -> Vec<u8> {
+    let bytes = bytes.as_ref();
+    let mut block = block.to_vec();
+    block[at..at + bytes.len()].copy_from_slice(bytes);
+    sealed(block)
+}
+
 #[test]
 fn every_flipped_bit_is_found() {
     let (mut model, _) = driven::<CagedScrew>(1, 200);
@@ -98,11 +106,7 @@ fn blocks_of_another_length_are_refused() {
 fn foreign_and_old_blocks_are_refused() {
     let (mut model, _) = driven::<CagedScrew>(1, 50);
     let block = export(&model);
-    let with = |at: usize, byte: u8| {
-        let mut other = block.clone();
-        other[at] = other[at].wrapping_add(byte);
-        sealed(other)
-    };
+    let with = |at: usize, byte: u8| patched(&block, at, [block[at].wrapping_add(byte)]);
     assert_eq!(
         refused(&mut model, &with(VERSION_AT, 1)),
         Refusal::Version {
@@ -310,12 +314,8 @@ fn balls_overlap_by_roundings_alone() {
 fn a_ratio_of_two_coefficients_is_in_range() {
     let mut model = Linear::model();
     let block = export(&model);
-    let mut import = |ratio: f32| {
-        let mut block = block.clone();
-        let at = block.len() - 8;
-        block[at..at + 4].copy_from_slice(&ratio.to_le_bytes());
-        model.import(&sealed(block))
-    };
+    let at = block.len() - 8;
+    let mut import = |ratio: f32| model.import(&patched(&block, at, ratio.to_le_bytes()));
     let refused = Err(Refusal::OutOfRange { field: "friction" });
     let largest = 1e6_f32;
     for (ratio, expected) in [
@@ -334,11 +334,7 @@ fn a_coefficient_of_other_balls_is_refused() {
     let block = export(&model);
     let (least, largest) = BALL_RANGE.law.friction_range();
     let at = block.len() - 8;
-    let with = |friction: f32| {
-        let mut block = block.clone();
-        block[at..at + 4].copy_from_slice(&friction.to_le_bytes());
-        sealed(block)
-    };
+    let with = |friction: f32| patched(&block, at, friction.to_le_bytes());
     for taken in [least, 0.5 * (least + largest), largest] {
         assert_eq!(model.import(&with(taken)), Ok(()), "{taken}");
     }
@@ -358,11 +354,13 @@ fn numbers_out_of_range_are_refused() {
         other => panic!("{other}"),
     };
     let (mut model, _) = driven::<Linear>(1, 50);
-    let mut block = export(&model);
-    let first = STATE_AT + 5;
-    let ball: [u8; 4] = block[first..first + 4].try_into().unwrap();
-    block[first + 9..first + 13].copy_from_slice(&ball);
-    assert_eq!(field(refused(&mut model, &sealed(block))), "position");
+    let block = export(&model);
+    let behind = patched(
+        &block,
+        TRAIN_AT + BALL_BYTES,
+        &block[TRAIN_AT..TRAIN_AT + 4],
+    );
+    assert_eq!(field(refused(&mut model, &behind)), "position");
 
     // A friction coefficient that is none, or that the block does not hold.
     let (mut model, _) = driven::<CagedScrew>(1, 50);
@@ -376,9 +374,7 @@ fn numbers_out_of_range_are_refused() {
         0.049,
         0.151,
     ] {
-        let mut block = block.clone();
-        block[STATE_AT..STATE_AT + 4].copy_from_slice(&number.to_le_bytes());
-        let refusal = refused(&mut model, &sealed(block));
+        let refusal = refused(&mut model, &patched(&block, STATE_AT, number.to_le_bytes()));
         assert_eq!(field(refusal), "friction", "{number}");
     }
 
@@ -387,19 +383,18 @@ fn numbers_out_of_range_are_refused() {
     let block = export(&model);
     let scene = FrictionModel::<Uncaged>::STATE_BYTES - 4;
     let reading = scene + 4 * 5 + 1;
-    let mut beyond = block.clone();
-    beyond[reading..reading + 4].copy_from_slice(&COUNTS.to_le_bytes());
-    assert_eq!(field(refused(&mut model, &sealed(beyond))), "reading");
-    // The sensor's own play, and that of the balls.
-    for (play, name) in [(reading + 4, "reading"), (reading + 12, "play")] {
-        let mut beyond = block.clone();
-        beyond[play..play + 4].copy_from_slice(&3e-3_f32.to_le_bytes());
-        assert_eq!(field(refused(&mut model, &sealed(beyond))), name);
+    for (at, bytes, name) in [
+        (reading, COUNTS.to_le_bytes(), "reading"),
+        // The sensor's own play, and that of the balls.
+        (reading + 4, 3e-3_f32.to_le_bytes(), "reading"),
+        (reading + 12, 3e-3_f32.to_le_bytes(), "play"),
+        (reading + 20, 501.0_f32.to_le_bytes(), "inputs"),
+    ] {
+        assert_eq!(
+            field(refused(&mut model, &patched(&block, at, bytes))),
+            name
+        );
     }
-    let inputs = reading + 20;
-    let mut beyond = block;
-    beyond[inputs..inputs + 4].copy_from_slice(&501.0_f32.to_le_bytes());
-    assert_eq!(field(refused(&mut model, &sealed(beyond))), "inputs");
 }
 
 #[test]
@@ -487,12 +482,8 @@ fn random_blocks_are_refused_or_harmless() {
 fn unknown_flags_are_refused() {
     let (mut model, _) = driven::<CagedByAngle>(1, 50);
     let block = export(&model);
-    let mut import = |flags: u16| {
-        let mut block = block.clone();
-        let at = block.len() - 6;
-        block[at..at + 2].copy_from_slice(&flags.to_le_bytes());
-        model.import(&sealed(block))
-    };
+    let at = block.len() - 6;
+    let mut import = |flags: u16| model.import(&patched(&block, at, flags.to_le_bytes()));
     let next = Faults::TEMPERATURE_STALE.bits() << 1;
     assert_eq!(import(next - 1), Ok(()));
     let refused = Err(Refusal::OutOfRange { field: "faults" });
