@@ -1,6 +1,12 @@
 //! The C99 file of `epas design`: the bits of the crate with every compiler at every level, on the host and on a Cortex-M4F, its own check of
 //! the arithmetic, MISRA, and what it costs beside Rust.
 
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_possible_wrap,
+    reason = "counts below their period, and the lengths of small lists"
+)]
+
 use std::fs;
 use std::path::Path;
 use std::process::Command;
@@ -289,8 +295,8 @@ fn written<const NODES: usize>(
     fs::write(
         folder.join("ticks.h"),
         format!(
-            "#define TICKS {:?}\n#define NUMBER {TICKS}u\n#define SENSORS {}\n",
-            folder.join("ticks.bin"),
+            "#define TICKS \"{}\"\n#define NUMBER {TICKS}u\n#define SENSORS {}\n",
+            folder.join("ticks.bin").display(),
             sensors.join(", ")
         ),
     )?;
