@@ -206,12 +206,12 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let target = arguments.target()?;
     let design = source.load()?;
-    let in_c99 = target
+    if target
         .as_ref()
-        .is_some_and(|target| target.header.is_some());
-    let is_caged = design.branch.is_none() && chosen(&design.fold, arguments.scene) == Scene::Caged;
-    if in_c99 && !is_caged {
-        return Err(Failure::Data(format!("{}: {}", design.name, c99::HAS)));
+        .is_some_and(|target| target.header.is_some())
+    {
+        let presses = chosen(&design.fold, arguments.scene) == Scene::Uncaged;
+        c99::check(&design, presses)?;
     }
     let made = made(&design, arguments.scene)?;
     let words = made.words()?.len();

@@ -163,20 +163,12 @@ fn node_of(node: &FrictionNode) -> String {
 }
 
 fn curve(curve: &LoadCurve) -> String {
-    let cubics: String = curve
-        .cubics
-        .iter()
-        .map(|cubic| {
-            let numbers = listed(cubic, 0);
-            format!(
-                "                    {{{}}},\n",
-                numbers.trim().trim_end_matches(',')
-            )
-        })
-        .collect();
+    let cubic = |cubic: &[f32; 4]| cubic.map(hex).join(", ");
+    let cubics: Vec<_> = curve.cubics.iter().map(cubic).collect();
     format!(
-        "            {{\n                {{\n{}                }},\n                {{\n{cubics}                }},\n            }},\n",
-        listed(&curve.starts, 5)
+        "            {{\n                {{\n{}                }},\n                {{\n                    {{{}}},\n                }},\n            }},\n",
+        listed(&curve.starts, 5),
+        cubics.join("},\n                    {"),
     )
 }
 

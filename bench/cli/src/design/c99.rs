@@ -38,29 +38,42 @@ pub fn files(folded: &Folded, design: &Design, names: [&str; 2]) -> Result<Files
     Ok(folded.c99(names, &memory, &more)?)
 }
 
+/// Refuses, before anything is folded, what C99 does not have: of a design whose balls press on each other, or not.
+pub fn check(design: &Design, presses: bool) -> Result<(), Failure> {
+    let refused = |what: &str| Err(Failure::Data(format!("{}: {what}", design.name)));
+    let elements = design.calibrated.as_ref().and_then(|told| told.elements);
+    if presses || design.branch.is_some() {
+        refused(HAS)
+    } else if elements.is_some_and(|elements| elements != ElementsName::Proportional) {
+        refused(
+            "calibration: elements that follow the load; C99 has those in proportion to friction alone (elements = \"proportional\")",
+        )
+    } else {
+        Ok(())
+    }
+}
+
 /// The memory of a design, and the axial load, N, for which its elements are.
 fn memory(folded: &Folded, design: &Design) -> Result<(Memory, f32), Failure> {
     let refused = |error: Error| Failure::Data(format!("{}: {error}", design.name));
     let constant =
         || CoefficientParameters::constant(design.caged.friction, defaults::COEFFICIENT.viscosity);
     let law = firmware::law(design)?.unwrap_or_else(constant);
-    let numbers = Numbers::of(design)?;
-    if let Some(reference) = &numbers.reference {
-        if numbers.screw.elements != ElementsName::Proportional {
-            return Err(Failure::Data(format!(
-                "{}: calibration: elements that follow the load; C99 has those in proportion to friction alone (elements = \"proportional\")",
-                design.name
-            )));
-        }
-        let elements = numbers
-            .screw
-            .proportional(&numbers.values, reference)
-            .map_err(refused)?;
-        return Ok((Memory { elements, law }, reference.load));
-    }
-    // In the middle of the domain, by ratios.
-    let [least, largest] = folded.fold.axial_load;
-    let load = f32::from(design.caged.loaded_balls) * (least * largest).sqrt();
-    let elements = by_design(&design.caged, load).map_err(refused)?.elements;
+    let Numbers {
+        screw,
+        values,
+        reference,
+        ..
+    } = Numbers::of(design)?;
+    let (elements, load) = if let Some(reference) = reference {
+        (screw.proportional(&values, &reference), reference.load)
+    } else {
+        // In the middle of the domain, by ratios.
+        let [least, largest] = folded.fold.axial_load;
+        let load = f32::from(design.caged.loaded_balls) * (least * largest).sqrt();
+        let made = by_design(&design.caged, load);
+        (made.map(|made| made.elements), load)
+    };
+    let elements = elements.map_err(refused)?;
     Ok((Memory { elements, law }, load))
 }

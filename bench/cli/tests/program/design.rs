@@ -187,29 +187,33 @@ fn outputs_of_a_block_are_safe() {
 fn c99_is_a_source_and_its_header() {
     let folder = tempfile::tempdir().unwrap();
     let folder = folder.path();
-    let fold = "[fold]\nfriction = [0.05, 0.15]\naxial_load = [100, 120]\n";
+    let fold = "[fold]\naxial_load = [100, 120]\n";
     fs::write(
         folder.join("screw.toml"),
         format!("friction = 0.1\n{DESIGN}{fold}"),
     )
     .unwrap();
-    fs::write(
-        folder.join("closed.toml"),
-        format!("branch = \"rolling\"\n{DESIGN}"),
-    )
-    .unwrap();
-    let run = design(folder, "closed.toml --output my-gear.c");
-    assert_eq!(run.code, 1, "{}", run.stderr);
-    assert!(run.stderr.contains("static library"), "{}", run.stderr);
+    for (addition, word) in [
+        ("branch = \"rolling\"", "static library"),
+        (
+            "[calibration]\nbreakaway_angle = 1e-3\nelements = \"load_exact\"\nlargest_load = 2e4",
+            "proportional",
+        ),
+    ] {
+        fs::write(folder.join("no.toml"), format!("{DESIGN}{addition}\n")).unwrap();
+        let run = design(folder, "no.toml --output my-gear.c");
+        assert_eq!(run.code, 1, "{}", run.stderr);
+        assert!(run.stderr.contains(word), "{}", run.stderr);
+    }
     let run = design(folder, "screw.toml --output my-gear.c");
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert_eq!(
         names(folder),
-        ["closed.toml", "my-gear.c", "my-gear.h", "screw.toml"]
+        ["my-gear.c", "my-gear.h", "no.toml", "screw.toml"]
     );
     let read = |name| fs::read_to_string(folder.join(name)).unwrap();
     let (source, header) = (read("my-gear.c"), read("my-gear.h"));
-    assert!(source.contains("#include \"my-gear.h\"") && source.contains("#define NODES 5u"));
+    assert!(source.contains("#include \"my-gear.h\"") && source.contains("#define NODES 1u"));
     assert!(
         source.contains("0x1.111112p-6f /* 0.016666668, 1 over loaded balls */"),
         "{source}"
