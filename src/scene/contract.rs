@@ -5,7 +5,6 @@ use crate::error::{Error, attempt, in_range};
 use crate::math;
 
 /// A mechanism with its configuration, its constants, its state and its outputs.
-///
 pub trait Scene {
     /// Set-up parameters.
     type Configuration;
