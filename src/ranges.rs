@@ -41,8 +41,11 @@ pub const HYSTERESIS_LOSS: Range = Range::new(0.0, 0.2);
 /// Drag of a lubricant on one contact under 100 N, N.
 pub const LUBRICANT_DRAG: Range = Range::new(0.0, 10.0);
 
-/// Friction and loads in a stored state, N m and N.
+/// Friction in a stored state, N m or N.
 pub const STORED_FRICTION: Range = Range::new(0.0, 1e9);
+
+/// Load of all balls in a stored state, N.
+pub const STORED_LOAD: Range = Range::new(0.0, 1e13);
 
 /// A friction coefficient over any other in a stored state.
 pub const STORED_RATIOS: Range = Range::new(0.0, 1e9);

@@ -3,6 +3,7 @@
 
 use crate::error::{Error, attempt, in_range};
 use crate::ranges;
+use crate::stored::{Port, Refusal, Stored};
 
 /// Parts of a [`LoadCurve`].
 pub const PARTS: usize = 8;
@@ -137,10 +138,14 @@ impl FrictionInterval {
     pub(crate) const fn fraction(&self) -> f32 {
         self.fraction
     }
+}
 
-    /// This interval with another friction coefficient, until its own is found.
-    pub(crate) const fn with_friction(self, friction: f32) -> Self {
-        Self { friction, ..self }
+/// The friction coefficient alone: the scene finds its interval.
+impl Stored for FrictionInterval {
+    const BYTES: usize = 4;
+
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number("friction", &mut self.friction, ranges::FRICTION_OF_A_ROW)
     }
 }
 

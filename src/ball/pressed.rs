@@ -241,7 +241,7 @@ impl<const NODES: usize> BallLaw<NODES> {
         )
     }
 
-    /// `mu W` of a ball, N, under a load `W`, N, within [`SLIDING_LOADS`].
+    /// `mu W` of a ball, N, under a load `W`, N, within 1e-6 to 1e5.
     #[inline(always)]
     pub fn sliding(&self, load: f32, friction: FrictionInterval) -> f32 {
         let [least, most] = SLIDING_LOADS;

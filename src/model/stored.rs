@@ -26,20 +26,15 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// A caged ball screw's block has 24 bytes, with a memory of eight elements 116.
     ///
     /// ```
-    /// use epas_friction::scene::{BUILT_IN_NODES, CagedBallScrew, CagedConstants, built_in};
+    /// use epas_friction::scene::{BUILT_IN_NODES, CagedBallScrew, built_in};
     /// use epas_friction::{FrictionModel, Inputs};
     ///
-    /// static GEAR: CagedConstants<BUILT_IN_NODES> = match CagedConstants::new(&built_in("25x5x3.175").unwrap()) {
-    ///     Ok(constants) => constants,
-    ///     Err(_) => panic!("a field is out of range"),
-    /// };
-    /// type Screw = FrictionModel<CagedBallScrew<BUILT_IN_NODES>, &'static CagedConstants<BUILT_IN_NODES>>;
-    ///
-    /// // What the non-volatile memory keeps.
-    /// let mut kept = [0xFF; Screw::STATE_BYTES];
+    /// type Screw = FrictionModel<CagedBallScrew<BUILT_IN_NODES>>;
+    /// let gear = built_in("25x5x3.175").unwrap();
+    /// let mut kept = [0xFF; Screw::STATE_BYTES]; // in non-volatile memory
     ///
     /// // Ignition on: whatever is wrong with the block, the model runs on from its first state.
-    /// let mut model = Screw::of(&GEAR);
+    /// let mut model = Screw::new(&gear)?;
     /// if let Err(refusal) = model.import(&kept) {
     ///     println!("friction starts anew: {refusal}"); // a diagnostic message
     /// }
@@ -50,7 +45,7 @@ impl<S: StoredScene, C: Borrow<S::Constants>> FrictionModel<S, C> {
     /// model.export(&mut kept).expect("the block is large enough");
     ///
     /// // Ignition on: the friction that was set is there again.
-    /// let mut next = Screw::of(&GEAR);
+    /// let mut next = Screw::new(&gear)?;
     /// assert_eq!(next.import(&kept), Ok(()));
     /// # let inputs = Inputs { nut_speed: 40.0, axial_load: 3_000.0 };
     /// # assert_eq!(model.step(inputs), next.step(inputs));

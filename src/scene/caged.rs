@@ -87,18 +87,12 @@ impl<const NODES: usize> CagedBallScrewConfiguration<NODES> {
             number += 1;
         }
         nearest.shift = [0.0; 2];
-        let LoadLaw {
-            ends,
-            lift_off,
-            shifted_from,
-            ..
-        } = self.law;
         CagedBallScrewConfiguration {
             law: LoadLaw {
                 nodes: [nearest],
-                ends,
-                lift_off,
-                shifted_from,
+                ends: self.law.ends,
+                lift_off: self.law.lift_off,
+                shifted_from: self.law.shifted_from,
             },
             friction: nearest.friction,
             lead: self.lead,
@@ -303,12 +297,9 @@ impl<const NODES: usize> StoredScene for CagedBallScrew<NODES> {
 }
 
 impl Stored for CagedState {
-    const BYTES: usize = 4;
+    const BYTES: usize = FrictionInterval::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        let mut friction = self.friction.friction();
-        port.number("friction", &mut friction, ranges::FRICTION_OF_A_ROW)?;
-        self.friction = self.friction.with_friction(friction);
-        Ok(())
+        self.friction.exchange(port)
     }
 }

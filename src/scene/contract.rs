@@ -1,11 +1,10 @@
 //! The trait that every mechanism implements, and what scenes have in common: inputs, limits, reversal, regimes.
 
-use super::faults::{Faults, bounded};
+use super::faults::Faults;
 use crate::error::{Error, attempt, in_range};
 use crate::math;
 
 /// A mechanism with its configuration, its constants, its state and its outputs.
-///
 pub trait Scene {
     /// Set-up parameters.
     type Configuration;
@@ -144,8 +143,16 @@ impl Limits {
         }
         if nut_speed.is_finite() && axial_load.is_finite() {
             let limited = Inputs {
-                nut_speed: bounded(nut_speed, self.nut_speed),
-                axial_load: bounded(axial_load, self.axial_load),
+                nut_speed: if speed_beyond {
+                    self.nut_speed.copysign(nut_speed)
+                } else {
+                    nut_speed
+                },
+                axial_load: if load_beyond {
+                    self.axial_load.copysign(axial_load)
+                } else {
+                    axial_load
+                },
             };
             CheckedInputs {
                 inputs: Some(limited),

@@ -62,8 +62,13 @@ pub struct LoadProportionalConfiguration {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadProportionalConstants {
-    checked: LoadProportionalConfiguration,
+    load_lever: f32,
+    coulomb_friction: f32,
+    viscous_friction: f32,
+    driving_loss: f32,
+    back_driving_loss: f32,
     reversal: Reversal,
+    limits: Limits,
 }
 
 impl LoadProportionalConstants {
@@ -77,10 +82,14 @@ impl LoadProportionalConstants {
             ("driving_loss", c.driving_loss, 0.0, 10.0),
             ("back_driving_loss", c.back_driving_loss, 0.0, 10.0),
         ]));
-        attempt!(c.limits.checked());
         Ok(Self {
-            checked: *c,
+            load_lever: c.load_lever,
+            coulomb_friction: c.coulomb_friction,
+            viscous_friction: c.viscous_friction,
+            driving_loss: c.driving_loss,
+            back_driving_loss: c.back_driving_loss,
             reversal: attempt!(Reversal::new(c.reversal_speed, 1e-6, 1e3)),
+            limits: attempt!(c.limits.checked()),
         })
     }
 }
@@ -104,8 +113,7 @@ impl Scene for LoadProportionalScrew {
 
     #[inline]
     fn step(constants: &Self::Constants, (): &mut Self::State, inputs: Inputs) -> Outputs {
-        let drive = &constants.checked;
-        let CheckedInputs { inputs, faults } = drive.limits.check_inputs(inputs);
+        let CheckedInputs { inputs, faults } = constants.limits.check_inputs(inputs);
         let Some(Inputs {
             nut_speed,
             axial_load,
@@ -117,21 +125,21 @@ impl Scene for LoadProportionalScrew {
         let ReversalState {
             factor, direction, ..
         } = reversal;
-        let load_torque = drive.load_lever * axial_load;
+        let load_torque = constants.load_lever * axial_load;
         let loss = if direction * load_torque < 0.0 {
-            drive.back_driving_loss
+            constants.back_driving_loss
         } else {
-            drive.driving_loss
+            constants.driving_loss
         };
-        let sliding = drive.coulomb_friction + loss * load_torque.abs();
-        let viscous = drive.viscous_friction * nut_speed;
+        let sliding = constants.coulomb_friction + loss * load_torque.abs();
+        let viscous = constants.viscous_friction * nut_speed;
         Outputs::new(
             factor * sliding + viscous,
             sliding + direction * viscous,
             load_torque,
             &reversal,
             faults,
-            drive.limits.friction_torque,
+            constants.limits.friction_torque,
         )
     }
 }

@@ -108,18 +108,14 @@ impl Stored for CagedFriction {
     const BYTES: usize = SlidingLimits::BYTES + Faults::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
-        let mut limits = self.sliding.limits(1.0);
-        limits.exchange(port)?;
-        let SlidingLimits {
+        let SlidingFriction {
             forward,
             backward,
             load,
-        } = limits;
-        self.sliding = SlidingFriction {
-            forward,
-            backward,
-            load,
-        };
+        } = &mut self.sliding;
+        port.number("forward", forward, ranges::STORED_FRICTION)?;
+        port.number("backward", backward, ranges::STORED_FRICTION)?;
+        port.number("load", load, ranges::STORED_LOAD)?;
         self.faults.exchange(port)
     }
 }
@@ -271,7 +267,7 @@ impl Stored for TrainFriction {
         let fading = Range::new(0.0, LARGEST_FADING);
         port.numbers("fading", &mut self.fading, fading)?;
         port.number("direction", &mut self.direction, Range::new(-1.0, 1.0))?;
-        port.number("load", &mut self.load, Range::new(0.0, 1e13))?;
+        port.number("load", &mut self.load, ranges::STORED_LOAD)?;
         port.count("contacts", &mut self.contacts, u8::MAX)?;
         port.number(
             "largest_contact_force",

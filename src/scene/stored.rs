@@ -53,7 +53,7 @@ impl Stored for SlidingLimits {
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         port.number("forward", &mut self.forward, ranges::STORED_FRICTION)?;
         port.number("backward", &mut self.backward, ranges::STORED_FRICTION)?;
-        port.number("load", &mut self.load, Range::new(0.0, 1e13))
+        port.number("load", &mut self.load, ranges::STORED_LOAD)
     }
 }
 

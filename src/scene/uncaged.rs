@@ -310,13 +310,11 @@ impl<const N: usize, const NODES: usize> StoredScene for UncagedBallScrew<N, NOD
 }
 
 impl<const N: usize> Stored for UncagedState<N> {
-    const BYTES: usize = CircuitState::<N>::BYTES + 4;
+    const BYTES: usize = CircuitState::<N>::BYTES + FrictionInterval::BYTES;
 
     fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
         self.circuit.exchange(port)?;
-        let mut friction = self.friction.friction();
-        port.number("friction", &mut friction, ranges::FRICTION_OF_A_ROW)?;
-        self.friction = self.friction.with_friction(friction);
+        self.friction.exchange(port)?;
         self.balls = [BallOfRow::UNLOADED; N];
         Ok(())
     }

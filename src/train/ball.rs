@@ -17,7 +17,6 @@ const WHOLE: u16 = 1 << 15;
 /// | `force` | - | front ball: push; rear ball: inner slack | force on the ball in front |
 /// | `of_cluster` | - | front ball: impedance; rear ball: growth | rear ball: impedance |
 /// | `others` | - | count over the cluster | the same |
-///
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub(super) struct Ball {

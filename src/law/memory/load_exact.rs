@@ -8,7 +8,7 @@ use crate::math::{constant, inverse_cube_roots};
 use crate::stored::{Fingerprint, Fingerprinted};
 
 /// Largest load of load-exact elements over the reference load: 1e-3 to 1e6.
-pub const LARGEST_LOAD: Range = Range::new(1e-3, 1e6);
+const LARGEST_LOAD: Range = Range::new(1e-3, 1e6);
 
 /// Load over the reference from which on all elements are in contact; keeps NaN out.
 const BOUNDLESS: f32 = 1e12;
@@ -49,7 +49,7 @@ impl<const N: usize> LoadExactElements<N> {
     /// to `largest_load` times that; under larger ones they come closer to those in proportion.
     ///
     /// # Errors
-    /// [`Error`] naming `N` (1 or more) or the field not within [`REFERENCE_LIMIT`], [`BREAKAWAY`] or [`LARGEST_LOAD`].
+    /// [`Error`] naming `N` (1 or more) or the field that is wrong ([`REFERENCE_LIMIT`], [`BREAKAWAY`], `largest_load` 1e-3 to 1e6).
     pub const fn new(
         reference_limit: f32,
         breakaway_angle: f32,
