@@ -173,8 +173,7 @@ fn told<'a>(
     let [first, at_turns] = start.choice.clone().at_turns();
     let mut left_out = Record::of(trace, &[]).rests();
     let mut prepared = Prepared::new(trace, &left_out, start.screw);
-    // A screw's may be twice its design's.
-    let breakaway = (2.0 * start.values.breakaway_angle).max(trace.resolution);
+    let breakaway = start.values.breakaway_angle.max(trace.resolution);
     let mut window = prepared.window(kernel, breakaway, &first)?;
     let coarse = start.screw.grid(&start.values, Spacing::COARSE)?;
     let known = Known::of(&start.values, &first, &coarse);
