@@ -26,7 +26,7 @@ use self::stages::{Prepared, Sliding, Window, few};
 use crate::answer::{Calibration, Estimate};
 use crate::estimator::fit::rms;
 use crate::estimator::record::{Record, Smoothed};
-use crate::estimator::words::screened;
+use crate::estimator::words::{Screened, screened};
 use crate::fit::problem::Separable as _;
 use crate::fit::uncertainty::{Interval, Uncertainty, effective_rows};
 use crate::folder::answered::Answered;
@@ -92,7 +92,7 @@ pub fn calibrate(
     let trace = &*placed(trace);
     let evidence = Evidence::of(trace, &Smoothed::of(trace));
     plausible(design, &evidence)?;
-    let (kernel, late) = looked_at(trace, reduced_lead(design))?;
+    let Screened { kernel, late } = looked_at(trace, reduced_lead(design))?;
     let mut start = Start::of(design, &evidence, &request.wanted)?;
     let unseen = request.unseen.iter();
     let loads = unseen.flat_map(|unseen| &unseen.load).flatten();
@@ -321,7 +321,7 @@ fn reduced_lead(design: &Design) -> f64 {
 
 /// Whether signs, units and columns fit, by the estimator's words on the trace as a drive with the load's torque, friction whatever it is: the
 /// kernel and the way after a turn of its rows, and how late a channel is.
-fn looked_at(trace: &Trace, reduced_lead: f64) -> Result<((f64, f64), Option<String>), Failure> {
+fn looked_at(trace: &Trace, reduced_lead: f64) -> Result<Screened, Failure> {
     let mut drive = trace.clone();
     for load in drive.load.iter_mut().flatten() {
         *load *= reduced_lead;

@@ -62,19 +62,25 @@ pub fn diagnose(record: &Record, trace: &Trace) -> Result<Diagnosis, String> {
     look.with_more(found)
 }
 
-/// Half-width of the kernel, s, and way after a turn that suit a trace whose friction has another equation, and the word on how late a
-/// channel is; nothing where no stretch is long enough. Refused where something is wrong with its columns.
-pub fn screened(
-    record: &Record,
-    trace: &Trace,
-) -> Result<Option<((f64, f64), Option<String>)>, String> {
+/// What suits a trace whose friction has another equation.
+pub struct Screened {
+    /// Half-width of the kernel, s, and way after a turn, rad or m.
+    pub kernel: (f64, f64),
+    /// The word on how late a channel is.
+    pub late: Option<String>,
+}
+
+/// Refuses a trace with something wrong in its columns; nothing where no stretch is long enough.
+pub fn screened(record: &Record, trace: &Trace) -> Result<Option<Screened>, String> {
     let look = Look::at(record, trace);
     let Some(found) = look.screened()? else {
         return Ok(None);
     };
     look.apart(&found).map_or(Ok(()), Err)?;
-    let late = look.late(&found).map(|(_, word)| word);
-    Ok(Some(((found.length, found.settling), late)))
+    Ok(Some(Screened {
+        kernel: (found.length, found.settling),
+        late: look.late(&found).map(|(_, word)| word),
+    }))
 }
 
 /// Share of the effort that is left from which on it is said.

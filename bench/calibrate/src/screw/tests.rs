@@ -399,8 +399,10 @@ fn each(column: &mut [f64], of: impl Fn(f64) -> f64) {
     }
 }
 
+type Spoil = fn(&mut Measured);
+
 /// What is wrong with a trace beyond what its reader refuses, and a part of the sentence with which it is refused.
-const SPOILED: [(fn(&mut Measured), &str); 6] = [
+const SPOILED: [(Spoil, &str); 6] = [
     (
         |trace| each(&mut trace.nut_position, f64::to_degrees),
         "degrees",
