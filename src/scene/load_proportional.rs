@@ -6,7 +6,7 @@ use super::contract::{
 use super::outputs::Outputs;
 use crate::error::{Error, all_in_range, attempt};
 
-/// A drive whose geometry is not known, by four numbers that `epas-bench calibrate` identifies from a trace without a design.
+/// A drive whose geometry is not known, by four numbers that `epas calibrate` identifies from a trace without a design.
 ///
 /// `T = s (T_C + eta |tau|) + b w`, with the torque `tau` of the load, `eta` the loss of driving (`w tau > 0`: motor power flows to the
 /// load) or of back-driving (`w tau < 0`: the load drives the motor), and `s = w / sqrt(w^2 + w_s^2)` at the speed `w`. Friction never

@@ -205,7 +205,7 @@ fn print(out: &mut impl Write, name: &str, reach: &Reach, all: &[Said]) -> Resul
             let other = other.name;
             writeln!(
                 out,
-                "  with {other} as well: half of the interval {width:.3}"
+                "  with {other} as well: half-width of the interval {width:.3}"
             )?;
         }
     }

@@ -116,7 +116,7 @@ fn told(calibration: &Calibration, truth: &Truth, words: &Words) -> Vec<Block> {
     let mut blocks = vec![
         Block::Answer(parameters(&calibration.parameters, truth)),
         Block::Text(format!(
-            "The model leaves a residual of {} {} rms, {} % of the effort's. {} rows count, with the correlation of the residual.",
+            "The model leaves a residual of {} {} rms, {} % of the effort's. They count as {} independent samples.",
             digits(calibration.residual_rms, 3),
             words.0[1],
             digits(100.0 * calibration.relative_error, 3),

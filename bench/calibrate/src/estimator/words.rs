@@ -189,6 +189,13 @@ impl<'a> Look<'a> {
                 self.effort
             ));
         }
+        if left > DOUBTED && below(&found, Term::Coulomb).is_some() {
+            return Err(format!(
+                "friction comes out below zero, and {:.0} % of the effort are left: are the columns of motion and {} exchanged?",
+                100.0 * left,
+                self.effort
+            ));
+        }
         Ok(Diagnosis {
             estimate: found,
             words,
@@ -342,7 +349,7 @@ impl<'a> Look<'a> {
         let taken = coulomb < 0.0 && share < -0.02 || bad(found) && share < -0.1;
         taken.then(|| {
             format!(
-                "the effort takes power from friction over closed ways ({:.0} % of what flows): turn the sign of {}, or of the motion",
+                "over closed motions the motor would gain energy from friction ({:.0} % of what flows): turn the sign of {}, or of the motion",
                 -100.0 * share,
                 self.effort
             )

@@ -178,7 +178,7 @@ impl Beyond {
                 let motion = match side {
                     None => "",
                     Some(true) => ", load against the motion",
-                    Some(false) => ", load with the motion",
+                    Some(false) => ", load in the direction of travel",
                 };
                 let bands: Vec<String> = bands.into_iter().map(|band| self.band(band)).collect();
                 let text = format!("{}{motion}: {}", bands.join(" and "), self.reason(cause));

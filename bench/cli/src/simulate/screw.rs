@@ -30,8 +30,13 @@ pub fn settings(design: &Design, friction: f32, clearance: Clearance) -> Lines {
 /// The speed over which friction turns round without memory, and what that costs at steering speeds on centre, 1 rad/s of the nut.
 pub fn reversal_speed(design: &Design, speed: f32) -> String {
     let whole = 1.0 / 1_f32.hypot(speed);
+    let at_it = if speed == 1.0 {
+        String::new()
+    } else {
+        format!(", 71 % at {speed}")
+    };
     format!(
-        "{speed} rad/s{}: without --memory friction is {:.0} % of its full size at 1 rad/s, 71 % at {speed}",
+        "{speed} rad/s{}: without --memory friction is {:.0} % of its full size at 1 rad/s{at_it}",
         design.mark("reversal_speed"),
         100.0 * whole
     )
@@ -183,7 +188,10 @@ impl ScrewSummary {
         pressing: Option<&Pressing>,
     ) -> Lines {
         let mut lines = self.course.peaks(trace, &design.name, settings, &WORDS);
-        lines.add("peak motor torque", format!("{:.4} N m", self.peak_motor));
+        lines.add(
+            "peak torque on the nut",
+            format!("{:.4} N m", self.peak_motor),
+        );
         self.course.energy(&mut lines);
         if let Some(pressing) = pressing {
             pressing.lines(&mut lines, &WORDS);

@@ -204,6 +204,7 @@ impl Meant {
     fn asked(self, value: f32) -> String {
         let double = f64::from(value);
         match self {
+            Self::Micrometres if value.abs() < 1.0 => format!("{value} mm? that is {value}e-3"),
             Self::Micrometres => format!("{value} um? that is {value}e-6"),
             Self::Millimetres => format!("{value} mm? that is {}", shown(double / 1e3)),
             Self::Degrees => format!("{value} degrees? that is {:.5}", double.to_radians()),

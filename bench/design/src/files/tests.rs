@@ -62,6 +62,7 @@ fn a_wrong_value_is_explained() {
         ("clearance = -20", "-20 um? that is -20e-6"),
         ("clearance = -30e-6\nloaded_balls = 50", "4.2 GPa"),
         ("axial_play = 10", "10 um? that is 10e-6"),
+        ("axial_play = 0.02", "0.02 mm? that is 0.02e-3"),
         (
             "foo = 0.1",
             "`preload`, `axial_play`, `axial_preload`, `reversal_speed`",

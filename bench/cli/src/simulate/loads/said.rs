@@ -77,7 +77,7 @@ pub fn answer(
     let own = unit(alone.table.axial_load);
     let tables = if alone.serves(&TOLERANCE) {
         said.push(format!(
-            "One table serves them all: that of {own} errs by up to"
+            "One table serves them all: the one computed at {own} is off by up to"
         ));
         said.push(format!("{}.", of(&alone.worst)));
         Tables::One(wording(case, alone.table))
@@ -85,7 +85,7 @@ pub fn answer(
         Tables::One(wording(case, of_one_sign(&mut said, &all)?))
     } else {
         said.push(format!(
-            "One table does not serve them all: that of {own} errs by up to"
+            "One table does not serve them all: the one computed at {own} is off by up to"
         ));
         said.push(format!(
             "{}, furthest at {}. So each sign has its own.",
@@ -139,13 +139,13 @@ fn of_one_sign(said: &mut Vec<String>, loads: &[ShareTable]) -> Result<ShareTabl
     let own = unit(alone.table.axial_load);
     if alone.serves(&TOLERANCE) {
         said.push(format!(
-            "{range}: one table serves. That of {own} errs by up to"
+            "{range}: one table serves. The one computed at {own} is off by up to"
         ));
         said.push(format!("{}.", of(&alone.worst)));
         return Ok(alone.table);
     }
     said.push(format!(
-        "{range}: one table does not serve. That of {own} stands here; it errs by up to"
+        "{range}: one table does not serve. The one computed at {own} stands here; it is off by up to"
     ));
     said.push(format!(
         "{}, furthest at {};",
