@@ -15,56 +15,88 @@ use crate::{Failure, Folded, FoldedUncaged};
 /// Words in a line of a text form.
 const IN_A_LINE: usize = 6;
 
-impl Block {
-    /// Number of friction coefficients.
-    #[must_use]
-    pub const fn nodes(&self) -> usize {
-        match self {
-            Self::One(_) => 1,
-            Self::Range(_) => NODES,
-        }
-    }
+/// Words and forms of a block, and of what was folded with its certificate.
+macro_rules! forms {
+    ($block:ident, $folded:ident, $of:ident, $nodes:expr) => {
+        impl $block {
+            /// Number of friction coefficients.
+            #[must_use]
+            pub const fn nodes(&self) -> usize {
+                match self {
+                    Self::One(_) => 1,
+                    Self::Range(_) => $nodes,
+                }
+            }
 
-    /// Least and largest friction coefficient.
-    #[must_use]
-    pub const fn friction_range(&self) -> (f32, f32) {
-        match self {
-            Self::One(block) => block.law.friction_range(),
-            Self::Range(block) => block.law.friction_range(),
-        }
-    }
+            /// Least and largest friction coefficient.
+            #[must_use]
+            pub const fn friction_range(&self) -> (f32, f32) {
+                match self {
+                    Self::One(block) => block.law.friction_range(),
+                    Self::Range(block) => block.law.friction_range(),
+                }
+            }
 
-    /// Its words, with the digest of what it was folded from.
-    pub fn words(&self, digest: u64) -> Result<Vec<u32>, Failure> {
-        fn of<const N: usize>(
-            block: &CagedBallScrewConfiguration<N>,
-            digest: u64,
-        ) -> Result<Vec<u32>, Failure> {
-            let mut words = vec![0; CagedBallScrewConfiguration::<N>::WORDS];
-            block.write(digest, &mut words)?;
-            Ok(words)
+            /// Its words, with the digest of what it was folded from.
+            pub fn words(&self, digest: u64) -> Result<Vec<u32>, Failure> {
+                fn of<const N: usize>(block: &$of<N>, digest: u64) -> Result<Vec<u32>, Failure> {
+                    let mut words = vec![0; $of::<N>::WORDS];
+                    block.write(digest, &mut words)?;
+                    Ok(words)
+                }
+                match self {
+                    Self::One(block) => of(block, digest),
+                    Self::Range(block) => of(block, digest),
+                }
+            }
         }
-        match self {
-            Self::One(block) => of(block, digest),
-            Self::Range(block) => of(block, digest),
+
+        impl $folded {
+            /// The block's words.
+            pub fn words(&self) -> Result<Vec<u32>, Failure> {
+                self.block.words(self.digest)
+            }
+
+            /// The block's bytes, each word with its least significant byte first: for a calibration page.
+            pub fn bytes(&self) -> Result<Vec<u8>, Failure> {
+                let words = self.words()?;
+                Ok(words.iter().flat_map(|word| word.to_le_bytes()).collect())
+            }
+
+            /// A Rust module with a `static` of this name.
+            pub fn rust(&self, name: &str) -> Result<String, Failure> {
+                let declared = self.declared(name);
+                Ok(rust(&self.summary(), &declared, name, &self.words()?))
+            }
+
+            /// A C header with an array of this name.
+            pub fn c(&self, name: &str) -> Result<String, Failure> {
+                Ok(c(&self.summary(), name, &self.words()?))
+            }
+
+            /// TOML: the summary as comments, the words as one array.
+            pub fn toml(&self) -> Result<String, Failure> {
+                Ok(toml(&self.summary(), self.digest, &self.words()?))
+            }
+
+            /// Writes [`Self::rust`] to `folder` as a file with the name in small letters, for `include!`: what a `build.rs` calls.
+            ///
+            /// Into the folder of a build script it also tells cargo that the script alone decides what is folded: an edit elsewhere does
+            /// not fold again.
+            pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
+                write(&self.rust(name)?, name, folder.as_ref())
+            }
         }
-    }
+    };
 }
 
-impl Folded {
-    /// The block's words.
-    pub fn words(&self) -> Result<Vec<u32>, Failure> {
-        self.block.words(self.digest)
-    }
+forms!(Block, Folded, CagedBallScrewConfiguration, NODES);
+forms!(UncagedBlock, FoldedUncaged, FoldedBall, uncaged::NODES);
 
+impl Folded {
     /// Version of the block's layout.
     pub fn version(&self) -> Result<u32, Failure> {
         Ok(self.words()?.get(1).copied().unwrap_or(0))
-    }
-
-    /// The block's bytes, each word with its least significant byte first: for a calibration page.
-    pub fn bytes(&self) -> Result<Vec<u8>, Failure> {
-        Ok(bytes(&self.words()?))
     }
 
     /// What was folded, over which domain, and how exact it is: lines for the comment above a block.
@@ -92,24 +124,6 @@ impl Folded {
         lines
     }
 
-    /// A Rust module with a `static` of this name.
-    pub fn rust(&self, name: &str) -> Result<String, Failure> {
-        let nodes = self.block.nodes();
-        let declared = Declared {
-            doc: format!(
-                "A caged ball screw: `FrictionModel::<CagedBallScrew<{nodes}>, _>::of(&{name})`."
-            ),
-            of: format!("epas_friction::scene::CagedConstants<{nodes}>"),
-            from: "epas_friction::scene::CagedConstants::from_block",
-        };
-        Ok(rust(&self.summary(), &declared, name, &self.words()?))
-    }
-
-    /// A C header with an array of this name.
-    pub fn c(&self, name: &str) -> Result<String, Failure> {
-        Ok(c(&self.summary(), name, &self.words()?))
-    }
-
     /// C99 with step and memory, see [`c99::files`]; more lines for the comment above it.
     pub fn c99(
         &self,
@@ -124,63 +138,19 @@ impl Folded {
         }?)
     }
 
-    /// TOML: the summary as comments, the words as one array.
-    pub fn toml(&self) -> Result<String, Failure> {
-        Ok(toml(&self.summary(), self.digest, &self.words()?))
-    }
-
-    /// Writes [`Self::rust`] to `folder` as a file with the name in small letters, for `include!`: what a `build.rs` calls.
-    ///
-    /// Into the folder of a build script it also tells cargo that the script alone decides what is folded: an edit elsewhere does not fold again.
-    pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
-        write(&self.rust(name)?, name, folder.as_ref())
-    }
-}
-
-impl UncagedBlock {
-    /// Number of friction coefficients.
-    #[must_use]
-    pub const fn nodes(&self) -> usize {
-        match self {
-            Self::One(_) => 1,
-            Self::Range(_) => uncaged::NODES,
-        }
-    }
-
-    /// Least and largest friction coefficient.
-    #[must_use]
-    pub const fn friction_range(&self) -> (f32, f32) {
-        match self {
-            Self::One(block) => block.law.friction_range(),
-            Self::Range(block) => block.law.friction_range(),
-        }
-    }
-
-    /// Its words, with the digest of what it was folded from.
-    pub fn words(&self, digest: u64) -> Result<Vec<u32>, Failure> {
-        fn of<const N: usize>(block: &FoldedBall<N>, digest: u64) -> Result<Vec<u32>, Failure> {
-            let mut words = vec![0; FoldedBall::<N>::WORDS];
-            block.write(digest, &mut words)?;
-            Ok(words)
-        }
-        match self {
-            Self::One(block) => of(block, digest),
-            Self::Range(block) => of(block, digest),
+    fn declared(&self, name: &str) -> Declared {
+        let nodes = self.block.nodes();
+        Declared {
+            doc: format!(
+                "A caged ball screw: `FrictionModel::<CagedBallScrew<{nodes}>, _>::of(&{name})`."
+            ),
+            of: format!("epas_friction::scene::CagedConstants<{nodes}>"),
+            from: "epas_friction::scene::CagedConstants::from_block",
         }
     }
 }
 
 impl FoldedUncaged {
-    /// The block's words.
-    pub fn words(&self) -> Result<Vec<u32>, Failure> {
-        self.block.words(self.digest)
-    }
-
-    /// The block's bytes, each word with its least significant byte first: for a calibration page.
-    pub fn bytes(&self) -> Result<Vec<u8>, Failure> {
-        Ok(bytes(&self.words()?))
-    }
-
     /// What was folded, over which domain, and how exact it is: lines for the comment above a block.
     #[must_use]
     pub fn summary(&self) -> Vec<String> {
@@ -226,32 +196,15 @@ impl FoldedUncaged {
         lines
     }
 
-    /// A Rust module with a `static` of this name.
-    pub fn rust(&self, name: &str) -> Result<String, Failure> {
+    fn declared(&self, name: &str) -> Declared {
         let nodes = self.block.nodes();
-        let declared = Declared {
+        Declared {
             doc: format!(
                 "The ball of a screw without cage: `folded: &{name}` of an `PressedScrewConfiguration<{nodes}>`."
             ),
             of: format!("epas_friction::scene::FoldedBall<{nodes}>"),
             from: "epas_friction::scene::FoldedBall::read",
-        };
-        Ok(rust(&self.summary(), &declared, name, &self.words()?))
-    }
-
-    /// A C header with an array of this name.
-    pub fn c(&self, name: &str) -> Result<String, Failure> {
-        Ok(c(&self.summary(), name, &self.words()?))
-    }
-
-    /// TOML: the summary as comments, the words as one array.
-    pub fn toml(&self) -> Result<String, Failure> {
-        Ok(toml(&self.summary(), self.digest, &self.words()?))
-    }
-
-    /// Writes [`Self::rust`] to `folder`, as [`Folded::write_rust`] does.
-    pub fn write_rust(&self, name: &str, folder: impl AsRef<Path>) -> Result<(), Failure> {
-        write(&self.rust(name)?, name, folder.as_ref())
+        }
     }
 }
 
@@ -286,10 +239,6 @@ fn holds((least, largest): (f32, f32), [from, to]: [f32; 2]) -> String {
     format!(
         "holds for friction coefficients {least} to {largest} and axial loads of {from} to {to} N a ball, both signs"
     )
-}
-
-fn bytes(words: &[u32]) -> Vec<u8> {
-    words.iter().flat_map(|word| word.to_le_bytes()).collect()
 }
 
 fn commented(summary: &[String], mark: &str) -> String {

@@ -13,25 +13,21 @@ use crate::results::result;
 
 type Any<'py> = Bound<'py, PyAny>;
 
-/// Arguments in their order; the speed stands apart.
-const NAMES: [&str; 16] = [
-    "ball_diameter",
-    "pitch_radius",
-    "lead_angle",
-    "groove_radius_screw",
-    "groove_radius_nut",
-    "contact_angle_screw",
-    "contact_angle_nut",
-    "pitch_angle",
-    "yaw_angle",
-    "rolling_radius_screw",
-    "rolling_radius_nut",
-    "speed",
-    "semi_major_screw",
-    "semi_minor_screw",
-    "semi_major_nut",
-    "semi_minor_nut",
-];
+/// Gives a macro the arguments in their order; the speed stands apart.
+macro_rules! with_arguments {
+    ($macro:ident $($more:tt)*) => {
+        $macro! {
+            [
+                ball_diameter pitch_radius lead_angle groove_radius_screw groove_radius_nut contact_angle_screw contact_angle_nut
+                pitch_angle yaw_angle rolling_radius_screw rolling_radius_nut
+            ]
+            speed
+            [semi_major_screw semi_minor_screw semi_major_nut semi_minor_nut]
+            $($more)*
+        }
+    };
+}
+
 const SPEED: usize = 11;
 
 /// Largest speed of the screw, rad/s.
@@ -78,84 +74,25 @@ fn together<T: Copy>(ball: [T; 2], screw: [T; 8], nut: [T; 8]) -> [T; QUANTITIES
     })
 }
 
-/// Numbers in their order as the crate takes them.
-fn parameters(numbers: [f32; 16]) -> KinematicsParameters {
-    let [
-        ball_diameter,
-        pitch_radius,
-        lead_angle,
-        groove_radius_screw,
-        groove_radius_nut,
-        contact_angle_screw,
-        contact_angle_nut,
-        pitch_angle,
-        yaw_angle,
-        rolling_radius_screw,
-        rolling_radius_nut,
-        _,
-        semi_major_screw,
-        semi_minor_screw,
-        semi_major_nut,
-        semi_minor_nut,
-    ] = numbers;
-    KinematicsParameters {
-        ball_diameter,
-        pitch_radius,
-        lead_angle,
-        groove_radius_screw,
-        groove_radius_nut,
-        contact_angle_screw,
-        contact_angle_nut,
-        pitch_angle,
-        yaw_angle,
-        rolling_radius_screw,
-        rolling_radius_nut,
-        semi_major_screw,
-        semi_minor_screw,
-        semi_major_nut,
-        semi_minor_nut,
-    }
+macro_rules! inputs {
+    ([$($before:ident)*] $speed:ident [$($after:ident)*]) => {
+        const NAMES: [&str; 16] = [$(stringify!($before),)* stringify!($speed), $(stringify!($after)),*];
+
+        /// Numbers in their order as the crate takes them.
+        fn parameters(numbers: [f32; 16]) -> KinematicsParameters {
+            let [$($before,)* _, $($after),*] = numbers;
+            KinematicsParameters { $($before,)* $($after),* }
+        }
+
+        /// The same as the reference takes them.
+        fn input(numbers: [f64; 16]) -> KinematicsInput {
+            let [$($before,)* $speed, $($after),*] = numbers;
+            KinematicsInput { $($before,)* $speed, $($after),* }
+        }
+    };
 }
 
-/// The same as the reference takes them.
-fn input(numbers: [f64; 16]) -> KinematicsInput {
-    let [
-        ball_diameter,
-        pitch_radius,
-        lead_angle,
-        groove_radius_screw,
-        groove_radius_nut,
-        contact_angle_screw,
-        contact_angle_nut,
-        pitch_angle,
-        yaw_angle,
-        rolling_radius_screw,
-        rolling_radius_nut,
-        speed,
-        semi_major_screw,
-        semi_minor_screw,
-        semi_major_nut,
-        semi_minor_nut,
-    ] = numbers;
-    KinematicsInput {
-        ball_diameter,
-        pitch_radius,
-        lead_angle,
-        groove_radius_screw,
-        groove_radius_nut,
-        contact_angle_screw,
-        contact_angle_nut,
-        pitch_angle,
-        yaw_angle,
-        rolling_radius_screw,
-        rolling_radius_nut,
-        speed,
-        semi_major_screw,
-        semi_minor_screw,
-        semi_major_nut,
-        semi_minor_nut,
-    }
-}
+with_arguments!(inputs);
 
 /// Runs a kernel over the arguments, and names what it gives.
 fn evaluate<'py, T: Real>(
@@ -174,7 +111,7 @@ fn evaluate<'py, T: Real>(
 
 /// A function of Python over these arguments, in single or in double precision.
 macro_rules! function {
-    ($name:ident, $summary:literal, $float:literal, $computed:path) => {
+    ([$($before:ident)*] $speed:ident [$($after:ident)*] $name:ident, $summary:literal, $float:literal, $computed:path) => {
         #[doc = $summary]
         ///
         /// Args:
@@ -201,57 +138,22 @@ macro_rules! function {
         /// Raises:
         ///     Error: a value out of its range, with its place in the arrays.
         #[pyfunction]
-        #[pyo3(signature = (*, ball_diameter, pitch_radius, lead_angle, groove_radius_screw, groove_radius_nut, contact_angle_screw, contact_angle_nut, pitch_angle, yaw_angle, rolling_radius_screw, rolling_radius_nut, speed, semi_major_screw, semi_minor_screw, semi_major_nut, semi_minor_nut))]
-        pub fn $name<'py>(
-            py: Python<'py>,
-            ball_diameter: Any<'py>,
-            pitch_radius: Any<'py>,
-            lead_angle: Any<'py>,
-            groove_radius_screw: Any<'py>,
-            groove_radius_nut: Any<'py>,
-            contact_angle_screw: Any<'py>,
-            contact_angle_nut: Any<'py>,
-            pitch_angle: Any<'py>,
-            yaw_angle: Any<'py>,
-            rolling_radius_screw: Any<'py>,
-            rolling_radius_nut: Any<'py>,
-            speed: Any<'py>,
-            semi_major_screw: Any<'py>,
-            semi_minor_screw: Any<'py>,
-            semi_major_nut: Any<'py>,
-            semi_minor_nut: Any<'py>,
-        ) -> PyResult<Any<'py>> {
-            let values = [
-                &ball_diameter,
-                &pitch_radius,
-                &lead_angle,
-                &groove_radius_screw,
-                &groove_radius_nut,
-                &contact_angle_screw,
-                &contact_angle_nut,
-                &pitch_angle,
-                &yaw_angle,
-                &rolling_radius_screw,
-                &rolling_radius_nut,
-                &speed,
-                &semi_major_screw,
-                &semi_minor_screw,
-                &semi_major_nut,
-                &semi_minor_nut,
-            ];
+        #[pyo3(signature = (*, $($before,)* $speed, $($after),*))]
+        pub fn $name<'py>(py: Python<'py>, $($before: Any<'py>,)* $speed: Any<'py>, $($after: Any<'py>),*) -> PyResult<Any<'py>> {
+            let values = [$(&$before,)* &$speed, $(&$after),*];
             $computed(py, arguments(py, NAMES, values)?)
         }
     };
 }
 
-function!(
-    contact_kinematics,
+with_arguments!(
+    function contact_kinematics,
     "Motion of a ball, and slip, spin and entrainment at the centres of its two contacts.",
     "float32",
     single
 );
-function!(
-    reference_contact_kinematics,
+with_arguments!(
+    function reference_contact_kinematics,
     "Motion of a ball, and slip, spin and entrainment at the centres of its two contacts, in float64.",
     "float64",
     double
