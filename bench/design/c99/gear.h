@@ -109,7 +109,9 @@ typedef struct {
 
 /* Whether this compiler's arithmetic is the one that the certificate holds for: ask once at start-up. False where products and sums
  * are contracted or numbers reordered (compile with -ffp-contract=off, without -ffast-math), where subnormal numbers are flushed to
- * zero (leave FPSCR.FZ, or MXCSR.FTZ and DAZ, cleared), or where `float` is computed in a wider type. */
+ * zero (leave FPSCR.FZ, or MXCSR.FTZ and DAZ, cleared), or where `float` is computed in a wider type. A floating-point unit without
+ * subnormal numbers (TriCore) takes inputs and results below 1.2e-38 as 0, and gives the same bits else: compile with EPAS_NO_SUBNORMALS,
+ * which leaves them out of the check. */
 bool epas_gear_arithmetic_is_sound(void);
 
 /* Before the first step: the block's own friction coefficient, @FRICTION@. */
