@@ -209,7 +209,7 @@ fn a_trace_gets_the_tables_it_needs() {
     let (said, text) = of("wide.csv");
     for part in [
         "Loads of wide: 160 to 9000 N and -160 to -9000 N. One table does not serve them all",
-        "160 to 9000 N: one table serves. That of",
+        "160 to 9000 N: one table serves. The one computed at",
         "-160 to -9000 N: one table does not serve.",
         "It takes 2 tables, each of which --axial-load writes, to stay within 1 % of the grooves' friction \
          and 5 % of the largest ball load:",
