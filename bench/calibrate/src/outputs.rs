@@ -86,11 +86,7 @@ impl OutputArguments {
     }
 
     const fn existing(&self) -> Existing {
-        if self.force {
-            Existing::Replace
-        } else {
-            Existing::Keep
-        }
+        Existing::forced(self.force)
     }
 
     pub(crate) fn write_drive(&self, drive: &Drive, trace: &str) -> Result<Vec<String>, Failure> {

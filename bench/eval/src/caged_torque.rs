@@ -7,7 +7,7 @@ use epas_design::caged::{AXIAL_LOAD, Block};
 use epas_design::{CagedDesign, CagedFold, Failure};
 use epas_friction::scene::{CagedBallScrew, CagedBallScrewConfiguration};
 use epas_friction::{Clearance, FrictionModel, Inputs, Limits, RollingResistance};
-use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::held_ball::HeldBall;
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance as Rolling;
 use serde::Serialize;
@@ -122,8 +122,8 @@ impl Request {
         })
     }
 
-    fn ball(&self) -> CagedBall {
-        CagedBall {
+    fn ball(&self) -> HeldBall {
+        HeldBall {
             design: self.screw.exact(self.contact_angle),
             clearance: self.clearance,
             friction: self.friction,

@@ -30,7 +30,6 @@ mod ball_screw_settle;
 mod ball_screw_steps;
 mod ball_screw_tangent;
 pub mod ball_screw_train;
-pub mod caged_ball;
 pub mod chain;
 pub mod contact_law;
 pub mod held_ball;

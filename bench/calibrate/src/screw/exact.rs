@@ -17,7 +17,7 @@ use epas_friction::scene::SlidingFriction;
 use epas_reference::ReferenceError;
 use epas_reference::curvature::Groove;
 use epas_reference::design::BallScrewDesign;
-use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::held_ball::HeldBall;
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 use rayon::prelude::*;
@@ -376,7 +376,7 @@ impl Grid {
         let friction = self.ratio.powi(friction).clamp(least, largest);
         let clearance = self.gap * self.spacing.gap.powi(gap);
         let lift_off = self.lift_off(clearance);
-        let ball = CagedBall {
+        let ball = HeldBall {
             design: self.design,
             clearance,
             friction,

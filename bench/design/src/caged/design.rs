@@ -2,7 +2,7 @@
 
 use epas_friction::ranges::ROLLING_CONTACT_ANGLE;
 use epas_friction::{BallScrew, Clearance, Error, Limits, Range, RollingResistance};
-use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::held_ball::HeldBall;
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance as ExactResistance;
 
@@ -54,8 +54,8 @@ impl CagedDesign {
 impl CagedDesign {
     /// The exact ball of it, with a friction coefficient.
     #[must_use]
-    pub fn exact_ball(&self, friction: f32) -> CagedBall {
-        CagedBall {
+    pub fn exact_ball(&self, friction: f32) -> HeldBall {
+        HeldBall {
             design: drawing(self.design.parameters()),
             clearance: self.clearance.gap().into(),
             friction: friction.into(),

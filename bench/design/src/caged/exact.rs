@@ -2,7 +2,7 @@
 
 use epas_friction::ball::folded::log2_biased;
 use epas_reference::curvature::Groove;
-use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::held_ball::HeldBall;
 
 use super::design::CagedDesign;
 use crate::Failure;
@@ -16,7 +16,7 @@ const UNSOLVED: f64 = 0.01;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Exact {
-    ball: CagedBall,
+    ball: HeldBall,
     /// Axial load of a ball at which the unloaded side lifts off, N.
     pub lift_off: f64,
 }
@@ -35,8 +35,8 @@ impl Exact {
         })
     }
 
-    pub fn ball(&self, friction: f32) -> CagedBall {
-        CagedBall {
+    pub fn ball(&self, friction: f32) -> HeldBall {
+        HeldBall {
             friction: friction.into(),
             ..self.ball
         }

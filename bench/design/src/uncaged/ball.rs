@@ -2,7 +2,6 @@
 
 use epas_friction::ball::pressed::POWERS;
 use epas_reference::design::BallScrewDesign;
-use epas_reference::friction::caged_ball::CagedBall;
 use epas_reference::friction::held_ball::{
     AlongTrack, BallDrive, BallStart, DeviatingBall, HeldBall, HeldBallFriction,
 };
@@ -39,8 +38,8 @@ const UNSOLVED: f64 = 0.02;
 
 /// The exact ball of a gear with a friction coefficient, its contact integrals with 32 nodes: off by 1e-5 of a contact's friction limit, in a
 /// fifth of the time.
-pub(super) fn exact_ball(gear: &CagedDesign, friction: f32) -> CagedBall {
-    CagedBall {
+pub(super) fn exact_ball(gear: &CagedDesign, friction: f32) -> HeldBall {
+    HeldBall {
         integration: Integration::Coarse,
         ..gear.exact_ball(friction)
     }
@@ -144,7 +143,7 @@ pub(super) struct RubbedBall {
 /// What is solved: a design with a friction coefficient, under loads of one sign.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Balls<'a> {
-    pub ball: CagedBall,
+    pub ball: HeldBall,
     /// Largest deviations on the screw and in the nut, rad.
     pub deviations: [f64; 2],
     /// Load at which a preload's unloaded side lifts off, N.
@@ -221,25 +220,11 @@ impl Balls<'_> {
     }
 
     fn balls(&self) -> Result<Vec<DeviatingBall>, Failure> {
-        let CagedBall {
-            design,
-            clearance,
-            friction,
-            rolling,
-            integration,
-        } = self.ball;
-        let ball = HeldBall {
-            design,
-            clearance,
-            friction,
-            rolling,
-            integration,
-        };
         (0..POINTS)
             .map(|point| {
                 let [screw, nut] = deviations(point);
                 let [most_screw, most_nut] = self.deviations;
-                Ok(ball.in_grooves(screw * most_screw, nut * most_nut)?)
+                Ok(self.ball.in_grooves(screw * most_screw, nut * most_nut)?)
             })
             .collect()
     }

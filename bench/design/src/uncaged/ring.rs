@@ -6,7 +6,7 @@ use epas_friction::ball::pressed::{
 use epas_friction::train::{FreeBall, Neighbours, Press};
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_row::{ElasticRow, RowBall};
-use epas_reference::friction::caged_ball::CagedBall;
+use epas_reference::friction::held_ball::HeldBall;
 use epas_reference::friction::rolling_resistance::rolling_losses;
 
 use super::ball::Speeds;
@@ -36,7 +36,7 @@ pub(super) struct RowAnswer {
 impl Row {
     pub fn exact(
         &self,
-        ball: &CagedBall,
+        ball: &HeldBall,
         deviations: [f32; 2],
     ) -> Result<RowAnswer, ReferenceError> {
         let [screw, nut] = deviations.map(f64::from);

@@ -4,7 +4,7 @@ use crate::refusals::assert_refused;
 use epas_friction::geometry::named;
 use epas_reference::ReferenceError;
 use epas_reference::friction::ball_screw_efficiency::LoadedScrew;
-use epas_reference::friction::caged_ball::{CagedBall, CagedBallFriction};
+use epas_reference::friction::held_ball::{HeldBall, HeldBallFriction};
 use epas_reference::friction::patch::Integration;
 use epas_reference::friction::rolling_resistance::RollingResistance;
 use epas_testkit::given;
@@ -58,8 +58,8 @@ fn every_ball_has_an_answer_whole() {
     solve_all(12, 60, 2);
 }
 
-fn caged(state: &Promised) -> (CagedBall, f64) {
-    let ball = CagedBall {
+fn caged(state: &Promised) -> (HeldBall, f64) {
+    let ball = HeldBall {
         design: state.row.design,
         clearance: state.row.clearance,
         friction: state.row.friction,
@@ -69,7 +69,7 @@ fn caged(state: &Promised) -> (CagedBall, f64) {
     (ball, state.row.balls[0].axial_load.signum())
 }
 
-fn along(ball: &CagedBall, loads: &[f64], line: &str) -> Vec<CagedBallFriction> {
+fn along(ball: &HeldBall, loads: &[f64], line: &str) -> Vec<HeldBallFriction> {
     ball.along(loads)
         .unwrap()
         .into_iter()
@@ -124,7 +124,7 @@ fn compare_paths(balls: usize) {
     }
 }
 
-fn screw() -> CagedBall {
+fn screw() -> HeldBall {
     caged(&promised::row(&mut Random(1), 1)).0
 }
 
@@ -159,7 +159,7 @@ fn a_wrong_load_of_a_caged_ball_stops_no_other() {
 
 #[test]
 fn a_caged_ball_carries_loads_of_both_signs_in_their_order() {
-    let ball = CagedBall {
+    let ball = HeldBall {
         clearance: 2e-6,
         ..screw()
     };
@@ -188,7 +188,7 @@ fn a_caged_ball_carries_loads_of_both_signs_in_their_order() {
 #[test]
 fn a_small_ball_with_play_is_found_from_nothing() {
     let parameters = named("50x5x3.175").unwrap();
-    let ball = CagedBall {
+    let ball = HeldBall {
         design: given::ball_screw(&parameters),
         clearance: 5e-6,
         friction: 0.15,
