@@ -75,6 +75,11 @@ impl PreloadSum {
         }
     }
 
+    /// Lift-off, constant and both coefficients of [`Self::under`].
+    pub(crate) const fn numbers(&self) -> [f32; 4] {
+        [self.lift_off, self.constant, self.square, self.quartic]
+    }
+
     #[inline(always)]
     pub(crate) const fn counted(&self, load: f32) -> f32 {
         preload_counted(load, self.lift_off)

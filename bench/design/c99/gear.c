@@ -406,7 +406,7 @@ bool epas_gear_memory_set_coefficient(epas_gear_memory_t *model, float boundary,
     return allowed;
 }
 
-/* `FrictionModel::of` of a `WithMemory<CagedBallScrew, ProportionalElements<8>, Deadband<CountSensor>, CoefficientLaw>` */
+/* `FrictionModel::of` of a `WithMemory<CagedBallScrew, @ELEMENTS@, Deadband<CountSensor>, CoefficientLaw>` */
 bool epas_gear_memory_init(epas_gear_memory_t *model, const epas_gear_sensors_t *sensors)
 {
     const float counts = (sensors->period == 0u) ? 0x1p+32f : (float)sensors->period;
@@ -529,20 +529,87 @@ static inline float held_after(float held, float rate, float turn, float low, fl
     return (force < low) ? low : force;
 }
 
+#if !FOLLOWS_LOAD
 /* `Elements::follow` of `ProportionalElements`; a turn is within the sensors' largest */
-static inline float elements_follow(float held[EPAS_GEAR_ELEMENTS], float turn, float low, float high)
+static inline float elements_follow(epas_gear_memory_t *model, float turn, float low, float high)
 {
-    const float base = held_after(held[0], rates[0], turn, low, high);
+    const float base = held_after(model->held[0], rates[0], turn, low, high);
     float friction = -0.0f; /* its sum with any number is that number */
     uint32_t element;
 
-    held[0] = base;
+    model->held[0] = base;
     for (element = 1u; element < EPAS_GEAR_ELEMENTS; element++) {
-        held[element] = held_after(held[element], rates[element], turn, low, high);
-        friction += shares[element] * (held[element] - base);
+        model->held[element] = held_after(model->held[element], rates[element], turn, low, high);
+        friction += shares[element] * (model->held[element] - base);
     }
     return base + friction;
 }
+#else
+#if PRELOADED
+/* `PreloadedElements::shared`, and `PreloadSum::under` */
+static inline float shared_load(float load)
+{
+    const float axial = load - 1.0f;
+    float sum = size_of(axial);
+
+    if (sum < FLANKS_LIFT_OFF) {
+        const float squared = axial * axial;
+
+        sum = FLANKS_SUM + ((squared * FLANKS_SQUARE) * (1.0f + (squared * FLANKS_QUARTIC)));
+    }
+    return FLANKS_PER_SUM * sum;
+}
+#else
+static inline float shared_load(float load)
+{
+    return load;
+}
+#endif
+
+/* `load_exact::approach`, and `inverse_cube_roots`: the power 2/3 */
+static inline float approach_of(float load)
+{
+    const float bounded = (load < 1e12f) ? load : 1e12f;
+    const float seed = number_of(0x548D0DDBu - (bits_of(bounded) / 3u));
+    const float cube = (bounded * seed) * (seed * seed);
+    const float inverse = seed * (0x1.be3b42p+0f - (cube * (0x1.398d7ap+0f - (0x1.f6b04ap-2f * cube))));
+    const float root = bounded * inverse;
+    const float off = 1.0f - (root * (inverse * inverse));
+
+    return root + (root * ((1.0f / 3.0f) * off));
+}
+
+/* `Elements::follow` of `LoadExactElements`; a turn is within the sensors' largest */
+static inline float elements_follow(epas_gear_memory_t *model, float turn, float low, float high)
+{
+    const float approach = approach_of(shared_load(model->load_over_reference));
+    const float almost = 1.0f - ((0.5f * FLT_EPSILON) * 12.0f); /* of eight elements */
+    float borne[EPAS_GEAR_ELEMENTS];
+    float whole = 0.0f;
+    float share = 0.0f;
+    float friction = -0.0f;
+    uint32_t element;
+
+    for (element = 0u; element < EPAS_GEAR_ELEMENTS; element++) {
+        const float beyond = approach - onsets[element];
+
+        borne[element] = stiffnesses[element] * ((beyond < 0.0f) ? 0.0f : beyond);
+        whole += borne[element];
+    }
+    if (whole > 0.0f) {
+        share = 1.0f / whole;
+    }
+    for (element = 0u; element < EPAS_GEAR_ELEMENTS; element++) {
+        const float of = borne[element];
+
+        model->held[element] = held_after(model->held[element], stiffnesses[element], turn, of * (share * low), of * (share * high));
+        friction += model->held[element];
+    }
+    /* `load_exact::summed` */
+    friction = (friction > (almost * high)) ? high : friction;
+    return (friction < (almost * low)) ? low : friction;
+}
+#endif
 
 /* `WithMemoryConstants::follow` */
 static void follow(epas_gear_memory_t *model, float turn, uint32_t faults, epas_gear_outputs_t *outputs)
@@ -552,7 +619,7 @@ static void follow(epas_gear_memory_t *model, float turn, uint32_t faults, epas_
     if (model->stepped) {
         const float forward = model->sliding[FORWARD] * model->level[FORWARD];
         const float backward = model->sliding[BACKWARD] * model->level[BACKWARD];
-        const float friction = elements_follow(model->held, turn, -backward, forward);
+        const float friction = elements_follow(model, turn, -backward, forward);
         const float limit = (friction < 0.0f) ? backward : forward;
         const bool too_fast = (size_of(model->nut_speed) > 60.0f) && (DRAG_TORQUE > 0.0f);
 
@@ -606,6 +673,9 @@ static inline void slide(epas_gear_memory_t *model, float axial_load)
     model->sliding[BACKWARD] = load * torque_over_load(log2, (axial_load > 0.0f) ? 1u : 0u, &interval);
     model->sliding_faults = faults | (held ? 0u : EPAS_GEAR_BEYOND_MODEL);
     model->stepped = true;
+#if FOLLOWS_LOAD
+    model->load_over_reference = load * PER_REFERENCE_LOAD;
+#endif
 
     /* `RollingDrag::at`, where the unloaded flank of a preload lifts off at the difference of both loads */
     both = 2.1f * (load - size);

@@ -104,6 +104,7 @@ typedef struct {
     float nut_speed;
     float axial_load;
     float sliding[2];
+    float load_over_reference; /* of elements that follow the load */
     uint32_t sliding_faults;
 } epas_gear_memory_t;
 

@@ -9,7 +9,9 @@ use std::fmt::Write as _;
 use epas_friction::Error;
 use epas_friction::ball::folded::{FrictionNode, LoadCurve, log2_biased};
 use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters};
-use epas_friction::law::memory::ProportionalElements;
+use epas_friction::law::memory::{
+    Hysteresis as _, LoadExactElements, PreloadedElements, ProportionalElements,
+};
 use epas_friction::scene::{CagedBallScrewConfiguration, CagedConstants};
 
 const HEADER: &str = include_str!("../c99/gear.h");
@@ -21,11 +23,44 @@ pub const ELEMENTS: usize = 8;
 /// Numbers in a line.
 const IN_A_LINE: usize = 4;
 
+/// Elements of a memory in C.
+#[derive(Clone, Copy, Debug)]
+pub enum Elements {
+    /// In constant shares of the friction.
+    Proportional(ProportionalElements<ELEMENTS>),
+    /// That come into contact with the load.
+    LoadExact(LoadExactElements<ELEMENTS>),
+    /// The same at the load that both flanks of a preloaded nut share.
+    Preloaded(PreloadedElements<LoadExactElements<ELEMENTS>>),
+}
+
+impl Elements {
+    /// Their type in Rust.
+    const fn name(&self) -> &'static str {
+        match self {
+            Self::Proportional(_) => "ProportionalElements<8>",
+            Self::LoadExact(_) => "LoadExactElements<8>",
+            Self::Preloaded(_) => "PreloadedElements<LoadExactElements<8>>",
+        }
+    }
+
+    /// Angle of full sliding at the reference load, rad.
+    fn breakaway(&self) -> f32 {
+        match self {
+            Self::Proportional(elements) => elements.breakaway(),
+            Self::LoadExact(elements) => elements.breakaway(),
+            Self::Preloaded(elements) => elements.breakaway(),
+        }
+    }
+}
+
 /// What the memory of a screw follows from.
 #[derive(Clone, Copy, Debug)]
 pub struct Memory {
     /// Its elements.
-    pub elements: ProportionalElements<ELEMENTS>,
+    pub elements: Elements,
+    /// Axial load, preload counted, at which the elements were designed, N.
+    pub reference_load: f32,
     /// The friction coefficient by speed, temperature and direction.
     pub law: CoefficientParameters,
 }
@@ -51,7 +86,15 @@ pub fn files<const NODES: usize>(
     memory: &Memory,
 ) -> Result<Files, Error> {
     CagedConstants::new(block)?;
-    let comment: Vec<_> = summary.iter().map(|line| format!(" * {line}")).collect();
+    let (least_friction, most_friction) = CoefficientLaw::new(&memory.law)?.extremes();
+    let remembers = format!(
+        "memory: full sliding after {:.4} mrad of the nut under {:.0} N, preload counted; friction coefficient {least_friction} to {most_friction} by speed, temperature \
+         and direction",
+        1e3 * memory.elements.breakaway(),
+        memory.reference_load,
+    );
+    let lines = summary.iter().chain([&remembers]);
+    let comment: Vec<_> = lines.map(|line| format!(" * {line}")).collect();
     let (least, largest) = block.law.friction_range();
     let numbers = numbers(block, memory)?;
     let places = [
@@ -61,6 +104,7 @@ pub fn files<const NODES: usize>(
         ("@FRICTION@", block.friction.to_string()),
         ("@HEADER@", format!("{stem}.h")),
         ("@NODES@", NODES.to_string()),
+        ("@ELEMENTS@", memory.elements.name().into()),
         ("@BLOCK@", numbers.trim_end().to_owned()),
         ("epas_gear", name.to_owned()),
         ("EPAS_GEAR", name.to_ascii_uppercase()),
@@ -131,24 +175,50 @@ fn numbers<const NODES: usize>(
             );
         }
     }
-    let [rates, shares] = memory.elements.numbers();
-    for (name, of) in [
-        ("rates[EPAS_GEAR_ELEMENTS]", rates.as_slice()),
-        ("shares[EPAS_GEAR_ELEMENTS]", &shares),
-        ("direction_factors[2]", &[forward, backward]),
-    ] {
-        let _ = write!(
-            text,
-            "\nstatic const float {name} = {{\n{}}};\n",
-            listed(of, 1)
-        );
-    }
+    text.push_str(&elements(memory));
+    text.push_str(&table("direction_factors[2]", &[forward, backward]));
     let _ = writeln!(text, "\nstatic const node_t nodes[NODES] = {{");
     for node in &law.nodes {
         text.push_str(&node_of(node));
     }
     text.push_str("};\n");
     Ok(text)
+}
+
+/// Definitions and tables of the elements.
+fn elements(memory: &Memory) -> String {
+    let exact = ["stiffnesses", "onsets"];
+    let (names, numbers, flanks) = match &memory.elements {
+        Elements::Proportional(elements) => (["rates", "shares"], elements.numbers(), None),
+        Elements::LoadExact(elements) => (exact, elements.numbers(), None),
+        Elements::Preloaded(elements) => (
+            exact,
+            elements.elements().numbers(),
+            Some(elements.numbers()),
+        ),
+    };
+    let mut text = format!("#define FOLLOWS_LOAD {}\n", u8::from(names == exact));
+    if names == exact {
+        let _ = writeln!(
+            text,
+            "#define PRELOADED {}\n#define PER_REFERENCE_LOAD {} /* 1 over {} N */",
+            u8::from(flanks.is_some()),
+            hex(1.0 / memory.reference_load),
+            memory.reference_load,
+        );
+    }
+    let of_flanks = ["LIFT_OFF", "SUM", "SQUARE", "QUARTIC", "PER_SUM"];
+    for (name, number) in of_flanks.into_iter().zip(flanks.into_iter().flatten()) {
+        let _ = writeln!(text, "#define FLANKS_{name} {} /* {number} */", hex(number));
+    }
+    for (name, of) in names.into_iter().zip(numbers) {
+        text.push_str(&table(&format!("{name}[EPAS_GEAR_ELEMENTS]"), &of));
+    }
+    text
+}
+
+fn table(name: &str, of: &[f32]) -> String {
+    format!("\nstatic const float {name} = {{\n{}}};\n", listed(of, 1))
 }
 
 fn node_of(node: &FrictionNode) -> String {

@@ -124,14 +124,9 @@ impl Folded {
         lines
     }
 
-    /// C99 with step and memory, see [`c99::files`]; more lines for the comment above it.
-    pub fn c99(
-        &self,
-        names: [&str; 2],
-        memory: &c99::Memory,
-        more: &[String],
-    ) -> Result<c99::Files, Failure> {
-        let summary = [self.summary().as_slice(), more].concat();
+    /// C99 with step and memory, see [`c99::files`].
+    pub fn c99(&self, names: [&str; 2], memory: &c99::Memory) -> Result<c99::Files, Failure> {
+        let summary = self.summary();
         Ok(match &self.block {
             Block::One(block) => c99::files(&summary, names, block, memory),
             Block::Range(block) => c99::files(&summary, names, block, memory),

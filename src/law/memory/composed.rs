@@ -50,14 +50,31 @@ impl<E: Copy> PreloadedElements<E> {
             flanks: PreloadSum::new(PRELOAD),
         }
     }
+
+    /// The elements at the sum of both flanks, for a program in another language; [`Self::numbers`] are those of the sum.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn elements(&self) -> E {
+        self.elements
+    }
 }
 
 impl<E> PreloadedElements<E> {
+    /// Inverse of the sum without an axial load, `2 F_0`.
+    const PER_SUM: f32 = 0.5 / PRELOAD;
+
+    /// What [`Self::shared`] computes with: load at which a flank lifts off, sum without a load, its two coefficients, and the sum's inverse.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn numbers(&self) -> [f32; 5] {
+        let [lift_off, constant, square, quartic] = self.flanks.numbers();
+        [lift_off, constant, square, quartic, Self::PER_SUM]
+    }
+
     /// Sum of both flanks' loads from the load that a screw tells its elements, each over that without an axial load, 1 or more.
     #[inline]
     pub fn shared(&self, load: f32) -> f32 {
-        const PER_SUM: f32 = 0.5 / PRELOAD;
-        PER_SUM * self.flanks.under(load - 1.0)
+        Self::PER_SUM * self.flanks.under(load - 1.0)
     }
 }
 

@@ -82,6 +82,13 @@ impl<const N: usize> LoadExactElements<N> {
         self.stiffnesses
     }
 
+    /// Stiffness of each element, N m/rad (N/m), and its onset: what `follow` computes with, for a program in another language.
+    #[doc(hidden)]
+    #[must_use]
+    pub const fn numbers(&self) -> [[f32; N]; 2] {
+        [self.stiffnesses, self.onsets]
+    }
+
     /// `b_i` at an approach `d`, N m/rad (N/m), and their sum.
     #[inline(always)]
     fn borne(&self, approach: f32) -> ([f32; N], f32) {

@@ -13,7 +13,7 @@ use std::process::Command;
 
 use epas_friction::law::FrictionLevel;
 use epas_friction::law::coefficient::{CoefficientLaw, TemperatureFade};
-use epas_friction::law::memory::{Hysteresis as _, ProportionalElements};
+use epas_friction::law::memory::{Hysteresis, LoadExactElements, PreloadedElements};
 use epas_friction::law::motion::{CountSensor, CountSensorParameters, Deadband};
 use epas_friction::scene::{
     CagedBallScrew, CagedBallScrewConfiguration, Freshness, WithMemory, WithMemoryConfiguration,
@@ -31,8 +31,11 @@ use crate::tools::{WARNINGS, run, run_to_end};
 #[path = "../../../design/src/c99.rs"]
 mod generator;
 
-/// Ticks of each of the two gears.
+/// Ticks of each gear.
 const TICKS: usize = 50_000;
+
+/// Load, N, at which the elements are designed: that of the gears' preload and a little more.
+const REFERENCE_LOAD: f32 = 500.0;
 
 const SEED: u32 = 0x2026_0099;
 
@@ -62,28 +65,26 @@ const SPECIALS: [f32; 10] = [
     NAN, f32::INFINITY, f32::NEG_INFINITY, 0.0, -0.0, 4e-43, -f32::MIN_POSITIVE, f32::MAX, 0.5, 60.0,
 ];
 
-type Remembering<const NODES: usize> = WithMemory<
-    CagedBallScrew<NODES>,
-    ProportionalElements<8>,
-    Deadband<CountSensor>,
-    CoefficientLaw,
->;
+type Remembering<const NODES: usize, E> =
+    WithMemory<CagedBallScrew<NODES>, E, Deadband<CountSensor>, CoefficientLaw>;
 
 /// A screw of the crate under random ticks.
-struct Screw<const NODES: usize> {
+struct Screw<const NODES: usize, E: Hysteresis + Copy> {
     block: CagedBallScrewConfiguration<NODES>,
+    elements: E,
     numbers: Numbers,
     caged: FrictionModel<CagedBallScrew<NODES>>,
-    memory: FrictionModel<Remembering<NODES>>,
+    memory: FrictionModel<Remembering<NODES, E>>,
     period: u32,
     count: u32,
 }
 
 /// A screw with memory behind these sensors.
-fn remembering<const NODES: usize>(
+fn remembering<const NODES: usize, E: Hysteresis + Copy>(
     scene: CagedBallScrewConfiguration<NODES>,
+    elements: E,
     sensors: usize,
-) -> Result<FrictionModel<Remembering<NODES>>, Error> {
+) -> Result<FrictionModel<Remembering<NODES, E>>, Error> {
     let (period, numbers) = SENSORS[sensors];
     let [
         turn_per_count,
@@ -95,17 +96,16 @@ fn remembering<const NODES: usize>(
         hold,
         fade,
     ] = numbers;
-    let elements = setups::elements()?;
     let counts = CountSensor::new(CountSensorParameters {
         period,
         turn_per_count,
         largest_turn,
     })?;
-    FrictionModel::<Remembering<NODES>>::new(&WithMemoryConfiguration {
+    FrictionModel::<Remembering<NODES, E>>::new(&WithMemoryConfiguration {
         scene,
         elements,
         angle: Deadband::new(counts, play)?,
-        reference_load: 1.0,
+        reference_load: REFERENCE_LOAD,
         play: elements.breakaway(),
         coefficient: setups::law(0.12)?,
         temperature: TemperatureFade::new(fallback, hold, fade)?,
@@ -116,13 +116,14 @@ fn remembering<const NODES: usize>(
     })
 }
 
-impl<const NODES: usize> Screw<NODES> {
-    fn new(block: CagedBallScrewConfiguration<NODES>) -> Result<Self, Error> {
+impl<const NODES: usize, E: Hysteresis + Copy> Screw<NODES, E> {
+    fn new(block: CagedBallScrewConfiguration<NODES>, elements: E) -> Result<Self, Error> {
         Ok(Self {
             block,
+            elements,
             numbers: Numbers(SEED),
             caged: FrictionModel::<CagedBallScrew<NODES>>::new(&block)?,
-            memory: remembering(block, 0)?,
+            memory: remembering(block, elements, 0)?,
             period: SENSORS[0].0,
             count: 0,
         })
@@ -192,7 +193,7 @@ impl<const NODES: usize> Screw<NODES> {
             }
             12 => {
                 let sensors = self.numbers.below(SENSORS.len() as u32);
-                let made = remembering(self.block, sensors as usize);
+                let made = remembering(self.block, self.elements, sensors as usize);
                 if made.is_ok() {
                     (self.period, self.count) = (SENSORS[sensors as usize].0, 0);
                 }
@@ -264,16 +265,18 @@ fn float(number: f32) -> String {
 }
 
 /// Writes a gear, and the ticks that are expected of it; its folder.
-fn written<const NODES: usize>(
+fn written<const NODES: usize, E: Hysteresis + Copy>(
     root: &Path,
     name: &'static str,
     words: &[u32],
+    (elements, of): (E, fn(E) -> generator::Elements),
 ) -> Outcome<&'static str> {
     let folder = root.join(name);
     fs::create_dir_all(&folder)?;
     let block = CagedBallScrewConfiguration::<NODES>::read(words)?;
     let memory = generator::Memory {
-        elements: setups::elements()?,
+        elements: of(elements),
+        reference_load: REFERENCE_LOAD,
         law: setups::law_of(0.12, 0.05)?,
     };
     let files = generator::files(
@@ -284,7 +287,7 @@ fn written<const NODES: usize>(
     )?;
     fs::write(folder.join("rack.h"), files.header)?;
     fs::write(folder.join("rack.c"), files.source)?;
-    let mut screw = Screw::new(block)?;
+    let mut screw = Screw::new(block, elements)?;
     let ticks: Vec<u8> = (0..TICKS)
         .flat_map(|_| screw.tick())
         .flat_map(u32::to_le_bytes)
@@ -462,20 +465,25 @@ fn flash(root: &Path, folder: &str) -> Outcome<u32> {
     flash_alone(&root.join(folder).join("step.elf"))
 }
 
-/// Checks both gears.
+/// Checks gears of all kinds of elements.
 pub fn check(root: &Path, host_only: bool) -> Outcome<()> {
-    let [one, range] = [
-        written::<1>(root, "target/c/c99/one", gears::GEAR_33X20)?,
-        written::<5>(root, "target/c/c99/range", gears::GEAR_33X20_RANGE)?,
+    use generator::Elements::{LoadExact, Preloaded, Proportional};
+    let exact = LoadExactElements::<{ generator::ELEMENTS }>::new(0.04, 2e-3, 20.0)?;
+    let proportional = (setups::elements()?, Proportional as fn(_) -> _);
+    let preloaded = (PreloadedElements::new(exact), Preloaded as fn(_) -> _);
+    let (gear, range) = (gears::GEAR_33X20, gears::GEAR_33X20_RANGE);
+    let folders = [
+        written::<1, _>(root, "target/c/c99/one", gear, proportional)?,
+        written::<5, _>(root, "target/c/c99/range", range, proportional)?,
+        written::<1, _>(root, "target/c/c99/exact", gear, (exact, LoadExact as _))?,
+        written::<5, _>(root, "target/c/c99/preloaded", range, preloaded)?,
     ];
-    for folder in [one, range] {
+    for folder in folders {
         misra(&root.join(folder))?;
         on_host(root, folder)?;
     }
-    println!(
-        "C99: {} ticks have the bits of the crate on the host",
-        2 * TICKS
-    );
+    let ticks = folders.len() * TICKS;
+    println!("C99: {ticks} ticks have the bits of the crate on the host");
     if host_only {
         return Ok(());
     }
@@ -484,13 +492,16 @@ pub fn check(root: &Path, host_only: bool) -> Outcome<()> {
         ("gcc", &SOUND[..3], UNSOUND.as_slice()),
         ("clang", &SOUND[..3], &UNSOUND[1..]),
     ];
+    for folder in folders {
+        with_all_flags(compilers, |compiler, flags| {
+            on_target(root, folder, compiler, flags)
+        })?;
+    }
+    let [one, range, ..] = folders;
     for (folder, step, scene) in [
         (one, "step_caged", Some("caged_ball_screw")),
         (range, "step_caged_range", None),
     ] {
-        with_all_flags(compilers, |compiler, flags| {
-            on_target(root, folder, compiler, flags)
-        })?;
         let said = on_target(root, folder, "gcc", "-O2 -ffp-contract=off")?;
         beside(
             root,
@@ -499,9 +510,6 @@ pub fn check(root: &Path, host_only: bool) -> Outcome<()> {
             scene,
         )?;
     }
-    println!(
-        "C99: {} ticks have the bits of the crate on the target",
-        2 * TICKS
-    );
+    println!("C99: {ticks} ticks have the bits of the crate on the target");
     Ok(())
 }

@@ -4,11 +4,10 @@ use std::path::{Path, PathBuf};
 
 use epas_calibrate::outputs::firmware::{self, Numbers};
 use epas_design::Folded;
-use epas_design::c99::{Files, Memory};
+use epas_design::c99::{Elements, Files, Memory};
 use epas_design::files::Design;
 use epas_design::files::calibration::ElementsName;
-use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters};
-use epas_friction::law::memory::Hysteresis as _;
+use epas_friction::law::coefficient::CoefficientParameters;
 use epas_friction::{Error, defaults};
 
 use crate::simulate::remembering::by_design;
@@ -25,36 +24,20 @@ pub fn header(source: &Path) -> PathBuf {
 
 /// The files of a folded design, for functions with a name and a file of another one.
 pub fn files(folded: &Folded, design: &Design, names: [&str; 2]) -> Result<Files, Failure> {
-    let (memory, load) = memory(folded, design)?;
-    let refused = |error: Error| Failure::Data(format!("{}: {error}", design.name));
-    let (least, largest) = CoefficientLaw::new(&memory.law)
-        .map_err(refused)?
-        .extremes();
-    let more = [format!(
-        "memory: full sliding after {:.4} mrad of the nut, elements for an axial load of {load:.0} N; friction coefficient {least} to {largest} by \
-         speed, temperature and direction",
-        1e3 * memory.elements.breakaway(),
-    )];
-    Ok(folded.c99(names, &memory, &more)?)
+    Ok(folded.c99(names, &memory(folded, design)?)?)
 }
 
 /// Refuses, before anything is folded, what C99 does not have: of a design whose balls press on each other, or not.
 pub fn check(design: &Design, presses: bool) -> Result<(), Failure> {
-    let refused = |what: &str| Err(Failure::Data(format!("{}: {what}", design.name)));
-    let elements = design.calibrated.as_ref().and_then(|told| told.elements);
     if presses || design.branch.is_some() {
-        refused(HAS)
-    } else if elements.is_some_and(|elements| elements != ElementsName::Proportional) {
-        refused(
-            "calibration: elements that follow the load; C99 has those in proportion to friction alone (elements = \"proportional\")",
-        )
+        Err(Failure::Data(format!("{}: {HAS}", design.name)))
     } else {
         Ok(())
     }
 }
 
-/// The memory of a design, and the axial load, N, for which its elements are.
-fn memory(folded: &Folded, design: &Design) -> Result<(Memory, f32), Failure> {
+/// The memory of a design.
+fn memory(folded: &Folded, design: &Design) -> Result<Memory, Failure> {
     let refused = |error: Error| Failure::Data(format!("{}: {error}", design.name));
     let constant =
         || CoefficientParameters::constant(design.caged.friction, defaults::COEFFICIENT.viscosity);
@@ -65,15 +48,29 @@ fn memory(folded: &Folded, design: &Design) -> Result<(Memory, f32), Failure> {
         reference,
         ..
     } = Numbers::of(design)?;
-    let (elements, load) = if let Some(reference) = reference {
-        (screw.proportional(&values, &reference), reference.load)
+    let (elements, reference_load) = if let Some(reference) = reference {
+        let elements = match screw.elements {
+            ElementsName::Proportional => screw
+                .proportional(&values, &reference)
+                .map(Elements::Proportional),
+            ElementsName::LoadExact => screw
+                .load_exact(&values, &reference)
+                .map(Elements::LoadExact),
+            ElementsName::Preloaded => screw
+                .preloaded(&values, &reference)
+                .map(Elements::Preloaded),
+        };
+        (elements, reference.load)
     } else {
         // In the middle of the domain, by ratios.
         let [least, largest] = folded.fold.axial_load;
         let load = f32::from(design.caged.loaded_balls) * (least * largest).sqrt();
         let made = by_design(&design.caged, load);
-        (made.map(|made| made.elements), load)
+        (made.map(|made| Elements::Proportional(made.elements)), load)
     };
-    let elements = elements.map_err(refused)?;
-    Ok((Memory { elements, law }, load))
+    Ok(Memory {
+        elements: elements.map_err(refused)?,
+        reference_load,
+        law,
+    })
 }

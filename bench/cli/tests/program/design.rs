@@ -193,23 +193,36 @@ fn c99_is_a_source_and_its_header() {
         format!("friction = 0.1\n{DESIGN}{fold}"),
     )
     .unwrap();
-    for (addition, word) in [
-        ("branch = \"rolling\"", "static library"),
-        (
-            "[calibration]\nbreakaway_angle = 1e-3\nelements = \"load_exact\"\nlargest_load = 2e4",
-            "proportional",
-        ),
-    ] {
-        fs::write(folder.join("no.toml"), format!("{DESIGN}{addition}\n")).unwrap();
-        let run = design(folder, "no.toml --output my-gear.c");
-        assert_eq!(run.code, 1, "{}", run.stderr);
-        assert!(run.stderr.contains(word), "{}", run.stderr);
-    }
+    let more = "branch = \"rolling\"\n";
+    fs::write(folder.join("no.toml"), format!("{DESIGN}{more}")).unwrap();
+    let run = design(folder, "no.toml --output my-gear.c");
+    assert_eq!(run.code, 1, "{}", run.stderr);
+    assert!(run.stderr.contains("static library"), "{}", run.stderr);
+    let calibration =
+        "[calibration]\nbreakaway_angle = 1e-3\nelements = \"preloaded\"\nlargest_load = 2e4\n";
+    let oversize = DESIGN.replace("clearance = 0", "clearance = -2e-6");
+    fs::write(
+        folder.join("calibrated.toml"),
+        format!("friction = 0.1\n{oversize}{fold}{calibration}"),
+    )
+    .unwrap();
+    let run = design(folder, "calibrated.toml --output calibrated.c");
+    assert_eq!(run.code, 0, "{}", run.stderr);
+    let source = fs::read_to_string(folder.join("calibrated.c")).unwrap();
+    assert!(source.contains("#define FLANKS_SUM "), "{source}");
     let run = design(folder, "screw.toml --output my-gear.c");
     assert_eq!(run.code, 0, "{}", run.stderr);
     assert_eq!(
         names(folder),
-        ["my-gear.c", "my-gear.h", "no.toml", "screw.toml"]
+        [
+            "calibrated.c",
+            "calibrated.h",
+            "calibrated.toml",
+            "my-gear.c",
+            "my-gear.h",
+            "no.toml",
+            "screw.toml"
+        ]
     );
     let read = |name| fs::read_to_string(folder.join(name)).unwrap();
     let (source, header) = (read("my-gear.c"), read("my-gear.h"));
