@@ -11,9 +11,11 @@ use std::path::{Path, PathBuf};
 use clap::ValueEnum as _;
 use clap::error::ErrorKind;
 
+use epas_calibrate::outputs::firmware;
 use epas_design::files::train::no_row;
 use epas_design::files::{Design, DesignSource};
 use epas_design::{caged_scene as caged, folds, uncaged_scene as uncaged};
+use epas_friction::law::coefficient::CoefficientLaw;
 use epas_page::failure::Failure;
 use epas_page::files::{self, Existing, Pending, ends, refuse_ending, refuse_same, standard, told};
 use epas_page::progress::Progress;
@@ -35,7 +37,7 @@ use made::Made;
 /// bits of the Rust crate. The memory is by the design, or by the table [calibration] of its file. A screw without cage is refused.
 ///
 /// --new gear.toml writes a design file to start from. A design file may say the domain in a table [fold]: friction (a number, or [least, most]
-/// for coefficients that change while firmware runs; the design's without), axial_load ([least, most] of a ball, N; [5, 300] without),
+/// for coefficients that change while firmware runs; without, the design's, or all that its calibrated law takes), axial_load ([least, most] of a ball, N; [5, 300] without),
 /// seed (of the certificate's states; 1 without).
 ///
 /// For --scene uncaged it may also have screw_deviation and nut_deviation (largest, rad; without, what the maps of [uncaged] reach, at
@@ -206,14 +208,14 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let target = arguments.target()?;
     let design = source.load()?;
-    if target
+    let remembers = target
         .as_ref()
-        .is_some_and(|target| target.header.is_some())
-    {
+        .is_some_and(|target| target.header.is_some());
+    if remembers {
         let presses = chosen(&design.fold, arguments.scene) == Scene::Uncaged;
         c99::check(&design, presses)?;
     }
-    let made = made(&design, arguments.scene)?;
+    let made = made(&design, arguments.scene, remembers)?;
     let words = made.words()?.len();
     if let Some(target) = &target {
         let name = constant(if standard(&target.path) {
@@ -288,7 +290,8 @@ fn chosen(table: &epas_design::files::fold::FoldTable, asked: Option<Scene>) -> 
     })
 }
 
-fn made(design: &Design, scene: Option<Scene>) -> Result<Made, Failure> {
+/// Folds a design; `remembers`: with the memory of its calibration.
+fn made(design: &Design, scene: Option<Scene>, remembers: bool) -> Result<Made, Failure> {
     let table = &design.fold;
     let failure = |message: String| Failure::Data(format!("{}: {message}", design.name));
     let of_fold = |message: String| failure(format!("fold: {message}"));
@@ -296,7 +299,15 @@ fn made(design: &Design, scene: Option<Scene>) -> Result<Made, Failure> {
     let progress = Progress::of_fold();
     match chosen(table, scene) {
         Scene::Caged => {
-            let fold = table.fold(design).map_err(of_fold)?;
+            // What a calibrated coefficient takes, as `calibrate --constants` folds it.
+            let fold = match firmware::law(design)? {
+                Some(law) if !table.says_friction() || remembers => {
+                    let ends =
+                        CoefficientLaw::new(&law).map_err(|error| failure(error.to_string()))?;
+                    caged::fold_for(design, ends.extremes()).map_err(failure)?
+                }
+                _ => table.fold(design).map_err(of_fold)?,
+            };
             let folded = caged::certified(&fold, &|share| progress.share(share)).map_err(named)?;
             Ok(Made::Caged(Box::new(folded)))
         }

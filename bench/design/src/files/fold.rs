@@ -102,6 +102,11 @@ impl FoldTable {
         self.axial_load.is_some()
     }
 
+    /// Whether it says for which friction coefficients a design is folded.
+    pub const fn says_friction(&self) -> bool {
+        self.friction.is_some()
+    }
+
     /// Whether it says for which deviations a design is folded: of balls that press on each other.
     pub const fn says_deviations(&self) -> bool {
         self.screw_deviation.is_some() || self.nut_deviation.is_some()
