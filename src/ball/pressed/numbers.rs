@@ -94,16 +94,6 @@ impl BallNumbers {
         }
     }
 
-    #[inline(always)]
-    pub(crate) fn speed(&self, [screw, nut]: [f32; 2]) -> f32 {
-        powers(&self.free, screw, nut)
-    }
-
-    #[inline(always)]
-    pub(crate) fn impedance(&self, deviations: [f32; 2]) -> f32 {
-        line(&self.impedance, deviations)
-    }
-
     /// Friction torque at their free speeds of balls whose deviations have these sums of powers.
     #[inline(always)]
     pub(crate) fn torque_of(&self, sums: &PowerSums) -> f32 {
@@ -156,7 +146,7 @@ impl PowerSums {
 
 impl FreeMotion {
     #[inline(always)]
-    pub(super) fn towards(self, other: Self, fraction: f32) -> Self {
+    pub(super) fn towards(&self, other: &Self, fraction: f32) -> Self {
         Self {
             speed: between(self.speed, other.speed, fraction),
             impedance: between(self.impedance, other.impedance, fraction),
