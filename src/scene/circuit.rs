@@ -59,7 +59,7 @@ pub(crate) struct CircuitConfiguration {
 pub(crate) struct Circuit {
     pub(crate) zone: LoadedZone,
     pub(super) track: Track,
-    pub(super) balls: u16,
+    balls: u16,
     /// 1 / mean number of loaded balls.
     per_loaded_ball: f32,
     /// Travel of the balls along the track in a tick, over the speed of the motion; negative.
@@ -147,12 +147,15 @@ impl<const N: usize> CircuitState<N> {
     /// Phase of the passing groove, in units of 2^-32 of its period.
     #[inline(always)]
     pub(crate) const fn phase(&self) -> u32 {
-        self.phase.units()
+        self.phase.units
     }
 
     #[inline(always)]
     pub(crate) fn advance(&mut self, circuit: &Circuit, speed: f32) {
-        self.phase.advance(speed * circuit.advance);
+        let units = speed * circuit.advance + self.phase.remainder;
+        let whole = units as i32;
+        self.phase.units = self.phase.units.wrapping_add_signed(whole);
+        self.phase.remainder = units - whole as f32;
     }
 
     /// Sets the motion from which the passing groove's deviations are counted, in turns of the maps.
@@ -183,19 +186,6 @@ struct Phase {
 }
 
 impl Phase {
-    #[inline(always)]
-    const fn units(&self) -> u32 {
-        self.units
-    }
-
-    #[inline(always)]
-    fn advance(&mut self, units: f32) {
-        let units = units + self.remainder;
-        let whole = units as i32;
-        self.units = self.units.wrapping_add_signed(whole);
-        self.remainder = units - whole as f32;
-    }
-
     /// Sets the phase to a number of periods, of which only the fraction counts; NaN, and what is beyond 8e6 periods,
     /// counts as 0.
     fn set(&mut self, periods: f32) {
@@ -352,14 +342,13 @@ impl LoadedZone {
     #[inline(never)]
     pub(crate) fn sharing(
         &self,
-        positions: impl Iterator<Item = u32>,
-        balls: u16,
+        positions: impl ExactSizeIterator<Item = u32>,
         shares: &'static [LoadShare],
     ) -> Sharing {
         if self.is_closed()
             && let [all] = shares
         {
-            let (balls, share) = (f32::from(balls), all.share);
+            let (balls, share) = (positions.len() as f32, all.share);
             return Sharing {
                 weights: balls * share,
                 per_weight: 1.0 / (balls * share),
@@ -492,7 +481,7 @@ mod tests {
     }
 
     /// Balls at equal distances, by this part of 2000 of their distance from the start.
-    fn spread(balls: u32, step: u32) -> impl Iterator<Item = u32> + Clone {
+    fn spread(balls: u32, step: u32) -> impl ExactSizeIterator<Item = u32> + Clone {
         let distance = move |ball, step| {
             let steps = u64::from(balls) * u64::from(STEPS);
             ((1_u64 << 32) * u64::from(ball * STEPS + step) / steps) as u32
@@ -500,9 +489,12 @@ mod tests {
         (0..balls).map(move |ball| distance(ball, step))
     }
 
-    fn loads(zone: &LoadedZone, positions: impl Iterator<Item = u32> + Clone) -> [f32; MOST] {
+    fn loads(
+        zone: &LoadedZone,
+        positions: impl ExactSizeIterator<Item = u32> + Clone,
+    ) -> [f32; MOST] {
         let shares = zone.shares(false);
-        let sharing = zone.sharing(positions.clone(), positions.clone().count() as u16, shares);
+        let sharing = zone.sharing(positions.clone(), shares);
         let weight = |position| zone.part(position) * zone.share(position, shares);
         let mut loads = [0.0; MOST];
         for (load, position) in loads.iter_mut().zip(positions) {
@@ -526,7 +518,7 @@ mod tests {
                 let zone = zone(lengths, shares);
                 for step in 0..STEPS {
                     let positions = spread(balls, step);
-                    let sharing = zone.sharing(positions.clone(), balls as u16, zone.shares(false));
+                    let sharing = zone.sharing(positions.clone(), zone.shares(false));
                     let loads = loads(&zone, positions);
                     let sum: f64 = loads.iter().copied().map(f64::from).sum();
                     let expected = if sharing.weights > 0.0 { 1.0 } else { 0.0 };
@@ -570,7 +562,7 @@ mod tests {
         let zone = zone([36.5, 2.5, 1.0], LoadShares::EVEN);
         let mut last = loads(&zone, spread(39, 0));
         for step in 1..=STEPS {
-            let sharing = zone.sharing(spread(39, step), 39, zone.shares(false));
+            let sharing = zone.sharing(spread(39, step), zone.shares(false));
             // Lengths of the track are folded to 2^-24 of it.
             assert!((sharing.weights / 36.5 - 1.0).abs() < 1e-5, "{sharing:?}");
             let now = loads(&zone, spread(39, step));
@@ -580,20 +572,17 @@ mod tests {
             last = now;
         }
         let closed = self::zone([37.0, 0.0, 1.0], LoadShares::EVEN);
-        let sharing = closed.sharing(spread(37, 1), 37, closed.shares(false));
+        let sharing = closed.sharing(spread(37, 1), closed.shares(false));
         assert_eq!((sharing.weights, sharing.extremes), (37.0, [1.0; 2]));
         let positions = [0, 1, u32::MAX].into_iter();
-        assert_eq!(
-            closed.sharing(positions, 3, closed.shares(true)).weights,
-            3.0
-        );
+        assert_eq!(closed.sharing(positions, closed.shares(true)).weights, 3.0);
     }
 
     #[test]
     fn a_zone_without_a_ball_loads_none() {
         let zone = zone([0.5, 4.5, 0.4], LoadShares::EVEN);
         let far = [1 << 31].into_iter();
-        let sharing = zone.sharing(far.clone(), 1, zone.shares(false));
+        let sharing = zone.sharing(far.clone(), zone.shares(false));
         assert_eq!((sharing.per_weight, sharing.weights), (0.0, 0.0));
         assert_eq!(loads(&zone, far), [0.0; MOST]);
     }

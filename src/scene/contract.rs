@@ -393,26 +393,3 @@ pub(super) const fn bounded(value: f32, bound: f32) -> f32 {
         value
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_set_contains_its_flags_and_no_others() {
-        let both = Faults::LOAD_RANGE | Faults::BEYOND_MODEL;
-        assert!(both.contains(Faults::LOAD_RANGE) && both.contains(both));
-        assert!(!both.contains(Faults::SPEED_RANGE));
-        assert!(!both.contains(Faults::LOAD_RANGE | Faults::SPEED_RANGE));
-        assert!(both.contains(Faults::NONE));
-    }
-
-    #[test]
-    fn accuracy_is_no_fault() {
-        assert!(Faults::BEYOND_MODEL.any() && !Faults::BEYOND_MODEL.faulty());
-        assert!(Faults::FORCES_NOT_HELD.any() && !Faults::FORCES_NOT_HELD.faulty());
-        assert!(!Faults::FORCES_NOT_HELD.doubtful() && Faults::BEYOND_MODEL.doubtful());
-        assert!((Faults::BEYOND_MODEL | Faults::LOAD_RANGE).faulty());
-        assert!(Faults::LOAD_RANGE.faulty() && !Faults::NONE.faulty());
-    }
-}

@@ -122,7 +122,7 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
         let Some(inputs) = inputs else {
             return UncagedOutputs::safe(faults);
         };
-        let sliding = constants.friction_of_balls(state, inputs);
+        let sliding = constants.friction_of_balls(state, inputs, [1.0; 2]);
         let reversal = constants.reversal.at(inputs.nut_speed);
         Self::outputs_at(constants, inputs, &sliding, reversal, NO_DRAG, faults)
     }
@@ -178,12 +178,18 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
         state.circuit.set_turns(&self.circuit, angle / TAU);
     }
 
-    /// Sliding friction in the direction of motion; moves the balls on by a tick.
+    /// Sliding friction in the direction of motion; moves the balls on by a tick. `ratios`: groove friction forward and backward, each over that in
+    /// this direction.
     #[inline(always)]
-    fn friction_of_balls(&self, state: &mut UncagedState<N>, inputs: Inputs) -> UncagedFriction {
+    fn friction_of_balls(
+        &self,
+        state: &mut UncagedState<N>,
+        inputs: Inputs,
+        ratios: [f32; 2],
+    ) -> UncagedFriction {
         let shares = self.circuit.zone.shares(inputs.axial_load < 0.0);
-        let Circuit { zone, balls, .. } = &self.circuit;
-        let sharing = zone.sharing(state.circuit.train.positions(), *balls, shares);
+        let zone = &self.circuit.zone;
+        let sharing = zone.sharing(state.circuit.train.positions(), shares);
         let common = self.common(state, inputs, &sharing, shares);
         let travel = self.circuit.travel(inputs.nut_speed);
         let alone = not_negative(self.take_in(state, &common, travel));
@@ -223,7 +229,7 @@ impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
                 groove: not_negative(alone + pressed.groove),
                 ball: not_negative(pressed.ball),
                 free: alone,
-                ratios: [1.0; 2],
+                ratios,
                 fading: [0.0; 2],
                 direction: common.direction,
                 load: inputs.axial_load.abs() + self.preload,
@@ -364,9 +370,7 @@ impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> 
         friction: DirectionalCoefficient,
     ) -> UncagedFriction {
         state.friction = constants.interval(friction.of(inputs.nut_speed).0);
-        let mut sliding = constants.friction_of_balls(state, inputs);
-        sliding.row.ratios = friction.over_own(inputs.nut_speed);
-        sliding
+        constants.friction_of_balls(state, inputs, friction.over_own(inputs.nut_speed))
     }
 
     #[inline(always)]

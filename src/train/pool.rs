@@ -66,39 +66,36 @@ fn grow(balls: &mut [Ball], mut front: usize) -> usize {
 #[inline(always)]
 fn close(balls: &mut [Ball]) -> usize {
     let last = balls.len().wrapping_sub(1);
-    // The cluster of the last ball, which may grow around that place; balls besides one.
+    // The cluster of the last ball, which may grow around that place.
     let mut cluster = Cluster::at(balls, last);
-    let mut members = others(balls, last);
-    let (mut rear, mut front) = (last.wrapping_sub(members), last);
+    let (mut rear, mut front) = (last.wrapping_sub(others(balls, last)), last);
     // Each turn but the last makes one cluster of two.
     loop {
         let ahead = if front == last { 0 } else { front + 1 };
         if ahead == rear {
             break;
         }
-        let beyond = others(balls, ahead);
-        let cluster_ahead = Cluster::at(balls, ahead + beyond);
-        if let Some(joined) = cluster.joined(slack(balls, front), &cluster_ahead) {
-            cluster = joined;
-            front = ahead + beyond;
-            members += 1 + beyond;
+        let next = ahead + others(balls, ahead);
+        if let Some(joined) = cluster.joined(slack(balls, front), &Cluster::at(balls, next)) {
+            (cluster, front) = (joined, next);
             continue;
         }
         // Before this one has grown ahead, the cluster behind does not run into it.
         if front == last {
             break;
         }
-        let next = rear.wrapping_sub(1);
-        let Some(joined) = Cluster::at(balls, next).joined(slack(balls, next), &cluster) else {
+        let behind = rear.wrapping_sub(1);
+        let Some(ball) = balls.get(behind) else {
             break;
         };
-        let beyond = 1 + others(balls, next);
-        cluster = joined;
-        rear = rear.wrapping_sub(beyond);
-        members += beyond;
+        let Some(joined) = Cluster::at(balls, behind).joined(ball.slack, &cluster) else {
+            break;
+        };
+        (cluster, rear) = (joined, behind.wrapping_sub(ball.others()));
     }
     if front != last {
-        cluster.leave(balls, rear, front, members);
+        let behind = last.wrapping_sub(rear);
+        cluster.leave(balls, rear, front, behind + 1 + front);
     }
     front
 }
@@ -284,9 +281,7 @@ pub(super) fn settle(
             if left == 0 {
                 (ball.slack, ball.of_cluster) = (next, impedance);
                 let size = next.abs();
-                if size > sums.remainder {
-                    sums.remainder = size;
-                }
+                sums.remainder = larger(size, sums.remainder);
                 (next, bits) = (0.0, 0);
             }
         }
@@ -362,6 +357,11 @@ pub(super) fn take_out(balls: &mut [Ball], foremost: usize, least: f32) {
 #[inline(never)]
 fn before(behind: f32, growth: f32) -> f32 {
     behind / growth
+}
+
+#[inline(always)]
+fn larger(one: f32, other: f32) -> f32 {
+    if one > other { one } else { other }
 }
 
 #[inline(always)]

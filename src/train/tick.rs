@@ -115,24 +115,25 @@ impl<const N: usize> Train<N> {
             None => 0,
         };
         self.press.settle(|index, ball, settled| {
-            if settled.touches {
-                ball.position = limit;
+            each(index, &settled.neighbours);
+            let place = if settled.touches {
+                limit
             } else {
                 let sixteenths = (ball.speed * sixteenths_per_speed) as i32;
                 let sixteenths = sixteenths.wrapping_add(i32::from(ball.sixteenths));
+                ball.sixteenths = (sixteenths & 15) as u8;
                 let place = ball.position.wrapping_add(nominal);
                 let place = place.wrapping_add_signed(sixteenths >> SIXTEENTH_BITS);
                 // Clusters do not run into each other, but rounding may leave that much.
-                ball.position = if limit.wrapping_sub(place) > u32::MAX - OVERLAP {
+                if limit.wrapping_sub(place) > u32::MAX - OVERLAP {
                     limit
                 } else {
                     place
-                };
-                ball.sixteenths = (sixteenths & 15) as u8;
-            }
+                }
+            };
+            ball.position = place;
             // Where the ball behind touches this one.
-            limit = ball.position.wrapping_sub(pitch);
-            each(index, &settled.neighbours);
+            limit = place.wrapping_sub(pitch);
         })
     }
 }

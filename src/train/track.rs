@@ -174,7 +174,7 @@ impl<const N: usize> Train<N> {
 
     /// Position of each ball, from the rear one to the front one, in units of 2^-32 of the track's length.
     #[inline]
-    pub fn positions(&self) -> impl Iterator<Item = u32> + '_ {
+    pub fn positions(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
         self.press.balls().iter().map(|ball| ball.position)
     }
 

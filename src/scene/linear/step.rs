@@ -3,7 +3,7 @@
 use super::{LinearConstants, LinearInputs};
 use crate::ball::GrooveLoss;
 use crate::math;
-use crate::scene::circuit::{Circuit, CircuitState, UNLOADED};
+use crate::scene::circuit::{CircuitState, UNLOADED};
 use crate::scene::contract::direction;
 use crate::scene::outputs::TrainFriction;
 use crate::train::FreeBall;
@@ -36,8 +36,8 @@ struct Diagonals {
 }
 
 impl<const N: usize> LinearConstants<N> {
-    #[inline(always)]
     /// What a tick computes: both diagonals, every ball at its position, then how they press.
+    #[inline(always)]
     pub(super) fn friction_of_balls(
         &self,
         state: &mut CircuitState<N>,
@@ -46,8 +46,8 @@ impl<const N: usize> LinearConstants<N> {
     ) -> LinearFriction {
         let LinearInputs { speed, .. } = inputs;
         let table = self.circuit.zone.shares(false);
-        let Circuit { zone, balls, .. } = &self.circuit;
-        let sharing = zone.sharing(state.train.positions(), *balls, table);
+        let zone = &self.circuit.zone;
+        let sharing = zone.sharing(state.train.positions(), table);
         let tick = self.diagonals(inputs, sharing.per_weight);
         let (passing, recirculating) = self.circuit.zone.units();
         let units = [tick.turn * passing, tick.turn * recirculating];
