@@ -16,7 +16,6 @@ mod caged;
 pub(crate) mod circuit;
 mod closed_form;
 mod contract;
-mod faults;
 pub(crate) mod linear;
 mod load_proportional;
 mod memory;
@@ -37,10 +36,9 @@ pub use closed_form::{
     ClosedFormScrew, ClosedFormScrewConfiguration, ClosedFormScrewConstants, FrictionBranch,
 };
 pub use contract::{
-    ChangingFriction, CheckedInputs, Inputs, Limits, Motion, Regime, ReversalState, Scene,
+    ChangingFriction, CheckedInputs, Faults, Inputs, Limits, Motion, Regime, ReversalState, Scene,
     SceneOutputs,
 };
-pub use faults::Faults;
 pub use linear::{
     LinearBearingConfiguration, LinearBearingTrain, LinearConstants, LinearFriction, LinearInputs,
     LinearLimits, LinearState,

@@ -22,13 +22,13 @@
 //!
 //! | phase | file | work for `N` balls | what holds afterwards |
 //! |---|---|---|---|
-//! | take in | `tick`, `track` | `N` balls | each ball has its free speed, impedance and slack |
+//! | take in | `tick` | `N` balls | each ball has its free speed, impedance and slack |
 //! | join | `pool` | at most `N - 1` joins, fewer than `4 N` comparisons | clusters part the ring; none runs into the one ahead; their end balls hold their sums |
-//! | settle | `settle` | `N` balls, a division for each cluster of two or more | each ball has its actual speed and its force, zero or more |
+//! | settle | `pool` | `N` balls, a division for each cluster of two or more | each ball has its actual speed and its force, zero or more |
 //! | move | `tick`, in the walk of settling | | balls that press stand in contact exactly, no two overlap by more than rounding |
-//! | balance | `settle` | `N` balls, where rounding needs it | the net pushes on each cluster add up to zero, to 1e-6 of the largest force |
+//! | balance | `pool` | `N` balls, where rounding needs it | the net pushes on each cluster add up to zero, to 1e-6 of the largest force |
 //!
-//! `ball` says what a ball holds in each phase. Loops are bounded by `N`; nothing iterates to a tolerance, recurses, allocates or panics.
+//! `press` says what a ball holds in each phase. Loops are bounded by `N`; nothing iterates to a tolerance, recurses, allocates or panics.
 //!
 //! # Why joining is exact
 //!
@@ -66,18 +66,12 @@
 //! cluster from its front leaves at its rear ball a remainder that is zero but for rounding; above 1e-6 of the largest force it is taken out.
 //! Positions are integers and do not drift; balls that overlap by up to 2^10 units of 2^32 on the track count as in contact.
 
-mod ball;
 mod pool;
-mod positions;
 mod press;
-mod settle;
 mod tick;
 mod track;
 
-pub use ball::{FreeBall, LARGEST_GRIP};
-pub(crate) use positions::BALL_BYTES;
-pub use positions::{BallContact, Train};
-pub use press::{IMPEDANCE_RANGE, LARGEST_FREE_SPEED, Press};
+pub use press::{FreeBall, IMPEDANCE_RANGE, LARGEST_FREE_SPEED, LARGEST_GRIP, Press};
 pub use tick::Neighbours;
-pub use track::LARGEST_TRAVEL;
-pub(crate) use track::Track;
+pub(crate) use track::{BALL_BYTES, Track};
+pub use track::{BallContact, LARGEST_TRAVEL, Train};

@@ -19,7 +19,7 @@ pub(crate) const fn loaded(load: f32) -> f32 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct LoadShare {
-    pub(super) share: f32,
+    pub(crate) share: f32,
     pub(super) root: f32,
 }
 
@@ -102,15 +102,6 @@ impl LoadShares {
         Self {
             positive: shares,
             negative: shares,
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) const fn of(&self, negative: bool) -> &'static [LoadShare] {
-        if negative {
-            self.negative
-        } else {
-            self.positive
         }
     }
 

@@ -1,18 +1,17 @@
 //! The law of one ball whose neighbours press on it, solved on a host and folded into constants: numbers of two knots around the load are
 //! blended, and a ball's answer is three polynomials in the deviations of the two grooves at its position.
 
-mod node;
 mod numbers;
 mod row;
 
-use super::folded::{FrictionInterval, holds, node_octaves};
+use super::folded::{FrictionInterval, holds, last_not_above, node_octaves};
 use crate::error::{Error, attempt, in_range};
 use crate::math;
+use crate::ranges;
 use crate::train::{IMPEDANCE_RANGE, LARGEST_GRIP};
 use numbers::IMPEDANCES;
 use row::STIFFENING;
 
-pub use node::{BallKnot, BallNode, KNOTS, Knot, NeighbourKnot};
 pub(crate) use numbers::PowerSums;
 pub use numbers::{
     BallNumbers, FreeMotion, LARGEST_WORK, NEIGHBOUR_KNOTS, NeighbourNumbers, POWERS, RUBBINGS,
@@ -123,14 +122,26 @@ impl<const NODES: usize> BallLaw<NODES> {
     /// The same over `mu W`.
     #[inline(always)]
     pub fn per_sliding(&self, load: f32, branch: usize, friction: FrictionInterval) -> BallNumbers {
-        let below = &self.nodes[friction.node() % NODES];
-        let numbers = below.numbers(branch, below.interval(branch, load));
+        self.between_nodes(friction, BallNumbers::towards, |node| {
+            let (below, above, fraction) = around(&node.branches[branch & 1], load);
+            below.towards(above, fraction)
+        })
+    }
+
+    /// What holds at a friction coefficient, from what holds at the nodes below and above it.
+    #[inline(always)]
+    fn between_nodes<T>(
+        &self,
+        friction: FrictionInterval,
+        towards: impl Fn(&T, &T, f32) -> T,
+        at: impl Fn(&BallNode) -> T,
+    ) -> T {
+        let below = at(&self.nodes[friction.node() % NODES]);
         if NODES == 1 {
-            return numbers;
+            return below;
         }
-        let above = &self.nodes[(friction.node() + 1) % NODES];
-        let others = above.numbers(branch, above.interval(branch, load));
-        numbers.towards(&others, friction.fraction())
+        let above = at(&self.nodes[(friction.node() + 1) % NODES]);
+        towards(&below, &above, friction.fraction())
     }
 
     /// A ball under a load `W`, N, with deviations of both grooves, each over its largest, and its friction torque alone, N m; `part`, above 0 to 1: its
@@ -154,17 +165,12 @@ impl<const NODES: usize> BallLaw<NODES> {
         } else {
             (part * load, 1.0)
         };
-        let below = &self.nodes[friction.node() % NODES];
-        let motion = below.motion(branch, carried, deviations);
-        let motion = if NODES == 1 {
-            motion
-        } else {
-            let above = &self.nodes[(friction.node() + 1) % NODES];
-            motion.towards(
-                above.motion(branch, carried, deviations),
-                friction.fraction(),
-            )
-        };
+        let motion = self.between_nodes(friction, FreeMotion::towards, |node| {
+            let (below, above, fraction) = around(&node.branches[branch & 1], carried);
+            below
+                .at(deviations)
+                .towards(&above.at(deviations), fraction)
+        });
         let sliding = self.sliding(part * load, friction);
         let ball = BallOfRow {
             speed: motion.speed,
@@ -198,7 +204,10 @@ impl<const NODES: usize> BallLaw<NODES> {
         friction: FrictionInterval,
     ) -> bool {
         let node = &self.nodes[friction.node() % NODES];
-        let knot = |load| node.interval(branch, load).knot as u32 % KNOTS as u32;
+        let knots = &node.branches[branch & 1];
+        let knot = |load| {
+            last_not_above::<KNOTS>(load, |knot| knots[knot % KNOTS].load) as u32 % KNOTS as u32
+        };
         let (last, first) = (knot(larger), knot(lesser));
         // Bits of the knots from the first to the last.
         let beyond = if last < first {
@@ -219,13 +228,10 @@ impl<const NODES: usize> BallLaw<NODES> {
         numbers: &BallNumbers,
         row: RowConstants,
     ) -> NeighbourLaw {
-        let found = self.nodes[friction.node() % NODES].neighbours(branch, load);
-        let found = if NODES == 1 {
-            found
-        } else {
-            let above = &self.nodes[(friction.node() + 1) % NODES];
-            found.towards(&above.neighbours(branch, load), friction.fraction())
-        };
+        let found = self.between_nodes(friction, NeighbourNumbers::towards, |node| {
+            let (below, above, fraction) = around(&node.neighbours[branch & 1], load);
+            below.towards(above, fraction)
+        });
         let outward = friction.friction() * row.outward;
         let found = NeighbourNumbers {
             outward: found.outward.map(|number| outward * number),
@@ -261,6 +267,131 @@ impl<const NODES: usize> BallLaw<NODES> {
     pub fn holds_rubbing(&self, rubbing: f32, sliding: f32) -> bool {
         rubbing <= HELD_RUBBING * sliding
     }
+}
+
+/// Knots of a branch.
+pub const KNOTS: usize = 32;
+
+/// A load with numbers of a ball under it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Knot<T> {
+    /// Load `W` of the ball, N, rising from knot to knot.
+    pub load: f32,
+    /// 1 over the distance to the next knot, 1/N; 0 of the last one.
+    pub per_width: f32,
+    /// Numbers of a ball under the load.
+    pub numbers: T,
+}
+
+/// Knot of a ball on its own.
+pub type BallKnot = Knot<BallNumbers>;
+
+/// Knot of the changes by neighbours.
+pub type NeighbourKnot = Knot<NeighbourNumbers>;
+
+impl<T: Copy> Knot<T> {
+    pub(crate) const fn none(numbers: T) -> Self {
+        Self {
+            load: 0.0,
+            per_width: 0.0,
+            numbers,
+        }
+    }
+
+    /// Numbers under a load, N, with the one of the next knot, or this one's of the last.
+    #[must_use]
+    pub const fn between(load: f32, next: f32, numbers: T) -> Self {
+        Self {
+            load,
+            per_width: if next > load {
+                1.0 / (next - load)
+            } else {
+                0.0
+            },
+            numbers,
+        }
+    }
+}
+
+/// The knots for one friction coefficient.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BallNode {
+    /// Friction coefficient of ball and groove, 1e-6 to 0.5.
+    pub friction: f32,
+    /// Under a load that opposes the motion, and under one that assists it.
+    pub branches: [[BallKnot; KNOTS]; 2],
+    /// Changes by neighbours, under the same.
+    pub neighbours: [[NeighbourKnot; NEIGHBOUR_KNOTS]; 2],
+    /// A bit for each knot from which up to the next the forces between balls are not accurate, of both branches.
+    pub unheld: [u32; 2],
+}
+
+impl BallNode {
+    const fn checked(&self) -> Result<(), Error> {
+        attempt!(ranges::FRICTION_OF_A_ROW.checked("friction", self.friction));
+        let mut branch = 0;
+        while branch < 2 {
+            let knots = &self.branches[branch];
+            attempt!(check_loads(knots));
+            let mut number = 0;
+            while number < KNOTS {
+                attempt!(knots[number].numbers.checked());
+                number += 1;
+            }
+            let knots = &self.neighbours[branch];
+            attempt!(check_loads(knots));
+            let mut number = 0;
+            while number < NEIGHBOUR_KNOTS {
+                attempt!(knots[number].numbers.checked());
+                number += 1;
+            }
+            branch += 1;
+        }
+        Ok(())
+    }
+}
+
+/// The numbers of the knots on both sides of a load, and its fraction of the distance between them, 0 to 1.
+#[inline(always)]
+fn around<T, const K: usize>(knots: &[Knot<T>; K], load: f32) -> (&T, &T, f32) {
+    let knot = last_not_above::<K>(load, |knot| knots[knot % K].load);
+    let below = &knots[knot % K];
+    let fraction = (load - below.load) * below.per_width;
+    (
+        &below.numbers,
+        &knots[(knot + 1) % K].numbers,
+        if fraction > 0.0 { fraction } else { 0.0 },
+    )
+}
+
+/// Refuses knots whose loads do not rise, or whose widths are not theirs.
+const fn check_loads<T, const K: usize>(knots: &[Knot<T>; K]) -> Result<(), Error> {
+    let mut number = 0;
+    while number < K {
+        let Knot {
+            load, per_width, ..
+        } = knots[number];
+        attempt!(in_range("load", load, 1e-6, 1e7));
+        let width = if number + 1 < K {
+            knots[number + 1].load - load
+        } else {
+            0.0
+        };
+        attempt!(in_range("load", width, 0.0, 1e7));
+        // A fraction of 1 at the next knot but for roundings; knots that are not needed repeat the last one's load.
+        let fraction = width * per_width;
+        let (least, most) = if width > 0.0 {
+            (1.0 - 1e-5, 1.0 + 1e-5)
+        } else {
+            (0.0, 0.0)
+        };
+        attempt!(in_range("per_width", fraction, least, most));
+        attempt!(in_range("per_width", per_width, 0.0, 1e9));
+        number += 1;
+    }
+    Ok(())
 }
 
 /// A train takes what a ball may have, with what friction between balls makes of it.

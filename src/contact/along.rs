@@ -187,15 +187,6 @@ fn full_force(offset: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use core::f32::consts::PI;
-
-    #[test]
-    fn a_circle_has_the_limits_of_the_elliptic_formulas() {
-        let map = FrictionMap::new(1.0).unwrap();
-        assert!((map.spin_moment() - 3.0 * PI / 16.0).abs() < 2e-7);
-        assert!((map.slope() - 3.0 * PI / 8.0).abs() < 3e-7);
-        assert!((map.cubic - 3.0 * PI / 32.0).abs() < 2e-7);
-    }
 
     #[test]
     fn friction_is_continuous_and_convex_through_the_end() {

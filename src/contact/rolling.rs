@@ -171,28 +171,4 @@ mod tests {
             }
         }
     }
-
-    #[test]
-    fn nothing_resists_without_resistance() {
-        let contact = RollingContact::new(RollingResistance::NONE, 1e-5, 300.0).unwrap();
-        assert_eq!(contact, RollingContact::NONE);
-        assert_eq!(contact.power(1000.0, 10.0, 1.0), 0.0);
-        let steel = RollingContact::new(RollingResistance::STEEL, 1e-5, 300.0).unwrap();
-        assert_eq!(steel.force(0.0, 0.0), 0.0);
-    }
-
-    /// 3/16 x 0.01 x 1e-5 x 300 x 10^(4/3 x 3) = 0.05625 N and 0.2 N x sqrt(10): three roundings each.
-    #[test]
-    fn both_parts_have_their_powers_of_the_load() {
-        let resistance = RollingResistance {
-            lubricant_drag: 0.2,
-            ..RollingResistance::STEEL
-        };
-        let contact = RollingContact::new(resistance, 1e-5, 300.0).unwrap();
-        approx::assert_relative_eq!(
-            contact.force(1000.0, 10.0),
-            0.056_25 + 0.632_455_5,
-            max_relative = 4.0 * f32::EPSILON
-        );
-    }
 }

@@ -266,13 +266,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn commands_carry_even_parity() {
-        assert_eq!(READ_ANGLE, 0xFFFF);
-        assert_eq!(READ_DIAGNOSTICS, 0xFFFC);
-        assert_eq!(READ_ERRORS, 0x4001);
-    }
-
-    #[test]
     fn every_bit_is_its_own() {
         for bit in 0..16 {
             let errors = SensorErrors(1 << bit);

@@ -10,12 +10,12 @@ use crate::scene::{Faults, Outputs, UncagedOutputs};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum FaultReaction {
-    /// Any fault ([`Faults::faulty`], which has not [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`]): neutral.
+    /// A value at its limit ([`Faults::SPEED_RANGE`], [`Faults::LOAD_RANGE`], [`Faults::FRICTION_LIMIT`]) passes: neutral would drop the torque
+    /// where it is largest. Any other fault: neutral.
     #[default]
-    NeutralOnAnyFault,
-    /// A value at its limit ([`Faults::SPEED_RANGE`], [`Faults::LOAD_RANGE`], [`Faults::FRICTION_LIMIT`]) passes, so that the torque does not drop
-    /// where it is largest; any other fault: neutral.
     LimitedValuesPass,
+    /// Any fault ([`Faults::faulty`], which has not [`Faults::BEYOND_MODEL`] and [`Faults::FORCES_NOT_HELD`]): neutral.
+    NeutralOnAnyFault,
 }
 
 /// Configuration of a feed-forward of friction; unchecked.

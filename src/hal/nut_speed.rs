@@ -133,25 +133,3 @@ const fn wrapped_step(from: u16, to: u16) -> i16 {
     // The two unused bits are shifted out, so that bit 13 of the difference becomes the sign.
     (to.wrapping_sub(from) << 2).cast_signed() >> 2
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_step_goes_the_shorter_way_round() {
-        for (from, to, step) in [
-            (0, 1, 1),
-            (1, 0, -1),
-            (16383, 0, 1),
-            (0, 16383, -1),
-            (16000, 400, 784),
-            (400, 16000, -784),
-            (0, 8191, 8191),
-            (0, 8192, -8192),
-            (8192, 0, -8192),
-        ] {
-            assert_eq!(wrapped_step(from, to), step, "{from} to {to}");
-        }
-    }
-}

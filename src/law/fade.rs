@@ -122,30 +122,3 @@ impl TemperatureFade {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn reading_holds_and_fades() {
-        let range = Range::new(0.0, 10.0);
-        let fade = Fade::new(("hold", 2.0, range), ("fade", 4.0, range)).unwrap();
-        for (age, left) in [
-            (f32::NEG_INFINITY, 1.0),
-            (-1.0, 1.0),
-            (0.0, 1.0),
-            (2.0, 1.0),
-            (3.0, 0.75),
-            (5.0, 0.25),
-            (6.0, 0.0),
-            (f32::INFINITY, 0.0),
-            (f32::NAN, 0.0),
-        ] {
-            assert_eq!(fade.left(age).to_bits(), f32::to_bits(left), "{age}");
-            assert_eq!(fade.holds(age), age <= 2.0, "{age}");
-        }
-        let error = Fade::new(("hold", 11.0, range), ("fade", 4.0, range)).unwrap_err();
-        assert_eq!(error.field(), "hold");
-    }
-}

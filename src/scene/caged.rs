@@ -3,11 +3,11 @@
 mod block;
 mod built_in;
 
+use super::contract::Faults;
 use super::contract::{
     ChangingFriction, CheckedInputs, Inputs, Limits, Reversal, ReversalState, Scene,
     SceneOutputs as _,
 };
-use super::faults::Faults;
 use super::outputs::Outputs;
 use super::sliding::{CagedFriction, Sliding, SlidingFriction};
 use super::stored::StoredScene;

@@ -1,9 +1,9 @@
 //! A ball screw whose balls do not touch, by the closed forms of the papers: from catalogue numbers alone, without a host.
 
+use super::contract::Faults;
 use super::contract::{
     CheckedInputs, Inputs, Limits, Regime, Reversal, ReversalState, Scene, SceneOutputs as _,
 };
-use super::faults::Faults;
 use super::outputs::Outputs;
 use super::sliding::{CagedFriction, Sliding, SlidingFriction};
 use super::stored::StoredScene;

@@ -7,9 +7,9 @@ use super::circuit::{Circuit, CircuitState};
 use super::contract::{
     ChangingFriction, CheckedInputs, Reversal, ReversalState, Scene, SceneOutputs as _,
 };
-use super::faults::{Faults, bounded};
-use super::outputs::LinearOutputs;
-use super::sliding::{NO_DRAG, Sliding, SlidingFriction, TrainFriction};
+use super::contract::{Faults, bounded};
+use super::outputs::{LinearOutputs, TrainFriction};
+use super::sliding::{NO_DRAG, Sliding, SlidingFriction};
 use super::stored::StoredScene;
 use crate::ball::{AnalyticLinearBall, GrooveFriction};
 use crate::error::{Error, Range, attempt};

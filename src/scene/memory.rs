@@ -21,10 +21,10 @@ mod remembered;
 
 use core::marker::PhantomData;
 
+use super::contract::Faults;
 use super::contract::{
     CheckedInputs, Motion as _, ReversalState, Scene, SceneOutputs as _, direction,
 };
-use super::faults::Faults;
 use super::sliding::Sliding;
 use crate::error::{Error, attempt, in_range};
 use crate::law::Elements;

@@ -1,7 +1,7 @@
 //! Scenes whose state can be kept as bytes.
 
+use super::contract::Faults;
 use super::contract::{Inputs, Scene};
-use super::faults::Faults;
 use super::linear::LinearInputs;
 use crate::error::Range;
 use crate::law::SlidingLimits;

@@ -3,30 +3,30 @@
 mod block;
 mod closed_form;
 mod configuration;
-mod step;
 
 use core::f32::consts::TAU;
 
-use super::circuit::{Circuit, CircuitState};
+use super::circuit::{Circuit, CircuitState, Sharing, UNLOADED};
 use super::contract::{
-    ChangingFriction, CheckedInputs, Inputs, Limits, Reversal, ReversalState, Scene,
-    SceneOutputs as _,
+    ChangingFriction, CheckedInputs, Faults, Inputs, Limits, Reversal, ReversalState, Scene,
+    SceneOutputs as _, bounded, direction,
 };
-use super::faults::{Faults, bounded};
-use super::outputs::UncagedOutputs;
-use super::sliding::{NO_DRAG, Sliding, SlidingFriction, TrainFriction};
+use super::outputs::{TrainFriction, UncagedOutputs, not_negative};
+use super::sliding::{NO_DRAG, Sliding, SlidingFriction};
 use super::stored::StoredScene;
 use crate::ball::LoadShare;
-use crate::ball::folded::{FrictionInterval, node_octaves};
-use crate::ball::pressed::{BallLaw, BallOfRow, RowConstants};
-use crate::error::{Error, Range, attempt, in_range};
+use crate::ball::folded::FrictionInterval;
+use crate::ball::pressed::{
+    BallLaw, BallNumbers, BallOfRow, NeighbourLaw, PowerSums, PressedTorques, RowConstants,
+};
+use crate::error::{Error, Range, in_range};
 use crate::law::coefficient::DirectionalCoefficient;
 use crate::ranges;
 use crate::stored::{Fingerprint, Port, Refusal, Stored};
+use crate::train::{FreeBall, Neighbours};
 
 pub use closed_form::CatalogueBall;
 pub use configuration::{FoldedBall, UncagedBallScrewConfiguration};
-pub use step::UncagedFriction;
 
 /// A ball screw without cage, with up to `N` balls in one circuit: friction of the grooves and between balls, by the folded law of one ball, for
 /// `NODES` friction coefficients.
@@ -43,8 +43,8 @@ pub use step::UncagedFriction;
 /// not the torque, are less accurate: under some load from that of the ball that carries least, the run-ins left out, to that of the one that
 /// carries most.
 ///
-/// A step reads from `scene/uncaged/step.rs`: what a ball does on its own in `ball/pressed/numbers.rs`, what its neighbours change in `ball/pressed/row.rs`, a tick
-/// of all balls in `train/tick.rs`, which balls press in `train/pool.rs`, and how hard in `train/settle.rs`; `train.rs` has the words.
+/// A step reads from `scene/uncaged.rs`: what a ball does on its own in `ball/pressed/numbers.rs`, what its neighbours change in
+/// `ball/pressed/row.rs`, a tick of all balls in `train/tick.rs`, which balls press and how hard in `train/pool.rs`; `train.rs` has the words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct UncagedBallScrew<const N: usize, const NODES: usize = 1>;
@@ -122,81 +122,232 @@ impl<const N: usize, const NODES: usize> Scene for UncagedBallScrew<N, NODES> {
         let Some(inputs) = inputs else {
             return UncagedOutputs::safe(faults);
         };
-        let sliding = constants.friction_of_balls(state, inputs);
+        let sliding = constants.friction_of_balls(state, inputs, [1.0; 2]);
         let reversal = constants.reversal.at(inputs.nut_speed);
         Self::outputs_at(constants, inputs, &sliding, reversal, NO_DRAG, faults)
     }
 }
 
+/// Sliding friction of a ball screw without cage, in the direction in which its balls go.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct UncagedFriction {
+    /// Its parts. `load`: the axial load, preload counted, N.
+    row: TrainFriction,
+    faults: Faults,
+}
+
+/// Numbers of a tick that are the same for all balls. Speeds and pushes are counted along the track.
+struct Common {
+    shares: &'static [LoadShare],
+    /// Axial load of a ball whose weight is 1, N.
+    mean: f32,
+    /// Friction coefficient times the load of such a ball, N.
+    sliding: f32,
+    /// Friction of neighbours over `sliding`, by their force, 1/N.
+    rubbing: f32,
+    /// 0 where the load opposes the motion, else 1.
+    branch: usize,
+    /// -1 where the nut turns backward, else 1.
+    direction: f32,
+    /// What such a ball does alone, over `sliding`.
+    numbers: BallNumbers,
+    neighbours: NeighbourLaw,
+}
+
+impl Common {
+    /// Friction of both neighbours of a ball over its friction coefficient times load; none in the return.
+    #[inline(always)]
+    fn rubbing(&self, ball: &BallOfRow, found: &Neighbours) -> Option<f32> {
+        if ball.sliding.to_bits() == self.sliding.to_bits() {
+            Some(found.rubbing * self.rubbing)
+        } else if ball.sliding > 0.0 {
+            Some(self.neighbours.rubbing(ball, found))
+        } else {
+            None
+        }
+    }
+}
+
 impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
-    /// Checks a configuration and folds its constants.
-    pub const fn new(configuration: &UncagedBallScrewConfiguration<NODES>) -> Result<Self, Error> {
-        let UncagedBallScrewConfiguration {
-            folded,
-            ball_friction,
-            screw_deviation,
-            nut_deviation,
-            load_shares,
-            tick,
-            ..
-        } = *configuration;
-        let FoldedBall {
-            ref law,
-            friction,
-            lead,
-            reversal_speed,
-            limits,
-            ..
-        } = *folded;
-        attempt!(law.checked());
-        let (least, largest) = law.friction_range();
-        attempt!(in_range("friction", friction, least, largest));
-        attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
-        attempt!(in_range("lead", lead, 0.0, 0.2));
-        let limits = attempt!(limits.checked());
-        let circuit = attempt!(configuration.circuit(&limits, N));
-        let [screw, nut] = law.deviations;
-        attempt!(screw_deviation.checked("screw_deviation", screw));
-        attempt!(nut_deviation.checked("nut_deviation", nut));
-        let units = circuit.zone.units();
-        Ok(Self {
-            law,
-            friction: law.interval(friction),
-            node_octaves: node_octaves(&law.frictions()),
-            circuit,
-            row: folded.row(ball_friction),
-            units: [units.0 / screw, units.1 / nut],
-            even: load_shares.are_even(),
-            preload: law.lift_off / circuit.per_loaded_ball(),
-            tick,
-            per_tick: 1.0 / tick,
-            reduced_lead: lead / TAU,
-            reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
-            limits,
-        })
-    }
-
-    /// These constants with other limits, of a calibration page.
-    pub const fn with_limits(&self, limits: Limits) -> Result<Self, Error> {
-        Ok(Self {
-            limits: attempt!(limits.checked()),
-            ..*self
-        })
-    }
-
     #[inline(always)]
     fn interval(&self, friction: f32) -> FrictionInterval {
         FrictionInterval::among(&self.law.frictions(), &self.node_octaves, friction)
     }
 
-    #[inline(always)]
-    const fn shares(&self, axial_load: f32) -> &'static [LoadShare] {
-        self.circuit.zone.shares(axial_load < 0.0)
-    }
-
     pub(crate) fn set_nut_angle(&self, state: &mut UncagedState<N>, angle: f32) {
         state.circuit.set_turns(&self.circuit, angle / TAU);
     }
+
+    /// Sliding friction in the direction of motion; moves the balls on by a tick. `ratios`: groove friction forward and backward, each over that in
+    /// this direction.
+    #[inline(always)]
+    fn friction_of_balls(
+        &self,
+        state: &mut UncagedState<N>,
+        inputs: Inputs,
+        ratios: [f32; 2],
+    ) -> UncagedFriction {
+        let shares = self.circuit.zone.shares(inputs.axial_load < 0.0);
+        let zone = &self.circuit.zone;
+        let sharing = zone.sharing(state.circuit.train.positions(), shares);
+        let common = self.common(state, inputs, &sharing, shares);
+        let travel = self.circuit.travel(inputs.nut_speed);
+        let alone = not_negative(self.take_in(state, &common, travel));
+        if !zone.is_closed() {
+            let train = &mut state.circuit.train;
+            train.rub_in_part(|position| zone.part(position));
+        }
+        if self.row.ball_friction > 0.0 {
+            refine(state, &common, travel);
+        }
+        let mut pressed = PressedTorques::default();
+        let UncagedState { circuit, balls, .. } = state;
+        let pressing = circuit.train.press(travel, true, |index, found| {
+            if found.forces > 0.0
+                && let Some(ball) = balls.get(index)
+                && let Some(rubbing) = common.rubbing(ball, found)
+            {
+                common.neighbours.lose(ball, found, rubbing, &mut pressed);
+            }
+        });
+        state.circuit.advance(&self.circuit, inputs.nut_speed);
+
+        let extremes = sharing
+            .extremes
+            .map(|weight| self.law.load_of(common.mean * weight));
+        let rubbing = self.row.ball_friction * pressed.largest;
+        let held = sharing.weights > 0.0
+            && self.law.holds_load(extremes[0])
+            && self.law.holds(state.friction.friction())
+            && self.law.holds_rubbing(rubbing, common.sliding);
+        let forces_held = pressing.contacts == 0
+            || self
+                .law
+                .holds_forces_within(extremes, common.branch, state.friction);
+        UncagedFriction {
+            row: TrainFriction {
+                groove: not_negative(alone + pressed.groove),
+                ball: not_negative(pressed.ball),
+                free: alone,
+                ratios,
+                fading: [0.0; 2],
+                direction: common.direction,
+                load: inputs.axial_load.abs() + self.preload,
+                contacts: pressing.contacts,
+                largest_contact_force: self.row.normal * pressing.largest,
+            },
+            faults: Faults::NONE
+                .with(!held, Faults::BEYOND_MODEL)
+                .with(!forces_held, Faults::FORCES_NOT_HELD),
+        }
+    }
+
+    #[inline(always)]
+    fn common(
+        &self,
+        state: &UncagedState<N>,
+        inputs: Inputs,
+        sharing: &Sharing,
+        shares: &'static [LoadShare],
+    ) -> Common {
+        let direction = direction(inputs.nut_speed);
+        let mean = inputs.axial_load * sharing.per_weight;
+        let branch = usize::from(direction * mean < 0.0);
+        // Where all loaded balls are on a run-in, none carries as much.
+        let [heaviest, _] = sharing.extremes;
+        let weight = if heaviest < 1.0 { heaviest } else { 1.0 };
+        let load = self.law.load_of(weight * mean);
+        let mut numbers = self.law.per_sliding(load, branch, state.friction);
+        let neighbours = self
+            .law
+            .neighbours(load, branch, state.friction, &numbers, self.row)
+            .along(direction);
+        numbers.free = numbers.free.map(|number| direction * number);
+        let sliding = self.law.sliding(load, state.friction);
+        Common {
+            shares,
+            mean,
+            sliding,
+            rubbing: self.row.ball_friction / sliding,
+            branch,
+            direction,
+            numbers,
+            neighbours,
+        }
+    }
+
+    /// Takes in each ball, and keeps what it does alone under its part of the load with its deviations; returns the sum of the friction
+    /// torques, N m.
+    #[inline(never)]
+    fn take_in(&self, state: &mut UncagedState<N>, common: &Common, travel: f32) -> f32 {
+        let Common {
+            numbers,
+            neighbours,
+            direction,
+            ..
+        } = common;
+        let units = self.units.map(|unit| direction * unit);
+        let rubs = self.row.ball_friction > 0.0;
+        let phase = state.circuit.phase();
+        let (mut alike, mut torque) = (PowerSums::default(), 0.0);
+        let UncagedState {
+            circuit,
+            balls,
+            friction,
+        } = state;
+        circuit.train.take_in(travel, |index, position| {
+            let idle = FreeBall::smooth(numbers.free[0], UNLOADED);
+            let Some(place) = balls.get_mut(index) else {
+                return idle;
+            };
+            let Some(loaded) = self.circuit.zone.at(position, phase) else {
+                *place = BallOfRow::UNLOADED;
+                return idle;
+            };
+            let deviations = [units[0] * loaded.passing, units[1] * loaded.recirculating];
+            let part = loaded.run_in;
+            // Between the run-ins all balls of even loads are alike.
+            let ball = if self.even && part == 1.0 {
+                alike.add(deviations);
+                let motion = numbers.at(deviations);
+                BallOfRow {
+                    speed: motion.speed,
+                    impedance: motion.impedance,
+                    sliding: common.sliding,
+                    deviations,
+                }
+            } else {
+                let share = self.circuit.zone.share(position, common.shares);
+                let load = self.law.load_of(common.mean * share);
+                let (ball, alone) = self
+                    .law
+                    .ball(load, common.branch, *friction, deviations, part);
+                torque += alone;
+                BallOfRow {
+                    speed: direction * ball.speed,
+                    ..ball
+                }
+            };
+            *place = ball;
+            if rubs {
+                neighbours.first(&ball, part)
+            } else {
+                neighbours.smooth(&ball, part)
+            }
+        });
+        torque + common.sliding * numbers.torque_of(&alike)
+    }
+}
+
+/// The first pass of balls that rub: each is taken in anew by what it found.
+#[inline(never)]
+fn refine<const N: usize>(state: &mut UncagedState<N>, common: &Common, travel: f32) {
+    let UncagedState { circuit, balls, .. } = state;
+    circuit.train.refine(travel, |index, found| {
+        let ball = balls.get(index)?;
+        let rubbing = common.rubbing(ball, found)?;
+        Some(common.neighbours.second(ball, found, rubbing))
+    });
 }
 
 impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> {
@@ -219,9 +370,7 @@ impl<const N: usize, const NODES: usize> Sliding for UncagedBallScrew<N, NODES> 
         friction: DirectionalCoefficient,
     ) -> UncagedFriction {
         state.friction = constants.interval(friction.of(inputs.nut_speed).0);
-        let mut sliding = constants.friction_of_balls(state, inputs);
-        sliding.row.ratios = friction.over_own(inputs.nut_speed);
-        sliding
+        constants.friction_of_balls(state, inputs, friction.over_own(inputs.nut_speed))
     }
 
     #[inline(always)]

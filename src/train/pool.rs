@@ -1,6 +1,7 @@
-//! Pooling of adjacent violators: which balls of a row or a ring move as one.
+//! Which balls of a row or a ring move as one, by pooling of adjacent violators; then speeds and forces of all balls from their clusters.
 
-use super::ball::Ball;
+use super::press::Ball;
+use super::tick::Neighbours;
 
 /// Joins balls that are taken in to clusters and leaves these in their front and rear balls; gives the index of a ball that presses on none.
 #[inline(always)]
@@ -65,89 +66,38 @@ fn grow(balls: &mut [Ball], mut front: usize) -> usize {
 #[inline(always)]
 fn close(balls: &mut [Ball]) -> usize {
     let last = balls.len().wrapping_sub(1);
-    let mut closing = Closing::new(balls, last);
+    // The cluster of the last ball, which may grow around that place.
+    let mut cluster = Cluster::at(balls, last);
+    let (mut rear, mut front) = (last.wrapping_sub(others(balls, last)), last);
     // Each turn but the last makes one cluster of two.
-    while !closing.is_ring() && (closing.joins_ahead(balls) || closing.joins_behind(balls)) {}
-    if closing.front != last {
-        closing
-            .cluster
-            .leave(balls, closing.rear, closing.front, closing.others);
-    }
-    closing.front
-}
-
-/// The cluster of the last ball, which may grow around the place where the ring closes.
-struct Closing {
-    cluster: Cluster,
-    last: usize,
-    rear: usize,
-    front: usize,
-    /// Balls besides one.
-    others: usize,
-}
-
-impl Closing {
-    #[inline(always)]
-    fn new(balls: &[Ball], last: usize) -> Self {
-        let others = others(balls, last);
-        Self {
-            cluster: Cluster::at(balls, last),
-            last,
-            rear: last.wrapping_sub(others),
-            front: last,
-            others,
+    loop {
+        let ahead = if front == last { 0 } else { front + 1 };
+        if ahead == rear {
+            break;
         }
-    }
-
-    #[inline(always)]
-    fn ahead(&self) -> usize {
-        if self.front == self.last {
-            0
-        } else {
-            self.front + 1
+        let next = ahead + others(balls, ahead);
+        if let Some(joined) = cluster.joined(slack(balls, front), &Cluster::at(balls, next)) {
+            (cluster, front) = (joined, next);
+            continue;
         }
-    }
-
-    #[inline(always)]
-    fn is_ring(&self) -> bool {
-        self.ahead() == self.rear
-    }
-
-    #[inline(always)]
-    fn joins_ahead(&mut self, balls: &[Ball]) -> bool {
-        let slack = slack(balls, self.front);
-        let ahead = self.ahead();
-        let beyond = others(balls, ahead);
-        let cluster_ahead = Cluster::at(balls, ahead + beyond);
-        let Some(joined) = self.cluster.joined(slack, &cluster_ahead) else {
-            return false;
-        };
-        self.cluster = joined;
-        self.front = ahead + beyond;
-        self.others += 1 + beyond;
-        true
-    }
-
-    /// Joins the cluster behind where that runs into this one; before this one has grown ahead it does not.
-    #[inline(always)]
-    fn joins_behind(&mut self, balls: &[Ball]) -> bool {
-        if self.front == self.last {
-            return false;
+        // Before this one has grown ahead, the cluster behind does not run into it.
+        if front == last {
+            break;
         }
-        let front = self.rear.wrapping_sub(1);
-        let Some(ball) = balls.get(front) else {
-            return false;
+        let behind = rear.wrapping_sub(1);
+        let Some(ball) = balls.get(behind) else {
+            break;
         };
-        let behind = Cluster::at(balls, front);
-        let Some(joined) = behind.joined(ball.slack, &self.cluster) else {
-            return false;
+        let Some(joined) = Cluster::at(balls, behind).joined(ball.slack, &cluster) else {
+            break;
         };
-        let beyond = 1 + ball.others();
-        self.cluster = joined;
-        self.rear = self.rear.wrapping_sub(beyond);
-        self.others += beyond;
-        true
+        (cluster, rear) = (joined, behind.wrapping_sub(ball.others()));
     }
+    if front != last {
+        let behind = last.wrapping_sub(rear);
+        cluster.leave(balls, rear, front, behind + 1 + front);
+    }
+    front
 }
 
 #[inline(always)]
@@ -263,4 +213,165 @@ impl Cluster {
             ball.others = others as u8;
         }
     }
+}
+
+/// Part of the largest force that rounding may leave of the sum of a cluster's net pushes.
+pub(super) const ROUNDING: f32 = 1e-6;
+
+/// A ball with its actual speed, and the force on the ball in front.
+pub(super) struct Settled {
+    pub(super) neighbours: Neighbours,
+    pub(super) force: f32,
+    pub(super) touches: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Pressing {
+    pub(crate) contacts: u8,
+    /// Largest force, in the unit of speed times impedance.
+    pub(crate) largest: f32,
+    /// Sum of the forces, in the same unit.
+    pub(crate) force: f32,
+    /// Largest remainder of a cluster, without sign.
+    pub(super) remainder: f32,
+}
+
+/// Gives each ball its speed and its force, from the foremost ball backwards, and passes it on: each ball behind differs from its free speed by
+/// its slack more than the one in front does, and the force behind it is that in front and its net push. A ball alone keeps its free speed.
+#[inline(always)]
+pub(super) fn settle(
+    balls: &mut [Ball],
+    foremost: usize,
+    mut each: impl FnMut(usize, &mut Ball, &Settled),
+) -> Pressing {
+    let last = balls.len().wrapping_sub(1);
+    let mut index = foremost;
+    // Balls still to come of the cluster, its impedance, the last ball's change of speed, the force of the next one, and its bits, of zero
+    // where rounding has made it a little less.
+    let (mut left, mut impedance, mut change, mut next) = (0, 0.0, 0.0, 0.0);
+    let mut bits = 0_i32;
+    // Part of the force in front that rubs.
+    let mut rubs_ahead = 0.0;
+    let (mut contacts, mut largest) = (0, 0);
+    let mut sums = Pressing::default();
+    for _ in 0..balls.len() {
+        let Some(ball) = balls.get_mut(index) else {
+            break;
+        };
+        let force = f32::from_bits(bits as u32);
+        let touches = left > 0;
+        if touches {
+            left -= 1;
+            change += ball.slack;
+            sums.force += next;
+            largest = if bits > largest { bits } else { largest };
+            // The sign bit of the negated bits: 1 for each force above zero.
+            contacts += bits.wrapping_neg() as u32 >> 31;
+        } else {
+            left = ball.others();
+            change = 0.0;
+            if left > 0 {
+                impedance = ball.of_cluster;
+                change = ball.force / impedance;
+            }
+        }
+        if touches || left > 0 {
+            next = ball.growth * next + change * ball.impedance;
+            bits = not_negative_bits(next);
+            if left == 0 {
+                (ball.slack, ball.of_cluster) = (next, impedance);
+                let size = next.abs();
+                sums.remainder = larger(size, sums.remainder);
+                (next, bits) = (0.0, 0);
+            }
+        }
+        let behind = f32::from_bits(bits as u32);
+        let rubs_behind = ball.rubs() * behind;
+        let settled = Settled {
+            neighbours: Neighbours {
+                speed: ball.speed + change,
+                forces: force + behind,
+                rubbing: rubs_ahead + rubs_behind,
+            },
+            force,
+            touches,
+        };
+        rubs_ahead = rubs_behind;
+        each(index, ball, &settled);
+        index = if index == 0 { last } else { index - 1 };
+    }
+    Pressing {
+        contacts: contacts as u8,
+        largest: f32::from_bits(largest as u32),
+        // Forces that rounding makes negative may leave a sum that is.
+        force: not_negative(sums.force),
+        ..sums
+    }
+}
+
+/// Takes the remainders of clusters above `least` out of their forces: a stiff ball turns a small one into a large force. Shared out by impedance it
+/// changes all balls' speeds alike, by less than rounding. The rear ball of each cluster keeps the remainder, and a walk forwards, which ends
+/// with the foremost ball, meets it first.
+#[cold]
+#[inline(never)]
+pub(super) fn take_out(balls: &mut [Ball], foremost: usize, least: f32) {
+    let last = balls.len().wrapping_sub(1);
+    let mut index = foremost;
+    // Balls still to come of the cluster, the change of its balls' speeds, and that of the next ball's force.
+    let mut left = 0;
+    let mut change = 0.0;
+    let mut correction = 0.0;
+    for _ in 0..balls.len() {
+        index = if index == last { 0 } else { index + 1 };
+        let Some(ball) = balls.get_mut(index) else {
+            return;
+        };
+        if left == 0 {
+            left = ball.others();
+            if left == 0 {
+                continue;
+            }
+            let remainder = ball.slack;
+            correction = if remainder.abs() > least {
+                remainder
+            } else {
+                0.0
+            };
+            change = correction / ball.of_cluster;
+        } else {
+            left -= 1;
+            // The front ball presses on none.
+            if left == 0 {
+                continue;
+            }
+        }
+        correction -= change * ball.impedance;
+        if ball.growth != 1.0 {
+            correction = before(correction, ball.growth);
+        }
+        ball.force = not_negative(ball.force - correction);
+    }
+}
+
+/// A force in front of a ball that grows it; out of line, or the compiler divides for balls that do not rub, too.
+#[inline(never)]
+fn before(behind: f32, growth: f32) -> f32 {
+    behind / growth
+}
+
+#[inline(always)]
+fn larger(one: f32, other: f32) -> f32 {
+    if one > other { one } else { other }
+}
+
+#[inline(always)]
+fn not_negative(force: f32) -> f32 {
+    f32::from_bits(not_negative_bits(force) as u32)
+}
+
+/// The bits of a force, or of zero where it is negative: integers compare without a detour over the floating-point flags.
+#[inline(always)]
+fn not_negative_bits(force: f32) -> i32 {
+    let bits = force.to_bits() as i32;
+    bits & !(bits >> 31)
 }

@@ -1,10 +1,15 @@
 //! A tick of a train: each ball is taken in once, from the front backwards, then all are joined, settled and moved.
 
-use super::ball::{Ball, FreeBall};
-use super::positions::Train;
-use super::press::InputCheck;
-use super::settle::{BallState, Pressing, settle};
-use super::track::{Motion, SIXTEENTHS, Slacks};
+use super::pool::{Pressing, settle};
+use super::press::{FreeBall, InputCheck};
+use super::track::{LARGEST_TRAVEL, OVERLAP, Track, Train, UNITS};
+
+/// Nominal travel, in units, below which it counts as none: its inverse times a gap of the whole track, 2^32 units, is finite.
+const NO_TRAVEL: f32 = 1e-20;
+
+/// A position keeps sixteenths of a unit: slow balls move by less than a unit in a tick.
+const SIXTEENTHS: f32 = 16.0;
+const SIXTEENTH_BITS: u32 = 4;
 
 /// Neighbours of a ball in a tick.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,15 +41,14 @@ impl<const N: usize> Train<N> {
             check.add(speed, impedance);
             FreeBall::smooth(speed, impedance)
         });
-        self.press.join(check.passed());
-        self.settle(travel, |_, _, _, _| ());
+        self.press(travel, check.passed(), |_, _| ());
         check.passed()
     }
 
     /// Takes in each ball, from the last one backwards, by its free motion at its index and position, which is not checked.
     #[inline(always)]
     pub(crate) fn take_in(&mut self, travel: f32, mut free: impl FnMut(usize, u32) -> FreeBall) {
-        let mut slacks = self.slacks(travel);
+        let mut slacks = Slacks::new(self.track, travel);
         let balls = self.press.balls_mut();
         for (index, ball) in balls.iter_mut().enumerate().rev() {
             let free = free(index, ball.position);
@@ -74,14 +78,12 @@ impl<const N: usize> Train<N> {
         travel: f32,
         mut refined: impl FnMut(usize, &Neighbours) -> Option<FreeBall>,
     ) {
-        let mut slacks = self.slacks(travel);
+        let mut slacks = Slacks::new(self.track, travel);
         self.press.join(true);
         let foremost = self.press.foremost();
         let balls = self.press.balls_mut();
-        let mut rubs_ahead = 0.0;
         settle(balls, foremost, |index, ball, settled| {
-            let neighbours = Neighbours::of(ball, settled, &mut rubs_ahead);
-            let free = refined(index, &neighbours).unwrap_or_else(|| ball.free());
+            let free = refined(index, &settled.neighbours).unwrap_or_else(|| ball.free());
             ball.take_in(free, slacks.next(ball.position, free.speed));
         });
         if let Some(ball) = balls.get_mut(foremost) {
@@ -89,74 +91,105 @@ impl<const N: usize> Train<N> {
         }
     }
 
-    /// Presses and moves all balls, and passes each on with its index and its neighbours.
+    /// Presses and moves all balls, and passes each on with its index and its neighbours; all go at the nominal speed where what was taken in is
+    /// not `valid`.
     #[inline(always)]
     pub(crate) fn press(
         &mut self,
         travel: f32,
+        valid: bool,
         mut each: impl FnMut(usize, &Neighbours),
     ) -> Pressing {
-        self.press.join(true);
-        self.settle(travel, |index, ball, settled, rubs_ahead| {
-            each(index, &Neighbours::of(ball, settled, rubs_ahead));
-        })
-    }
-
-    #[inline(always)]
-    fn settle(
-        &mut self,
-        travel: f32,
-        mut each: impl FnMut(usize, &Ball, &BallState, &mut f32),
-    ) -> Pressing {
-        let motion = self.motion(travel);
-        let foremost = self.press.foremost();
-        // Nothing is near in front of the foremost one.
-        let balls = self.press.balls();
-        let mut limit = balls.get(foremost).map_or(0, |ball| motion.far_ahead(ball));
-        let mut rubs_ahead = 0.0;
-        self.press.settle(|index, ball, settled| {
-            limit = if settled.touches {
-                ball.position = limit;
-                motion.touching(limit)
-            } else {
-                motion.advance(ball, limit)
-            };
-            each(index, ball, settled, &mut rubs_ahead);
-        })
-    }
-
-    #[inline(always)]
-    fn slacks(&self, travel: f32) -> Slacks {
-        Slacks::new(self.track, self.track.in_units(travel))
-    }
-
-    #[inline(always)]
-    fn motion(&mut self, travel: f32) -> Motion {
+        self.press.join(valid);
         let travel = self.track.in_units(travel);
-        let distance = travel.abs();
+        // Sixteenths of a unit by which a ball moves beyond the nominal travel, over its speed.
+        let sixteenths_per_speed = travel.abs() * SIXTEENTHS;
         let travel = travel + self.carried;
+        // Whole units that the nominal speed moves every ball, signed along the track.
         let nominal = travel as i32;
         self.carried = travel - nominal as f32;
-        Motion {
-            nominal: nominal as u32,
-            sixteenths_per_speed: distance * SIXTEENTHS,
-            pitch: self.track.pitch(),
+        let (nominal, pitch) = (nominal as u32, self.track.pitch());
+        // Nothing is near in front of the foremost one: a quarter of the track from where it goes.
+        let mut limit = match self.press.balls().get(self.press.foremost()) {
+            Some(ball) => ball.position.wrapping_add(nominal.wrapping_add(1 << 30)),
+            None => 0,
+        };
+        self.press.settle(|index, ball, settled| {
+            each(index, &settled.neighbours);
+            let place = if settled.touches {
+                limit
+            } else {
+                let sixteenths = (ball.speed * sixteenths_per_speed) as i32;
+                let sixteenths = sixteenths.wrapping_add(i32::from(ball.sixteenths));
+                ball.sixteenths = (sixteenths & 15) as u8;
+                let place = ball.position.wrapping_add(nominal);
+                let place = place.wrapping_add_signed(sixteenths >> SIXTEENTH_BITS);
+                // Clusters do not run into each other, but rounding may leave that much.
+                if limit.wrapping_sub(place) > u32::MAX - OVERLAP {
+                    limit
+                } else {
+                    place
+                }
+            };
+            ball.position = place;
+            // Where the ball behind touches this one.
+            limit = place.wrapping_sub(pitch);
+        })
+    }
+}
+
+impl Track {
+    /// A travel, m, in units: at most [`LARGEST_TRAVEL`] of the track in size, and zero where it is NaN.
+    #[inline]
+    fn in_units(&self, travel: f32) -> f32 {
+        let travel = travel * self.units_per_metre;
+        let largest = LARGEST_TRAVEL * UNITS;
+        if travel > largest {
+            largest
+        } else if travel < -largest {
+            -largest
+        } else if travel.is_nan() {
+            0.0
+        } else {
+            travel
         }
     }
 }
 
-impl Neighbours {
-    /// Of a ball; `rubs_ahead` is the part of the force in front that rubs, and then that of the ball behind.
+/// Slacks of balls that come one after the other, each behind the one before it: the room in front of a ball, the gap over the nominal travel (0
+/// where rounding lets two balls overlap), and the free speed of the one ahead less its own.
+#[derive(Clone, Copy)]
+struct Slacks {
+    track: Track,
+    /// 1 / nominal travel in this tick, 1/units.
+    per_unit: f32,
+    /// Position and free speed of the ball ahead.
+    ahead: (u32, f32),
+}
+
+impl Slacks {
+    /// In a tick with a nominal travel, m. The first ball comes once more at the end, when the one ahead of it is known.
     #[inline(always)]
-    fn of(ball: &Ball, settled: &BallState, rubs_ahead: &mut f32) -> Self {
-        let rubs_behind = ball.rubs() * settled.behind;
-        let rubbing = *rubs_ahead + rubs_behind;
-        *rubs_ahead = rubs_behind;
+    fn new(track: Track, travel: f32) -> Self {
+        let distance = track.in_units(travel).abs();
         Self {
-            speed: settled.speed,
-            forces: settled.force + settled.behind,
-            rubbing,
+            track,
+            per_unit: if distance > NO_TRAVEL {
+                1.0 / distance
+            } else {
+                1.0 / NO_TRAVEL
+            },
+            ahead: (0, 0.0),
         }
+    }
+
+    #[inline(always)]
+    fn next(&mut self, position: u32, speed: f32) -> f32 {
+        let (ahead, speed_ahead) = self.ahead;
+        let gap = self.track.gap(position, ahead);
+        let gap = if gap > u32::MAX - OVERLAP { 0 } else { gap };
+        self.ahead = (position, speed);
+        gap as f32 * self.per_unit + (speed_ahead - speed)
     }
 }
 
@@ -184,7 +217,7 @@ mod tests {
                 FreeBall::smooth(FREE[index], 1e3)
             });
             let mut both = 0.0;
-            let pressing = asked.press(travel, |_, neighbours| both += neighbours.forces);
+            let pressing = asked.press(travel, true, |_, neighbours| both += neighbours.forces);
             assert_eq!(count, 5);
             assert_eq!(listed, asked);
             let forces = || asked.forces().filter(|&force| force > 0.0);

@@ -1,22 +1,15 @@
-//! The closed track: its units of length, how much room balls have on it, and how far they get in a tick.
+//! The closed track, and the positions of the balls on it from tick to tick, also as bytes.
 
-use super::ball::Ball;
-use crate::error::{Error, attempt, in_range};
-use crate::stored::Fingerprint;
+use super::press::{Ball, Press};
+use crate::error::{Error, Range, attempt, in_range};
+use crate::stored::{Fingerprint, Port, Refusal, Stored};
 
 /// Units of length on the track: positions wrap around where it closes.
-const UNITS: f32 = 4_294_967_296.0;
+pub(super) const UNITS: f32 = 4_294_967_296.0;
 
 /// Largest travel in a tick over the length of the track: at the [largest free speed](super::LARGEST_FREE_SPEED) a ball's own travel beyond
 /// it, in sixteenths of 2^-32 of the track, has to fit into 31 bits.
 pub const LARGEST_TRAVEL: f32 = 0.03;
-
-/// Nominal travel, in units, below which it counts as none: its inverse times a gap of the whole track, 2^32 units, is finite.
-const NO_TRAVEL: f32 = 1e-20;
-
-/// A position keeps sixteenths of a unit: slow balls move by less than a unit in a tick.
-pub(super) const SIXTEENTHS: f32 = 16.0;
-const SIXTEENTH_BITS: u32 = 4;
 
 /// Distances this far below zero, in units, are contact: many times the rounding of two positions.
 pub(super) const OVERLAP: u32 = 1 << 10;
@@ -28,7 +21,7 @@ pub(crate) struct Track {
     /// Distance of the centres of two balls in contact, in units.
     pitch: u32,
     /// Units in a metre.
-    units_per_metre: f32,
+    pub(super) units_per_metre: f32,
 }
 
 impl Track {
@@ -66,27 +59,6 @@ impl Track {
         self.pitch
     }
 
-    #[inline(always)]
-    pub(super) const fn units_per_metre(&self) -> f32 {
-        self.units_per_metre
-    }
-
-    /// A travel, m, in units: at most [`LARGEST_TRAVEL`] of the track in size, and zero where it is NaN.
-    #[inline]
-    pub(super) fn in_units(&self, travel: f32) -> f32 {
-        let travel = travel * self.units_per_metre;
-        let largest = LARGEST_TRAVEL * UNITS;
-        if travel > largest {
-            largest
-        } else if travel < -largest {
-            -largest
-        } else if travel.is_nan() {
-            0.0
-        } else {
-            travel
-        }
-    }
-
     /// Units between a ball and the one ahead, less what the balls themselves take.
     #[inline(always)]
     pub(super) const fn gap(&self, position: u32, ahead: u32) -> u32 {
@@ -99,46 +71,209 @@ impl Track {
     }
 }
 
-/// Slacks of balls that come one after the other, each behind the one before it: the room in front of a ball, the gap over the nominal travel (0
-/// where rounding lets two balls overlap), and the free speed of the one ahead less its own.
-#[derive(Clone, Copy)]
-pub(super) struct Slacks {
-    track: Track,
-    /// 1 / nominal travel in this tick, 1/units.
-    per_unit: f32,
-    /// Position and free speed of the ball ahead.
-    ahead: (u32, f32),
+pub(crate) const BALL_BYTES: usize = Ball::BYTES;
+
+/// Up to `N` balls on a closed track, which they fill in part: positions, distances, forces, from tick to tick.
+///
+/// Positions are integers, in units of the track's length over 2³²: they wrap around where the track closes, and distances that open and close
+/// for hours do not drift. Balls that press on each other are set in contact exactly, the others within two units of where their speeds lead.
+///
+/// Free speeds are deviations from a common nominal speed, in units of its size: only the sense of motion and the distance travelled count
+/// beside them. Forces follow from [`Press`].
+///
+/// ```
+/// use epas_friction::train::Train;
+/// // Three balls of 10 mm in contact on a track of 1 m, the fastest at the rear.
+/// let mut train = Train::<3>::new(1.0, 0.01, &[0.0; 3])?;
+/// train.step(&[0.02, 0.01, 0.0], &[1e3; 3], 1e-4);
+/// assert!(train.forces().zip([10.0, 10.0, 0.0]).all(|(force, exact)| (force - exact).abs() < 1e-4));
+/// // They go on as one, at the mean speed.
+/// assert!(train.speeds().all(|speed| (speed - 0.01).abs() < 1e-7));
+/// # Ok::<(), epas_friction::Error>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Train<const N: usize> {
+    /// Nominal travel that was less than a unit and goes over into the next tick, in units.
+    pub(super) carried: f32,
+    pub(super) press: Press<N>,
+    pub(super) track: Track,
 }
 
-impl Slacks {
-    /// In a tick with a nominal travel in units. The first ball comes once more at the end, when the one ahead of it is known.
-    #[inline(always)]
-    pub(super) fn new(track: Track, travel: f32) -> Self {
-        let distance = travel.abs();
-        Self {
-            track,
-            per_unit: if distance > NO_TRAVEL {
-                1.0 / distance
-            } else {
-                1.0 / NO_TRAVEL
-            },
-            ahead: (0, 0.0),
+/// Two balls that press on each other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct BallContact {
+    /// Index of the ball behind; the one in front is the next, or ball 0.
+    pub ball: u8,
+    /// Position of the ball behind, as a part of the track's length in units of 2^-32.
+    pub position: u32,
+    /// Force between the two, in the unit of speed times impedance.
+    pub force: f32,
+}
+
+impl<const N: usize> Train<N> {
+    /// How many balls it has.
+    pub const fn balls(&self) -> usize {
+        self.press.count() as usize
+    }
+
+    /// Whether it has as many balls, on this track.
+    pub(crate) const fn is_on(&self, track: &Track, balls: u16) -> Result<(), Error> {
+        let own = self.balls() as f32;
+        attempt!(in_range("balls", balls as f32, own, own));
+        self.track.is_same(track)
+    }
+
+    /// Balls on a closed track of `length`, m, that stand `pitch`, m, from centre to centre in contact, as many as gaps: ball 0 starts at 0;
+    /// `gaps[j]`, m, is left in front of ball `j`, in front of the last one whatever is left.
+    ///
+    /// # Errors
+    /// [`Error`] naming `balls` (1 to `N`), `length` (1e-4 to 1e4), `pitch` (1e-6 of the length to that over the balls) or
+    /// `gaps` (each zero or more, the last one not counted, all no more than the balls leave).
+    pub fn new(length: f32, pitch: f32, gaps: &[f32]) -> Result<Self, Error> {
+        in_range("balls", gaps.len() as f32, 1.0, N as f32)?;
+        let track = Track::new(length, pitch, gaps.len())?;
+        let mut free = (1_u64 << 32) - gaps.len() as u64 * u64::from(track.pitch());
+        let mut train = Self::spread(track, gaps.len());
+        let mut next = 0_u32;
+        for (ball, &gap) in train.press.balls_mut().iter_mut().zip(gaps) {
+            ball.position = next;
+            let largest = free as f32 / track.units_per_metre;
+            let gap = (in_range("gaps", gap, 0.0, largest)? * track.units_per_metre) as u64;
+            let gap = if gap > free { free } else { gap };
+            free -= gap;
+            next = next.wrapping_add(track.pitch()).wrapping_add(gap as u32);
         }
+        Ok(train)
+    }
+
+    /// As many balls at equal distances.
+    pub fn evenly_spaced(length: f32, pitch: f32, balls: usize) -> Result<Self, Error> {
+        in_range("balls", balls as f32, 1.0, N as f32)?;
+        Ok(Self::spread(Track::new(length, pitch, balls)?, balls))
     }
 
     #[inline(always)]
-    pub(super) fn next(&mut self, position: u32, speed: f32) -> f32 {
-        let (ahead, speed_ahead) = self.ahead;
-        let gap = self.track.gap(position, ahead);
-        let gap = if gap > u32::MAX - OVERLAP { 0 } else { gap };
-        self.ahead = (position, speed);
-        gap as f32 * self.per_unit + (speed_ahead - speed)
+    pub(crate) fn spread(track: Track, balls: usize) -> Self {
+        // 2^32 over the balls, in 32 bits.
+        let count = balls as u32;
+        let less_one = count.wrapping_neg().checked_div(count).unwrap_or_default();
+        let step = less_one.wrapping_add(1);
+        let mut train = Self {
+            carried: 0.0,
+            press: Press::of(balls as u8),
+            track,
+        };
+        // Over all places, beyond the balls too: the compiler knows how many.
+        for (index, ball) in train.press.places.iter_mut().enumerate() {
+            ball.position = step.wrapping_mul(index as u32);
+        }
+        train
+    }
+
+    /// Position of each ball, from the rear one to the front one, in units of 2^-32 of the track's length.
+    #[inline]
+    pub fn positions(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
+        self.press.balls().iter().map(|ball| ball.position)
+    }
+
+    /// Distance in front of each ball, m: zero in contact, up to a few units below by rounding.
+    pub fn gaps(&self) -> impl Iterator<Item = f32> + '_ {
+        let metres_per_unit = 1.0 / self.track.units_per_metre;
+        let ahead = self.positions().skip(1).chain(self.positions().take(1));
+        self.positions().zip(ahead).map(move |(position, ahead)| {
+            let gap = self.track.gap(position, ahead);
+            if gap > u32::MAX - OVERLAP {
+                (gap as i32) as f32 * metres_per_unit
+            } else {
+                gap as f32 * metres_per_unit
+            }
+        })
+    }
+
+    /// Force between each ball and the one in front of it, in the unit of speed times impedance; of the last one and the first.
+    #[inline]
+    pub fn forces(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
+        self.press.forces()
+    }
+
+    /// Actual speed of each ball in the last tick, as the free speeds are counted.
+    #[inline]
+    pub fn speeds(&self) -> impl DoubleEndedIterator<Item = f32> + ExactSizeIterator + '_ {
+        self.press.speeds()
+    }
+
+    /// Pairs of balls that press on each other, from the rear of the train on.
+    pub fn contacts(&self) -> heapless::Vec<BallContact, N> {
+        self.positions()
+            .zip(self.forces())
+            .enumerate()
+            .filter(|(_, (_, force))| *force > 0.0)
+            .map(|(ball, (position, force))| BallContact {
+                ball: ball as u8,
+                position,
+                force,
+            })
+            .collect()
+    }
+
+    /// Whether the balls follow each other once around the track, none of them within the next. The last ball and the foremost one may be by
+    /// a rounding: they are moved before the balls in front of them.
+    pub(crate) fn in_order(&self) -> Result<(), Refusal> {
+        let ahead = self.positions().skip(1).chain(self.positions().take(1));
+        let around: i64 = self
+            .positions()
+            .zip(ahead)
+            .enumerate()
+            .map(|(index, (position, ahead))| {
+                let gap = self.track.gap(position, ahead);
+                let rounds =
+                    index == usize::from(self.press.last()) || index == self.press.foremost();
+                let gap = if rounds && gap > u32::MAX - OVERLAP {
+                    i64::from(gap.cast_signed())
+                } else {
+                    i64::from(gap)
+                };
+                gap + i64::from(self.track.pitch())
+            })
+            .sum();
+        if around == 1 << 32 {
+            Ok(())
+        } else {
+            Err(Refusal::OutOfRange { field: "position" })
+        }
+    }
+}
+
+impl<const N: usize> Stored for Train<N> {
+    const BYTES: usize = 4 + 1 + N * BALL_BYTES;
+
+    /// The track stays that of the constants.
+    fn exchange<P: Port>(&mut self, port: &mut P) -> Result<(), Refusal> {
+        port.number("carried", &mut self.carried, Range::new(-1.0, 1.0))?;
+        let last = self.press.last();
+        port.count("foremost", &mut self.press.foremost, last)?;
+        self.press
+            .balls_mut()
+            .iter_mut()
+            .try_for_each(|ball| ball.exchange(port))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_overlap_by_rounding_is_a_gap_just_below_zero() {
+        let mut train = Train::<2>::new(1.0, 0.01, &[0.0; 2]).unwrap();
+        let rear = &mut train.press.balls_mut()[0];
+        rear.position = rear.position.wrapping_add(3);
+        // Three of 2^32 units to a metre.
+        let gap = train.gaps().next().unwrap();
+        assert!((gap + 3.0 / 4_294_967_296.0).abs() < 1e-15, "{gap}");
+    }
 
     #[test]
     fn another_track_is_named_in_metres() {
@@ -158,48 +293,5 @@ mod tests {
                 "{error}"
             );
         }
-    }
-}
-
-#[derive(Clone, Copy)]
-pub(super) struct Motion {
-    /// Whole units that the nominal speed moves every ball, signed along the track.
-    pub(super) nominal: u32,
-    /// Sixteenths of a unit by which a ball moves beyond that, over its speed.
-    pub(super) sixteenths_per_speed: f32,
-    /// Distance of the centres of two balls in contact, in units.
-    pub(super) pitch: u32,
-}
-
-impl Motion {
-    /// A place that no ball comes near in this tick, a quarter of the track in front of where this one goes.
-    #[inline(always)]
-    pub(super) fn far_ahead(&self, ball: &Ball) -> u32 {
-        ball.position
-            .wrapping_add(self.nominal.wrapping_add(1 << 30))
-    }
-
-    /// Moves a ball by its speed, at most to `limit`, where it touches the one in front; gives the limit of the one behind.
-    #[inline(always)]
-    pub(super) fn advance(&self, ball: &mut Ball, limit: u32) -> u32 {
-        let sixteenths = (ball.speed * self.sixteenths_per_speed) as i32;
-        let sixteenths = sixteenths.wrapping_add(i32::from(ball.sixteenths));
-        let place = ball.position.wrapping_add(self.nominal);
-        let place = place.wrapping_add_signed(sixteenths >> SIXTEENTH_BITS);
-        // Clusters do not run into each other, but rounding may leave that much.
-        let place = if limit.wrapping_sub(place) > u32::MAX - OVERLAP {
-            limit
-        } else {
-            place
-        };
-        ball.position = place;
-        ball.sixteenths = (sixteenths & 15) as u8;
-        self.touching(place)
-    }
-
-    /// Where the ball behind touches one at a place.
-    #[inline(always)]
-    pub(super) fn touching(&self, place: u32) -> u32 {
-        place.wrapping_sub(self.pitch)
     }
 }

@@ -34,7 +34,7 @@ pub struct ControlLoop {
     driven: Caged,
     encoder: MagneticEncoder<Sensor>,
     stage: FrictionFeedForward<Bridge>,
-    /// Ticks without a speed, and whether the bridge was neutral in all flagged ticks and in no other.
+    /// Ticks without a speed, and whether the bridge was neutral in all of them and in no other tick.
     blind: u32,
     safe: bool,
     ticks: u32,
@@ -61,7 +61,7 @@ impl ControlLoop {
             full_torque: 8.0,
             largest_torque: 4.0,
             share: 0.8,
-            reaction: FaultReaction::NeutralOnAnyFault,
+            reaction: FaultReaction::default(),
         };
         Ok(Self {
             driven: FrictionModel::of(&GEAR_33X20),
@@ -119,8 +119,7 @@ impl ControlLoop {
         let Ok(applied) = self.stage.apply(&friction);
         self.ticks += 1;
         self.blind += u32::from(nut_speed.is_nan());
-        self.safe &= applied.neutral == friction.faults.faulty();
-        self.safe &= applied.neutral || !nut_speed.is_nan();
+        self.safe &= applied.neutral == nut_speed.is_nan();
         self.digest.take(&[
             friction.friction_torque,
             f32::from(applied.duty),

@@ -5,4 +5,3 @@ mod golden;
 mod motion;
 mod passive;
 mod seat;
-mod transcription;

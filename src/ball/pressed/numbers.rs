@@ -94,16 +94,6 @@ impl BallNumbers {
         }
     }
 
-    #[inline(always)]
-    pub(crate) fn speed(&self, [screw, nut]: [f32; 2]) -> f32 {
-        powers(&self.free, screw, nut)
-    }
-
-    #[inline(always)]
-    pub(crate) fn impedance(&self, deviations: [f32; 2]) -> f32 {
-        line(&self.impedance, deviations)
-    }
-
     /// Friction torque at their free speeds of balls whose deviations have these sums of powers.
     #[inline(always)]
     pub(crate) fn torque_of(&self, sums: &PowerSums) -> f32 {
@@ -156,7 +146,7 @@ impl PowerSums {
 
 impl FreeMotion {
     #[inline(always)]
-    pub(super) fn towards(self, other: Self, fraction: f32) -> Self {
+    pub(super) fn towards(&self, other: &Self, fraction: f32) -> Self {
         Self {
             speed: between(self.speed, other.speed, fraction),
             impedance: between(self.impedance, other.impedance, fraction),
@@ -214,15 +204,6 @@ impl RubbedNode {
         impedance: [0.0; 3],
         torque: [0.0; 3],
     };
-
-    #[inline(always)]
-    fn towards(&self, other: &Self, fraction: f32) -> Self {
-        Self {
-            push: blended(&self.push, &other.push, fraction),
-            impedance: blended(&self.impedance, &other.impedance, fraction),
-            torque: blended(&self.torque, &other.torque, fraction),
-        }
-    }
 }
 
 impl NeighbourNumbers {
@@ -235,13 +216,18 @@ impl NeighbourNumbers {
 
     #[inline(always)]
     pub(super) fn towards(&self, others: &Self, fraction: f32) -> Self {
+        let node = |one: &RubbedNode, other: &RubbedNode| RubbedNode {
+            push: blended(&one.push, &other.push, fraction),
+            impedance: blended(&one.impedance, &other.impedance, fraction),
+            torque: blended(&one.torque, &other.torque, fraction),
+        };
         let [first, second, third] = &self.nodes;
         let [other_first, other_second, other_third] = &others.nodes;
         Self {
             nodes: [
-                first.towards(other_first, fraction),
-                second.towards(other_second, fraction),
-                third.towards(other_third, fraction),
+                node(first, other_first),
+                node(second, other_second),
+                node(third, other_third),
             ],
             outward: blended(&self.outward, &others.outward, fraction),
             outward_torque: between(self.outward_torque, others.outward_torque, fraction),

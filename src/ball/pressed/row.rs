@@ -73,9 +73,13 @@ impl NeighbourLaw {
         slope: f32,
         curvature: f32,
     ) -> Self {
-        let place = Place::of(2.0 * ball_friction);
-        let (low, high) = place.ends(&numbers.nodes);
-        let mean = |low: &[f32; 3], high: &[f32; 3]| low[0] + place.fraction * (high[0] - low[0]);
+        let Place {
+            low,
+            high,
+            fraction,
+            ..
+        } = Place::of(2.0 * ball_friction, &numbers.nodes);
+        let mean = |low: &[f32; 3], high: &[f32; 3]| low[0] + fraction * (high[0] - low[0]);
         Self {
             smooth: within_grip(numbers.outward),
             first: [
@@ -125,8 +129,12 @@ impl NeighbourLaw {
     /// The ball in the second pass: Newton's line through the speed and the forces that the first one found; `rubbing`: [`Self::rubbing`].
     #[inline(always)]
     pub fn second(&self, ball: &BallOfRow, found: &Neighbours, rubbing: f32) -> FreeBall {
-        let place = Place::of(rubbing);
-        let (low, high) = place.ends(&self.numbers.nodes);
+        let Place {
+            low,
+            high,
+            fraction,
+            per_width,
+        } = Place::of(rubbing, &self.numbers.nodes);
         let push = line(&low.push, ball.deviations);
         let push_rise = line(&high.push, ball.deviations) - push;
         let stiffness = line(&low.impedance, ball.deviations);
@@ -134,13 +142,13 @@ impl NeighbourLaw {
         let rise = push_rise + stiffness_rise * (found.speed - self.held_speed);
         let outward = line(&self.numbers.outward, ball.deviations);
         let grip = limited(
-            outward + self.ball_friction * (place.per_width * rise),
+            outward + self.ball_friction * (per_width * rise),
             LARGEST_GRIP,
         );
         let free = self.free(
             ball,
-            stiffness + place.fraction * stiffness_rise,
-            push + place.fraction * push_rise,
+            stiffness + fraction * stiffness_rise,
+            push + fraction * push_rise,
             // What the limit cuts off stays as it is at these forces.
             outward * found.rubbing - grip * found.forces,
             grip,
@@ -197,10 +205,9 @@ impl NeighbourLaw {
         let change = found.speed - ball.speed;
         let by_speed = (self.slope + self.curvature * ball.impedance * change) * change;
         torques.groove += ball.sliding * by_speed + self.numbers.outward_torque * found.rubbing;
-        let place = Place::of(rubbing);
-        let (low, high) = place.ends(&self.numbers.nodes);
-        let low = line(&low.torque, ball.deviations);
-        let high = line(&high.torque, ball.deviations);
+        let place = Place::of(rubbing, &self.numbers.nodes);
+        let low = line(&place.low.torque, ball.deviations);
+        let high = line(&place.high.torque, ball.deviations);
         torques.ball += ball.sliding * (low + place.fraction * (high - low));
         if found.rubbing > torques.largest {
             torques.largest = found.rubbing;
@@ -228,27 +235,27 @@ fn within_grip(line: [f32; 3]) -> [f32; 3] {
     }
 }
 
-/// Where a friction over `mu W` lies among [`RUBBINGS`].
-#[derive(Clone, Copy)]
-struct Place {
-    /// Nodes below and above; 0 is none.
-    ends: [usize; 2],
+/// The nodes among [`RUBBINGS`] on both sides of a friction over `mu W`.
+struct Place<'nodes> {
+    low: &'nodes RubbedNode,
+    high: &'nodes RubbedNode,
     /// Fraction of the distance between them; above 1 beyond the last node.
     fraction: f32,
     /// 1 / that distance.
     per_width: f32,
 }
 
-impl Place {
+impl<'nodes> Place<'nodes> {
     #[inline(always)]
-    fn of(rubbing: f32) -> Self {
+    fn of(rubbing: f32, nodes: &'nodes [RubbedNode; 3]) -> Self {
         const FIRST: f32 = RUBBINGS[0];
         const SECOND: f32 = RUBBINGS[1];
         const THIRD: f32 = RUBBINGS[2];
         // Friction is not negative: integers compare its bits.
         let below = |node: f32| rubbing.to_bits().cast_signed() < node.to_bits().cast_signed();
+        // Nodes below and above; 0 is none.
         let (ends, from, per_width) = if below(FIRST) {
-            ([0, 1], 0.0, 1.0 / FIRST)
+            ([0_usize, 1], 0.0, 1.0 / FIRST)
         } else if below(SECOND) {
             ([1, 2], FIRST, 1.0 / (SECOND - FIRST))
         } else if below(THIRD) {
@@ -256,21 +263,13 @@ impl Place {
         } else {
             ([0, 3], 0.0, 1.0 / THIRD)
         };
+        let [low, high] =
+            ends.map(|end| nodes.get(end.wrapping_sub(1)).unwrap_or(&RubbedNode::NONE));
         Self {
-            ends,
+            low,
+            high,
             fraction: (rubbing - from) * per_width,
             per_width,
         }
-    }
-
-    #[inline(always)]
-    fn ends<'nodes>(
-        &self,
-        nodes: &'nodes [RubbedNode; 3],
-    ) -> (&'nodes RubbedNode, &'nodes RubbedNode) {
-        let [low, high] = self
-            .ends
-            .map(|end| nodes.get(end.wrapping_sub(1)).unwrap_or(&RubbedNode::NONE));
-        (low, high)
     }
 }

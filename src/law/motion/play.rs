@@ -197,21 +197,3 @@ impl<A: Fingerprinted> Fingerprinted for Deadband<A> {
         self.play.fingerprint(fingerprint);
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::{Play, PlayState};
-
-    #[test]
-    fn a_state_of_a_wider_play_is_cut() {
-        let play = Play::new(1.0).unwrap();
-        for (was, is) in [(0.5, 0.5), (-0.5, -0.5), (2.0, 1.0), (-2.0, -1.0)] {
-            let mut state = PlayState {
-                position: was,
-                direction: 0.0,
-            };
-            play.take_over(&mut state);
-            assert_eq!(state.position, is);
-        }
-    }
-}

@@ -10,7 +10,7 @@ use crate::geometry::LinearBearing;
 use crate::hertz::HertzContact;
 use crate::scene::circuit::{Circuit, CircuitConfiguration, DeviationMap, LONGEST_TRACK};
 use crate::scene::contract::{CheckedInputs, Motion};
-use crate::scene::faults::{Faults, bounded};
+use crate::scene::contract::{Faults, bounded};
 
 /// Configuration of a linear bearing; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]

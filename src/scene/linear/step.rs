@@ -5,7 +5,7 @@ use crate::ball::GrooveLoss;
 use crate::math;
 use crate::scene::circuit::{CircuitState, UNLOADED};
 use crate::scene::contract::direction;
-use crate::scene::sliding::TrainFriction;
+use crate::scene::outputs::TrainFriction;
 use crate::train::FreeBall;
 
 /// Least force of a diagonal, N: the sum of two contacts of 1e-6 N. It keeps cube roots and impedances above zero: in the bearing of
@@ -36,8 +36,8 @@ struct Diagonals {
 }
 
 impl<const N: usize> LinearConstants<N> {
-    #[inline(always)]
     /// What a tick computes: both diagonals, every ball at its position, then how they press.
+    #[inline(always)]
     pub(super) fn friction_of_balls(
         &self,
         state: &mut CircuitState<N>,
@@ -46,13 +46,14 @@ impl<const N: usize> LinearConstants<N> {
     ) -> LinearFriction {
         let LinearInputs { speed, .. } = inputs;
         let table = self.circuit.zone.shares(false);
-        let sharing = self.circuit.sharing(state, table);
+        let zone = &self.circuit.zone;
+        let sharing = zone.sharing(state.train.positions(), table);
         let tick = self.diagonals(inputs, sharing.per_weight);
         let (passing, recirculating) = self.circuit.zone.units();
         let units = [tick.turn * passing, tick.turn * recirculating];
         let travel = self.circuit.travel(speed);
         let shares = self.take_in(state, units, tick.impedance, travel);
-        let pressing = state.train.press(travel, |_, _| ());
+        let pressing = state.train.press(travel, true, |_, _| ());
         state.advance(&self.circuit, speed);
 
         // Where the carriage is lifted off no ball rolls, and there is nothing to flag.

@@ -2,13 +2,16 @@
 
 use core::f32::consts::TAU;
 
+use super::UncagedConstants;
 use crate::ball::LoadShares;
+use crate::ball::folded::node_octaves;
 use crate::ball::pressed::{BallLaw, RowConstants};
 use crate::error::{Error, attempt, in_range};
 use crate::math::constant;
 use crate::math::elliptic::arc_sine;
+use crate::ranges;
 use crate::scene::circuit::{Circuit, CircuitConfiguration, DeviationMap, LONGEST_TRACK};
-use crate::scene::contract::Limits;
+use crate::scene::contract::{Limits, Reversal};
 
 /// Folded part of a ball screw without cage: the law of one ball, and the numbers of the drawing that a step needs; unchecked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -116,5 +119,62 @@ impl<const NODES: usize> UncagedBallScrewConfiguration<NODES> {
 
     pub(super) const fn loaded_length(&self) -> f32 {
         self.turns * (TAU * self.folded.path_radius)
+    }
+}
+
+impl<const N: usize, const NODES: usize> UncagedConstants<N, NODES> {
+    /// Checks a configuration and folds its constants.
+    pub const fn new(configuration: &UncagedBallScrewConfiguration<NODES>) -> Result<Self, Error> {
+        let UncagedBallScrewConfiguration {
+            folded,
+            ball_friction,
+            screw_deviation,
+            nut_deviation,
+            load_shares,
+            tick,
+            ..
+        } = *configuration;
+        let FoldedBall {
+            ref law,
+            friction,
+            lead,
+            reversal_speed,
+            limits,
+            ..
+        } = *folded;
+        attempt!(law.checked());
+        let (least, largest) = law.friction_range();
+        attempt!(in_range("friction", friction, least, largest));
+        attempt!(ranges::FRICTION_OR_NONE.checked("ball_friction", ball_friction));
+        attempt!(in_range("lead", lead, 0.0, 0.2));
+        let limits = attempt!(limits.checked());
+        let circuit = attempt!(configuration.circuit(&limits, N));
+        let [screw, nut] = law.deviations;
+        attempt!(screw_deviation.checked("screw_deviation", screw));
+        attempt!(nut_deviation.checked("nut_deviation", nut));
+        let units = circuit.zone.units();
+        Ok(Self {
+            law,
+            friction: law.interval(friction),
+            node_octaves: node_octaves(&law.frictions()),
+            circuit,
+            row: folded.row(ball_friction),
+            units: [units.0 / screw, units.1 / nut],
+            even: load_shares.are_even(),
+            preload: law.lift_off / circuit.per_loaded_ball(),
+            tick,
+            per_tick: 1.0 / tick,
+            reduced_lead: lead / TAU,
+            reversal: attempt!(Reversal::new(reversal_speed, 1e-6, 1e3)),
+            limits,
+        })
+    }
+
+    /// These constants with other limits, of a calibration page.
+    pub const fn with_limits(&self, limits: Limits) -> Result<Self, Error> {
+        Ok(Self {
+            limits: attempt!(limits.checked()),
+            ..*self
+        })
     }
 }

@@ -1,18 +1,22 @@
 //! Laws of the elements: what they are at their limits, over cycles, in the mirror, for any tick and any number.
 
+use std::num::NonZeroUsize;
+
 use epas_friction::Error;
 use epas_friction::law::memory::{
     Backbone, BackboneElement, Hysteresis, LoadExactElements, MemoryState, Part, PreloadedElements,
     ProportionalElements, SLIP_4, SLIP_6, SLIP_8, SLIP_10, SPIN_4, SPIN_6, SPIN_8, SPIN_10,
 };
 use epas_friction::law::{Elements, SlidingLimits};
+use epas_reference::presliding::Limits;
+use epas_reference::presliding::elements::Elements as Exact;
 use epas_reference::promises;
 
-use crate::law::transcription;
 use crate::scenes::preloaded::exact_sum;
 use epas_testkit::errors::Errors;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
+use gauss_quad::GaussLegendre;
 
 const LIMITS: SlidingLimits = sliding_limits(0.05, 0.03, 1.0);
 
@@ -22,6 +26,22 @@ pub const fn sliding_limits(forward: f32, backward: f32, load: f32) -> SlidingLi
         backward,
         load,
     }
+}
+
+pub const fn exact_limits(forward: f64, backward: f64) -> Limits {
+    Limits { forward, backward }
+}
+
+/// The reference's elements of a backbone, and eight that come into contact with a load of up to four times the reference.
+pub fn of_backbone(backbone: &[BackboneElement]) -> Exact {
+    let of = |number: fn(&BackboneElement) -> f32| -> Vec<f64> {
+        backbone.iter().map(|e| number(e).into()).collect()
+    };
+    Exact::proportional(&of(|e| e.angle), &of(|e| e.weight))
+}
+
+fn exact_by_load() -> Exact {
+    Exact::load_exact(NonZeroUsize::new(8).unwrap(), 4.0)
 }
 
 pub fn proportional<const N: usize>(
@@ -339,11 +359,7 @@ fn nan_and_infinity_do_no_harm() {
 /// of the reference limit.
 #[test]
 fn rounding_is_as_promised() {
-    fn compare<E: Elements>(
-        elements: &E,
-        exact: &mut transcription::Elements,
-        errors: &mut Errors,
-    ) {
+    fn compare<E: Elements>(elements: &E, exact: &mut Exact, errors: &mut Errors) {
         let mut random = Random(8);
         let mut state = E::VIRGIN;
         for tick in 0..200_000 {
@@ -353,13 +369,14 @@ fn rounding_is_as_promised() {
             let friction =
                 elements.follow(&mut state, turn, &sliding_limits(forward, backward, load));
             let [t, f, b, l] = [turn, forward, backward, load].map(f64::from);
-            errors.add_case(f64::from(friction) - exact.follow(t, f, b, l), || {
-                tick.to_string()
-            });
+            errors.add_case(
+                f64::from(friction) - exact.follow(t, exact_limits(f, b), l),
+                || tick.to_string(),
+            );
         }
     }
     fn in_proportion<const N: usize>(backbone: &Backbone<N>, errors: &mut Errors) {
-        let mut exact = transcription::Elements::of_backbone(&backbone.elements);
+        let mut exact = of_backbone(&backbone.elements);
         compare(&proportional(backbone, 1.0, 1.0), &mut exact, errors);
     }
     let mut proportional_errors = Errors::default();
@@ -371,7 +388,7 @@ fn rounding_is_as_promised() {
     let mut errors = Errors::default();
     compare(
         &LoadExactElements::<8>::new(1.0, 1.0, 4.0).unwrap(),
-        &mut transcription::Elements::by_load(8, 4.0),
+        &mut exact_by_load(),
         &mut errors,
     );
     errors.assert_promised(promises::of("memory_load_exact"));
@@ -381,7 +398,7 @@ fn rounding_is_as_promised() {
 #[test]
 fn flanks_share_as_promised() {
     let elements = PreloadedElements::new(LoadExactElements::<8>::new(1.0, 1.0, 4.0).unwrap());
-    let mut exact = transcription::Elements::by_load(8, 4.0);
+    let mut exact = exact_by_load();
     let (mut random, mut state) = (Random(9), LoadExactElements::<8>::VIRGIN);
     let mut errors = Errors::default();
     for tick in 0..100_000 {
@@ -393,8 +410,7 @@ fn flanks_share_as_promised() {
         let [turn, forward, backward, load] = [turn, forward, backward, load].map(f64::from);
         let wanted = exact.follow(
             turn,
-            forward,
-            backward,
+            exact_limits(forward, backward),
             exact_sum(8_f64.sqrt() * (load - 1.0), 1.0),
         );
         errors.add_case(found - wanted, || format!("{tick}: {load}"));
@@ -496,8 +512,9 @@ fn springs_stand_at_the_nodes_of_gauss() {
         let stiffnesses = LoadExactElements::<N>::new(1.0, 1.0, 1.0)
             .unwrap()
             .stiffnesses();
-        let exact = transcription::Elements::by_load(N, 1.0).stiffnesses;
-        let mut exact = exact.clone();
+        let rule = GaussLegendre::new(N.try_into().unwrap());
+        let weights = rule.as_node_weight_pairs().iter();
+        let mut exact: Vec<f64> = weights.map(|(_, weight)| 0.75 * weight).collect();
         let mut found = stiffnesses.map(f64::from).to_vec();
         exact.sort_by(f64::total_cmp);
         found.sort_by(f64::total_cmp);

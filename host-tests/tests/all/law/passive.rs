@@ -9,7 +9,6 @@ use epas_friction::law::memory::{
 };
 
 use crate::law::elements::proportional;
-use crate::law::transcription::energy;
 use epas_testkit::random::Random;
 
 const TICKS: u64 = 1_000_000;
@@ -83,6 +82,13 @@ fn least<E: Hysteresis>(
     }
     assert!(least_balance >= -1e-6, "{least_balance:e}");
     least
+}
+
+fn energy(torques: &[f32], stiffnesses: &[f32]) -> f64 {
+    let springs = torques.iter().zip(stiffnesses);
+    springs
+        .map(|(&f, &k)| f64::from(f).powi(2) / (2.0 * f64::from(k)))
+        .sum()
 }
 
 fn every_kind(count: u64) {

@@ -4,10 +4,10 @@ use epas_friction::law::Elements;
 use epas_friction::law::memory::{
     Hysteresis, ParallelElements, SLIP_6, SLIP_8, SPIN_4, SPIN_8, SeatElement, SeatState,
 };
+use epas_reference::presliding::elements::Elements as Exact;
 use epas_reference::promises;
 
-use crate::law::elements::{proportional, sliding_limits};
-use crate::law::transcription;
+use crate::law::elements::{exact_limits, of_backbone, proportional, sliding_limits};
 use epas_testkit::errors::Errors;
 use epas_testkit::measured;
 use epas_testkit::random::Random;
@@ -80,8 +80,8 @@ fn together_they_are_the_sum_of_both() {
     .unwrap();
     let seat = SeatElement::new(1.0 - share, 0.5, 1.0).unwrap();
     let seated = ParallelElements::new(proportional(&SLIP_8, share, 1.0), seat, share).unwrap();
-    let [mut four, mut six, mut eight] = [&SPIN_4.elements[..], &SLIP_6.elements, &SLIP_8.elements]
-        .map(transcription::Elements::of_backbone);
+    let [mut four, mut six, mut eight] =
+        [&SPIN_4.elements[..], &SLIP_6.elements, &SLIP_8.elements].map(of_backbone);
     let (mut of_tables_state, mut seated_state) = (virgin(&of_tables), virgin(&seated));
     let (mut random, mut place) = (Random(11), 0.0_f64);
     let mut errors = Errors::default();
@@ -94,8 +94,8 @@ fn together_they_are_the_sum_of_both() {
         let found = of_tables.follow(&mut of_tables_state, turn, &limits);
         let found_seated = seated.follow(&mut seated_state, turn, &limits);
         let [turn, forward, backward] = [turn, forward, backward].map(f64::from);
-        let followed =
-            |elements: &mut transcription::Elements| elements.follow(turn, forward, backward, 1.0);
+        let exact = exact_limits(forward, backward);
+        let followed = |elements: &mut Exact| elements.follow(turn, exact, 1.0);
         let wanted = share * followed(&mut four) + (1.0 - share) * followed(&mut six);
         errors.add_case(f64::from(found) - wanted, || format!("{tick}: tables"));
         let end = |limit: f64| 0.5 + limit.powf(2.0 / 3.0);

@@ -4,7 +4,7 @@ use epas_friction::ball::{AnalyticLinearBall, LinearBallParameters, PUBLISHED_SL
 use epas_friction::efficiency::{Drive, EfficiencyGeometry};
 use epas_friction::{
     BallScrew, CATALOGUE, Clearance, ClosedFormScrew, ClosedFormScrewConfiguration, Faults,
-    FrictionBranch, FrictionModel, LinearBearingTrain, LoadShare, Regime, Scene,
+    FrictionBranch, FrictionModel, LinearBearingTrain, Regime, Scene,
 };
 use epas_testkit::gears::{linear_inputs, screw_inputs};
 
@@ -169,13 +169,6 @@ fn every_scene_counts_its_faults() {
     let mut faults = Faults::LOAD_RANGE;
     faults |= Faults::LOAD_RANGE;
     assert_eq!(faults, Faults::LOAD_RANGE);
-}
-
-#[test]
-fn a_load_share_gives_its_share() {
-    for share in [0.01, 0.97, 1.0, 3.0, 100.0] {
-        assert_eq!(LoadShare::new(share).unwrap().share(), share);
-    }
 }
 
 #[test]

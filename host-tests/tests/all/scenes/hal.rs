@@ -544,9 +544,10 @@ fn flagged_outputs_and_no_numbers_give_the_neutral_duty() {
     strict.release().done();
 
     let passing = FeedForwardConfiguration {
-        reaction: FaultReaction::LimitedValuesPass,
+        reaction: FaultReaction::default(),
         ..STAGE
     };
+    assert_eq!(passing.reaction, FaultReaction::LimitedValuesPass);
     let expected = [500, 500, 563, 563, 563];
     // Accuracy alone takes no torque away, whatever the reaction to faults is.
     for configuration in [STAGE, passing] {

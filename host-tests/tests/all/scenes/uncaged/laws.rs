@@ -6,8 +6,7 @@ use epas_friction::ball::pressed::{
     BallNumbers, FreeMotion, NeighbourNumbers, RUBBINGS, RowConstants, RubbedNode,
 };
 use epas_friction::{
-    DeviationMap, Faults, FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration,
-    UncagedOutputs,
+    Faults, FrictionModel, Inputs, UncagedBallScrew, UncagedBallScrewConfiguration, UncagedOutputs,
 };
 
 use epas_testkit::gears::{self, BALL, SCREW_BALLS, screw_wave, wave};
@@ -260,25 +259,5 @@ fn the_torque_is_what_the_balls_lose() {
                 assert!(work.abs() <= most, "{work} {most}");
             }
         });
-    }
-}
-
-#[test]
-fn without_deviation_no_ball_presses() {
-    let configuration = UncagedBallScrewConfiguration {
-        screw_deviation: &DeviationMap::NONE,
-        nut_deviation: &DeviationMap::NONE,
-        ..configuration(0.1)
-    };
-    for speed in [6.0, -6.0] {
-        let mut model = Model::new(&configuration).unwrap();
-        let mut first = None;
-        for _ in 0..3000 {
-            let outputs = model.step(inputs(speed, 1500.0));
-            assert_eq!((outputs.contacts, outputs.ball_torque), (0, 0.0));
-            assert!(outputs.groove_torque * speed > 0.0);
-            assert_eq!(outputs.friction_torque, outputs.groove_torque);
-            assert_eq!(*first.get_or_insert(outputs), outputs);
-        }
     }
 }

@@ -4,8 +4,8 @@ use epas_testkit::gears::screw_inputs;
 use std::f32::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use epas_friction::{
-    Faults, FrictionModel, Inputs, Limits, LoadShare, LoadShares, Outputs, Regime,
-    UncagedBallScrew, UncagedBallScrewConfiguration,
+    Faults, FrictionModel, Inputs, Limits, LoadShare, LoadShares, Regime, UncagedBallScrew,
+    UncagedBallScrewConfiguration,
 };
 
 use epas_testkit::gears::{self, SCREW_BALLS, UncagedScrew, changed, loaded_length, screw_wave};
@@ -178,25 +178,6 @@ fn the_nut_angle_moves_the_screw_under_the_balls() {
     there.set_nut_angle(f32::NAN);
     let outputs = there.step(inputs(6.0, -1500.0));
     assert!(outputs.friction_torque.is_finite() && !outputs.faults.any());
-}
-
-#[test]
-fn every_scene_of_a_screw_has_the_common_outputs() {
-    let mut model = Model::new(&configuration(0.0)).unwrap();
-    let output = model.step(inputs(5.0, 1500.0));
-    let common = Outputs::from(output);
-    let power_out = f64::from(output.load_torque);
-    let expected = power_out / (power_out + f64::from(output.friction_torque));
-    let error = f64::from(common.efficiency) - expected;
-    measured::assert("screw without cage, efficiency", error);
-    assert_eq!(common.regime, Regime::Driving);
-    // The load drives: what friction leaves of its power.
-    let output = model.step(inputs(-5.0, 1500.0));
-    let common = Outputs::from(output);
-    assert_eq!(common.regime, Regime::BackDriving);
-    let expected = 1.0 - f64::from(output.friction_torque.abs()) / power_out;
-    let error = f64::from(common.efficiency) - expected;
-    measured::assert("screw without cage, efficiency", error);
 }
 
 /// What a screw does follows from its full friction, however little of it passes near the reversal.
