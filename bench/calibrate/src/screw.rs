@@ -163,7 +163,7 @@ fn of_screw(trace: &Trace, unseen: Option<&Trace>) -> Result<(), Failure> {
     unseen.map_or(Ok(()), |unseen| comparable(trace, unseen))
 }
 
-/// Rows of one direction, then rows about the turns: with a longer way after a turn where these find a longer breakaway angle.
+/// Rows of one direction, then rows about the turns.
 fn told<'a>(
     trace: &'a Trace,
     start: &Start,
@@ -172,38 +172,24 @@ fn told<'a>(
 ) -> Result<(Prepared<'a>, Told), Failure> {
     let [first, at_turns] = start.choice.clone().at_turns();
     let mut left_out = Record::of(trace, &[]).rests();
-    let mut prepared = Prepared::new(trace, &left_out, start.screw);
-    let breakaway = start.values.breakaway_angle.max(trace.resolution);
-    let mut window = prepared.window(kernel, breakaway, &first)?;
+    let whole = Prepared::new(trace, &left_out, start.screw);
     let coarse = start.screw.grid(&start.values, Spacing::COARSE)?;
     let known = Known::of(&start.values, &first, &coarse);
-    let (values, outliers) = prepared.first_fit(window, known)?;
-    let mut said = None;
-    if !outliers.is_empty() {
-        said = Some(format!(
-            "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",
-            outliers.len()
-        ));
-        left_out.extend(outliers);
-        prepared = Prepared::new(trace, &left_out, start.screw);
+    let (window, values, outliers) = whole.settled(kernel, known, &at_turns)?;
+    let said = telling::outliers(outliers.len());
+    left_out.extend(outliers);
+    let prepared = Prepared::new(trace, &left_out, start.screw);
+    let mut told = slid(
+        &prepared,
+        (window, known.with(&values)),
+        (start, evidence),
+        &request.wanted.fix,
+    )?;
+    if !at_turns.nonlinear.is_empty() {
+        told.turn(&prepared, &at_turns, &start.values)?;
     }
-    loop {
-        let mut told = slid(
-            &prepared,
-            (window, known.with(&values)),
-            (start, evidence),
-            &request.wanted.fix,
-        )?;
-        if !at_turns.nonlinear.is_empty() {
-            told.turn(&prepared, &at_turns, &start.values)?;
-        }
-        let longer = prepared.window(kernel, told.values.breakaway_angle, &first)?;
-        if longer.way <= LONGER * window.way {
-            told.sentences.splice(0..0, said);
-            return Ok((prepared, told));
-        }
-        window = longer;
-    }
+    told.sentences.splice(0..0, said);
+    Ok((prepared, told))
 }
 
 /// What rows of one direction tell: what they do not is set, one parameter after the other.
@@ -229,7 +215,11 @@ fn slid(
             (choice, sliding) = (less, next);
         }
     }
-    let grid = start.screw.grid(&sliding.values, Spacing::FINE)?;
+    let mut nodes = sliding.values;
+    if choice.nonlinear.iter().any(|(of, _)| of.name == "preload") {
+        nodes.preload = Spacing::FINE.beside(nodes.preload);
+    }
+    let grid = start.screw.grid(&nodes, Spacing::FINE)?;
     let sliding = prepared.slid(window, Known::of(&sliding.values, &choice, &grid), set)?;
     let bounds = sliding.intervals.iter().filter(|of| of.at_bound);
     sentences.extend(bounds.map(|of| telling::at_bound(of, evidence)));
@@ -276,9 +266,6 @@ impl Told {
         Ok(())
     }
 }
-
-/// A longer way after a turn is taken where it is longer by this.
-const LONGER: f64 = 1.5;
 
 /// A parameter stays free where the residual is larger by this without it.
 const GROWTH: f64 = 1.02;
