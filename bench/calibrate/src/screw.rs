@@ -26,7 +26,7 @@ use self::stages::{Prepared, Sliding, Window, few};
 use crate::answer::{Calibration, Estimate};
 use crate::estimator::fit::rms;
 use crate::estimator::record::{Record, Smoothed};
-use crate::estimator::words::{Screened, screened};
+use crate::estimator::words::{NOTHING, Screened, screened};
 use crate::fit::problem::Separable as _;
 use crate::fit::uncertainty::{Interval, Uncertainty, effective_rows};
 use crate::folder::answered::Answered;
@@ -106,6 +106,7 @@ pub fn calibrate(
     let residual: Vec<f64> = measured.iter().zip(model).map(|(a, b)| a - b).collect();
     let uncertainty = uncertainty(&told, &residual);
     let mut answer = answer(&told, measured, &residual, &uncertainty);
+    explained(trace, &answer)?;
     let said = |name: &str| {
         let words = name.replace('_', " ");
         told.sentences.iter().any(|said| said.starts_with(&words))
@@ -300,6 +301,22 @@ fn plausible(design: &Design, evidence: &Evidence) -> Result<(), Failure> {
         ));
     }
     Ok(())
+}
+
+/// Refuses a fit that leaves nearly all of the torque.
+fn explained(trace: &Trace, answer: &Calibration) -> Result<(), Failure> {
+    if answer.relative_error < NOTHING {
+        return Ok(());
+    }
+    let why = if trace.load.is_none() {
+        "a load acts that the trace does not hold: add a column axial_load"
+    } else {
+        "is the right column the torque, and do load and torque belong to what moves?"
+    };
+    Err(Failure::Data(format!(
+        "nothing in the trace explains its torque: {:.0} % of it are left; {why}",
+        100.0 * answer.relative_error
+    )))
 }
 
 fn reduced_lead(design: &Design) -> f64 {
