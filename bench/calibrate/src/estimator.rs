@@ -21,6 +21,6 @@ pub(crate) mod terms;
 pub(crate) mod words;
 
 #[cfg(test)]
-mod drives;
+pub(crate) mod drives;
 #[cfg(test)]
 mod tests;

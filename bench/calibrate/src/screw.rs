@@ -26,7 +26,7 @@ use self::stages::{Prepared, Sliding, Window, few};
 use crate::answer::{Calibration, Estimate};
 use crate::estimator::fit::rms;
 use crate::estimator::record::{Record, Smoothed};
-use crate::estimator::words::{Screened, screened};
+use crate::estimator::words::{NOTHING, Screened, screened};
 use crate::fit::problem::Separable as _;
 use crate::fit::uncertainty::{Interval, Uncertainty, effective_rows};
 use crate::folder::answered::Answered;
@@ -106,6 +106,7 @@ pub fn calibrate(
     let residual: Vec<f64> = measured.iter().zip(model).map(|(a, b)| a - b).collect();
     let uncertainty = uncertainty(&told, &residual);
     let mut answer = answer(&told, measured, &residual, &uncertainty);
+    explained(trace, &answer)?;
     let said = |name: &str| {
         let words = name.replace('_', " ");
         told.sentences.iter().any(|said| said.starts_with(&words))
@@ -163,7 +164,7 @@ fn of_screw(trace: &Trace, unseen: Option<&Trace>) -> Result<(), Failure> {
     unseen.map_or(Ok(()), |unseen| comparable(trace, unseen))
 }
 
-/// Rows of one direction, then rows about the turns: with a longer way after a turn where these find a longer breakaway angle.
+/// Rows of one direction, then rows about the turns.
 fn told<'a>(
     trace: &'a Trace,
     start: &Start,
@@ -172,38 +173,24 @@ fn told<'a>(
 ) -> Result<(Prepared<'a>, Told), Failure> {
     let [first, at_turns] = start.choice.clone().at_turns();
     let mut left_out = Record::of(trace, &[]).rests();
-    let mut prepared = Prepared::new(trace, &left_out, start.screw);
-    let breakaway = start.values.breakaway_angle.max(trace.resolution);
-    let mut window = prepared.window(kernel, breakaway, &first)?;
+    let whole = Prepared::new(trace, &left_out, start.screw);
     let coarse = start.screw.grid(&start.values, Spacing::COARSE)?;
     let known = Known::of(&start.values, &first, &coarse);
-    let (values, outliers) = prepared.first_fit(window, known)?;
-    let mut said = None;
-    if !outliers.is_empty() {
-        said = Some(format!(
-            "{} rows were left out: what the model leaves of them is beyond 6 deviations of the others.",
-            outliers.len()
-        ));
-        left_out.extend(outliers);
-        prepared = Prepared::new(trace, &left_out, start.screw);
+    let (window, values, outliers) = whole.settled(kernel, known, &at_turns)?;
+    let said = telling::outliers(outliers.len());
+    left_out.extend(outliers);
+    let prepared = Prepared::new(trace, &left_out, start.screw);
+    let mut told = slid(
+        &prepared,
+        (window, known.with(&values)),
+        (start, evidence),
+        &request.wanted.fix,
+    )?;
+    if !at_turns.nonlinear.is_empty() {
+        told.turn(&prepared, &at_turns, &start.values)?;
     }
-    loop {
-        let mut told = slid(
-            &prepared,
-            (window, known.with(&values)),
-            (start, evidence),
-            &request.wanted.fix,
-        )?;
-        if !at_turns.nonlinear.is_empty() {
-            told.turn(&prepared, &at_turns, &start.values)?;
-        }
-        let longer = prepared.window(kernel, told.values.breakaway_angle, &first)?;
-        if longer.way <= LONGER * window.way {
-            told.sentences.splice(0..0, said);
-            return Ok((prepared, told));
-        }
-        window = longer;
-    }
+    told.sentences.splice(0..0, said);
+    Ok((prepared, told))
 }
 
 /// What rows of one direction tell: what they do not is set, one parameter after the other.
@@ -229,7 +216,11 @@ fn slid(
             (choice, sliding) = (less, next);
         }
     }
-    let grid = start.screw.grid(&sliding.values, Spacing::FINE)?;
+    let mut nodes = sliding.values;
+    if choice.nonlinear.iter().any(|(of, _)| of.name == "preload") {
+        nodes.preload = Spacing::FINE.beside(nodes.preload);
+    }
+    let grid = start.screw.grid(&nodes, Spacing::FINE)?;
     let sliding = prepared.slid(window, Known::of(&sliding.values, &choice, &grid), set)?;
     let bounds = sliding.intervals.iter().filter(|of| of.at_bound);
     sentences.extend(bounds.map(|of| telling::at_bound(of, evidence)));
@@ -277,9 +268,6 @@ impl Told {
     }
 }
 
-/// A longer way after a turn is taken where it is longer by this.
-const LONGER: f64 = 1.5;
-
 /// A parameter stays free where the residual is larger by this without it.
 const GROWTH: f64 = 1.02;
 
@@ -313,6 +301,22 @@ fn plausible(design: &Design, evidence: &Evidence) -> Result<(), Failure> {
         ));
     }
     Ok(())
+}
+
+/// Refuses a fit that leaves nearly all of the torque.
+fn explained(trace: &Trace, answer: &Calibration) -> Result<(), Failure> {
+    if answer.relative_error < NOTHING {
+        return Ok(());
+    }
+    let why = if trace.load.is_none() {
+        "a load acts that the trace does not hold: add a column axial_load"
+    } else {
+        "is the right column the torque, and do load and torque belong to what moves?"
+    };
+    Err(Failure::Data(format!(
+        "nothing in the trace explains its torque: {:.0} % of it are left; {why}",
+        100.0 * answer.relative_error
+    )))
 }
 
 fn reduced_lead(design: &Design) -> f64 {

@@ -10,6 +10,7 @@ use crate::estimator::choice::{Estimate, Wanted, estimate};
 use crate::estimator::fit::Block;
 use crate::estimator::record::Record;
 use crate::estimator::terms::Term;
+use crate::estimator::words::NOTHING;
 use crate::folder::list;
 use crate::page::shown::digits;
 use crate::trace::{Coordinate, Trace};
@@ -19,12 +20,14 @@ use epas_page::failure::Failure;
 
 const FEWEST: usize = 3;
 
-/// Share of the efforts that is left from which on nothing is explained, and from which on it is said.
-const NOTHING: f64 = 0.9;
+/// Share of the efforts that is left from which on it is said.
 const MUCH: f64 = 0.1;
 
 /// Residual with friction that changes towards rest over that without it, from which on it is told.
 const TAKES: f64 = 0.9;
+
+/// Speeds over which friction may change towards rest that are tried.
+const TRIED: u32 = 9;
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
@@ -194,12 +197,11 @@ fn dip(records: &[Record], speeds: &[Option<f64>], plain: &Estimate) -> Option<E
     let mut sizes: Vec<f64> = speeds.iter().flatten().map(|speed| speed.abs()).collect();
     sizes.sort_by(f64::total_cmp);
     let (slow, fast) = (*sizes.first()?, *sizes.last()?);
-    let places = 8;
     let most = fast / 4.0;
     if most <= slow {
         return None;
     }
-    let tried = (0..=places).map(|k| slow * (most / slow).powf(f64::from(k) / f64::from(places)));
+    let tried = (0..TRIED).map(|k| slow * (most / slow).powf(f64::from(k) / f64::from(TRIED - 1)));
     tried
         .filter_map(|speed| {
             let term = Term::Stribeck(speed);
@@ -208,9 +210,9 @@ fn dip(records: &[Record], speeds: &[Option<f64>], plain: &Estimate) -> Option<E
                 ..Wanted::default()
             };
             let found = estimate(records, &wanted)?;
-            let (value, half) = found.of(term)?;
+            found.surely(term, TRIED)?;
             let (coulomb, _) = found.of(Term::Coulomb)?;
-            (value.abs() > 2.0 * half && coulomb > 0.0).then_some(found)
+            (coulomb > 0.0).then_some(found)
         })
         .filter(|found| found.fit.residual_rms < TAKES * plain.fit.residual_rms)
         .min_by(|one, other| one.fit.residual_rms.total_cmp(&other.fit.residual_rms))
@@ -280,7 +282,12 @@ mod tests {
         // Their constants need no inertia, and say that a dip is left out.
         let [plain, risen] = [&found, &risen].map(|found| found.drive.numbers().unwrap());
         assert_eq!((plain.inertia, plain.offset.is_some()), (None, true));
-        let said = |numbers: &Numbers| numbers.notes.iter().any(|note| note.contains("near rest"));
+        let said = |numbers: &Numbers| {
+            numbers
+                .notes
+                .iter()
+                .any(|note| note.contains("stribeck friction"))
+        };
         assert!(said(&risen) && !said(&plain));
         let text = crate::outputs::drive::text(&risen, "runs").unwrap();
         assert!(text.contains("which this scene does not have"), "{text}");

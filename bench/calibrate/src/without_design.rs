@@ -291,7 +291,12 @@ fn untold(record: &Record, trace: &Trace, found: &choice::Estimate) -> Vec<Strin
         );
     }
     if has(Term::Offset) {
-        sentences.push("a Coulomb friction that differs between the directions: it is one number with the offset; turn the drive round, or measure the offset alone".into());
+        let zero = if trace.load.is_some() {
+            " and a zero error of the load's channel: they are"
+        } else {
+            ": it is"
+        };
+        sentences.push(format!("a Coulomb friction that differs between the directions{zero} one number with the offset; turn the drive round, or measure the offset alone"));
     } else {
         sentences.push("offset: the motion goes one way, and it is one number with the friction; move both ways".into());
     }

@@ -235,7 +235,8 @@ impl Parameters {
         });
         parameters
     }
-    /// Parameters by the names of `calibrate`, in SI units; the preload is the force of a contact. Of physics that a calibration has no name
+    /// Parameters by the names of `calibrate`, in SI units; the preload is the force of a contact, the half-share speed that at 20 degrees
+    /// Celsius, the temperature at which `calibrate` tells it. Of physics that a calibration has no name
     /// for there is nothing.
     pub fn named(&self) -> Vec<(String, f64)> {
         let [forward, backward] = self.directions;
@@ -246,10 +247,12 @@ impl Parameters {
             pole,
         } = self.coefficient
         {
+            let told_at = ZERO_CELSIUS + 20.0;
+            let ratio = (told_at - pole) / (reference_temperature - pole);
             named.extend([
                 ("full_film_ratio", self.full_film / self.boundary),
-                ("half_share_speed", half_share_speed),
-                ("reference_temperature", reference_temperature),
+                ("half_share_speed", half_share_speed * ratio.powi(5)),
+                ("reference_temperature", told_at),
                 ("viscosity_pole", pole),
             ]);
         }

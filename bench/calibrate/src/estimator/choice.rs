@@ -1,6 +1,6 @@
 //! What a record tells, with the kernel's length and the way after a turn that tell it best.
 
-use super::fit::{Block, Fit, dot, fit, rms};
+use super::fit::{Block, Fit, dot, fit, quantile, rms};
 use super::kernel::Kernel;
 use super::record::Record;
 use super::rows::Rows;
@@ -34,6 +34,10 @@ const SPARE: [f64; 3] = [0.03, 3.5, 0.25];
 
 const ROWS: usize = 3;
 
+/// Distance from zero over the interval from which on a term beside the equation is there: the systematic share of an interval is known by one
+/// comparison only.
+const SURE: f64 = 1.5;
+
 /// What is wanted beside what a record tells by itself.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wanted {
@@ -65,6 +69,14 @@ impl Estimate {
     pub fn of(&self, term: Term) -> Option<(f64, f64)> {
         let place = self.terms.iter().position(|one| *one == term)?;
         Some((self.values[place], self.half_widths[place]))
+    }
+
+    /// A term that is half as far again as its interval from zero, with the interval of all that were tried.
+    pub fn surely(&self, term: Term, tried: u32) -> Option<(f64, f64)> {
+        let place = self.terms.iter().position(|one| *one == term)?;
+        let [own, joint] = [1, tried].map(|count| quantile(self.fit.freedom[place], count));
+        let told = self.of(term);
+        told.filter(|(value, half)| value.abs() > SURE * half * joint / own)
     }
 }
 

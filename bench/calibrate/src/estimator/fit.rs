@@ -3,8 +3,8 @@
 use nalgebra::{DMatrix, DVector};
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
-/// Probability of an interval's upper end.
-const UPPER: f64 = 0.975;
+/// Probability beyond an interval's upper end.
+const BEYOND: f64 = 0.025;
 
 /// Stretches from which on the jackknife over whole stretches counts.
 const STRETCHES: f64 = 8.0;
@@ -37,6 +37,8 @@ pub struct Fit {
     pub covariance: DMatrix<f64>,
     /// Effective number of pieces that tell each coefficient.
     pub pieces: Vec<f64>,
+    /// Degrees of freedom of each interval.
+    pub freedom: Vec<f64>,
     pub residual: Vec<f64>,
     pub residual_rms: f64,
     /// That over the standard deviation of the target.
@@ -96,15 +98,16 @@ pub fn fit(blocks: &[Block], meaning: Meaning<'_>) -> Fit {
     let inverse = inverse.unwrap_or_else(|| normal.clone());
     let whole = jackknife((&stretches, false), &values, &inverse, &without);
     let parts = jackknife((&short, true), &values, &inverse, &without);
-    let half_widths = (0..count)
-        .map(|k| {
-            if whole.pieces[k] >= STRETCHES {
-                whole.half_widths[k].max(parts.half_widths[k])
-            } else {
-                parts.half_widths[k]
-            }
-        })
-        .collect();
+    let told = (0..count).map(|k| {
+        let by_stretches = whole.pieces[k] >= STRETCHES;
+        let by = if by_stretches && whole.half_widths[k] > parts.half_widths[k] {
+            &whole
+        } else {
+            &parts
+        };
+        (by.half_widths[k], by.pieces[k] - 1.0)
+    });
+    let (half_widths, freedom) = told.unzip();
     let residual: Vec<f64> = blocks
         .iter()
         .flat_map(|block| {
@@ -125,6 +128,7 @@ pub fn fit(blocks: &[Block], meaning: Meaning<'_>) -> Fit {
         half_widths,
         covariance: parts.covariance,
         pieces: whole.pieces,
+        freedom,
         residual_rms: (left / rows.max(1) as f64).sqrt(),
         relative: (left / spread.max(f64::MIN_POSITIVE)).sqrt(),
         residual,
@@ -254,7 +258,7 @@ fn jackknife(
         .map(|(sum, square)| sum * sum / square.max(f64::MIN_POSITIVE))
         .collect();
     let half_widths = (0..count)
-        .map(|k| quantile(effective[k] - 1.0) * covariance[(k, k)].max(0.0).sqrt())
+        .map(|k| quantile(effective[k] - 1.0, 1) * covariance[(k, k)].max(0.0).sqrt())
         .collect();
     Jackknife {
         half_widths,
@@ -263,7 +267,8 @@ fn jackknife(
     }
 }
 
-/// Student's quantile of a 95 % interval, for 1 degree of freedom or more.
-pub fn quantile(freedom: f64) -> f64 {
-    StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(f64::INFINITY, |t| t.inverse_cdf(UPPER))
+/// Student's quantile of a 95 % interval, for 1 degree of freedom or more; of all of so many intervals together (Bonferroni).
+pub fn quantile(freedom: f64, intervals: u32) -> f64 {
+    let upper = 1.0 - BEYOND / f64::from(intervals);
+    StudentsT::new(0.0, 1.0, freedom.max(1.0)).map_or(f64::INFINITY, |t| t.inverse_cdf(upper))
 }

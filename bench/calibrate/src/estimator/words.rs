@@ -19,7 +19,7 @@ use crate::trace::channels::{median, range, resolution};
 use crate::trace::{Coordinate, Trace};
 
 /// Share of the effort that is left from which on nothing is explained, and from which on a fit is doubted.
-const NOTHING: f64 = 0.9;
+pub const NOTHING: f64 = 0.9;
 const DOUBTED: f64 = 0.5;
 
 const BITS: [i32; 4] = [8, 10, 12, 16];
@@ -34,13 +34,17 @@ const HEIGHT: f64 = 30.0;
 const PERIODS: f64 = 5.0;
 
 /// Longest shift of a channel that is sought, s; from so many ticks and this much less left with it, a trace is refused, but not where effort and
-/// motion alone are apart by less than this time, which is in the fit.
+/// motion are apart by less than this time and the fit tells it. A kernel of this half-width, s, shows a shift under noise.
 const LATEST: f64 = 0.1;
 const LATE: (isize, f64) = (3, 1.3);
 const IN_THE_FIT: f64 = 0.02;
+const LONG: f64 = 0.034;
 
 /// Residual with a viscous friction that differs by direction over that without, below which it is named.
 const TAKES: f64 = 0.97;
+
+/// Terms that are tried beside those of the equation: each speed below, a zero error of the load, viscous friction that differs by direction.
+const TRIED: u32 = STRIBECK.len() as u32 + 2;
 
 /// Speeds over which friction changes towards rest, over one that a tenth of the rows exceed. A faster one is a drag that is not linear.
 const STRIBECK: [f64; 3] = [0.02, 0.05, 0.12];
@@ -76,10 +80,11 @@ pub fn screened(record: &Record, trace: &Trace) -> Result<Option<Screened>, Stri
     let Some(found) = look.screened()? else {
         return Ok(None);
     };
-    look.apart(&found).map_or(Ok(()), Err)?;
+    let late = look.late(&found).map(|(_, word)| word);
+    look.apart(&found, late.is_some()).map_or(Ok(()), Err)?;
     Ok(Some(Screened {
         kernel: (found.length, found.settling),
-        late: look.late(&found).map(|(_, word)| word),
+        late,
     }))
 }
 
@@ -166,9 +171,12 @@ impl<'a> Look<'a> {
                 self.more = vec![Term::Sine(number), Term::Cosine(number)];
                 words.push(word);
             }
-            self.apart(&found).map_or(Ok(()), Err)?;
         }
-        if let Some((better, word)) = self.late(&found) {
+        let late = self.late(&found);
+        if moves && !self.record.speed_alone {
+            self.apart(&found, late.is_some()).map_or(Ok(()), Err)?;
+        }
+        if let Some((better, word)) = late {
             found = better;
             words.push(word);
         }
@@ -294,6 +302,17 @@ impl<'a> Look<'a> {
                 digits(gain, 3)
             ));
         }
+        if let Some((gain, half)) = found.of(Term::Gain)
+            && gain < 0.0
+            && half < 0.2 * -gain
+            && found.fit.relative < DOUBTED
+        {
+            let turned = self.turned_beside(found);
+            return Some(format!(
+                "a newton of {load} takes {} N m of {effort}, which assists what it should oppose: turn the sign of {turned}",
+                digits(gain, 3)
+            ));
+        }
         let ((driving, half), (back, _)) = (found.of(Term::Driving)?, found.of(Term::BackDriving)?);
         let carried = 1.0 + 0.5 * (driving - back);
         let sure = half < 0.2 * carried.abs().max(0.1);
@@ -301,10 +320,7 @@ impl<'a> Look<'a> {
             return None;
         }
         let cause = if (-1.4..-0.7).contains(&carried) {
-            // A turned effort turns the friction too.
-            let coulomb = found.of(Term::Coulomb).map_or(0.0, |(coulomb, _)| coulomb);
-            let turned = if coulomb < 0.0 { effort } else { load };
-            format!("turn the sign of {turned}")
+            format!("turn the sign of {}", self.turned_beside(found))
         } else if (700.0..1400.0).contains(&carried) {
             format!("{effort} is in m{unit}, or {load} in k{unit}")
         } else if (7e-4..1.4e-3).contains(&carried) {
@@ -320,6 +336,16 @@ impl<'a> Look<'a> {
         };
         let carried = digits(carried, 3);
         Some(format!("{effort} carries {carried} times {load}: {cause}"))
+    }
+
+    /// Which of effort and load has the wrong sign: a turned effort turns the friction too.
+    fn turned_beside(&self, found: &Estimate) -> &str {
+        let coulomb = found.of(Term::Coulomb).map_or(0.0, |(coulomb, _)| coulomb);
+        if coulomb < 0.0 {
+            self.effort
+        } else {
+            self.load
+        }
     }
 
     /// A jump that hides in the turns: Coulomb friction below zero beside a sound inertia and drag.
@@ -425,24 +451,36 @@ impl<'a> Look<'a> {
         Some((better, wave, word))
     }
 
-    /// One channel that comes later or earlier than all others: the effort, or the load.
-    fn apart(&self, found: &Estimate) -> Option<String> {
+    /// One channel that comes later or earlier than all others: the effort, the load, or the motion, as both of them together show it. Looked for
+    /// behind the kernel that was chosen, and behind a longer one, which leaves less of the noise.
+    fn apart(&self, found: &Estimate, in_the_fit: bool) -> Option<String> {
         let record = self.record;
-        let rows = found.rows.first()?.as_ref()?;
-        let columns = Block::of(record, rows, &found.terms).columns;
         let own = record.load.as_deref().filter(|_| record.load_is_effort);
-        let load = own.map_or_else(|| vec![0.0; rows.len()], |load| rows.sums(0, load));
-        let effort = rows.sums(0, &record.effort);
-        let of_effort = shift(rows, &columns, &record.effort, &load);
-        let of_load = own.and_then(|own| shift(rows, &columns, own, &effort));
-        let told = [(of_effort, self.effort), (of_load, self.load)];
-        let told = told
-            .into_iter()
-            .filter_map(|(found, name)| Some((found?, name)));
-        let ((by, _), name) = told.min_by(|one, other| one.0.1.total_cmp(&other.0.1))?;
+        let behind = |length: f64| {
+            let half = (length / record.tick).round() as usize;
+            let rows = Rows::of(record, half, found.settling, 0)?;
+            let columns = Block::of(record, &rows, &found.terms).columns;
+            let none = vec![0.0; rows.len()];
+            let shift = |channel: &[f64], rest: &[f64]| shift(&rows, &columns, channel, rest);
+            let Some(load) = own else {
+                return Some((shift(&record.effort, &none)?, self.effort));
+            };
+            let both = record.effort.iter().zip(load);
+            let both: Vec<f64> = both.map(|(effort, load)| effort - load).collect();
+            let later = |(by, left): (isize, f64)| (-by, left);
+            let told = [
+                (shift(&record.effort, &rows.sums(0, load)), self.effort),
+                (shift(load, &rows.sums(0, &record.effort)), self.load),
+                (shift(&both, &none).map(later), self.motion),
+            ];
+            told.into_iter()
+                .filter_map(|(found, name)| Some((found?, name)))
+                .min_by(|one, other| one.0.1.total_cmp(&other.0.1))
+        };
+        let ((by, _), name) =
+            behind(found.length).or_else(|| behind(LONG.max(2.0 * found.length)))?;
         let time = record.tick * by as f64;
-        let in_the_fit = own.is_none() && time.abs() < IN_THE_FIT;
-        (!in_the_fit).then(|| {
+        (!(in_the_fit && time.abs() < IN_THE_FIT)).then(|| {
             format!(
                 "{name} comes {:.0} ms {} than the other channels, which it fits best there: shift the channels to one clock",
                 1e3 * time.abs(),
@@ -474,11 +512,10 @@ impl<'a> Look<'a> {
         Some((better, word))
     }
 
-    /// A term more that is twice its interval from zero, with the kernel that was chosen.
+    /// A term more that is surely not zero, with the kernel that was chosen.
     fn surely(&self, found: &Estimate, term: Term, settling: f64) -> Option<Estimate> {
         let other = self.with(&[term], self.lags(found), Some((found.length, settling)))?;
-        let (value, half) = other.of(term)?;
-        (value.abs() > 2.0 * half).then_some(other)
+        other.surely(term, TRIED).and(Some(other))
     }
 
     fn lags(&self, found: &Estimate) -> bool {
@@ -534,11 +571,10 @@ impl<'a> Look<'a> {
             .min_by(|one, other| one.1.fit.residual_rms.total_cmp(&other.1.fit.residual_rms))?;
         let term = Term::Stribeck(speed);
         let better = self.with(&[term], self.lags(found), None)?;
-        let (rise, half) = better.of(term)?;
-        let (coulomb, _) = better.of(Term::Coulomb)?;
-        if rise.abs() < 2.0 * half || coulomb <= 0.0 {
-            return None;
-        }
+        let (rise, half) = better.surely(term, TRIED)?;
+        better
+            .of(Term::Coulomb)
+            .filter(|(coulomb, _)| *coulomb > 0.0)?;
         let word = format!(
             "friction {} towards rest by {} {} over {} {}/s: it is in the fit",
             if rise > 0.0 { "rises" } else { "falls" },

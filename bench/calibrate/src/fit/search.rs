@@ -31,7 +31,7 @@ const STEP: f64 = 1e-2;
 const ASIDE: f64 = 1e-3;
 
 /// Relative change of the cost that ends a descent, or a rough one; its first step, and the most evaluations of a parameter.
-const TOLERANCE: f64 = 1e-8;
+const TOLERANCE: f64 = 1e-6;
 const ROUGH: f64 = 1e-3;
 const FIRST_STEP: f64 = 0.3;
 const PATIENCE: usize = 20;

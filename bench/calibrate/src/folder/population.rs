@@ -161,7 +161,7 @@ fn population(name: &str, logarithmic: bool, told: &[Told]) -> Population {
     };
     // One trace alone has its own error only.
     let wide = if traces > 1 {
-        quantile(freedom)
+        quantile(freedom, 1)
     } else {
         HALF_INTERVAL
     };
@@ -172,7 +172,7 @@ fn population(name: &str, logarithmic: bool, told: &[Told]) -> Population {
         mean_interval: around(wide / weight.sqrt()),
         spread: (traces > 1).then(|| spread.sqrt()),
         next: (traces > 2)
-            .then(|| around(quantile(freedom - 1.0) * (spread + 1.0 / weight).sqrt())),
+            .then(|| around(quantile(freedom - 1.0, 1) * (spread + 1.0 / weight).sqrt())),
     }
 }
 

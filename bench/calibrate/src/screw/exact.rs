@@ -69,6 +69,11 @@ impl Spacing {
         ..Self::FINE
     };
 
+    /// A preload half a node of the gap away: the grid of a design with it needs four nodes for a fit about this one, and not five.
+    pub fn beside(&self, preload: f64) -> f64 {
+        preload * self.gap.powf(0.75)
+    }
+
     const fn friction_ratio(&self, play: bool) -> f64 {
         if play {
             self.friction_with_play
@@ -100,7 +105,7 @@ impl Spacing {
 }
 
 /// Octaves below the largest load that are solved without a preload; below them friction is in proportion to the load.
-const OCTAVES: f64 = 10.0;
+const OCTAVES: f64 = 8.0;
 
 /// Least largest load of a ball over its lift-off load. Where one flank alone carries, the balance is found from nothing; between both
 /// flanks, from its neighbour only.
@@ -112,9 +117,8 @@ const NO_LOAD: f64 = 1e-4;
 /// Friction coefficients that are solved; beyond them friction is in proportion.
 const FRICTION: (f64, f64) = (1e-3, 0.6);
 
-/// Smallest largest load of a ball, N, and how far beyond the largest load of a trace a grid reaches.
-const LEAST_LARGEST: f64 = 64.0;
-const BEYOND: f64 = 4.0;
+/// Smallest largest load of a ball, N.
+const LEAST_LARGEST: f64 = 16.0;
 
 /// Resistances for which the contacts' rolling is solved apart: their torque is in proportion.
 const HYSTERESIS: f64 = 0.1;
@@ -202,9 +206,12 @@ impl Grid {
         largest_load: f64,
         spacing: Spacing,
     ) -> Result<Arc<Self>, ReferenceError> {
-        let largest = BEYOND * largest_load.abs() / f64::from(caged.loaded_balls);
-        let largest = largest.max(LEAST_LARGEST).log2().ceil().exp2();
-        Ok(Arc::new(Self::new(caged, largest, spacing)?))
+        let largest = largest_load.abs() / f64::from(caged.loaded_balls);
+        Ok(Arc::new(Self::new(
+            caged,
+            largest.max(LEAST_LARGEST),
+            spacing,
+        )?))
     }
 
     fn new(caged: &CagedDesign, largest: f64, spacing: Spacing) -> Result<Self, ReferenceError> {
@@ -236,7 +243,7 @@ impl Grid {
 
     /// Load of the first point where nothing is preloaded, N.
     fn first_load(&self) -> f64 {
-        self.largest * (-OCTAVES).exp2()
+        (self.largest.log2().ceil() - OCTAVES).exp2()
     }
 
     /// The law of a design with another friction coefficient, fit or rolling resistance, for friction coefficients between two.

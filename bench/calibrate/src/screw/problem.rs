@@ -290,43 +290,36 @@ impl<'a> ScrewProblem<'a> {
     }
 
     pub fn model(&self, values: &Values) -> Vec<f64> {
-        let mut sum = self.friction(values);
-        for term in &self.terms {
-            add(
-                &mut sum,
-                term.of.value(values),
-                &self.column_of(term, values),
-            );
-        }
-        sum
+        let evaluation = self.evaluation(self.friction(values), values);
+        evaluation.sum(&self.coordinates(values).1)
     }
 
     pub fn beside(&self, values: &Values) -> Evaluation {
-        let mut fixed = vec![0.0; self.target.len()];
-        let columns = self.add_terms(&mut fixed, values);
-        Evaluation { fixed, columns }
+        self.evaluation(vec![0.0; self.target.len()], values)
     }
 
-    /// Adds what is not estimated; the columns of what is.
-    fn add_terms(&self, sum: &mut [f64], values: &Values) -> Vec<Vec<f64>> {
+    /// With what has no parameter, to which a quantity that is not estimated is added.
+    fn evaluation(&self, mut fixed: Vec<f64>, values: &Values) -> Evaluation {
         let mut columns = Vec::new();
+        let mut flanks = None;
         for term in &self.terms {
-            let column = self.column_of(term, values);
+            let column = match term.factor {
+                _ if !term.still.is_empty() => term.still.clone(),
+                Factor::Wave(place) => {
+                    self.wave(place, flanks.get_or_insert_with(|| self.flanks(values)))
+                }
+                factor => self.column(factor, values),
+            };
             if term.estimated {
                 columns.push(column);
             } else {
-                add(sum, term.of.value(values), &column);
+                let value = term.of.value(values);
+                for (sum, entry) in fixed.iter_mut().zip(&column) {
+                    *sum += value * entry;
+                }
             }
         }
-        columns
-    }
-
-    fn column_of(&self, term: &Term, values: &Values) -> Vec<f64> {
-        if term.still.is_empty() {
-            self.column(term.factor, values)
-        } else {
-            term.still.clone()
-        }
+        Evaluation { fixed, columns }
     }
 
     fn column(&self, factor: Factor, values: &Values) -> Vec<f64> {
@@ -345,26 +338,30 @@ impl<'a> ScrewProblem<'a> {
             },
             Factor::Viscosity => self.viscous(values),
             Factor::RollingDrag => self.dragged(values),
-            Factor::Wave(place) => self.wave(place, values),
+            Factor::Wave(place) => return self.wave(place, &self.flanks(values)),
         };
         rows.sums(0, &signal)
     }
 
-    /// A wave over the turn times the sum of both flanks' loads over that at the reference load.
-    fn wave(&self, place: usize, values: &Values) -> Vec<f64> {
-        let preload = self.prepared.screw.axial_preload(values);
-        let reference =
-            flank_sum(preload, self.prepared.screw.reference_load).max(f64::MIN_POSITIVE);
+    /// Sum of both flanks' loads over that at the reference load, at every sample; none where no load is measured.
+    fn flanks(&self, values: &Values) -> Vec<f64> {
+        let screw = &self.prepared.screw;
+        let preload = screw.axial_preload(values);
+        let reference = flank_sum(preload, screw.reference_load).max(f64::MIN_POSITIVE);
+        let load = self.samples.course.load.iter().flatten();
+        load.map(|load| flank_sum(preload, *load) / reference)
+            .collect()
+    }
+
+    /// A wave over the turn times the flanks' loads.
+    fn wave(&self, place: usize, flanks: &[f64]) -> Vec<f64> {
         let wave = &self.samples.waves[place];
-        match &self.samples.course.load {
-            Some(load) => {
-                let samples = wave.iter().zip(load);
-                samples
-                    .map(|(wave, load)| wave * flank_sum(preload, *load) / reference)
-                    .collect()
-            }
-            None => wave.clone(),
+        if flanks.is_empty() {
+            return self.rows.sums(0, wave);
         }
+        let samples = wave.iter().zip(flanks);
+        let signal: Vec<f64> = samples.map(|(wave, flanks)| wave * flanks).collect();
+        self.rows.sums(0, &signal)
     }
 
     /// Viscosity times speed at every sample, Pa.
@@ -412,12 +409,6 @@ impl<'a> ScrewProblem<'a> {
             f64::from(now.drag_torque(*speed as f32, load as f32, lift_off as f32))
         };
         speed.iter().enumerate().map(at).collect()
-    }
-}
-
-fn add(sum: &mut [f64], value: f64, column: &[f64]) {
-    for (sum, entry) in sum.iter_mut().zip(column) {
-        *sum += value * entry;
     }
 }
 
@@ -529,8 +520,6 @@ impl Separable for ScrewProblem<'_> {
 
     fn evaluate(&self, nonlinear: &[f64]) -> Evaluation {
         let values = self.values(nonlinear, &[]);
-        let mut fixed = self.friction(&values);
-        let columns = self.add_terms(&mut fixed, &values);
-        Evaluation { fixed, columns }
+        self.evaluation(self.friction(&values), &values)
     }
 }

@@ -29,6 +29,9 @@ const LEAST_HALF: usize = 4;
 /// largest load later than under the reference load.
 const WAY: f64 = 4.0;
 
+/// A longer way after a turn is taken where it is longer by this.
+const LONGER: f64 = 1.5;
+
 /// Residual, in robust deviations, from which on a row is left out, and the share of the rows that may be.
 const OUTLIER: f64 = 6.0;
 const OUTLIERS: f64 = 0.02;
@@ -56,7 +59,9 @@ const FEWEST_TURNS: usize = 8;
 /// Most rows over everything that moves, on which models are compared.
 const ROWS: usize = 12_000;
 
-pub const AT_TURNS: [&str; 2] = ["breakaway_angle", "backlash"];
+const BREAKAWAY: &str = "breakaway_angle";
+
+pub const AT_TURNS: [&str; 2] = [BREAKAWAY, "backlash"];
 
 pub struct Prepared<'a> {
     pub trace: &'a Trace,
@@ -134,16 +139,17 @@ impl<'a> Prepared<'a> {
     }
 
     /// The first fit: from several places of the speed law; and the samples of rows that are no part of it.
-    pub fn first_fit(
+    fn first_fit(
         &self,
         window: Window,
         at: Known<'_>,
+        starts: &[f64],
     ) -> Result<(Values, Vec<Range<usize>>), Failure> {
         let mut best: Option<(Found, Values, Rows)> = None;
         let speed = at.choice.nonlinear.iter();
         let speed = speed.filter(|(of, _)| of.name == "half_share_speed");
-        let starts = if speed.count() > 0 { 3 } else { 1 };
-        for factor in &STARTS[..starts] {
+        let starts = &starts[..if speed.count() > 0 { starts.len() } else { 1 }];
+        for factor in starts {
             let mut values = best.as_ref().map_or(*at.values, |(_, values, _)| *values);
             values.half_share_speed = factor * at.values.half_share_speed;
             let problem = self.sliding(window, at.with(&values));
@@ -278,8 +284,53 @@ impl<'a> Prepared<'a> {
         ScrewProblem::new(self, rows, Passage::Remembered, at)
     }
 
+    /// The way after a turn that the breakaway angle asks for, as a fit on a coarse grid finds it; its values, and the samples of rows that are no
+    /// part of it. Rows just after a turn stand out where the way is too short.
+    pub fn settled(
+        &self,
+        kernel: (f64, f64),
+        start: Known<'_>,
+        at_turns: &Choice,
+    ) -> Result<(Window, Values, Vec<Range<usize>>), Failure> {
+        let first = start.choice;
+        let breakaway = start.values.breakaway_angle.max(self.trace.resolution);
+        let mut window = self.window(kernel, breakaway, first)?;
+        let (mut values, mut outliers) = self.first_fit(window, start, &STARTS)?;
+        while !at_turns.nonlinear.is_empty()
+            && let Some(rows) = self.rows_of_turns(window)
+        {
+            let turns = Known {
+                choice: at_turns,
+                ..start.with(&values)
+            };
+            let (problem, found) = self.turn_fit(rows, turns, fit_roughly)?;
+            let told = intervals(&problem, &found);
+            let told = told.iter().find(|of| of.name == BREAKAWAY && !of.at_bound);
+            let longer = self.window(kernel, told.map_or(0.0, |of| of.value), first)?;
+            if longer.way <= LONGER * window.way {
+                break;
+            }
+            window = longer;
+            (values, outliers) = self.first_fit(window, start.with(&values), &STARTS[..1])?;
+        }
+        Ok((window, values, outliers))
+    }
+
+    /// Rows over turns, where these are enough to tell what comes before sliding.
+    fn rows_of_turns(&self, window: Window) -> Option<Rows> {
+        let rows = self.rows_over_turns(window, false);
+        let mut turns = rows.stretches.clone();
+        turns.dedup();
+        (turns.len() >= FEWEST_TURNS).then_some(rows)
+    }
+
     /// A fit over turns, from the breakaway angle near the first guess that leaves least.
-    fn turn_fit(&self, rows: Rows, at: Known<'_>) -> Result<(ScrewProblem<'_>, Found), Failure> {
+    fn turn_fit(
+        &self,
+        rows: Rows,
+        at: Known<'_>,
+        fit: fn(&dyn Separable) -> Result<Found, Failure>,
+    ) -> Result<(ScrewProblem<'_>, Found), Failure> {
         let problem = self.remembered(rows.clone(), at);
         let tried = |factor: f64| {
             let mut values = *at.values;
@@ -305,12 +356,7 @@ impl<'a> Prepared<'a> {
         at_turns: &Choice,
         at: Known<'_>,
     ) -> Result<Option<Vec<Interval>>, Failure> {
-        let over = |half: usize| {
-            let rows = self.rows_over_turns(Window { half, ..window }, false);
-            let mut turns = rows.stretches.clone();
-            turns.dedup();
-            (turns.len() >= FEWEST_TURNS).then_some(rows)
-        };
+        let over = |half: usize| self.rows_of_turns(Window { half, ..window });
         let Some(rows) = over(window.half) else {
             return Ok(None);
         };
@@ -318,7 +364,7 @@ impl<'a> Prepared<'a> {
             choice: at_turns,
             ..at
         };
-        let (problem, found) = self.turn_fit(rows.clone(), turns)?;
+        let (problem, found) = self.turn_fit(rows.clone(), turns, fit)?;
         let values = problem.values(&found.nonlinear, &found.linear);
         let Some(here) = linearised(&problem, &values) else {
             return Ok(None);

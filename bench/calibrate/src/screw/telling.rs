@@ -193,6 +193,10 @@ pub fn left_out(fixed: &[&str], evidence: &Evidence) -> Vec<String> {
         .collect()
 }
 
+pub fn outliers(count: usize) -> Option<String> {
+    (count > 0).then(|| format!("{count} rows were left out: what the model leaves of them is beyond 6 deviations of the others."))
+}
+
 pub fn too_coarse(name: &str, step: f64, value: f64) -> String {
     let value = value as f32;
     format!(

@@ -441,4 +441,24 @@ fn spoiled_traces_are_refused() {
         let refusal = found.map(|found| found.answer).unwrap_err();
         assert!(refusal.contains(word), "{word}: {refusal}");
     }
+    // Without its load nothing explains the torque.
+    let mut without_load = trace(&measured, &design()).unwrap();
+    without_load.load = None;
+    let found = calibrate(&without_load, &design(), &request);
+    let refusal = format!("{:?}", found.map(|found| found.answer).unwrap_err());
+    assert!(refusal.contains("of it are left; a load acts"), "{refusal}");
+}
+
+/// Rows just after a turn, whose friction is not yet full, are no exceptions.
+#[test]
+fn a_clean_trace_leaves_no_row_out() {
+    for (course, seed) in [
+        (Course::vehicle().times(0.5), 2),
+        (Course::rig().times(0.3), 0),
+    ] {
+        let measured = measured(Parameters::default(), &course, seed);
+        let answer = told(&measured, &request("", "")).unwrap().answer;
+        let said = answer.cannot_tell.join("; ");
+        assert!(!said.contains("left out"), "{said}");
+    }
 }

@@ -8,6 +8,18 @@ use epas_page::failure::Failure;
 /// Factor by which firmware believes in more than the trace has.
 const ROOM: f64 = 2.0;
 
+/// Estimates that the constants hold.
+const HELD: [&str; 8] = [
+    "inertia",
+    "viscous_friction",
+    "offset",
+    "coulomb_friction",
+    "driving_loss",
+    "back_driving_loss",
+    "load_gain",
+    "load_loss",
+];
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     pub coordinate: Coordinate,
@@ -52,10 +64,15 @@ impl Drive {
             self.needed("coulomb_friction")?,
             self.needed("viscous_friction")?,
         ];
-        let load_lever = self.value("load_gain")?.unwrap_or(1.0);
+        let lever = self.value("load_gain")?;
+        let load_lever = lever.unwrap_or(1.0);
+        if lever.is_none() {
+            notes.push("The load is a torque here: axial_load, as limit and as what a step is given, is in N m, and load_lever is 1".into());
+        }
         let mut losses = [0.0; 2];
         if let Some(loss) = self.value("load_loss")? {
             losses = [loss / load_lever; 2];
+            notes.push("The trace tells one loss for both directions of power: driving_loss and back_driving_loss are it, and half of their difference is in load_lever".into());
         } else {
             for (loss, name) in losses.iter_mut().zip(["driving", "back_driving"]) {
                 let told = self.value(&format!("{name}_loss"))?;
@@ -77,12 +94,12 @@ impl Drive {
                 }),
             );
         }
-        if let Some(rise) = self.told("stribeck_friction") {
-            notes.push(format!(
-                "Friction near rest differs from coulomb_friction by {} N m in the trace, which this scene does not have: it is left out",
-                digits(rise.value, 3)
-            ));
-        }
+        let beside = self.estimates.iter();
+        let beside = beside.filter(|of| !HELD.contains(&of.name.as_str()));
+        notes.extend(beside.map(|of| {
+            let (name, value) = (of.name.replace('_', " "), digits(of.value, 3));
+            format!("The trace has a {name} of {value} {}, which this scene does not have: it is left out", of.unit)
+        }));
         let [speed, load] = self.largest.map(|largest| ROOM * largest);
         // A trace without a load has no limit of one.
         let load = if load > 0.0 { load } else { 1e3 };
@@ -123,4 +140,59 @@ impl Drive {
 fn refused(name: &str, why: &str) -> Failure {
     let name = name.replace('_', " ");
     Failure::Data(format!("no constants: the {name} {why}"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::estimator::drives;
+    use crate::trace::Trace;
+    use crate::without_design::{largest, plain};
+
+    fn notes(trace: &Trace) -> (String, Numbers) {
+        let (answer, _) = plain(trace).unwrap();
+        let drive = Drive {
+            coordinate: trace.coordinate,
+            estimates: answer.parameters,
+            reversal_speed: None,
+            largest: [1.0, largest(trace.load.as_deref().unwrap_or_default())],
+        };
+        let numbers = drive.numbers().unwrap();
+        let said = [&answer.cannot_tell[..], &numbers.notes].concat();
+        (said.join("; "), numbers)
+    }
+
+    /// What the constants of a load's torque, and of a load's force, leave out or hold otherwise is said.
+    #[test]
+    fn constants_say_what_they_hold() {
+        let mut drawn = drives::Drive::drawn(3);
+        drawn.stribeck = (0.5, 10.0);
+        let (mut trace, _) = drawn.trace(3, 20.0, 14, None);
+        let (said, numbers) = notes(&trace);
+        for word in [
+            "a zero error of the load's channel",
+            "is in N m, and load_lever is 1",
+            "stribeck friction",
+        ] {
+            assert!(said.contains(word), "{word}: {said}");
+        }
+        assert_ne!(numbers.losses[0], numbers.losses[1]);
+        let lever = 0.01;
+        for load in trace.load.iter_mut().flatten() {
+            *load /= lever;
+        }
+        trace.load_is_effort = false;
+        let (said, numbers) = notes(&trace);
+        assert!(said.contains("one loss for both directions"), "{said}");
+        // The lever holds half of the difference of the losses.
+        let [driving, back_driving] = drawn.losses;
+        let whole = 1.0 + 0.5 * (driving - back_driving);
+        let loss = 0.5 * (driving + back_driving) / whole;
+        for (found, truth) in [
+            (numbers.load_lever, lever * whole),
+            (numbers.losses[0], loss),
+        ] {
+            assert!((found / truth - 1.0).abs() < 0.05, "{found} {truth}");
+        }
+    }
 }
