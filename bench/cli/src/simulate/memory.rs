@@ -44,22 +44,71 @@ pub struct Remembered {
     pub lines: Lines,
 }
 
-/// Mean size of the load of a trace, N.
-pub fn mean_load<S: Sample>(trace: &Trace<S>) -> f32 {
-    let sum: f64 = trace.samples.iter().map(|sample| sample.load().abs()).sum();
-    (sum / trace.samples.len() as f64) as f32
+/// Loads over the reference load for which the error of [`ProportionalElements`](epas_friction::law::memory::ProportionalElements) is known to be
+/// small.
+const NEAR: std::ops::RangeInclusive<f64> = 0.5..=1.6;
+
+/// What friction that remembers takes of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MemorySettings {
+    /// Step of the encoder whose noise it does not follow.
+    pub encoder: EncoderStep,
+    /// Load at which elements of the design are exact, N; without, the mean size of the trace's.
+    pub reference_load: Option<f32>,
 }
 
-/// Elements over a trace behind the step of its encoder, rad or m, by those of a design at the trace's mean load.
-pub fn over<S: Sample>(
-    trace: &Trace<S>,
-    (encoder, unit): (EncoderStep, &str),
-    at: impl FnOnce(f32) -> Result<Remembered, Error>,
-) -> Result<Remembered, Failure> {
-    let mut remembered = at(mean_load(trace))?;
-    remembered.encoder_step = encoder.size();
-    remembered.lines.add_some("encoder", encoder.told(unit));
-    Ok(remembered)
+/// An axial load (normal load of a bearing) at which elements are designed, N.
+pub fn reference_load(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(value) if (1e-3..=1e6).contains(&value) => Ok(value),
+        _ => Err("a reference load is 1e-3 to 1e6 N".into()),
+    }
+}
+
+impl MemorySettings {
+    /// The load at which elements are designed for the loads of a trace, N.
+    pub fn load(self, loads: impl ExactSizeIterator<Item = f64>) -> f32 {
+        self.reference_load.unwrap_or_else(|| {
+            let samples = loads.len() as f64;
+            (loads.map(f64::abs).sum::<f64>() / samples) as f32
+        })
+    }
+
+    /// Elements of a design over a trace, behind the step of its encoder, rad or m.
+    pub fn over<S: Sample>(
+        self,
+        trace: &Trace<S>,
+        unit: &str,
+        at: impl FnOnce(f32) -> Result<Remembered, Error>,
+    ) -> Result<Remembered, Failure> {
+        let loads = trace.samples.iter().map(Sample::load);
+        let mut remembered = at(self.load(loads.clone()))?;
+        remembered.encoder_step = self.encoder.size();
+        let lines = &mut remembered.lines;
+        lines.add_some("encoder", self.encoder.told(unit));
+        lines.add_some(FAR, far(loads, remembered.reference_load));
+        Ok(remembered)
+    }
+}
+
+/// Name of the line of [`far`].
+pub const FAR: &str = "memory and load";
+
+/// The share of loads at which elements in proportion that are exact at this one are off; none where there are few.
+pub fn far(loads: impl ExactSizeIterator<Item = f64>, reference_load: f32) -> Option<String> {
+    const FEW: f64 = 0.01;
+    let all = loads.len() as f64;
+    let off = loads.filter(|load| !NEAR.contains(&(load.abs() / f64::from(reference_load))));
+    let share = off.count() as f64 / all;
+    (share > FEW).then(|| {
+        format!(
+            "{:.0} % of the samples are outside {} to {} of reference_load = {reference_load:.0} N, where the way to full sliding is off: \
+             --reference-load takes the load that counts, and does not follow the trace's mean; elements = \"load_exact\" in [calibration] serve any load",
+            100.0 * share,
+            NEAR.start(),
+            NEAR.end(),
+        )
+    })
 }
 
 impl Screw<'_> {
@@ -223,4 +272,63 @@ pub fn angle() -> Result<WrappedAngle, Error> {
         period: std::f32::consts::TAU,
         largest_turn: std::f32::consts::PI,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::caged::Caged;
+    use crate::simulate::samples::ScrewSample;
+    use crate::simulate::scene::Scene as _;
+    use epas_design::files::DesignSource;
+
+    /// Friction after a reversal under the second of two loads, of the whole trace and of its second half, with the lines of the whole.
+    fn last(reference_load: Option<f32>) -> ([f32; 2], Lines) {
+        let sample = |tick: u16| {
+            let time = 1e-3 * f64::from(tick);
+            ScrewSample {
+                time,
+                nut_speed: if tick < 1990 { 10.0 } else { -0.05 },
+                axial_load: if tick < 1000 { 500.0 } else { 8e3 },
+                nut_position: 0.0,
+            }
+        };
+        let design: DesignSource = "lin-4.1".parse().unwrap();
+        let mut scene = Caged {
+            design: design.load().unwrap(),
+            memory: Some(MemorySettings::default()),
+            temperature: false,
+        };
+        scene.set_memory(MemorySettings {
+            reference_load,
+            ..MemorySettings::default()
+        });
+        let mut lines = Lines::default();
+        let friction = [1000, 0].map(|first| {
+            let samples = (first..2000).map(sample).collect();
+            let name = "steps".into();
+            let (rows, told) = scene.rows(&Trace { name, samples }, None, &|| ()).unwrap();
+            lines = told;
+            rows.last().unwrap().outputs.friction
+        });
+        (friction, lines)
+    }
+
+    /// With a reference load of its own a part of a trace has the friction of the whole; with the mean of its loads it has not, and the summary
+    /// says how many samples are far from it.
+    #[test]
+    fn a_reference_load_is_independent_of_the_trace() {
+        let ([part, whole], lines) = last(None);
+        assert!((part / whole - 1.0).abs() > 0.02, "{part} {whole}");
+        let mut said = Vec::new();
+        lines.print(&mut said).unwrap();
+        let said = String::from_utf8(said).unwrap();
+        assert!(
+            said.contains("100 % of the samples are outside 0.5 to 1.6"),
+            "{said}"
+        );
+        let ([part, whole], _) = last(Some(8e3));
+        // Angles are sums of another number of roundings.
+        assert!((part / whole - 1.0).abs() < 1e-4, "{part} {whole}");
+    }
 }

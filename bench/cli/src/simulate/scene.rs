@@ -1,8 +1,8 @@
 //! What a scene does with a trace. Each has its own samples, rows, columns and words; which one it is is
 //! decided once, from the design.
 
-use super::encoder::EncoderStep;
 use super::manoeuvre::Manoeuvre;
+use super::memory::MemorySettings;
 use super::picture::{self, Form};
 use super::reference::{Friction, ReferenceModel};
 use super::summary::{Lines, regime_name};
@@ -117,8 +117,8 @@ pub trait Scene {
         (trace, None)
     }
 
-    /// Takes the encoder of the trace, whose noise friction that remembers does not follow.
-    fn set_encoder(&mut self, encoder: EncoderStep);
+    /// Takes what friction that remembers follows, where it does.
+    fn set_memory(&mut self, settings: MemorySettings);
 
     /// Refuses a design whose block is too far from the exact model, as `design` does.
     fn check_errors(&self) -> Result<(), Failure> {

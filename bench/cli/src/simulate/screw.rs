@@ -222,6 +222,13 @@ impl ScrewSummary {
         if let Some(words) = too_fast(design, peaks) {
             lines.add("speed limit", words);
         }
+        let load = self.course.peak_load();
+        if capacity::in_kilonewtons(design.screw(), load as f32, design.caged.loaded_balls) {
+            let words = format!(
+                "{load:.1} N at most, which hardly presses the balls; is it in kN? Then its column is named axial_load [kN]"
+            );
+            lines.add("load unit", words);
+        }
         if let Some(beyond) = self.beyond {
             beyond.lines(&mut lines);
         }

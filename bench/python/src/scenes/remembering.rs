@@ -74,10 +74,10 @@ impl CagedBallScrewWithMemory {
         let angle = bindings::angle().map_err(|error| refused(py, error))?;
         let inner = design.inner.clone();
         let made = interruptible(py, move |_| {
-            let (model, _) = remembering(&inner, reference_load, (angle, encoder_step))?;
+            let made = remembering(&inner, reference_load, (angle, encoder_step))?;
             // Solved before: its words are at hand.
             let words = caged::words(&inner, coefficients(&inner)?)?;
-            Ok::<_, Failure>((model, words.unwrap_or_default()))
+            Ok::<_, Failure>((made.model, words.unwrap_or_default()))
         })?;
         let (model, words) = made.map_err(|failure| refused(py, failure))?;
         Ok(Self {

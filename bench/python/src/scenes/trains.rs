@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use epas_cli::bindings::{
-    self, Built, EncoderStep, Failure, Folded, Linear, Model, ScrewConfiguration, TickInputs,
+    self, Built, Failure, Folded, Linear, MemorySettings, Model, ScrewConfiguration, TickInputs,
     Uncaged, UncagedDesign,
 };
 use epas_design::uncaged::UncagedBlock;
@@ -413,8 +413,7 @@ fn scene(py: Python<'_>, design: &Design, memory_load: Option<f32>) -> PyResult<
     Ok(Uncaged {
         design: (*design.inner).clone(),
         balls,
-        memory: memory_load.is_some(),
-        encoder: EncoderStep::default(),
+        memory: memory_load.map(|_| MemorySettings::default()),
     })
 }
 
@@ -619,8 +618,7 @@ impl LinearBearingTrain {
         let (balls, limits) = (linear.balls, configuration.limits);
         let scene = Linear {
             design: linear,
-            memory: made.memory_load.is_some(),
-            encoder: EncoderStep::default(),
+            memory: made.memory_load.map(|_| MemorySettings::default()),
         };
         let remembered = made
             .memory_load

@@ -51,6 +51,9 @@ fn every_fault_has_its_word() {
             1e-3 * row as f64 + if row > 200 { 5.0 } else { 0.0 }
         )
     });
+    let counted = long(|row| format!("{row},1,1\n"));
+    let degrees = long(|row| format!("{:.3},1,1,{}\n", 1e-3 * row as f64, 0.0573 * row as f64));
+    let degrees = degrees.replace("axial_load", "axial_load,nut_position");
     for (text, word) in [
         ("", "line 1: the file is empty"),
         (
@@ -94,6 +97,12 @@ fn every_fault_has_its_word() {
         ),
         (&of("0,1,2\n1,1,2\n0.5,1,2\n"), "line 4: time goes back"),
         (&many, "time of the one before"),
+        (&counted, "tick = 1 s is too slow"),
+        (&degrees, "nut_position in deg?"),
+        (
+            "time nut_speed axial_load\n0 1 2\n1 1 2\n",
+            "separated by spaces",
+        ),
         (&gap, "a gap of 5.0010 s after 0.2 s"),
     ] {
         let message = parse(text.as_bytes()).unwrap_err();
