@@ -171,6 +171,7 @@ fn a_linear_bearing_runs_there_and_back() {
     ran(folder.path(), "simulate --manoeuvre stroke");
 }
 
+/// (The tests of `epas_design::files` hold what is refused of a design file, each with its word.)
 #[test]
 fn what_a_train_cannot_run_is_named() {
     let folder = tempdir().unwrap();
@@ -233,47 +234,14 @@ fn what_a_train_cannot_run_is_named() {
         run.refused(word);
         assert!(!folder.path().join("out.csv").exists());
     }
-    for (from, to, field) in [
-        ("\nballs = 37", "\nballs = 0", "balls"),
-        ("\nballs = 37", "\nballs = 65", "balls"),
-        ("\nballs = 37", "\nballs = 38", "balls = 38"),
-        ("\nballs = 37", "\n", "balls"),
-        ("turns = 2", "turns = -2", "turns"),
-        ("order = 2", "order = 9", "order"),
-        ("sine = 0.040143", "sine = 0.5", "sine"),
-        ("sine = 0.040143", "sinus = 0.04", "sinus"),
-        (
-            "turns = 2",
-            "turns = 2\nload_shares = [1.0, nan]",
-            "load_shares",
-        ),
-        (
-            "turns = 2",
-            "turns = 2\nload_shares = [1.2, 0.8]\nnegative_load_shares = [0.7, nan]",
-            "negative_load_shares",
-        ),
-        (
-            "turns = 2",
-            "turns = 2\nload_shares = [1.2, 0.8]\nnegative_load_shares = [1.0]",
-            "negative_load_shares has 1 entries",
-        ),
-        (
-            "turns = 2",
-            "turns = 2\nnegative_load_shares = [1.0]",
-            "negative_load_shares needs load_shares",
-        ),
-        (
-            "turns = 2",
-            "turns = 2\nfit = { preload = -1 }",
-            "clearance (m",
-        ),
-        ("turns = 2", "turns = 2\nfit = \"play\"", "clearance (m"),
-        ("clearance = 0", "clearance = 1e-3", "clearance"),
-    ] {
-        fs::write(folder.path().join("bad.toml"), SCREW.replace(from, to)).unwrap();
+    for balls in ["balls = 0", "balls = 65", "balls = 38"] {
+        fs::write(
+            folder.path().join("bad.toml"),
+            SCREW.replace("\nballs = 37", &format!("\n{balls}")),
+        )
+        .unwrap();
         let line = "simulate --scene uncaged --design bad.toml --manoeuvre turns --output out.csv";
-        let run = told(folder.path(), line);
-        run.refused(field);
+        told(folder.path(), line).refused("balls");
         assert!(!folder.path().join("out.csv").exists());
     }
 }
