@@ -5,7 +5,7 @@ use epas_friction::Error;
 use super::parameters::Values;
 use super::running::{ByAngle, Caged, Motion, Row, Running};
 use super::scene::SceneName;
-use crate::model::{Model, Sensor, TEMPERATURE};
+use crate::model::{self, Model, Sensor, TEMPERATURE};
 use crate::simulate::linear::Linear;
 use crate::simulate::memory::{self, MemorySettings, Remembered};
 use crate::simulate::nut::{Nut, STEPS};
@@ -19,7 +19,7 @@ use epas_design::files::train::{LinearDesign, no_row};
 pub fn caged(design: &Design) -> Result<Box<dyn Running>, String> {
     design.check().map_err(said)?;
     let scene = CagedScene::of(design).map_err(|failure| failure.to_string())?;
-    Ok(Box::new(Caged(Box::new(scene.model().map_err(said)?))))
+    Ok(Box::new(Caged(model::caged(&scene).map_err(said)?)))
 }
 
 pub fn caged_with_memory(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running>, String> {

@@ -17,7 +17,7 @@ use super::scene::{Column, OF_EVERY, OF_SCREW, Row, Rows, Scene};
 use super::screw::{self, ScrewSummary};
 use super::summary::Lines;
 use super::trace::{SceneSample, Temperature, Trace};
-use crate::model::{Model, TEMPERATURE, TickInputs, TickOutputs};
+use crate::model::{self, TEMPERATURE, TickInputs, TickOutputs};
 use epas_calibrate::outputs::firmware;
 use epas_design::caged_scene::{self as caged, CagedScene};
 use epas_design::files::Design;
@@ -94,8 +94,8 @@ impl Caged {
             let mut model = Lawful::new(&self.design, law)?;
             Box::new(move |inputs| model.step(inputs))
         } else {
-            let mut model = CagedScene::of(&self.design)?.model().map_err(refused)?;
-            Box::new(move |inputs| Model::step(&mut model, inputs))
+            let mut model = model::caged(&CagedScene::of(&self.design)?).map_err(refused)?;
+            Box::new(move |inputs| model.step(inputs))
         };
         let mut lines = Lines::default();
         lines.add_some("closed form", self.design.branch.map(range_of));

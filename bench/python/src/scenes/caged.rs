@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use epas_cli::bindings::{self, Design as Inner, Failure, Model, TickInputs};
-use epas_design::caged_scene::{self as caged, CagedModel, CagedScene, fold_for};
+use epas_design::caged_scene::{self as caged, CagedScene, fold_for};
 use epas_friction::FrictionBranch;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -35,7 +35,7 @@ use crate::results::result;
 #[pyclass(module = "epas_friction")]
 #[derive(Clone)]
 pub struct CagedBallScrew {
-    model: CagedModel,
+    model: Box<dyn Model>,
     origin: Origin,
     /// The friction coefficient that was set last.
     friction: Option<f32>,
@@ -161,7 +161,7 @@ impl CagedBallScrew {
         axial_load: f32,
     ) -> PyResult<Bound<'py, PyAny>> {
         let inputs = TickInputs::new(nut_speed, axial_load);
-        ScrewColumns::tick(py, &Model::step(&mut self.model, &inputs))
+        ScrewColumns::tick(py, &self.model.step(&inputs))
     }
 
     /// A whole trace, tick after tick, from the present state on. Other threads run meanwhile.
@@ -188,9 +188,9 @@ impl CagedBallScrew {
     ) -> PyResult<Bound<'py, PyAny>> {
         let names = ["nut_speed", "axial_load"];
         let trace = arguments(py, names, [&nut_speed, &axial_load])?.trace(py, allow_faults)?;
-        let mut model = self.model;
+        let mut model = self.model.copied();
         let columns = ScrewColumns::of(py, &trace, |[nut_speed, axial_load]| {
-            Model::step(&mut model, &TickInputs::new(nut_speed, axial_load))
+            model.step(&TickInputs::new(nut_speed, axial_load))
         })?;
         self.model = model;
         columns.run(py)
@@ -253,7 +253,7 @@ impl CagedBallScrew {
 
 impl CagedBallScrew {
     fn of(py: Python<'_>, scene: &CagedScene, origin: Origin) -> PyResult<Self> {
-        let model = scene.model().map_err(|error| refused(py, error))?;
+        let model = bindings::caged(scene).map_err(|error| refused(py, error))?;
         Ok(Self {
             model,
             origin,
