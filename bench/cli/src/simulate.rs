@@ -373,7 +373,7 @@ fn simulate<S: Scene>(
     let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
     let progress = Progress::new(steps);
     let done = || progress.step();
-    let (rows, reference) = scene.rows_at(&trace, &temperature, arguments.reference, &done)?;
+    let (rows, reference) = scene.rows(&trace, &temperature, arguments.reference, &done)?;
     let table = output
         .as_deref()
         .map(|path| {

@@ -2,7 +2,7 @@
 
 use epas_cli::bindings::{
     self, Caged, EncoderStep, Linear, LinearSample, Manoeuvre, MemorySettings, ReferenceModel, Row,
-    Scene, ScrewSample, TickOutputs, Trace, Uncaged,
+    Scene, ScrewSample, Temperature, TickOutputs, Trace, Uncaged,
 };
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
@@ -93,7 +93,7 @@ where
         reference_load: None,
     });
     let made = interruptible(py, move |stop| {
-        scene.rows(&trace, reference, &|| stop.check())
+        scene.rows(&trace, &Temperature::None, reference, &|| stop.check())
     })?;
     let (rows, _) = made.map_err(|failure| refused(py, failure))?;
     Ok(rows)

@@ -100,7 +100,7 @@ fn words(table: &Table, [position, speed]: [&Column; 2], ratio: f64) -> String {
             let shown = unit.shown();
             format!("is the time in {shown}? Then its heading is time [{shown}]")
         }
-        _ => "a gear between them, or another unit? Mend one of them, or leave it out".into(),
+        _ => "a gear between them, another unit, or one that comes later? Mend one of them, or leave it out".into(),
     };
     let turned = if ratio < 0.0 && !near(1.0) {
         "; and turn the sign of one"

@@ -9,5 +9,5 @@ pub use super::reference::{Friction, ReferenceModel};
 pub use super::remembering::{Remembering, coefficients, remembering};
 pub use super::samples::{LinearSample, ScrewSample};
 pub use super::scene::{Row, Scene};
-pub use super::trace::Trace;
+pub use super::trace::{Temperature, Trace};
 pub use super::uncaged::Uncaged;

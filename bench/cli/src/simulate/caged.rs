@@ -230,15 +230,6 @@ impl Scene for Caged {
         })
     }
 
-    fn rows(
-        &self,
-        trace: &Trace<ScrewSample>,
-        reference: Option<ReferenceModel>,
-        done: &dyn Fn(),
-    ) -> Rows<ScrewSample> {
-        self.follow(trace, |_| None, reference, done)
-    }
-
     fn reference_name(&self, model: ReferenceModel) -> String {
         let form = match (self.design.branch, model) {
             (None, ReferenceModel::Exact) => "one ball in elastic balance",
@@ -271,7 +262,7 @@ impl Scene for Caged {
         self.design.by_default_law = self.design.calibrated.is_none();
     }
 
-    fn rows_at(
+    fn rows(
         &self,
         trace: &Trace<ScrewSample>,
         temperature: &Temperature,

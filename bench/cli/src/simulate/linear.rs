@@ -11,7 +11,7 @@ use super::reference::ReferenceModel;
 use super::samples::LinearSample;
 use super::scene::{Column, OF_EVERY, OF_ROW, Row, Rows, Scene};
 use super::summary::{Course, Lines, Pressing, Words};
-use super::trace::Trace;
+use super::trace::{Temperature, Trace};
 use super::train::{Train, draw};
 use crate::model::{self, Built};
 use epas_design::files::train::LinearDesign;
@@ -90,6 +90,7 @@ impl Scene for Linear {
     fn rows(
         &self,
         trace: &Trace<LinearSample>,
+        _: &Temperature,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Rows<LinearSample> {

@@ -280,6 +280,7 @@ mod tests {
     use crate::simulate::caged::Caged;
     use crate::simulate::samples::ScrewSample;
     use crate::simulate::scene::Scene as _;
+    use crate::simulate::trace::Temperature;
     use epas_design::files::DesignSource;
 
     /// Friction after a reversal under the second of two loads, of the whole trace and of its second half, with the lines of the whole.
@@ -307,7 +308,9 @@ mod tests {
         let friction = [1000, 0].map(|first| {
             let samples = (first..2000).map(sample).collect();
             let name = "steps".into();
-            let (rows, told) = scene.rows(&Trace { name, samples }, None, &|| ()).unwrap();
+            let (rows, told) = scene
+                .rows(&Trace { name, samples }, &Temperature::None, None, &|| ())
+                .unwrap();
             lines = told;
             rows.last().unwrap().outputs.friction
         });

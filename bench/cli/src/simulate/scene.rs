@@ -125,11 +125,12 @@ pub trait Scene {
         Ok(())
     }
 
-    /// Runs the in-loop model over a trace, with the float64 reference where one is wanted; `done` is called
-    /// after each sample. Lines tell what of the reference was computed.
+    /// Runs the in-loop model over a trace, with its temperatures where it follows them and the float64 reference where one is wanted; `done` is
+    /// called after each sample. Lines tell what of the reference was computed.
     fn rows(
         &self,
         trace: &Trace<Self::Sample>,
+        temperature: &Temperature,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Rows<Self::Sample>;
@@ -146,17 +147,6 @@ pub trait Scene {
 
     /// Takes up that the trace has a temperature, which is followed.
     fn follow_temperature(&mut self) {}
-
-    /// The same as [`rows`](Self::rows) with a trace's temperatures, where it follows them.
-    fn rows_at(
-        &self,
-        trace: &Trace<Self::Sample>,
-        _: &Temperature,
-        reference: Option<ReferenceModel>,
-        done: &dyn Fn(),
-    ) -> Rows<Self::Sample> {
-        self.rows(trace, reference, done)
-    }
 
     /// Columns of the table behind those of the trace.
     fn outputs() -> Vec<Column>;

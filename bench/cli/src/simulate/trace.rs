@@ -90,6 +90,7 @@ impl<S: SceneSample> Trace<S> {
 /// A column of temperatures beside the samples of a trace.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Temperature {
+    /// The trace has none.
     None,
     /// There is one, and nothing follows it, for this reason.
     Ignored(&'static str),

@@ -16,7 +16,7 @@ use super::samples::ScrewSample;
 use super::scene::{Column, OF_EVERY, OF_ROW, OF_SCREW, Row, Rows, Scene};
 use super::screw::{self, ScrewSummary};
 use super::summary::{Lines, Pressing};
-use super::trace::{Sample, Trace};
+use super::trace::{Sample, Temperature, Trace};
 use super::train::{Train, draw, equal_step};
 use crate::model::{self, Built};
 use epas_design::files::Design;
@@ -177,6 +177,7 @@ impl Scene for Uncaged {
     fn rows(
         &self,
         trace: &Trace<ScrewSample>,
+        _: &Temperature,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Rows<ScrewSample> {

@@ -6,6 +6,7 @@ use crate::simulate::memory::MemorySettings;
 use crate::simulate::samples::ScrewSample;
 use crate::simulate::scene::Row;
 use crate::simulate::scene::Scene as _;
+use crate::simulate::trace::Temperature;
 use crate::simulate::uncaged::Uncaged;
 use epas_design::files::DesignSource;
 
@@ -63,7 +64,7 @@ fn friction(trace: &Trace<ScrewSample>, asked: Option<f64>) -> Vec<f32> {
         encoder: EncoderStep::of(asked, trace),
         reference_load: None,
     });
-    let (rows, _) = scene.rows(trace, None, &|| ()).unwrap();
+    let (rows, _) = scene.rows(trace, &Temperature::None, None, &|| ()).unwrap();
     rows.iter().map(|row| row.outputs.friction).collect()
 }
 
@@ -80,7 +81,7 @@ fn friction_of_row(trace: &Trace<ScrewSample>, asked: Option<f64>) -> Vec<f32> {
         encoder: EncoderStep::of(asked, trace),
         reference_load: None,
     });
-    let (rows, _) = scene.rows(trace, None, &|| ()).unwrap();
+    let (rows, _) = scene.rows(trace, &Temperature::None, None, &|| ()).unwrap();
     let torque = |row: &Row<ScrewSample>| row.outputs.friction;
     rows.iter().map(torque).collect()
 }
