@@ -69,12 +69,7 @@ where
 fn screw_trace<'py>(py: Python<'py>, values: [&Any<'py>; 3]) -> PyResult<Trace<ScrewSample>> {
     let names = ["time", "nut_speed", "axial_load"];
     trace(py, names, values, |[time, nut_speed, axial_load]| {
-        ScrewSample {
-            time,
-            nut_speed,
-            axial_load,
-            nut_position: 0.0,
-        }
+        ScrewSample::new(time, nut_speed, axial_load)
     })
 }
 

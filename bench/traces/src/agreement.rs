@@ -114,6 +114,7 @@ fn words(table: &Table, [position, speed]: [&Column; 2], ratio: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::fmt::Write as _;
     use std::io::Cursor;
 
     use super::*;
@@ -135,7 +136,7 @@ mod tests {
                 }
                 let noise = 0.2 * (1e3 * now * now).sin();
                 let rate = speed * (30.0 * (1.5 * (now - 4e-3)).sin() + noise);
-                text += &format!("{},{angle},{rate}\n", time * now);
+                writeln!(text, "{},{angle},{rate}", time * now).unwrap();
             }
             let everything = Request {
                 wants: &|_| true,

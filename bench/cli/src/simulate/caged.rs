@@ -85,7 +85,7 @@ impl Caged {
                 lines.add("angle", "the trace's nut_position");
             }
             lines.add_some("encoder", settings.encoder.told("rad"));
-            let far = proportional_at.and_then(|load| memory::far(loads, load));
+            let far = settings.far(&self.design, loads, proportional_at)?;
             lines.add_some(memory::FAR, far);
             return Ok((Box::new(move |inputs| model.step(inputs)), lines));
         }

@@ -206,9 +206,7 @@ fn moved(course: &Course<'_>) -> Result<(Vec<Row>, Lines), Failure> {
         .map_err(|error| Failure::Data(format!("{}: {error}", design.name)))?;
     // The nut's own motion has no noise.
     let mut found = remembering(design, memory.load(loads.clone()), (speed, 0.0))?;
-    let far = found
-        .proportional_at
-        .and_then(|load| memory::far(loads, load));
+    let far = memory.far(design, loads, found.proportional_at)?;
     found.lines.add_some(memory::FAR, far);
     Ok((motion(found.model, course), found.lines))
 }

@@ -14,6 +14,7 @@ use super::encoder::{self, EncoderStep};
 use super::summary::Lines;
 use super::trace::{Sample, Trace};
 use crate::model::{ELEMENTS, Elements, TEMPERATURE};
+use epas_design::files::Design;
 use epas_page::failure::Failure;
 
 /// What stands in for a temperature that is too old: the same one.
@@ -86,24 +87,54 @@ impl MemorySettings {
         remembered.encoder_step = self.encoder.size();
         let lines = &mut remembered.lines;
         lines.add_some("encoder", self.encoder.told(unit));
-        lines.add_some(FAR, far(loads, remembered.reference_load));
+        lines.add_some(FAR, far(loads, remembered.reference_load, OPTION));
         Ok(remembered)
     }
+
+    /// The line of [`far`] of a caged screw whose elements are exact at this load, where they follow the load in proportion; refuses a reference load
+    /// beside that of a calibration.
+    pub fn far(
+        self,
+        design: &Design,
+        loads: impl ExactSizeIterator<Item = f64>,
+        proportional_at: Option<f32>,
+    ) -> Result<Option<String>, Failure> {
+        let calibrated = design.calibrated.as_ref();
+        let calibrated = calibrated.is_some_and(|found| found.breakaway_angle.is_some());
+        if calibrated && self.reference_load.is_some() {
+            return Err(Failure::Data(format!(
+                "{}: --reference-load: the breakaway angle of [calibration] is that at its own reference_load",
+                design.name
+            )));
+        }
+        let cure = if calibrated {
+            "elements = \"load_exact\" in [calibration] serve any load"
+        } else {
+            OPTION
+        };
+        Ok(proportional_at.and_then(|load| far(loads, load, cure)))
+    }
 }
+
+/// What takes another reference load than the mean of the trace.
+const OPTION: &str = "--reference-load takes the load at which reversals count, and does not follow the trace's mean";
 
 /// Name of the line of [`far`].
 pub const FAR: &str = "memory and load";
 
 /// The share of loads at which elements in proportion that are exact at this one are off; none where there are few.
-pub fn far(loads: impl ExactSizeIterator<Item = f64>, reference_load: f32) -> Option<String> {
+fn far(
+    loads: impl ExactSizeIterator<Item = f64>,
+    reference_load: f32,
+    cure: &str,
+) -> Option<String> {
     const FEW: f64 = 0.01;
     let all = loads.len() as f64;
     let off = loads.filter(|load| !NEAR.contains(&(load.abs() / f64::from(reference_load))));
     let share = off.count() as f64 / all;
     (share > FEW).then(|| {
         format!(
-            "{:.0} % of the samples are outside {} to {} of reference_load = {reference_load:.0} N, where the way to full sliding is off: \
-             --reference-load takes the load that counts, and does not follow the trace's mean; elements = \"load_exact\" in [calibration] serve any load",
+            "{:.0} % of the samples are outside {} to {} of reference_load = {reference_load:.0} N, where the way to full sliding is off: {cure}",
             100.0 * share,
             NEAR.start(),
             NEAR.end(),
@@ -286,13 +317,9 @@ mod tests {
     /// Friction after a reversal under the second of two loads, of the whole trace and of its second half, with the lines of the whole.
     fn last(reference_load: Option<f32>) -> ([f32; 2], Lines) {
         let sample = |tick: u16| {
-            let time = 1e-3 * f64::from(tick);
-            ScrewSample {
-                time,
-                nut_speed: if tick < 1990 { 10.0 } else { -0.05 },
-                axial_load: if tick < 1000 { 500.0 } else { 8e3 },
-                nut_position: 0.0,
-            }
+            let speed = if tick < 1990 { 10.0 } else { -0.05 };
+            let load = if tick < 1000 { 500.0 } else { 8e3 };
+            ScrewSample::new(1e-3 * f64::from(tick), speed, load)
         };
         let design: DesignSource = "lin-4.1".parse().unwrap();
         let mut scene = Caged {
@@ -333,5 +360,23 @@ mod tests {
         let ([part, whole], _) = last(Some(8e3));
         // Both ends of a way of 5e-4 rad are rounded to 2.4e-7 rad.
         assert!((part / whole - 1.0).abs() < 1e-3, "{part} {whole}");
+    }
+
+    /// A calibrated breakaway angle has its own reference load, and no other one beside it.
+    #[test]
+    fn a_calibration_has_its_own_reference_load() {
+        let design = "nominal_diameter = 0.029\nlead = 0.007\nball_diameter = 4e-3\nconformity = 0.54\ncontact_angle = 0.785\n\
+                      [calibration]\nbreakaway_angle = 1e-3\nreference_load = 3e3\n";
+        let design = epas_design::files::read(design, "gear").unwrap();
+        let far = |reference_load| {
+            let settings = MemorySettings {
+                reference_load,
+                ..MemorySettings::default()
+            };
+            settings.far(&design, [3e3, -9e3].into_iter(), Some(3e3))
+        };
+        assert!(far(None).unwrap().unwrap().contains("50 % of the samples"));
+        let refused = far(Some(5e3)).unwrap_err();
+        assert!(refused.message().contains("its own reference_load"));
     }
 }
