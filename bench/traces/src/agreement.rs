@@ -114,6 +114,7 @@ fn words(table: &Table, [position, speed]: [&Column; 2], ratio: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
     use std::fmt::Write as _;
     use std::io::Cursor;
 
@@ -129,7 +130,7 @@ mod tests {
             for sample in 0..4000 {
                 let now = 1e-3 * f64::from(sample);
                 let angle = 20.0 * (1.0 - (1.5 * now).cos());
-                let step = std::f64::consts::TAU / 4096.0;
+                let step = TAU / 4096.0;
                 let mut angle = (angle / step).round() * step * position;
                 if turn > 0.0 {
                     angle = angle.rem_euclid(turn);
@@ -147,7 +148,7 @@ mod tests {
         let nut = "time,nut_position,nut_speed";
         let rpm = 30.0 / std::f64::consts::PI;
         let deg = 1f64.to_degrees();
-        for turn in [0.0, std::f64::consts::TAU] {
+        for turn in [0.0, TAU] {
             assert_eq!(checked(nut, [1.0; 3], turn), Ok(()));
         }
         assert_eq!(checked(nut, [1.0, 1e-3, 1e-3], 0.0), Ok(()));
@@ -155,45 +156,21 @@ mod tests {
         assert_eq!(checked(motor, [1.0, 1.0, 9.0], 0.0), Ok(()));
         let degrees = "time,nut_position_deg,nut_speed_rpm";
         assert_eq!(checked(degrees, [1.0, deg, rpm], 360.0), Ok(()));
-        for (headings, factors, turn, cause) in [
-            (
-                nut,
-                [1.0, -1.0, 1.0],
-                0.0,
-                "turn the sign of nut_position or nut_speed",
-            ),
-            (
-                nut,
-                [1.0, deg, 1.0],
-                0.0,
-                "times as far as the speed says; is nut_position in deg?",
-            ),
-            (nut, [1.0, deg, 1.0], 360.0, "nut_position [deg]"),
-            (nut, [1.0, -deg, 1.0], 0.0, "and turn the sign"),
-            (nut, [1.0, 1.0, rpm], 0.0, "nut_speed [rpm]"),
-            (
-                nut,
-                [1.0, 1.0, deg],
-                std::f64::consts::TAU,
-                "nut_speed [deg/s]",
-            ),
-            (nut, [1e3, 1.0, 1.0], 0.0, "time [ms]"),
-            (
-                "time,nut_position_deg,nut_speed",
-                [1.0; 3],
-                0.0,
-                "nut_position_deg in rad?",
-            ),
-            (nut, [1.0, 1.0, 3.0], 0.0, "a gear between them"),
-            (
-                "time,position_mm,speed_mm_s",
-                [1.0, 1e3, 1.0],
-                0.0,
-                "position_mm in um?",
-            ),
-        ] {
+        let refused = |headings, factors, turn, cause: &str| {
             let message = checked(headings, factors, turn).expect_err(cause);
             assert!(message.contains(cause), "{cause}: {message}");
-        }
+        };
+        refused(nut, [1.0, -1.0, 1.0], 0.0, "turn the sign of nut_position");
+        refused(nut, [1.0, deg, 1.0], 0.0, "is nut_position in deg?");
+        refused(nut, [1.0, deg, 1.0], 360.0, "nut_position [deg]");
+        refused(nut, [1.0, -deg, 1.0], 0.0, "and turn the sign");
+        refused(nut, [1.0, 1.0, rpm], 0.0, "nut_speed [rpm]");
+        refused(nut, [1.0, 1.0, deg], TAU, "nut_speed [deg/s]");
+        refused(nut, [1e3, 1.0, 1.0], 0.0, "time [ms]");
+        refused(nut, [1.0, 1.0, 3.0], 0.0, "a gear between them");
+        let wrong = "time,nut_position_deg,nut_speed";
+        refused(wrong, [1.0; 3], 0.0, "nut_position_deg in rad?");
+        let plain = "time,position_mm,speed_mm_s";
+        refused(plain, [1.0, 1e3, 1.0], 0.0, "position_mm in um?");
     }
 }
