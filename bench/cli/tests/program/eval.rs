@@ -539,7 +539,7 @@ fn the_run_goes_on_in_order_after_a_bad_line() {
         &good.replace("100.0", "NaN"),
         &long,
         &good.replace("\"id\":0", "\"id\":12345678901234567890123"),
-        &good.replace("\"load\"", "\"load\":1,\"load\""),
+        &good.replace("\"load\"", "\"l\\u006fad\":1,\"load\""),
     ]
     .join("\r\n");
     let run = run(&["eval", "-"], &input);
