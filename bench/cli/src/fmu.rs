@@ -14,7 +14,6 @@ mod scene;
 #[cfg(test)]
 mod tests;
 mod unit;
-mod units;
 mod variables;
 
 use std::io::{self, Cursor, Write};

@@ -25,7 +25,6 @@ mod samples;
 mod scene;
 mod screw;
 mod summary;
-mod targets;
 mod tick;
 mod trace;
 mod train;
@@ -48,14 +47,13 @@ use epas_traces::mdf4::Mapping;
 use epas_traces::source::Source;
 pub use manoeuvre::Manoeuvre;
 use memory::MemorySettings;
-use output::write_table;
+use output::{targets, write_table};
 use picture::Form;
 use progress::Progress;
 use reference::ReferenceModel;
 use samples::ScrewSample;
 use scene::Scene;
 use summary::Lines;
-use targets::targets;
 use trace::Temperature;
 
 /// Runs the in-loop friction model over a trace.

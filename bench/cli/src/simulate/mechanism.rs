@@ -16,12 +16,11 @@ use super::beyond::Beyond;
 use super::caged;
 use super::memory::{self, MemorySettings};
 use super::nut::{Nut, STEPS};
-use super::output::write_table;
+use super::output::{targets, write_table};
 use super::picture::Form;
 use super::remembering::remembering;
 use super::screw;
 use super::summary::Lines;
-use super::targets::targets;
 use super::trace::Temperature;
 use crate::model::{Model, TickOutputs};
 #[cfg(test)]

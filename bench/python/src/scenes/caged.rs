@@ -12,7 +12,7 @@ use super::columns::{Columns, ScrewColumns};
 use crate::design::Design;
 use crate::errors::{Refused, refused};
 use crate::interrupt::interruptible;
-use crate::numbers::{arguments, range_or, single, single_or};
+use crate::numbers::{arguments, range_or, single, single_or, within};
 use crate::restored::{self, Reduced, reduced};
 use crate::results::result;
 
@@ -104,10 +104,8 @@ impl CagedBallScrew {
         }
         design.check().map_err(|error| refused(py, error))?;
         let (least, largest) = range_or(py, "friction_range", friction_range, own)?;
-        if !(least <= own && own <= largest) {
-            let error = Refused::range("friction", own.into(), least.into(), largest.into());
-            return Err(refused(py, error));
-        }
+        within("friction", own.into(), least.into(), largest.into())
+            .map_err(|error| refused(py, error))?;
         if let Some(closed) = design.closed_form() {
             let origin = Origin::ClosedForm(bindings::text::text(&design).into());
             return Self::of(py, &CagedScene::ClosedForm(closed), origin);
