@@ -1,6 +1,6 @@
 //! What bindings to other languages take of the program: designs, models of scenes, runs over traces, `eval` without its command line.
 
-pub use crate::model::{Built, Model, TickInputs, TickOutputs};
+pub use crate::model::{Built, Model, TickInputs, TickOutputs, caged};
 pub use crate::simulate::bindings::*;
 pub use epas_calibrate::controller::Controller;
 pub use epas_design::files::train::{LinearDesign, UncagedDesign};

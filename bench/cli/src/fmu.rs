@@ -14,7 +14,6 @@ mod scene;
 #[cfg(test)]
 mod tests;
 mod unit;
-mod units;
 mod variables;
 
 use std::io::{self, Cursor, Write};
@@ -56,8 +55,8 @@ pub const RESOURCE: &str = "unit.toml";
 /// The unit has the inputs, outputs and parameters of the scene: parameters start with the numbers of the design, and may be set before
 /// the unit is initialised. Its outputs are those of `simulate`, bit for bit.
 ///
-/// The shared library is built with cargo, for this machine's platform, from bench/fmu of the checkout that you are in, or of the one that this
-/// program was built from. A program that stands alone takes a library that was built before: --library.
+/// The command needs Rust and a clone of epas-friction, or a library that was built before (--library): it builds the shared library with cargo,
+/// for this machine's platform, from bench/fmu of the clone that you are in, or of the one that this program was built from.
 #[derive(Debug, clap::Args)]
 pub struct Arguments {
     /// Print the scenes

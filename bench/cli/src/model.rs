@@ -1,6 +1,7 @@
 //! One model of every scene at run time: what `simulate`, co-simulation units and Python step.
 
-use epas_design::caged_scene::CagedModel;
+use epas_design::caged::{self, Block};
+use epas_design::caged_scene::CagedScene;
 use epas_design::uncaged::{Folded, NODES};
 use epas_design::uncaged_scene::ScrewConfiguration;
 use epas_friction::law::Elements as MemoryElements;
@@ -8,14 +9,15 @@ use epas_friction::law::coefficient::{CoefficientLaw, OneCoefficient};
 use epas_friction::law::memory::ProportionalElements;
 use epas_friction::law::motion::{Deadband, NutAngle, SpeedOverTick};
 use epas_friction::scene::{
-    CagedBallScrew, ChangingFriction, ClosedFormScrew, CoefficientFor, Sliding, StoredScene,
+    CagedBallScrew, CagedConstants, ChangingFriction, ClosedFormScrew,
+    ClosedFormScrewConfiguration, ClosedFormScrewConstants, CoefficientFor, Sliding, StoredScene,
     UncagedBallScrew, WithMemory, WithMemoryInputs,
 };
 use epas_friction::stored::{Fingerprinted, Stored};
 use epas_friction::train::Train;
 use epas_friction::{
     Error, Faults, FrictionModel, Inputs, LinearBearingConfiguration, LinearBearingTrain,
-    LinearInputs, LinearOutputs, Outputs, Refusal, Regime, Scene, UncagedOutputs,
+    LinearInputs, LinearOutputs, Outputs, Range, Refusal, Regime, Scene, UncagedOutputs,
 };
 
 use crate::simulate::memory::{self, Remembered};
@@ -147,6 +149,10 @@ pub trait Model: Send + Sync {
     fn faulted_ticks(&self) -> u32;
     /// Sets the friction coefficient of ball and groove.
     fn set_friction(&mut self, friction: f32) -> Result<(), Error>;
+    /// Goes on with the block of these words, of as many friction coefficients: a caged screw.
+    fn swap(&mut self, _words: &[u32]) -> Result<(), Error> {
+        Err(NO_BLOCK)
+    }
     /// Sets where the grooves' deviations are counted from: angle of the nut, rad, or place of the carriage, m. False where
     /// the scene does not take it.
     fn set_place(&mut self, _place: f32) -> bool {
@@ -168,6 +174,29 @@ impl Clone for Box<dyn Model> {
 
 /// A model, or the number of its design that is out of range.
 pub type Built = Result<Box<dyn Model>, Error>;
+
+/// The refusal of a block by a scene that has none.
+const NO_BLOCK: Error = Error::OutOfRange {
+    field: "branch",
+    value: 1.0,
+    allowed: Range::new(0.0, 0.0),
+};
+
+/// A caged screw without memory.
+pub fn caged(scene: &CagedScene) -> Built {
+    Ok(match scene {
+        CagedScene::Folded(Block::One(block)) => {
+            Box::new(FrictionModel::<CagedBallScrew>::new(block)?)
+        }
+        CagedScene::Folded(Block::Range(block)) => Box::new(FrictionModel::<
+            CagedBallScrew<{ caged::NODES }>,
+        >::new(block)?),
+        CagedScene::ClosedForm(form) => Box::new(ClosedForm {
+            model: FrictionModel::new(form)?,
+            form: *form,
+        }),
+    })
+}
 
 pub fn uncaged(
     configuration: &ScrewConfiguration,
@@ -234,6 +263,10 @@ pub trait HostScene:
         false
     }
 
+    fn swap(_: &mut FrictionModel<Self>, _: &[u32]) -> Result<(), Error> {
+        Err(NO_BLOCK)
+    }
+
     fn set_remembered_place<E, A, L>(
         _: &mut FrictionModel<WithMemory<Self, E, A, L>>,
         _: f32,
@@ -264,6 +297,11 @@ fn pressing<const N: usize>(train: &Train<N>) -> u64 {
 impl<const K: usize> HostScene for CagedBallScrew<K> {
     fn inputs(inputs: &TickInputs) -> Inputs {
         screw_inputs(inputs)
+    }
+
+    fn swap(model: &mut FrictionModel<Self>, words: &[u32]) -> Result<(), Error> {
+        model.swap_constants(CagedConstants::from_block(words)?)?;
+        Ok(())
     }
 }
 
@@ -327,29 +365,43 @@ fn exported<S: StoredScene>(model: &FrictionModel<S>) -> Result<Vec<u8>, Refusal
     Ok(block)
 }
 
-impl Model for CagedModel {
+/// A caged screw by a closed form, with what was set for it: any friction coefficient may be.
+#[derive(Clone, Copy)]
+struct ClosedForm {
+    model: FrictionModel<ClosedFormScrew>,
+    form: ClosedFormScrewConfiguration,
+}
+
+impl Model for ClosedForm {
     fn step(&mut self, inputs: &TickInputs) -> TickOutputs {
-        Self::step(self, screw_inputs(inputs)).into()
+        self.model.step(screw_inputs(inputs)).into()
     }
 
     fn reset(&mut self) {
-        Self::reset(self);
+        self.model.reset();
     }
 
     fn faulted_ticks(&self) -> u32 {
-        Self::faulted_ticks(self)
+        self.model.faulted_ticks()
     }
 
     fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        Self::set_friction(self, friction)
+        let form = ClosedFormScrewConfiguration {
+            friction,
+            ..self.form
+        };
+        self.model
+            .swap_constants(ClosedFormScrewConstants::new(&form)?)?;
+        self.form = form;
+        Ok(())
     }
 
     fn export(&self) -> Result<Vec<u8>, Refusal> {
-        Self::export(self)
+        exported(&self.model)
     }
 
     fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
-        Self::import(self, block)
+        self.model.import(block)
     }
 
     fn copied(&self) -> Box<dyn Model> {
@@ -379,6 +431,10 @@ where
 
     fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
         Self::set_friction(self, friction)
+    }
+
+    fn swap(&mut self, words: &[u32]) -> Result<(), Error> {
+        S::swap(self, words)
     }
 
     fn set_place(&mut self, place: f32) -> bool {
@@ -484,5 +540,38 @@ where
 
     fn copied(&self) -> Box<dyn Model> {
         Box::new(*self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use epas_design::caged_scene::words;
+    use epas_design::files::read;
+
+    use super::*;
+
+    const DESIGN: &str = "nominal_diameter = 0.029\nlead = 0.007\nball_diameter = 4e-3\nconformity = 0.54\n\
+                          contact_angle = 0.7853982\nloaded_balls = 71\n";
+
+    /// A block takes another one of as many coefficients, and its own coefficient alone; a closed form takes any coefficient and no block.
+    #[test]
+    fn blocks_and_coefficients_are_set() {
+        let inputs = TickInputs::new(1e3, 3000.0);
+        let design = read(DESIGN, "gear").unwrap();
+        let own = words(&design, (0.1, 0.1)).unwrap().unwrap();
+        let mut other = own.clone();
+        *other.last_mut().unwrap() ^= 1;
+        let mut model = caged(&CagedScene::of(&design).unwrap()).unwrap();
+        let torque = model.step(&inputs).friction;
+        assert_eq!(model.swap(&other).unwrap_err().field(), "checksum");
+        model.swap(&own).unwrap();
+        assert_eq!(model.step(&inputs).friction, torque);
+        assert_eq!(model.set_friction(0.2).unwrap_err().field(), "friction");
+        let sliding = read(&format!("{DESIGN}branch = \"sliding\"\n"), "gear").unwrap();
+        let mut model = caged(&CagedScene::of(&sliding).unwrap()).unwrap();
+        let before = model.step(&inputs).friction;
+        model.set_friction(0.2).unwrap();
+        assert!(model.step(&inputs).friction > 1.5 * before);
+        assert_eq!(model.swap(&own).unwrap_err().field(), "branch");
     }
 }

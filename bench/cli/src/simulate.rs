@@ -25,7 +25,6 @@ mod samples;
 mod scene;
 mod screw;
 mod summary;
-mod targets;
 mod tick;
 mod trace;
 mod train;
@@ -47,14 +46,14 @@ use epas_page::files::{
 use epas_traces::mdf4::Mapping;
 use epas_traces::source::Source;
 pub use manoeuvre::Manoeuvre;
-use output::write_table;
+use memory::MemorySettings;
+use output::{targets, write_table};
 use picture::Form;
 use progress::Progress;
 use reference::ReferenceModel;
 use samples::ScrewSample;
 use scene::Scene;
 use summary::Lines;
-use targets::targets;
 use trace::Temperature;
 
 /// Runs the in-loop friction model over a trace.
@@ -217,6 +216,10 @@ pub struct Arguments {
     /// the trace's nut_position or speed]
     #[arg(long, value_name = "RAD", value_parser = encoder::step, conflicts_with_all = ["mechanism", "loads", "no_memory"])]
     encoder_step: Option<f64>,
+    /// Load at which the elements of friction that remembers are exact, N (normal load of a bearing), in place of the trace's mean: the loads about
+    /// which reversals count, so that a part of the trace has the friction of the whole
+    #[arg(long, value_name = "N", value_parser = memory::reference_load, conflicts_with_all = ["loads", "no_memory"])]
+    reference_load: Option<f32>,
     /// Time between two steps of the model, s, as of firmware at that rate, whatever the trace's is: between its samples the trace is
     /// interpolated linearly
     #[arg(long, value_name = "SECONDS", value_parser = tick::tick, conflicts_with_all = ["mechanism", "loads"])]
@@ -288,7 +291,7 @@ pub fn run(arguments: &Arguments) -> Result<(), Failure> {
         }
         return mechanism::run(
             &source.load()?,
-            &arguments.mechanism,
+            (&arguments.mechanism, arguments.reference_load),
             [Some(input), arguments.channels.as_deref()],
             [&arguments.output, &arguments.plot],
             existing,
@@ -339,7 +342,10 @@ fn simulate<S: Scene>(
     };
 
     // Between samples a trace has no steps.
-    scene.set_encoder(EncoderStep::of(arguments.encoder_step, &trace));
+    scene.set_memory(MemorySettings {
+        encoder: EncoderStep::of(arguments.encoder_step, &trace),
+        reference_load: arguments.reference_load,
+    });
     let (trace, temperature) = match arguments.tick {
         Some(tick) => tick::resampled(&trace, &temperature, tick)?,
         None => (trace, temperature),
@@ -365,7 +371,7 @@ fn simulate<S: Scene>(
     let steps = trace.samples.len() * (1 + usize::from(output.is_some()));
     let progress = Progress::new(steps);
     let done = || progress.step();
-    let (rows, reference) = scene.rows_at(&trace, &temperature, arguments.reference, &done)?;
+    let (rows, reference) = scene.rows(&trace, &temperature, arguments.reference, &done)?;
     let table = output
         .as_deref()
         .map(|path| {

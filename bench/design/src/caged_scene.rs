@@ -6,11 +6,8 @@
 use crate::caged::{Block, NODES};
 use crate::certificate::one_ball;
 use crate::{CagedFold, Folded};
-use epas_friction::scene::{
-    CagedBallScrew, CagedBallScrewConfiguration, CagedConstants, ClosedFormScrew,
-    ClosedFormScrewConfiguration, ClosedFormScrewConstants, StoredScene,
-};
-use epas_friction::{Error, FrictionModel, Inputs, Outputs, Range, Refusal};
+use epas_friction::scene::{CagedBallScrewConfiguration, ClosedFormScrewConfiguration};
+use epas_friction::{Error, Inputs};
 use rayon::prelude::*;
 
 use crate::Failure;
@@ -160,15 +157,6 @@ impl CagedScene {
     pub fn read(words: &[u32]) -> Result<Self, Error> {
         read(words).map(Self::Folded)
     }
-
-    /// A model of it.
-    pub fn model(&self) -> Result<CagedModel, Error> {
-        Ok(match self {
-            Self::Folded(Block::One(block)) => CagedModel::One(FrictionModel::new(block)?),
-            Self::Folded(Block::Range(block)) => CagedModel::Range(FrictionModel::new(block)?),
-            Self::ClosedForm(form) => CagedModel::ClosedForm(FrictionModel::new(form)?, *form),
-        })
-    }
 }
 
 /// The words of a design's block for friction coefficients between two, with the digest of their inputs; none of a closed form.
@@ -215,97 +203,6 @@ pub(crate) fn range_for(
             Ok(Some([least / wider, (largest * wider).min(0.5)]))
         }
         range => Ok(range),
-    }
-}
-
-/// A caged screw that runs.
-#[expect(
-    clippy::large_enum_variant,
-    reason = "a host has room, and a program has few of them"
-)]
-#[derive(Clone, Copy, Debug)]
-pub enum CagedModel {
-    /// By a folded block for one friction coefficient.
-    One(FrictionModel<CagedBallScrew>),
-    /// By one for a range of friction coefficients.
-    Range(FrictionModel<CagedBallScrew<NODES>>),
-    /// By a closed form, with what was set for it.
-    ClosedForm(FrictionModel<ClosedFormScrew>, ClosedFormScrewConfiguration),
-}
-
-macro_rules! each {
-    ($model:expr, $of:ident => $does:expr) => {
-        match $model {
-            CagedModel::One($of) => $does,
-            CagedModel::Range($of) => $does,
-            CagedModel::ClosedForm($of, _) => $does,
-        }
-    };
-}
-
-impl CagedModel {
-    /// One tick.
-    pub fn step(&mut self, inputs: Inputs) -> Outputs {
-        each!(self, model => model.step(inputs))
-    }
-
-    /// Back to the state before the first tick.
-    pub fn reset(&mut self) {
-        each!(self, model => model.reset());
-    }
-
-    /// Consecutive ticks with a fault.
-    pub fn faulted_ticks(&self) -> u32 {
-        each!(self, model => model.faulted_ticks())
-    }
-
-    /// Sets the friction coefficient: of a block within its range, of a closed form any.
-    pub fn set_friction(&mut self, friction: f32) -> Result<(), Error> {
-        match self {
-            Self::One(model) => model.set_friction(friction),
-            Self::Range(model) => model.set_friction(friction),
-            Self::ClosedForm(model, form) => {
-                let changed = ClosedFormScrewConfiguration { friction, ..*form };
-                model.swap_constants(ClosedFormScrewConstants::new(&changed)?)?;
-                *form = changed;
-                Ok(())
-            }
-        }
-    }
-
-    /// Goes on with the block of these words, of as many friction coefficients.
-    pub fn swap(&mut self, words: &[u32]) -> Result<(), Error> {
-        match self {
-            Self::One(model) => {
-                model.swap_constants(CagedConstants::from_block(words)?)?;
-            }
-            Self::Range(model) => {
-                model.swap_constants(CagedConstants::from_block(words)?)?;
-            }
-            Self::ClosedForm(..) => {
-                return Err(Error::OutOfRange {
-                    field: "branch",
-                    value: 1.0,
-                    allowed: Range::new(0.0, 0.0),
-                });
-            }
-        }
-        Ok(())
-    }
-
-    /// Its state as a block.
-    pub fn export(&self) -> Result<Vec<u8>, Refusal> {
-        fn of<S: StoredScene>(model: &FrictionModel<S>) -> Result<Vec<u8>, Refusal> {
-            let mut block = vec![0; FrictionModel::<S>::STATE_BYTES];
-            model.export(&mut block)?;
-            Ok(block)
-        }
-        each!(self, model => of(model))
-    }
-
-    /// Takes the state of a block over.
-    pub fn import(&mut self, block: &[u8]) -> Result<(), Refusal> {
-        each!(self, model => model.import(block))
     }
 }
 
@@ -381,16 +278,6 @@ mod tests {
         let mut other = words.clone();
         *other.last_mut().unwrap() ^= 1;
         assert_eq!(keep_words(&other).unwrap_err().field(), "checksum");
-        let mut model = CagedScene::of(&design).unwrap().model().unwrap();
-        let inputs = Inputs {
-            nut_speed: 10.0,
-            axial_load: 3000.0,
-        };
-        let torque = model.step(inputs).friction_torque;
-        assert_eq!(model.swap(&other).unwrap_err().field(), "checksum");
-        model.swap(&words).unwrap();
-        assert_eq!(model.step(inputs).friction_torque, torque);
-        assert_eq!(model.set_friction(0.2).unwrap_err().field(), "friction");
     }
 
     /// With play contacts open at loads that move with the coefficient: one block does not hold a factor of three.
@@ -406,19 +293,11 @@ mod tests {
         );
     }
 
-    /// A closed form has no block, and any coefficient.
     #[test]
     fn a_closed_form_is_not_folded() {
         let design = design("branch = \"sliding\"\n");
         assert_eq!(words(&design, (0.1, 0.1)).unwrap(), None);
-        let mut model = CagedScene::of(&design).unwrap().model().unwrap();
-        let inputs = Inputs {
-            nut_speed: 1e3,
-            axial_load: 3000.0,
-        };
-        let before = model.step(inputs).friction_torque;
-        model.set_friction(0.2).unwrap();
-        assert!(model.step(inputs).friction_torque > 1.5 * before);
-        assert_eq!(model.swap(&[]).unwrap_err().field(), "branch");
+        let scene = CagedScene::of(&design).unwrap();
+        assert!(matches!(scene, CagedScene::ClosedForm(_)));
     }
 }

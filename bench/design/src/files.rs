@@ -464,6 +464,8 @@ impl DesignFile {
             Some(BranchName::Sliding) => Some(FrictionBranch::Sliding),
         };
         caged.limits = limits;
+        capacity::check_limit(&screw, limits.axial_load, caged.loaded_balls)
+            .map_err(|message| format!("limits: {message}"))?;
         design.check().map_err(|error| match error.field() {
             "nut_speed" | "axial_load" | "friction_torque" => format!("limits: {error}"),
             _ => error.to_string(),

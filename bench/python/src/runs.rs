@@ -1,8 +1,8 @@
 //! Whole traces as the command `simulate` runs them, and the float64 reference over them; single evaluations of `eval`.
 
 use epas_cli::bindings::{
-    self, Caged, EncoderStep, Linear, LinearSample, Manoeuvre, ReferenceModel, Row, Scene,
-    ScrewSample, TickOutputs, Trace, Uncaged,
+    self, Caged, EncoderStep, Linear, LinearSample, Manoeuvre, MemorySettings, ReferenceModel, Row,
+    Scene, ScrewSample, Temperature, TickOutputs, Trace, Uncaged,
 };
 use epas_rig::course::Course;
 use epas_rig::parameters::Parameters;
@@ -69,12 +69,7 @@ where
 fn screw_trace<'py>(py: Python<'py>, values: [&Any<'py>; 3]) -> PyResult<Trace<ScrewSample>> {
     let names = ["time", "nut_speed", "axial_load"];
     trace(py, names, values, |[time, nut_speed, axial_load]| {
-        ScrewSample {
-            time,
-            nut_speed,
-            axial_load,
-            nut_position: 0.0,
-        }
+        ScrewSample::new(time, nut_speed, axial_load)
     })
 }
 
@@ -88,9 +83,12 @@ fn rows<S>(
 where
     S: Scene<Sample: Send + 'static> + Send + 'static,
 {
-    scene.set_encoder(EncoderStep::of(None, &trace));
+    scene.set_memory(MemorySettings {
+        encoder: EncoderStep::of(None, &trace),
+        reference_load: None,
+    });
     let made = interruptible(py, move |stop| {
-        scene.rows(&trace, reference, &|| stop.check())
+        scene.rows(&trace, &Temperature::None, reference, &|| stop.check())
     })?;
     let (rows, _) = made.map_err(|failure| refused(py, failure))?;
     Ok(rows)
@@ -115,8 +113,7 @@ fn uncaged(py: Python<'_>, design: &Design, memory: bool) -> PyResult<Uncaged> {
         return Ok(Uncaged {
             design: inner,
             balls,
-            memory,
-            encoder: EncoderStep::default(),
+            memory: memory.then(MemorySettings::default),
         });
     }
     let message = format!("{} says nothing of its circuit of balls", inner.name);
@@ -151,8 +148,7 @@ pub fn simulate_caged<'py>(
     let trace = screw_trace(py, [&time, &nut_speed, &axial_load])?;
     let scene = Caged {
         design: (*design.inner).clone(),
-        memory,
-        encoder: EncoderStep::default(),
+        memory: memory.then(MemorySettings::default),
         temperature: false,
     };
     let rows = rows(py, scene, trace, None)?;
@@ -236,8 +232,7 @@ pub fn simulate_linear<'py>(
     )?;
     let scene = Linear {
         design: (*design.inner).clone(),
-        memory,
-        encoder: EncoderStep::default(),
+        memory: memory.then(MemorySettings::default),
     };
     let rows = rows(py, scene, trace, None)?;
     columns::<LinearColumns>(py, rows.iter().map(|row| row.outputs))
@@ -286,8 +281,7 @@ pub fn reference_simulate_caged<'py>(
     let trace = screw_trace(py, [&time, &nut_speed, &axial_load])?;
     let scene = Caged {
         design: (*design.inner).clone(),
-        memory: false,
-        encoder: EncoderStep::default(),
+        memory: None,
         temperature: false,
     };
     let rows = rows(py, scene, trace, Some(ReferenceModel::Exact))?;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::channels::median;
+use crate::table::Table;
 
 /// Distance from the tick, in ticks, within which a sample counts as on it.
 const ON_TICK: f64 = 0.1;
@@ -167,14 +168,19 @@ impl Clock {
     }
 }
 
-/// Refuses samples that stand twice too often, and a gap in samples that come from a raster; those of a solver may stand anywhere.
-pub fn check_raster(times: &[f64], repeated: usize) -> Result<(), String> {
-    few_repeated(times.len(), repeated)?;
+/// Refuses samples that stand twice too often, and of samples that come from a raster a gap, and a slow tick of a time whose unit the file does
+/// not name; those of a solver may stand anywhere.
+pub fn check_raster(table: &Table) -> Result<(), String> {
+    let times = &table.times[..];
+    few_repeated(times.len(), table.repeated)?;
     let median = median_tick(times, STRETCH / 2);
     let near = |pair: &&[f64]| (0.5..1.5).contains(&((pair[1] - pair[0]) / median));
     let even = times.windows(2).filter(near).count();
     if times.len() < FEWEST || (even as f64) < RASTER * times.len() as f64 {
         return Ok(());
+    }
+    if !table.time_unit_said {
+        check_slow(median)?;
     }
     check_gaps(times, median)
 }
@@ -223,12 +229,17 @@ pub fn median_tick(times: &[f64], samples: usize) -> f64 {
     median(pairs.map(|(a, b)| (b - a) / samples as f64).collect())
 }
 
-fn check_tick(tick: f64) -> Result<(), String> {
-    if tick > SLOWEST {
-        return Err(format!(
-            "tick = {tick} s is too slow: at most {SLOWEST} s (a column in milliseconds is named time_ms)"
-        ));
+fn check_slow(tick: f64) -> Result<(), String> {
+    if tick <= SLOWEST {
+        return Ok(());
     }
+    Err(format!(
+        "tick = {tick} s is too slow: at most {SLOWEST} s (a column in milliseconds is named time_ms; time_s says that it is in seconds, for simulate)"
+    ))
+}
+
+fn check_tick(tick: f64) -> Result<(), String> {
+    check_slow(tick)?;
     if !(tick >= FASTEST) {
         return Err(format!(
             "tick = {tick} s is too short: at least {FASTEST} s"

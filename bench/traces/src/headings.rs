@@ -2,7 +2,7 @@
 
 use csv::StringRecord;
 
-use crate::units::cut;
+use crate::units::{cut, heading};
 
 /// Refuses columns that are not separated by what separates them in tables that are read.
 pub fn separated(header: &StringRecord) -> Result<(), String> {
@@ -10,6 +10,9 @@ pub fn separated(header: &StringRecord) -> Result<(), String> {
     let separator = [(';', "semicolons"), ('\t', "tabs"), ('|', "bars")]
         .into_iter()
         .find(|(letter, _)| joined.iter().any(|name| name.contains(*letter)));
+    let known = |name: &&str| matches!(heading(name), Ok(Some(_)));
+    let spaces = joined.len() == 1 && joined[0].split_whitespace().filter(known).count() > 1;
+    let separator = separator.or(spaces.then_some((' ', "spaces")));
     let Some((_, name)) = separator else {
         return Ok(());
     };
@@ -44,6 +47,10 @@ pub fn no_number(text: &[u8]) -> &'static str {
         "is not a number: a decimal point is needed in place of the comma"
     } else if text.contains(&b',') && only(b",.-+eE") {
         "is not a number: no commas between thousands"
+    } else if String::from_utf8_lossy(text).contains(char::is_whitespace)
+        && only(b" ,.-+eE\xc2\xa0\xe2\x80\xaf")
+    {
+        "is not a number: no spaces between thousands"
     } else if text.starts_with("\u{2212}".as_bytes()) {
         "is not a number: a hyphen is needed in place of the minus sign"
     } else if text.first().is_some_and(u8::is_ascii_digit)
@@ -66,6 +73,8 @@ mod tests {
         for (text, words) in [
             ("1,5", "decimal point"),
             ("1,000.0", "no commas between thousands"),
+            ("-1 000.5", "no spaces between thousands"),
+            ("1\u{202f}000,5", "no spaces between thousands"),
             ("\u{2212}50", "in place of the minus sign"),
             ("2026-01-01T00:00:00", "seconds are needed"),
             ("12:30:01.5", "seconds are needed"),

@@ -8,6 +8,7 @@
 //! | [`mdf4`] | measurement files, read and written |
 //! | [`table`], `gaps` | the numbers of either in SI units, with empty cells filled |
 //! | [`marks`] | samples that are not to be believed |
+//! | [`agreement`] | whether position and speed agree |
 //! | [`clock`] | one sample clock: tick, gaps, jitter |
 //! | [`channels`] | angles without jumps, the step of a sensor |
 //! | [`flags`] | flags of a step: names, meaning, reaction |
@@ -17,6 +18,7 @@
 // Pages are read by those who work on it: a link to a private item helps them.
 #![allow(rustdoc::private_intra_doc_links)]
 
+pub mod agreement;
 pub mod channels;
 pub mod clock;
 pub mod flags;

@@ -42,6 +42,8 @@ pub struct Column {
 pub struct Table {
     /// Time of every sample, s.
     pub times: Vec<f64>,
+    /// Whether the file names the unit of the time.
+    pub time_unit_said: bool,
     /// All columns but the time.
     pub columns: Vec<Column>,
     /// Names of columns that are not known.
@@ -92,6 +94,7 @@ impl Table {
         }
         Self {
             times: at(times),
+            time_unit_said: true,
             columns,
             repeated: times.len() - kept.len(),
             rows: kept.iter().map(|sample| *sample as u32 + 1).collect(),
@@ -163,6 +166,7 @@ pub fn read(input: impl Read + Seek, request: Request<'_>) -> Result<Table, Stri
     let time = table.columns.remove(0);
     Table {
         times: time.values,
+        time_unit_said: time.unit.dimension != Dimension::Unsaid,
         columns: table.columns,
         ignored: table.ignored,
         repeated: table.row as usize - table.rows.len(),

@@ -266,7 +266,16 @@ pub fn heading(heading: &str) -> Result<Option<(Quantity, Unit)>, String> {
                     cut(heading)
                 )
             }),
-        (Some(_), Some(_)) => Ok(None),
+        (Some(suffix), Some(unit)) => match known(heading, quantity, stem, suffix) {
+            Ok(own) if written(quantity, unit) == Ok(own.1) => Ok(Some(own)),
+            Ok((_, own)) => Err(format!(
+                "column {}: its name says {}, and the brackets {}",
+                cut(heading),
+                own.shown(),
+                cut(unit)
+            )),
+            Err(_) => Ok(None),
+        },
     }
 }
 

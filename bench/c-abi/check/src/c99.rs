@@ -23,10 +23,9 @@ use epas_friction::{Error, FrictionModel, Inputs};
 
 use crate::cases::{Numbers, Words as _};
 use crate::gears;
-use crate::outcome::Outcome;
 use crate::setups;
 use crate::target::{flash_alone, run_in_qemu};
-use crate::tools::{WARNINGS, run, run_to_end};
+use crate::tools::{Outcome, WARNINGS, run, run_to_end};
 
 #[path = "../../../design/src/c99.rs"]
 mod generator;

@@ -13,9 +13,9 @@ use epas_friction::{
 };
 
 use crate::gears;
-use crate::outcome::Outcome;
 use crate::places::{says, with_comma};
 use crate::setups;
+use crate::tools::Outcome;
 
 /// Ticks of each scene.
 const TICKS: u32 = 256;

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use epas_friction::scene::FoldedBall;
 
-use crate::outcome::Outcome;
+use crate::tools::Outcome;
 
 /// Words in a line.
 const IN_A_LINE: usize = 6;

@@ -4,8 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::outcome::Outcome;
-use crate::tools::{PANIC, WARNINGS, library, run, symbols};
+use crate::tools::{Outcome, PANIC, WARNINGS, library, run, symbols};
 
 /// Builds and runs the C tests, and sees that the header stands on its own.
 pub fn check(root: &Path) -> Outcome<()> {

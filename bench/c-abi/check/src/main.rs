@@ -11,9 +11,7 @@
 mod c99;
 mod cases;
 mod gears;
-mod header;
 mod host;
-mod outcome;
 mod places;
 mod setups;
 mod target;
@@ -23,7 +21,7 @@ use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
 
-use outcome::Outcome;
+use tools::Outcome;
 
 fn main() -> ExitCode {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
@@ -57,7 +55,7 @@ fn main() -> ExitCode {
 
 fn run(root: &Path, write: bool, host_only: bool) -> Outcome<()> {
     places::check(root, write)?;
-    let header = header::generated(root)?;
+    let header = tools::header(root)?;
     up_to_date(root, "include/epas_friction.h", &header, write)?;
     up_to_date(root, "test/gears.h", &gears::of_tests()?, write)?;
     for (name, text) in gears::of_examples()? {

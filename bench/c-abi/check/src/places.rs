@@ -9,8 +9,8 @@ use epas_friction::{
     ClosedFormScrew, DeviationMap, FrictionModel, LinearBearingTrain, LoadShare, UncagedBallScrew,
 };
 
-use crate::outcome::Outcome;
 use crate::setups::{BALL_NODES, MOST_BALLS, NODES, Remembering};
+use crate::tools::Outcome;
 
 /// As the library keeps a model.
 #[repr(C)]

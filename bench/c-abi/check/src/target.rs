@@ -4,8 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::outcome::Outcome;
-use crate::tools::{PANIC, WARNINGS, library, run, run_to_end, symbols};
+use crate::tools::{Outcome, PANIC, WARNINGS, library, run, run_to_end, symbols};
 
 /// A Cortex-M4 with its floating-point unit, as rustc's thumbv7em-none-eabihf.
 const CORE: [&str; 4] = [

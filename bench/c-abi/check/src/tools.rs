@@ -1,10 +1,11 @@
-//! Compilers and what else is run.
+//! Compilers and what else is run; the header, as cbindgen makes it.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use crate::outcome::Outcome;
+/// The value, or any error with its message.
+pub type Outcome<T> = Result<T, Box<dyn std::error::Error>>;
 
 /// What every C file is compiled with.
 pub const WARNINGS: [&str; 9] = [
@@ -86,4 +87,14 @@ pub fn symbols(nm: &str, file: &Path) -> Outcome<Vec<(String, char)>> {
             }
         })
         .collect())
+}
+
+/// The header that belongs to the library's sources.
+pub fn header(root: &Path) -> Outcome<String> {
+    let configuration = cbindgen::Config::from_file(root.join("cbindgen.toml"))?;
+    let bindings = cbindgen::generate_with_config(root, configuration)
+        .map_err(|error| format!("cbindgen: {error}"))?;
+    let mut text = Vec::new();
+    bindings.write(&mut text);
+    Ok(String::from_utf8(text)?)
 }

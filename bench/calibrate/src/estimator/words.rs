@@ -17,6 +17,7 @@ use super::terms::Term;
 use crate::page::shown::digits;
 use crate::trace::channels::{median, range, resolution};
 use crate::trace::{Coordinate, Trace};
+use epas_traces::units::{Quantity, heading};
 
 /// Share of the effort that is left from which on nothing is explained, and from which on a fit is doubted.
 pub const NOTHING: f64 = 0.9;
@@ -319,12 +320,14 @@ impl<'a> Look<'a> {
         if found.fit.relative > DOUBTED || !sure || (0.7..1.4).contains(&carried) {
             return None;
         }
+        let force = matches!(heading(load), Ok(Some((Quantity::Load, _))));
+        let load_unit = if force { "N" } else { unit };
         let cause = if (-1.4..-0.7).contains(&carried) {
             format!("turn the sign of {}", self.turned_beside(found))
         } else if (700.0..1400.0).contains(&carried) {
-            format!("{effort} is in m{unit}, or {load} in k{unit}")
+            format!("{effort} is in m{unit}, or {load} in k{load_unit}")
         } else if (7e-4..1.4e-3).contains(&carried) {
-            format!("{effort} is in k{unit}, or {load} in m{unit}")
+            format!("{effort} is in k{unit}, or {load} in m{load_unit}")
         } else {
             let ratio = digits(1.0 / carried, 3);
             match self.without_ratio {

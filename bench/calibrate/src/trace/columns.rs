@@ -17,6 +17,7 @@ use epas_design::files::Design;
 use epas_design::files::plausible::FASTEST;
 use epas_page::aside::say;
 use epas_page::failure::Failure;
+use epas_traces::agreement;
 use epas_traces::channels::{resolution, unwrap};
 use epas_traces::clock::Clock;
 use epas_traces::marks;
@@ -223,6 +224,7 @@ const PARTS: [Part; 4] = [Part::Nut, Part::Motor, Part::Carriage, Part::Plain];
 
 fn assemble(mut table: Table, name: &str, frame: &Frame) -> Result<Trace, String> {
     marks::mark(&mut table)?;
+    agreement::check(&table)?;
     let marked = table.left_out.iter().flat_map(|found| &found.samples);
     let marked: Vec<[f64; 2]> = marked
         .map(|run| [table.times[run.start], table.times[run.end - 1]])

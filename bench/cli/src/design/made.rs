@@ -200,6 +200,9 @@ impl Made {
                 "preload: {} a contact, {axial:.0} N of the nut",
                 preload.words()
             )?;
+            if let Some(words) = capacity::unusual(screw, preload) {
+                writeln!(out, "unusual preload: {words}")?;
+            }
         }
         if let Some(words) = capacity::beyond(screw, to) {
             writeln!(out, "beyond the static limit: {words}")?;

@@ -85,7 +85,13 @@ fn every_format_is_the_same_block() {
         (Format::C, "GEAR_BLOCK["),
     ] {
         assert_eq!(words(&text(format)), block);
-        assert!(text(format).contains(name), "{name}");
+        for words in [
+            name,
+            "certificate: caged_torque",
+            read["digest"].as_str().unwrap(),
+        ] {
+            assert!(text(format).contains(words), "{words}");
+        }
     }
 
     let constants = CagedConstants::<1>::from_block(&block).unwrap();

@@ -171,57 +171,18 @@ fn any_partition_has_the_same_answers_to_the_bit() {
 
 #[test]
 fn what_is_out_of_range_is_named() {
-    let wrong: [(Design, Duty, &str); 6] = [
-        (
-            Design {
-                lead: f32::NAN,
-                ..SCREW
-            },
-            Duty::DEFAULT,
-            "lead",
-        ),
-        (
-            Design {
-                conformity: 0.4,
-                ..SCREW
-            },
-            Duty::DEFAULT,
-            "conformity",
-        ),
-        (
-            Design {
-                preload: -1.0,
-                ..SCREW
-            },
-            Duty::DEFAULT,
-            "contact_force",
-        ),
-        (
-            SCREW,
-            Duty {
-                axial_load: 0.0,
-                ..Duty::DEFAULT
-            },
-            "axial_load",
-        ),
-        (
-            SCREW,
-            Duty {
-                turns: f32::INFINITY,
-                ..Duty::DEFAULT
-            },
-            "turns",
-        ),
-        (
-            SCREW,
-            Duty {
-                friction: f32::NAN,
-                ..Duty::DEFAULT
-            },
-            "friction",
-        ),
+    type Change = fn(&mut Design, &mut Duty);
+    let wrong: [(Change, &str); 6] = [
+        (|design, _| design.lead = f32::NAN, "lead"),
+        (|design, _| design.conformity = 0.4, "conformity"),
+        (|design, _| design.preload = -1.0, "contact_force"),
+        (|_, duty| duty.axial_load = 0.0, "axial_load"),
+        (|_, duty| duty.turns = f32::INFINITY, "turns"),
+        (|_, duty| duty.friction = f32::NAN, "friction"),
     ];
-    for (design, duty, field) in wrong {
+    for (change, field) in wrong {
+        let (mut design, mut duty) = (SCREW, Duty::DEFAULT);
+        change(&mut design, &mut duty);
         assert_eq!(figures(&design, &duty).unwrap_err().field(), field);
     }
 }

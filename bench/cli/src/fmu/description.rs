@@ -6,8 +6,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, Event};
 
 use super::unit::Unit;
-use super::units::UNITS;
-use super::variables::{Causality, Choice, Kind, Variable};
+use super::variables::{Causality, Choice, Kind, UNITS, Variable};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Version {

@@ -26,8 +26,8 @@ fn sources() -> Option<PathBuf> {
 
 fn how() -> String {
     format!(
-        "the unit's library is built from the sources of epas-friction, and this program stands without them. In a checkout: \
-         cargo build --release --package epas-fmu; then here: --library CHECKOUT/target/release/{DLL_PREFIX}epas_fmu{DLL_SUFFIX}"
+        "fmu builds the unit's library from a clone of epas-friction, and there is none here. In a clone: \
+         cargo build --release --package epas-fmu; then here: --library CLONE/target/release/{DLL_PREFIX}epas_fmu{DLL_SUFFIX}"
     )
 }
 
@@ -110,7 +110,8 @@ pub fn build() -> Result<(Vec<u8>, PathBuf), Failure> {
         .output()
         .map_err(|error| {
             Failure::Data(format!(
-                "cannot run cargo ({error}), which builds the unit's library: https://rustup.rs installs it, or --library names one that was built before"
+                "cannot run cargo ({error}), with which fmu builds the unit's library from a clone of epas-friction: https://rustup.rs installs Rust, \
+                 or --library names a library that was built before, on any machine of this platform"
             ))
         })?;
     if !output.status.success() {

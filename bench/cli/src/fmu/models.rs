@@ -5,10 +5,9 @@ use epas_friction::Error;
 use super::parameters::Values;
 use super::running::{ByAngle, Caged, Motion, Row, Running};
 use super::scene::SceneName;
-use crate::model::{Model, Sensor, TEMPERATURE};
-use crate::simulate::encoder::EncoderStep;
+use crate::model::{self, Model, Sensor, TEMPERATURE};
 use crate::simulate::linear::Linear;
-use crate::simulate::memory::{self, Remembered};
+use crate::simulate::memory::{self, MemorySettings, Remembered};
 use crate::simulate::nut::{Nut, STEPS};
 use crate::simulate::remembering::remembering;
 use crate::simulate::uncaged::Uncaged;
@@ -20,7 +19,7 @@ use epas_design::files::train::{LinearDesign, no_row};
 pub fn caged(design: &Design) -> Result<Box<dyn Running>, String> {
     design.check().map_err(said)?;
     let scene = CagedScene::of(design).map_err(|failure| failure.to_string())?;
-    Ok(Box::new(Caged(Box::new(scene.model().map_err(said)?))))
+    Ok(Box::new(Caged(model::caged(&scene).map_err(said)?)))
 }
 
 pub fn caged_with_memory(design: &Design, values: &Values<'_>) -> Result<Box<dyn Running>, String> {
@@ -58,7 +57,7 @@ fn with_memory(
     // A wrong number of the design is told under its own name, whatever a law or elements make of it.
     design.check().map_err(said)?;
     match remembering(design, load, sensor) {
-        Ok((model, _)) => Ok(model),
+        Ok(remembering) => Ok(remembering.model),
         Err(failure) => Err(failure.message().into()),
     }
 }
@@ -96,8 +95,7 @@ pub fn row(design: &Design) -> Result<Uncaged, String> {
     Ok(Uncaged {
         design: design.clone(),
         balls: design.uncaged.ok_or_else(|| no_row(&design.name))?,
-        memory: true,
-        encoder: EncoderStep::default(),
+        memory: Some(MemorySettings::default()),
     })
 }
 
@@ -141,8 +139,7 @@ pub fn linear(
     let tick = checked_tick(values)? as f32;
     let row = Linear {
         design,
-        memory: true,
-        encoder: EncoderStep::default(),
+        memory: Some(MemorySettings::default()),
     };
     let remembered = remembered(scene, values, |load| row.remembered_at(load))?;
     let model = row.model(tick, remembered.as_ref());

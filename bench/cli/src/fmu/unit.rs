@@ -8,7 +8,6 @@ use super::parameters::{Values, changed_bearing, changed_screw, of_bearing, of_s
 use super::running::Running;
 use super::scene::SceneName;
 use super::variables::{Causality, Kind, TIME, Variable, inputs, outputs, parameter};
-use crate::simulate::encoder::EncoderStep;
 use crate::simulate::linear::Linear;
 use crate::simulate::nut::Nut;
 use crate::simulate::remembering::coefficients;
@@ -351,8 +350,7 @@ fn longest_tick(scene: SceneName, source: &Source) -> Result<Option<f64>, String
             let design = (**design).clone();
             let row = Linear {
                 design,
-                memory: false,
-                encoder: EncoderStep::default(),
+                memory: None,
             };
             Box::new(move |tick| row.model(tick as f32, None).map(drop))
         }

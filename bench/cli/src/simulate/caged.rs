@@ -6,19 +6,18 @@ use epas_reference::promises::{self, Promise};
 
 use super::beyond::Beyond;
 use super::caged_exact::ExactCaged;
-use super::encoder::EncoderStep;
 use super::lawful::Lawful;
 use super::manoeuvre::{Manoeuvre, trace};
-use super::memory;
+use super::memory::{self, MemorySettings};
 use super::picture::{self, Form, Labels, Moment};
 use super::reference::{CagedReference, Friction, ReferenceModel};
-use super::remembering::{coefficients, remembering};
+use super::remembering::{Remembering, coefficients, remembering};
 use super::samples::ScrewSample;
 use super::scene::{Column, OF_EVERY, OF_SCREW, Row, Rows, Scene};
 use super::screw::{self, ScrewSummary};
 use super::summary::Lines;
 use super::trace::{SceneSample, Temperature, Trace};
-use crate::model::{Model, TEMPERATURE, TickInputs, TickOutputs};
+use crate::model::{self, TEMPERATURE, TickInputs, TickOutputs};
 use epas_calibrate::outputs::firmware;
 use epas_design::caged_scene::{self as caged, CagedScene};
 use epas_design::files::Design;
@@ -32,10 +31,8 @@ const LARGEST_BALL_LOAD: f64 = 300.0;
 pub struct Caged {
     /// Its design.
     pub design: Design,
-    /// Whether friction remembers.
-    pub memory: bool,
-    /// Step of the encoder whose noise it does not follow.
-    pub encoder: EncoderStep,
+    /// How friction remembers, where it does.
+    pub memory: Option<MemorySettings>,
     /// Whether friction follows the trace's temperature.
     pub temperature: bool,
 }
@@ -74,15 +71,22 @@ type Step = Box<dyn FnMut(&TickInputs) -> TickOutputs>;
 impl Caged {
     fn model(&self, trace: &Trace<ScrewSample>) -> Result<(Step, Lines), Failure> {
         let refused = |error: Error| Failure::Data(format!("{}: {error}", self.design.name));
-        if self.memory {
+        if let Some(settings) = self.memory {
             let angle = memory::angle().map_err(refused)?;
-            let sensor = (angle, self.encoder.size());
-            let load = memory::mean_load(trace);
-            let (mut model, mut lines) = remembering(&self.design, load, sensor)?;
+            let sensor = (angle, settings.encoder.size());
+            let loads = trace.samples.iter().map(|sample| sample.axial_load);
+            let load = settings.load(loads.clone());
+            let Remembering {
+                mut model,
+                mut lines,
+                proportional_at,
+            } = remembering(&self.design, load, sensor)?;
             if trace.has_position() {
                 lines.add("angle", "the trace's nut_position");
             }
-            lines.add_some("encoder", self.encoder.told("rad"));
+            lines.add_some("encoder", settings.encoder.told("rad"));
+            let far = settings.far(&self.design, loads, proportional_at)?;
+            lines.add_some(memory::FAR, far);
             return Ok((Box::new(move |inputs| model.step(inputs)), lines));
         }
         let law = firmware::law(&self.design)?.filter(|_| self.temperature);
@@ -90,8 +94,8 @@ impl Caged {
             let mut model = Lawful::new(&self.design, law)?;
             Box::new(move |inputs| model.step(inputs))
         } else {
-            let mut model = CagedScene::of(&self.design)?.model().map_err(refused)?;
-            Box::new(move |inputs| Model::step(&mut model, inputs))
+            let mut model = model::caged(&CagedScene::of(&self.design)?).map_err(refused)?;
+            Box::new(move |inputs| model.step(inputs))
         };
         let mut lines = Lines::default();
         lines.add_some("closed form", self.design.branch.map(range_of));
@@ -209,12 +213,12 @@ impl Scene for Caged {
         screw::within(trace, &self.design, balls, block)
     }
 
-    fn set_encoder(&mut self, encoder: EncoderStep) {
-        self.encoder = encoder;
+    fn set_memory(&mut self, settings: MemorySettings) {
+        self.memory = self.memory.map(|_| settings);
     }
 
     fn check_errors(&self) -> Result<(), Failure> {
-        let checked = check_errors(&self.design, self.memory || self.temperature);
+        let checked = check_errors(&self.design, self.memory.is_some() || self.temperature);
         if !self.design.by_default_law {
             return checked;
         }
@@ -224,15 +228,6 @@ impl Scene for Caged {
                 failure.message()
             ))
         })
-    }
-
-    fn rows(
-        &self,
-        trace: &Trace<ScrewSample>,
-        reference: Option<ReferenceModel>,
-        done: &dyn Fn(),
-    ) -> Rows<ScrewSample> {
-        self.follow(trace, |_| None, reference, done)
     }
 
     fn reference_name(&self, model: ReferenceModel) -> String {
@@ -247,7 +242,7 @@ impl Scene for Caged {
             (Some(FrictionBranch::Sliding), _) => "the design's closed form, a sliding ball",
             (Some(_), _) => "the design's closed form, a rolling ball",
         };
-        let without = match (self.memory, &self.design.calibrated) {
+        let without = match (self.memory.is_some(), &self.design.calibrated) {
             (false, _) => "",
             (true, None) => ", without memory",
             (true, Some(_)) => ", without memory and calibration",
@@ -256,7 +251,7 @@ impl Scene for Caged {
     }
 
     fn follows_temperature(&self, with_reference: bool) -> Result<(), &'static str> {
-        if with_reference && !self.memory {
+        if with_reference && self.memory.is_none() {
             return Err("the reference has one friction coefficient, and the model beside it too");
         }
         self.design.follows_temperature()
@@ -267,7 +262,7 @@ impl Scene for Caged {
         self.design.by_default_law = self.design.calibrated.is_none();
     }
 
-    fn rows_at(
+    fn rows(
         &self,
         trace: &Trace<ScrewSample>,
         temperature: &Temperature,
@@ -283,7 +278,7 @@ impl Scene for Caged {
 
     fn summary(&self, trace: &Trace<ScrewSample>, rows: &[Row<ScrewSample>]) -> Lines {
         // What has run was folded: nothing is refused here.
-        let fold = fold(&self.design, self.memory || self.temperature)
+        let fold = fold(&self.design, self.memory.is_some() || self.temperature)
             .ok()
             .flatten();
         let beyond = fold.map(|fold| Beyond::caged(&self.design, &fold));
@@ -299,7 +294,7 @@ impl Scene for Caged {
             ..
         } = self.design.caged;
         let mut settings = screw::settings(&self.design, friction, clearance);
-        if !self.memory {
+        if self.memory.is_none() {
             let speed = screw::reversal_speed(&self.design, reversal_speed);
             settings.add("reversal speed", speed);
         }
@@ -327,7 +322,7 @@ impl Scene for Caged {
 
 impl Caged {
     fn promise(&self) -> Option<&'static Promise> {
-        let by_law = self.temperature || self.memory && self.design.calibrated.is_some();
+        let by_law = self.temperature || self.memory.is_some() && self.design.calibrated.is_some();
         match self.design.branch {
             None if by_law => Some(promises::of("step_caged_range")),
             None => Some(promises::of("step_caged")),
@@ -345,7 +340,7 @@ impl Caged {
             friction: ("friction torque", "N m"),
             parts: ["slip and spin", "rolling resistance"],
             error: format!("largest error promised, {:.1} %", 100.0 * error),
-            reference: if self.memory {
+            reference: if self.memory.is_some() {
                 "reference without memory"
             } else {
                 "reference"
@@ -368,7 +363,6 @@ impl Caged {
                 let slipping = Self {
                     design,
                     memory: self.memory,
-                    encoder: self.encoder,
                     temperature: self.temperature,
                 };
                 let at = |sample: usize| rows.get(sample).map(|row| row.temperature);

@@ -185,12 +185,7 @@ mod tests {
         let samples: Vec<ScrewSample> = [5.0, 15.0, 30.0, 60.0, -15.0]
             .into_iter()
             .enumerate()
-            .map(|(place, axial_load)| ScrewSample {
-                time: 0.5 * place as f64,
-                nut_speed: 10.0,
-                axial_load,
-                nut_position: 0.0,
-            })
+            .map(|(place, axial_load)| ScrewSample::new(0.5 * place as f64, 10.0, axial_load))
             .collect();
         let torques: Vec<f64> = samples
             .iter()

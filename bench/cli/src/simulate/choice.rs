@@ -1,9 +1,9 @@
 //! Which scene a run has: asked for, or what the design or the manoeuvre is made for.
 
 use super::caged::Caged;
-use super::encoder::EncoderStep;
 use super::linear::Linear;
 use super::manoeuvre::Manoeuvre;
+use super::memory::MemorySettings;
 use super::uncaged::Uncaged;
 use epas_design::files::DesignSource;
 use epas_design::files::train::{LinearDesign, no_row};
@@ -37,6 +37,7 @@ pub fn choose(
         (_, Some(Manoeuvre::Turns)) => SceneName::Uncaged,
         _ => SceneName::Caged,
     });
+    let memory = memory.then(MemorySettings::default);
     let screw = |default: &str| match source {
         Some(source) => source.load(),
         None => default
@@ -48,7 +49,6 @@ pub fn choose(
         SceneName::Caged => Ok(Chosen::Caged(Box::new(Caged {
             design: screw("lin-4.1")?,
             memory,
-            encoder: EncoderStep::default(),
             temperature: false,
         }))),
         SceneName::Uncaged => {
@@ -60,16 +60,11 @@ pub fn choose(
                 design,
                 balls,
                 memory,
-                encoder: EncoderStep::default(),
             })))
         }
         SceneName::Linear => {
             let design = source.map_or_else(LinearDesign::built_in, DesignSource::load_bearing)?;
-            Ok(Chosen::Linear(Box::new(Linear {
-                design,
-                memory,
-                encoder: EncoderStep::default(),
-            })))
+            Ok(Chosen::Linear(Box::new(Linear { design, memory })))
         }
     }
 }

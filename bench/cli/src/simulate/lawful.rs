@@ -2,7 +2,7 @@
 //! firmware does it.
 
 use epas_design::caged::Block;
-use epas_design::caged_scene::{CagedModel, CagedScene};
+use epas_design::caged_scene::CagedScene;
 use epas_design::files::Design;
 use epas_friction::Faults;
 use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters};
@@ -10,10 +10,10 @@ use epas_page::failure::Failure;
 
 use super::reference::Moving;
 use super::remembering::scene;
-use crate::model::{Model, TickInputs, TickOutputs};
+use crate::model::{self, Model, TickInputs, TickOutputs};
 
 pub struct Lawful {
-    model: CagedModel,
+    model: Box<dyn Model>,
     law: CoefficientLaw,
     /// Load at which the unloaded flank of a preload lifts off, N.
     lift_off: f32,
@@ -31,7 +31,7 @@ impl Lawful {
             CagedScene::ClosedForm(_) => 0.0,
         };
         Ok(Self {
-            model: scene.model()?,
+            model: model::caged(&scene)?,
             law: CoefficientLaw::new(law)?,
             lift_off,
             largest_friction: design.caged.limits.friction_torque,
@@ -43,7 +43,7 @@ impl Lawful {
     pub fn step(&mut self, inputs: &TickInputs) -> TickOutputs {
         let now = self.law.at_temperature(inputs.temperature);
         let known = self.model.set_friction(now.at(inputs.speed));
-        let mut outputs = Model::step(&mut self.model, inputs);
+        let mut outputs = self.model.step(inputs);
         let drag = now.drag_torque(inputs.speed, inputs.load.abs(), self.lift_off);
         let friction = outputs.friction + drag;
         let limited = friction.clamp(-self.largest_friction, self.largest_friction);

@@ -4,15 +4,14 @@ use epas_friction::Error;
 use epas_reference::promises;
 
 use super::beyond::Beyond;
-use super::encoder::EncoderStep;
 use super::manoeuvre::{Manoeuvre, linear_trace};
-use super::memory::{self, Remembered};
+use super::memory::{self, MemorySettings, Remembered};
 use super::picture::{Form, Labels, Moment};
 use super::reference::ReferenceModel;
 use super::samples::LinearSample;
 use super::scene::{Column, OF_EVERY, OF_ROW, Row, Rows, Scene};
 use super::summary::{Course, Lines, Pressing, Words};
-use super::trace::Trace;
+use super::trace::{Temperature, Trace};
 use super::train::{Train, draw};
 use crate::model::{self, Built};
 use epas_design::files::train::LinearDesign;
@@ -23,9 +22,7 @@ pub struct Linear {
     /// Its design.
     pub design: LinearDesign,
     /// Whether friction remembers.
-    pub memory: bool,
-    /// Step of the encoder whose noise it does not follow.
-    pub encoder: EncoderStep,
+    pub memory: Option<MemorySettings>,
 }
 
 const WORDS: Words = Words {
@@ -65,11 +62,10 @@ impl Linear {
     }
 
     fn remembered(&self, trace: &Trace<LinearSample>) -> Result<Option<Remembered>, Failure> {
-        if !self.memory {
+        let Some(settings) = self.memory else {
             return Ok(None);
-        }
-        let sensor = (self.encoder, "m");
-        let remembered = memory::over(trace, sensor, |load| self.remembered_at(load));
+        };
+        let remembered = settings.over(trace, "m", |load| self.remembered_at(load));
         remembered
             .map(Some)
             .map_err(|failure| failure.of(self.name()))
@@ -87,13 +83,14 @@ impl Scene for Linear {
         linear_trace(manoeuvre)
     }
 
-    fn set_encoder(&mut self, encoder: EncoderStep) {
-        self.encoder = encoder;
+    fn set_memory(&mut self, settings: MemorySettings) {
+        self.memory = self.memory.map(|_| settings);
     }
 
     fn rows(
         &self,
         trace: &Trace<LinearSample>,
+        _: &Temperature,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Rows<LinearSample> {

@@ -46,12 +46,9 @@ pub fn trace(manoeuvre: Manoeuvre, design: &BallScrew) -> Result<Trace<ScrewSamp
             "a manoeuvre is rack travel, and a design without lead makes none".into()
         }));
     };
-    let samples = moments.into_iter().map(|moment| ScrewSample {
-        time: moment.time,
-        nut_speed: moment.speed,
-        axial_load: moment.force,
-        nut_position: 0.0,
-    });
+    let samples = moments
+        .into_iter()
+        .map(|moment| ScrewSample::new(moment.time, moment.speed, moment.force));
     Ok(Trace {
         name: manoeuvre.name().into(),
         samples: samples.collect(),

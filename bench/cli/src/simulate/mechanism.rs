@@ -14,14 +14,13 @@ use epas_design::CagedDesign;
 
 use super::beyond::Beyond;
 use super::caged;
-use super::memory;
+use super::memory::{self, MemorySettings};
 use super::nut::{Nut, STEPS};
-use super::output::write_table;
+use super::output::{targets, write_table};
 use super::picture::Form;
 use super::remembering::remembering;
 use super::screw;
 use super::summary::Lines;
-use super::targets::targets;
 use super::trace::Temperature;
 use crate::model::{Model, TickOutputs};
 #[cfg(test)]
@@ -95,7 +94,7 @@ struct Row {
 
 pub fn run(
     design: &Design,
-    arguments: &MechanismArguments,
+    (arguments, reference_load): (&MechanismArguments, Option<f32>),
     [input, channels]: [Option<&Path>; 2],
     [output, plot]: [&Option<PathBuf>; 2],
     existing: Existing,
@@ -131,6 +130,10 @@ pub fn run(
         temperature: &temperature,
         inertia,
         controller: arguments.controller,
+        memory: MemorySettings {
+            reference_load,
+            ..MemorySettings::default()
+        },
         tick,
     };
     caged::check_errors(design, true)?;
@@ -193,19 +196,18 @@ fn moved(course: &Course<'_>) -> Result<(Vec<Row>, Lines), Failure> {
     let Course {
         design,
         acting,
+        memory,
         tick,
         ..
     } = *course;
-    let load = acting
-        .iter()
-        .map(|acting| acting.axial_load.abs())
-        .sum::<f64>()
-        / acting.len() as f64;
+    let loads = acting.iter().map(|acting| acting.axial_load);
     let speed = memory::speed((tick / STEPS as f64) as f32)
         .map_err(|error| Failure::Data(format!("{}: {error}", design.name)))?;
     // The nut's own motion has no noise.
-    let (model, lines) = remembering(design, load as f32, (speed, 0.0))?;
-    Ok((motion(model, course), lines))
+    let mut found = remembering(design, memory.load(loads.clone()), (speed, 0.0))?;
+    let far = memory.far(design, loads, found.proportional_at)?;
+    found.lines.add_some(memory::FAR, far);
+    Ok((motion(found.model, course), found.lines))
 }
 
 struct Course<'a> {
@@ -214,6 +216,7 @@ struct Course<'a> {
     temperature: &'a Temperature,
     inertia: f64,
     controller: Option<Controller>,
+    memory: MemorySettings,
     tick: f64,
 }
 
@@ -225,6 +228,7 @@ fn motion(model: Box<dyn Model>, course: &Course<'_>) -> Vec<Row> {
         inertia,
         controller,
         tick,
+        ..
     } = *course;
     let nut = Nut::of(design, model);
     let start = match (controller, acting.first()) {

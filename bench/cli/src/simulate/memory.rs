@@ -14,6 +14,7 @@ use super::encoder::{self, EncoderStep};
 use super::summary::Lines;
 use super::trace::{Sample, Trace};
 use crate::model::{ELEMENTS, Elements, TEMPERATURE};
+use epas_design::files::Design;
 use epas_page::failure::Failure;
 
 /// What stands in for a temperature that is too old: the same one.
@@ -44,22 +45,101 @@ pub struct Remembered {
     pub lines: Lines,
 }
 
-/// Mean size of the load of a trace, N.
-pub fn mean_load<S: Sample>(trace: &Trace<S>) -> f32 {
-    let sum: f64 = trace.samples.iter().map(|sample| sample.load().abs()).sum();
-    (sum / trace.samples.len() as f64) as f32
+/// Loads over the reference load for which the error of [`ProportionalElements`](epas_friction::law::memory::ProportionalElements) is known to be
+/// small.
+const NEAR: std::ops::RangeInclusive<f64> = 0.5..=1.6;
+
+/// What friction that remembers takes of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MemorySettings {
+    /// Step of the encoder whose noise it does not follow.
+    pub encoder: EncoderStep,
+    /// Load at which elements of the design are exact, N; without, the mean size of the trace's.
+    pub reference_load: Option<f32>,
 }
 
-/// Elements over a trace behind the step of its encoder, rad or m, by those of a design at the trace's mean load.
-pub fn over<S: Sample>(
-    trace: &Trace<S>,
-    (encoder, unit): (EncoderStep, &str),
-    at: impl FnOnce(f32) -> Result<Remembered, Error>,
-) -> Result<Remembered, Failure> {
-    let mut remembered = at(mean_load(trace))?;
-    remembered.encoder_step = encoder.size();
-    remembered.lines.add_some("encoder", encoder.told(unit));
-    Ok(remembered)
+/// An axial load (normal load of a bearing) at which elements are designed, N.
+pub fn reference_load(text: &str) -> Result<f32, String> {
+    match text.parse::<f32>() {
+        Ok(value) if (1e-3..=1e6).contains(&value) => Ok(value),
+        _ => Err("a reference load is 1e-3 to 1e6 N".into()),
+    }
+}
+
+impl MemorySettings {
+    /// The load at which elements are designed for the loads of a trace, N.
+    pub fn load(self, loads: impl ExactSizeIterator<Item = f64>) -> f32 {
+        self.reference_load.unwrap_or_else(|| {
+            let samples = loads.len() as f64;
+            (loads.map(f64::abs).sum::<f64>() / samples) as f32
+        })
+    }
+
+    /// Elements of a design over a trace, behind the step of its encoder, rad or m.
+    pub fn over<S: Sample>(
+        self,
+        trace: &Trace<S>,
+        unit: &str,
+        at: impl FnOnce(f32) -> Result<Remembered, Error>,
+    ) -> Result<Remembered, Failure> {
+        let loads = trace.samples.iter().map(Sample::load);
+        let mut remembered = at(self.load(loads.clone()))?;
+        remembered.encoder_step = self.encoder.size();
+        let lines = &mut remembered.lines;
+        lines.add_some("encoder", self.encoder.told(unit));
+        lines.add_some(FAR, far(loads, remembered.reference_load, OPTION));
+        Ok(remembered)
+    }
+
+    /// The line of [`far`] of a caged screw whose elements are exact at this load, where they follow the load in proportion; refuses a reference load
+    /// beside that of a calibration.
+    pub fn far(
+        self,
+        design: &Design,
+        loads: impl ExactSizeIterator<Item = f64>,
+        proportional_at: Option<f32>,
+    ) -> Result<Option<String>, Failure> {
+        let calibrated = design.calibrated.as_ref();
+        let calibrated = calibrated.is_some_and(|found| found.breakaway_angle.is_some());
+        if calibrated && self.reference_load.is_some() {
+            return Err(Failure::Data(format!(
+                "{}: --reference-load: the breakaway angle of [calibration] is that at its own reference_load",
+                design.name
+            )));
+        }
+        let cure = if calibrated {
+            "elements = \"load_exact\" in [calibration] serve any load"
+        } else {
+            OPTION
+        };
+        Ok(proportional_at.and_then(|load| far(loads, load, cure)))
+    }
+}
+
+/// What takes another reference load than the mean of the trace.
+const OPTION: &str = "--reference-load takes the load at which reversals count, and does not follow the trace's mean";
+
+/// Name of the line of [`far`].
+pub const FAR: &str = "memory and load";
+
+/// The share of loads at which elements in proportion that are exact at this one are off; none where there are few.
+fn far(
+    loads: impl ExactSizeIterator<Item = f64>,
+    reference_load: f32,
+    cure: &str,
+) -> Option<String> {
+    const FEW: f64 = 0.01;
+    let all = loads.len() as f64;
+    let off = loads.filter(|load| !NEAR.contains(&(load.abs() / f64::from(reference_load))));
+    let share = off.count() as f64 / all;
+    (share > FEW).then(|| {
+        format!(
+            "{:.0} % of the samples are outside {} to {} of reference_load = {reference_load:.0} N, where the way to full sliding is off: {cure}",
+            100.0 * share,
+            NEAR.start(),
+            NEAR.end(),
+        )
+    })
 }
 
 impl Screw<'_> {
@@ -223,4 +303,80 @@ pub fn angle() -> Result<WrappedAngle, Error> {
         period: std::f32::consts::TAU,
         largest_turn: std::f32::consts::PI,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::caged::Caged;
+    use crate::simulate::samples::ScrewSample;
+    use crate::simulate::scene::Scene as _;
+    use crate::simulate::trace::Temperature;
+    use epas_design::files::DesignSource;
+
+    /// Friction after a reversal under the second of two loads, of the whole trace and of its second half, with the lines of the whole.
+    fn last(reference_load: Option<f32>) -> ([f32; 2], Lines) {
+        let sample = |tick: u16| {
+            let speed = if tick < 1990 { 10.0 } else { -0.05 };
+            let load = if tick < 1000 { 500.0 } else { 8e3 };
+            ScrewSample::new(1e-3 * f64::from(tick), speed, load)
+        };
+        let design: DesignSource = "lin-4.1".parse().unwrap();
+        let mut scene = Caged {
+            design: design.load().unwrap(),
+            memory: Some(MemorySettings::default()),
+            temperature: false,
+        };
+        scene.set_memory(MemorySettings {
+            reference_load,
+            ..MemorySettings::default()
+        });
+        let mut lines = Lines::default();
+        let friction = [1000, 0].map(|first| {
+            let samples = (first..2000).map(sample).collect();
+            let name = "steps".into();
+            let (rows, told) = scene
+                .rows(&Trace { name, samples }, &Temperature::None, None, &|| ())
+                .unwrap();
+            lines = told;
+            rows.last().unwrap().outputs.friction
+        });
+        (friction, lines)
+    }
+
+    /// With a reference load of its own a part of a trace has the friction of the whole; with the mean of its loads it has not, and the summary
+    /// says how many samples are far from it.
+    #[test]
+    fn a_reference_load_is_independent_of_the_trace() {
+        let ([part, whole], lines) = last(None);
+        assert!((part / whole - 1.0).abs() > 0.02, "{part} {whole}");
+        let mut said = Vec::new();
+        lines.print(&mut said).unwrap();
+        let said = String::from_utf8(said).unwrap();
+        assert!(
+            said.contains("100 % of the samples are outside 0.5 to 1.6"),
+            "{said}"
+        );
+        let ([part, whole], _) = last(Some(8e3));
+        // Both ends of a way of 5e-4 rad are rounded to 2.4e-7 rad.
+        assert!((part / whole - 1.0).abs() < 1e-3, "{part} {whole}");
+    }
+
+    /// A calibrated breakaway angle has its own reference load, and no other one beside it.
+    #[test]
+    fn a_calibration_has_its_own_reference_load() {
+        let design = "nominal_diameter = 0.029\nlead = 0.007\nball_diameter = 4e-3\nconformity = 0.54\ncontact_angle = 0.785\n\
+                      [calibration]\nbreakaway_angle = 1e-3\nreference_load = 3e3\n";
+        let design = epas_design::files::read(design, "gear").unwrap();
+        let far = |reference_load| {
+            let settings = MemorySettings {
+                reference_load,
+                ..MemorySettings::default()
+            };
+            settings.far(&design, [3e3, -9e3].into_iter(), Some(3e3))
+        };
+        assert!(far(None).unwrap().unwrap().contains("50 % of the samples"));
+        let refused = far(Some(5e3)).unwrap_err();
+        assert!(refused.message().contains("its own reference_load"));
+    }
 }

@@ -1,7 +1,8 @@
-//! The table of a run, as it is written.
+//! Which files a run writes, and its table as it is written.
 
+use std::fs;
 use std::io::{Seek, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::measurement;
 use epas_page::failure::Failure;
@@ -30,4 +31,33 @@ pub fn write_table(
     table
         .flush()
         .map_err(|error| Failure::file("write", path, &error))
+}
+
+/// Where outputs go that are not asked for by name: a folder of this program's own.
+const FOLDER: &str = "target/simulate";
+
+/// The table and the picture: those asked for, or both under their default names where none is.
+pub fn targets(
+    [output, plot]: [&Option<PathBuf>; 2],
+    trace: &str,
+    design: &str,
+) -> [Option<PathBuf>; 2] {
+    if output.is_some() || plot.is_some() {
+        return [output.clone(), plot.clone()];
+    }
+    // A design's name comes from a file and may hold anything.
+    let stem: String = format!("{trace}-{design}")
+        .chars()
+        .map(|letter| {
+            if letter.is_alphanumeric() || "-_.".contains(letter) {
+                letter
+            } else {
+                '_'
+            }
+        })
+        .collect();
+    let folder = Path::new(FOLDER);
+    // Where it cannot be made, writing says so.
+    let _ = fs::create_dir_all(folder);
+    ["csv", "svg"].map(|ending| Some(folder.join(format!("{stem}.{ending}"))))
 }

@@ -28,14 +28,24 @@ struct Wanted<'a, A> {
     step: f32,
 }
 
-/// The screw of a design for a sensor behind a dead band of its step, rad, and a mean size of the load, N, and what the summary tells of it.
+/// A caged screw with memory.
+pub struct Remembering {
+    /// It.
+    pub model: Box<dyn Model>,
+    /// What the summary tells of it.
+    pub lines: Lines,
+    /// Load at which its elements are exact, N, where they follow the load in proportion.
+    pub proportional_at: Option<f32>,
+}
+
+/// The screw of a design for a sensor behind a dead band of its step, rad, and a mean size of the load, N.
 ///
 /// The screw is folded for the friction coefficients that its calibration has.
 pub fn remembering<A: Sensor>(
     design: &Design,
     mean_load: f32,
     (angle, step): (A, f32),
-) -> Result<(Box<dyn Model>, Lines), Failure> {
+) -> Result<Remembering, Failure> {
     let wanted = Wanted {
         design,
         mean_load,
@@ -80,7 +90,7 @@ fn refused(design: &Design, error: &Error) -> Failure {
 }
 
 impl<A: Sensor> Wanted<'_, A> {
-    fn around<S>(&self, scene: S::Configuration) -> Result<(Box<dyn Model>, Lines), Failure>
+    fn around<S>(&self, scene: S::Configuration) -> Result<Remembering, Failure>
     where
         S: HostScene<Configuration: Copy> + Scene<Inputs = Inputs>,
     {
@@ -100,7 +110,7 @@ impl<A: Sensor> Wanted<'_, A> {
             let whole = memory::configuration(scene, &remembered, angle, design.caged.friction);
             let model =
                 whole.and_then(|whole| FrictionModel::<WithMemory<S, _, _, _>>::new(&whole));
-            return Ok((Box::new(model.map_err(refused)?), remembered.lines));
+            return Ok(remembered.around(Box::new(model.map_err(refused)?)));
         }
         let numbers = Numbers::of(design)?;
         let law = law(design, &numbers).map_err(refused)?;
@@ -108,7 +118,7 @@ impl<A: Sensor> Wanted<'_, A> {
             let remembered = by_design()?;
             let elements = (remembered.elements, remembered.reference_load);
             let model = calibrated_model::<S, _, _>(scene, elements, angle, law);
-            return Ok((model.map_err(refused)?, remembered.lines));
+            return Ok(remembered.around(model.map_err(refused)?));
         };
         let Numbers { screw, values, .. } = &numbers;
         let load = reference.load;
@@ -123,10 +133,22 @@ impl<A: Sensor> Wanted<'_, A> {
                 .preloaded(values, reference)
                 .and_then(|made| calibrated_model::<S, _, _>(scene, (made, load), angle, law)),
         };
-        Ok((
-            made.map_err(refused)?,
-            lines(values.breakaway_angle, reference.torque),
-        ))
+        let proportional = screw.elements == ElementsName::Proportional;
+        Ok(Remembering {
+            model: made.map_err(refused)?,
+            lines: lines(values.breakaway_angle, reference.torque),
+            proportional_at: proportional.then_some(load),
+        })
+    }
+}
+
+impl Remembered {
+    fn around(self, model: Box<dyn Model>) -> Remembering {
+        Remembering {
+            model,
+            lines: self.lines,
+            proportional_at: Some(self.reference_load),
+        }
     }
 }
 

@@ -32,6 +32,18 @@ pub struct LinearSample {
     pub side_load: f64,
 }
 
+impl ScrewSample {
+    /// A moment of a trace without a position.
+    pub const fn new(time: f64, nut_speed: f64, axial_load: f64) -> Self {
+        Self {
+            time,
+            nut_speed,
+            axial_load,
+            nut_position: 0.0,
+        }
+    }
+}
+
 impl Sample for ScrewSample {
     const COLUMNS: &'static [&'static str] = &["time", "nut_speed", "axial_load"];
 

@@ -1,8 +1,8 @@
 //! What a scene does with a trace. Each has its own samples, rows, columns and words; which one it is is
 //! decided once, from the design.
 
-use super::encoder::EncoderStep;
 use super::manoeuvre::Manoeuvre;
+use super::memory::MemorySettings;
 use super::picture::{self, Form};
 use super::reference::{Friction, ReferenceModel};
 use super::summary::{Lines, regime_name};
@@ -117,19 +117,20 @@ pub trait Scene {
         (trace, None)
     }
 
-    /// Takes the encoder of the trace, whose noise friction that remembers does not follow.
-    fn set_encoder(&mut self, encoder: EncoderStep);
+    /// Takes what friction that remembers follows, where it does.
+    fn set_memory(&mut self, settings: MemorySettings);
 
     /// Refuses a design whose block is too far from the exact model, as `design` does.
     fn check_errors(&self) -> Result<(), Failure> {
         Ok(())
     }
 
-    /// Runs the in-loop model over a trace, with the float64 reference where one is wanted; `done` is called
-    /// after each sample. Lines tell what of the reference was computed.
+    /// Runs the in-loop model over a trace, with its temperatures where it follows them and the float64 reference where one is wanted; `done` is
+    /// called after each sample. Lines tell what of the reference was computed.
     fn rows(
         &self,
         trace: &Trace<Self::Sample>,
+        temperature: &Temperature,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Rows<Self::Sample>;
@@ -146,17 +147,6 @@ pub trait Scene {
 
     /// Takes up that the trace has a temperature, which is followed.
     fn follow_temperature(&mut self) {}
-
-    /// The same as [`rows`](Self::rows) with a trace's temperatures, where it follows them.
-    fn rows_at(
-        &self,
-        trace: &Trace<Self::Sample>,
-        _: &Temperature,
-        reference: Option<ReferenceModel>,
-        done: &dyn Fn(),
-    ) -> Rows<Self::Sample> {
-        self.rows(trace, reference, done)
-    }
 
     /// Columns of the table behind those of the trace.
     fn outputs() -> Vec<Column>;

@@ -222,6 +222,13 @@ impl ScrewSummary {
         if let Some(words) = too_fast(design, peaks) {
             lines.add("speed limit", words);
         }
+        let load = self.course.peak_load();
+        if capacity::in_kilonewtons(design.screw(), load as f32, design.caged.loaded_balls) {
+            let words = format!(
+                "{load:.1} N at most, which hardly presses the balls; is it in kN? Then its column is named axial_load [kN]"
+            );
+            lines.add("load unit", words);
+        }
         if let Some(beyond) = self.beyond {
             beyond.lines(&mut lines);
         }
@@ -270,12 +277,7 @@ mod tests {
         )
         .unwrap();
         let mut summary = ScrewSummary::new(&design, None);
-        let sample = ScrewSample {
-            time: 0.0,
-            nut_speed: 1.0,
-            axial_load,
-            nut_position: 0.0,
-        };
+        let sample = ScrewSample::new(0.0, 1.0, axial_load);
         summary.course.add(&sample, &Outputs::SAFE.into());
         1e-9 * summary.peak_pressure(&design, 71)
     }
@@ -296,12 +298,7 @@ mod tests {
         let trace = || Trace {
             name: "parking".into(),
             samples: [-8e3, 4e3]
-                .map(|axial_load| ScrewSample {
-                    time: 0.0,
-                    nut_speed: 1.0,
-                    axial_load,
-                    nut_position: 0.0,
-                })
+                .map(|axial_load| ScrewSample::new(0.0, 1.0, axial_load))
                 .to_vec(),
         };
         let peak = |trace: &Trace<ScrewSample>| trace.samples[0].axial_load;

@@ -74,12 +74,7 @@ mod tests {
         let trace = Trace {
             name: "steps".into(),
             samples: samples
-                .map(|(time, nut_speed)| ScrewSample {
-                    time,
-                    nut_speed,
-                    axial_load: 100.0 * nut_speed,
-                    nut_position: 0.0,
-                })
+                .map(|(time, nut_speed)| ScrewSample::new(time, nut_speed, 100.0 * nut_speed))
                 .to_vec(),
         };
         let kelvins = Temperature::Followed(vec![300.0, 310.0, 310.0]);

@@ -6,6 +6,7 @@ use crate::model::TickInputs;
 use epas_design::files::calibration::TEMPERATURES;
 use epas_page::aside::say;
 use epas_page::failure::Failure;
+use epas_traces::agreement;
 use epas_traces::clock::check_raster;
 use epas_traces::marks::{self, LeftOut};
 use epas_traces::mdf4::{self, Mapping};
@@ -89,6 +90,7 @@ impl<S: SceneSample> Trace<S> {
 /// A column of temperatures beside the samples of a trace.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Temperature {
+    /// The trace has none.
     None,
     /// There is one, and nothing follows it, for this reason.
     Ignored(&'static str),
@@ -277,8 +279,9 @@ fn samples_of<S: Sample>(
         1 => return Err("the trace has a single sample: at least 2".into()),
         _ => {}
     }
-    check_raster(&table.times, table.repeated)?;
+    check_raster(&table)?;
     marks::mark(&mut table)?;
+    agreement::check(&table)?;
     tell(&table);
     let mut temperature = Temperature::of(&table, followed);
     if let Some(column) = table.column(Quantity::Temperature) {

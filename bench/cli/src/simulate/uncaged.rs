@@ -7,17 +7,16 @@ use epas_friction::Error;
 use epas_reference::promises;
 
 use super::beyond::Beyond;
-use super::encoder::EncoderStep;
 use super::exact_screw::exact_screw;
 use super::manoeuvre::{Manoeuvre, trace};
-use super::memory::{self, Remembered};
+use super::memory::{self, MemorySettings, Remembered};
 use super::picture::{Form, Labels, Moment};
 use super::reference::{ReferenceModel, whole_screw};
 use super::samples::ScrewSample;
 use super::scene::{Column, OF_EVERY, OF_ROW, OF_SCREW, Row, Rows, Scene};
 use super::screw::{self, ScrewSummary};
 use super::summary::{Lines, Pressing};
-use super::trace::{Sample, Trace};
+use super::trace::{Sample, Temperature, Trace};
 use super::train::{Train, draw, equal_step};
 use crate::model::{self, Built};
 use epas_design::files::Design;
@@ -38,9 +37,7 @@ pub struct Uncaged {
     /// Its balls.
     pub balls: UncagedDesign,
     /// Whether friction remembers.
-    pub memory: bool,
-    /// Step of the encoder whose noise it does not follow.
-    pub encoder: EncoderStep,
+    pub memory: Option<MemorySettings>,
 }
 
 /// Largest size of the load of a trace, N.
@@ -130,7 +127,7 @@ impl Uncaged {
         let [screw, nut] = self.balls.deviations().map(|angle| 1e3 * angle);
         let text = format!("screw {screw:.1} mrad, nut {nut:.1} mrad at most");
         settings.add("contact angle deviates", text);
-        if !self.memory {
+        if self.memory.is_none() {
             let speed = screw::reversal_speed(&self.design, gear.reversal_speed);
             settings.add("reversal speed", speed);
         }
@@ -138,11 +135,10 @@ impl Uncaged {
     }
 
     fn remembered(&self, trace: &Trace<ScrewSample>) -> Result<Option<Remembered>, Failure> {
-        if !self.memory {
+        let Some(settings) = self.memory else {
             return Ok(None);
-        }
-        let sensor = (self.encoder, "rad");
-        let remembered = memory::over(trace, sensor, |load| self.remembered_at(load));
+        };
+        let remembered = settings.over(trace, "rad", |load| self.remembered_at(load));
         let mut remembered = remembered.map_err(|failure| failure.of(self.name()))?;
         if self.design.calibrated.is_some() {
             let text = "left out: what a trace has told is that of the scene caged";
@@ -174,13 +170,14 @@ impl Scene for Uncaged {
         screw::within(trace, &self.design, balls, block)
     }
 
-    fn set_encoder(&mut self, encoder: EncoderStep) {
-        self.encoder = encoder;
+    fn set_memory(&mut self, settings: MemorySettings) {
+        self.memory = self.memory.map(|_| settings);
     }
 
     fn rows(
         &self,
         trace: &Trace<ScrewSample>,
+        _: &Temperature,
         reference: Option<ReferenceModel>,
         done: &dyn Fn(),
     ) -> Rows<ScrewSample> {
@@ -212,7 +209,11 @@ impl Scene for Uncaged {
             ReferenceModel::Exact => "the exact whole screw",
             ReferenceModel::ClosedForm => "the closed form of each ball, which is not exact",
         };
-        let without = if self.memory { ", without memory" } else { "" };
+        let without = if self.memory.is_some() {
+            ", without memory"
+        } else {
+            ""
+        };
         format!("{form}{without}")
     }
 

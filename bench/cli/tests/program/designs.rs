@@ -119,6 +119,35 @@ fn a_new_file_is_there_to_start_from() {
     assert_eq!(fs::read_to_string(folder.join("gear.toml")).unwrap(), text);
 }
 
+/// The tables that stand as comments in the explained file are read where their # is gone, with a chart of the rows that it shows.
+#[test]
+fn commented_tables_of_a_new_file_are_read() {
+    let text = fs::read_to_string(designs().join("rack-29x7.toml")).unwrap();
+    let (start, tables) = text.split_once("# [loads]").unwrap();
+    let keys = tables.lines().map(|line| {
+        let key = line
+            .strip_prefix("# ")
+            .filter(|line| line.contains(" = ") && !line.starts_with("--"));
+        key.or_else(|| line.strip_prefix("# ").filter(|line| line.starts_with('[')))
+            .unwrap_or_default()
+    });
+    let keys: Vec<&str> = keys.collect();
+    let start = start.replace("loaded_balls = 71", "loaded_balls = 37");
+    let place = tempfile::tempdir().unwrap();
+    let file = place.path().join("gear.toml");
+    fs::write(&file, format!("{start}[loads]\n{}\n", keys.join("\n"))).unwrap();
+    let heading = "angle_deg,deviation_deg\n";
+    let rows = (0..8).map(|row| format!("{},0.01{row}\n", 45 * row));
+    assert!(text.contains(heading.trim_end()));
+    fs::write(
+        place.path().join("screw.csv"),
+        heading.to_owned() + &rows.collect::<String>(),
+    )
+    .unwrap();
+    let design = epas_design::files::DesignSource::File(file).load().unwrap();
+    assert!(design.loads.is_some() && design.uncaged.is_some());
+}
+
 /// A load beyond what a ball bears at rest gets a word, in `design` and in `simulate`.
 #[test]
 fn a_load_beyond_the_static_limit_gets_a_word() {

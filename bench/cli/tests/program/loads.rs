@@ -304,42 +304,18 @@ fn what_gives_no_table_says_why() {
     fs::write(path.join("bare.toml"), DESIGN).unwrap();
     let bare = loads(path, "--design bare.toml");
     bare.refused("[loads]");
+    // What the static model refuses, it names. (The tests of `epas_design::files` hold what is refused of the table.)
     for (from, to, said) in [
-        ("turns = 2\n", "", "turns"),
-        ("turns = 2\n", "turns = 2\nball_spacing = 0.4\n", "turns"),
-        ("screw_length = 0.8\n", "", "screw_length"),
-        ("screw_length = 0.8", "screw_length = nan", "screw_length"),
+        ("axial_load = 5000", "axial_load = 0", "no ball carries"),
         (
             "screw_diameter = 0.032",
             "screw_diameter = 0.05",
             "screw_diameter",
         ),
-        ("nut_position = 0.4", "nut_position = 0.01", "nut_position"),
-        ("axial_load = 5000", "axial_load = inf", "axial_load"),
-        ("axial_load = 5000", "axial_load = 0", "no ball carries"),
-        (
-            "turns = 2\n",
-            "turns = 2\nball_oversize = [0.0]\n",
-            "ball_oversize",
-        ),
-        ("turns = 2\n", "turns = 2\npitch_error = 1\n", "pitch_error"),
-        ("turns = 2\n", "turns = 2\ncolour = 1\n", "colour"),
-        (
-            "turns = 2\n",
-            "turns = 2\nloaded_end = \"top\"\n",
-            "loaded_end",
-        ),
     ] {
         let text = format!("{DESIGN}{}", LOADS.replace(from, to));
         fs::write(path.join("bad.toml"), text).unwrap();
-        let run = loads(path, "--design bad.toml");
-        assert_eq!(
-            (run.code, run.stdout.as_str()),
-            (1, ""),
-            "{to}: {}",
-            run.stderr
-        );
-        assert!(run.stderr.contains(said), "{to}: {}", run.stderr);
+        loads(path, "--design bad.toml").refused(said);
     }
     fs::write(path.join("good.toml"), format!("{DESIGN}{LOADS}")).unwrap();
     fs::write(

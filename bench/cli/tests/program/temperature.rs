@@ -110,17 +110,6 @@ fn a_reference_has_one_coefficient() {
     );
 }
 
-/// The crate's default law as a design file: 0.12 at standstill, 0.4166667 of it on a film, whose products do not round to 0.12 again.
-#[test]
-fn the_default_law_of_the_crate_runs() {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("trace.csv"), trace()).unwrap();
-    let text = DESIGN.to_owned()
-        + "friction = 0.12\n[calibration]\nfull_film_ratio = 0.4166667\nhalf_share_speed = 15.35\n\
-           viscosity_pole = 199.0\nrolling_drag = 1.0\n";
-    simulated(folder.path(), &text, "--memory");
-}
-
 /// A design that follows a closed form stands beside the exact ball, not beside itself: a rolling ball has less than half of its friction.
 #[test]
 fn a_closed_form_is_compared_with_the_exact_ball() {

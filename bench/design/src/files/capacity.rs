@@ -36,15 +36,47 @@ impl Preload {
     }
 }
 
+/// Usual preloads over the static limit of a contact: 1 to 10 % of the dynamic rating `C_a`, which is 0.1 to 0.7 of the static one, with a reserve.
+const USUAL: [f32; 2] = [1e-3, 0.1];
+
+/// A word for a preload that no nut has: a number of the nut in the key of a contact, or the reverse.
+pub fn unusual(design: &BallScrew, preload: Preload) -> Option<String> {
+    let [low, high] = USUAL.map(|share| static_force(design) * share);
+    if preload.force == 0.0 || (low..=high).contains(&preload.force) {
+        return None;
+    }
+    let [least, most] = USUAL.map(|share| 1e-9 * STATIC_PRESSURE * share.cbrt());
+    Some(format!(
+        "usual are {least:.2} to {most:.2} GPa, {low:.1} to {high:.0} N a contact: preload is the force of one contact, axial_preload that of the nut"
+    ))
+}
+
+/// Refuses a largest axial load, N, that may be one in kN.
+pub fn check_limit(design: &BallScrew, axial_load: f32, balls: u16) -> Result<(), String> {
+    if !in_kilonewtons(design, axial_load, balls) {
+        return Ok(());
+    }
+    Err(format!(
+        "axial_load = {axial_load} is out of range; allowed: {:.1} N and more, a thousandth of what {balls} loaded balls bear at rest ({axial_load} kN? that is {})",
+        1e-3 * static_load(design) * f32::from(balls),
+        1e3 * f64::from(axial_load)
+    ))
+}
+
+/// Whether a largest axial load is so small that it may be one in kN: loaded balls bear a thousand times that at rest. False for what is no load.
+pub fn in_kilonewtons(design: &BallScrew, axial_load: f32, balls: u16) -> bool {
+    axial_load > 0.0 && axial_load < 1e-3 * static_load(design) * f32::from(balls)
+}
+
 /// A clearance with its preload, where there is one, for a summary.
 pub fn clearance_words(design: &BallScrew, clearance: Clearance) -> String {
     let gap = format!("{:.1} um", 1e6 * clearance.gap());
     let preload = Preload::of(design, clearance);
-    if preload.force > 0.0 {
-        format!("{gap}, preload of a contact {}", preload.words())
-    } else {
-        gap
+    if preload.force == 0.0 {
+        return gap;
     }
+    let unusual = unusual(design, preload).map_or_else(String::new, |words| format!("; {words}"));
+    format!("{gap}, preload of a contact {}{unusual}", preload.words())
 }
 
 /// Axial load of a ball without preload at which its contact reaches [`STATIC_PRESSURE`], N: the static load rating over the number of
@@ -94,6 +126,28 @@ mod tests {
         let load = static_load(&screw);
         assert!(beyond(&screw, 0.999 * load).is_none());
         assert!(beyond(&screw, 1.001 * load).unwrap().contains("4.2 GPa"));
+    }
+
+    /// A preload of the nut in the key of a contact and the reverse, both ways; a limit in kN.
+    #[test]
+    fn wrong_keys_and_kilonewtons_get_a_word() {
+        let source: DesignSource = "lin-4.1".parse().unwrap();
+        let screw = *source.load().unwrap().screw();
+        let said = |force: f32| {
+            let clearance = Clearance::of_preload(&screw, force).unwrap();
+            unusual(&screw, Preload::of(&screw, clearance))
+        };
+        // 71 balls of a nut with 744 N: 14.8 N a contact.
+        let per_contact = 71.0 * screw.axial_per_normal();
+        assert_eq!(said(744.0 / per_contact), None);
+        for force in [744.0, 14.8 / per_contact] {
+            assert!(said(force).unwrap().contains("axial_preload"), "{force}");
+        }
+        for (load, refused) in [(13.0, true), (13e3, false), (500.0, false), (-1.0, false)] {
+            let message = check_limit(&screw, load, 71).err();
+            let asked = message.map(|message| message.contains("13 kN? that is 13000"));
+            assert_eq!(asked, refused.then_some(true), "{load}");
+        }
     }
 
     /// The pressure follows the third root of the force: at the limit it is the limit.

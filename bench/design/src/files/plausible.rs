@@ -47,7 +47,10 @@ impl Given {
             field => (field, 1.0),
         };
         let allowed = error.allowed();
-        let (value, hint) = (factor * error.value(), hint(error));
+        let (value, hint) = (
+            factor * error.value(),
+            meant(error.field(), error.value(), allowed),
+        );
         let said = if factor == 1.0 {
             error.to_string()
         } else {
@@ -217,19 +220,22 @@ fn shown(value: f64) -> String {
     digits.trim_end_matches('0').trim_end_matches('.').into()
 }
 
-fn hint(error: &Error) -> Option<Meant> {
-    let (value, allowed) = (error.value(), error.allowed());
-    if ["clearance", "axial_play"].contains(&error.field()) && allowed.contains(value * 1e-6) {
+/// The unit that a number out of its range may be in, as a question; none where no unit of its field brings it into the range.
+pub fn asked(field: &str, value: f32, allowed: Range) -> Option<String> {
+    meant(field, value, allowed).map(|unit| unit.asked(value))
+}
+
+fn meant(field: &str, value: f32, allowed: Range) -> Option<Meant> {
+    let has = |parts: &[&str]| parts.iter().any(|part| field.contains(part));
+    if has(&["clearance", "axial_play"]) && allowed.contains(value * 1e-6) {
         return Some(Meant::Micrometres);
     }
-    let length = ["pitch_radius", "lead", "ball_radius", "groove_radius"];
-    if length.contains(&error.field()) && allowed.contains(value * 1e-3) {
+    let length = field == "lead" || has(&["radius", "diameter", "length", "spacing"]);
+    if length && allowed.contains(value * 1e-3) {
         return Some(Meant::Millimetres);
     }
-    let angle = error.field() == "contact_angle"
-        && value >= DEGREES
-        && allowed.contains(value.to_radians());
-    angle.then_some(Meant::Degrees)
+    let angle = has(&["contact_angle", "lead_angle"]);
+    (angle && value >= DEGREES && allowed.contains(value.to_radians())).then_some(Meant::Degrees)
 }
 
 /// The names that a text may mean: those that go on where it ends, else the one most like it.
@@ -248,6 +254,14 @@ pub fn nearest<'a>(text: &str, names: impl Iterator<Item = &'a str> + Clone) -> 
         .min_by_key(|name| strsim::damerau_levenshtein(&text, name))
         .unwrap_or_default()
         .into()
+}
+
+/// The name that a key is a misspelling of, by up to a quarter of its letters.
+pub fn misspelt<'a>(key: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let most = (key.len() / 4).max(1);
+    let distances = names.map(|name| (strsim::damerau_levenshtein(key, name), name));
+    let (_, name) = distances.filter(|(distance, _)| *distance <= most).min()?;
+    Some(name)
 }
 
 #[cfg(test)]
@@ -354,5 +368,29 @@ mod tests {
         assert_eq!(near("lin4.1"), "lin-4.1");
         assert_eq!(near("25x5"), "25x5x3.175");
         assert_eq!(near("32x5"), "32x5x3.175 or 32x5x3.5");
+    }
+
+    /// A misspelt key is named with the one that is meant, in every table; another key is not.
+    #[test]
+    fn a_misspelt_key_is_asked_for() {
+        let design = "nominal_diameter = 29e-3\nlead = 7e-3\nball_diameter = 4e-3\nconformity = 0.54\ncontact_angle = 0.785\n";
+        for (text, meant) in [
+            ("frictoin = 0.1", Some("friction")),
+            ("loaded_bals = 71", Some("loaded_balls")),
+            ("[limits]\nnut_sped = 300", Some("nut_speed")),
+            (
+                "[calibration]\nbrakaway_angle = 1e-3",
+                Some("breakaway_angle"),
+            ),
+            ("axial_load = 3e3", None),
+            ("colour = 3", None),
+        ] {
+            let message = read(&format!("{design}{text}\n"), "x").unwrap_err();
+            let asked = meant.map(|key| format!("`; did you mean `{key}`? expected one of `"));
+            match asked {
+                Some(words) => assert!(message.contains(&words), "{message}"),
+                None => assert!(!message.contains("did you mean"), "{message}"),
+            }
+        }
     }
 }

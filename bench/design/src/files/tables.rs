@@ -8,6 +8,7 @@ use epas_friction::{GrooveSize, Material};
 use serde::Deserialize;
 use serde::de::DeserializeOwned;
 
+use super::plausible;
 use crate::Failure;
 
 /// Elastic constants and density of a body, as they are written.
@@ -142,7 +143,7 @@ const TYPES: [(&str, &str); 8] = [
 
 fn in_words(error: &toml::de::Error) -> String {
     let said = error.to_string();
-    let said = said.trim_end().replace("`fit`, ", "");
+    let said = asked_for_key(said.trim_end().replace("`fit`, ", ""));
     let said = said
         .replace("invalid type: sequence", "invalid type: a list")
         .replace("invalid type: map", "invalid type: a table");
@@ -169,6 +170,25 @@ fn in_words(error: &toml::de::Error) -> String {
         ""
     };
     format!("{said}{hint}")
+}
+
+/// The refusal of an unknown key, with the allowed one that it is a misspelling of.
+fn asked_for_key(said: String) -> String {
+    const UNKNOWN: &str = "unknown field `";
+    let Some((before, rest)) = said.split_once(UNKNOWN) else {
+        return said;
+    };
+    let mut names = rest.split('`').step_by(2);
+    let key = names.next().unwrap_or_default();
+    let Some(meant) = plausible::misspelt(key, names) else {
+        return said;
+    };
+    let rest = rest.replacen(
+        "`, expected",
+        &format!("`; did you mean `{meant}`? expected"),
+        1,
+    );
+    format!("{before}{UNKNOWN}{rest}")
 }
 
 /// Puts a given value in the place of another one.

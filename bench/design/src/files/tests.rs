@@ -188,6 +188,8 @@ fn every_wrong_field_is_named() {
         ("[calibration]\nrolling_drag = -1", "rolling_drag"),
         ("[calibration]\nharmonics = [{ order = 0 }]", "order"),
         ("limits = [1, 2, 3]", "limits is a table"),
+        ("[uncaged]\nturns = 1", "balls"),
+        ("[uncaged]\nballs = 16\nturns = -2", "turns"),
         ("friction = 1e300", "friction = 1e300"),
         (
             "[uncaged]\nballs = 16\nturns = 0.75\nscrew_deviation = [[1]]",
@@ -200,6 +202,43 @@ fn every_wrong_field_is_named() {
     ] {
         let error = parse(&format!("{GOOD}{addition}\n")).unwrap_err();
         assert!(error.contains(field), "{addition}: {error}");
+    }
+    for (more, field) in [
+        ("screw_deviation = [{ order = 9, sine = 0.01 }]", "order"),
+        ("screw_deviation = [{ order = 2, sine = 0.5 }]", "sine"),
+        ("screw_deviation = [{ order = 2, sinus = 0.04 }]", "sinus"),
+        ("load_shares = [1.0, nan]", "load_shares"),
+        (
+            "load_shares = [1]\nnegative_load_shares = [nan]",
+            "negative_load_shares",
+        ),
+        (
+            "load_shares = [1.2, 0.8]\nnegative_load_shares = [1]",
+            "has 1 entries",
+        ),
+        (
+            "negative_load_shares = [1.0]",
+            "negative_load_shares needs load_shares",
+        ),
+        ("fit = { preload = -1 }", "clearance (m"),
+        ("fit = \"play\"", "clearance (m"),
+    ] {
+        let row = format!("{GOOD}[uncaged]\nballs = 15\nturns = 1\n{more}\n");
+        let error = parse(&row).unwrap_err();
+        assert!(error.contains(field), "{more}: {error}");
+    }
+    for (from, to, field) in [
+        ("turns = 2", "", "turns"),
+        ("turns = 2", "turns = 2\nball_spacing = 0.4", "turns"),
+        ("screw_length = 0.8", "", "screw_length"),
+        ("turns = 2", "turns = 2\ncolour = 1", "colour"),
+        ("turns = 2", "turns = 2\npitch_error = 1", "pitch_error"),
+        ("turns = 2", "turns = 2\nloaded_end = \"top\"", "loaded_end"),
+    ] {
+        let loads = "[loads]\nscrew_length = 0.8\nscrew_diameter = 0.03\nnut_position = 0.4\naxial_load = 5000\nturns = 2\n";
+        let table = format!("{GOOD}loaded_balls = 32\n{}", loads.replace(from, to));
+        let error = parse(&table).unwrap_err();
+        assert!(error.contains(field), "{to}: {error}");
     }
     for field in [
         "nominal_diameter",

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use epas_design::files::plausible;
+use epas_friction::Range;
 use epas_reference::ReferenceError;
 use serde::Serialize;
 
@@ -59,13 +61,37 @@ impl std::error::Error for BadField {}
 
 impl From<epas_friction::Error> for BadField {
     fn from(error: epas_friction::Error) -> Self {
-        Self::new(error.field(), error.to_string())
+        let asked = plausible::asked(error.field(), error.value(), error.allowed());
+        Self::new(error.field(), with(error.to_string(), asked))
     }
 }
 
 impl From<ReferenceError> for BadField {
     fn from(error: ReferenceError) -> Self {
-        Self::new(error.field().unwrap_or("request"), error.to_string())
+        let asked = match error {
+            ReferenceError::OutOfRange {
+                field,
+                value,
+                min,
+                max,
+            } => asked(field, value, min, max),
+            _ => None,
+        };
+        let field = error.field().unwrap_or("request");
+        Self::new(field, with(error.to_string(), asked))
+    }
+}
+
+fn asked(field: &str, value: f64, minimum: f64, maximum: f64) -> Option<String> {
+    let allowed = Range::new(minimum as f32, maximum as f32);
+    plausible::asked(field, value as f32, allowed)
+}
+
+/// A refusal with the unit that its number may be in.
+fn with(said: String, asked: Option<String>) -> String {
+    match asked {
+        Some(unit) => format!("{said} ({unit})"),
+        None => said,
     }
 }
 
@@ -76,7 +102,10 @@ pub fn in_range(field: &str, value: f64, minimum: f64, maximum: f64) -> Result<f
     } else {
         Err(BadField::new(
             field,
-            format!("{field} = {value} is out of range; allowed: {minimum} to {maximum}"),
+            with(
+                format!("{field} = {value} is out of range; allowed: {minimum} to {maximum}"),
+                asked(field, value, minimum, maximum),
+            ),
         ))
     }
 }

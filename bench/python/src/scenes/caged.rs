@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use epas_cli::bindings::{self, Design as Inner, Failure, Model, TickInputs};
-use epas_design::caged_scene::{self as caged, CagedModel, CagedScene, fold_for};
+use epas_design::caged_scene::{self as caged, CagedScene, fold_for};
 use epas_friction::FrictionBranch;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
@@ -12,7 +12,7 @@ use super::columns::{Columns, ScrewColumns};
 use crate::design::Design;
 use crate::errors::{Refused, refused};
 use crate::interrupt::interruptible;
-use crate::numbers::{arguments, range_or, single, single_or};
+use crate::numbers::{arguments, range_or, single, single_or, within};
 use crate::restored::{self, Reduced, reduced};
 use crate::results::result;
 
@@ -35,7 +35,7 @@ use crate::results::result;
 #[pyclass(module = "epas_friction")]
 #[derive(Clone)]
 pub struct CagedBallScrew {
-    model: CagedModel,
+    model: Box<dyn Model>,
     origin: Origin,
     /// The friction coefficient that was set last.
     friction: Option<f32>,
@@ -104,10 +104,8 @@ impl CagedBallScrew {
         }
         design.check().map_err(|error| refused(py, error))?;
         let (least, largest) = range_or(py, "friction_range", friction_range, own)?;
-        if !(least <= own && own <= largest) {
-            let error = Refused::range("friction", own.into(), least.into(), largest.into());
-            return Err(refused(py, error));
-        }
+        within("friction", own.into(), least.into(), largest.into())
+            .map_err(|error| refused(py, error))?;
         if let Some(closed) = design.closed_form() {
             let origin = Origin::ClosedForm(bindings::text::text(&design).into());
             return Self::of(py, &CagedScene::ClosedForm(closed), origin);
@@ -161,7 +159,7 @@ impl CagedBallScrew {
         axial_load: f32,
     ) -> PyResult<Bound<'py, PyAny>> {
         let inputs = TickInputs::new(nut_speed, axial_load);
-        ScrewColumns::tick(py, &Model::step(&mut self.model, &inputs))
+        ScrewColumns::tick(py, &self.model.step(&inputs))
     }
 
     /// A whole trace, tick after tick, from the present state on. Other threads run meanwhile.
@@ -188,9 +186,9 @@ impl CagedBallScrew {
     ) -> PyResult<Bound<'py, PyAny>> {
         let names = ["nut_speed", "axial_load"];
         let trace = arguments(py, names, [&nut_speed, &axial_load])?.trace(py, allow_faults)?;
-        let mut model = self.model;
+        let mut model = self.model.copied();
         let columns = ScrewColumns::of(py, &trace, |[nut_speed, axial_load]| {
-            Model::step(&mut model, &TickInputs::new(nut_speed, axial_load))
+            model.step(&TickInputs::new(nut_speed, axial_load))
         })?;
         self.model = model;
         columns.run(py)
@@ -253,7 +251,7 @@ impl CagedBallScrew {
 
 impl CagedBallScrew {
     fn of(py: Python<'_>, scene: &CagedScene, origin: Origin) -> PyResult<Self> {
-        let model = scene.model().map_err(|error| refused(py, error))?;
+        let model = bindings::caged(scene).map_err(|error| refused(py, error))?;
         Ok(Self {
             model,
             origin,

@@ -11,7 +11,7 @@ use super::columns::{Columns, ScrewColumns};
 use crate::design::{Design, restored_design};
 use crate::errors::{Refused, refused};
 use crate::interrupt::interruptible;
-use crate::numbers::{arguments, single};
+use crate::numbers::{arguments, single, within};
 use crate::restored::{self, Recipe, Reduced, reduced};
 
 /// Largest load at which elements are designed, N.
@@ -61,23 +61,18 @@ impl CagedBallScrewWithMemory {
         reference_load: f64,
         encoder_step: f64,
     ) -> PyResult<Self> {
-        if !(0.0..=LARGEST_LOAD).contains(&reference_load) {
-            let error = Refused::range("reference_load", reference_load, 0.0, LARGEST_LOAD);
-            return Err(refused(py, error));
-        }
-        if !(0.0..=LARGEST_STEP).contains(&encoder_step) {
-            let error = Refused::range("encoder_step", encoder_step, 0.0, LARGEST_STEP);
-            return Err(refused(py, error));
-        }
+        within("reference_load", reference_load, 0.0, LARGEST_LOAD)
+            .and_then(|()| within("encoder_step", encoder_step, 0.0, LARGEST_STEP))
+            .map_err(|error| refused(py, error))?;
         let reference_load = single(py, "reference_load", reference_load)?;
         let encoder_step = single(py, "encoder_step", encoder_step)?;
         let angle = bindings::angle().map_err(|error| refused(py, error))?;
         let inner = design.inner.clone();
         let made = interruptible(py, move |_| {
-            let (model, _) = remembering(&inner, reference_load, (angle, encoder_step))?;
+            let made = remembering(&inner, reference_load, (angle, encoder_step))?;
             // Solved before: its words are at hand.
             let words = caged::words(&inner, coefficients(&inner)?)?;
-            Ok::<_, Failure>((model, words.unwrap_or_default()))
+            Ok::<_, Failure>((made.model, words.unwrap_or_default()))
         })?;
         let (model, words) = made.map_err(|failure| refused(py, failure))?;
         Ok(Self {

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use epas_cli::bindings::{
-    self, Built, EncoderStep, Failure, Folded, Linear, Model, ScrewConfiguration, TickInputs,
+    self, Built, Failure, Folded, Linear, MemorySettings, Model, ScrewConfiguration, TickInputs,
     Uncaged, UncagedDesign,
 };
 use epas_design::uncaged::UncagedBlock;
@@ -16,7 +16,7 @@ use super::columns::{Columns, LinearColumns, UncagedColumns};
 use crate::design::{Design, LinearDesign, restored_design, restored_linear_design};
 use crate::errors::{Refused, refused};
 use crate::interrupt::interruptible;
-use crate::numbers::{arguments, range_or, single};
+use crate::numbers::{arguments, range_or, single, within};
 use crate::restored::{self, Recipe, Reduced, reduced};
 
 /// A model as it was built; `limit` is the field of the design that decides the longest tick, with its value.
@@ -150,10 +150,8 @@ impl UncagedBallScrew {
         gear.checked().map_err(|error| refused(py, error))?;
         let own = gear.friction;
         let (least, largest) = range_or(py, "friction_range", friction_range, own)?;
-        if !(least <= own && own <= largest) {
-            let error = Refused::range("friction", own.into(), least.into(), largest.into());
-            return Err(refused(py, error));
-        }
+        within("friction", own.into(), least.into(), largest.into())
+            .map_err(|error| refused(py, error))?;
         let (design, balls) = (scene.design.clone(), scene.balls);
         let words = interruptible(py, move |_| words_of(&design, &balls, (least, largest)))?;
         let words = words.map_err(|failure| refused(py, failure))?;
@@ -413,8 +411,7 @@ fn scene(py: Python<'_>, design: &Design, memory_load: Option<f32>) -> PyResult<
     Ok(Uncaged {
         design: (*design.inner).clone(),
         balls,
-        memory: memory_load.is_some(),
-        encoder: EncoderStep::default(),
+        memory: memory_load.map(|_| MemorySettings::default()),
     })
 }
 
@@ -619,8 +616,7 @@ impl LinearBearingTrain {
         let (balls, limits) = (linear.balls, configuration.limits);
         let scene = Linear {
             design: linear,
-            memory: made.memory_load.is_some(),
-            encoder: EncoderStep::default(),
+            memory: made.memory_load.map(|_| MemorySettings::default()),
         };
         let remembered = made
             .memory_load

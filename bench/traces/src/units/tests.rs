@@ -49,6 +49,10 @@ fn other_names_are_left_alone_and_wrong_units_refused() {
         ("motor_torque_Ncm", "motor_torque_mNm"),
         ("temperature_F", "temperature_C"),
         ("time_h", "time_ms"),
+        (
+            "nut_speed_rpm [rad/s]",
+            "its name says rpm, and the brackets rad/s",
+        ),
     ] {
         let message = heading(name).unwrap_err();
         assert!(message.contains(word), "{message}");
@@ -67,6 +71,7 @@ fn headings_may_have_brackets_and_capitals() {
             PI / 180.0,
         ),
         ("axial_load[kN]", Quantity::Load, 1e3),
+        ("axial_load_kN [kN]", Quantity::Load, 1e3),
         ("side_load", Quantity::SideLoad, 1.0),
     ] {
         let (found, unit) = heading(name).unwrap().unwrap();

@@ -2,9 +2,11 @@ use std::f64::consts::TAU;
 
 use super::*;
 use crate::simulate::caged::Caged;
+use crate::simulate::memory::MemorySettings;
 use crate::simulate::samples::ScrewSample;
 use crate::simulate::scene::Row;
 use crate::simulate::scene::Scene as _;
+use crate::simulate::trace::Temperature;
 use crate::simulate::uncaged::Uncaged;
 use epas_design::files::DesignSource;
 
@@ -55,12 +57,14 @@ fn friction(trace: &Trace<ScrewSample>, asked: Option<f64>) -> Vec<f32> {
     let source: DesignSource = "lin-4.1".parse().unwrap();
     let mut scene = Caged {
         design: source.load().unwrap(),
-        memory: true,
-        encoder: EncoderStep::default(),
+        memory: Some(MemorySettings::default()),
         temperature: false,
     };
-    scene.set_encoder(EncoderStep::of(asked, trace));
-    let (rows, _) = scene.rows(trace, None, &|| ()).unwrap();
+    scene.set_memory(MemorySettings {
+        encoder: EncoderStep::of(asked, trace),
+        reference_load: None,
+    });
+    let (rows, _) = scene.rows(trace, &Temperature::None, None, &|| ()).unwrap();
     rows.iter().map(|row| row.outputs.friction).collect()
 }
 
@@ -71,11 +75,13 @@ fn friction_of_row(trace: &Trace<ScrewSample>, asked: Option<f64>) -> Vec<f32> {
     let mut scene = Uncaged {
         balls: design.uncaged.unwrap(),
         design,
-        memory: true,
-        encoder: EncoderStep::default(),
+        memory: Some(MemorySettings::default()),
     };
-    scene.set_encoder(EncoderStep::of(asked, trace));
-    let (rows, _) = scene.rows(trace, None, &|| ()).unwrap();
+    scene.set_memory(MemorySettings {
+        encoder: EncoderStep::of(asked, trace),
+        reference_load: None,
+    });
+    let (rows, _) = scene.rows(trace, &Temperature::None, None, &|| ()).unwrap();
     let torque = |row: &Row<ScrewSample>| row.outputs.friction;
     rows.iter().map(torque).collect()
 }

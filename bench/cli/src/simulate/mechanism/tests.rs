@@ -24,6 +24,7 @@ fn moved_by(acting: &[Acting], controller: Option<Controller>, tick: f64) -> Vec
         design: &design(),
         acting,
         temperature: &Temperature::None,
+        memory: MemorySettings::default(),
         inertia: 4e-4,
         controller,
         tick,

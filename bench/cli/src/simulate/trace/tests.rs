@@ -5,15 +5,6 @@ use crate::simulate::mechanism::Commanded;
 use crate::simulate::samples::ScrewSample;
 use std::io::Cursor;
 
-const fn moment(time: f64, nut_speed: f64, axial_load: f64) -> ScrewSample {
-    ScrewSample {
-        time,
-        nut_speed,
-        axial_load,
-        nut_position: 0.0,
-    }
-}
-
 fn parse(text: &[u8]) -> Result<Vec<ScrewSample>, String> {
     samples(Cursor::new(text))
 }
@@ -22,7 +13,13 @@ fn parse(text: &[u8]) -> Result<Vec<ScrewSample>, String> {
 fn columns_stand_in_any_order_among_others() {
     let text = "\u{feff}axial_load, gear ,time,nut_speed\n1e3,3,0,-2\n\n1e3,3,0.5,2\n";
     let samples = parse(text.as_bytes()).unwrap();
-    assert_eq!(samples, [moment(0.0, -2.0, 1e3), moment(0.5, 2.0, 1e3)]);
+    assert_eq!(
+        samples,
+        [
+            ScrewSample::new(0.0, -2.0, 1e3),
+            ScrewSample::new(0.5, 2.0, 1e3)
+        ]
+    );
 }
 
 #[test]
@@ -30,7 +27,13 @@ fn headings_say_their_units() {
     let text = "Time [ms],Nut speed (1/min),axial_load_kN\n0,60,1\n500,-60,-0\n";
     let samples = parse(text.as_bytes()).unwrap();
     let turn = 60.0 * (std::f64::consts::TAU / 60.0);
-    assert_eq!(samples, [moment(0.0, turn, 1e3), moment(0.5, -turn, 0.0)]);
+    assert_eq!(
+        samples,
+        [
+            ScrewSample::new(0.0, turn, 1e3),
+            ScrewSample::new(0.5, -turn, 0.0)
+        ]
+    );
 }
 
 fn of(lines: &str) -> String {
@@ -51,6 +54,9 @@ fn every_fault_has_its_word() {
             1e-3 * row as f64 + if row > 200 { 5.0 } else { 0.0 }
         )
     });
+    let counted = long(|row| format!("{row},1,1\n"));
+    let degrees = long(|row| format!("{:.3},1,1,{}\n", 1e-3 * row as f64, 0.0573 * row as f64));
+    let degrees = degrees.replace("axial_load", "axial_load,nut_position");
     for (text, word) in [
         ("", "line 1: the file is empty"),
         (
@@ -94,6 +100,12 @@ fn every_fault_has_its_word() {
         ),
         (&of("0,1,2\n1,1,2\n0.5,1,2\n"), "line 4: time goes back"),
         (&many, "time of the one before"),
+        (&counted, "tick = 1 s is too slow"),
+        (&degrees, "nut_position in deg?"),
+        (
+            "time nut_speed axial_load\n0 1 2\n1 1 2\n",
+            "separated by spaces",
+        ),
         (&gap, "a gap of 5.0010 s after 0.2 s"),
     ] {
         let message = parse(text.as_bytes()).unwrap_err();
@@ -134,7 +146,10 @@ fn lines_above_units_below_and_empty_cells() {
     // The row without a speed is left out.
     assert_eq!(
         samples,
-        [moment(0.0, turn, 1500.0), moment(0.5, -turn, 500.0)]
+        [
+            ScrewSample::new(0.0, turn, 1500.0),
+            ScrewSample::new(0.5, -turn, 500.0)
+        ]
     );
     let text = "time,nut_speed,axial_load\n0,1,10\n1,1,\n2,1,nan\n3,1,40\n";
     let loads = parse(text.as_bytes()).unwrap();
