@@ -63,7 +63,7 @@ fn words(text: &str) -> Vec<u32> {
 /// Every format holds the same words; what they say is what `--json` says.
 #[test]
 fn every_format_is_the_same_block() {
-    let made = made(&design(""), None).unwrap();
+    let made = made(&design(""), None, false).unwrap();
     let block = made.words().unwrap();
     let written = |format| made.written(format, "GEAR").unwrap();
     let text = |format| String::from_utf8(written(format)).unwrap();
