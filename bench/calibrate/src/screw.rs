@@ -5,8 +5,8 @@
 pub mod choice;
 mod compared;
 pub(crate) mod evidence;
-pub mod exact;
-pub mod friction;
+pub(crate) mod exact;
+pub(crate) mod friction;
 pub(crate) mod problem;
 pub(crate) mod quantities;
 pub(crate) mod stages;
