@@ -96,7 +96,6 @@ impl Said {
         [-half, half].map(|away| outer(scale, inner(scale, value) + away).clamp(low, high))
     }
 
-    /// The parameter that hides this one most, and their correlation.
     fn hidden_by(&self) -> Option<(&'static str, f64)> {
         let covariance = covariance(&self.own)?;
         let k = self.place;

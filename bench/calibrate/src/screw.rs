@@ -150,7 +150,7 @@ pub fn plain(
         ..request.clone()
     };
     let found = calibrate(trace, design, &request)?;
-    let answered = Answered::of(&found.picture.residual(), &found.uncertainty, true)?;
+    let answered = Answered::of(&found.uncertainty, true)?;
     Ok((found.answer, answered))
 }
 

@@ -67,12 +67,10 @@ impl Kernel {
         }
     }
 
-    /// Tick, s.
     pub const fn tick(&self) -> f64 {
         self.tick
     }
 
-    /// Samples to each side.
     pub const fn half(&self) -> usize {
         self.half
     }
@@ -100,7 +98,6 @@ impl Kernel {
             .sum()
     }
 
-    /// A derivative of a whole signal.
     pub fn along(&self, order: usize, signal: &[f64]) -> Vec<f64> {
         (0..signal.len())
             .map(|centre| self.at(order, signal, centre))

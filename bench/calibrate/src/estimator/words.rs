@@ -70,7 +70,6 @@ pub fn diagnose(record: &Record, trace: &Trace) -> Result<Diagnosis, String> {
 pub struct Screened {
     /// Half-width of the kernel, s, and way after a turn, rad or m.
     pub kernel: (f64, f64),
-    /// The word on how late a channel is.
     pub late: Option<String>,
 }
 

@@ -67,10 +67,8 @@ pub fn stribeck(speeds: &[f64], q: &[f64]) -> Evaluation {
     }
 }
 
-/// Truth of [`stribeck`].
 pub const STRIBECK: ([f64; 2], [f64; 3]) = ([3.0, 0.8], [2.0, 0.15, -0.1]);
 
-/// A Stribeck problem with noise.
 pub fn stribeck_toy(noise: &[f64], size: f64) -> Model<'static> {
     let speeds = speeds(noise.len());
     let clean = stribeck(&speeds, &STRIBECK.0).sum(&STRIBECK.1);

@@ -16,7 +16,6 @@ const PIECE: usize = 24;
 pub struct Interval {
     pub name: &'static str,
     pub unit: &'static str,
-    /// Scale of its inner coordinate.
     pub scale: Scale,
     pub value: f64,
     /// Low end of the 95 % interval, not below the low bound.
@@ -30,7 +29,6 @@ pub struct Interval {
     /// Half width of the interval in the inner coordinate, whatever the bounds.
     pub half_width: f64,
     pub bounds: [f64; 2],
-    /// Whether the value is at a bound.
     pub at_bound: bool,
 }
 

@@ -45,11 +45,11 @@ impl Numbers {
     pub fn play(&self, reference: &Reference) -> Result<f32, Error> {
         Ok(match self.screw.elements {
             ElementsKind::Proportional => {
-                let elements = self.screw.proportional(&self.values, reference)?;
+                let elements = Screw::proportional(&self.values, reference)?;
                 elements.breakaway()
             }
             ElementsKind::LoadExact => {
-                let elements = self.screw.load_exact(&self.values, reference)?;
+                let elements = Screw::load_exact(&self.values, reference)?;
                 elements.breakaway()
             }
             ElementsKind::Preloaded => {

@@ -64,7 +64,6 @@ impl Choice {
     }
 }
 
-/// How friction passes from one direction to the other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Passage {
     /// It does not: every row has one direction, in which the balls slide.
@@ -79,7 +78,6 @@ struct Samples {
     course: Course,
     /// 1 or -1 within the window of a row, else 0.
     direction: Vec<f64>,
-    /// Cosine and sine of one and of two angles.
     waves: [Vec<f64>; 4],
 }
 
@@ -92,7 +90,6 @@ struct Term {
     still: Vec<f64>,
 }
 
-/// Values, which of them are estimated, and the exact ball.
 #[derive(Clone, Copy)]
 pub struct Known<'a> {
     pub values: &'a Values,
@@ -353,7 +350,6 @@ impl<'a> ScrewProblem<'a> {
             .collect()
     }
 
-    /// A wave over the turn times the flanks' loads.
     fn wave(&self, place: usize, flanks: &[f64]) -> Vec<f64> {
         let wave = &self.samples.waves[place];
         if flanks.is_empty() {

@@ -19,7 +19,6 @@ use crate::trace::KnownEffort;
 use crate::trace::channels::range;
 use crate::trace::{Coordinate, Trace};
 
-/// Fewest samples to each side of a kernel.
 const FEWEST: usize = 4;
 
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,7 +40,6 @@ const ROWS: usize = 6_000;
 pub struct Prepared<'a> {
     pub trace: &'a Trace,
     pub motion: Smoothed,
-    /// Its load, smoothed; 0 without one.
     load: Vec<f64>,
     /// Time between these samples, s.
     tick: f64,
@@ -136,7 +134,6 @@ impl<'a> Prepared<'a> {
 
 struct Instant {
     position: f64,
-    /// Position from the middle of the way.
     place: f64,
     speed: f64,
     acceleration: f64,
@@ -151,7 +148,6 @@ struct Addend {
     of: fn(&Instant) -> f64,
     /// Whether that is smooth where motion and load are.
     smooth: bool,
-    /// Whether it follows the law.
     rubs: bool,
 }
 
