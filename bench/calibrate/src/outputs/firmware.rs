@@ -4,13 +4,13 @@ use epas_friction::law::coefficient::{CoefficientLaw, CoefficientParameters, Rol
 use epas_friction::law::memory::Hysteresis;
 use epas_friction::{Error, defaults};
 
-use crate::screw::friction::{ElementsKind, Reference, Screw};
+use crate::screw::friction::{ElementsKind, Reference};
 use crate::screw::quantities::Values;
 use epas_design::files::Design;
 use epas_design::files::calibration::REFERENCE_TEMPERATURE;
 use epas_page::failure::Failure;
 
-pub use crate::screw::friction::ELEMENTS;
+pub use crate::screw::friction::{ELEMENTS, Screw};
 
 /// What firmware takes of a design beyond its configuration.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,11 +45,11 @@ impl Numbers {
     pub fn play(&self, reference: &Reference) -> Result<f32, Error> {
         Ok(match self.screw.elements {
             ElementsKind::Proportional => {
-                let elements = Screw::proportional(&self.values, reference)?;
+                let elements = self.screw.proportional(&self.values, reference)?;
                 elements.breakaway()
             }
             ElementsKind::LoadExact => {
-                let elements = Screw::load_exact(&self.values, reference)?;
+                let elements = self.screw.load_exact(&self.values, reference)?;
                 elements.breakaway()
             }
             ElementsKind::Preloaded => {

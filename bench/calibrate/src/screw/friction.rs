@@ -21,7 +21,7 @@ use super::exact::{ExactLaw, Grid, Spacing};
 use super::quantities::Values;
 use epas_page::failure::Failure;
 
-/// Elements of a calibrated memory.
+/// Elements of every calibrated memory.
 pub const ELEMENTS: usize = 8;
 
 /// Distance of the second point of a viscosity from the reference temperature, K.
@@ -38,6 +38,7 @@ pub const COLDEST: f32 = 150.0;
 pub struct Screw {
     /// Its design; friction, fit and rolling resistance are replaced.
     pub caged: CagedDesign,
+    /// How elements follow the load.
     pub elements: ElementsKind,
     /// Whether the fit is that of the preload; else it is the design's own.
     pub preloaded: bool,
@@ -97,6 +98,7 @@ impl Screw {
         }
     }
 
+    /// A viscosity with the values' pole.
     pub fn viscosity(&self, values: &Values) -> Result<Viscosity, Error> {
         let [cold, warm] = self.viscosities(values);
         Viscosity::through(cold, warm, COLDEST)
@@ -121,6 +123,7 @@ impl Screw {
         Ok(Grid::of(&self.scene(values)?, largest, spacing)?)
     }
 
+    /// Gross sliding at the reference load.
     pub fn reference(&self, values: &Values) -> Result<Reference, Failure> {
         let friction = values.friction as f32;
         let grid = self.grid(values, Spacing::WRITTEN)?;
@@ -128,6 +131,7 @@ impl Screw {
         Ok(self.reference_of(&law, values))
     }
 
+    /// The same by a law that there is.
     fn reference_of(&self, law: &ExactLaw, values: &Values) -> Reference {
         let friction = DirectionalCoefficient {
             forward: values.friction as f32,
@@ -147,7 +151,9 @@ impl Screw {
         }
     }
 
+    /// Elements in constant shares of the friction.
     pub fn proportional(
+        &self,
         values: &Values,
         reference: &Reference,
     ) -> Result<ProportionalElements<ELEMENTS>, Error> {
@@ -159,7 +165,9 @@ impl Screw {
         ProportionalElements::new(reference.torque, &[whole])
     }
 
+    /// Elements that come into contact with the load.
     pub fn load_exact(
+        &self,
         values: &Values,
         reference: &Reference,
     ) -> Result<LoadExactElements<ELEMENTS>, Error> {
@@ -180,7 +188,7 @@ impl Screw {
             largest_load: self.largest_load_of_elements(reference),
             ..*reference
         };
-        Ok(PreloadedElements::new(Self::load_exact(values, &shared)?))
+        Ok(PreloadedElements::new(self.load_exact(values, &shared)?))
     }
 
     /// Largest load of the elements over that at the reference.
@@ -217,12 +225,10 @@ impl Screw {
         };
         Ok(match self.elements {
             ElementsKind::Proportional => {
-                stepped.along(&Self::proportional(values, &reference)?, course)
+                stepped.along(&self.proportional(values, &reference)?, course)
             }
             ElementsKind::Preloaded => stepped.along(&self.preloaded(values, &reference)?, course),
-            ElementsKind::LoadExact => {
-                stepped.along(&Self::load_exact(values, &reference)?, course)
-            }
+            ElementsKind::LoadExact => stepped.along(&self.load_exact(values, &reference)?, course),
         })
     }
 }
